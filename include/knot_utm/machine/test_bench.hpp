@@ -1,0 +1,49 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "knot_utm/machine/options.hpp"
+#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/sim/options.hpp"
+#include "knot_utm/specimen/options.hpp"
+
+namespace knot_utm {
+
+/// The specimen on the machine: rod, grips, rollers, tying rig and load cell, stepped by commands.
+/// The same bench answers a test program headless and under ROS; the same commands give the same bits.
+///
+/// Frame: z up and along the load axis, the lower grip's roller (or node, or clamp) near z = 0.
+class TestBench {
+ public:
+  /// Ties nothing yet: the specimen in its starting shape. Throws InvalidInput where it does not fit the machine.
+  TestBench(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
+            const PhysicsOptions& physics);
+  ~TestBench();
+  TestBench(TestBench&&) noexcept;
+  TestBench& operator=(TestBench&&) noexcept;
+
+  /// Steps the physics to `command.time` and reads everything there. A sample of status kFailed leaves the bench
+  /// at the last good step, and every later command gets the same answer.
+  Sample respond(const Command& command);
+
+  /// One sample for every accepted time step of the last command, the last of them what `respond` returned.
+  const std::vector<Sample>& substeps() const;
+
+  const RodProperties& rod() const;
+  const RodState& state() const;
+  bool closed() const;        ///< the test's knot is that of the loop closed by joining the tails
+  Vec3 lower_grip() const;    ///< centre of roller, node or clamp [m]
+  Vec3 upper_grip() const;    ///< [m]
+  double longest_step() const;  ///< longest time step of the chosen accuracy [s]: the longest command period
+
+  /// Force in the rod at each edge, tension positive [N], as the last accepted step left it.
+  Eigen::VectorXd tension() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace knot_utm {
+
+enum class KnotKind { kFisherman, kOverhand, kStraight, kFile };
+enum class Handedness { kSame, kOpposite };
+
+/// The `specimen` section of a method.
+struct SpecimenOptions {
+  KnotKind knot = KnotKind::kFisherman;
+  Handedness handedness = Handedness::kSame;  ///< fisherman
+  int turns = 1;                              ///< overhand: how often the end goes through (1 to 4)
+  std::string file;                           ///< knot: file, CSV of x,y,z [m]
+  bool closed = false;                        ///< knot: file, the last point joins the first
+  double knot_distance = 0.15;                ///< e [m], fisherman
+  double end_to_end = 0.25;                   ///< L [m]
+  double length = 1.0;                        ///< straight and overhand: rod length [m]
+  double tail = 0.03;                         ///< free tails [m]
+  std::optional<double> preload;              ///< F_p [N]; unset (auto): material's tying_preload, else 4 k_b/h^2
+  double edge_length = 0.0032;                ///< discretisation [m]
+};
+
+}  // namespace knot_utm
