@@ -54,7 +54,7 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
     : normal_(normal),
       friction_(friction),
       diameter_(2.0 * rod.material.radius),
-      window_(3.0 * rod.material.radius),
+      window_(1.0 * rod.material.radius),
       reach_((2.0 + kReachMargin) * rod.material.radius),
       voronoi_(rod.voronoi_length),
       // Strands closer than a half turn around themselves (pi h) bend, they do not touch.
