@@ -95,7 +95,12 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
 }
 
 void RunWriter::add(const Sample& sample, bool read_cell, const std::vector<Sample>& substeps) {
-  for (const Sample& substep : substeps) full_curve_.write(substep);
+  for (const Sample& substep : substeps) {
+    // A bench that has failed answers with the last good step again.
+    if (substep.time <= last_step_time_) continue;
+    full_curve_.write(substep);
+    last_step_time_ = substep.time;
+  }
   if (read_cell && sample.status != BenchStatus::kFailed) curve_.write(sample);
   monitor_.add(sample);
 }

@@ -189,6 +189,7 @@ Command TestProgram::command(std::uint64_t sequence) const {
   c.sequence = sequence;
   c.time = seconds(sequence);
   c.read_cell = sequence % commands_per_reading_ == 0;
+  c.step = -1;
   if (sequence == 0) return c;
   const ProgramStep& s = step();
   c.step = static_cast<int>(step_);

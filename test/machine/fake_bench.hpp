@@ -63,7 +63,7 @@ struct FakeBench {
 
  private:
   Sample last_;
-  int step_ = 0;
+  int step_ = -1;
   double step_begin_ = 0.0;
   double balanced_displacement_ = 0.0;
   double balanced_force_ = 0.0;

@@ -65,6 +65,7 @@ TEST(TestProgram, CommandTimesComeFromWholeNumbers) {
     EXPECT_EQ(result.commands[n].sequence, n);
     EXPECT_EQ(result.commands[n].time, static_cast<double>(n) / 12.0);
     EXPECT_EQ(result.commands[n].read_cell, n % 4 == 0);
+    EXPECT_EQ(result.commands[n].step < 0, n == 0);
   }
 }
 

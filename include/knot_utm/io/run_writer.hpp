@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,8 @@ class RunWriter {
   RunWriter(const std::string& folder, const Method& method);
 
   /// One answer of the bench. `read_cell`: it stands at a sampling instant; `substeps`: the accepted time steps since
-  /// the answer before, this one included. An answer of a bench that failed adds its substeps only.
+  /// the answer before, this one included. An answer of a bench that failed adds the steps
+  /// that it still made only.
   void add(const Sample& sample, bool read_cell, const std::vector<Sample>& substeps);
 
   /// Writes result.yaml and, unless there are no points, final_shape.csv. `facts` as `facts()` with what only the
@@ -43,6 +45,7 @@ class RunWriter {
   RunMonitor monitor_;
   CurveWriter curve_;
   CurveWriter full_curve_;
+  double last_step_time_ = -std::numeric_limits<double>::infinity();  ///< [s]
 };
 
 /// result.yaml: the keys in a fixed order, SI units, null for what is not there.

@@ -27,8 +27,8 @@ const char* ended_by_name(EndedBy end);  ///< "not yet", "break", "extension", "
 ///
 /// Commands come at a fixed period, 1/(k f) with f the cell's sampling rate and k the smallest whole number for
 /// which the period is no longer than `longest_period`; every k-th command is a sampling instant of the cell. Command
-/// n has time n/(k f), computed from whole numbers. Command 0 has time 0 and phase idle: it asks for the reading
-/// before anything moves. The first step begins with command 1.
+/// n has time n/(k f), computed from whole numbers. Command 0 has time 0, phase idle and step -1: it asks for the
+/// reading before anything moves. The first step begins with command 1.
 ///
 /// What the crosshead does in each step, and what ends it:
 ///   tie, release  stands still, until the bench answers kPhaseDone
