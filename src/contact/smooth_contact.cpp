@@ -42,6 +42,11 @@ double nearest_parameter(const Points& nodes, int segment, const Vec3& a, double
   return u;
 }
 
+/// Number of the point of integration that a contact stands on.
+std::size_t point_of(const ContactPoint& contact) {
+  return 2 * static_cast<std::size_t>(contact.a0 + 1) + (contact.c[0] > contact.c[2] ? 0u : 1u);
+}
+
 }  // namespace
 
 SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction,
@@ -60,11 +65,31 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
   for (Eigen::Index i = 1; i < nodes; ++i) arclength_[i] = arclength_[i - 1] + rod.rest_length[i - 1];
   memory_begin_.assign(2 * static_cast<std::size_t>(nodes) + 1, 0);
   next_begin_ = memory_begin_;
+  estimate_begin_ = memory_begin_;
   edge_middle_.resize(3, nodes - 1);
   edge_.resize(3, nodes - 1);
 }
 
+void SmoothContact::begin_step() {
+  contacts_.clear();
+  estimate_.clear();
+  for (const Memory& memory : memory_) estimate_.push_back({memory.arclength_b, memory.pressure});
+  estimate_begin_ = memory_begin_;
+  first_evaluation_ = true;
+}
+
 void SmoothContact::evaluate(const Points& position, const Points& start, double dt) {
+  if (!first_evaluation_) {
+    estimate_.clear();
+    std::size_t q_done = 0;
+    for (const ContactPoint& contact : contacts_) {
+      const std::size_t q = point_of(contact);
+      while (q_done <= q) estimate_begin_[q_done++] = static_cast<int>(estimate_.size());
+      estimate_.push_back({contact.arclength_b, contact.estimate});
+    }
+    while (q_done < estimate_begin_.size()) estimate_begin_[q_done++] = static_cast<int>(estimate_.size());
+  }
+  first_evaluation_ = false;
   contacts_.clear();
   friction_scale_ = friction_.scale(dt);
   const Eigen::Index edges = position.cols() - 1;
@@ -126,9 +151,17 @@ void SmoothContact::add_contact(int segment, int point, int foot, double u, cons
     if (!found || std::abs(memory.arclength_b - contact.arclength_b) < std::abs(found->arclength_b - contact.arclength_b))
       found = &memory;
   }
+  double nearest = window_;
+  for (int m = estimate_begin_[q]; m < estimate_begin_[q + 1]; ++m) {
+    const Estimate& estimate = estimate_[static_cast<std::size_t>(m)];
+    const double away = std::abs(estimate.arclength_b - contact.arclength_b);
+    if (away > nearest) continue;
+    nearest = away;
+    contact.estimate = estimate.pressure;
+  }
   contact.weight = 0.5 * voronoi_[segment] * (found ? found->share : share(contact, position));
 
-  if (friction_.on() && contact.overlap > 0.0) {
+  if (friction_.on() && contact.active()) {
     if (found && friction_.remembers()) contact.memory = found->slip;
     contact.slip = contact.memory;
     for (int k = 0; k < 3; ++k) {
@@ -160,11 +193,11 @@ void SmoothContact::commit(const Points& position) {
   next_memory_.clear();
   std::size_t q_done = 0;
   for (const ContactPoint& contact : contacts_) {
-    const std::size_t q = 2 * static_cast<std::size_t>(contact.a0 + 1) + (contact.c[0] > contact.c[2] ? 0u : 1u);
+    const std::size_t q = point_of(contact);
     while (q_done <= q) next_begin_[q_done++] = static_cast<int>(next_memory_.size());
     const bool sticks = friction_.on() && friction_.remembers() && contact.touches();
     next_memory_.push_back(
-        {contact.arclength_b, sticks ? Vec3(friction_.presliding * contact.z) : Vec3::Zero(), share(contact, position)});
+        {contact.arclength_b, sticks ? Vec3(friction_.presliding * contact.z) : Vec3::Zero(), share(contact, position), contact.pressure});
   }
   while (q_done < next_begin_.size()) next_begin_[q_done++] = static_cast<int>(next_memory_.size());
   memory_.swap(next_memory_);
