@@ -43,6 +43,7 @@ class ImplicitStep final : public TimeStep {
         nodes_(static_cast<int>(rod.nodes())),
         force_(at(nodes_)),
         change_(at(nodes_)),
+        committed_force_(at(nodes_)),
         held_(at(nodes_), 0) {
   }
 
