@@ -1,0 +1,98 @@
+#pragma once
+
+#include "knot_utm/rod/rod.hpp"
+
+namespace knot_utm {
+
+/// Bending at one inner node of a rod that is isotropic (one bending stiffness for every direction), straight at
+/// rest and free of twist: the energy then depends on the centreline alone, and the rod needs no frame.
+///
+///   E = k_b/(2 lbar) |kb|^2,   kb = 2 t_e x t_f/(1 + c)
+///     = (2 k_b/lbar) (1 - c)/(1 + c)
+///
+///   e, f      edge vectors x_i - x_{i-1} and x_{i+1} - x_i   [m]
+///   t_e, t_f  their unit tangents                            [-]
+///   c         t_e . t_f, cosine of the turning angle         [-]
+///   kb        integrated curvature binormal; |kb| is 2 tan(angle/2)  [-]
+///   lbar      Voronoi length of node i                       [m]
+///   k_b       bending stiffness                              [N m^2]
+///
+/// With W(c) = E:  W' = -(4 k_b/lbar)/(1 + c)^2,  W'' = (8 k_b/lbar)/(1 + c)^3,
+///
+///   c_e  = (t_f - c t_e)/|e|,   c_f = (t_e - c t_f)/|f|
+///   c_ee = -(c_e t_e^T + t_e c_e^T)/|e| - c (1 - t_e t_e^T)/|e|^2,   c_ff alike
+///   c_ef = ((1 - t_f t_f^T)/|f| - t_e c_f^T)/|e|
+///
+///   dE/da = W' c_a,   d2E/da db = W'' c_a c_b^T + W' c_ab   for a, b in {e, f}
+///
+/// On the nodes (i-1, i, i+1) the gradient is (-g_e, g_e - g_f, g_f), the force its negative.
+/// E grows without bound as the rod folds back on itself (c -> -1).
+/// Source: Bergou, Wardetzky, Robinson, Audoly, Grinspun 2008, section 4.2.
+struct IsotropicBendingGradient {
+  double energy;    ///< [J]
+  Vec3 gradient_e;  ///< dE/de [N]
+  Vec3 gradient_f;  ///< dE/df [N]
+};
+
+/// As IsotropicBendingGradient, and the Hessian in the edge vectors. On the nodes, with H_fe = H_ef^T:
+///   (i-1,i-1)  H_ee          (i-1,i)  H_ef - H_ee               (i-1,i+1)  -H_ef
+///   (i,i)      H_ee - H_ef - H_fe + H_ff   (i,i+1)  H_ef - H_ff     (i+1,i+1)   H_ff
+struct IsotropicBendingLocal {
+  double energy;    ///< [J]
+  Vec3 gradient_e;  ///< dE/de [N]
+  Vec3 gradient_f;  ///< dE/df [N]
+  Mat3 hessian_ee;  ///< d2E/de2 [N/m]
+  Mat3 hessian_ef;  ///< d2E/de df [N/m], rows e, columns f
+  Mat3 hessian_ff;  ///< d2E/df2 [N/m]
+};
+
+inline IsotropicBendingGradient isotropic_bending_gradient(double k_b, double voronoi_length, const Vec3& e,
+                                                           const Vec3& f) {
+  const double inverse_e = 1.0 / e.norm();
+  const double inverse_f = 1.0 / f.norm();
+  const Vec3 t_e = inverse_e * e;
+  const Vec3 t_f = inverse_f * f;
+  const double c = t_e.dot(t_f);
+  const double inverse_1c = 1.0 / (1.0 + c);
+  const double stiffness = 2.0 * k_b / voronoi_length;
+  const double slope = -2.0 * stiffness * inverse_1c * inverse_1c;
+  // 1 - c = |t_f - t_e|^2/2 keeps its digits where the rod is nearly straight.
+  return {0.5 * stiffness * inverse_1c * (t_f - t_e).squaredNorm(), (slope * inverse_e) * (t_f - c * t_e),
+          (slope * inverse_f) * (t_e - c * t_f)};
+}
+
+inline IsotropicBendingLocal isotropic_bending(double k_b, double voronoi_length, const Vec3& e, const Vec3& f) {
+  const double inverse_e = 1.0 / e.norm();
+  const double inverse_f = 1.0 / f.norm();
+  const Vec3 t_e = inverse_e * e;
+  const Vec3 t_f = inverse_f * f;
+  const double c = t_e.dot(t_f);
+  const double inverse_1c = 1.0 / (1.0 + c);
+  const double stiffness = 2.0 * k_b / voronoi_length;
+  const double slope = -2.0 * stiffness * inverse_1c * inverse_1c;
+  const double curve = -2.0 * slope * inverse_1c;
+  const Vec3 c_e = inverse_e * (t_f - c * t_e);
+  const Vec3 c_f = inverse_f * (t_e - c * t_f);
+
+  IsotropicBendingLocal local;
+  local.energy = 0.5 * stiffness * inverse_1c * (t_f - t_e).squaredNorm();
+  local.gradient_e = slope * c_e;
+  local.gradient_f = slope * c_f;
+
+  // The rank-one terms of each block are gathered by their left factor, so each block costs two outer products.
+  const double diagonal_e = slope * c * inverse_e * inverse_e;
+  const double diagonal_f = slope * c * inverse_f * inverse_f;
+  const double diagonal_ef = slope * inverse_e * inverse_f;
+  local.hessian_ee.noalias() = (curve * c_e - (slope * inverse_e) * t_e) * c_e.transpose() +
+                               (diagonal_e * t_e - (slope * inverse_e) * c_e) * t_e.transpose();
+  local.hessian_ff.noalias() = (curve * c_f - (slope * inverse_f) * t_f) * c_f.transpose() +
+                               (diagonal_f * t_f - (slope * inverse_f) * c_f) * t_f.transpose();
+  local.hessian_ef.noalias() =
+      (curve * c_e - (slope * inverse_e) * t_e) * c_f.transpose() - (diagonal_ef * t_f) * t_f.transpose();
+  local.hessian_ee.diagonal().array() -= diagonal_e;
+  local.hessian_ff.diagonal().array() -= diagonal_f;
+  local.hessian_ef.diagonal().array() += diagonal_ef;
+  return local;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,84 @@
+#include "knot_utm/rod/isotropic_bending.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "rod/finite_difference.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kStiffness = 4.3e-5;
+constexpr double kVoronoi = 3e-3;
+constexpr double kStep = 1e-6;
+
+using Edges = Eigen::Matrix<double, 6, 1>;
+
+/// Two edges of unequal length that turn by an angle [rad].
+Edges turn(double angle) {
+  const Vec3 t_e = Vec3(1.0, -2.0, 0.5).normalized();
+  const Vec3 n = t_e.cross(Vec3(0.2, 0.3, 1.0)).normalized();
+  Edges edges;
+  edges.head<3>() = 2.5e-3 * t_e;
+  edges.tail<3>() = 3.4e-3 * (std::cos(angle) * t_e + std::sin(angle) * n);
+  return edges;
+}
+
+IsotropicBendingLocal at(const Eigen::VectorXd& x) {
+  return isotropic_bending(kStiffness, kVoronoi, x.head<3>(), x.tail<3>());
+}
+
+Edges gradient(const IsotropicBendingLocal& local) {
+  Edges g;
+  g.head<3>() = local.gradient_e;
+  g.tail<3>() = local.gradient_f;
+  return g;
+}
+
+struct IsotropicBendingBy : testing::TestWithParam<double> {
+  Edges edges = turn(GetParam());
+};
+
+TEST_P(IsotropicBendingBy, EnergyIsThatOfTheCurvatureBinormal) {
+  const Vec3 t_e = edges.head<3>().normalized();
+  const Vec3 t_f = edges.tail<3>().normalized();
+  const Vec3 kb = 2.0 * t_e.cross(t_f) / (1.0 + t_e.dot(t_f));
+  EXPECT_NEAR(at(edges).energy, 0.5 * kStiffness / kVoronoi * kb.squaredNorm(), 1e-10 * at(edges).energy);
+  EXPECT_NEAR(kb.norm(), 2.0 * std::tan(0.5 * GetParam()), 1e-12);
+}
+
+TEST_P(IsotropicBendingBy, GradientIsThatOfTheEnergy) {
+  const auto energy = [](const Eigen::VectorXd& x) { return at(x).energy; };
+  const Edges expected = finite_difference_gradient(energy, edges, kStep);
+  EXPECT_LT((gradient(at(edges)) - expected).norm(), 1e-8 * expected.norm() + 1e-10);
+}
+
+TEST_P(IsotropicBendingBy, HessianIsThatOfTheGradient) {
+  const auto gradient_at = [](const Eigen::VectorXd& x) -> Eigen::VectorXd { return gradient(at(x)); };
+  const IsotropicBendingLocal local = at(edges);
+  Eigen::Matrix<double, 6, 6> hessian;
+  hessian << local.hessian_ee, local.hessian_ef, local.hessian_ef.transpose(), local.hessian_ff;
+  EXPECT_LT(relative_difference(hessian, finite_difference(gradient_at, edges, kStep)), 1e-8);
+  EXPECT_LT((hessian - hessian.transpose()).norm(), 1e-12 * hessian.norm());
+}
+
+TEST_P(IsotropicBendingBy, CheapPathAgrees) {
+  const IsotropicBendingLocal full = at(edges);
+  const IsotropicBendingGradient cheap =
+      isotropic_bending_gradient(kStiffness, kVoronoi, edges.head<3>(), edges.tail<3>());
+  EXPECT_NEAR(cheap.energy, full.energy, 1e-14 * full.energy);
+  EXPECT_LT((cheap.gradient_e - full.gradient_e).norm(), 1e-13 * full.gradient_e.norm() + 1e-15);
+  EXPECT_LT((cheap.gradient_f - full.gradient_f).norm(), 1e-13 * full.gradient_f.norm() + 1e-15);
+}
+
+INSTANTIATE_TEST_SUITE_P(Angles, IsotropicBendingBy, testing::Values(0.0, 1e-5, 0.1, 1.0, 2.0, 2.8));
+
+TEST(IsotropicBending, NearlyStraightKeepsItsDigits) {
+  const double angle = 1e-7;
+  const double expected = 0.5 * kStiffness / kVoronoi * angle * angle;
+  EXPECT_NEAR(at(turn(angle)).energy, expected, 1e-8 * expected);
+}
+
+}  // namespace
+}  // namespace knot_utm
