@@ -467,6 +467,9 @@ Centreline overhand(const OverhandShape& shape) {
   if (!(shape.length > 0.0 && shape.length <= 100.0)) {
     throw InvalidInput("specimen.length", text(shape.length), "above 0, up to 100 m");
   }
+  if (!(shape.end_to_end > 0.0 && shape.end_to_end < shape.length)) {
+    throw InvalidInput("specimen.end_to_end", text(shape.end_to_end), "above 0, below specimen.length");
+  }
   const double h = shape.radius;
   const double spacing = drawing_spacing(h, shape.edge_length);
   const auto rod_length = [&](double loop_radius) {

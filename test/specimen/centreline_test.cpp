@@ -48,7 +48,7 @@ TEST(FishermanLoop, KeepsItsStrandsApartInEqualEdges) {
         expect_equal_edges(line.points, edge);
         const double gap = smallest_distance(line.points, 1.5 * M_PI * h) / (2.0 * h);
         EXPECT_GT(gap, 1.05) << "looseness " << looseness << " edge " << edge / h;
-        EXPECT_LT(largest_turn(line.points), edge / (1.1 * h));
+        EXPECT_LT(largest_turn(line.points), edge / (0.8 * h));
         RecordProperty("gap", std::to_string(gap));
       }
     }
@@ -157,7 +157,7 @@ TEST(FishermanLoop, FitsWhereverItIsAccepted) {
 
 TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
   for (int turns = 1; turns <= 4; ++turns) {
-    for (const double excess : {0.4, 0.6}) {
+    for (const double excess : {0.5, 0.7}) {
       OverhandShape shape;
       shape.turns = turns;
       shape.length = 2.0;
