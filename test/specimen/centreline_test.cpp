@@ -157,7 +157,7 @@ TEST(FishermanLoop, FitsWhereverItIsAccepted) {
 
 TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
   for (int turns = 1; turns <= 4; ++turns) {
-    for (const double excess : {0.5, 0.7}) {
+    for (const double excess : {0.65, 0.9}) {
       OverhandShape shape;
       shape.turns = turns;
       shape.length = 2.0;
