@@ -39,7 +39,7 @@ double stretching_energy(const RodProperties& rod, const Points& x) {
   return sum;
 }
 
-double twist_free_bending_energy(const RodProperties& rod, const Points& x) {
+double isotropic_bending_energy(const RodProperties& rod, const Points& x) {
   double sum = 0.0;
   for (Eigen::Index i = 1; i + 1 < rod.nodes(); ++i) {
     sum += isotropic_bending_gradient(rod.material.bending_stiffness, rod.voronoi_length[i], x.col(i) - x.col(i - 1),
@@ -71,13 +71,12 @@ ElasticEnergy elastic_energy(const RodProperties& rod, const RodState& state) {
   check(rod, state);
   ElasticEnergy energy;
   energy.stretching = stretching_energy(rod, state.position);
-  if (!has_frame(state)) {
-    energy.bending = twist_free_bending_energy(rod, state.position);
-    return energy;
-  }
+  const bool straight_at_rest = rod.natural_curvature.cols() == 0;
+  if (straight_at_rest) energy.bending = isotropic_bending_energy(rod, state.position);
+  if (!has_frame(state)) return energy;
   for (Eigen::Index i = 1; i + 1 < rod.nodes(); ++i) {
     const InnerNode node = inner_node(rod, state, i);
-    energy.bending += bending_energy(node.bending, node.e, node.f, node.on_e, node.on_f);
+    if (!straight_at_rest) energy.bending += bending_energy(node.bending, node.e, node.f, node.on_e, node.on_f);
     energy.twisting += twisting_energy(node.twisting, node.twist);
   }
   return energy;

@@ -32,7 +32,9 @@ namespace knot_utm {
 /// The Hessian is that of E as a function of positions and angles, the reference frame being transported from the
 /// present one; it is symmetric.
 ///
-/// Where the two edges are twisted by m against each other, the averaged directors see the curvature times cos(m/2).
+/// Where the two edges are twisted by m against each other, the averaged directors see the curvature times cos(m/2):
+/// an error of second order in the edge length that couples bending and twisting. A rod that is straight at rest has
+/// no need of it; its bending is that of isotropic_bending.hpp, with or without twist.
 /// Source: Bergou et al. 2010, section 4.2; Jawed, Novelia, O'Reilly 2018, chapters 4 and 7; derivatives our own.
 struct BendingInput {
   double k_b = 0.0;                                             ///< [N m^2]

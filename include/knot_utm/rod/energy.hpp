@@ -8,7 +8,9 @@ namespace knot_utm {
 
 /// Elastic energy of a whole rod [J], the sum over its edges and inner nodes:
 ///   E = sum_j E_s(e_j) + sum_i E_b(i) + sum_i E_t(i)
-/// with the terms of stretching.hpp, bending.hpp or isotropic_bending.hpp, and twisting.hpp.
+///   E_s  stretching.hpp
+///   E_b  isotropic_bending.hpp where the rod is straight at rest, bending.hpp where it has a natural curvature
+///   E_t  twisting.hpp, where the state has a frame
 struct ElasticEnergy {
   double stretching = 0.0;  ///< [J]
   double bending = 0.0;     ///< [J]
@@ -23,7 +25,7 @@ ElasticEnergy elastic_energy(const RodProperties& rod, const RodState& state);
 /// Tension of every edge [N], N-1 values, positive where the edge is longer than at rest.
 Eigen::VectorXd edge_tension(const RodProperties& rod, const Points& position);
 
-/// What inner node i (1 to N-2) brings to the bending and the twisting energy of a rod whose state has a frame.
+/// What inner node i, 1 <= i <= N-2, brings to the bending and the twisting energy of a rod whose state has a frame.
 /// The reference frame of `state` must belong to its positions (transport_frames).
 struct InnerNode {
   Vec3 e;          ///< x_i - x_{i-1} [m]
