@@ -18,26 +18,22 @@ double arclength_at(const Eigen::VectorXd& arclength, int segment, double u) {
   return begin + u * (end - begin);
 }
 
-/// The minimum of |a - c(u)| on a segment, given F'(u) = -(a - c).c' at u = 0 and 1 of opposite sign: Newton, kept
+/// The root of the cubic c0 + c1 u + c2 u^2 + c3 u^3 in [0, 1], negative at 0 and not so at 1: Newton's method, kept
 /// inside the bracket.
-double nearest_parameter(const Points& nodes, int segment, const Vec3& a, double slope_begin, double slope_end) {
+double bracketed_root(double c0, double c1, double c2, double c3) {
   double low = 0.0, high = 1.0;
-  double u = slope_begin / (slope_begin - slope_end);
-  const Vec3 second = second_difference(nodes, segment);
-  const double tolerance = 1e-15 * (slope_end - slope_begin);
-  for (int i = 0; i < 30; ++i) {
-    const SegmentWeights w(u);
-    const Vec3 x = a - combine(w.value, nodes, segment);
-    const Vec3 derivative = combine(w.derivative, nodes, segment);
-    const double slope = -x.dot(derivative);
-    if (std::abs(slope) <= tolerance) break;
-    (slope < 0.0 ? low : high) = u;
-    const double curvature = derivative.squaredNorm() - x.dot(second);
-    double next = curvature > 0.0 ? u - slope / curvature : 0.5 * (low + high);
+  const double at_one = c0 + c1 + c2 + c3;
+  double u = c0 / (c0 - at_one);
+  const double tolerance = 1e-15 * (at_one - c0);
+  for (int i = 0; i < 40; ++i) {
+    const double value = c0 + u * (c1 + u * (c2 + u * c3));
+    if (std::abs(value) <= tolerance) break;
+    (value < 0.0 ? low : high) = u;
+    const double derivative = c1 + u * (2.0 * c2 + u * 3.0 * c3);
+    double next = derivative > 0.0 ? u - value / derivative : 0.5 * (low + high);
     if (!(next > low && next < high)) next = 0.5 * (low + high);
-    const double change = std::abs(next - u);
+    if (next == u) break;
     u = next;
-    if (change < 1e-15) break;
   }
   return u;
 }
@@ -110,10 +106,15 @@ void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run
   for (int foot = run.first; foot <= run.last; ++foot) {
     const double slope_end = -(a - edge_middle_.col(foot)).dot(edge_.col(foot));
     if (slope_begin < 0.0 && slope_end >= 0.0) {
-      const double limit = reach_ + voronoi_[foot];
-      if ((a - position.col(foot)).squaredNorm() < limit * limit)
-        add_contact(segment, point, foot, nearest_parameter(position, foot, a, slope_begin, slope_end), position,
-                    start);
+      // On the segment c(u) = m + t u + k u^2/2, so F'(u) = -(a - c).c' is a cubic.
+      const Vec3 t = edge_.col(foot - 1), k = edge_.col(foot) - edge_.col(foot - 1);
+      const Vec3 r = a - edge_middle_.col(foot - 1);
+      const double limit = reach_ + 0.5 * voronoi_[foot];
+      const Vec3 halfway = r - 0.5 * t - 0.125 * k;
+      if (halfway.squaredNorm() < limit * limit)
+        add_contact(segment, point, foot,
+                    bracketed_root(slope_begin, t.squaredNorm() - r.dot(k), 1.5 * t.dot(k), 0.5 * k.squaredNorm()),
+                    position, start);
     }
     slope_begin = slope_end;
   }

@@ -60,10 +60,11 @@ StepSettings step_settings(const Material& material, const MachineOptions& machi
   out.drag = physics.drag;
   out.residual = tolerance.residual * material.bending_stiffness / (h * h);
   out.residual_of_tension = kResidualOfTension;
-  out.newton_cap = 0.3 * h;
+  out.newton_cap = 0.1 * h;
   out.motion_limit = 0.8 * h;
   out.overlap_limit = 0.5 * h;
   out.candidate_margin = 0.5 * h;
+  out.max_iterations = 12;
   return out;
 }
 
