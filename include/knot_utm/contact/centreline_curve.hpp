@@ -1,0 +1,36 @@
+#pragma once
+
+#include "knot_utm/rod/rod.hpp"
+
+namespace knot_utm {
+
+/// The smooth centreline: a quadratic B-spline whose control points are the rod's nodes. Segment i, 1 <= i <= N-2,
+/// stands on nodes i-1, i, i+1 and runs from the middle of edge i-1 to the middle of edge i for 0 <= u <= 1:
+///
+///     c(u) = sum_k B_k(u) x_{i-1+k},  B_0 = (1-u)^2/2,  B_1 = 1/2 + u - u^2,  B_2 = u^2/2.
+struct SegmentWeights {
+  double value[3];
+  double derivative[3];
+
+  explicit SegmentWeights(double u)
+      : value{0.5 * (1.0 - u) * (1.0 - u), 0.5 + u * (1.0 - u), 0.5 * u * u}, derivative{u - 1.0, 1.0 - 2.0 * u, u} {}
+};
+
+inline Vec3 combine(const double* weights, const Points& nodes, int segment) {
+  return weights[0] * nodes.col(segment - 1) + weights[1] * nodes.col(segment) + weights[2] * nodes.col(segment + 1);
+}
+
+/// x_{i-1} - 2 x_i + x_{i+1}: c'' on segment i.
+inline Vec3 second_difference(const Points& nodes, int segment) {
+  return nodes.col(segment - 1) - 2.0 * nodes.col(segment) + nodes.col(segment + 1);
+}
+
+/// c'' made continuous: linear between the middles of segments, where it is the second difference.
+inline Vec3 smooth_second_derivative(const Points& nodes, int segment, double u) {
+  const int last = static_cast<int>(nodes.cols()) - 2;
+  const int other = u < 0.5 ? (segment > 1 ? segment - 1 : 1) : (segment < last ? segment + 1 : last);
+  const double share = u < 0.5 ? 0.5 - u : u - 0.5;
+  return (1.0 - share) * second_difference(nodes, segment) + share * second_difference(nodes, other);
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,74 @@
+#pragma once
+
+#include "knot_utm/contact/friction.hpp"
+#include "knot_utm/contact/normal_law.hpp"
+#include "knot_utm/rod/rod.hpp"
+
+namespace knot_utm {
+
+/// A force between two points of the rod, or between the rod and a roller, in the terms every contact law shares.
+///
+/// Point a stands on nodes a0..a0+2 with weights c_0..c_2; point b on nodes b0..b0+2 with weights -c_3..-c_5, so
+/// that the gap vector is x = a - b = sum_k c_k q_k = d n. Its foot b moves along its strand by du as the strands
+/// move: with beta_k = -dc_k/du,
+///
+///     dx = S - b' du,   S = sum_k c_k dq_k,   R = sum_k beta_k dq_k,   du = (b'.S + x.R) / G,
+///     G = |b'|^2 - x.b''.
+///
+/// Force on a: g = w (p n - mu p z); on node k: c_k g. Against a roller there is no b: nodes a only, du = 0.
+struct ContactPoint {
+  int a0 = 0;
+  int b0 = -1;          ///< -1: a roller
+  double c[6] = {};     ///< [-]
+  double beta[6] = {};  ///< [-], zero for a
+  double arclength_a = 0.0;  ///< [m], at rest
+  double arclength_b = 0.0;  ///< [m], at rest; of a roller: its index
+  Vec3 x = Vec3::Zero();     ///< a - b [m]
+  Vec3 n = Vec3::Zero();     ///< x/d
+  double d = 0.0;            ///< [m]
+  double overlap = 0.0;      ///< D [m]
+  double weight = 0.0;       ///< w: rest length it stands for, times its share of the contact [m]
+  double pressure = 0.0;     ///< p [N/m]
+  double estimate = -1.0;    ///< of the pressure at the solution, from the last linear solve [N/m]; < 0: none
+  Vec3 db = Vec3::Zero();    ///< b' [m]
+  double inverse_g = 0.0;    ///< 1/G [1/m^2]; 0 against a roller
+  Vec3 axis = Vec3::Zero();  ///< of the roller, unit; zero between strands
+  Vec3 memory = Vec3::Zero();  ///< xi_n [m]
+  Vec3 slip = Vec3::Zero();    ///< r = xi_n + slip of this step, before projection on the tangent plane [m]
+  Vec3 turn = Vec3::Zero();    ///< V = sum_k beta_k (q_k - q_k^n), how b' turned in this step [m]
+  Vec3 z = Vec3::Zero();       ///< friction direction
+  Vec3 force = Vec3::Zero();   ///< g [N]
+
+  bool on_roller() const { return b0 < 0; }
+  bool touches() const { return overlap > 0.0; }
+  /// Takes part in the next linear solve.
+  bool active() const { return overlap > 0.0 || estimate > 0.0; }
+};
+
+/// The linear model of a contact that Newton's method solves with. Its pressure is the tangent of the normal law,
+///
+///     p(D) ~ p(D^) + p'(D^) (D - D^),
+///
+/// taken at the overlap D^ whose pressure is the estimate that the last linear solve gave, and at the present overlap
+/// where there is none. The law starts with p' = 0: tangents at the present overlap only halve the overlap of a strand
+/// that was pushed in too far, while the estimate has it nearly right at once. At the solution both are the same.
+///
+///     -df_k/dq_l = c_k c_l M_cc + c_k beta_l M_cb + beta_k c_l M_bc + beta_k beta_l M_bb   [N/m]
+///
+/// Four rows a column: the last is zero, so that a column fills a vector register.
+struct ContactModel {
+  using Padded = Eigen::Matrix<double, 4, 3>;
+  double pressure = 0.0;  ///< of the tangent at the present overlap [N/m]
+  double slope = 0.0;     ///< p'(D^) [N/m^2]
+  Vec3 force = Vec3::Zero();  ///< g with that pressure [N]
+  Padded cc, cb, bc, bb;
+};
+
+/// Fills pressure, z and force from overlap, n, slip and weight.
+void evaluate_force(const NormalLaw& normal, const Friction& friction, double friction_scale, ContactPoint& contact);
+
+/// The consistent linearisation of `evaluate_force`, movement of the foot included; weight w is held constant.
+void linearise(const NormalLaw& normal, const Friction& friction, double friction_scale, const ContactPoint& contact,
+               ContactModel& model);
+
+}  // namespace knot_utm

@@ -1,0 +1,86 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "knot_utm/solver/block.hpp"
+
+namespace knot_utm {
+
+/// The fill pattern of an LU factorisation without pivoting, for a matrix of blocks of symmetric structure:
+/// fill-reducing order (AMD), and for each pivot the later rows it touches. Numbers of blocks only, no values.
+class BlockPattern {
+ public:
+  /// `pairs` are the coupled nodes (i, j), i != j, in any order and number; the diagonal is always there.
+  void build(int nodes, const std::vector<std::pair<int, int>>& pairs);
+
+  int nodes() const { return static_cast<int>(position_.size()); }
+  int blocks() const { return blocks_; }                ///< stored: diagonal, lower and upper
+  int position(int node) const { return position_[static_cast<std::size_t>(node)]; }  ///< in elimination order
+
+  /// Where block (row, column) is stored; -1 where the pattern has none.
+  int index(int row, int column) const { return indices(row, column).first; }
+  /// Where (row, column) and its mirror (column, row) are stored; -1 where the pattern has none.
+  std::pair<int, int> indices(int row, int column) const;
+
+  /// For pivot k: how many later rows it touches, and where its blocks stand.
+  int below(int k) const { return row_begin_[static_cast<std::size_t>(k) + 1] - row_begin_[static_cast<std::size_t>(k)]; }
+  const int* rows(int k) const { return rows_.data() + row_begin_[static_cast<std::size_t>(k)]; }
+  int diagonal(int k) const { return diagonal_[static_cast<std::size_t>(k)]; }
+  /// Stored index of the lower block of the a-th row below pivot k is diagonal(k) + 1 + 2 a; its mirror follows it.
+  /// Stored indices of the lower blocks of row r (those left of its diagonal in elimination order).
+  const int* lower_begin(int r) const { return lower_.data() + lower_begin_[static_cast<std::size_t>(r)]; }
+  const int* lower_end(int r) const { return lower_.data() + lower_begin_[static_cast<std::size_t>(r) + 1]; }
+  const int* targets(int k) const { return targets_.data() + target_begin_[static_cast<std::size_t>(k)]; }
+
+ private:
+  int blocks_ = 0;
+  std::vector<int> position_;      // node -> elimination position
+  std::vector<int> row_begin_;     // pivot -> first of rows_
+  std::vector<int> rows_;          // positions later than the pivot, ascending
+  std::vector<int> diagonal_;      // pivot -> stored index of its diagonal block
+  std::vector<int> lower_begin_;   // row -> first of lower_
+  std::vector<int> lower_;
+  std::vector<std::size_t> target_begin_;
+  std::vector<int> targets_;       // pivot, row a, column b -> stored index of the block that L_a U_b updates
+};
+
+/// Square matrix of D x D blocks on a fixed pattern, factored in place: A = L U, blocks of L with unit diagonal.
+/// Unsymmetric in value. No pivoting: the caller's matrix is an implicit step's Jacobian, whose diagonal dominates
+/// where the step is short enough; a pivot that vanishes is reported.
+template <int D>
+class BlockMatrix {
+ public:
+  using Vector = std::vector<Lanes>;  ///< one entry a node, in the caller's order; lanes beyond D are zero
+
+  /// Takes the pattern; all values zero. Keeps its memory from pattern to pattern.
+  void set_pattern(const BlockPattern& pattern);
+  void set_zero();
+
+  Block<D>& block(int stored_index) { return values_[static_cast<std::size_t>(stored_index)]; }
+  const Block<D>& block(int stored_index) const { return values_[static_cast<std::size_t>(stored_index)]; }
+  const BlockPattern& pattern() const { return *pattern_; }
+
+  /// Row `node` becomes that of the identity: its unknown is prescribed by the right-hand side.
+  void set_identity_row(int node);
+
+  /// y = A x, before factorising.
+  void multiply(const Vector& x, Vector& y) const;
+
+  /// LU in place; false where a pivot block is singular.
+  bool factor();
+
+  /// Solves A x = b after `factor`; b becomes x.
+  void solve(Vector& b);
+
+ private:
+  const BlockPattern* pattern_ = nullptr;
+  std::vector<Block<D>> values_;
+  Vector work_;
+};
+
+extern template class BlockMatrix<3>;
+extern template class BlockMatrix<4>;
+
+}  // namespace knot_utm

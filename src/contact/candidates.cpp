@@ -1,0 +1,94 @@
+#include "knot_utm/contact/candidates.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace knot_utm {
+
+namespace {
+
+/// Cells of a uniform grid as one number each; 21 bits a direction.
+std::int64_t cell_key(std::int64_t i, std::int64_t j, std::int64_t k) { return (((i << 21) + j) << 21) + k; }
+
+}  // namespace
+
+Candidates::Candidates(const RodProperties& rod, double reach, double margin, double exclusion)
+    : reach_(reach), margin_(margin), exclusion_(exclusion) {
+  const Eigen::Index nodes = rod.nodes();
+  arclength_.resize(nodes);
+  arclength_[0] = 0.0;
+  for (Eigen::Index i = 1; i < nodes; ++i) arclength_[i] = arclength_[i - 1] + rod.rest_length[i - 1];
+  half_size_ = Eigen::VectorXd::Zero(nodes);
+  for (Eigen::Index i = 1; i + 1 < nodes; ++i)
+    half_size_[i] = 0.5 * std::max(rod.rest_length[i - 1], rod.rest_length[i]);
+}
+
+bool Candidates::refresh(const Points& position) {
+  if (built_at_.cols() == position.cols()) {
+    const double moved = (position - built_at_).colwise().squaredNorm().maxCoeff();
+    if (moved < 0.25 * margin_ * margin_) return false;
+  }
+  build(position);
+  return true;
+}
+
+void Candidates::build(const Points& position) {
+  built_at_ = position;
+  const int nodes = static_cast<int>(position.cols());
+  const double cell = reach_ + margin_ + 2.0 * half_size_.maxCoeff();
+  const Vec3 origin = position.rowwise().minCoeff().array() - cell;
+
+  struct Entry {
+    std::int64_t key;
+    int segment;
+  };
+  std::vector<Entry> entries;
+  entries.reserve(static_cast<std::size_t>(nodes));
+  auto key_of = [&](int i, int di, int dj, int dk) {
+    const Vec3 q = (position.col(i) - origin) / cell;
+    return cell_key(static_cast<std::int64_t>(q[0]) + di, static_cast<std::int64_t>(q[1]) + dj,
+                    static_cast<std::int64_t>(q[2]) + dk);
+  };
+  for (int i = 1; i + 1 < nodes; ++i) entries.push_back({key_of(i, 0, 0, 0), i});
+  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
+    return a.key != b.key ? a.key < b.key : a.segment < b.segment;
+  });
+
+  pairs_.clear();
+  segments_.clear();
+  runs_.clear();
+  begin_.assign(static_cast<std::size_t>(nodes) + 1, 0);
+  std::vector<int> found;
+  for (int i = 1; i + 1 < nodes; ++i) {
+    begin_[static_cast<std::size_t>(i)] = runs_.size();
+    found.clear();
+    for (int di = -1; di <= 1; ++di) {
+      for (int dj = -1; dj <= 1; ++dj) {
+        // The three cells along the last direction have consecutive keys.
+        const std::int64_t low = key_of(i, di, dj, -1), high = low + 2;
+        auto entry = std::lower_bound(entries.begin(), entries.end(), low,
+                                      [](const Entry& e, std::int64_t key) { return e.key < key; });
+        for (; entry != entries.end() && entry->key <= high; ++entry) {
+          const int j = entry->segment;
+          if (std::abs(arclength_[i] - arclength_[j]) < exclusion_) continue;
+          const double limit = reach_ + margin_ + half_size_[i] + half_size_[j];
+          if ((position.col(i) - position.col(j)).squaredNorm() < limit * limit) found.push_back(j);
+        }
+      }
+    }
+    if (found.empty()) continue;
+    std::sort(found.begin(), found.end());
+    segments_.push_back(i);
+    for (const int j : found) {
+      if (i < j) pairs_.push_back({i, j});
+      if (runs_.size() > begin_[static_cast<std::size_t>(i)] && runs_.back().last + 1 == j)
+        runs_.back().last = j;
+      else
+        runs_.push_back({j, j});
+    }
+  }
+  for (int i = std::max(nodes - 1, 0); i <= nodes; ++i) begin_[static_cast<std::size_t>(i)] = runs_.size();
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,207 @@
+#include "knot_utm/contact/smooth_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "knot_utm/contact/centreline_curve.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr double kReachMargin = 0.3;  // contacts are kept, forceless, up to this gap [fraction of radius]
+
+/// Arclength at rest of parameter u on a segment: from the middle of one edge to the middle of the next.
+double arclength_at(const Eigen::VectorXd& arclength, int segment, double u) {
+  const double begin = 0.5 * (arclength[segment - 1] + arclength[segment]);
+  const double end = 0.5 * (arclength[segment] + arclength[segment + 1]);
+  return begin + u * (end - begin);
+}
+
+/// The minimum of |a - c(u)| on a segment, given F'(u) = -(a - c).c' at u = 0 and 1 of opposite sign: Newton, kept
+/// inside the bracket.
+double nearest_parameter(const Points& nodes, int segment, const Vec3& a, double slope_begin, double slope_end) {
+  double low = 0.0, high = 1.0;
+  double u = slope_begin / (slope_begin - slope_end);
+  const Vec3 second = second_difference(nodes, segment);
+  const double tolerance = 1e-15 * (slope_end - slope_begin);
+  for (int i = 0; i < 30; ++i) {
+    const SegmentWeights w(u);
+    const Vec3 x = a - combine(w.value, nodes, segment);
+    const Vec3 derivative = combine(w.derivative, nodes, segment);
+    const double slope = -x.dot(derivative);
+    if (std::abs(slope) <= tolerance) break;
+    (slope < 0.0 ? low : high) = u;
+    const double curvature = derivative.squaredNorm() - x.dot(second);
+    double next = curvature > 0.0 ? u - slope / curvature : 0.5 * (low + high);
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    const double change = std::abs(next - u);
+    u = next;
+    if (change < 1e-15) break;
+  }
+  return u;
+}
+
+/// Number of the point of integration that a contact stands on.
+std::size_t point_of(const ContactPoint& contact) {
+  return 2 * static_cast<std::size_t>(contact.a0 + 1) + (contact.c[0] > contact.c[2] ? 0u : 1u);
+}
+
+}  // namespace
+
+SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction,
+                             double margin)
+    : normal_(normal),
+      friction_(friction),
+      diameter_(2.0 * rod.material.radius),
+      window_(1.0 * rod.material.radius),
+      reach_((2.0 + kReachMargin) * rod.material.radius),
+      voronoi_(rod.voronoi_length),
+      // Strands closer than a half turn around themselves (pi h) bend, they do not touch.
+      candidates_(rod, reach_, margin, 5.0 * rod.material.radius) {
+  const Eigen::Index nodes = rod.nodes();
+  arclength_.resize(nodes);
+  arclength_[0] = 0.0;
+  for (Eigen::Index i = 1; i < nodes; ++i) arclength_[i] = arclength_[i - 1] + rod.rest_length[i - 1];
+  memory_begin_.assign(2 * static_cast<std::size_t>(nodes) + 1, 0);
+  next_begin_ = memory_begin_;
+  estimate_begin_ = memory_begin_;
+  edge_middle_.resize(3, nodes - 1);
+  edge_.resize(3, nodes - 1);
+}
+
+void SmoothContact::begin_step() {
+  contacts_.clear();
+  estimate_.clear();
+  for (const Memory& memory : memory_) estimate_.push_back({memory.arclength_b, memory.pressure});
+  estimate_begin_ = memory_begin_;
+  first_evaluation_ = true;
+}
+
+void SmoothContact::evaluate(const Points& position, const Points& start, double dt) {
+  if (!first_evaluation_) {
+    estimate_.clear();
+    std::size_t q_done = 0;
+    for (const ContactPoint& contact : contacts_) {
+      const std::size_t q = point_of(contact);
+      while (q_done <= q) estimate_begin_[q_done++] = static_cast<int>(estimate_.size());
+      estimate_.push_back({contact.arclength_b, contact.estimate});
+    }
+    while (q_done < estimate_begin_.size()) estimate_begin_[q_done++] = static_cast<int>(estimate_.size());
+  }
+  first_evaluation_ = false;
+  contacts_.clear();
+  friction_scale_ = friction_.scale(dt);
+  const Eigen::Index edges = position.cols() - 1;
+  edge_.noalias() = position.rightCols(edges) - position.leftCols(edges);
+  edge_middle_.noalias() = 0.5 * (position.rightCols(edges) + position.leftCols(edges));
+  for (const int segment : candidates_.segments())
+    for (int point = 0; point < 2; ++point)
+      for (const Candidates::Run* run = candidates_.begin(segment); run != candidates_.end(segment); ++run)
+        find_feet(segment, point, *run, position, start);
+}
+
+void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run, const Points& position,
+                              const Points& start) {
+  const SegmentWeights w(kPoints[point]);
+  const Vec3 a = combine(w.value, position, segment);
+  // F' at the joints of the segments; a joint belongs to the segment it ends.
+  double slope_begin = -(a - edge_middle_.col(run.first - 1)).dot(edge_.col(run.first - 1));
+  for (int foot = run.first; foot <= run.last; ++foot) {
+    const double slope_end = -(a - edge_middle_.col(foot)).dot(edge_.col(foot));
+    if (slope_begin < 0.0 && slope_end >= 0.0) {
+      const double limit = reach_ + voronoi_[foot];
+      if ((a - position.col(foot)).squaredNorm() < limit * limit)
+        add_contact(segment, point, foot, nearest_parameter(position, foot, a, slope_begin, slope_end), position,
+                    start);
+    }
+    slope_begin = slope_end;
+  }
+}
+
+void SmoothContact::add_contact(int segment, int point, int foot, double u, const Points& position,
+                                const Points& start) {
+  const SegmentWeights wa(kPoints[point]), wb(u);
+  ContactPoint contact;
+  contact.x = combine(wa.value, position, segment) - combine(wb.value, position, foot);
+  contact.d = contact.x.norm();
+  if (contact.d >= reach_) return;
+  contact.a0 = segment - 1;
+  contact.b0 = foot - 1;
+  for (int k = 0; k < 3; ++k) {
+    contact.c[k] = wa.value[k];
+    contact.c[3 + k] = -wb.value[k];
+    contact.beta[3 + k] = wb.derivative[k];
+  }
+  contact.arclength_a = arclength_at(arclength_, segment, kPoints[point]);
+  contact.arclength_b = arclength_at(arclength_, foot, u);
+  if (std::abs(contact.arclength_a - contact.arclength_b) < candidates_.exclusion()) return;
+  contact.n = contact.x / contact.d;
+  contact.overlap = diameter_ - contact.d;
+  contact.db = combine(wb.derivative, position, foot);
+  const double length2 = contact.db.squaredNorm();
+  // At a minimum G >= 0; it vanishes where the foot is about to jump, and there omega does too.
+  contact.inverse_g = 1.0 / std::max(length2 - contact.x.dot(second_difference(position, foot)), 1e-3 * length2);
+
+  const Memory* found = nullptr;
+  const std::size_t q = 2 * static_cast<std::size_t>(segment) + static_cast<std::size_t>(point);
+  for (int m = memory_begin_[q]; m < memory_begin_[q + 1]; ++m) {
+    const Memory& memory = memory_[static_cast<std::size_t>(m)];
+    if (std::abs(memory.arclength_b - contact.arclength_b) > window_) continue;
+    if (!found || std::abs(memory.arclength_b - contact.arclength_b) < std::abs(found->arclength_b - contact.arclength_b))
+      found = &memory;
+  }
+  double nearest = window_;
+  for (int m = estimate_begin_[q]; m < estimate_begin_[q + 1]; ++m) {
+    const Estimate& estimate = estimate_[static_cast<std::size_t>(m)];
+    const double away = std::abs(estimate.arclength_b - contact.arclength_b);
+    if (away > nearest) continue;
+    nearest = away;
+    contact.estimate = estimate.pressure;
+  }
+  contact.weight = 0.5 * voronoi_[segment] * (found ? found->share : share(contact, position));
+
+  if (friction_.on() && contact.active()) {
+    if (found && friction_.remembers()) contact.memory = found->slip;
+    contact.slip = contact.memory;
+    for (int k = 0; k < 3; ++k) {
+      contact.slip += contact.c[k] * (position.col(contact.a0 + k) - start.col(contact.a0 + k));
+      const Vec3 moved = position.col(contact.b0 + k) - start.col(contact.b0 + k);
+      contact.slip += contact.c[3 + k] * moved;
+      contact.turn += contact.beta[3 + k] * moved;
+    }
+  }
+  evaluate_force(normal_, friction_, friction_scale_, contact);
+  contacts_.push_back(contact);
+}
+
+double SmoothContact::share(const ContactPoint& contact, const Points& position) const {
+  const int segment = contact.a0 + 1, foot = contact.b0 + 1;
+  // Derivatives of the weights are the weights' own: recover u from them.
+  const double ua = contact.c[0] > contact.c[2] ? kPoints[0] : kPoints[1];
+  const double ub = contact.beta[5];
+  const Vec3 da = combine(SegmentWeights(ua).derivative, position, segment);
+  const double g_b = std::max(
+      0.0, 1.0 - contact.x.dot(smooth_second_derivative(position, foot, ub)) / contact.db.squaredNorm());
+  const double g_a =
+      std::max(0.0, 1.0 + contact.x.dot(smooth_second_derivative(position, segment, ua)) / da.squaredNorm());
+  const double a4 = g_a * g_a * g_a * g_a, b4 = g_b * g_b * g_b * g_b;
+  return b4 / std::max(a4 + b4, 1e-12);
+}
+
+void SmoothContact::commit(const Points& position) {
+  next_memory_.clear();
+  std::size_t q_done = 0;
+  for (const ContactPoint& contact : contacts_) {
+    const std::size_t q = point_of(contact);
+    while (q_done <= q) next_begin_[q_done++] = static_cast<int>(next_memory_.size());
+    const bool sticks = friction_.on() && friction_.remembers() && contact.touches();
+    next_memory_.push_back(
+        {contact.arclength_b, sticks ? Vec3(friction_.presliding * contact.z) : Vec3::Zero(), share(contact, position), contact.pressure});
+  }
+  while (q_done < next_begin_.size()) next_begin_[q_done++] = static_cast<int>(next_memory_.size());
+  memory_.swap(next_memory_);
+  memory_begin_.swap(next_begin_);
+}
+
+}  // namespace knot_utm

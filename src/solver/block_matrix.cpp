@@ -1,0 +1,200 @@
+#include "knot_utm/solver/block_matrix.hpp"
+
+#include <algorithm>
+
+#include <suitesparse/amd.h>
+
+namespace knot_utm {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+/// Neighbours of every node, sorted, without repeats, as compressed rows.
+void neighbours(int nodes, const std::vector<std::pair<int, int>>& pairs, std::vector<int>& begin,
+                std::vector<int>& list) {
+  std::vector<std::int64_t> keys;
+  keys.reserve(2 * pairs.size());
+  for (const auto& [i, j] : pairs) {
+    keys.push_back(static_cast<std::int64_t>(i) * nodes + j);
+    keys.push_back(static_cast<std::int64_t>(j) * nodes + i);
+  }
+  std::sort(keys.begin(), keys.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  begin.assign(at(nodes) + 1, 0);
+  list.clear();
+  list.reserve(keys.size());
+  for (const std::int64_t key : keys) {
+    ++begin[static_cast<std::size_t>(key / nodes) + 1];
+    list.push_back(static_cast<int>(key % nodes));
+  }
+  for (int i = 0; i < nodes; ++i) begin[at(i) + 1] += begin[at(i)];
+}
+
+}  // namespace
+
+void BlockPattern::build(int nodes, const std::vector<std::pair<int, int>>& pairs) {
+  std::vector<int> begin, list;
+  neighbours(nodes, pairs, begin, list);
+
+  std::vector<int> order(at(nodes));
+  amd_order(nodes, begin.data(), list.data(), order.data(), nullptr, nullptr);
+  position_.assign(at(nodes), 0);
+  for (int k = 0; k < nodes; ++k) position_[at(order[at(k)])] = k;
+
+  // Rows below pivot k: its own later neighbours and what its children in the elimination tree pass on.
+  row_begin_.assign(at(nodes) + 1, 0);
+  rows_.clear();
+  std::vector<std::vector<int>> children(at(nodes));
+  std::vector<int> seen(at(nodes), -1);
+  for (int k = 0; k < nodes; ++k) {
+    const std::size_t first = rows_.size();
+    seen[at(k)] = k;
+    const int node = order[at(k)];
+    for (int a = begin[at(node)]; a < begin[at(node) + 1]; ++a) {
+      const int row = position_[at(list[at(a)])];
+      if (row > k && seen[at(row)] != k) {
+        seen[at(row)] = k;
+        rows_.push_back(row);
+      }
+    }
+    for (const int child : children[at(k)]) {
+      for (int a = row_begin_[at(child)]; a < row_begin_[at(child) + 1]; ++a) {
+        const int row = rows_[at(a)];
+        if (row > k && seen[at(row)] != k) {
+          seen[at(row)] = k;
+          rows_.push_back(row);
+        }
+      }
+    }
+    std::sort(rows_.begin() + static_cast<std::ptrdiff_t>(first), rows_.end());
+    row_begin_[at(k) + 1] = static_cast<int>(rows_.size());
+    if (rows_.size() > first) children[at(rows_[first])].push_back(k);
+  }
+
+  diagonal_.assign(at(nodes), 0);
+  for (int k = 0; k < nodes; ++k) diagonal_[at(k)] = k + 2 * row_begin_[at(k)];
+  blocks_ = nodes + 2 * static_cast<int>(rows_.size());
+
+  lower_begin_.assign(at(nodes) + 1, 0);
+  for (const int row : rows_) ++lower_begin_[at(row) + 1];
+  for (int k = 0; k < nodes; ++k) lower_begin_[at(k) + 1] += lower_begin_[at(k)];
+  lower_.resize(rows_.size());
+  std::vector<int> filled(lower_begin_.begin(), lower_begin_.end() - 1);
+  for (int k = 0; k < nodes; ++k)
+    for (int a = 0; a < below(k); ++a) lower_[at(filled[at(rows(k)[a])]++)] = diagonal(k) + 1 + 2 * a;
+
+  target_begin_.assign(at(nodes), 0);
+  targets_.clear();
+  for (int k = 0; k < nodes; ++k) {
+    target_begin_[at(k)] = targets_.size();
+    const int count = below(k);
+    for (int a = 0; a < count; ++a) {
+      for (int b = 0; b < count; ++b) {
+        const int row = rows(k)[a], column = rows(k)[b];
+        if (row == column) {
+          targets_.push_back(diagonal(row));
+        } else {
+          const int pivot = std::min(row, column), other = std::max(row, column);
+          const int* found = std::lower_bound(rows(pivot), rows(pivot) + below(pivot), other);
+          const int stored = diagonal(pivot) + 1 + 2 * static_cast<int>(found - rows(pivot));
+          targets_.push_back(row > column ? stored : stored + 1);
+        }
+      }
+    }
+  }
+}
+
+std::pair<int, int> BlockPattern::indices(int row, int column) const {
+  const int r = position(row), c = position(column);
+  if (r == c) return {diagonal(r), diagonal(r)};
+  const int pivot = std::min(r, c), other = std::max(r, c);
+  const int* end = rows(pivot) + below(pivot);
+  const int* found = std::lower_bound(rows(pivot), end, other);
+  if (found == end || *found != other) return {-1, -1};
+  const int lower = diagonal(pivot) + 1 + 2 * static_cast<int>(found - rows(pivot));
+  return r > c ? std::make_pair(lower, lower + 1) : std::make_pair(lower + 1, lower);
+}
+
+template <int D>
+void BlockMatrix<D>::set_pattern(const BlockPattern& pattern) {
+  pattern_ = &pattern;
+  values_.resize(at(pattern.blocks()));
+  work_.resize(at(pattern.nodes()));
+  set_zero();
+}
+
+template <int D>
+void BlockMatrix<D>::set_zero() {
+  for (Block<D>& block : values_) block.set_zero();
+}
+
+template <int D>
+void BlockMatrix<D>::set_identity_row(int node) {
+  const int r = pattern_->position(node);
+  block(pattern_->diagonal(r)).set_identity();
+  // Upper blocks of the row stand with its own pivot, lower ones with the pivots of its earlier neighbours.
+  for (int a = 0; a < pattern_->below(r); ++a) block(pattern_->diagonal(r) + 2 + 2 * a).set_zero();
+  for (const int* lower = pattern_->lower_begin(r); lower != pattern_->lower_end(r); ++lower) block(*lower).set_zero();
+}
+
+template <int D>
+void BlockMatrix<D>::multiply(const Vector& x, Vector& y) const {
+  const int nodes = pattern_->nodes();
+  std::vector<int> node_at(at(nodes));
+  for (int i = 0; i < nodes; ++i) node_at[at(pattern_->position(i))] = i;
+  y.assign(at(nodes), Lanes{0.0, 0.0, 0.0, 0.0});
+  for (int k = 0; k < nodes; ++k) {
+    const int i = node_at[at(k)];
+    y[at(i)] += product(block(pattern_->diagonal(k)), x[at(i)]);
+    for (int a = 0; a < pattern_->below(k); ++a) {
+      const int j = node_at[at(pattern_->rows(k)[a])];
+      y[at(j)] += product(block(pattern_->diagonal(k) + 1 + 2 * a), x[at(i)]);
+      y[at(i)] += product(block(pattern_->diagonal(k) + 2 + 2 * a), x[at(j)]);
+    }
+  }
+}
+
+template <int D>
+bool BlockMatrix<D>::factor() {
+  const int nodes = pattern_->nodes();
+  for (int k = 0; k < nodes; ++k) {
+    Block<D>* own = &values_[at(pattern_->diagonal(k))];
+    Block<D> inverse;
+    if (!invert(own[0], inverse)) return false;
+    own[0] = inverse;
+    const int count = pattern_->below(k);
+    const int* target = pattern_->targets(k);
+    for (int a = 0; a < count; ++a) {
+      Block<D>& lower = own[1 + 2 * a];
+      lower = product(lower, inverse);
+      for (int b = 0; b < count; ++b) subtract_product(values_[at(*target++)], lower, own[2 + 2 * b]);
+    }
+  }
+  return true;
+}
+
+template <int D>
+void BlockMatrix<D>::solve(Vector& b) {
+  const int nodes = pattern_->nodes();
+  for (int i = 0; i < nodes; ++i) work_[at(pattern_->position(i))] = b[at(i)];
+  for (int k = 0; k < nodes; ++k) {
+    const Block<D>* own = &values_[at(pattern_->diagonal(k))];
+    const int* row = pattern_->rows(k);
+    const Lanes x = work_[at(k)];
+    for (int a = 0; a < pattern_->below(k); ++a) subtract_product(work_[at(row[a])], own[1 + 2 * a], x);
+  }
+  for (int k = nodes - 1; k >= 0; --k) {
+    const Block<D>* own = &values_[at(pattern_->diagonal(k))];
+    const int* row = pattern_->rows(k);
+    Lanes x = work_[at(k)];
+    for (int a = 0; a < pattern_->below(k); ++a) subtract_product(x, own[2 + 2 * a], work_[at(row[a])]);
+    work_[at(k)] = product(own[0], x);
+  }
+  for (int i = 0; i < nodes; ++i) b[at(i)] = work_[at(pattern_->position(i))];
+}
+
+template class BlockMatrix<3>;
+template class BlockMatrix<4>;
+
+}  // namespace knot_utm

@@ -1,0 +1,172 @@
+#include "knot_utm/contact/smooth_contact.hpp"
+
+#include <random>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+namespace knot_utm {
+namespace {
+
+constexpr double kRadius = 3e-3;
+constexpr int kHalf = 30;
+
+/// Two strands of one rod: the first straight along z, the second a helix around it, overlapping a little.
+/// The long edge between them belongs to nothing that touches.
+struct TwoStrands {
+  RodProperties rod;
+  Points start, position;
+
+  explicit TwoStrands(double helix_radius) {
+    Material material;
+    material.radius = kRadius;
+    material.density = 1000.0;
+    rod = make_rod(material, Eigen::VectorXd::Constant(2 * kHalf - 1, 0.7 * kRadius));
+    position.resize(3, 2 * kHalf);
+    for (int i = 0; i < kHalf; ++i) {
+      position.col(i) << 0.0, 0.0, 0.7 * kRadius * i;
+      const double angle = 0.3 * i;
+      position.col(kHalf + i) << helix_radius * std::cos(angle), helix_radius * std::sin(angle),
+          0.4 * kRadius * (i + 4);
+    }
+    start = position;
+    std::mt19937 random(3);
+    std::normal_distribution<double> noise(0.0, 0.01 * kRadius);
+    for (Eigen::Index i = 0; i < position.size(); ++i) position.data()[i] += noise(random);
+  }
+
+  Eigen::VectorXd force(SmoothContact& contact, const Points& x, double dt) const {
+    contact.begin_step();
+    contact.evaluate(x, start, dt);
+    Points f = Points::Zero(3, x.cols());
+    for (const ContactPoint& point : contact.contacts())
+      for (int k = 0; k < 3; ++k) {
+        f.col(point.a0 + k) += point.c[k] * point.force;
+        f.col(point.b0 + k) += point.c[3 + k] * point.force;
+      }
+    return Eigen::Map<const Eigen::VectorXd>(f.data(), f.size());
+  }
+
+  Eigen::MatrixXd stiffness(SmoothContact& contact, const Points& x, double dt) const {
+    contact.begin_step();
+    contact.evaluate(x, start, dt);
+    for (ContactPoint& point : contact.contacts()) point.estimate = -1.0;  // tangents at the present overlap
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x.size(), x.size());
+    ContactModel local;
+    for (const ContactPoint& point : contact.contacts()) {
+      if (!point.touches()) continue;
+      contact.linearise_contact(point, dt, local);
+      auto node = [&](int k) { return k < 3 ? point.a0 + k : point.b0 + k - 3; };
+      for (int k = 0; k < 6; ++k)
+        for (int l = 0; l < 6; ++l)
+          out.block<3, 3>(3 * node(k), 3 * node(l)) +=
+              (point.c[k] * point.c[l] * local.cc + point.c[k] * point.beta[l] * local.cb +
+               point.beta[k] * point.c[l] * local.bc + point.beta[k] * point.beta[l] * local.bb)
+                  .topRows<3>();
+    }
+    return out;
+  }
+};
+
+struct Law {
+  const char* name;
+  FrictionLaw law;
+  double mu, presliding, slip_tolerance;
+};
+
+class SmoothContactJacobian : public testing::TestWithParam<Law> {};
+
+TEST_P(SmoothContactJacobian, IsTheDerivativeOfTheForces) {
+  TwoStrands scene(1.93 * kRadius);
+  const Law law = GetParam();
+  SmoothContact contact(scene.rod, {1e6, 0.05 * kRadius}, {law.law, law.mu, law.presliding, law.slip_tolerance},
+                        0.5 * kRadius);
+  const double dt = 0.01;
+  contact.refresh(scene.start);
+  contact.evaluate(scene.start, scene.start, dt);
+  contact.commit(scene.start);
+
+  const Eigen::MatrixXd analytic = scene.stiffness(contact, scene.position, dt);
+  ASSERT_GT(analytic.norm(), 0.0);
+  Eigen::MatrixXd numeric(analytic.rows(), analytic.cols());
+  const double step = 1e-7 * kRadius;
+  for (Eigen::Index j = 0; j < numeric.cols(); ++j) {
+    Points x = scene.position;
+    x.data()[j] += step;
+    const Eigen::VectorXd plus = scene.force(contact, x, dt);
+    x.data()[j] -= 2.0 * step;
+    const Eigen::VectorXd minus = scene.force(contact, x, dt);
+    numeric.col(j) = -(plus - minus) / (2.0 * step);
+  }
+  // Central differences: rounding 1e-16 / 1e-7 relative, curvature of the laws over the step smaller still.
+  EXPECT_LT((analytic - numeric).norm(), 2e-6 * numeric.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(Laws, SmoothContactJacobian,
+                         testing::Values(Law{"frictionless", FrictionLaw::kMemory, 0.0, 1.0, 0.0},
+                                         Law{"sticking", FrictionLaw::kMemory, 0.4, 0.5 * kRadius, 0.0},
+                                         Law{"slipping", FrictionLaw::kMemory, 0.4, 1e-3 * kRadius, 0.0},
+                                         Law{"smoothed", FrictionLaw::kSmoothed, 0.4, 0.0, 2e-2}),
+                         [](const auto& law) { return law.param.name; });
+
+TEST(SmoothContact, ForcesAndMomentsBalance) {
+  TwoStrands scene(1.93 * kRadius);
+  SmoothContact contact(scene.rod, {1e6, 0.05 * kRadius}, {FrictionLaw::kMemory, 0.4, 1e-3 * kRadius, 0.0},
+                        0.5 * kRadius);
+  contact.refresh(scene.start);
+  const Eigen::VectorXd flat = scene.force(contact, scene.position, 0.01);
+  const Eigen::Map<const Points> force(flat.data(), 3, scene.position.cols());
+  Vec3 moment = Vec3::Zero();
+  for (Eigen::Index i = 0; i < force.cols(); ++i)
+    moment += Vec3(scene.position.col(i)).cross(Vec3(force.col(i)));
+  ASSERT_GT(force.norm(), 1e-3);
+  EXPECT_LT(force.rowwise().sum().norm(), 1e-12 * force.norm());
+  // Normal forces act along the gap; friction acts at both ends of it, whose arm is the gap itself.
+  double friction_arm = 0.0;
+  for (const ContactPoint& point : contact.contacts()) friction_arm += point.x.cross(point.force).norm();
+  EXPECT_LE(moment.norm(), friction_arm * (1.0 + 1e-9) + 1e-12);
+}
+
+TEST(SmoothContact, StrandsApartFeelNothing) {
+  TwoStrands scene(2.1 * kRadius);
+  SmoothContact contact(scene.rod, {1e6, 0.05 * kRadius}, {FrictionLaw::kMemory, 0.4, 1e-3 * kRadius, 0.0},
+                        0.5 * kRadius);
+  contact.refresh(scene.start);
+  EXPECT_EQ(scene.force(contact, scene.start, 0.01).norm(), 0.0);
+}
+
+TEST(NormalLaw, SlopeAndEnergyAreThePressuresDerivativeAndIntegral) {
+  const NormalLaw law{3e6, 1e-4};
+  for (const double overlap : {-1e-5, 2e-5, 9e-5, 1.3e-4, 4e-4}) {
+    const double step = 1e-9;
+    const double p = law.pressure(overlap);
+    EXPECT_NEAR(law.slope(overlap), (law.pressure(overlap + step) - law.pressure(overlap - step)) / (2 * step),
+                1e-5 * law.stiffness);
+    EXPECT_NEAR(p, (law.energy(overlap + step) - law.energy(overlap - step)) / (2 * step), 1e-5 * (p + 1.0));
+  }
+}
+
+TEST(Candidates, FindEveryPairThatBruteForceFinds) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> place(0.0, 0.05);
+  Material material;
+  material.radius = kRadius;
+  const int nodes = 80;
+  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(nodes - 1, 2e-3));
+  Points x(3, nodes);
+  for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] = place(random);
+  const double reach = 6e-3, margin = 1e-3, exclusion = 9e-3;
+  Candidates candidates(rod, reach, margin, exclusion);
+  EXPECT_TRUE(candidates.refresh(x));
+  EXPECT_FALSE(candidates.refresh(x.array() + 0.2 * margin));
+  std::vector<std::pair<int, int>> expected;
+  for (int i = 1; i + 1 < nodes; ++i)
+    for (int j = i + 1; j + 1 < nodes; ++j)
+      if (2e-3 * (j - i) >= exclusion && (x.col(i) - x.col(j)).norm() < reach + margin + 2e-3)
+        expected.push_back({i, j});
+  EXPECT_EQ(candidates.pairs(), expected);
+  EXPECT_TRUE(candidates.refresh(x.array() + 0.6 * margin));
+}
+
+}  // namespace
+}  // namespace knot_utm

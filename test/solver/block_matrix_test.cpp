@@ -1,0 +1,110 @@
+#include "knot_utm/solver/block_matrix.hpp"
+
+#include <random>
+
+#include <Eigen/Dense>
+#include <gtest/gtest.h>
+
+namespace knot_utm {
+namespace {
+
+template <typename T>
+class BlockMatrixTest : public testing::Test {};
+using Sizes = testing::Types<std::integral_constant<int, 3>, std::integral_constant<int, 4>>;
+TYPED_TEST_SUITE(BlockMatrixTest, Sizes);
+
+/// Band of a rod and random couplings between far nodes, unsymmetric values, dominant diagonal.
+template <int D>
+struct Example {
+  static constexpr int kNodes = 40;
+  BlockPattern pattern;
+  BlockMatrix<D> matrix;
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(D * kNodes, D * kNodes);
+
+  Example() {
+    std::mt19937 random(7);
+    std::vector<std::pair<int, int>> pairs;
+    for (int i = 0; i < kNodes; ++i)
+      for (int j = i + 1; j < std::min(i + 3, kNodes); ++j) pairs.push_back({i, j});
+    for (int n = 0; n < 12; ++n) {
+      const int i = static_cast<int>(random() % kNodes), j = static_cast<int>(random() % kNodes);
+      if (i != j) pairs.push_back({i, j});
+    }
+    pattern.build(kNodes, pairs);
+    matrix.set_pattern(pattern);
+    std::uniform_real_distribution<double> value(-1.0, 1.0);
+    auto fill = [&](int i, int j, double diagonal) {
+      Block<D>& block = matrix.block(pattern.index(i, j));
+      for (int r = 0; r < D; ++r)
+        for (int c = 0; c < D; ++c) {
+          block.at(r, c) = value(random) + (r == c ? diagonal : 0.0);
+          dense(D * i + r, D * j + c) = block(r, c);
+        }
+    };
+    for (int i = 0; i < kNodes; ++i) fill(i, i, 20.0);
+    for (const auto& [i, j] : pairs) {
+      fill(i, j, 0.0);
+      fill(j, i, 0.0);
+    }
+  }
+
+  typename BlockMatrix<D>::Vector lanes(const Eigen::VectorXd& v) const {
+    typename BlockMatrix<D>::Vector out(kNodes, Lanes{0.0, 0.0, 0.0, 0.0});
+    for (int i = 0; i < kNodes; ++i)
+      for (int r = 0; r < D; ++r) out[static_cast<std::size_t>(i)][r] = v[D * i + r];
+    return out;
+  }
+  Eigen::VectorXd vector(const typename BlockMatrix<D>::Vector& v) const {
+    Eigen::VectorXd out(D * kNodes);
+    for (int i = 0; i < kNodes; ++i)
+      for (int r = 0; r < D; ++r) out[D * i + r] = v[static_cast<std::size_t>(i)][r];
+    return out;
+  }
+};
+
+TYPED_TEST(BlockMatrixTest, SolvesAsDenseLuDoes) {
+  constexpr int D = TypeParam::value;
+  Example<D> example;
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(D * Example<D>::kNodes, -1.0, 2.0);
+  auto x = example.lanes(b);
+  ASSERT_TRUE(example.matrix.factor());
+  example.matrix.solve(x);
+  // 1e-13: rounding of a well-conditioned system of 160 unknowns.
+  EXPECT_LT((example.vector(x) - example.dense.partialPivLu().solve(b)).norm(), 1e-13);
+}
+
+TYPED_TEST(BlockMatrixTest, MultipliesAsDenseDoes) {
+  constexpr int D = TypeParam::value;
+  Example<D> example;
+  const Eigen::VectorXd x = Eigen::VectorXd::LinSpaced(D * Example<D>::kNodes, -1.0, 2.0);
+  typename BlockMatrix<D>::Vector y;
+  example.matrix.multiply(example.lanes(x), y);
+  EXPECT_LT((example.vector(y) - example.dense * x).norm(), 1e-12);
+}
+
+TYPED_TEST(BlockMatrixTest, AnIdentityRowPrescribesItsUnknown) {
+  constexpr int D = TypeParam::value;
+  Example<D> example;
+  for (const int node : {0, 17, 39}) {
+    example.matrix.set_identity_row(node);
+    example.dense.middleRows(D * node, D).setZero();
+    example.dense.block(D * node, D * node, D, D).setIdentity();
+  }
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(D * Example<D>::kNodes, -1.0, 2.0);
+  auto x = example.lanes(b);
+  ASSERT_TRUE(example.matrix.factor());
+  example.matrix.solve(x);
+  EXPECT_LT((example.vector(x) - example.dense.partialPivLu().solve(b)).norm(), 1e-13);
+}
+
+TYPED_TEST(BlockMatrixTest, ASingularPivotIsReported) {
+  constexpr int D = TypeParam::value;
+  BlockPattern pattern;
+  pattern.build(3, {{0, 1}});
+  BlockMatrix<D> matrix;
+  matrix.set_pattern(pattern);
+  EXPECT_FALSE(matrix.factor());
+}
+
+}  // namespace
+}  // namespace knot_utm
