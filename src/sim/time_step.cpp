@@ -105,14 +105,14 @@ class ImplicitStep final : public TimeStep {
     return true;
   }
 
-  void move() {
+  void move(double wanted_share) {
     double longest2 = 0.0;
     for (const Lanes& change : change_) {
       const double size2 = change[0] * change[0] + change[1] * change[1] + change[2] * change[2];
       longest2 = std::max(longest2, size2);
     }
     const double longest = std::sqrt(longest2);
-    const double share = longest > settings_.newton_cap ? settings_.newton_cap / longest : 1.0;
+    const double share = wanted_share * (longest > settings_.newton_cap ? settings_.newton_cap / longest : 1.0);
     for (int i = 0; i < nodes_; ++i) x_.col(i) += share * to_vec3(change_[at(i)]);
     std::size_t m = 0;
     estimate_pressures(contact_, share, m);
