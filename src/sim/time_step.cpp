@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/rod/isotropic_bending.hpp"
@@ -28,8 +26,8 @@ void add(Block<D>& block, const Mat3& m, double sign) {
 /// Stored indices of the rod's own blocks: node i with itself, the next and the one after.
 struct BandIndex {
   int own;
-  int next, next_back;        // (i, i+1) and (i+1, i)
-  int second, second_back;    // (i, i+2) and (i+2, i)
+  int next, next_back;      // (i, i+1) and (i+1, i)
+  int second, second_back;  // (i, i+2) and (i+2, i)
 };
 
 constexpr int kFootRoom = 1;  // segments by which a foot may slide on before the pattern is rebuilt
@@ -46,8 +44,7 @@ class ImplicitStep final : public TimeStep {
         force_(at(nodes_)),
         change_(at(nodes_)),
         committed_force_(at(nodes_)),
-        held_(at(nodes_), 0) {
-  }
+        held_(at(nodes_), 0) {}
 
   StepSummary step(const Boundary& boundary, double dt) override {
     boundary_ = &boundary;
@@ -57,7 +54,6 @@ class ImplicitStep final : public TimeStep {
     predict();
     contact_.begin_step();
     rollers_.begin_step();
-    if (getenv("HIST")) fprintf(stderr, "DT %.3e\n", dt);
     summary.newton = newton(*this, NewtonOptions{settings_.max_iterations});
     examine(summary);
     if (summary.accepted()) commit();
@@ -75,8 +71,6 @@ class ImplicitStep final : public TimeStep {
     for (const ContactPoint& contact : contact_.contacts()) add_contact_force(contact);
     for (const ContactPoint& contact : rollers_.contacts()) add_contact_force(contact);
     add_grips_and_forces();
-    //DBG
-    if (getenv("HIST")) { double r=0; int w=0; for(int i=0;i<nodes_;++i) if(!held_[at(i)]){ double q=to_vec3(force_[at(i)]).norm(); if(q>r){r=q;w=i;} } fprintf(stderr,"   res %.2e at %d of %d |",r,w,nodes_); for(const ContactPoint&c:contact_.contacts()) if(c.active()&&(std::abs(c.a0+1-w)<2||std::abs(c.b0+1-w)<2)) fprintf(stderr," (%d-%d D %.4f est %.1e p %.1e w %.2f ig %.2f z %.2f)",c.a0+1,c.b0+1,c.overlap/rod_.material.radius,c.estimate,c.pressure,c.weight/rod_.voronoi_length[5],1/(c.inverse_g*c.db.squaredNorm()),c.z.norm()); fprintf(stderr,"\n"); }
     return largest_free_force();
   }
 
@@ -214,7 +208,8 @@ class ImplicitStep final : public TimeStep {
 
   void add_inertia_and_drag_stiffness() {
     for (int i = 0; i < nodes_; ++i) {
-      const double k = rod_.mass[i] / (dt_ * dt_) + (settings_.drag + boundary_->extra_drag) * rod_.voronoi_length[i] / dt_;
+      const double k =
+          rod_.mass[i] / (dt_ * dt_) + (settings_.drag + boundary_->extra_drag) * rod_.voronoi_length[i] / dt_;
       Block<D>& block = matrix_.block(band_[at(i)].own);
       for (int j = 0; j < 3; ++j) block.column[j][j] += k;
     }
@@ -224,16 +219,16 @@ class ImplicitStep final : public TimeStep {
     const Material& material = rod_.material;
     largest_tension_ = 0.0;
     for (int i = 0; i + 1 < nodes_; ++i) {
-      const Lanes pull = to_lanes(
-          stretching_gradient(material.stretching_stiffness, rod_.rest_length[i], edge(x_, i)).gradient);
+      const Lanes pull =
+          to_lanes(stretching_gradient(material.stretching_stiffness, rod_.rest_length[i], edge(x_, i)).gradient);
       largest_tension_ = std::max(largest_tension_, pull[0] * pull[0] + pull[1] * pull[1] + pull[2] * pull[2]);
       force_[at(i)] += pull;
       force_[at(i + 1)] -= pull;
     }
     largest_tension_ = std::sqrt(largest_tension_);
     for (int i = 1; i + 1 < nodes_; ++i) {
-      const IsotropicBendingGradient bending = isotropic_bending_gradient(
-          material.bending_stiffness, rod_.voronoi_length[i], edge(x_, i - 1), edge(x_, i));
+      const IsotropicBendingGradient bending =
+          isotropic_bending_gradient(material.bending_stiffness, rod_.voronoi_length[i], edge(x_, i - 1), edge(x_, i));
       const Lanes e = to_lanes(bending.gradient_e), f = to_lanes(bending.gradient_f);
       force_[at(i - 1)] += e;
       force_[at(i)] += f - e;
@@ -307,8 +302,7 @@ class ImplicitStep final : public TimeStep {
     }
   }
 
-  void add_contact_stiffness(const ContactPoint& contact, const ContactModel& local,
-                             const ContactBlocks* blocks) {
+  void add_contact_stiffness(const ContactPoint& contact, const ContactModel& local, const ContactBlocks* blocks) {
     Lanes cc[3], cb[3], bc[3], bb[3];
     for (int j = 0; j < 3; ++j) {
       std::copy_n(local.cc.data() + 4 * j, 4, reinterpret_cast<double*>(&cc[j]));
@@ -338,11 +332,16 @@ class ImplicitStep final : public TimeStep {
   int band_index(int first, int k, int l) const {
     const BandIndex& band = band_[at(first + std::min(k, l))];
     switch (l - k) {
-      case 0: return band.own;
-      case 1: return band.next;
-      case -1: return band.next_back;
-      case 2: return band.second;
-      default: return band.second_back;
+      case 0:
+        return band.own;
+      case 1:
+        return band.next;
+      case -1:
+        return band.next_back;
+      case 2:
+        return band.second;
+      default:
+        return band.second_back;
     }
   }
 
@@ -418,7 +417,7 @@ class ImplicitStep final : public TimeStep {
   ContactReading contact_reading_;
   std::vector<ContactModel> models_;  // of the active contacts, in order
   std::vector<std::pair<int, int>> pairs_;
-  std::vector<ContactBlocks> contact_blocks_;               // of the active contacts between strands, in order
+  std::vector<ContactBlocks> contact_blocks_;  // of the active contacts between strands, in order
   BlockPattern pattern_;
   BlockMatrix<D> matrix_;
   std::vector<BandIndex> band_;

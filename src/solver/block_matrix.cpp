@@ -1,8 +1,8 @@
 #include "knot_utm/solver/block_matrix.hpp"
 
-#include <algorithm>
-
 #include <suitesparse/amd.h>
+
+#include <algorithm>
 
 namespace knot_utm {
 

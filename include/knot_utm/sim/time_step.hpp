@@ -26,10 +26,10 @@ struct Energies {
 };
 
 struct ContactReading {
-  int touching = 0;               ///< points of integration that carry force
-  double normal_force = 0.0;      ///< sum of their normal forces [N]
-  double largest_overlap = 0.0;   ///< between strands [m]
-  double friction_work = 0.0;     ///< lost in the last step [J]
+  int touching = 0;              ///< points of integration that carry force
+  double normal_force = 0.0;     ///< sum of their normal forces [N]
+  double largest_overlap = 0.0;  ///< between strands [m]
+  double friction_work = 0.0;    ///< lost in the last step [J]
 };
 
 /// One implicit Euler step of a rod with contact and friction: find x at t + dt with
