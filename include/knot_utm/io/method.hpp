@@ -1,7 +1,11 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "knot_utm/machine/options.hpp"
 #include "knot_utm/machine/program.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/rod/material.hpp"
 #include "knot_utm/sim/options.hpp"
 #include "knot_utm/specimen/options.hpp"
@@ -10,11 +14,34 @@ namespace knot_utm {
 
 /// A whole test, everything resolved: what a method file says.
 struct Method {
+  std::string name;  ///< the method file's name without folder and ending
   SpecimenOptions specimen;
   Material material;
   MachineOptions machine;
   Program program;
   PhysicsOptions physics;
 };
+
+/// Reads a method file. Materials and load cells are found by name in
+///   1. the method's own folder, its config/ and its ../config (materials/NAME.yaml, load_cells/NAME.yaml),
+///   2. share/knot_utm/config of the installation the running executable belongs to,
+///   3. the config/ of the sources it was built from,
+/// or stand in the method as maps. After reading, `specimen.preload` and the load cell are resolved and
+/// `specimen.file` is an absolute path.
+///
+/// Each override is "dotted.key=YAML", as `--set` takes them. The key of a list's entry is its number from 0 or the
+/// step's name ("program.pull.speed"). A key inside a material or load cell given by name changes a copy of it. Short
+/// paths are applied before long ones, else in the order given.
+///
+/// Throws InvalidInput, one line that names file, key, value and what is allowed: file missing or not YAML, unknown or
+/// repeated key, wrong type, value out of range, or values that do not go together.
+Method load_method(const std::string& file, const std::vector<std::string>& overrides = {});
+
+/// The method as YAML that `load_method` reads back to the same: every value stands in it, no other file is needed
+/// but `specimen.file`.
+std::string method_yaml(const Method& method);
+
+/// The checks of values that must go together, as `load_method` makes them. Throws InvalidInput.
+void check_method(const Method& method);
 
 }  // namespace knot_utm

@@ -10,21 +10,22 @@ enum class GripKind { kRollers, kNodes, kClamps };
 /// What the load cell makes of the force on the upper grip.
 struct LoadCellOptions {
   std::string name;
-  double capacity = 50e3;        ///< [N]
-  double sampling_rate = 3.0;    ///< [Hz]
-  double resolution = 0.0;       ///< [N]; 0: none
-  double noise = 0.0;            ///< standard deviation of a reading [N]; 0: none
-  unsigned seed = 1;             ///< of the noise
+  double capacity = 50e3;      ///< [N]
+  double sampling_rate = 3.0;  ///< [Hz]
+  double resolution = 0.0;     ///< [N]; 0: none
+  double noise = 0.0;          ///< standard deviation of a reading [N]; 0: none
+  unsigned seed = 1;           ///< of the noise
   std::string notes;
 };
 
 /// The `machine` section of a method.
 struct MachineOptions {
   GripKind grips = GripKind::kRollers;
-  double roller_diameter = 0.0381;   ///< [m]
-  double roller_friction = 0.0;      ///< mu of rod on roller [-]
+  double roller_diameter = 0.0381;  ///< [m]
+  double roller_friction = 0.0;     ///< mu of rod on roller [-]
   LoadCellOptions load_cell;
   double stiffness = std::numeric_limits<double>::infinity();  ///< frame [N/m]
+  double travel = 1.0;                                         ///< the crosshead's reach; a test ends there [m]
 };
 
 }  // namespace knot_utm

@@ -10,6 +10,7 @@ namespace knot_utm {
 enum class Phase { kIdle, kTie, kRelease, kMount, kPreload, kBalance, kPull, kHold, kDone };
 
 const char* phase_name(Phase phase);  ///< "idle", "tie", "release", ... as in methods and curve files
+std::optional<Phase> phase_named(const std::string& name);  ///< the other way; nothing for a name that is none
 
 /// When a step ends: at the first condition that holds.
 struct Until {
@@ -22,9 +23,9 @@ struct Until {
 /// One step of the test program.
 struct ProgramStep {
   Phase phase = Phase::kIdle;
-  double speed = 0.0033;   ///< pull, preload, mount: crosshead speed [m/s]; tie: speed of the tail grips [m/s]
-  double duration = 0.0;   ///< release: ramp and rest [s]; hold: [s]
-  double load = 0.0;       ///< preload: the load at which it ends [N]
+  double speed = 0.0033;  ///< pull, preload, mount: crosshead speed [m/s]; tie: speed of the tail grips [m/s]
+  double duration = 0.0;  ///< release: ramp and rest [s]; hold: [s]
+  double load = 0.0;      ///< preload: the load at which it ends [N]
   Until until;
 };
 

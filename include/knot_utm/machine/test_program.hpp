@@ -20,8 +20,8 @@ const char* ended_by_name(EndedBy end);
 class TestProgram {
  public:
   struct Limits {
-    double load = 50e3;    ///< ends the test: the cell's capacity [N]
-    double travel = 1.0;   ///< ends the test: |displacement| [m]
+    double load = 50e3;   ///< ends the test: the cell's capacity [N]
+    double travel = 1.0;  ///< ends the test: |displacement| [m]
     double release_timeout = 60.0;
   };
   TestProgram(Program program, double sampling_rate, double longest_period, Limits limits);
@@ -39,7 +39,7 @@ class TestProgram {
 
   Phase phase() const;
   double period() const;
-  double progress() const;   ///< 0..1 share of the programmed time that has passed, estimated
+  double progress() const;  ///< 0..1 share of the programmed time that has passed, estimated
 
  private:
   Program program_;

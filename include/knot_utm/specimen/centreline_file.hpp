@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string>
+
+#include "knot_utm/rod/rod.hpp"
+
+namespace knot_utm {
+
+/// Points of a CSV of x,y,z [m], one column a point. Up to two leading rows that are not numbers (names and units, as
+/// final_shape.csv has them), empty rows and rows that begin with # are passed over.
+/// Throws InvalidInput (key "specimen.file") where the file cannot be read, a row is not three finite numbers, two
+/// neighbours coincide, or there are fewer than four points.
+Points read_centreline(const std::string& file);
+
+}  // namespace knot_utm

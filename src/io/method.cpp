@@ -1,0 +1,465 @@
+#include "knot_utm/io/method.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <set>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "knot_utm/io/number.hpp"
+#include "knot_utm/specimen/centreline_file.hpp"
+#include "method_fields.hpp"
+#include "method_reader.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using fields::one_line;
+using fields::Reader;
+using fields::Writer;
+
+/// The paper's machine has this cell for all but the softest material.
+constexpr const char* kDefaultLoadCell = "50kN";
+
+YAML::Node read_yaml(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(file, error)) {
+    throw InvalidInput("file", file.string(), "a YAML file that can be read");
+  }
+  try {
+    return YAML::LoadFile(file.string());
+  } catch (const YAML::ParserException& parser) {
+    throw InvalidInput(
+        file.string(),
+        "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1),
+        parser.msg, "well-formed YAML");
+  } catch (const YAML::Exception&) {
+    throw InvalidInput("file", file.string(), "a YAML file that can be read");
+  }
+}
+
+/// Materials and load cells as files: where they are looked for, in order.
+class Library {
+ public:
+  explicit Library(const fs::path& method_folder) {
+    add(method_folder);
+    add(method_folder / "config");
+    add(method_folder / ".." / "config");
+    std::error_code error;
+    const fs::path executable = fs::read_symlink("/proc/self/exe", error);
+    if (!error) add(executable.parent_path() / ".." / ".." / "share" / "knot_utm" / "config");
+    add(KNOT_UTM_CONFIG_DIR);
+  }
+
+  /// `kind`: the folder, "materials" or "load_cells". `key` is what named the file, for the message.
+  fs::path find(const std::string& kind, const std::string& name, const std::string& key) const {
+    std::error_code error;
+    std::set<std::string> known;
+    for (const fs::path& folder : folders_) {
+      for (const fs::path& candidate : {folder / kind / (name + ".yaml"), folder / name}) {
+        if (!name.empty() && fs::is_regular_file(candidate, error)) return candidate;
+      }
+      for (fs::directory_iterator file(folder / kind, error), end; !error && file != end; file.increment(error)) {
+        if (file->path().extension() == ".yaml") known.insert(file->path().stem().string());
+      }
+    }
+    std::string allowed = "a map, or the name of a file in config/" + kind;
+    const char* comma = ": ";
+    for (const std::string& stem : known) {
+      allowed += comma + stem;
+      comma = ", ";
+    }
+    throw InvalidInput(key, name.empty() ? "\"\"" : name, allowed);
+  }
+
+ private:
+  void add(const fs::path& folder) {
+    std::error_code error;
+    if (fs::is_directory(folder, error)) folders_.push_back(folder.lexically_normal());
+  }
+
+  std::vector<fs::path> folders_;
+};
+
+std::string material_name(const YAML::Node& root) {
+  const YAML::Node node = root["material"];
+  return node.IsDefined() && node.IsScalar() ? node.Scalar() : "";
+}
+
+/// A map read from a file with the file's name in it, so that it can stand in the method.
+YAML::Node named_map(const fs::path& file) {
+  YAML::Node map = read_yaml(file);
+  if (map.IsMap() && !map["name"].IsDefined()) map["name"] = file.stem().string();
+  return map;
+}
+
+/// The cell's name behind `auto`, or behind no entry at all.
+std::string load_cell_name(const YAML::Node& node, const std::string& of_material) {
+  const std::string given = node.IsDefined() && node.IsScalar() ? node.Scalar() : "auto";
+  if (given != "auto") return given;
+  return of_material.empty() ? kDefaultLoadCell : of_material;
+}
+
+std::vector<std::string> split(const std::string& path) {
+  std::vector<std::string> parts(1);
+  for (const char c : path) {
+    if (c == '.') {
+      parts.emplace_back();
+    } else {
+      parts.back() += c;
+    }
+  }
+  return parts;
+}
+
+/// One `--set`.
+struct Override {
+  std::string key;
+  std::vector<std::string> path;
+  std::string text;
+
+  /// Parsed anew each time: assigning a YAML::Node, as sorting would, changes the node behind it.
+  YAML::Node value() const { return YAML::Load(text); }
+};
+
+Override parse_override(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == 0 || equals == std::string::npos) {
+    throw InvalidInput("--set", text.empty() ? "\"\"" : text, "key=value, such as specimen.preload=20");
+  }
+  Override set;
+  set.key = text.substr(0, equals);
+  set.path = split(set.key);
+  set.text = text.substr(equals + 1);
+  try {
+    set.value();
+  } catch (const YAML::Exception&) {
+    throw InvalidInput(set.key, set.text, "a YAML value");
+  }
+  return set;
+}
+
+/// Puts the files behind `material` and `machine.load_cell` in place of their names when a key inside is to change.
+void expand(YAML::Node root, const Override& set, const Library& library) {
+  if (set.path.size() >= 2 && set.path[0] == "material" && !material_name(root).empty()) {
+    root["material"] = named_map(library.find("materials", material_name(root), "material"));
+  }
+  if (set.path.size() >= 3 && set.path[0] == "machine" && set.path[1] == "load_cell") {
+    const YAML::Node machine = root["machine"];
+    const YAML::Node cell = machine.IsDefined() && machine.IsMap() ? machine["load_cell"] : YAML::Node();
+    if (cell.IsDefined() && cell.IsMap()) return;
+    YAML::Node material = root["material"];
+    if (!material_name(root).empty()) {
+      material = read_yaml(library.find("materials", material_name(root), "material"));
+    }
+    const YAML::Node of_material = material.IsDefined() && material.IsMap() ? material["load_cell"] : YAML::Node();
+    const std::string name =
+        load_cell_name(cell, of_material.IsDefined() && of_material.IsScalar() ? of_material.Scalar() : "");
+    root["machine"]["load_cell"] = named_map(library.find("load_cells", name, "machine.load_cell"));
+  }
+}
+
+/// The entry of a list that a part of a path means: its number, or the name of its only step of that name.
+std::optional<std::size_t> entry(const YAML::Node& list, const std::string& part) {
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (part == std::to_string(i)) return i;
+    if (list[i].IsMap() && list[i][part].IsDefined()) {
+      if (found) return std::nullopt;
+      found = i;
+    }
+  }
+  return found;
+}
+
+void put(YAML::Node parent, const Override& set, std::size_t depth) {
+  const std::string& part = set.path[depth];
+  const bool last = depth + 1 == set.path.size();
+  if (parent.IsSequence()) {
+    const std::optional<std::size_t> index = entry(parent, part);
+    if (!index) {
+      throw InvalidInput(set.key, one_line(set.value()),
+                         "after " + (depth == 0 ? "the list" : set.path[depth - 1]) + ", an entry's number from 0 to " +
+                             std::to_string(parent.size() == 0 ? 0 : parent.size() - 1) +
+                             " or the name of the only step of that name");
+    }
+    if (part != std::to_string(*index)) {
+      put(parent[*index], set, depth);
+    } else if (last) {
+      parent[*index] = set.value();
+    } else {
+      put(parent[*index], set, depth + 1);
+    }
+    return;
+  }
+  if (!parent.IsMap() && !parent.IsNull()) {
+    throw InvalidInput(set.key, one_line(set.value()), "a key of the method: " + set.path[depth - 1] + " has no keys");
+  }
+  if (last) {
+    parent[part] = set.value();
+  } else {
+    if (!parent[part].IsDefined() || parent[part].IsNull()) parent[part] = YAML::Node(YAML::NodeType::Map);
+    put(parent[part], set, depth + 1);
+  }
+}
+
+void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides, const Library& library) {
+  std::vector<Override> sets;
+  for (const std::string& text : overrides) sets.push_back(parse_override(text));
+  // A whole section is put in place before single keys inside it.
+  std::stable_sort(sets.begin(), sets.end(),
+                   [](const Override& a, const Override& b) { return a.path.size() < b.path.size(); });
+  for (const Override& set : sets) {
+    expand(root, set, library);
+    put(root, set, 0);
+  }
+}
+
+Material read_material(const YAML::Node& node, const std::string& file, const Library& library) {
+  Material material;
+  if (!node.IsDefined() || node.IsNull()) {
+    throw InvalidInput(file, "material", "nothing", "a map, or the name of a file in config/materials");
+  }
+  if (node.IsScalar()) {
+    const fs::path path = library.find("materials", node.Scalar(), "material");
+    Reader reader(read_yaml(path), path.string(), "");
+    fields::material(reader, material);
+    reader.finish();
+    if (material.name.empty()) material.name = path.stem().string();
+  } else {
+    Reader reader(node, file, "material");
+    fields::material(reader, material);
+    reader.finish();
+    if (material.name.empty()) material.name = "own";
+  }
+  return material;
+}
+
+LoadCellOptions read_load_cell(const YAML::Node& node, const std::string& file, const Material& material,
+                               const Library& library) {
+  LoadCellOptions cell;
+  if (node.IsDefined() && !node.IsNull() && !node.IsScalar()) {
+    Reader reader(node, file, "machine.load_cell");
+    fields::load_cell(reader, cell);
+    reader.finish();
+    if (cell.name.empty()) cell.name = "own";
+  } else {
+    const fs::path path = library.find("load_cells", load_cell_name(node, material.load_cell), "machine.load_cell");
+    Reader reader(read_yaml(path), path.string(), "");
+    fields::load_cell(reader, cell);
+    reader.finish();
+    if (cell.name.empty()) cell.name = path.stem().string();
+  }
+  return cell;
+}
+
+ProgramStep default_step(Phase phase) {
+  ProgramStep step;
+  step.phase = phase;
+  if (phase == Phase::kTie) step.speed = 0.01;
+  if (phase == Phase::kRelease) step.duration = 3.0;
+  return step;
+}
+
+Program read_program(const YAML::Node& node, const std::string& file) {
+  constexpr const char* kSteps = "tie, release, mount, preload, balance, pull or hold";
+  const std::string form = std::string("a list of steps, each {name: {...}} with the name ") + kSteps;
+  if (!node.IsDefined() || !node.IsSequence() || node.size() == 0) {
+    throw InvalidInput(file, "program", one_line(node), form);
+  }
+  Program program;
+  for (std::size_t i = 0; i < node.size(); ++i) {
+    const std::string path = "program." + std::to_string(i);
+    if (!node[i].IsMap() || node[i].size() != 1) throw InvalidInput(file, path, one_line(node[i]), form);
+    const std::string name = one_line(node[i].begin()->first);
+    const std::optional<Phase> phase = phase_named(name);
+    if (!phase || *phase == Phase::kIdle || *phase == Phase::kDone) throw InvalidInput(file, path, name, kSteps);
+    ProgramStep step = default_step(*phase);
+    Reader reader(node[i].begin()->second, file, path + "." + name);
+    fields::step(reader, step);
+    reader.finish();
+    program.push_back(step);
+  }
+  return program;
+}
+
+[[noreturn]] void reject(const std::string& key, double value, const std::string& allowed) {
+  throw InvalidInput(key, format_number(value), allowed);
+}
+
+void check_specimen(const Method& m) {
+  const SpecimenOptions& s = m.specimen;
+  const double h = m.material.radius;
+  const bool loop = s.knot == KnotKind::kFisherman;
+  const bool knotted = loop || s.knot == KnotKind::kOverhand;
+  if (knotted && s.edge_length > 2.0 * h) {
+    reject("specimen.edge_length", s.edge_length, "at most twice the radius, " + format_number(2.0 * h) + " m");
+  }
+  // Coarse: room for the coils themselves. The bench judges the shape that it really lays.
+  if (loop && s.knot_distance < 12.0 * h) {
+    reject("specimen.knot_distance", s.knot_distance, "at least 12 radii, " + format_number(12.0 * h) + " m");
+  }
+  if (loop && s.end_to_end < s.knot_distance + 12.0 * h) {
+    reject("specimen.end_to_end", s.end_to_end,
+           "at least knot_distance and 12 radii, " + format_number(s.knot_distance + 12.0 * h) + " m");
+  }
+  if (s.knot == KnotKind::kOverhand && s.end_to_end >= s.length) {
+    reject("specimen.end_to_end", s.end_to_end, "less than length, " + format_number(s.length) + " m");
+  }
+  if ((s.knot == KnotKind::kStraight || s.knot == KnotKind::kOverhand) && s.edge_length > s.length / 4.0) {
+    reject("specimen.edge_length", s.edge_length,
+           "at most a quarter of length, " + format_number(s.length / 4.0) + " m");
+  }
+  if (s.knot == KnotKind::kFile) {
+    std::error_code error;
+    if (s.file.empty() || !fs::is_regular_file(s.file, error)) {
+      throw InvalidInput("specimen.file", s.file.empty() ? "\"\"" : s.file, "a CSV file of x,y,z in m");
+    }
+  }
+}
+
+void check_machine(const Method& m) {
+  const LoadCellOptions& cell = m.machine.load_cell;
+  if (cell.resolution >= cell.capacity) {
+    reject("machine.load_cell.resolution", cell.resolution,
+           "less than capacity, " + format_number(cell.capacity) + " N");
+  }
+  const bool loop =
+      m.specimen.knot == KnotKind::kFisherman || (m.specimen.knot == KnotKind::kFile && m.specimen.closed);
+  if (m.machine.grips == GripKind::kRollers && !loop) {
+    throw InvalidInput("machine.grips", "rollers", "nodes or clamps: rollers hold nothing but a loop");
+  }
+}
+
+void check_program(const Method& m) {
+  const bool tied = m.specimen.knot == KnotKind::kFisherman || m.specimen.knot == KnotKind::kOverhand;
+  bool pulled = false;
+  bool released = true;
+  for (std::size_t i = 0; i < m.program.size(); ++i) {
+    const ProgramStep& step = m.program[i];
+    const std::string key = "program." + std::to_string(i);
+    const std::string name = phase_name(step.phase);
+    switch (step.phase) {
+      case Phase::kTie:
+        if (i != 0) throw InvalidInput(key, name, "the first step only");
+        if (!tied) throw InvalidInput(key, name, "for knot: fisherman or overhand; start with another step");
+        released = false;
+        break;
+      case Phase::kRelease:
+        if (i != 1 || m.program[0].phase != Phase::kTie) throw InvalidInput(key, name, "right after tie only");
+        released = true;
+        break;
+      case Phase::kMount:
+        if (pulled) throw InvalidInput(key, name, "before the crosshead has moved only");
+        pulled = true;
+        break;
+      case Phase::kPreload:
+      case Phase::kPull:
+        pulled = true;
+        break;
+      default:
+        break;
+    }
+    if (!released && i > 0) throw InvalidInput(key, name, "release, which follows tie");
+    if (step.phase == Phase::kPull && !step.until.extension && !step.until.load && !step.until.time &&
+        !step.until.broken) {
+      throw InvalidInput(key + ".pull.until", "nothing", "one or more of extension, load, time and break");
+    }
+    const double capacity = m.machine.load_cell.capacity;
+    if (step.phase == Phase::kPreload && step.load > capacity) {
+      reject(key + ".preload.load", step.load, "at most the load cell's capacity, " + format_number(capacity) + " N");
+    }
+    if (step.until.load && *step.until.load > capacity) {
+      reject(key + ".pull.until.load", *step.until.load,
+             "at most the load cell's capacity, " + format_number(capacity) + " N");
+    }
+  }
+}
+
+}  // namespace
+
+void check_method(const Method& method) {
+  check_specimen(method);
+  check_machine(method);
+  check_program(method);
+}
+
+Method load_method(const std::string& file, const std::vector<std::string>& overrides) {
+  const fs::path path(file);
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  YAML::Node root = read_yaml(path);
+  try {
+    const Library library(folder);
+    if (!root.IsMap())
+      throw InvalidInput("the file", one_line(root), "a map with specimen, material, machine, program");
+    apply_overrides(root, overrides, library);
+
+    Method method;
+    method.name = path.stem().string();
+    Reader top(root, file, "");
+    top.section("specimen", [&](Reader& reader) { fields::specimen(reader, method.specimen); });
+    method.material = read_material(top.take("material"), file, library);
+    top.section("machine", [&](Reader& reader) {
+      fields::machine(reader, method.machine);
+      method.machine.load_cell = read_load_cell(reader.take("load_cell"), file, method.material, library);
+    });
+    method.program = read_program(top.take("program"), file);
+    top.section("physics", [&](Reader& reader) { fields::physics(reader, method.physics); });
+    top.finish();
+
+    const Material& material = method.material;
+    if (!method.specimen.preload) {
+      method.specimen.preload =
+          material.tying_preload.value_or(4.0 * material.bending_stiffness / (material.radius * material.radius));
+    }
+    if (method.specimen.knot == KnotKind::kFile && !method.specimen.file.empty()) {
+      method.specimen.file = fs::absolute(folder / method.specimen.file).lexically_normal().string();
+      read_centreline(method.specimen.file);
+    }
+    check_method(method);
+    return method;
+  } catch (const InvalidInput& invalid) {
+    throw invalid.in_file(file);
+  } catch (const YAML::Exception& yaml) {
+    throw InvalidInput(file, "the file", yaml.msg, "a method");
+  }
+}
+
+std::string method_yaml(const Method& method) {
+  Method m = method;
+  YAML::Node root;
+  Writer specimen;
+  fields::specimen(specimen, m.specimen);
+  root["specimen"] = specimen.map();
+  Writer material;
+  fields::material(material, m.material);
+  root["material"] = material.map();
+  Writer machine;
+  fields::machine(machine, m.machine);
+  YAML::Node machine_map = machine.map();
+  Writer cell;
+  fields::load_cell(cell, m.machine.load_cell);
+  machine_map["load_cell"] = cell.map();
+  root["machine"] = machine_map;
+  for (ProgramStep& step : m.program) {
+    Writer writer;
+    fields::step(writer, step);
+    YAML::Node entry_map;
+    entry_map[phase_name(step.phase)] = writer.map();
+    entry_map.SetStyle(YAML::EmitterStyle::Flow);
+    root["program"].push_back(entry_map);
+  }
+  Writer physics;
+  fields::physics(physics, m.physics);
+  root["physics"] = physics.map();
+  YAML::Emitter out;
+  out << root;
+  return std::string(out.c_str()) + "\n";
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,134 @@
+#pragma once
+
+#include <array>
+#include <limits>
+#include <string>
+
+#include "knot_utm/io/method.hpp"
+
+/// Every key of a method with its range, said once: reading and writing both walk these lists.
+///
+/// A `Fields` has
+///   number(key, double&, Range)                 optional_number(key, optional<double>&, Range, word)
+///   integer(key, Integer&, min, max)            text(key, string&)          flag(key, bool&)
+///   choice(key, Enum&, names in enum order)     vector(key, Vector3d&, Range)
+///   section(key, [](Fields&) {...})
+/// where `word` is what may stand in a file for "not set".
+namespace knot_utm::fields {
+
+/// Both ends are allowed. Narrow enough that a number in millimetres or gigapascals is noticed.
+struct Range {
+  double min;
+  double max;
+  const char* unit;
+};
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+template <class Fields>
+void specimen(Fields& f, SpecimenOptions& o) {
+  f.choice("knot", o.knot, std::array{"fisherman", "overhand", "straight", "file"});
+  f.choice("handedness", o.handedness, std::array{"same", "opposite"});
+  f.integer("turns", o.turns, 1, 4);
+  f.text("file", o.file);
+  f.flag("closed", o.closed);
+  f.number("knot_distance", o.knot_distance, Range{1e-3, 2.0, "m"});
+  f.number("end_to_end", o.end_to_end, Range{1e-3, 20.0, "m"});
+  f.number("length", o.length, Range{1e-2, 50.0, "m"});
+  f.number("tail", o.tail, Range{1e-3, 2.0, "m"});
+  f.optional_number("preload", o.preload, Range{1e-4, 1e5, "N"}, "auto");
+  f.number("edge_length", o.edge_length, Range{5e-5, 0.1, "m"});
+}
+
+/// `name` comes from the file's name unless it is given.
+template <class Fields>
+void material(Fields& f, Material& o) {
+  f.text("name", o.name);
+  f.required_number("radius", o.radius, Range{1e-5, 0.05, "m"});
+  f.required_number("density", o.density, Range{10.0, 25e3, "kg/m3"});
+  f.required_number("stretching_stiffness", o.stretching_stiffness, Range{1e-4, 1e9, "N"});
+  f.required_number("bending_stiffness", o.bending_stiffness, Range{1e-12, 1e3, "N m2"});
+  f.required_number("twisting_stiffness", o.twisting_stiffness, Range{1e-12, 1e3, "N m2"});
+  f.required_number("friction_coefficient", o.friction_coefficient, Range{0.0, 5.0, "-"});
+  f.optional_number("contact_stiffness", o.contact_stiffness, Range{1.0, 1e13, "N/m2"}, "auto");
+  f.optional_number("tying_preload", o.tying_preload, Range{1e-4, 1e5, "N"}, "auto");
+  f.optional_number("breaking_force", o.breaking_force, Range{1e-4, 1e8, "N"}, "none");
+  f.text("load_cell", o.load_cell);
+  f.text("notes", o.notes);
+}
+
+template <class Fields>
+void load_cell(Fields& f, LoadCellOptions& o) {
+  f.text("name", o.name);
+  f.number("capacity", o.capacity, Range{1e-3, 1e8, "N"});
+  f.number("sampling_rate", o.sampling_rate, Range{1e-2, 1e4, "Hz"});
+  f.number("resolution", o.resolution, Range{0.0, 1e5, "N"});
+  f.number("noise", o.noise, Range{0.0, 1e5, "N"});
+  f.integer("seed", o.seed, 0u, std::numeric_limits<unsigned>::max());
+  f.text("notes", o.notes);
+}
+
+/// All of `machine` but the load cell, which may be a name.
+template <class Fields>
+void machine(Fields& f, MachineOptions& o) {
+  f.choice("grips", o.grips, std::array{"rollers", "nodes", "clamps"});
+  f.number("roller_diameter", o.roller_diameter, Range{1e-3, 1.0, "m"});
+  f.number("roller_friction", o.roller_friction, Range{0.0, 5.0, "-"});
+  f.number("stiffness", o.stiffness, Range{1.0, kInfinity, "N/m"});
+  f.number("travel", o.travel, Range{1e-3, 100.0, "m"});
+}
+
+/// The keys that a step of `o.phase` has.
+template <class Fields>
+void step(Fields& f, ProgramStep& o) {
+  switch (o.phase) {
+    case Phase::kTie:
+    case Phase::kMount:
+      f.number("speed", o.speed, Range{1e-6, 0.5, "m/s"});
+      break;
+    case Phase::kRelease:
+      f.number("duration", o.duration, Range{1e-3, 1e4, "s"});
+      break;
+    case Phase::kHold:
+      f.required_number("duration", o.duration, Range{1e-3, 1e6, "s"});
+      break;
+    case Phase::kPreload:
+      f.required_number("load", o.load, Range{1e-6, 1e8, "N"});
+      f.number("speed", o.speed, Range{1e-6, 0.5, "m/s"});
+      break;
+    case Phase::kPull:
+      f.number("speed", o.speed, Range{1e-6, 0.5, "m/s"});
+      f.section("until", [&o](auto& until) {
+        until.optional_number("extension", o.until.extension, Range{1e-6, 100.0, "m"}, "none");
+        until.optional_number("load", o.until.load, Range{1e-6, 1e8, "N"}, "none");
+        until.optional_number("time", o.until.time, Range{1e-3, 1e6, "s"}, "none");
+        until.flag("break", o.until.broken);
+      });
+      break;
+    case Phase::kIdle:
+    case Phase::kBalance:
+    case Phase::kDone:
+      break;
+  }
+}
+
+template <class Fields>
+void physics(Fields& f, PhysicsOptions& o) {
+  f.vector("gravity", o.gravity, Range{-100.0, 100.0, "m/s2"});
+  f.section("friction", [&o](auto& friction) {
+    friction.choice("law", o.friction_law, std::array{"memory", "smoothed"});
+    friction.number("slip_tolerance", o.slip_tolerance, Range{1e-7, 0.1, "m/s"});
+    friction.optional_number("presliding", o.presliding, Range{1e-5, 0.5, "of the radius"}, "auto");
+  });
+  f.section("contact", [&o](auto& contact) {
+    contact.choice("law", o.contact_law, std::array{"smooth", "edge"});
+    contact.optional_number("tolerance", o.contact_tolerance, Range{1e-3, 0.5, "of the radius"}, "auto");
+  });
+  f.choice("twist", o.twist, std::array{"auto", "on", "off"});
+  f.choice("accuracy", o.accuracy, std::array{"draft", "normal", "fine"});
+  f.number("drag", o.drag, Range{0.0, 100.0, "N s/m2"});
+  f.optional_number("max_step", o.max_step, Range{1e-6, 0.5, "s"}, "auto");
+  f.optional_number("residual", o.residual, Range{1e-12, 0.1, "of k_b/h2"}, "auto");
+}
+
+}  // namespace knot_utm::fields

@@ -1,0 +1,226 @@
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "knot_utm/io/number.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
+#include "method_fields.hpp"
+
+namespace knot_utm::fields {
+
+/// A YAML value on one line, as an error message shows it.
+inline std::string one_line(const YAML::Node& node) {
+  if (!node.IsDefined() || node.IsNull()) return "nothing";
+  if (node.IsScalar()) {
+    std::string text = node.Scalar();
+    for (char& c : text) {
+      if (c == '\n' || c == '\r') c = ' ';
+    }
+    return text.empty() ? "\"\"" : text;
+  }
+  std::string text = node.IsMap() ? "{" : "[";
+  const char* comma = "";
+  for (const auto& item : node) {
+    text += comma;
+    text += node.IsMap() ? one_line(item.first) + ": " + one_line(item.second) : one_line(item);
+    comma = ", ";
+  }
+  return text + (node.IsMap() ? "}" : "]");
+}
+
+inline std::string allowed_numbers(const Range& range, const std::string& word = "") {
+  std::string text = "a number from " + format_yaml_number(range.min) + " to " + format_yaml_number(range.max);
+  if (std::string(range.unit) != "-") text += std::string(" ") + range.unit;
+  return word.empty() ? text : word + ", or " + text;
+}
+
+/// Reads one map of a method; what the map does not have keeps its value. `finish` complains of keys nobody asked for.
+class Reader {
+ public:
+  /// `path`: dotted path of the map, empty for a file's top.
+  Reader(YAML::Node map, std::string file, std::string path)
+      : map_(std::move(map)), file_(std::move(file)), path_(std::move(path)) {
+    if (map_.IsDefined() && !map_.IsNull() && !map_.IsMap()) fail_here(map_, "a map of keys and values");
+  }
+
+  void number(const char* key, double& value, const Range& range) {
+    const YAML::Node node = take(key);
+    if (node.IsDefined()) value = checked(key, node, range, "");
+  }
+
+  void required_number(const char* key, double& value, const Range& range) {
+    const YAML::Node node = take(key);
+    if (!node.IsDefined()) fail(key, node, allowed_numbers(range));
+    value = checked(key, node, range, "");
+  }
+
+  void optional_number(const char* key, std::optional<double>& value, const Range& range, const char* word) {
+    const YAML::Node node = take(key);
+    if (!node.IsDefined()) return;
+    if (node.IsNull() || (node.IsScalar() && node.Scalar() == word)) {
+      value.reset();
+    } else {
+      value = checked(key, node, range, word);
+    }
+  }
+
+  template <class Integer>
+  void integer(const char* key, Integer& value, Integer min, Integer max) {
+    const YAML::Node node = take(key);
+    if (!node.IsDefined()) return;
+    const std::optional<double> number = node.IsScalar() ? parse_number(node.Scalar()) : std::nullopt;
+    if (!number || !(*number >= static_cast<double>(min) && *number <= static_cast<double>(max)) ||
+        *number != std::floor(*number)) {
+      fail(key, node, "a whole number from " + std::to_string(min) + " to " + std::to_string(max));
+    }
+    value = static_cast<Integer>(*number);
+  }
+
+  void text(const char* key, std::string& value) {
+    const YAML::Node node = take(key);
+    if (!node.IsDefined()) return;
+    if (!node.IsNull() && !node.IsScalar()) fail(key, node, "a text");
+    value = node.IsNull() ? "" : node.Scalar();
+  }
+
+  void flag(const char* key, bool& value) {
+    const YAML::Node node = take(key);
+    if (!node.IsDefined()) return;
+    const std::string given = node.IsScalar() ? node.Scalar() : "";
+    if (given != "true" && given != "false") fail(key, node, "true or false");
+    value = given == "true";
+  }
+
+  template <class Enum, std::size_t n>
+  void choice(const char* key, Enum& value, const std::array<const char*, n>& names) {
+    const YAML::Node node = take(key);
+    if (!node.IsDefined()) return;
+    std::string all;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (node.IsScalar() && node.Scalar() == names[i]) {
+        value = static_cast<Enum>(i);
+        return;
+      }
+      all += (i == 0 ? "" : i + 1 == n ? " or " : ", ") + std::string(names[i]);
+    }
+    fail(key, node, all);
+  }
+
+  void vector(const char* key, Eigen::Vector3d& value, const Range& range) {
+    const YAML::Node node = take(key);
+    if (!node.IsDefined()) return;
+    const std::string allowed = "[x, y, z], each " + allowed_numbers(range);
+    if (!node.IsSequence() || node.size() != 3) fail(key, node, allowed);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::optional<double> number = node[i].IsScalar() ? parse_number(node[i].Scalar()) : std::nullopt;
+      if (!number || !(*number >= range.min && *number <= range.max)) fail(key, node, allowed);
+      value[static_cast<Eigen::Index>(i)] = *number;
+    }
+  }
+
+  template <class Body>
+  void section(const char* key, Body body) {
+    const YAML::Node node = take(key);
+    Reader inner(node.IsDefined() ? node : YAML::Node(), file_, path_of(key));
+    body(inner);
+    inner.finish();
+  }
+
+  /// The value of a key as it stands, for what is more than a value; undefined where the map does not have it.
+  YAML::Node take(const char* key) {
+    known_.emplace_back(key);
+    YAML::Node found(YAML::NodeType::Undefined);
+    if (!map_.IsDefined() || !map_.IsMap()) return found;
+    for (const auto& item : map_) {
+      if (!item.first.IsScalar() || item.first.Scalar() != key) continue;
+      if (found.IsDefined()) fail(key, item.second, "one value: the key stands twice");
+      found.reset(item.second);
+    }
+    return found;
+  }
+
+  void finish() const {
+    if (!map_.IsDefined() || !map_.IsMap()) return;
+    for (const auto& item : map_) {
+      const std::string key = one_line(item.first);
+      bool known = false;
+      std::string all;
+      for (const std::string& name : known_) {
+        known = known || name == key;
+        all += (all.empty() ? "" : ", ") + name;
+      }
+      if (!known) fail(key, item.second, all.empty() ? "this takes no keys" : "the keys here are " + all);
+    }
+  }
+
+  [[noreturn]] void fail(const std::string& key, const YAML::Node& value, const std::string& allowed) const {
+    throw InvalidInput(file_, path_of(key), one_line(value), allowed);
+  }
+
+ private:
+  std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+
+  [[noreturn]] void fail_here(const YAML::Node& value, const std::string& allowed) const {
+    throw InvalidInput(file_, path_.empty() ? "the file" : path_, one_line(value), allowed);
+  }
+
+  double checked(const char* key, const YAML::Node& node, const Range& range, const std::string& word) const {
+    const std::optional<double> number = node.IsScalar() ? parse_number(node.Scalar()) : std::nullopt;
+    // Written so that not-a-number fails.
+    if (!number || !(*number >= range.min && *number <= range.max)) fail(key, node, allowed_numbers(range, word));
+    return *number;
+  }
+
+  YAML::Node map_;
+  std::string file_;
+  std::string path_;
+  std::vector<std::string> known_;
+};
+
+/// Writes the same fields, in the same order, into a map. Values that are not set are left out.
+class Writer {
+ public:
+  void number(const char* key, const double& value, const Range&) { map_[key] = format_yaml_number(value); }
+  void required_number(const char* key, const double& value, const Range&) { map_[key] = format_yaml_number(value); }
+  void optional_number(const char* key, const std::optional<double>& value, const Range&, const char*) {
+    if (value) map_[key] = format_yaml_number(*value);
+  }
+  template <class Integer>
+  void integer(const char* key, const Integer& value, Integer, Integer) {
+    map_[key] = std::to_string(value);
+  }
+  void text(const char* key, const std::string& value) {
+    if (!value.empty()) map_[key] = value;
+  }
+  void flag(const char* key, const bool& value) { map_[key] = value ? "true" : "false"; }
+  template <class Enum, std::size_t n>
+  void choice(const char* key, const Enum& value, const std::array<const char*, n>& names) {
+    map_[key] = names[static_cast<std::size_t>(value)];
+  }
+  void vector(const char* key, const Eigen::Vector3d& value, const Range&) {
+    YAML::Node list;
+    for (const double x : value) list.push_back(format_yaml_number(x));
+    list.SetStyle(YAML::EmitterStyle::Flow);
+    map_[key] = list;
+  }
+  template <class Body>
+  void section(const char* key, Body body) {
+    Writer inner;
+    body(inner);
+    map_[key] = inner.map();
+  }
+
+  YAML::Node map() const { return map_; }
+
+ private:
+  YAML::Node map_{YAML::NodeType::Map};
+};
+
+}  // namespace knot_utm::fields

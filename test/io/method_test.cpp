@@ -1,0 +1,157 @@
+#include "knot_utm/io/method.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
+const std::string kTighten = kConfig + "tighten.yaml";
+
+TEST(Method, TightenIsThePapersTest) {
+  const Method m = load_method(kTighten);
+  EXPECT_EQ(m.name, "tighten");
+  EXPECT_EQ(m.specimen.knot, KnotKind::kFisherman);
+  EXPECT_EQ(m.specimen.handedness, Handedness::kSame);
+  EXPECT_EQ(m.specimen.knot_distance, 0.15);
+  EXPECT_EQ(m.specimen.end_to_end, 0.25);
+  EXPECT_EQ(m.specimen.preload, 70.0);
+  EXPECT_EQ(m.specimen.edge_length, 0.0032);
+  EXPECT_EQ(m.material.name, "nylon");
+  EXPECT_EQ(m.material.stretching_stiffness, 7.34e4);
+  EXPECT_EQ(m.machine.grips, GripKind::kRollers);
+  EXPECT_EQ(m.machine.load_cell.name, "50kN");
+  EXPECT_EQ(m.machine.load_cell.capacity, 50e3);
+  EXPECT_TRUE(std::isinf(m.machine.stiffness));
+  ASSERT_EQ(m.program.size(), 5u);
+  EXPECT_EQ(m.program[0].phase, Phase::kTie);
+  EXPECT_EQ(m.program[1].phase, Phase::kRelease);
+  EXPECT_EQ(m.program[1].duration, 3.0);
+  EXPECT_EQ(m.program[2].phase, Phase::kMount);
+  EXPECT_EQ(m.program[3].phase, Phase::kBalance);
+  EXPECT_EQ(m.program[4].phase, Phase::kPull);
+  EXPECT_EQ(m.program[4].speed, 0.0033);
+  EXPECT_EQ(m.program[4].until.extension, 0.12);
+  EXPECT_TRUE(m.program[4].until.broken);
+  EXPECT_FALSE(m.program[4].until.load);
+  EXPECT_EQ(m.physics.friction_law, FrictionLaw::kMemory);
+  EXPECT_EQ(m.physics.contact_law, ContactLaw::kSmooth);
+  EXPECT_EQ(m.physics.twist, TwistMode::kAuto);
+  EXPECT_EQ(m.physics.accuracy, Accuracy::kNormal);
+}
+
+struct PaperMaterial {
+  const char* name;
+  double stretching, bending, friction, preload;
+  const char* cell;
+};
+
+TEST(Method, MaterialsAreThoseOfThePapersTable) {
+  for (const PaperMaterial& row : {PaperMaterial{"nylon", 7.34e4, 4.31e-5, 0.46, 70.0, "50kN"},
+                                   PaperMaterial{"polypropylene", 3.90e4, 1.18e-4, 0.63, 50.0, "50kN"},
+                                   PaperMaterial{"pink_vps", 1.70, 4.34e-6, 0.54, 1.7, "20N"},
+                                   PaperMaterial{"green_vps", 22.15, 5.67e-5, 0.37, 20.0, "50kN"}}) {
+    const Method m = load_method(kTighten, {std::string("material=") + row.name});
+    EXPECT_EQ(m.material.name, row.name);
+    EXPECT_EQ(m.material.radius, 0.003175);
+    EXPECT_EQ(m.material.stretching_stiffness, row.stretching);
+    EXPECT_EQ(m.material.bending_stiffness, row.bending);
+    EXPECT_EQ(m.material.friction_coefficient, row.friction);
+    EXPECT_EQ(m.specimen.preload, row.preload);
+    EXPECT_EQ(m.machine.load_cell.name, row.cell);
+  }
+}
+
+TEST(Method, EveryShippedFileLoads) {
+  int methods = 0;
+  for (const auto& file : fs::directory_iterator(kConfig)) {
+    if (file.path().extension() != ".yaml") continue;
+    EXPECT_NO_THROW(load_method(file.path().string())) << file.path();
+    ++methods;
+  }
+  EXPECT_GE(methods, 4);
+  for (const auto& file : fs::directory_iterator(kConfig + "materials")) {
+    EXPECT_NO_THROW(load_method(kTighten, {"material=" + file.path().stem().string()})) << file.path();
+  }
+  for (const auto& file : fs::directory_iterator(kConfig + "load_cells")) {
+    EXPECT_NO_THROW(load_method(kTighten, {"machine.load_cell=" + file.path().stem().string()})) << file.path();
+  }
+}
+
+TEST(Method, WritesBackToTheSame) {
+  const std::string copy = ::testing::TempDir() + "knot_utm_round_trip.yaml";
+  for (const std::string name : {"tighten", "overhand", "straight", "from_file"}) {
+    const std::string text = method_yaml(load_method(kConfig + name + ".yaml"));
+    std::ofstream(copy) << text;
+    EXPECT_EQ(method_yaml(load_method(copy)), text) << name;
+  }
+  const std::string odd = method_yaml(load_method(
+      kTighten, {"physics.max_step=0.012345678901234567", "physics.friction={law: smoothed, slip_tolerance: 1.0e-4}",
+                 "material.breaking_force=1e4", "machine.load_cell.noise=0.1", "physics.gravity=[0, 0.1, -9.81]",
+                 "program=[{preload: {load: 1}}, {hold: {duration: 2}}, {pull: {until: {load: 5, time: 3}}}]"}));
+  EXPECT_THAT(odd, HasSubstr("max_step: 0.012345678901234567"));
+  EXPECT_THAT(odd, HasSubstr("slip_tolerance: 1.0e-04"));
+  std::ofstream(copy) << odd;
+  EXPECT_EQ(method_yaml(load_method(copy)), odd);
+  fs::remove(copy);
+}
+
+TEST(Method, OverridesReachEveryKey) {
+  const Method m = load_method(
+      kTighten, {"program.pull.speed=0.001", "program.1.release.duration=5", "material.friction_coefficient=0.2",
+                 "specimen.preload=20", "machine.load_cell.sampling_rate=10", "physics.contact.tolerance=0.05"});
+  EXPECT_EQ(m.program[4].speed, 0.001);
+  EXPECT_EQ(m.program[1].duration, 5.0);
+  EXPECT_EQ(m.material.friction_coefficient, 0.2);
+  EXPECT_EQ(m.material.name, "nylon");
+  EXPECT_EQ(m.specimen.preload, 20.0);
+  EXPECT_EQ(m.machine.load_cell.sampling_rate, 10.0);
+  EXPECT_EQ(m.machine.load_cell.capacity, 50e3);
+  EXPECT_EQ(m.physics.contact_tolerance, 0.05);
+}
+
+TEST(Method, WholeSectionsAreSetBeforeSingleKeys) {
+  const Method m = load_method(kTighten, {"machine.load_cell.noise=0.01", "material.radius=0.002",
+                                          "specimen.edge_length=0.002", "material=pink_vps"});
+  EXPECT_EQ(m.material.name, "pink_vps");
+  EXPECT_EQ(m.material.radius, 0.002);
+  EXPECT_EQ(m.machine.load_cell.name, "20N");
+  EXPECT_EQ(m.machine.load_cell.noise, 0.01);
+}
+
+TEST(Method, PreloadAutoIsTheMaterialsOrFourBendingForces) {
+  const std::string own =
+      "material={radius: 0.002, density: 1000, stretching_stiffness: 4000, bending_stiffness: 4.0e-3, "
+      "twisting_stiffness: 3.0e-3, friction_coefficient: 0.3}";
+  const Method m = load_method(kTighten, {own});
+  EXPECT_DOUBLE_EQ(m.specimen.preload.value(), 4.0 * 4e-3 / 4e-6);
+  EXPECT_EQ(m.material.name, "own");
+  EXPECT_EQ(m.machine.load_cell.name, "50kN");
+  EXPECT_EQ(load_method(kTighten, {"specimen.preload=3"}).specimen.preload, 3.0);
+}
+
+TEST(Method, FilesBesideTheMethodComeFirst) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "knot_utm_own";
+  fs::create_directories(folder / "methods");
+  fs::create_directories(folder / "config" / "materials");
+  fs::copy_file(kTighten, folder / "methods" / "mine.yaml", fs::copy_options::overwrite_existing);
+  std::ofstream(folder / "config" / "materials" / "nylon.yaml")
+      << "{radius: 0.003, density: 1000, stretching_stiffness: 9, bending_stiffness: 1.0e-5, twisting_stiffness: "
+         "1.0e-5, friction_coefficient: 0.1}";
+  const Method m = load_method((folder / "methods" / "mine.yaml").string());
+  EXPECT_EQ(m.material.stretching_stiffness, 9.0);
+  EXPECT_EQ(m.machine.load_cell.name, "50kN");
+  fs::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace knot_utm
