@@ -9,6 +9,7 @@
 #include "knot_utm/sim/options.hpp"
 #include "knot_utm/specimen/options.hpp"
 
+
 namespace knot_utm {
 
 /// The specimen on the machine: rod, grips, rollers, tying rig and load cell, stepped by commands.

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "knot_utm/machine/program.hpp"
 #include "knot_utm/machine/sample.hpp"
@@ -9,40 +10,88 @@
 namespace knot_utm {
 
 /// How a test ended. The names written to result.yaml are those of `ended_by_name`.
-enum class EndedBy { kNotYet, kBreak, kExtension, kLoad, kTravel, kOperator, kSolver, kProgram };
+enum class EndedBy {
+  kNotYet,
+  kBreak,      ///< the rod broke
+  kExtension,  ///< the last step, a pull, reached its extension
+  kLoad,       ///< the last step reached its load, or the load cell would be overloaded
+  kTravel,     ///< the crosshead reached the end of its way
+  kOperator,   ///< stopped
+  kSolver,     ///< the physics gave up, or did not come to rest where it had to
+  kProgram     ///< the last step's time was over
+};
 
-const char* ended_by_name(EndedBy end);
+const char* ended_by_name(EndedBy end);  ///< "not yet", "break", "extension", "load", "travel", ...
 
 /// The test program as a state machine: sees samples, gives commands, knows nothing else.
 ///
 /// Commands come at a fixed period, 1/(k f) with f the cell's sampling rate and k the smallest whole number for
-/// which the period is no longer than `longest_period`; every k-th command is a sampling instant of the cell.
+/// which the period is no longer than `longest_period`; every k-th command is a sampling instant of the cell. Command
+/// n has time n/(k f), computed from whole numbers. Command 0 has time 0, phase idle and step -1: it asks for the
+/// reading before anything moves. The first step begins with command 1.
+///
+/// What the crosshead does in each step, and what ends it:
+///   tie, release  stands still, until the bench answers kPhaseDone
+///   mount         moves outwards at `speed` until the bench answers kPhaseDone
+///   preload       moves outwards at `speed` until the sample's load is at least `load`
+///   balance       stands still for one command, which has `balance` set
+///   pull          moves outwards at `speed` until the first sample that meets one of `until`: extension and load are
+///                 at least, so they may be passed by what one period moves
+///   hold          stands still for `duration`, rounded up to whole periods
+/// The whole test ends when the last step has ended, or at once by a broken rod, a bench that failed or did not come
+/// to rest in time, a true force or a reading beyond Limits::load, the end of the crosshead's way, or the operator.
 class TestProgram {
  public:
   struct Limits {
-    double load = 50e3;   ///< ends the test: the cell's capacity [N]
-    double travel = 1.0;  ///< ends the test: |displacement| [m]
-    double release_timeout = 60.0;
+    double load = 50e3;             ///< ends the test: the cell's capacity [N]
+    double travel = 1.0;            ///< ends the test: |displacement| [m]
+    double tie_timeout = 600.0;     ///< tie without an answer of the bench ends the test [s]
+    double release_timeout = 60.0;  ///< the same for release, beyond its duration [s]
   };
+
+  /// Sampling rate [Hz], longest period [s]. Throws std::invalid_argument for an empty program, or for a rate or period
+  /// that is not positive.
   TestProgram(Program program, double sampling_rate, double longest_period, Limits limits);
 
-  /// The next command after `sample` (the answer to the previous one; none before the first).
-  Command first() const;
+  Command first() const;  ///< command 0
+
+  /// The next command after `sample`, the answer to the last command. Once the test has ended, the last command again
+  /// with phase done. Throws std::invalid_argument for the answer to another command.
   Command next(const Sample& sample);
 
-  void stop();     ///< operator
-  void balance();  ///< operator: balances at the next command
+  void stop();     ///< operator: the test ends now
+  void balance();  ///< operator: the next command balances
 
   bool ended() const { return ended_by_ != EndedBy::kNotYet; }
   EndedBy ended_by() const { return ended_by_; }
-  const std::string& reason() const { return reason_; }  ///< one line, when it ended by the solver
+  const std::string& reason() const { return reason_; }  ///< one line, when it ended otherwise than as programmed
 
-  Phase phase() const;
-  double period() const;
-  double progress() const;  ///< 0..1 share of the programmed time that has passed, estimated
+  Phase phase() const;       ///< of the last command; done once the test has ended
+  double period() const;     ///< of commands [s]
+  double progress() const;   ///< 0..1, share of the programmed time that has passed, estimated
+  double time_left() const;  ///< programmed time that is left [s], estimated
 
  private:
+  const ProgramStep& step() const { return program_[step_]; }
+  double seconds(std::uint64_t commands) const;  ///< that so many commands take [s]
+  double estimated_duration(const ProgramStep& step) const;
+  void end(EndedBy by, std::string reason);
+  bool end_by_alarm(const Sample& sample);
+  EndedBy step_end(const Sample& sample) const;  ///< kNotYet: the step goes on
+  void check_timeout();
+  Command command(std::uint64_t sequence) const;
+
   Program program_;
+  Limits limits_;
+  std::uint64_t commands_per_reading_ = 1;
+  double command_rate_ = 1.0;  ///< k f [Hz]
+
+  std::size_t step_ = 0;
+  std::uint64_t step_begin_ = 0;          ///< the last command before the step
+  double step_begin_displacement_ = 0.0;  ///< [m]
+  Command last_;
+  bool balance_next_ = false;
+  std::vector<double> passed_;  ///< what each ended step took [s]
   EndedBy ended_by_ = EndedBy::kNotYet;
   std::string reason_;
 };

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <vector>
+
+#include "knot_utm/contact/contact_point.hpp"
+
+namespace knot_utm {
+
+/// A cylinder the rod may lie on, of unlimited length.
+struct Roller {
+  Vec3 centre = Vec3::Zero();       ///< a point of its axis [m]
+  Vec3 axis = Vec3::UnitY();        ///< unit
+  double radius = 0.0;              ///< [m]
+};
+
+/// Contact of the rod's smooth centreline with rollers that move without turning: the normal law of the rod with
+/// D = r + h - d, d the distance from the axis, and a friction of their own.
+class RollerContact {
+ public:
+  RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction);
+
+  /// All contacts at `position` in a step of length dt from `start`, in which the rollers move from where the last
+  /// commit left them to `rollers`.
+  void evaluate(const std::vector<Roller>& rollers, const Points& position, const Points& start, double dt);
+  const std::vector<ContactPoint>& contacts() const { return contacts_; }
+
+  void linearise_contact(const ContactPoint& contact, double dt, ContactStiffness& stiffness) const {
+    linearise(friction_, friction_.scale(dt), contact, stiffness);
+  }
+
+  /// Force of the rod on a roller [N], as last evaluated.
+  Vec3 force_on(int roller) const;
+
+  void commit(const std::vector<Roller>& rollers);
+
+  const NormalLaw& normal() const { return normal_; }
+
+ private:
+  NormalLaw normal_;
+  Friction friction_;
+  double radius_;
+  Eigen::VectorXd voronoi_;
+  std::vector<Roller> start_;
+  std::vector<ContactPoint> contacts_;
+  std::vector<Vec3> memory_;  // xi of roller r at point q of segment i: [(r segments + i) 2 + q]
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "knot_utm/machine/program.hpp"
+#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/rod/rod.hpp"
+
+namespace knot_utm {
+
+/// One row of curve.csv.
+struct CurveRow {
+  double time = 0.0;                     ///< [s]
+  double extension = 0.0;                ///< s [m]
+  double load = 0.0;                     ///< [N]
+  double knot_distance = Sample::kNone;  ///< e [m]; NaN: no two knots
+  double end_to_end = 0.0;               ///< L [m]
+  double load_lower = 0.0;               ///< [N]
+  Phase phase = Phase::kIdle;
+};
+
+CurveRow curve_row(const Sample& sample);
+
+/// curve.csv and curve_full.csv: row 1 names, row 2 units, then one row a sample, comma between columns, every number
+/// in the shortest form that reads back to the same double, "nan" for what is not there. Each row is handed to the
+/// operating system before `write` returns, so a run that is killed keeps what it measured.
+class CurveWriter {
+ public:
+  explicit CurveWriter(const std::string& file);  ///< throws std::runtime_error where the file cannot be written
+
+  void write(const CurveRow& row);  ///< throws std::runtime_error (disk full)
+  void write(const Sample& sample) { write(curve_row(sample)); }
+
+  std::size_t rows() const { return rows_; }  ///< written, without the two of names and units
+
+ private:
+  std::string file_;
+  std::ofstream out_;
+  std::size_t rows_ = 0;
+};
+
+/// Reads what CurveWriter wrote. Columns are found by name, in any order; others are passed over. Throws InvalidInput
+/// where the file cannot be read, a column is missing, a unit differs or a row is not as it should be.
+std::vector<CurveRow> read_curve(const std::string& file);
+
+/// final_shape.csv: x,y,z [m], one row a point. Throws std::runtime_error where the file cannot be written.
+void write_centreline(const std::string& file, const Points& points);
+
+}  // namespace knot_utm

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "knot_utm/analysis/results.hpp"
+#include "knot_utm/io/csv.hpp"
+#include "knot_utm/io/method.hpp"
+#include "knot_utm/io/run_facts.hpp"
+#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/rod/rod.hpp"
+
+namespace knot_utm {
+
+/// Everything that one run leaves in its folder, headless or recorded:
+///   method.yaml      from the beginning; with the centreline beside it as specimen.csv where the specimen is a file
+///   curve.csv        one row a sampling instant of the load cell
+///   curve_full.csv   one row an accepted time step
+///   result.yaml, final_shape.csv   at the end; until then the folder has none, not even those of an earlier run
+///
+/// Make it once all input is known to be right: it is the first thing that writes.
+/// Everything throws std::runtime_error where a file cannot be written.
+class RunWriter {
+ public:
+  /// Makes the folder. Throws InvalidInput (key "--out") where that cannot be done.
+  RunWriter(const std::string& folder, const Method& method);
+
+  /// One answer of the bench. `read_cell`: it stands at a sampling instant; `substeps`: the accepted time steps since
+  /// the answer before, this one included. An answer of a bench that failed adds the steps
+  /// that it still made only.
+  void add(const Sample& sample, bool read_cell, const std::vector<Sample>& substeps);
+
+  /// Writes result.yaml and, unless there are no points, final_shape.csv. `facts` as `facts()` with what only the
+  /// caller knows.
+  void finish(const Results& results, const RunFacts& facts, const Points& final_shape);
+
+  RunFacts facts() const;  ///< what the method and the samples so far say
+
+  std::size_t rows() const { return curve_.rows(); }  ///< of curve.csv
+
+ private:
+  std::string folder_;
+  RunFacts known_;
+  RunMonitor monitor_;
+  CurveWriter curve_;
+  CurveWriter full_curve_;
+  double last_step_time_ = -std::numeric_limits<double>::infinity();  ///< [s]
+};
+
+/// result.yaml: the keys in a fixed order, SI units, null for what is not there.
+std::string result_yaml(const Results& results, const RunFacts& facts);
+
+}  // namespace knot_utm

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/machine/test_program.hpp"
+
+namespace knot_utm {
+
+/// A whole test: the program's commands to the bench and its samples back, until the program has ended.
+/// `observe(command, sample)` sees each answer before the program does; it may call `program.stop()`.
+/// A Bench has `Sample respond(const Command&)`.
+template <class Bench, class Observer>
+void run_test(Bench& bench, TestProgram& program, Observer observe) {
+  Command command = program.first();
+  while (!program.ended()) {
+    const Sample sample = bench.respond(command);
+    observe(command, sample);
+    command = program.next(sample);
+  }
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <vector>
+
+#include "knot_utm/contact/roller_contact.hpp"
+#include "knot_utm/rod/rod.hpp"
+
+namespace knot_utm {
+
+/// A node held at a place.
+struct FixedNode {
+  int node = 0;
+  Vec3 position = Vec3::Zero();  ///< at the end of the step [m]
+};
+
+/// An edge whose material frame is held (only where the scene solves for twist).
+struct FixedTwist {
+  int edge = 0;
+  double angle = 0.0;  ///< theta at the end of the step [rad]
+};
+
+struct NodeForce {
+  int node = 0;
+  Vec3 force = Vec3::Zero();  ///< [N]
+};
+
+/// A grip that pulls a node along a fixed direction by a spring, only ever pulls, and slips at a set force:
+///   f = min(max(k (X - x.d), 0), F_p) d.
+/// It leaves the node free across d.
+struct SlippingGrip {
+  int node = 0;
+  Vec3 direction = Vec3::UnitZ();  ///< d, unit
+  double place = 0.0;              ///< X at the end of the step, along d [m]
+  double stiffness = 2e4;          ///< k [N/m]
+  double slip_force = 0.0;         ///< F_p [N]
+
+  double force(const Vec3& node_position) const {
+    const double stretched = stiffness * (place - direction.dot(node_position));
+    return stretched < 0.0 ? 0.0 : (stretched > slip_force ? slip_force : stretched);
+  }
+  bool slips(const Vec3& node_position) const {
+    return stiffness * (place - direction.dot(node_position)) >= slip_force;
+  }
+};
+
+/// Everything outside the rod, as it stands at the end of a step.
+struct Boundary {
+  std::vector<Roller> rollers;
+  std::vector<FixedNode> fixed_nodes;
+  std::vector<FixedTwist> fixed_twists;
+  std::vector<NodeForce> forces;
+  std::vector<SlippingGrip> grips;
+};
+
+/// What a time step needs to know besides rod and boundary; constant during a run.
+struct StepSettings {
+  NormalLaw normal;          ///< between strands, and on rollers
+  Friction friction;         ///< between strands
+  Friction roller_friction;
+  Vec3 gravity = Vec3::Zero();    ///< g [m/s^2]
+  double drag = 0.0;              ///< c, force -c v per length [N s/m^2]
+  double residual = 0.0;          ///< Newton's largest nodal residual [N]
+  double residual_of_tension = 0.0;  ///< to which this share of the largest tension is added [-]
+  double newton_cap = 0.0;        ///< longest movement of a node in one Newton iteration [m]
+  double motion_limit = 0.0;      ///< longest movement of a node in one step [m]
+  double overlap_limit = 0.0;     ///< deepest overlap of a step that may be accepted [m]
+  double candidate_margin = 0.0;  ///< of the contact search [m]
+  int max_iterations = 20;
+};
+
+}  // namespace knot_utm

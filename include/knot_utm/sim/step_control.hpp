@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "knot_utm/sim/time_step.hpp"
+
+namespace knot_utm {
+
+/// Chooses the length of time steps: longer where Newton's method converges in few iterations and nodes move little,
+/// shorter where not; a step that was not accepted is tried again at half its length.
+class StepControl {
+ public:
+  struct Options {
+    double longest = 0.1;         ///< [s]
+    double shortest = 1e-7;       ///< below it the run gives up [s]
+    double motion = 0.0;          ///< movement of the fastest node in a step that is aimed at [m]
+    int easy_iterations = 6;      ///< up to here the next step may be longer
+    int hard_iterations = 12;     ///< from here on it is shorter
+  };
+  struct Counters {
+    std::uint64_t steps = 0, rejected = 0, iterations = 0;
+  };
+
+  explicit StepControl(const Options& options) : options_(options), next_(options.longest) {}
+
+  /// Boundary as it stands at the end of a step from the first time to the second.
+  using BoundaryAt = std::function<const Boundary&(double from, double to)>;
+  /// Called after every accepted step.
+  using Accepted = std::function<void(double time, double dt, const StepSummary&)>;
+
+  /// Steps from `time` to exactly `end`. Returns an empty string, or why it gave up; `time` is where it stands.
+  std::string advance(TimeStep& stepper, double& time, double end, const BoundaryAt& boundary,
+                      const Accepted& accepted);
+
+  const Counters& counters() const { return counters_; }
+
+ private:
+  Options options_;
+  double next_;
+  Counters counters_;
+};
+
+}  // namespace knot_utm

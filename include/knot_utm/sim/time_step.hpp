@@ -1,0 +1,72 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/sim/scene.hpp"
+#include "knot_utm/solver/newton.hpp"
+
+namespace knot_utm {
+
+/// How one time step went.
+struct StepSummary {
+  NewtonSummary newton;
+  double largest_motion = 0.0;   ///< of a node [m]
+  double largest_overlap = 0.0;  ///< of two strands, or of strand and roller [m]
+  std::string reason;            ///< why it was not accepted; empty: it was
+
+  bool accepted() const { return reason.empty(); }
+};
+
+/// What can be read off the last accepted step.
+struct Energies {
+  double stretching = 0.0, bending = 0.0, twisting = 0.0, contact = 0.0, kinetic = 0.0;  ///< [J]
+  double total() const { return stretching + bending + twisting + contact + kinetic; }
+};
+
+struct ContactReading {
+  int touching = 0;               ///< points of integration that carry force
+  double normal_force = 0.0;      ///< sum of their normal forces [N]
+  double largest_overlap = 0.0;   ///< between strands [m]
+  double friction_work = 0.0;     ///< lost in the last step [J]
+};
+
+/// One implicit Euler step of a rod with contact and friction: find x at t + dt with
+///
+///   M (x - x_n - dt v_n)/dt^2 = -dE/dx + F_contact + F_friction + F_grips + M g - c lbar (x - x_n)/dt,
+///
+/// all of the right-hand side taken at t + dt. A step that is not accepted changes nothing.
+class TimeStep {
+ public:
+  virtual ~TimeStep() = default;
+
+  /// `state.twist` empty: the scene does not solve for twist (three unknowns a node); else four.
+  static std::unique_ptr<TimeStep> make(const RodProperties& rod, const RodState& state, const StepSettings& settings);
+
+  virtual StepSummary step(const Boundary& boundary, double dt) = 0;
+
+  const RodProperties& rod() const { return rod_; }
+  const RodState& state() const { return state_; }
+
+  /// Force that the step's own equations need at a fixed node: what its holder exerts on the rod [N].
+  virtual Vec3 reaction(int node) const = 0;
+  /// Force of the rod on a roller [N].
+  virtual Vec3 roller_force(int roller) const = 0;
+  virtual Energies energies() const = 0;
+  virtual ContactReading contact_reading() const = 0;
+  virtual const std::vector<ContactPoint>& contacts() const = 0;
+  /// Tension of each edge [N].
+  Eigen::VectorXd tension() const;
+
+  /// Friction between strands from the next step on.
+  virtual void set_friction(const Friction& friction) = 0;
+
+ protected:
+  TimeStep(const RodProperties& rod, const RodState& state) : rod_(rod), state_(state) {}
+
+  RodProperties rod_;
+  RodState state_;
+};
+
+}  // namespace knot_utm

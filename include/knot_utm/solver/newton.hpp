@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cmath>
+
+namespace knot_utm {
+
+struct NewtonOptions {
+  int max_iterations = 20;
+};
+
+/// How a Newton solve went. Starts as a failure; only a residual within tolerance makes it a success.
+struct NewtonSummary {
+  enum class End { kNotRun, kConverged, kIterationLimit, kSingular, kNotFinite };
+  End end = End::kNotRun;
+  int iterations = 0;       ///< linear solves
+  double residual = 0.0;    ///< largest nodal residual at the end [N]
+  double tolerance = 0.0;   ///< what it was compared with [N]
+
+  bool converged() const { return end == End::kConverged; }
+  const char* reason() const {
+    switch (end) {
+      case End::kConverged: return "converged";
+      case End::kIterationLimit: return "the residual did not fall below its tolerance within the iteration limit";
+      case End::kSingular: return "the Jacobian is singular";
+      case End::kNotFinite: return "the residual is not a number";
+      case End::kNotRun: break;
+    }
+    return "not run";
+  }
+};
+
+/// Newton's method for a system that offers
+///   double residual()     evaluates at the current unknowns, returns the residual's size
+///   double tolerance()    what that may be
+///   bool solve()          assembles and factors the Jacobian, solves for the change; false where singular
+///   void move()           takes the change, capped as the system sees fit
+/// There is no line search: along stiff, nearly inextensible rods the energy is no guide. Whoever calls guards the
+/// step by its size and halves it where this does not converge.
+template <typename System>
+NewtonSummary newton(System& system, const NewtonOptions& options) {
+  NewtonSummary summary;
+  for (;;) {
+    summary.residual = system.residual();
+    summary.tolerance = system.tolerance();
+    if (!std::isfinite(summary.residual)) {
+      summary.end = NewtonSummary::End::kNotFinite;
+      return summary;
+    }
+    if (summary.residual <= summary.tolerance) {
+      summary.end = NewtonSummary::End::kConverged;
+      return summary;
+    }
+    if (summary.iterations == options.max_iterations) {
+      summary.end = NewtonSummary::End::kIterationLimit;
+      return summary;
+    }
+    if (!system.solve()) {
+      summary.end = NewtonSummary::End::kSingular;
+      return summary;
+    }
+    system.move();
+    ++summary.iterations;
+  }
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "knot_utm/sim/scene.hpp"
+#include "knot_utm/sim/time_step.hpp"
+#include "knot_utm/specimen/centreline.hpp"
+
+namespace knot_utm {
+
+/// Ties the overhands of a loop: holds the standing part and the threaded strand of each, and pulls its tail outwards
+/// by a grip that moves at a set speed and slips at the pre-load. As the end is reached by displacement against a
+/// slipping grip, and counts only once everything rests, the tied state does not depend on drag, step or speed.
+///
+/// Release: the tails' pull goes to zero linearly, everything comes to rest; then each clamp is replaced by its
+/// reaction, which goes to zero linearly, and everything comes to rest again.
+class TyingRig {
+ public:
+  struct Options {
+    double preload = 0.0;          ///< F_p, at which the tail grips slip [N]
+    double grip_stiffness = 2e4;   ///< [N/m]
+    double rest_speed = 2e-5;      ///< every node slower than this ... [m/s]
+    double rest_time = 0.3;        ///< ... for this long: at rest [s]
+    double patience = 20.0;        ///< without rest for so long: not equilibrated [s]
+  };
+  enum class Stage { kIdle, kPulling, kTied, kTailsRamp, kTailsRest, kClampsRamp, kClampsRest, kReleased };
+
+  TyingRig(const Centreline& centreline, const RodProperties& rod, const Options& options);
+
+  void tie(double speed, double time, const Points& position);
+  void release(double duration, double time);
+
+  /// Adds its clamps and grips, as they stand at `to`, to the boundary of a step.
+  void hold(Boundary& boundary, double from, double to) const;
+
+  /// Follows an accepted step: lets grips slip, judges rest, goes on to the next stage.
+  void follow(const TimeStep& stepper, double time, double dt);
+
+  Stage stage() const { return stage_; }
+  bool tied() const { return stage_ == Stage::kTied; }
+  bool released() const { return stage_ == Stage::kReleased; }
+  /// Empty, or why it waited in vain.
+  const std::string& not_equilibrated() const { return not_equilibrated_; }
+
+  double tail_force(int knot) const { return tail_force_[static_cast<std::size_t>(knot)]; }  ///< [N]
+
+  /// Rod length hidden in a knot: that between the clamp of its standing part and its tail's end, less their
+  /// distance [m].
+  double excess_length(int knot, const RodProperties& rod, const RodState& state) const;
+  /// Middle of a knot: the centroid of the bending energy of its own strand, from standing part to tail.
+  Vec3 knot_middle(int knot, const RodProperties& rod, const RodState& state) const;
+
+ private:
+  struct Clamp {
+    int node;
+    Vec3 position;
+    Vec3 reaction;
+  };
+  struct Knot {
+    Vec3 outwards;
+    int tail_node;
+    int standing_node;
+  };
+  void enter(Stage stage, double time);
+  bool at_rest(const TimeStep& stepper, double dt);
+
+  Options options_;
+  std::vector<Knot> knots_;
+  std::vector<Clamp> clamps_;
+  std::vector<SlippingGrip> grips_;
+  std::vector<double> tail_force_;
+  std::vector<double> ramp_from_;
+  Stage stage_ = Stage::kIdle;
+  double speed_ = 0.0, ramp_time_ = 1.0, stage_begin_ = 0.0, rested_ = 0.0;
+  std::string not_equilibrated_;
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,81 @@
+#include "knot_utm/contact/roller_contact.hpp"
+
+#include "knot_utm/contact/centreline_curve.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr double kPoints[2] = {0.25, 0.75};  // midpoint rule, two points a segment
+
+std::size_t memory_index(Eigen::Index nodes, std::size_t roller, int segment, int point) {
+  return 2 * (roller * static_cast<std::size_t>(nodes) + static_cast<std::size_t>(segment)) +
+         static_cast<std::size_t>(point);
+}
+
+}  // namespace
+
+RollerContact::RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction)
+    : normal_(normal), friction_(friction), radius_(rod.material.radius), voronoi_(rod.voronoi_length) {}
+
+void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& position, const Points& start,
+                             double dt) {
+  contacts_.clear();
+  if (start_.size() != rollers.size()) {
+    start_ = rollers;
+    memory_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), Vec3::Zero());
+  }
+  const int last = static_cast<int>(position.cols()) - 2;
+  for (std::size_t r = 0; r < rollers.size(); ++r) {
+    const Roller& roller = rollers[r];
+    for (int segment = 1; segment <= last; ++segment) {
+      Vec3 away = position.col(segment) - roller.centre;
+      away -= roller.axis * roller.axis.dot(away);
+      const double limit = roller.radius + radius_ + voronoi_[segment];
+      if (away.squaredNorm() > limit * limit) continue;
+      for (int point = 0; point < 2; ++point) {
+        const SegmentWeights w(kPoints[point]);
+        ContactPoint contact;
+        contact.x = combine(w.value, position, segment) - roller.centre;
+        contact.x -= roller.axis * roller.axis.dot(contact.x);
+        contact.d = contact.x.norm();
+        contact.overlap = roller.radius + radius_ - contact.d;
+        if (contact.overlap <= 0.0) continue;
+        contact.a0 = segment - 1;
+        contact.arclength_b = static_cast<double>(r);
+        contact.axis = roller.axis;
+        contact.n = contact.x / contact.d;
+        contact.weight = 0.5 * voronoi_[segment];
+        if (friction_.on() && friction_.remembers())
+          contact.memory = memory_[memory_index(position.cols(), r, segment, point)];
+        contact.slip = contact.memory - (roller.centre - start_[r].centre);
+        for (int k = 0; k < 3; ++k) {
+          contact.c[k] = w.value[k];
+          contact.slip += w.value[k] * (position.col(segment - 1 + k) - start.col(segment - 1 + k));
+        }
+        evaluate_force(normal_, friction_, friction_.scale(dt), contact);
+        contacts_.push_back(contact);
+      }
+    }
+  }
+}
+
+Vec3 RollerContact::force_on(int roller) const {
+  Vec3 sum = Vec3::Zero();
+  for (const ContactPoint& contact : contacts_)
+    if (static_cast<int>(contact.arclength_b) == roller) sum -= contact.force;
+  return sum;
+}
+
+void RollerContact::commit(const std::vector<Roller>& rollers) {
+  start_ = rollers;
+  if (!friction_.on() || !friction_.remembers()) return;
+  std::fill(memory_.begin(), memory_.end(), Vec3::Zero());
+  for (const ContactPoint& contact : contacts_) {
+    const int point = contact.c[0] > contact.c[2] ? 0 : 1;
+    memory_[memory_index(voronoi_.size(), static_cast<std::size_t>(contact.arclength_b), contact.a0 + 1, point)] =
+        friction_.presliding * contact.z;
+  }
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,140 @@
+#include "knot_utm/io/csv.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <stdexcept>
+#include <string_view>
+
+#include "knot_utm/io/number.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
+
+namespace knot_utm {
+namespace {
+
+struct Column {
+  const char* name;
+  const char* unit;
+  double CurveRow::*value;
+};
+
+constexpr std::array<Column, 6> kColumns{{{"time", "s", &CurveRow::time},
+                                          {"extension", "m", &CurveRow::extension},
+                                          {"load", "N", &CurveRow::load},
+                                          {"knot_distance", "m", &CurveRow::knot_distance},
+                                          {"end_to_end", "m", &CurveRow::end_to_end},
+                                          {"load_lower", "N", &CurveRow::load_lower}}};
+constexpr const char* kPhase = "phase";
+
+void open(std::ofstream& out, const std::string& file) {
+  out.open(file, std::ios::binary | std::ios::trunc);
+  if (!out) throw std::runtime_error(file + ": cannot be written");
+}
+
+std::vector<std::string_view> cells(std::string_view line) {
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  std::vector<std::string_view> result;
+  for (;;) {
+    const std::size_t comma = line.find(',');
+    result.push_back(line.substr(0, comma));
+    if (comma == std::string_view::npos) return result;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// Where a column stands, its unit checked.
+std::size_t place(const std::string& file, const std::vector<std::string_view>& names,
+                  const std::vector<std::string_view>& units, const char* name, const char* unit) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end()) throw InvalidInput(file, "row 1", "no column " + std::string(name), "a curve.csv");
+  const std::size_t index = static_cast<std::size_t>(found - names.begin());
+  const std::string given = index < units.size() ? std::string(units[index]) : "nothing";
+  if (given != unit) throw InvalidInput(file, "row 2: unit of " + std::string(name), given, unit);
+  return index;
+}
+
+}  // namespace
+
+CurveRow curve_row(const Sample& sample) {
+  CurveRow row;
+  row.time = sample.time;
+  row.extension = sample.extension;
+  row.load = sample.load;
+  row.knot_distance = sample.knot_distance;
+  row.end_to_end = sample.end_to_end;
+  row.load_lower = sample.force_lower;
+  row.phase = sample.phase;
+  return row;
+}
+
+CurveWriter::CurveWriter(const std::string& file) : file_(file) {
+  open(out_, file);
+  std::string names;
+  std::string units;
+  for (const Column& column : kColumns) {
+    names += std::string(column.name) + ',';
+    units += std::string(column.unit) + ',';
+  }
+  out_ << names << kPhase << '\n' << units << "-\n" << std::flush;
+}
+
+void CurveWriter::write(const CurveRow& row) {
+  std::string line;
+  for (const Column& column : kColumns) line += format_number(row.*column.value) + ',';
+  out_ << line << phase_name(row.phase) << '\n' << std::flush;
+  if (!out_) throw std::runtime_error(file_ + ": cannot be written");
+  ++rows_;
+}
+
+std::vector<CurveRow> read_curve(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string name_line;
+  std::string unit_line;
+  if (!in || !std::getline(in, name_line) || !std::getline(in, unit_line)) {
+    throw InvalidInput("file", file, "a curve.csv that can be read");
+  }
+  const std::vector<std::string_view> names = cells(name_line);
+  const std::vector<std::string_view> units = cells(unit_line);
+  std::array<std::size_t, kColumns.size()> places{};
+  for (std::size_t i = 0; i < kColumns.size(); ++i) {
+    places[i] = place(file, names, units, kColumns[i].name, kColumns[i].unit);
+  }
+  const std::size_t phase_place = place(file, names, units, kPhase, "-");
+
+  std::vector<CurveRow> rows;
+  std::string line;
+  for (int number = 3; std::getline(in, line); ++number) {
+    const std::string key = "row " + std::to_string(number);
+    const std::vector<std::string_view> values = cells(line);
+    if (values.size() != names.size()) {
+      throw InvalidInput(file, key, std::to_string(values.size()) + " columns",
+                         std::to_string(names.size()) + " columns");
+    }
+    CurveRow row;
+    for (std::size_t i = 0; i < kColumns.size(); ++i) {
+      const std::optional<double> value = parse_number(values[places[i]]);
+      if (!value) throw InvalidInput(file, key + ": " + kColumns[i].name, std::string(values[places[i]]), "a number");
+      row.*kColumns[i].value = *value;
+    }
+    const std::string phase(values[phase_place]);
+    const std::optional<Phase> known = phase_named(phase);
+    if (!known) throw InvalidInput(file, key + ": phase", phase, "a phase of a test");
+    row.phase = *known;
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+void write_centreline(const std::string& file, const Points& points) {
+  std::ofstream out;
+  open(out, file);
+  out << "x,y,z\nm,m,m\n";
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    out << format_number(points(0, i)) << ',' << format_number(points(1, i)) << ',' << format_number(points(2, i))
+        << '\n';
+  }
+  out.close();
+  if (!out) throw std::runtime_error(file + ": cannot be written");
+}
+
+}  // namespace knot_utm

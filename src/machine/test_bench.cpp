@@ -1,0 +1,370 @@
+#include "knot_utm/machine/test_bench.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "knot_utm/machine/load_cell.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/sim/step_control.hpp"
+#include "knot_utm/sim/time_step.hpp"
+#include "knot_utm/specimen/centreline.hpp"
+#include "knot_utm/specimen/tying_rig.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+/// What an accuracy stands for.
+struct Tolerances {
+  double longest_step;       // [s]
+  double residual;           // [k_b/h^2]
+  double contact_tolerance;  // delta [h]
+  double presliding;         // xi_s [h]
+};
+
+Tolerances tolerances(const PhysicsOptions& physics) {
+  Tolerances out = physics.accuracy == Accuracy::kDraft    ? Tolerances{0.2, 1e-4, 0.1, 4e-3}
+                   : physics.accuracy == Accuracy::kNormal ? Tolerances{0.1, 2e-5, 0.05, 2e-3}
+                                                           : Tolerances{0.05, 1e-5, 0.025, 1e-3};
+  out.longest_step = physics.max_step.value_or(out.longest_step);
+  out.residual = physics.residual.value_or(out.residual);
+  out.contact_tolerance = physics.contact_tolerance.value_or(out.contact_tolerance);
+  out.presliding = physics.presliding.value_or(out.presliding);
+  return out;
+}
+
+constexpr double kResidualOfTension = 2e-6;  // of the largest tension, so that kN loads do not ask for more than digits
+constexpr double kSlack = 0.003;             // by which the rollers stand closer than taut, until mounting [m]
+constexpr double kTakeUpLoad = 0.01;         // load at which slack counts as taken up [k_b/h^2]
+
+/// Default contact stiffness: a rod at 10 % strain bent to its own diameter presses in by less than 3 % of its
+/// radius, and so does one whose pressure comes from bending alone.
+double contact_stiffness(const Material& material) {
+  const double h2 = material.radius * material.radius;
+  return material.contact_stiffness.value_or(2.0 * material.stretching_stiffness / h2 +
+                                             100.0 * material.bending_stiffness / (h2 * h2));
+}
+
+StepSettings step_settings(const Material& material, const MachineOptions& machine, const PhysicsOptions& physics) {
+  const Tolerances tolerance = tolerances(physics);
+  const double h = material.radius;
+  StepSettings out;
+  out.normal = {contact_stiffness(material), tolerance.contact_tolerance * h};
+  out.friction = {physics.friction_law, material.friction_coefficient, tolerance.presliding * h,
+                  physics.slip_tolerance};
+  out.roller_friction = out.friction;
+  out.roller_friction.coefficient = machine.roller_friction;
+  out.gravity = physics.gravity;
+  out.drag = physics.drag;
+  out.residual = tolerance.residual * material.bending_stiffness / (h * h);
+  out.residual_of_tension = kResidualOfTension;
+  out.newton_cap = 0.3 * h;
+  out.motion_limit = 0.8 * h;
+  out.overlap_limit = 0.5 * h;
+  out.candidate_margin = 1.0 * h;
+  return out;
+}
+
+Centreline build_centreline(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine) {
+  switch (specimen.knot) {
+    case KnotKind::kFisherman: {
+      FishermanShape shape;
+      shape.radius = material.radius;
+      shape.knot_distance = specimen.knot_distance;
+      shape.end_to_end = specimen.end_to_end;
+      shape.roller_radius = 0.5 * machine.roller_diameter;
+      shape.tail = specimen.tail;
+      shape.handedness = specimen.handedness;
+      shape.edge_length = specimen.edge_length;
+      return fisherman_loop(shape);
+    }
+    case KnotKind::kOverhand: {
+      OverhandShape shape;
+      shape.radius = material.radius;
+      shape.turns = specimen.turns;
+      shape.length = specimen.length;
+      shape.end_to_end = specimen.end_to_end;
+      shape.edge_length = specimen.edge_length;
+      return overhand(shape);
+    }
+    case KnotKind::kStraight:
+      return straight(specimen.length, material.radius, specimen.edge_length);
+    case KnotKind::kFile:
+      break;
+  }
+  throw InvalidInput("specimen.knot", "file", "a centreline read from specimen.file");
+}
+
+}  // namespace
+
+struct TestBench::Impl {
+  SpecimenOptions specimen;
+  Material material;
+  MachineOptions machine;
+  PhysicsOptions physics;
+  Centreline centreline;
+  std::unique_ptr<TimeStep> stepper;
+  StepControl control{StepControl::Options{}};
+  LoadCell cell;
+  std::optional<TyingRig> rig;
+  std::vector<FixedNode> lower_nodes, upper_nodes;  // grips that hold nodes, as they stood at displacement 0
+  std::vector<Roller> rollers;                      // lower, upper, at displacement 0
+  Boundary boundary;
+
+  double time = 0.0, displacement = 0.0;
+  double extension_zero = 0.0;
+  int step_index = -1;
+  Phase phase = Phase::kIdle;
+  double work = 0.0, dissipation = 0.0;
+  std::vector<Sample> substeps;
+  BenchStatus status = BenchStatus::kRunning;
+  std::string message;
+
+  Impl(const SpecimenOptions& specimen_, const Material& material_, const MachineOptions& machine_,
+       const PhysicsOptions& physics_)
+      : specimen(specimen_),
+        material(material_),
+        machine(machine_),
+        physics(physics_),
+        centreline(build_centreline(specimen_, material_, machine_)),
+        cell(machine_.load_cell) {
+    const Eigen::Index nodes = centreline.points.cols();
+    Eigen::VectorXd rest(nodes - 1);
+    for (Eigen::Index i = 0; i + 1 < nodes; ++i)
+      rest[i] = (centreline.points.col(i + 1) - centreline.points.col(i)).norm();
+    RodState state;
+    state.position = centreline.points;
+    state.velocity = Points::Zero(3, nodes);
+    const RodProperties rod = make_rod(material, rest);
+    stepper = TimeStep::make(rod, state, step_settings(material, machine, physics));
+    StepControl::Options options;
+    options.longest = tolerances(physics).longest_step;
+    options.motion = 0.4 * material.radius;
+    control = StepControl(options);
+    if (!centreline.knots.empty()) {
+      TyingRig::Options tying;
+      tying.preload = specimen.preload.value_or(
+          material.tying_preload.value_or(4.0 * material.bending_stiffness / (material.radius * material.radius)));
+      rig.emplace(centreline, rod, tying);
+    }
+    place_grips();
+    extension_zero = end_to_end();
+  }
+
+  bool on_rollers() const { return !rollers.empty(); }
+
+  void place_grips() {
+    const int nodes = static_cast<int>(centreline.points.cols());
+    if (specimen.knot == KnotKind::kFisherman && machine.grips == GripKind::kRollers) {
+      Roller roller;
+      roller.axis = Vec3::UnitY();
+      roller.radius = 0.5 * machine.roller_diameter;
+      roller.centre = Vec3::Zero();
+      rollers.push_back(roller);
+      roller.centre = Vec3(0.0, 0.0, specimen.end_to_end - kSlack);
+      rollers.push_back(roller);
+      return;
+    }
+    auto hold = [&](std::vector<FixedNode>& held, int node) { held.push_back({node, centreline.points.col(node)}); };
+    if (specimen.knot == KnotKind::kFisherman) {
+      const double edge = centreline.edge_length();
+      const int lower = static_cast<int>(std::lround(centreline.lower_apex / edge));
+      const int upper = static_cast<int>(std::lround(centreline.upper_apex / edge));
+      hold(lower_nodes, lower);
+      hold(upper_nodes, upper);
+      if (machine.grips == GripKind::kClamps) {
+        hold(lower_nodes, lower + 1);
+        hold(upper_nodes, upper + 1);
+      }
+      return;
+    }
+    hold(lower_nodes, 0);
+    hold(upper_nodes, nodes - 1);
+    if (machine.grips != GripKind::kNodes) {
+      hold(lower_nodes, 1);
+      hold(upper_nodes, nodes - 2);
+    }
+  }
+
+  const Boundary& boundary_at(const Command& command, double from, double to, double start_time,
+                              double start_displacement) {
+    const double whole = command.time - start_time;
+    const double share = whole > 0.0 ? (to - start_time) / whole : 1.0;
+    const double travel = start_displacement + share * (command.displacement - start_displacement);
+    boundary.rollers = rollers;
+    if (on_rollers()) boundary.rollers[1].centre[2] += travel;
+    boundary.fixed_nodes.clear();
+    boundary.fixed_twists.clear();
+    boundary.forces.clear();
+    boundary.grips.clear();
+    for (const FixedNode& node : lower_nodes) boundary.fixed_nodes.push_back(node);
+    for (FixedNode node : upper_nodes) {
+      node.position[2] += travel;
+      boundary.fixed_nodes.push_back(node);
+    }
+    if (rig) rig->hold(boundary, from, to);
+    return boundary;
+  }
+
+  double end_to_end() const {
+    if (on_rollers()) return rollers[1].centre[2] + displacement - rollers[0].centre[2];
+    return (upper_nodes.front().position + Vec3(0.0, 0.0, displacement) - lower_nodes.front().position).norm();
+  }
+
+  /// Force of the rod on each grip along z, tension positive [N].
+  double force_upper() const {
+    if (on_rollers()) return -stepper->roller_force(1)[2];
+    double sum = 0.0;
+    for (const FixedNode& node : upper_nodes) sum += stepper->reaction(node.node)[2];
+    return sum;
+  }
+  double force_lower() const {
+    if (on_rollers()) return stepper->roller_force(0)[2];
+    double sum = 0.0;
+    for (const FixedNode& node : lower_nodes) sum -= stepper->reaction(node.node)[2];
+    return sum;
+  }
+
+  void enter_step(const Command& command) {
+    step_index = command.step;
+    phase = command.phase;
+    status = BenchStatus::kRunning;
+    if (!rig) return;
+    if (phase == Phase::kTie) rig->tie(command.speed, time, stepper->state().position);
+    if (phase == Phase::kRelease) rig->release(command.duration, time);
+  }
+
+  void judge_phase() {
+    if (material.breaking_force && stepper->tension().maxCoeff() > *material.breaking_force) {
+      status = BenchStatus::kBroken;
+      message = "the rod's tension passed its breaking force";
+      return;
+    }
+    bool done = false;
+    switch (phase) {
+      case Phase::kTie:
+        done = !rig || rig->tied();
+        break;
+      case Phase::kRelease:
+        done = !rig || rig->released();
+        break;
+      case Phase::kMount:
+        done = !on_rollers() || std::min(force_upper(), force_lower()) >= kTakeUpLoad * material.bending_stiffness /
+                                                                               (material.radius * material.radius);
+        break;
+      default:
+        break;
+    }
+    if (done) {
+      status = BenchStatus::kPhaseDone;
+    } else if (rig && (phase == Phase::kTie || phase == Phase::kRelease) && !rig->not_equilibrated().empty()) {
+      status = BenchStatus::kNotEquilibrated;
+      message = rig->not_equilibrated();
+    }
+  }
+
+  Sample read(const Command& command, double at_time) const {
+    Sample s;
+    s.sequence = command.sequence;
+    s.time = at_time;
+    s.phase = phase;
+    s.displacement = displacement;
+    s.end_to_end = end_to_end();
+    s.extension = s.end_to_end - extension_zero;
+    s.force_upper = force_upper();
+    s.force_lower = force_lower();
+    s.load = cell.balanced(s.force_upper);
+    if (rig) {
+      const RodProperties& rod = stepper->rod();
+      const RodState& state = stepper->state();
+      for (int k = 0; k < 2; ++k) {
+        s.tail_force[k] = rig->tail_force(k);
+        s.excess_length[k] = rig->excess_length(k, rod, state);
+      }
+      s.knot_distance = (rig->knot_middle(0, rod, state) - rig->knot_middle(1, rod, state)).norm();
+    }
+    const ContactReading contact = stepper->contact_reading();
+    s.max_penetration = contact.largest_overlap / material.radius;
+    s.normal_force = contact.normal_force;
+    s.contacts = contact.touching;
+    s.fastest_node = std::sqrt(stepper->state().velocity.colwise().squaredNorm().maxCoeff());
+    const Energies energies = stepper->energies();
+    s.stretching_energy = energies.stretching;
+    s.bending_energy = energies.bending;
+    s.twisting_energy = energies.twisting;
+    s.contact_energy = energies.contact;
+    s.kinetic_energy = energies.kinetic;
+    s.grip_work = work;
+    s.dissipation = dissipation;
+    s.steps = control.counters().steps;
+    s.rejected_steps = control.counters().rejected;
+    s.newton_iterations = control.counters().iterations;
+    s.status = status;
+    s.message = message;
+    return s;
+  }
+
+  Sample respond(const Command& command) {
+    substeps.clear();
+    if (status == BenchStatus::kFailed) {
+      substeps.push_back(read(command, time));
+      return substeps.back();
+    }
+    if (command.step != step_index) enter_step(command);
+    if (command.balance) {
+      cell.balance(force_upper());
+      extension_zero = end_to_end();
+    }
+    const double start_time = time, start_displacement = displacement;
+    const double speed = command.time > start_time ? (command.displacement - start_displacement) / (command.time - start_time) : 0.0;
+    const std::string gave_up = control.advance(
+        *stepper, time, command.time,
+        [&](double from, double to) -> const Boundary& {
+          return boundary_at(command, from, to, start_time, start_displacement);
+        },
+        [&](double to, double dt, const StepSummary&) {
+          displacement = to < command.time ? start_displacement + speed * (to - start_time) : command.displacement;
+          if (rig) rig->follow(*stepper, to, dt);
+          substeps.push_back(read(command, to));
+        });
+    if (!gave_up.empty()) {
+      status = BenchStatus::kFailed;
+      message = gave_up;
+    } else {
+      displacement = command.displacement;
+      judge_phase();
+    }
+    Sample last = read(command, time);
+    if (command.read_cell && status != BenchStatus::kFailed) last.load = cell.read(last.force_upper);
+    if (substeps.empty())
+      substeps.push_back(last);
+    else
+      substeps.back() = last;
+    return last;
+  }
+};
+
+TestBench::TestBench(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
+                     const PhysicsOptions& physics)
+    : impl_(std::make_unique<Impl>(specimen, material, machine, physics)) {}
+TestBench::~TestBench() = default;
+TestBench::TestBench(TestBench&&) noexcept = default;
+TestBench& TestBench::operator=(TestBench&&) noexcept = default;
+
+Sample TestBench::respond(const Command& command) { return impl_->respond(command); }
+const std::vector<Sample>& TestBench::substeps() const { return impl_->substeps; }
+const RodProperties& TestBench::rod() const { return impl_->stepper->rod(); }
+const RodState& TestBench::state() const { return impl_->stepper->state(); }
+bool TestBench::closed() const { return impl_->centreline.closed_by_tails; }
+Vec3 TestBench::lower_grip() const {
+  return impl_->on_rollers() ? impl_->rollers[0].centre : impl_->lower_nodes.front().position;
+}
+Vec3 TestBench::upper_grip() const {
+  const Vec3 start = impl_->on_rollers() ? impl_->rollers[1].centre : impl_->upper_nodes.front().position;
+  return start + Vec3(0.0, 0.0, impl_->displacement);
+}
+double TestBench::longest_step() const { return tolerances(impl_->physics).longest_step; }
+Eigen::VectorXd TestBench::tension() const { return impl_->stepper->tension(); }
+
+}  // namespace knot_utm

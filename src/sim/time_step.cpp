@@ -1,0 +1,368 @@
+#include "knot_utm/sim/time_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/rod/isotropic_bending.hpp"
+#include "knot_utm/rod/stretching.hpp"
+#include "knot_utm/solver/block_matrix.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+Lanes to_lanes(const Vec3& v) { return Lanes{v[0], v[1], v[2], 0.0}; }
+Vec3 to_vec3(const Lanes& v) { return {v[0], v[1], v[2]}; }
+
+template <int D>
+void add(Block<D>& block, const Mat3& m, double sign) {
+  for (int j = 0; j < 3; ++j) block.column[j] += Lanes{sign * m(0, j), sign * m(1, j), sign * m(2, j), 0.0};
+}
+
+/// Stored indices of the rod's own blocks: node i with itself, the next and the one after.
+struct BandIndex {
+  int own;
+  int next, next_back;        // (i, i+1) and (i+1, i)
+  int second, second_back;    // (i, i+2) and (i+2, i)
+};
+
+template <int D>
+class ImplicitStep final : public TimeStep {
+ public:
+  ImplicitStep(const RodProperties& rod, const RodState& state, const StepSettings& settings)
+      : TimeStep(rod, state),
+        settings_(settings),
+        contact_(rod, settings.normal, settings.friction, settings.candidate_margin),
+        rollers_(rod, settings.normal, settings.roller_friction),
+        nodes_(static_cast<int>(rod.nodes())),
+        force_(at(nodes_)),
+        change_(at(nodes_)),
+        held_(at(nodes_), 0) {
+    build_pattern();
+  }
+
+  StepSummary step(const Boundary& boundary, double dt) override {
+    boundary_ = &boundary;
+    dt_ = dt;
+    StepSummary summary;
+    if (contact_.refresh(state_.position) || !pattern_built_) build_pattern();
+
+    predict();
+    summary.newton = newton(*this, NewtonOptions{settings_.max_iterations});
+    examine(summary);
+    if (summary.accepted()) commit();
+    return summary;
+  }
+
+  // ---- the system that Newton solves -----------------------------------------------------------------------------
+
+  double residual() {
+    std::fill(force_.begin(), force_.end(), Lanes{0.0, 0.0, 0.0, 0.0});
+    add_inertia_gravity_and_drag();
+    add_elastic_forces();
+    contact_.evaluate(x_, state_.position, dt_);
+    rollers_.evaluate(boundary_->rollers, x_, state_.position, dt_);
+    for (const ContactPoint& contact : contact_.contacts()) add_contact_force(contact);
+    for (const ContactPoint& contact : rollers_.contacts()) add_contact_force(contact);
+    add_grips_and_forces();
+    return largest_free_force();
+  }
+
+  double tolerance() const { return settings_.residual + settings_.residual_of_tension * largest_tension_; }
+
+  bool solve() {
+    matrix_.set_zero();
+    add_inertia_and_drag_stiffness();
+    add_elastic_stiffness();
+    ContactStiffness local;
+    for (const ContactPoint& contact : contact_.contacts()) {
+      if (!contact.touches()) continue;
+      contact_.linearise_contact(contact, dt_, local);
+      add_contact_stiffness(contact, local);
+    }
+    for (const ContactPoint& contact : rollers_.contacts()) {
+      rollers_.linearise_contact(contact, dt_, local);
+      add_contact_stiffness(contact, local);
+    }
+    add_grip_stiffness();
+    change_ = force_;
+    for (int node = 0; node < nodes_; ++node) {
+      if (!held_[at(node)]) continue;
+      matrix_.set_identity_row(node);
+      change_[at(node)] = Lanes{0.0, 0.0, 0.0, 0.0};
+    }
+    if (!matrix_.factor()) return false;
+    matrix_.solve(change_);
+    return true;
+  }
+
+  void move() {
+    double longest2 = 0.0;
+    for (const Lanes& change : change_) {
+      const double size2 = change[0] * change[0] + change[1] * change[1] + change[2] * change[2];
+      longest2 = std::max(longest2, size2);
+    }
+    const double longest = std::sqrt(longest2);
+    const double share = longest > settings_.newton_cap ? settings_.newton_cap / longest : 1.0;
+    for (int i = 0; i < nodes_; ++i) x_.col(i) += share * to_vec3(change_[at(i)]);
+  }
+
+  // ---- readings ---------------------------------------------------------------------------------------------------
+
+  Vec3 reaction(int node) const override { return -to_vec3(committed_force_[at(node)]); }
+  Vec3 roller_force(int roller) const override { return rollers_.force_on(roller); }
+  const std::vector<ContactPoint>& contacts() const override { return contact_.contacts(); }
+
+  Energies energies() const override {
+    Energies out;
+    const Material& material = rod_.material;
+    for (int i = 0; i + 1 < nodes_; ++i)
+      out.stretching +=
+          stretching_gradient(material.stretching_stiffness, rod_.rest_length[i], edge(state_.position, i)).energy;
+    for (int i = 1; i + 1 < nodes_; ++i)
+      out.bending += isotropic_bending_gradient(material.bending_stiffness, rod_.voronoi_length[i],
+                                                edge(state_.position, i - 1), edge(state_.position, i))
+                         .energy;
+    for (const ContactPoint& contact : contact_.contacts())
+      out.contact += contact.weight * settings_.normal.energy(contact.overlap);
+    for (const ContactPoint& contact : rollers_.contacts())
+      out.contact += contact.weight * settings_.normal.energy(contact.overlap);
+    for (int i = 0; i < nodes_; ++i) out.kinetic += 0.5 * rod_.mass[i] * state_.velocity.col(i).squaredNorm();
+    return out;
+  }
+
+  ContactReading contact_reading() const override { return contact_reading_; }
+
+  void set_friction(const Friction& friction) override { contact_.set_friction(friction); }
+
+ private:
+  static Vec3 edge(const Points& x, int i) { return x.col(i + 1) - x.col(i); }
+
+  void build_pattern() {
+    contact_.refresh(state_.position);
+    std::vector<std::pair<int, int>> pairs;
+    for (int i = 0; i + 1 < nodes_; ++i) pairs.push_back({i, i + 1});
+    for (int i = 0; i + 2 < nodes_; ++i) pairs.push_back({i, i + 2});
+    for (const auto& [i, j] : contact_.candidates().pairs())
+      for (int a = i - 1; a <= i + 1; ++a)
+        for (int b = j - 1; b <= j + 1; ++b)
+          if (a != b) pairs.push_back({a, b});
+    pattern_.build(nodes_, pairs);
+    matrix_.set_pattern(pattern_);
+    band_.resize(at(nodes_));
+    for (int i = 0; i < nodes_; ++i) {
+      BandIndex& band = band_[at(i)];
+      band.own = pattern_.index(i, i);
+      band.next = i + 1 < nodes_ ? pattern_.index(i, i + 1) : -1;
+      band.next_back = i + 1 < nodes_ ? pattern_.index(i + 1, i) : -1;
+      band.second = i + 2 < nodes_ ? pattern_.index(i, i + 2) : -1;
+      band.second_back = i + 2 < nodes_ ? pattern_.index(i + 2, i) : -1;
+    }
+    pattern_built_ = true;
+  }
+
+  /// Everything moves on as it did; held nodes stand where they must.
+  void predict() {
+    x_ = state_.position + dt_ * state_.velocity;
+    std::fill(held_.begin(), held_.end(), 0);
+    for (const FixedNode& fixed : boundary_->fixed_nodes) {
+      held_[at(fixed.node)] = 1;
+      x_.col(fixed.node) = fixed.position;
+    }
+  }
+
+  void add_inertia_gravity_and_drag() {
+    const double over_dt = 1.0 / dt_;
+    for (int i = 0; i < nodes_; ++i) {
+      const Vec3 velocity = (x_.col(i) - state_.position.col(i)) * over_dt;
+      const Vec3 acceleration = (velocity - state_.velocity.col(i)) * over_dt;
+      const double drag = settings_.drag * rod_.voronoi_length[i];
+      force_[at(i)] += to_lanes(rod_.mass[i] * (settings_.gravity - acceleration) - drag * velocity);
+    }
+  }
+
+  void add_inertia_and_drag_stiffness() {
+    for (int i = 0; i < nodes_; ++i) {
+      const double k = rod_.mass[i] / (dt_ * dt_) + settings_.drag * rod_.voronoi_length[i] / dt_;
+      Block<D>& block = matrix_.block(band_[at(i)].own);
+      for (int j = 0; j < 3; ++j) block.column[j][j] += k;
+    }
+  }
+
+  void add_elastic_forces() {
+    const Material& material = rod_.material;
+    largest_tension_ = 0.0;
+    for (int i = 0; i + 1 < nodes_; ++i) {
+      const Lanes pull = to_lanes(
+          stretching_gradient(material.stretching_stiffness, rod_.rest_length[i], edge(x_, i)).gradient);
+      largest_tension_ = std::max(largest_tension_, pull[0] * pull[0] + pull[1] * pull[1] + pull[2] * pull[2]);
+      force_[at(i)] += pull;
+      force_[at(i + 1)] -= pull;
+    }
+    largest_tension_ = std::sqrt(largest_tension_);
+    for (int i = 1; i + 1 < nodes_; ++i) {
+      const IsotropicBendingGradient bending = isotropic_bending_gradient(
+          material.bending_stiffness, rod_.voronoi_length[i], edge(x_, i - 1), edge(x_, i));
+      const Lanes e = to_lanes(bending.gradient_e), f = to_lanes(bending.gradient_f);
+      force_[at(i - 1)] += e;
+      force_[at(i)] += f - e;
+      force_[at(i + 1)] -= f;
+    }
+  }
+
+  void add_elastic_stiffness() {
+    const Material& material = rod_.material;
+    for (int i = 0; i + 1 < nodes_; ++i) {
+      const Mat3 h = stretching(material.stretching_stiffness, rod_.rest_length[i], edge(x_, i)).hessian;
+      add(matrix_.block(band_[at(i)].own), h, 1.0);
+      add(matrix_.block(band_[at(i + 1)].own), h, 1.0);
+      add(matrix_.block(band_[at(i)].next), h, -1.0);
+      add(matrix_.block(band_[at(i)].next_back), h, -1.0);
+    }
+    for (int i = 1; i + 1 < nodes_; ++i) {
+      const IsotropicBendingLocal bending =
+          isotropic_bending(material.bending_stiffness, rod_.voronoi_length[i], edge(x_, i - 1), edge(x_, i));
+      const Mat3 ef = bending.hessian_ef, fe = ef.transpose();
+      const BandIndex &before = band_[at(i - 1)], &here = band_[at(i)], &after = band_[at(i + 1)];
+      add(matrix_.block(before.own), bending.hessian_ee, 1.0);
+      add(matrix_.block(before.next), ef - bending.hessian_ee, 1.0);
+      add(matrix_.block(before.next_back), fe - bending.hessian_ee, 1.0);
+      add(matrix_.block(before.second), ef, -1.0);
+      add(matrix_.block(before.second_back), fe, -1.0);
+      add(matrix_.block(here.own), bending.hessian_ee - ef - fe + bending.hessian_ff, 1.0);
+      add(matrix_.block(here.next), ef - bending.hessian_ff, 1.0);
+      add(matrix_.block(here.next_back), fe - bending.hessian_ff, 1.0);
+      add(matrix_.block(after.own), bending.hessian_ff, 1.0);
+    }
+  }
+
+  void add_contact_force(const ContactPoint& contact) {
+    if (!contact.touches()) return;
+    const Lanes g = to_lanes(contact.force);
+    for (int k = 0; k < 3; ++k) force_[at(contact.a0 + k)] += contact.c[k] * g;
+    if (contact.on_roller()) return;
+    for (int k = 0; k < 3; ++k) force_[at(contact.b0 + k)] += contact.c[3 + k] * g;
+  }
+
+  void add_contact_stiffness(const ContactPoint& contact, const ContactStiffness& local) {
+    Lanes cc[3], cb[3], bc[3], bb[3];
+    for (int j = 0; j < 3; ++j) {
+      std::copy_n(local.cc.data() + 4 * j, 4, reinterpret_cast<double*>(&cc[j]));
+      std::copy_n(local.cb.data() + 4 * j, 4, reinterpret_cast<double*>(&cb[j]));
+      std::copy_n(local.bc.data() + 4 * j, 4, reinterpret_cast<double*>(&bc[j]));
+      std::copy_n(local.bb.data() + 4 * j, 4, reinterpret_cast<double*>(&bb[j]));
+    }
+    const double* c = contact.c;
+    const double* beta = contact.beta;
+    const int a = contact.a0, b = contact.b0;
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l) {
+        Block<D>& aa = matrix_.block(pattern_.index(a + k, a + l));
+        for (int j = 0; j < 3; ++j) aa.column[j] += (c[k] * c[l]) * cc[j];
+        if (contact.on_roller()) continue;
+        const double ck = c[3 + k], cl = c[3 + l], bk = beta[3 + k], bl = beta[3 + l];
+        Block<D>& ab = matrix_.block(pattern_.index(a + k, b + l));
+        for (int j = 0; j < 3; ++j) ab.column[j] += (c[k] * cl) * cc[j] + (c[k] * bl) * cb[j];
+        Block<D>& ba = matrix_.block(pattern_.index(b + k, a + l));
+        for (int j = 0; j < 3; ++j) ba.column[j] += (ck * c[l]) * cc[j] + (bk * c[l]) * bc[j];
+        Block<D>& own = matrix_.block(pattern_.index(b + k, b + l));
+        for (int j = 0; j < 3; ++j)
+          own.column[j] += (ck * cl) * cc[j] + (ck * bl) * cb[j] + (bk * cl) * bc[j] + (bk * bl) * bb[j];
+      }
+  }
+
+  void add_grips_and_forces() {
+    for (const SlippingGrip& grip : boundary_->grips)
+      force_[at(grip.node)] += to_lanes(grip.force(x_.col(grip.node)) * grip.direction);
+    for (const NodeForce& force : boundary_->forces) force_[at(force.node)] += to_lanes(force.force);
+  }
+
+  void add_grip_stiffness() {
+    for (const SlippingGrip& grip : boundary_->grips) {
+      const double force = grip.force(x_.col(grip.node));
+      if (force <= 0.0 || grip.slips(x_.col(grip.node))) continue;
+      add(matrix_.block(band_[at(grip.node)].own), grip.direction * grip.direction.transpose(), grip.stiffness);
+    }
+  }
+
+  double largest_free_force() const {
+    double largest2 = 0.0;
+    for (int i = 0; i < nodes_; ++i) {
+      if (held_[at(i)]) continue;
+      const Lanes& f = force_[at(i)];
+      const double size2 = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+      if (!(size2 <= largest2)) largest2 = size2;
+    }
+    return std::sqrt(largest2);
+  }
+
+  void examine(StepSummary& summary) const {
+    if (!summary.newton.converged()) {
+      summary.reason = summary.newton.reason();
+      return;
+    }
+    for (int i = 0; i < nodes_; ++i)
+      summary.largest_motion = std::max(summary.largest_motion, (x_.col(i) - state_.position.col(i)).norm());
+    for (const ContactPoint& contact : contact_.contacts())
+      summary.largest_overlap = std::max(summary.largest_overlap, contact.overlap);
+    for (const ContactPoint& contact : rollers_.contacts())
+      summary.largest_overlap = std::max(summary.largest_overlap, contact.overlap);
+    if (summary.largest_motion > settings_.motion_limit)
+      summary.reason = "a node moved further than a step may";
+    else if (summary.largest_overlap > settings_.overlap_limit)
+      summary.reason = "strands overlap more than a step may leave";
+  }
+
+  void commit() {
+    contact_reading_ = ContactReading{};
+    for (const ContactPoint& contact : contact_.contacts()) {
+      if (!contact.touches()) continue;
+      ++contact_reading_.touching;
+      contact_reading_.normal_force += contact.weight * contact.pressure;
+      contact_reading_.largest_overlap = std::max(contact_reading_.largest_overlap, contact.overlap);
+      contact_reading_.friction_work += settings_.friction.coefficient * contact.weight * contact.pressure *
+                                        contact.z.dot(contact.slip - contact.memory);
+    }
+    contact_.commit(x_);
+    rollers_.commit(boundary_->rollers);
+    state_.velocity = (x_ - state_.position) / dt_;
+    state_.position = x_;
+    committed_force_ = force_;
+  }
+
+  StepSettings settings_;
+  SmoothContact contact_;
+  RollerContact rollers_;
+  int nodes_;
+  const Boundary* boundary_ = nullptr;
+  double dt_ = 0.0;
+  Points x_;
+  std::vector<Lanes> force_, change_, committed_force_;
+  std::vector<char> held_;
+  double largest_tension_ = 0.0;
+  ContactReading contact_reading_;
+  bool pattern_built_ = false;
+  BlockPattern pattern_;
+  BlockMatrix<D> matrix_;
+  std::vector<BandIndex> band_;
+};
+
+}  // namespace
+
+Eigen::VectorXd TimeStep::tension() const {
+  Eigen::VectorXd out(rod_.edges());
+  for (Eigen::Index i = 0; i < rod_.edges(); ++i)
+    out[i] = stretching_tension(rod_.material.stretching_stiffness, rod_.rest_length[i],
+                                state_.position.col(i + 1) - state_.position.col(i));
+  return out;
+}
+
+std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodState& state,
+                                         const StepSettings& settings) {
+  return std::make_unique<ImplicitStep<3>>(rod, state, settings);
+}
+
+}  // namespace knot_utm

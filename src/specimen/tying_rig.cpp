@@ -1,0 +1,186 @@
+#include "knot_utm/specimen/tying_rig.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "knot_utm/rod/isotropic_bending.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+// Places of the clamps, in rod radii. A knot that runs over its clamp reads wrong: they stand clear of where it ends.
+constexpr double kStandingFromMiddle = 5.0;   // from the middle of the specimen, towards the own knot
+constexpr double kThreadedBeyondKnot = 18.0;  // beyond the middle of the loose knot: it ends 8 further out
+
+int nearest_node(double arclength, double edge_length, int nodes) {
+  return std::clamp(static_cast<int>(std::lround(arclength / edge_length)), 0, nodes - 1);
+}
+
+}  // namespace
+
+TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const Options& options) : options_(options) {
+  const double h = rod.material.radius, edge = centreline.edge_length();
+  const int nodes = static_cast<int>(rod.nodes());
+  const Points& x = centreline.points;
+  const std::size_t count = centreline.knots.size();
+  double middle = 0.0;
+  for (const KnotLandmarks& knot : centreline.knots)
+    middle += x(2, nearest_node(knot.coil_middle, edge, nodes)) / static_cast<double>(count);
+
+  for (const KnotLandmarks& marks : centreline.knots) {
+    Knot knot;
+    const int coil = nearest_node(marks.coil_middle, edge, nodes);
+    const double up = x(2, coil) > middle ? 1.0 : -1.0;
+    knot.outwards = up * Vec3::UnitZ();
+    knot.tail_node = marks.tail_end < marks.coil_middle ? 0 : nodes - 1;
+
+    const int inward = knot.tail_node == 0 ? 1 : -1;
+    int standing = nearest_node(marks.standing_begin, edge, nodes);
+    while (up * (x(2, standing) - middle) > kStandingFromMiddle * h) standing += inward;
+    knot.standing_node = standing;
+    clamps_.push_back({standing, x.col(standing), Vec3::Zero()});
+
+    // The threaded strand is the other end's; away from its own tail it runs on outwards.
+    int threaded = nearest_node(marks.threaded, edge, nodes);
+    const double knot_z = x(2, threaded);
+    while (up * (x(2, threaded) - knot_z) < kThreadedBeyondKnot * h) threaded -= inward;
+    clamps_.push_back({threaded, x.col(threaded), Vec3::Zero()});
+    knots_.push_back(knot);
+  }
+  tail_force_.assign(count, 0.0);
+  ramp_from_.assign(count, 0.0);
+}
+
+void TyingRig::enter(Stage stage, double time) {
+  stage_ = stage;
+  stage_begin_ = time;
+  rested_ = 0.0;
+}
+
+void TyingRig::tie(double speed, double time, const Points& position) {
+  speed_ = speed;
+  grips_.clear();
+  for (const Knot& knot : knots_) {
+    SlippingGrip grip;
+    grip.node = knot.tail_node;
+    grip.direction = knot.outwards;
+    grip.place = knot.outwards.dot(position.col(knot.tail_node));
+    grip.stiffness = options_.grip_stiffness;
+    grip.slip_force = options_.preload;
+    grips_.push_back(grip);
+  }
+  enter(Stage::kPulling, time);
+}
+
+void TyingRig::release(double duration, double time) {
+  ramp_time_ = std::max(duration / 3.0, 1e-3);
+  ramp_from_ = tail_force_;
+  enter(Stage::kTailsRamp, time);
+}
+
+void TyingRig::hold(Boundary& boundary, double from, double to) const {
+  const double ramp = std::clamp(1.0 - (to - stage_begin_) / ramp_time_, 0.0, 1.0);
+  if (stage_ == Stage::kReleased) return;
+  const bool clamped = stage_ < Stage::kClampsRamp;
+  for (const Clamp& clamp : clamps_) {
+    if (clamped)
+      boundary.fixed_nodes.push_back({clamp.node, clamp.position});
+    else if (stage_ == Stage::kClampsRamp)
+      boundary.forces.push_back({clamp.node, ramp * clamp.reaction});
+  }
+  if (stage_ == Stage::kPulling || stage_ == Stage::kTied) {
+    for (SlippingGrip grip : grips_) {
+      if (stage_ == Stage::kPulling) grip.place += speed_ * (to - from);
+      boundary.grips.push_back(grip);
+    }
+  } else if (stage_ == Stage::kTailsRamp) {
+    for (std::size_t k = 0; k < knots_.size(); ++k)
+      boundary.forces.push_back({knots_[k].tail_node, ramp * ramp_from_[k] * knots_[k].outwards});
+  }
+}
+
+bool TyingRig::at_rest(const TimeStep& stepper, double dt) {
+  const double fastest = std::sqrt(stepper.state().velocity.colwise().squaredNorm().maxCoeff());
+  rested_ = fastest > options_.rest_speed ? 0.0 : rested_ + dt;
+  return rested_ >= options_.rest_time;
+}
+
+void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
+  const Points& x = stepper.state().position;
+  bool all_slip = true;
+  for (std::size_t k = 0; k < grips_.size(); ++k) {
+    SlippingGrip& grip = grips_[k];
+    if (stage_ == Stage::kPulling) {
+      grip.place += speed_ * dt;
+      const double slipped = grip.direction.dot(x.col(grip.node)) + grip.slip_force / grip.stiffness;
+      grip.place = std::min(grip.place, slipped);
+    }
+    tail_force_[k] = stage_ <= Stage::kTied ? grip.force(x.col(grip.node)) : 0.0;
+    if (tail_force_[k] < 0.999 * grip.slip_force) all_slip = false;
+  }
+  const double elapsed = time - stage_begin_;
+  const bool rest = at_rest(stepper, dt);
+  switch (stage_) {
+    case Stage::kPulling:
+      if (all_slip && rest) enter(Stage::kTied, time);
+      break;
+    case Stage::kTailsRamp:
+      if (elapsed >= ramp_time_) enter(Stage::kTailsRest, time);
+      break;
+    case Stage::kTailsRest:
+      if (rest) {
+        for (Clamp& clamp : clamps_) clamp.reaction = stepper.reaction(clamp.node);
+        enter(Stage::kClampsRamp, time);
+      }
+      break;
+    case Stage::kClampsRamp:
+      if (elapsed >= ramp_time_) enter(Stage::kClampsRest, time);
+      break;
+    case Stage::kClampsRest:
+      if (rest && elapsed >= ramp_time_) enter(Stage::kReleased, time);
+      break;
+    case Stage::kIdle:
+    case Stage::kTied:
+    case Stage::kReleased:
+      break;
+  }
+  const bool waits = stage_ == Stage::kPulling || stage_ == Stage::kTailsRest || stage_ == Stage::kClampsRest;
+  if (waits && time - stage_begin_ > options_.patience) {
+    const double fastest = std::sqrt(stepper.state().velocity.colwise().squaredNorm().maxCoeff());
+    std::ostringstream message;
+    message << "not equilibrated: after " << options_.patience << " s of "
+            << (stage_ == Stage::kPulling ? "tying" : "release") << " the fastest node moves at " << fastest
+            << " m/s (rest is " << options_.rest_speed << " m/s)";
+    if (stage_ == Stage::kPulling && !all_slip) message << ", and a tail grip has not reached the pre-load";
+    not_equilibrated_ = message.str();
+  }
+}
+
+double TyingRig::excess_length(int knot, const RodProperties& rod, const RodState& state) const {
+  const Knot& k = knots_[static_cast<std::size_t>(knot)];
+  const int first = std::min(k.tail_node, k.standing_node), last = std::max(k.tail_node, k.standing_node);
+  double length = 0.0;
+  for (int i = first; i < last; ++i) length += (state.position.col(i + 1) - state.position.col(i)).norm();
+  (void)rod;
+  return length - (state.position.col(last) - state.position.col(first)).norm();
+}
+
+Vec3 TyingRig::knot_middle(int knot, const RodProperties& rod, const RodState& state) const {
+  const Knot& k = knots_[static_cast<std::size_t>(knot)];
+  const int first = std::min(k.tail_node, k.standing_node), last = std::max(k.tail_node, k.standing_node);
+  Vec3 sum = Vec3::Zero();
+  double weights = 0.0;
+  for (int i = std::max(first, 1); i <= last && i + 1 < static_cast<int>(rod.nodes()); ++i) {
+    const double energy = isotropic_bending_gradient(rod.material.bending_stiffness, rod.voronoi_length[i],
+                                                     state.position.col(i) - state.position.col(i - 1),
+                                                     state.position.col(i + 1) - state.position.col(i))
+                              .energy;
+    sum += energy * state.position.col(i);
+    weights += energy;
+  }
+  return weights > 0.0 ? Vec3(sum / weights) : Vec3(state.position.col(first));
+}
+
+}  // namespace knot_utm

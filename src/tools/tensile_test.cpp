@@ -1,0 +1,159 @@
+// One whole test without ROS: read the method, run it, write what came out.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "knot_utm/io/method.hpp"
+#include "knot_utm/io/run_writer.hpp"
+#include "knot_utm/machine/run_test.hpp"
+#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/test_program.hpp"
+#ifdef KNOT_UTM_HAS_ROS
+#include "knot_utm/ros/test_bag.hpp"
+#endif
+
+namespace knot_utm {
+namespace {
+
+enum ExitCode { kEnded = 0, kGaveUp = 1, kWrongInput = 2 };
+
+volatile std::sig_atomic_t stop_asked = 0;
+
+void ask_to_stop(int /*signal*/) { stop_asked = 1; }
+
+/// The first Ctrl-C stops the test as the operator does, the second one the program.
+void listen_for_stop() {
+  struct sigaction action {};
+  action.sa_handler = ask_to_stop;
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+class WallClock {
+ public:
+  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+
+ private:
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+};
+
+/// One line that is written over a few times a second, on a terminal only.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet) : on_(!quiet && isatty(STDERR_FILENO) != 0) {}
+  ~ProgressLine() {
+    if (shown_) std::fputc('\n', stderr);
+  }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void show(const Sample& sample, const TestProgram& program, double wall_time) {
+    if (!on_ || wall_time < next_) return;
+    next_ = wall_time + 0.2;
+    shown_ = true;
+    const double factor = sample.time / wall_time;
+    const double left = factor > 0.0 ? program.time_left() / factor : 0.0;
+    std::fprintf(stderr, "\r%-8s %5.1f %%  s %8.2f mm  F %10.4g N  %6.1f x real time  %5.0f s left ",
+                 phase_name(sample.phase), 100.0 * program.progress(), 1e3 * sample.extension, sample.load, factor,
+                 left);
+    std::fflush(stderr);
+  }
+
+ private:
+  bool on_;
+  bool shown_ = false;
+  double next_ = 0.0;  ///< [s]
+};
+
+struct Arguments {
+  std::string method;
+  std::vector<std::string> overrides;
+  std::string out;
+  bool quiet = false;
+};
+
+int run(const Arguments& arguments) {
+  const Method method = load_method(arguments.method, arguments.overrides);
+  TestBench bench(method.specimen, method.material, method.machine, method.physics);
+  TestProgram::Limits limits;
+  limits.load = method.machine.load_cell.capacity;
+  limits.travel = method.machine.travel;
+  TestProgram program(method.program, method.machine.load_cell.sampling_rate, bench.longest_step(), limits);
+
+  const std::string out = arguments.out.empty() ? "out/" + method.name : arguments.out;
+  RunWriter writer(out, method);
+#ifdef KNOT_UTM_HAS_ROS
+  TestBag bag(out + "/test.bag", method);
+#endif
+  const WallClock clock;
+  {
+    ProgressLine progress(arguments.quiet);
+    run_test(bench, program, [&](const Command& command, const Sample& sample) {
+      writer.add(sample, command.read_cell, bench.substeps());
+#ifdef KNOT_UTM_HAS_ROS
+      bag.add(command, sample, bench);
+#endif
+      if (stop_asked != 0) program.stop();
+      progress.show(sample, program, clock.seconds());
+    });
+  }
+#ifdef KNOT_UTM_HAS_ROS
+  bag.close();
+#endif
+  RunFacts facts = writer.facts();
+  facts.ended_by = program.ended_by();
+  facts.reason = program.reason();
+  facts.wall_time = clock.seconds();
+  writer.finish(Results(), facts, bench.state().position);
+
+  const bool gave_up = program.ended_by() == EndedBy::kSolver;
+  if (gave_up) {
+    std::fprintf(stderr, "tensile_test: the physics gave up: %s; what was measured is in %s\n",
+                 program.reason().c_str(), out.c_str());
+  } else if (!arguments.quiet) {
+    std::printf("ended by %s after %.1f s, %.1f times real time; written to %s\n", ended_by_name(program.ended_by()),
+                facts.simulated_time, facts.real_time_factor(), out.c_str());
+  }
+  return gave_up ? kGaveUp : kEnded;
+}
+
+}  // namespace
+}  // namespace knot_utm
+
+int main(int argc, char** argv) {
+  knot_utm::Arguments arguments;
+  CLI::App app("Runs one whole test of a method, as fast as it goes.");
+  app.set_version_flag("--version", knot_utm::version());
+  app.add_option("METHOD", arguments.method, "the method, a YAML file")->required();
+  // One value each, so that --set may stand before METHOD too.
+  app.add_option("--set", arguments.overrides, "dotted.key=YAML, over what the method says; may be repeated")
+      ->allow_extra_args(false);
+  app.add_option("--out", arguments.out, "the folder to write to; out/ and the method's name unless given");
+  app.add_flag("--quiet", arguments.quiet, "say nothing but what went wrong");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "tensile_test: %s\n", error.what());
+    return knot_utm::kWrongInput;
+  }
+
+  knot_utm::listen_for_stop();
+  try {
+    return knot_utm::run(arguments);
+  } catch (const knot_utm::InvalidInput& invalid) {
+    const bool of_method = invalid.key.rfind("--", 0) != 0;
+    std::fprintf(stderr, "tensile_test: %s\n", (of_method ? invalid.in_file(arguments.method) : invalid).what());
+    return knot_utm::kWrongInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "tensile_test: %s\n", error.what());
+    return knot_utm::kGaveUp;
+  }
+}

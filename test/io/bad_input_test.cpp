@@ -1,0 +1,194 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "knot_utm/io/method.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string kTighten = std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml";
+
+/// An override of tighten.yaml that must not pass, and what the one line must name: key, value and what is allowed.
+struct Wrong {
+  const char* set;
+  const char* key;
+  const char* value;
+  const char* allowed;
+};
+
+const std::vector<Wrong>& wrong_overrides() {
+  static const std::vector<Wrong> kTable{
+      // Keys
+      {"specimen.nots=3", "specimen.nots", "3", "the keys here are knot, handedness"},
+      {"speciment.knot=overhand", "speciment", "{knot: overhand}", "specimen, material, machine, program, physics"},
+      {"physics.friction.mu=0.3", "physics.friction.mu", "0.3", "law, slip_tolerance, presliding"},
+      {"material.colour=red", "material.colour", "red", "radius, density"},
+      {"machine.load_cell.range=20", "machine.load_cell.range", "20", "capacity, sampling_rate"},
+      {"program.pull.until.strain=0.1", "program.4.pull.until.strain", "0.1", "extension, load, time, break"},
+      {"program.0.tie.force=3", "program.0.tie.force", "3", "speed"},
+      {"program.balance={now: true}", "program.3.balance.now", "true", "takes no keys"},
+      {"specimen.preload.value=3", "specimen.preload.value", "3", "preload has no keys"},
+      {"program.9.pull.speed=1", "program.9.pull.speed", "1", "from 0 to 4"},
+      {"nonsense", "--set", "nonsense", "key=value"},
+      {"=3", "--set", "=3", "key=value"},
+      {"specimen.turns=[1", "specimen.turns", "[1", "a YAML value"},
+      {"specimen={turns: 1, turns: 2}", "specimen.turns", "2", "stands twice"},
+      // Types
+      {"specimen=3", "specimen", "3", "a map"},
+      {"specimen.turns=one", "specimen.turns", "one", "a whole number from 1 to 4"},
+      {"specimen.turns=1.5", "specimen.turns", "1.5", "a whole number from 1 to 4"},
+      {"specimen.closed=maybe", "specimen.closed", "maybe", "true or false"},
+      {"specimen.file=[a, b]", "specimen.file", "[a, b]", "a text"},
+      {"physics.gravity=9.81", "physics.gravity", "9.81", "[x, y, z]"},
+      {"physics.gravity=[0, 0]", "physics.gravity", "[0, 0]", "[x, y, z]"},
+      {"program={}", "program", "{}", "a list of steps"},
+      {"program=[]", "program", "[]", "a list of steps"},
+      {"program=[pull]", "program.0", "pull", "each {name: {...}}"},
+      {"material=", "material", "nothing", "a map, or the name of a file"},
+      {"material=[nylon]", "material", "[nylon]", "a map"},
+      // Values, among them those of a wrong unit
+      {"specimen.knot=granny", "specimen.knot", "granny", "fisherman, overhand, straight or file"},
+      {"specimen.turns=5", "specimen.turns", "5", "1 to 4"},
+      {"specimen.end_to_end=250", "specimen.end_to_end", "250", "m"},
+      {"specimen.end_to_end=250 mm", "specimen.end_to_end", "250 mm", "m"},
+      {"specimen.end_to_end=0,25", "specimen.end_to_end", "0,25", "m"},
+      {"specimen.end_to_end=.nan", "specimen.end_to_end", ".nan", "m"},
+      {"specimen.preload=-1", "specimen.preload", "-1", "auto, or a number from"},
+      {"specimen.preload=much", "specimen.preload", "much", "auto, or a number from"},
+      {"specimen.edge_length=0", "specimen.edge_length", "0", "m"},
+      {"material=rubber", "material", "rubber", "green_vps, nylon, pink_vps, polypropylene"},
+      {"material.radius=3.175", "material.radius", "3.175", "0.05 m"},
+      {"material.density=-1", "material.density", "-1", "kg/m3"},
+      {"material.friction_coefficient=46", "material.friction_coefficient", "46", "0 to 5"},
+      {"material={radius: 0.003}", "material.density", "nothing", "kg/m3"},
+      {"machine.grips=hooks", "machine.grips", "hooks", "rollers, nodes or clamps"},
+      {"machine.stiffness=-5", "machine.stiffness", "-5", ".inf N/m"},
+      {"machine.load_cell=1MN", "machine.load_cell", "1MN", "20N, 50kN"},
+      {"machine.load_cell={capacity: 0}", "machine.load_cell.capacity", "0", "N"},
+      {"machine.load_cell.sampling_rate=0", "machine.load_cell.sampling_rate", "0", "Hz"},
+      {"machine.load_cell.seed=-1", "machine.load_cell.seed", "-1", "a whole number"},
+      {"program=[{push: {}}]", "program.0", "push", "tie, release, mount, preload, balance, pull or hold"},
+      {"program.pull.speed=3.3", "program.4.pull.speed", "3.3", "0.5 m/s"},
+      {"program.pull.until.break=yes", "program.4.pull.until.break", "yes", "true or false"},
+      {"program=[{hold: {}}]", "program.0.hold.duration", "nothing", "s"},
+      {"physics.friction.law=coulomb", "physics.friction.law", "coulomb", "memory or smoothed"},
+      {"physics.contact.law=soft", "physics.contact.law", "soft", "smooth or edge"},
+      {"physics.contact.tolerance=5", "physics.contact.tolerance", "5", "of the radius"},
+      {"physics.twist=true", "physics.twist", "true", "auto, on or off"},
+      {"physics.accuracy=best", "physics.accuracy", "best", "draft, normal or fine"},
+      {"physics.max_step=0", "physics.max_step", "0", "s"},
+      {"physics.residual=1", "physics.residual", "1", "of k_b/h2"},
+      // Values that do not go together
+      {"specimen.edge_length=0.0064", "specimen.edge_length", "0.0064", "twice the radius"},
+      {"specimen.knot_distance=0.24", "specimen.end_to_end", "0.25", "knot_distance and 12 radii"},
+      {"specimen.knot_distance=0.02", "specimen.knot_distance", "0.02", "12 radii"},
+      {"specimen.knot=overhand", "machine.grips", "rollers", "nothing but a loop"},
+      {"specimen.knot=file", "specimen.file", "\"\"", "a CSV file"},
+      {"specimen={knot: file, file: nowhere.csv}", "specimen.file", "nowhere.csv", "a CSV file"},
+      {"machine.load_cell.resolution=60000", "machine.load_cell.resolution", "60000", "less than capacity"},
+      {"program=[{pull: {}}]", "program.0.pull.until", "nothing", "extension, load, time and break"},
+      {"program=[{pull: {until: {break: false}}}]", "program.0.pull.until", "nothing", "one or more of"},
+      {"program=[{hold: {duration: 1}}, {tie: {}}]", "program.1", "tie", "the first step only"},
+      {"program=[{release: {}}]", "program.0", "release", "right after tie"},
+      {"program=[{tie: {}}, {mount: {}}]", "program.1", "mount", "release"},
+      {"program.pull.until.load=60000", "program.4.pull.until.load", "60000", "capacity, 50000 N"},
+  };
+  return kTable;
+}
+
+std::string complaint(const std::string& file, const std::vector<std::string>& overrides = {}) {
+  try {
+    load_method(file, overrides);
+  } catch (const InvalidInput& invalid) {
+    return invalid.what();
+  }
+  return "nothing was wrong";
+}
+
+TEST(BadInput, IsNamedOnOneLineWithFileKeyValueAndWhatIsAllowed) {
+  for (const Wrong& wrong : wrong_overrides()) {
+    EXPECT_THAT(complaint(kTighten, {wrong.set}),
+                AllOf(HasSubstr("tighten.yaml: "), HasSubstr(std::string(wrong.key) + ": "), HasSubstr(wrong.value),
+                      HasSubstr(std::string(" is not allowed: ")), HasSubstr(wrong.allowed), Not(HasSubstr("\n"))))
+        << wrong.set;
+  }
+}
+
+class BadFile : public ::testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_ / "materials"); }
+  void TearDown() override { fs::remove_all(folder_); }
+  std::string write(const char* name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return (folder_ / name).string();
+  }
+  fs::path folder_ = fs::path(::testing::TempDir()) /
+                     (std::string("knot_utm_bad_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(BadFile, MissingEmptyBrokenOrNoMap) {
+  EXPECT_THAT(complaint("/nowhere/method.yaml"), HasSubstr("/nowhere/method.yaml is not allowed: a YAML file"));
+  EXPECT_THAT(complaint(folder_.string()), HasSubstr("a YAML file that can be read"));
+  EXPECT_THAT(complaint(write("empty.yaml", "")), HasSubstr("empty.yaml: the file: nothing"));
+  EXPECT_THAT(complaint(write("list.yaml", "[1, 2]")), HasSubstr("list.yaml: the file: [1, 2]"));
+  EXPECT_THAT(complaint(write("broken.yaml", "specimen:\n  knot: [\nmaterial: x")),
+              AllOf(HasSubstr("broken.yaml: line "), HasSubstr("well-formed YAML"), Not(HasSubstr("\n"))));
+  EXPECT_THAT(complaint(write("binary.yaml", std::string("\x00\x01\xff\xfe: {", 7))), HasSubstr("binary.yaml: "));
+}
+
+TEST_F(BadFile, AWrongMaterialFileIsNamedItself) {
+  write("materials/odd.yaml", "radius: 3.175");
+  const std::string text = complaint(write("method.yaml", "material: odd\nprogram: [{hold: {duration: 1}}]"));
+  EXPECT_THAT(text, AllOf(HasSubstr("odd.yaml: radius: 3.175"), HasSubstr("0.05 m")));
+}
+
+TEST_F(BadFile, ACentrelineThatIsNone) {
+  write("shape.csv", "x,y,z\n0,0,0\n0,0\n");
+  const std::string text = complaint(
+      write("method.yaml",
+            "specimen: {knot: file, file: shape.csv}\nmaterial: nylon\nmachine: {grips: clamps}\nprogram: [{hold: "
+            "{duration: 1}}]"));
+  EXPECT_THAT(text, AllOf(HasSubstr("specimen.file"), HasSubstr("row 3"), HasSubstr("three finite numbers")));
+}
+
+/// The command itself, where it has been built: exit code 2, one line, nothing written.
+TEST_F(BadFile, TheCommandSaysItInOneLineAndWritesNothing) {
+  const fs::path command = fs::path(KNOT_UTM_TOOLS_DIR) / "tensile_test";
+  if (!fs::exists(command)) GTEST_SKIP() << command << " is not built";
+  const fs::path out = folder_ / "out";
+  std::vector<std::string> lines;
+  for (const Wrong& wrong : wrong_overrides()) {
+    lines.push_back("'" + kTighten + "' --set '" + wrong.set + "'");
+  }
+  lines.push_back("/nowhere/method.yaml");
+  lines.push_back("");
+  lines.push_back("'" + kTighten + "' --no-such-option");
+  for (const std::string& line : lines) {
+    const std::string call = "'" + command.string() + "' " + line + " --out '" + out.string() + "' 2>&1";
+    FILE* pipe = popen(call.c_str(), "r");
+    ASSERT_NE(pipe, nullptr);
+    std::string said;
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) said += static_cast<char>(c);
+    const int status = pclose(pipe);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 2) << line;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << line << "\n" << said;
+    EXPECT_FALSE(fs::exists(out)) << line;
+  }
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,98 @@
+#include "knot_utm/io/csv.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/specimen/centreline_file.hpp"
+
+namespace knot_utm {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Csv : public ::testing::Test {
+ protected:
+  std::string text() const {
+    std::ostringstream all;
+    all << std::ifstream(path_).rdbuf();
+    return all.str();
+  }
+  std::string complaint(const std::string& content) {
+    std::ofstream(path_) << content;
+    try {
+      read_curve(path_);
+    } catch (const InvalidInput& invalid) {
+      return invalid.what();
+    }
+    return "";
+  }
+  void TearDown() override { std::remove(path_.c_str()); }
+  std::string path_ =
+      ::testing::TempDir() + "knot_utm_csv_" + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
+};
+
+TEST_F(Csv, CurveIsExactlyAsPromised) {
+  CurveWriter writer(path_);
+  Sample sample;
+  sample.time = 1.0 / 3.0;
+  sample.extension = 0.01;
+  sample.load = 2.5;
+  sample.end_to_end = 0.26;
+  sample.force_lower = 2.0;
+  sample.phase = Phase::kPull;
+  writer.write(sample);
+  // Read while the writer is still open: a killed run keeps its rows.
+  EXPECT_EQ(text(),
+            "time,extension,load,knot_distance,end_to_end,load_lower,phase\n"
+            "s,m,N,m,m,N,-\n"
+            "0.3333333333333333,0.01,2.5,nan,0.26,2,pull\n");
+  EXPECT_EQ(writer.rows(), 1u);
+}
+
+TEST_F(Csv, CurveReadsBackToTheSameBits) {
+  CurveWriter writer(path_);
+  CurveRow row;
+  row.time = 1.0 / 7.0;
+  row.load = -1e-17;
+  row.phase = Phase::kTie;
+  writer.write(row);
+  row.knot_distance = 0.15000000000000002;
+  row.phase = Phase::kHold;
+  writer.write(row);
+  const std::vector<CurveRow> rows = read_curve(path_);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].time, 1.0 / 7.0);
+  EXPECT_EQ(rows[0].load, -1e-17);
+  EXPECT_TRUE(std::isnan(rows[0].knot_distance));
+  EXPECT_EQ(rows[0].phase, Phase::kTie);
+  EXPECT_EQ(rows[1].knot_distance, 0.15000000000000002);
+  EXPECT_EQ(rows[1].phase, Phase::kHold);
+}
+
+TEST_F(Csv, WrongCurvesAreNamed) {
+  EXPECT_THAT(complaint(""), HasSubstr("can be read"));
+  EXPECT_THAT(complaint("time,load\ns,N\n"), HasSubstr("no column extension"));
+  const std::string names = "time,extension,load,knot_distance,end_to_end,load_lower,phase\n";
+  EXPECT_THAT(complaint(names + "s,mm,N,m,m,N,-\n"), HasSubstr("unit of extension: mm"));
+  const std::string head = names + "s,m,N,m,m,N,-\n";
+  EXPECT_THAT(complaint(head + "0,0,0,0,0,0,pull\n0,0,0\n"), HasSubstr("row 4: 3 columns"));
+  EXPECT_THAT(complaint(head + "0,0,x,0,0,0,pull\n"), HasSubstr("row 3: load: x"));
+  EXPECT_THAT(complaint(head + "0,0,0,0,0,0,push\n"), HasSubstr("row 3: phase: push"));
+}
+
+TEST_F(Csv, FinalShapeIsACentrelineFile) {
+  Points points = Points::Random(3, 10);
+  write_centreline(path_, points);
+  EXPECT_THAT(text(), HasSubstr("x,y,z\nm,m,m\n"));
+  EXPECT_EQ(read_centreline(path_), points);
+}
+
+TEST_F(Csv, AFolderThatIsNotThere) { EXPECT_THROW(CurveWriter("/nowhere/curve.csv"), std::runtime_error); }
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,180 @@
+#include "knot_utm/io/run_writer.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "knot_utm/machine/run_test.hpp"
+#include "machine/fake_bench.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
+
+std::string text_of(const fs::path& file) {
+  std::ostringstream all;
+  all << std::ifstream(file).rdbuf();
+  return all.str();
+}
+
+class RunFolder : public ::testing::Test {
+ protected:
+  void SetUp() override { fs::remove_all(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// A whole run of the method with a spring for a knot.
+  RunFacts run(const Method& method, FakeBench bench = {}) {
+    TestProgram program(method.program, method.machine.load_cell.sampling_rate, 0.1, {});
+    RunWriter writer(folder_.string(), method);
+    run_test(bench, program, [&](const Command& command, const Sample& sample) {
+      writer.add(sample, command.read_cell, bench.substeps);
+    });
+    RunFacts facts = writer.facts();
+    facts.ended_by = program.ended_by();
+    facts.reason = program.reason();
+    facts.wall_time = 0.5;
+    writer.finish(Results(), facts, Points::Zero(3, 4));
+    return facts;
+  }
+
+  fs::path folder_ = fs::path(::testing::TempDir()) /
+                     (std::string("knot_utm_run_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
+};
+
+TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
+  run(load_method(kConfig + "tighten.yaml"));
+  for (const char* file : {"curve.csv", "curve_full.csv", "result.yaml", "method.yaml", "final_shape.csv"}) {
+    EXPECT_TRUE(fs::is_regular_file(folder_ / file)) << file;
+  }
+  const YAML::Node result = YAML::LoadFile((folder_ / "result.yaml").string());
+  for (const char* key : {"motion_pattern",
+                          "motion_pattern_confidence",
+                          "ended_by",
+                          "plateau_force",
+                          "plateau_force_sd",
+                          "lock_extension",
+                          "locked_stiffness",
+                          "peak_force",
+                          "break_extension",
+                          "untangled_at",
+                          "knot_type_preserved",
+                          "max_penetration",
+                          "force_balance_error",
+                          "energy_balance_error",
+                          "steps",
+                          "rejected_steps",
+                          "newton_iterations",
+                          "simulated_time",
+                          "wall_time",
+                          "real_time_factor",
+                          "peak_memory",
+                          "seed",
+                          "version",
+                          "excess_length",
+                          "preload",
+                          "warnings",
+                          "reason",
+                          "not_equilibrated",
+                          "tied_knot_distance"}) {
+    EXPECT_TRUE(result[key].IsDefined()) << key;
+  }
+  EXPECT_EQ(result["ended_by"].as<std::string>(), "extension");
+  EXPECT_EQ(result["preload"].as<double>(), 70.0);
+  EXPECT_TRUE(result["lock_extension"].IsNull());
+  EXPECT_GT(result["peak_memory"].as<double>(), 1e5);
+  EXPECT_DOUBLE_EQ(result["real_time_factor"].as<double>(), result["simulated_time"].as<double>() / 0.5);
+}
+
+TEST_F(RunFolder, CurveHasTheSamplingInstantsAndTheFullCurveEveryStep) {
+  run(load_method(kConfig + "tighten.yaml"));
+  const std::vector<CurveRow> curve = read_curve((folder_ / "curve.csv").string());
+  for (std::size_t i = 0; i < curve.size(); ++i) EXPECT_EQ(curve[i].time, static_cast<double>(i * 4) / 12.0);
+  const std::vector<CurveRow> full = read_curve((folder_ / "curve_full.csv").string());
+  EXPECT_GE(full.size(), 8 * (curve.size() - 1) + 1);
+  for (std::size_t i = 1; i < full.size(); ++i) EXPECT_GT(full[i].time, full[i - 1].time);
+}
+
+TEST_F(RunFolder, ItsMethodRunsAgainToTheSameBytes) {
+  run(load_method(kConfig + "from_file.yaml"));
+  const std::string curve = text_of(folder_ / "curve.csv");
+  const std::string method = text_of(folder_ / "method.yaml");
+  EXPECT_THAT(method, HasSubstr("file: specimen.csv"));
+  run(load_method((folder_ / "method.yaml").string()));
+  EXPECT_EQ(text_of(folder_ / "curve.csv"), curve);
+  EXPECT_EQ(text_of(folder_ / "method.yaml"), method);
+}
+
+TEST_F(RunFolder, ARunThatGaveUpKeepsWhatItHadAndTheReason) {
+  FakeBench bench;
+  bench.fail_time = 8.0;
+  run(load_method(kConfig + "tighten.yaml"), bench);
+  const YAML::Node result = YAML::LoadFile((folder_ / "result.yaml").string());
+  EXPECT_EQ(result["ended_by"].as<std::string>(), "solver");
+  EXPECT_THAT(result["reason"].as<std::string>(), HasSubstr("converged"));
+  EXPECT_GT(read_curve((folder_ / "curve.csv").string()).size(), 20u);
+}
+
+TEST_F(RunFolder, AnUnfinishedRunHasNoResultOfAnEarlierOne) {
+  const Method method = load_method(kConfig + "straight.yaml");
+  run(method);
+  EXPECT_TRUE(fs::exists(folder_ / "result.yaml"));
+  RunWriter writer(folder_.string(), method);
+  EXPECT_FALSE(fs::exists(folder_ / "result.yaml"));
+  EXPECT_FALSE(fs::exists(folder_ / "final_shape.csv"));
+}
+
+TEST_F(RunFolder, AFileWhereTheFolderShouldBe) {
+  std::ofstream(folder_.string()) << "x";
+  EXPECT_THROW(RunWriter(folder_.string(), load_method(kConfig + "straight.yaml")), InvalidInput);
+}
+
+TEST(ResultYaml, TextsAreQuotedOnOneLine) {
+  RunFacts facts;
+  facts.reason = "a \"quoted\"\nreason: with # signs";
+  facts.warnings = {"one", "two, three"};
+  const YAML::Node result = YAML::Load(result_yaml(Results(), facts));
+  EXPECT_EQ(result["reason"].as<std::string>(), "a \"quoted\" reason: with # signs");
+  EXPECT_EQ(result["warnings"][1].as<std::string>(), "two, three");
+}
+
+TEST(RunMonitor, BalancesAndTheTiedState) {
+  RunMonitor monitor;
+  Sample sample;
+  monitor.add(sample);
+  sample.phase = Phase::kRelease;
+  sample.knot_distance = 0.15;
+  sample.excess_length[0] = 0.05;
+  sample.excess_length[1] = 0.06;
+  sample.max_penetration = 0.03;
+  monitor.add(sample);
+  sample.phase = Phase::kPull;
+  sample.knot_distance = 0.1;
+  sample.max_penetration = 0.01;
+  sample.force_upper = 10.0;
+  sample.force_lower = 9.95;
+  sample.grip_work = 2.0;
+  sample.dissipation = 1.5;
+  sample.stretching_energy = 0.49;
+  sample.time = 3.0;
+  monitor.add(sample);
+  RunFacts facts;
+  monitor.report(facts);
+  EXPECT_EQ(facts.tied_knot_distance, 0.15);
+  EXPECT_EQ(facts.tied_excess_length[1], 0.06);
+  EXPECT_EQ(facts.max_penetration, 0.03);
+  EXPECT_NEAR(facts.force_balance_error, 0.005, 1e-12);
+  EXPECT_NEAR(facts.energy_balance_error, 0.005, 1e-12);
+  EXPECT_EQ(facts.simulated_time, 3.0);
+}
+
+}  // namespace
+}  // namespace knot_utm

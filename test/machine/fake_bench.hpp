@@ -1,0 +1,73 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "knot_utm/machine/sample.hpp"
+
+namespace knot_utm {
+
+/// A spring on the machine in place of a knot: answers commands at once, with two substeps each.
+struct FakeBench {
+  double stiffness = 1000.0;  ///< [N/m]
+  double tie_time = 0.5;      ///< [s] until tie and mount are done
+  double break_force = std::numeric_limits<double>::infinity();
+  double fail_time = std::numeric_limits<double>::infinity();  ///< [s] when the physics gives up
+  bool comes_to_rest = true;
+
+  Sample respond(const Command& command) {
+    if (command.step != step_) {
+      step_ = command.step;
+      step_begin_ = last_.time;
+    }
+    if (command.balance) {
+      balanced_displacement_ = last_.displacement;
+      balanced_force_ = stiffness * last_.displacement;
+    }
+    Sample sample;
+    const double begin = last_.time;
+    const double from = last_.displacement;
+    substeps.clear();
+    for (const double share : {0.5, 1.0}) {
+      sample.sequence = command.sequence;
+      sample.phase = command.phase;
+      sample.time = begin + share * (command.time - begin);
+      if (share == 1.0) sample.time = command.time;
+      sample.displacement = from + share * (command.displacement - from);
+      sample.extension = sample.displacement - balanced_displacement_;
+      sample.end_to_end = 0.25 + sample.displacement;
+      sample.force_upper = sample.force_lower = stiffness * sample.displacement;
+      sample.load = sample.force_upper - balanced_force_;
+      sample.steps = ++steps_;
+      substeps.push_back(sample);
+      if (command.sequence == 0) break;
+    }
+    const double in_step = sample.time - step_begin_;
+    const bool still = command.phase == Phase::kTie || command.phase == Phase::kRelease;
+    if (sample.time >= fail_time) {
+      sample.status = BenchStatus::kFailed;
+      sample.message = "no step of 1e-06 s or more converged";
+    } else if (sample.force_upper > break_force) {
+      sample.status = BenchStatus::kBroken;
+    } else if ((still || command.phase == Phase::kMount) &&
+               in_step >= (command.phase == Phase::kRelease ? command.duration : tie_time) - 1e-9) {
+      sample.status = !comes_to_rest && still ? BenchStatus::kNotEquilibrated : BenchStatus::kPhaseDone;
+    }
+    substeps.back() = sample;
+    last_ = sample;
+    return sample;
+  }
+
+  std::vector<Sample> substeps;
+
+ private:
+  Sample last_;
+  int step_ = -1;
+  double step_begin_ = 0.0;
+  double balanced_displacement_ = 0.0;
+  double balanced_force_ = 0.0;
+  std::uint64_t steps_ = 0;
+};
+
+}  // namespace knot_utm
