@@ -37,7 +37,8 @@ class RunWriter {
 
   RunFacts facts() const;  ///< what the method and the samples so far say
 
-  std::size_t rows() const { return curve_.rows(); }  ///< of curve.csv
+  std::size_t rows() const { return curve_.rows(); }            ///< of curve.csv
+  std::size_t full_rows() const { return full_curve_.rows(); }  ///< of curve_full.csv
 
  private:
   std::string folder_;

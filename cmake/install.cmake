@@ -1,0 +1,11 @@
+# Executables are installed where they are made (knot_utm_executable).
+set(libraries knot_utm_core)
+if(catkin_FOUND)
+  list(APPEND libraries knot_utm_ros)
+  install(DIRECTORY launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} FILES_MATCHING PATTERN "*.launch")
+endif()
+install(TARGETS ${libraries}
+        ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+        LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+install(DIRECTORY include/knot_utm DESTINATION include FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY config DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
