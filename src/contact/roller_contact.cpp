@@ -18,11 +18,23 @@ std::size_t memory_index(Eigen::Index nodes, std::size_t roller, int segment, in
 RollerContact::RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction)
     : normal_(normal), friction_(friction), radius_(rod.material.radius), voronoi_(rod.voronoi_length) {}
 
+std::size_t RollerContact::index_of(const ContactPoint& contact) const {
+  return memory_index(voronoi_.size(), static_cast<std::size_t>(contact.arclength_b), contact.a0 + 1,
+                      contact.c[0] > contact.c[2] ? 0 : 1);
+}
+
+void RollerContact::begin_step() {
+  contacts_.clear();
+  estimate_ = committed_estimate_;
+}
+
 void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& position, const Points& start,
                              double dt) {
+  for (const ContactPoint& contact : contacts_) estimate_[index_of(contact)] = contact.estimate;
   contacts_.clear();
   if (start_.size() != rollers.size()) {
     start_ = rollers;
+    estimate_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), -1.0);
     memory_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), Vec3::Zero());
   }
   const int last = static_cast<int>(position.cols()) - 2;
@@ -40,7 +52,8 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
         contact.x -= roller.axis * roller.axis.dot(contact.x);
         contact.d = contact.x.norm();
         contact.overlap = roller.radius + radius_ - contact.d;
-        if (contact.overlap <= 0.0) continue;
+        contact.estimate = estimate_[memory_index(position.cols(), r, segment, point)];
+        if (!contact.active()) continue;
         contact.a0 = segment - 1;
         contact.arclength_b = static_cast<double>(r);
         contact.axis = roller.axis;
@@ -69,13 +82,12 @@ Vec3 RollerContact::force_on(int roller) const {
 
 void RollerContact::commit(const std::vector<Roller>& rollers) {
   start_ = rollers;
+  std::fill(estimate_.begin(), estimate_.end(), -1.0);
+  for (const ContactPoint& contact : contacts_) estimate_[index_of(contact)] = contact.pressure;
+  committed_estimate_ = estimate_;
   if (!friction_.on() || !friction_.remembers()) return;
   std::fill(memory_.begin(), memory_.end(), Vec3::Zero());
-  for (const ContactPoint& contact : contacts_) {
-    const int point = contact.c[0] > contact.c[2] ? 0 : 1;
-    memory_[memory_index(voronoi_.size(), static_cast<std::size_t>(contact.arclength_b), contact.a0 + 1, point)] =
-        friction_.presliding * contact.z;
-  }
+  for (const ContactPoint& contact : contacts_) memory_[index_of(contact)] = friction_.presliding * contact.z;
 }
 
 }  // namespace knot_utm

@@ -18,28 +18,29 @@ double arclength_at(const Eigen::VectorXd& arclength, int segment, double u) {
   return begin + u * (end - begin);
 }
 
-/// The minimum of |a - c(u)| on a segment, given F'(u) = -(a - c).c' at u = 0 and 1 of opposite sign: Newton, kept
+/// The root of the cubic c0 + c1 u + c2 u^2 + c3 u^3 in [0, 1], negative at 0 and not so at 1: Newton's method, kept
 /// inside the bracket.
-double nearest_parameter(const Points& nodes, int segment, const Vec3& a, double slope_begin, double slope_end) {
+double bracketed_root(double c0, double c1, double c2, double c3) {
   double low = 0.0, high = 1.0;
-  double u = slope_begin / (slope_begin - slope_end);
-  const Vec3 second = second_difference(nodes, segment);
-  const double tolerance = 1e-15 * (slope_end - slope_begin);
-  for (int i = 0; i < 30; ++i) {
-    const SegmentWeights w(u);
-    const Vec3 x = a - combine(w.value, nodes, segment);
-    const Vec3 derivative = combine(w.derivative, nodes, segment);
-    const double slope = -x.dot(derivative);
-    if (std::abs(slope) <= tolerance) break;
-    (slope < 0.0 ? low : high) = u;
-    const double curvature = derivative.squaredNorm() - x.dot(second);
-    double next = curvature > 0.0 ? u - slope / curvature : 0.5 * (low + high);
+  const double at_one = c0 + c1 + c2 + c3;
+  double u = c0 / (c0 - at_one);
+  const double tolerance = 1e-15 * (at_one - c0);
+  for (int i = 0; i < 40; ++i) {
+    const double value = c0 + u * (c1 + u * (c2 + u * c3));
+    if (std::abs(value) <= tolerance) break;
+    (value < 0.0 ? low : high) = u;
+    const double derivative = c1 + u * (2.0 * c2 + u * 3.0 * c3);
+    double next = derivative > 0.0 ? u - value / derivative : 0.5 * (low + high);
     if (!(next > low && next < high)) next = 0.5 * (low + high);
-    const double change = std::abs(next - u);
+    if (next == u) break;
     u = next;
-    if (change < 1e-15) break;
   }
   return u;
+}
+
+/// Number of the point of integration that a contact stands on.
+std::size_t point_of(const ContactPoint& contact) {
+  return 2 * static_cast<std::size_t>(contact.a0 + 1) + (contact.c[0] > contact.c[2] ? 0u : 1u);
 }
 
 }  // namespace
@@ -49,7 +50,7 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
     : normal_(normal),
       friction_(friction),
       diameter_(2.0 * rod.material.radius),
-      window_(3.0 * rod.material.radius),
+      window_(1.0 * rod.material.radius),
       reach_((2.0 + kReachMargin) * rod.material.radius),
       voronoi_(rod.voronoi_length),
       // Strands closer than a half turn around themselves (pi h) bend, they do not touch.
@@ -60,11 +61,31 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
   for (Eigen::Index i = 1; i < nodes; ++i) arclength_[i] = arclength_[i - 1] + rod.rest_length[i - 1];
   memory_begin_.assign(2 * static_cast<std::size_t>(nodes) + 1, 0);
   next_begin_ = memory_begin_;
+  estimate_begin_ = memory_begin_;
   edge_middle_.resize(3, nodes - 1);
   edge_.resize(3, nodes - 1);
 }
 
+void SmoothContact::begin_step() {
+  contacts_.clear();
+  estimate_.clear();
+  for (const Memory& memory : memory_) estimate_.push_back({memory.arclength_b, memory.pressure});
+  estimate_begin_ = memory_begin_;
+  first_evaluation_ = true;
+}
+
 void SmoothContact::evaluate(const Points& position, const Points& start, double dt) {
+  if (!first_evaluation_) {
+    estimate_.clear();
+    std::size_t q_done = 0;
+    for (const ContactPoint& contact : contacts_) {
+      const std::size_t q = point_of(contact);
+      while (q_done <= q) estimate_begin_[q_done++] = static_cast<int>(estimate_.size());
+      estimate_.push_back({contact.arclength_b, contact.estimate});
+    }
+    while (q_done < estimate_begin_.size()) estimate_begin_[q_done++] = static_cast<int>(estimate_.size());
+  }
+  first_evaluation_ = false;
   contacts_.clear();
   friction_scale_ = friction_.scale(dt);
   const Eigen::Index edges = position.cols() - 1;
@@ -85,10 +106,15 @@ void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run
   for (int foot = run.first; foot <= run.last; ++foot) {
     const double slope_end = -(a - edge_middle_.col(foot)).dot(edge_.col(foot));
     if (slope_begin < 0.0 && slope_end >= 0.0) {
-      const double limit = reach_ + voronoi_[foot];
-      if ((a - position.col(foot)).squaredNorm() < limit * limit)
-        add_contact(segment, point, foot, nearest_parameter(position, foot, a, slope_begin, slope_end), position,
-                    start);
+      // On the segment c(u) = m + t u + k u^2/2, so F'(u) = -(a - c).c' is a cubic.
+      const Vec3 t = edge_.col(foot - 1), k = edge_.col(foot) - edge_.col(foot - 1);
+      const Vec3 r = a - edge_middle_.col(foot - 1);
+      const double limit = reach_ + 0.5 * voronoi_[foot];
+      const Vec3 halfway = r - 0.5 * t - 0.125 * k;
+      if (halfway.squaredNorm() < limit * limit)
+        add_contact(segment, point, foot,
+                    bracketed_root(slope_begin, t.squaredNorm() - r.dot(k), 1.5 * t.dot(k), 0.5 * k.squaredNorm()),
+                    position, start);
     }
     slope_begin = slope_end;
   }
@@ -126,9 +152,17 @@ void SmoothContact::add_contact(int segment, int point, int foot, double u, cons
     if (!found || std::abs(memory.arclength_b - contact.arclength_b) < std::abs(found->arclength_b - contact.arclength_b))
       found = &memory;
   }
+  double nearest = window_;
+  for (int m = estimate_begin_[q]; m < estimate_begin_[q + 1]; ++m) {
+    const Estimate& estimate = estimate_[static_cast<std::size_t>(m)];
+    const double away = std::abs(estimate.arclength_b - contact.arclength_b);
+    if (away > nearest) continue;
+    nearest = away;
+    contact.estimate = estimate.pressure;
+  }
   contact.weight = 0.5 * voronoi_[segment] * (found ? found->share : share(contact, position));
 
-  if (friction_.on() && contact.overlap > 0.0) {
+  if (friction_.on() && contact.active()) {
     if (found && friction_.remembers()) contact.memory = found->slip;
     contact.slip = contact.memory;
     for (int k = 0; k < 3; ++k) {
@@ -160,11 +194,11 @@ void SmoothContact::commit(const Points& position) {
   next_memory_.clear();
   std::size_t q_done = 0;
   for (const ContactPoint& contact : contacts_) {
-    const std::size_t q = 2 * static_cast<std::size_t>(contact.a0 + 1) + (contact.c[0] > contact.c[2] ? 0u : 1u);
+    const std::size_t q = point_of(contact);
     while (q_done <= q) next_begin_[q_done++] = static_cast<int>(next_memory_.size());
     const bool sticks = friction_.on() && friction_.remembers() && contact.touches();
     next_memory_.push_back(
-        {contact.arclength_b, sticks ? Vec3(friction_.presliding * contact.z) : Vec3::Zero(), share(contact, position)});
+        {contact.arclength_b, sticks ? Vec3(friction_.presliding * contact.z) : Vec3::Zero(), share(contact, position), contact.pressure});
   }
   while (q_done < next_begin_.size()) next_begin_[q_done++] = static_cast<int>(next_memory_.size());
   memory_.swap(next_memory_);

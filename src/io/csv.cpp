@@ -80,7 +80,8 @@ CurveWriter::CurveWriter(const std::string& file) : file_(file) {
 
 void CurveWriter::write(const CurveRow& row) {
   std::string line;
-  for (const Column& column : kColumns) line += format_number(row.*column.value) + ',';
+  // Adding zero turns -0 into 0.
+  for (const Column& column : kColumns) line += format_number(row.*column.value + 0.0) + ',';
   out_ << line << phase_name(row.phase) << '\n' << std::flush;
   if (!out_) throw std::runtime_error(file_ + ": cannot be written");
   ++rows_;

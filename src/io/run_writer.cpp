@@ -40,8 +40,12 @@ std::string make_folder(const std::string& folder, const Method& method) {
     }
     own.specimen.file = "specimen.csv";
   }
-  write_text(fs::path(folder) / "method.yaml",
-             "# Everything resolved: runs again to the same curve.\n" + method_yaml(own));
+  try {
+    write_text(fs::path(folder) / "method.yaml",
+               "# Everything resolved: runs again to the same curve.\n" + method_yaml(own));
+  } catch (const std::runtime_error&) {
+    throw InvalidInput("--out", folder, "a folder that can be written to");
+  }
   return folder;
 }
 
@@ -99,6 +103,7 @@ void RunWriter::add(const Sample& sample, bool read_cell, const std::vector<Samp
     // A bench that has failed answers with the last good step again.
     if (substep.time <= last_step_time_) continue;
     full_curve_.write(substep);
+    monitor_.add(substep);
     last_step_time_ = substep.time;
   }
   if (read_cell && sample.status != BenchStatus::kFailed) curve_.write(sample);
@@ -137,6 +142,7 @@ std::string result_yaml(const Results& r, const RunFacts& f) {
   lines.number("untangled_at", r.untangled_at);
   lines.flag("knot_type_preserved", r.knot_type_preserved);
   lines.number("max_penetration", f.max_penetration);
+  lines.number("fastest_node", f.fastest_node);
   lines.number("force_balance_error", f.force_balance_error);
   lines.number("energy_balance_error", f.energy_balance_error);
   lines.count("steps", f.steps);

@@ -36,7 +36,8 @@ Tolerances tolerances(const PhysicsOptions& physics) {
 
 constexpr double kResidualOfTension = 2e-6;  // of the largest tension, so that kN loads do not ask for more than digits
 constexpr double kSlack = 0.003;             // by which the rollers stand closer than taut, until mounting [m]
-constexpr double kTakeUpLoad = 0.01;         // load at which slack counts as taken up [k_b/h^2]
+constexpr double kTakeUpLoad = 0.1;          // slack is taken up at this load [k_b/h^2] ...
+constexpr double kTakeUpMotion = 0.3;        // ... or once the knots have moved by this much [h]
 
 /// Default contact stiffness: a rod at 10 % strain bent to its own diameter presses in by less than 3 % of its
 /// radius, and so does one whose pressure comes from bending alone.
@@ -59,10 +60,11 @@ StepSettings step_settings(const Material& material, const MachineOptions& machi
   out.drag = physics.drag;
   out.residual = tolerance.residual * material.bending_stiffness / (h * h);
   out.residual_of_tension = kResidualOfTension;
-  out.newton_cap = 0.3 * h;
+  out.newton_cap = 0.1 * h;
   out.motion_limit = 0.8 * h;
   out.overlap_limit = 0.5 * h;
-  out.candidate_margin = 1.0 * h;
+  out.candidate_margin = 0.5 * h;
+  out.max_iterations = 12;
   return out;
 }
 
@@ -114,6 +116,7 @@ struct TestBench::Impl {
 
   double time = 0.0, displacement = 0.0;
   double extension_zero = 0.0;
+  double mount_distance = 0.0;  // of the knots when mounting began [m]
   int step_index = -1;
   Phase phase = Phase::kIdle;
   double work = 0.0, dissipation = 0.0;
@@ -198,6 +201,7 @@ struct TestBench::Impl {
     boundary.fixed_twists.clear();
     boundary.forces.clear();
     boundary.grips.clear();
+    boundary.extra_drag = 0.0;
     for (const FixedNode& node : lower_nodes) boundary.fixed_nodes.push_back(node);
     for (FixedNode node : upper_nodes) {
       node.position[2] += travel;
@@ -232,7 +236,20 @@ struct TestBench::Impl {
     status = BenchStatus::kRunning;
     if (!rig) return;
     if (phase == Phase::kTie) rig->tie(command.speed, time, stepper->state().position);
+    if (phase == Phase::kMount) mount_distance = knot_distance();
     if (phase == Phase::kRelease) rig->release(command.duration, time);
+  }
+
+  bool slack_taken_up() const {
+    const double load = std::min(force_upper(), force_lower());
+    return load >= kTakeUpLoad * material.bending_stiffness / (material.radius * material.radius) ||
+           (rig && std::abs(knot_distance() - mount_distance) > kTakeUpMotion * material.radius);
+  }
+
+  double knot_distance() const {
+    const RodProperties& rod = stepper->rod();
+    const RodState& state = stepper->state();
+    return (rig->knot_middle(0, rod, state) - rig->knot_middle(1, rod, state)).norm();
   }
 
   void judge_phase() {
@@ -250,8 +267,7 @@ struct TestBench::Impl {
         done = !rig || rig->released();
         break;
       case Phase::kMount:
-        done = !on_rollers() || std::min(force_upper(), force_lower()) >= kTakeUpLoad * material.bending_stiffness /
-                                                                               (material.radius * material.radius);
+        done = !on_rollers() || slack_taken_up();
         break;
       default:
         break;
@@ -282,7 +298,7 @@ struct TestBench::Impl {
         s.tail_force[k] = rig->tail_force(k);
         s.excess_length[k] = rig->excess_length(k, rod, state);
       }
-      s.knot_distance = (rig->knot_middle(0, rod, state) - rig->knot_middle(1, rod, state)).norm();
+      s.knot_distance = knot_distance();
     }
     const ContactReading contact = stepper->contact_reading();
     s.max_penetration = contact.largest_overlap / material.radius;

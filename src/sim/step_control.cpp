@@ -31,7 +31,7 @@ std::string StepControl::advance(TimeStep& stepper, double& time, double end, co
     }
     ++counters_.steps;
     time = to;
-    double factor = summary.newton.iterations <= options_.easy_iterations   ? 1.5
+    double factor = summary.newton.iterations <= options_.easy_iterations   ? 1.2
                     : summary.newton.iterations >= options_.hard_iterations ? 0.7
                                                                             : 1.0;
     if (summary.largest_motion > 0.0) factor = std::min(factor, options_.motion / summary.largest_motion);

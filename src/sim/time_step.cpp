@@ -1,6 +1,7 @@
 #include "knot_utm/sim/time_step.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "knot_utm/contact/smooth_contact.hpp"
@@ -29,6 +30,8 @@ struct BandIndex {
   int second, second_back;    // (i, i+2) and (i+2, i)
 };
 
+constexpr int kFootRoom = 1;  // segments by which a foot may slide on before the pattern is rebuilt
+
 template <int D>
 class ImplicitStep final : public TimeStep {
  public:
@@ -40,17 +43,18 @@ class ImplicitStep final : public TimeStep {
         nodes_(static_cast<int>(rod.nodes())),
         force_(at(nodes_)),
         change_(at(nodes_)),
+        committed_force_(at(nodes_)),
         held_(at(nodes_), 0) {
-    build_pattern();
   }
 
   StepSummary step(const Boundary& boundary, double dt) override {
     boundary_ = &boundary;
     dt_ = dt;
     StepSummary summary;
-    if (contact_.refresh(state_.position) || !pattern_built_) build_pattern();
-
+    contact_.refresh(state_.position);
     predict();
+    contact_.begin_step();
+    rollers_.begin_step();
     summary.newton = newton(*this, NewtonOptions{settings_.max_iterations});
     examine(summary);
     if (summary.accepted()) commit();
@@ -74,21 +78,18 @@ class ImplicitStep final : public TimeStep {
   double tolerance() const { return settings_.residual + settings_.residual_of_tension * largest_tension_; }
 
   bool solve() {
+    if (!find_contact_blocks()) {
+      build_pattern();
+      find_contact_blocks();
+    }
     matrix_.set_zero();
+    models_.clear();
     add_inertia_and_drag_stiffness();
     add_elastic_stiffness();
-    ContactStiffness local;
-    for (const ContactPoint& contact : contact_.contacts()) {
-      if (!contact.touches()) continue;
-      contact_.linearise_contact(contact, dt_, local);
-      add_contact_stiffness(contact, local);
-    }
-    for (const ContactPoint& contact : rollers_.contacts()) {
-      rollers_.linearise_contact(contact, dt_, local);
-      add_contact_stiffness(contact, local);
-    }
-    add_grip_stiffness();
     change_ = force_;
+    linearise_contacts(contact_);
+    linearise_contacts(rollers_);
+    add_grip_stiffness();
     for (int node = 0; node < nodes_; ++node) {
       if (!held_[at(node)]) continue;
       matrix_.set_identity_row(node);
@@ -108,6 +109,9 @@ class ImplicitStep final : public TimeStep {
     const double longest = std::sqrt(longest2);
     const double share = longest > settings_.newton_cap ? settings_.newton_cap / longest : 1.0;
     for (int i = 0; i < nodes_; ++i) x_.col(i) += share * to_vec3(change_[at(i)]);
+    std::size_t m = 0;
+    estimate_pressures(contact_, share, m);
+    estimate_pressures(rollers_, share, m);
   }
 
   // ---- readings ---------------------------------------------------------------------------------------------------
@@ -138,17 +142,37 @@ class ImplicitStep final : public TimeStep {
 
   void set_friction(const Friction& friction) override { contact_.set_friction(friction); }
 
+  using ContactBlocks = std::array<std::pair<int, int>, 9>;  // stored (a+k, b+l) and its mirror
+
  private:
   static Vec3 edge(const Points& x, int i) { return x.col(i + 1) - x.col(i); }
 
+  /// Finds the blocks of every active contact; false where the pattern lacks one.
+  bool find_contact_blocks() {
+    contact_blocks_.clear();
+    if (pattern_.nodes() != nodes_) return false;
+    for (const ContactPoint& contact : contact_.contacts()) {
+      if (!contact.active()) continue;
+      contact_blocks_.emplace_back();
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l) {
+          const std::pair<int, int> stored = pattern_.indices(contact.a0 + k, contact.b0 + l);
+          if (stored.first < 0) return false;
+          contact_blocks_.back()[at(3 * k + l)] = stored;
+        }
+    }
+    return true;
+  }
+
+  /// Blocks of the rod itself and of every contact, with room for feet to slide on by a segment.
   void build_pattern() {
-    contact_.refresh(state_.position);
-    std::vector<std::pair<int, int>> pairs;
+    std::vector<std::pair<int, int>>& pairs = pairs_;
+    pairs.clear();
     for (int i = 0; i + 1 < nodes_; ++i) pairs.push_back({i, i + 1});
     for (int i = 0; i + 2 < nodes_; ++i) pairs.push_back({i, i + 2});
-    for (const auto& [i, j] : contact_.candidates().pairs())
-      for (int a = i - 1; a <= i + 1; ++a)
-        for (int b = j - 1; b <= j + 1; ++b)
+    for (const ContactPoint& contact : contact_.contacts())
+      for (int a = contact.a0; a <= contact.a0 + 2; ++a)
+        for (int b = std::max(contact.b0 - kFootRoom, 0); b <= std::min(contact.b0 + 2 + kFootRoom, nodes_ - 1); ++b)
           if (a != b) pairs.push_back({a, b});
     pattern_.build(nodes_, pairs);
     matrix_.set_pattern(pattern_);
@@ -161,7 +185,6 @@ class ImplicitStep final : public TimeStep {
       band.second = i + 2 < nodes_ ? pattern_.index(i, i + 2) : -1;
       band.second_back = i + 2 < nodes_ ? pattern_.index(i + 2, i) : -1;
     }
-    pattern_built_ = true;
   }
 
   /// Everything moves on as it did; held nodes stand where they must.
@@ -179,14 +202,14 @@ class ImplicitStep final : public TimeStep {
     for (int i = 0; i < nodes_; ++i) {
       const Vec3 velocity = (x_.col(i) - state_.position.col(i)) * over_dt;
       const Vec3 acceleration = (velocity - state_.velocity.col(i)) * over_dt;
-      const double drag = settings_.drag * rod_.voronoi_length[i];
+      const double drag = (settings_.drag + boundary_->extra_drag) * rod_.voronoi_length[i];
       force_[at(i)] += to_lanes(rod_.mass[i] * (settings_.gravity - acceleration) - drag * velocity);
     }
   }
 
   void add_inertia_and_drag_stiffness() {
     for (int i = 0; i < nodes_; ++i) {
-      const double k = rod_.mass[i] / (dt_ * dt_) + settings_.drag * rod_.voronoi_length[i] / dt_;
+      const double k = rod_.mass[i] / (dt_ * dt_) + (settings_.drag + boundary_->extra_drag) * rod_.voronoi_length[i] / dt_;
       Block<D>& block = matrix_.block(band_[at(i)].own);
       for (int j = 0; j < 3; ++j) block.column[j][j] += k;
     }
@@ -247,7 +270,40 @@ class ImplicitStep final : public TimeStep {
     for (int k = 0; k < 3; ++k) force_[at(contact.b0 + k)] += contact.c[3 + k] * g;
   }
 
-  void add_contact_stiffness(const ContactPoint& contact, const ContactStiffness& local) {
+  /// Replaces the contacts' forces in the right-hand side by those of their linear models, and adds their stiffness.
+  template <typename Contacts>
+  void linearise_contacts(const Contacts& contacts) {
+    std::size_t block = 0;
+    for (const ContactPoint& contact : contacts.contacts()) {
+      if (!contact.active()) continue;
+      models_.emplace_back();
+      ContactModel& model = models_.back();
+      contacts.linearise_contact(contact, dt_, model);
+      const Lanes difference = to_lanes(model.force - contact.force);
+      for (int k = 0; k < 3; ++k) change_[at(contact.a0 + k)] += contact.c[k] * difference;
+      if (!contact.on_roller())
+        for (int k = 0; k < 3; ++k) change_[at(contact.b0 + k)] += contact.c[3 + k] * difference;
+      add_contact_stiffness(contact, model, contact.on_roller() ? nullptr : &contact_blocks_[block++]);
+    }
+  }
+
+  /// What the linear models say of each contact's pressure after the change.
+  template <typename Contacts>
+  void estimate_pressures(Contacts& contacts, double share, std::size_t& m) {
+    for (ContactPoint& contact : contacts.contacts()) {
+      if (!contact.active()) continue;
+      const ContactModel& model = models_[m++];
+      Vec3 moved = Vec3::Zero();
+      for (int k = 0; k < 3; ++k) {
+        moved += contact.c[k] * to_vec3(change_[at(contact.a0 + k)]);
+        if (!contact.on_roller()) moved += contact.c[3 + k] * to_vec3(change_[at(contact.b0 + k)]);
+      }
+      contact.estimate = model.pressure - share * model.slope * contact.n.dot(moved);
+    }
+  }
+
+  void add_contact_stiffness(const ContactPoint& contact, const ContactModel& local,
+                             const ContactBlocks* blocks) {
     Lanes cc[3], cb[3], bc[3], bb[3];
     for (int j = 0; j < 3; ++j) {
       std::copy_n(local.cc.data() + 4 * j, 4, reinterpret_cast<double*>(&cc[j]));
@@ -257,21 +313,32 @@ class ImplicitStep final : public TimeStep {
     }
     const double* c = contact.c;
     const double* beta = contact.beta;
-    const int a = contact.a0, b = contact.b0;
     for (int k = 0; k < 3; ++k)
       for (int l = 0; l < 3; ++l) {
-        Block<D>& aa = matrix_.block(pattern_.index(a + k, a + l));
+        Block<D>& aa = matrix_.block(band_index(contact.a0, k, l));
         for (int j = 0; j < 3; ++j) aa.column[j] += (c[k] * c[l]) * cc[j];
         if (contact.on_roller()) continue;
         const double ck = c[3 + k], cl = c[3 + l], bk = beta[3 + k], bl = beta[3 + l];
-        Block<D>& ab = matrix_.block(pattern_.index(a + k, b + l));
+        Block<D>& ab = matrix_.block((*blocks)[at(3 * k + l)].first);
         for (int j = 0; j < 3; ++j) ab.column[j] += (c[k] * cl) * cc[j] + (c[k] * bl) * cb[j];
-        Block<D>& ba = matrix_.block(pattern_.index(b + k, a + l));
+        Block<D>& ba = matrix_.block((*blocks)[at(3 * l + k)].second);
         for (int j = 0; j < 3; ++j) ba.column[j] += (ck * c[l]) * cc[j] + (bk * c[l]) * bc[j];
-        Block<D>& own = matrix_.block(pattern_.index(b + k, b + l));
+        Block<D>& own = matrix_.block(band_index(contact.b0, k, l));
         for (int j = 0; j < 3; ++j)
           own.column[j] += (ck * cl) * cc[j] + (ck * bl) * cb[j] + (bk * cl) * bc[j] + (bk * bl) * bb[j];
       }
+  }
+
+  /// Stored index of block (first + k, first + l), k and l up to 2.
+  int band_index(int first, int k, int l) const {
+    const BandIndex& band = band_[at(first + std::min(k, l))];
+    switch (l - k) {
+      case 0: return band.own;
+      case 1: return band.next;
+      case -1: return band.next_back;
+      case 2: return band.second;
+      default: return band.second_back;
+    }
   }
 
   void add_grips_and_forces() {
@@ -344,7 +411,9 @@ class ImplicitStep final : public TimeStep {
   std::vector<char> held_;
   double largest_tension_ = 0.0;
   ContactReading contact_reading_;
-  bool pattern_built_ = false;
+  std::vector<ContactModel> models_;  // of the active contacts, in order
+  std::vector<std::pair<int, int>> pairs_;
+  std::vector<ContactBlocks> contact_blocks_;               // of the active contacts between strands, in order
   BlockPattern pattern_;
   BlockMatrix<D> matrix_;
   std::vector<BandIndex> band_;

@@ -105,15 +105,15 @@ void BlockPattern::build(int nodes, const std::vector<std::pair<int, int>>& pair
   }
 }
 
-int BlockPattern::index(int row, int column) const {
+std::pair<int, int> BlockPattern::indices(int row, int column) const {
   const int r = position(row), c = position(column);
-  if (r == c) return diagonal(r);
+  if (r == c) return {diagonal(r), diagonal(r)};
   const int pivot = std::min(r, c), other = std::max(r, c);
   const int* end = rows(pivot) + below(pivot);
   const int* found = std::lower_bound(rows(pivot), end, other);
-  if (found == end || *found != other) return -1;
-  const int stored = diagonal(pivot) + 1 + 2 * static_cast<int>(found - rows(pivot));
-  return r > c ? stored : stored + 1;
+  if (found == end || *found != other) return {-1, -1};
+  const int lower = diagonal(pivot) + 1 + 2 * static_cast<int>(found - rows(pivot));
+  return r > c ? std::make_pair(lower, lower + 1) : std::make_pair(lower + 1, lower);
 }
 
 template <int D>

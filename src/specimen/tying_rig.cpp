@@ -12,6 +12,9 @@ namespace {
 
 // Places of the clamps, in rod radii. A knot that runs over its clamp reads wrong: they stand clear of where it ends.
 constexpr double kStandingFromMiddle = 5.0;   // from the middle of the specimen, towards the own knot
+// The settling drag relaxes waves of this many radii in about a tenth of the settling time.
+constexpr double kSettlingTime = 0.3;  // [s]
+constexpr double kSettlingWave = 40.0;
 constexpr double kThreadedBeyondKnot = 18.0;  // beyond the middle of the loose knot: it ends 8 further out
 
 int nearest_node(double arclength, double edge_length, int nodes) {
@@ -25,6 +28,7 @@ TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const
   const int nodes = static_cast<int>(rod.nodes());
   const Points& x = centreline.points;
   const std::size_t count = centreline.knots.size();
+  settling_drag_ = 0.1 * kSettlingTime * rod.material.bending_stiffness * std::pow(2.0 * M_PI / (kSettlingWave * h), 4);
   double middle = 0.0;
   for (const KnotLandmarks& knot : centreline.knots)
     middle += x(2, nearest_node(knot.coil_middle, edge, nodes)) / static_cast<double>(count);
@@ -71,7 +75,7 @@ void TyingRig::tie(double speed, double time, const Points& position) {
     grip.slip_force = options_.preload;
     grips_.push_back(grip);
   }
-  enter(Stage::kPulling, time);
+  enter(Stage::kSettling, time);
 }
 
 void TyingRig::release(double duration, double time) {
@@ -90,7 +94,11 @@ void TyingRig::hold(Boundary& boundary, double from, double to) const {
     else if (stage_ == Stage::kClampsRamp)
       boundary.forces.push_back({clamp.node, ramp * clamp.reaction});
   }
-  if (stage_ == Stage::kPulling || stage_ == Stage::kTied) {
+  if (stage_ == Stage::kSettling) {
+    const double left = std::clamp(1.0 - (to - stage_begin_) / kSettlingTime, 0.0, 1.0);
+    boundary.extra_drag = settling_drag_ * left * left;
+  }
+  if (stage_ == Stage::kSettling || stage_ == Stage::kPulling || stage_ == Stage::kTied) {
     for (SlippingGrip grip : grips_) {
       if (stage_ == Stage::kPulling) grip.place += speed_ * (to - from);
       boundary.grips.push_back(grip);
@@ -123,6 +131,12 @@ void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
   const double elapsed = time - stage_begin_;
   const bool rest = at_rest(stepper, dt);
   switch (stage_) {
+    case Stage::kSettling:
+      if (elapsed >= kSettlingTime) {
+        for (SlippingGrip& grip : grips_) grip.place = grip.direction.dot(x.col(grip.node));
+        enter(Stage::kPulling, time);
+      }
+      break;
     case Stage::kPulling:
       if (all_slip && rest) enter(Stage::kTied, time);
       break;

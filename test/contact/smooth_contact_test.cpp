@@ -36,6 +36,7 @@ struct TwoStrands {
   }
 
   Eigen::VectorXd force(SmoothContact& contact, const Points& x, double dt) const {
+    contact.begin_step();
     contact.evaluate(x, start, dt);
     Points f = Points::Zero(3, x.cols());
     for (const ContactPoint& point : contact.contacts())
@@ -47,9 +48,11 @@ struct TwoStrands {
   }
 
   Eigen::MatrixXd stiffness(SmoothContact& contact, const Points& x, double dt) const {
+    contact.begin_step();
     contact.evaluate(x, start, dt);
+    for (ContactPoint& point : contact.contacts()) point.estimate = -1.0;  // tangents at the present overlap
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x.size(), x.size());
-    ContactStiffness local;
+    ContactModel local;
     for (const ContactPoint& point : contact.contacts()) {
       if (!point.touches()) continue;
       contact.linearise_contact(point, dt, local);

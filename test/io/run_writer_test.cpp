@@ -165,9 +165,12 @@ TEST(RunMonitor, BalancesAndTheTiedState) {
   sample.dissipation = 1.5;
   sample.stretching_energy = 0.49;
   sample.time = 3.0;
+  sample.fastest_node = 0.2;
   monitor.add(sample);
   RunFacts facts;
   monitor.report(facts);
+  ASSERT_EQ(facts.warnings.size(), 1u);
+  EXPECT_THAT(facts.warnings[0], HasSubstr("0.2 m/s"));
   EXPECT_EQ(facts.tied_knot_distance, 0.15);
   EXPECT_EQ(facts.tied_excess_length[1], 0.06);
   EXPECT_EQ(facts.max_penetration, 0.03);

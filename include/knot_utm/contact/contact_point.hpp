@@ -29,7 +29,7 @@ struct ContactPoint {
   double overlap = 0.0;      ///< D [m]
   double weight = 0.0;       ///< w: rest length it stands for, times its share of the contact [m]
   double pressure = 0.0;     ///< p [N/m]
-  double slope = 0.0;        ///< dp/dD [N/m^2]
+  double estimate = -1.0;    ///< of the pressure at the solution, from the last linear solve [N/m]; < 0: none
   Vec3 db = Vec3::Zero();    ///< b' [m]
   double inverse_g = 0.0;    ///< 1/G [1/m^2]; 0 against a roller
   Vec3 axis = Vec3::Zero();  ///< of the roller, unit; zero between strands
@@ -41,12 +41,26 @@ struct ContactPoint {
 
   bool on_roller() const { return b0 < 0; }
   bool touches() const { return overlap > 0.0; }
+  /// Takes part in the next linear solve.
+  bool active() const { return overlap > 0.0 || estimate > 0.0; }
 };
 
-/// Stiffness of a contact: -df_k/dq_l = c_k c_l M_cc + c_k beta_l M_cb + beta_k c_l M_bc + beta_k beta_l M_bb [N/m].
+/// The linear model of a contact that Newton's method solves with. Its pressure is the tangent of the normal law,
+///
+///     p(D) ~ p(D^) + p'(D^) (D - D^),
+///
+/// taken at the overlap D^ whose pressure is the estimate that the last linear solve gave, and at the present overlap
+/// where there is none. The law starts with p' = 0: tangents at the present overlap only halve the overlap of a strand
+/// that was pushed in too far, while the estimate has it nearly right at once. At the solution both are the same.
+///
+///     -df_k/dq_l = c_k c_l M_cc + c_k beta_l M_cb + beta_k c_l M_bc + beta_k beta_l M_bb   [N/m]
+///
 /// Four rows a column: the last is zero, so that a column fills a vector register.
-struct ContactStiffness {
+struct ContactModel {
   using Padded = Eigen::Matrix<double, 4, 3>;
+  double pressure = 0.0;  ///< of the tangent at the present overlap [N/m]
+  double slope = 0.0;     ///< p'(D^) [N/m^2]
+  Vec3 force = Vec3::Zero();  ///< g with that pressure [N]
   Padded cc, cb, bc, bb;
 };
 
@@ -54,7 +68,7 @@ struct ContactStiffness {
 void evaluate_force(const NormalLaw& normal, const Friction& friction, double friction_scale, ContactPoint& contact);
 
 /// The consistent linearisation of `evaluate_force`, movement of the foot included; weight w is held constant.
-void linearise(const Friction& friction, double friction_scale, const ContactPoint& contact,
-               ContactStiffness& stiffness);
+void linearise(const NormalLaw& normal, const Friction& friction, double friction_scale, const ContactPoint& contact,
+               ContactModel& model);
 
 }  // namespace knot_utm

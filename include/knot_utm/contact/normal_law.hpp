@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 namespace knot_utm {
 
 /// Normal contact between two strands of radius h, per length of rod: the line pressure p [N/m] as a function of
@@ -24,6 +26,11 @@ struct NormalLaw {
   double slope(double overlap) const {
     if (overlap <= 0.0) return 0.0;
     return overlap < tolerance ? stiffness * overlap / tolerance : stiffness;
+  }
+  /// The overlap at which the law gives this pressure, p >= 0 [m]
+  double overlap_at(double pressure_) const {
+    const double toe = 0.5 * stiffness * tolerance;
+    return pressure_ < toe ? std::sqrt(2.0 * tolerance * pressure_ / stiffness) : pressure_ / stiffness + 0.5 * tolerance;
   }
   /// Energy per length, its derivative is p [N]
   double energy(double overlap) const {

@@ -19,13 +19,17 @@ class RollerContact {
  public:
   RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction);
 
+  /// Before the first evaluation of a step: estimates of the pressures are those of the last accepted step.
+  void begin_step();
+
   /// All contacts at `position` in a step of length dt from `start`, in which the rollers move from where the last
   /// commit left them to `rollers`.
   void evaluate(const std::vector<Roller>& rollers, const Points& position, const Points& start, double dt);
   const std::vector<ContactPoint>& contacts() const { return contacts_; }
+  std::vector<ContactPoint>& contacts() { return contacts_; }
 
-  void linearise_contact(const ContactPoint& contact, double dt, ContactStiffness& stiffness) const {
-    linearise(friction_, friction_.scale(dt), contact, stiffness);
+  void linearise_contact(const ContactPoint& contact, double dt, ContactModel& model) const {
+    linearise(normal_, friction_, friction_.scale(dt), contact, model);
   }
 
   /// Force of the rod on a roller [N], as last evaluated.
@@ -42,6 +46,8 @@ class RollerContact {
   Eigen::VectorXd voronoi_;
   std::vector<Roller> start_;
   std::vector<ContactPoint> contacts_;
+  std::size_t index_of(const ContactPoint& contact) const;
+  std::vector<double> estimate_, committed_estimate_;  // of the pressure, < 0: none; indexed as memory_
   std::vector<Vec3> memory_;  // xi of roller r at point q of segment i: [(r segments + i) 2 + q]
 };
 

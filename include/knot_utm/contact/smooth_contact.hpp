@@ -25,12 +25,16 @@ class SmoothContact {
   bool refresh(const Points& position) { return candidates_.refresh(position); }
   const Candidates& candidates() const { return candidates_; }
 
+  /// Before the first evaluation of a step: estimates of the pressures are those of the last accepted step.
+  void begin_step();
+
   /// All contacts at `position` in a step of length dt from `start`.
   void evaluate(const Points& position, const Points& start, double dt);
   const std::vector<ContactPoint>& contacts() const { return contacts_; }
+  std::vector<ContactPoint>& contacts() { return contacts_; }
 
-  void linearise_contact(const ContactPoint& contact, double dt, ContactStiffness& stiffness) const {
-    linearise(friction_, friction_.scale(dt), contact, stiffness);
+  void linearise_contact(const ContactPoint& contact, double dt, ContactModel& model) const {
+    linearise(normal_, friction_, friction_.scale(dt), contact, model);
   }
 
   /// The evaluated state becomes the one that the next step remembers. `position` is what was last evaluated.
@@ -45,6 +49,11 @@ class SmoothContact {
     double arclength_b;
     Vec3 slip;     // xi [m]
     double share;  // omega
+    double pressure;
+  };
+  struct Estimate {
+    double arclength_b;
+    double pressure;
   };
   static constexpr double kPoints[2] = {0.25, 0.75};
 
@@ -65,8 +74,11 @@ class SmoothContact {
   std::vector<int> memory_begin_;  // point of integration 2 segment + point -> first of memory_
   std::vector<Memory> next_memory_;
   std::vector<int> next_begin_;
+  std::vector<Estimate> estimate_;
+  std::vector<int> estimate_begin_;
   Points edge_middle_, edge_;      // of the evaluated position
   double friction_scale_ = 0.0;
+  bool first_evaluation_ = true;
 };
 
 }  // namespace knot_utm

@@ -22,6 +22,7 @@ struct RunFacts {
   std::array<double, 2> tied_excess_length{Sample::kNone, Sample::kNone};  ///< in each knot then [m]
 
   double max_penetration = 0.0;                 ///< [fraction of radius]
+  double fastest_node = 0.0;                    ///< while pulling and holding [m/s]
   double force_balance_error = Sample::kNone;   ///< largest |upper - lower| / peak, once mounted; NaN: no load
   double energy_balance_error = Sample::kNone;  ///< |work - dissipation - stored| / largest work; NaN: no work
   std::uint64_t steps = 0;
@@ -41,7 +42,7 @@ class RunMonitor {
  public:
   void add(const Sample& sample);
 
-  /// Fills what it knows into `facts`.
+  /// Fills what it knows into `facts`, warnings among it.
   void report(RunFacts& facts) const;
 
  private:
@@ -51,6 +52,7 @@ class RunMonitor {
   bool tied_ = false;
   Sample tied_state_;  ///< the last of tie or release
   double deepest_ = 0.0;
+  double fastest_node_ = 0.0;
   double peak_force_ = 0.0;
   double largest_difference_ = 0.0;
   double largest_work_ = 0.0;

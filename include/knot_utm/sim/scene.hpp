@@ -50,6 +50,7 @@ struct Boundary {
   std::vector<FixedTwist> fixed_twists;
   std::vector<NodeForce> forces;
   std::vector<SlippingGrip> grips;
+  double extra_drag = 0.0;  ///< beside the scene's own [N s/m^2]
 };
 
 /// What a time step needs to know besides rod and boundary; constant during a run.

@@ -20,7 +20,9 @@ class BlockPattern {
   int position(int node) const { return position_[static_cast<std::size_t>(node)]; }  ///< in elimination order
 
   /// Where block (row, column) is stored; -1 where the pattern has none.
-  int index(int row, int column) const;
+  int index(int row, int column) const { return indices(row, column).first; }
+  /// Where (row, column) and its mirror (column, row) are stored; -1 where the pattern has none.
+  std::pair<int, int> indices(int row, int column) const;
 
   /// For pivot k: how many later rows it touches, and where its blocks stand.
   int below(int k) const { return row_begin_[static_cast<std::size_t>(k) + 1] - row_begin_[static_cast<std::size_t>(k)]; }

@@ -44,14 +44,14 @@ struct Centreline {
 /// Same-handed: the two knots are images of each other under a half turn about an axis normal to the load axis.
 /// Opposite-handed: the lower knot is the mirror image of that.
 struct FishermanShape {
-  double radius = 3.175e-3;         ///< h, of the rod [m]
-  double knot_distance = 0.1;       ///< e, distance of the middles of the two coils [m]
-  double end_to_end = 0.25;         ///< L, distance of the rollers' centres [m]
-  double roller_radius = 0.01905;   ///< [m]
-  double tail = 0.03;               ///< free tail beyond the outermost point of the coil [m]
+  double radius = 3.175e-3;        ///< h, of the rod [m]
+  double knot_distance = 0.1;      ///< e, distance of the middles of the two coils [m]
+  double end_to_end = 0.25;        ///< L, distance of the rollers' centres [m]
+  double roller_radius = 0.01905;  ///< [m]
+  double tail = 0.03;              ///< free tail beyond the outermost point of the coil [m]
   Handedness handedness = Handedness::kSame;
-  double looseness = 4.7;           ///< R/h, radius of the coil over that of the rod (3.9 to 8)
-  double edge_length = 0.0032;      ///< wanted; the nearest that divides the rod evenly is taken [m]
+  double looseness = 4.7;       ///< R/h, radius of the coil over that of the rod (3.9 to 8)
+  double edge_length = 0.0032;  ///< wanted; the nearest that divides the rod evenly is taken [m]
 };
 
 /// Throws InvalidInput (specimen.*, machine.roller_diameter) where the shape does not fit on the machine or overlaps.

@@ -13,6 +13,9 @@ namespace knot_utm {
 /// by a grip that moves at a set speed and slips at the pre-load. As the end is reached by displacement against a
 /// slipping grip, and counts only once everything rests, the tied state does not depend on drag, step or speed.
 ///
+/// Before it pulls, the drawn shape settles under a strong drag that fades: its stored energy is an artefact of the
+/// drawing, and would otherwise throw the strands about.
+///
 /// Release: the tails' pull goes to zero linearly, everything comes to rest; then each clamp is replaced by its
 /// reaction, which goes to zero linearly, and everything comes to rest again.
 class TyingRig {
@@ -24,7 +27,7 @@ class TyingRig {
     double rest_time = 0.3;        ///< ... for this long: at rest [s]
     double patience = 20.0;        ///< without rest for so long: not equilibrated [s]
   };
-  enum class Stage { kIdle, kPulling, kTied, kTailsRamp, kTailsRest, kClampsRamp, kClampsRest, kReleased };
+  enum class Stage { kIdle, kSettling, kPulling, kTied, kTailsRamp, kTailsRest, kClampsRamp, kClampsRest, kReleased };
 
   TyingRig(const Centreline& centreline, const RodProperties& rod, const Options& options);
 
@@ -66,6 +69,7 @@ class TyingRig {
   bool at_rest(const TimeStep& stepper, double dt);
 
   Options options_;
+  double settling_drag_;  // [N s/m^2]
   std::vector<Knot> knots_;
   std::vector<Clamp> clamps_;
   std::vector<SlippingGrip> grips_;

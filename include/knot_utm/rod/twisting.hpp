@@ -1,0 +1,40 @@
+#pragma once
+
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/rod/stencil.hpp"
+
+namespace knot_utm {
+
+/// Twisting at one inner node.
+///
+///   E = k_t/(2 lbar) (m - mbar)^2,   m = theta_f - theta_e + m_ref
+///
+///   theta_e, theta_f  angle of the material against the reference frame on the two edges  [rad]
+///   m_ref             reference twist (frames.hpp)        [rad]
+///   mbar              natural twist                       [rad]
+///   lbar              Voronoi length [m];  k_t twisting stiffness [N m^2]
+///
+/// With u, v the unit tangents of e, f, chi = 1 + u . v, kb = 2 u x v/chi and t = (u + v)/chi,
+///
+///   m_e  = kb/(2 |e|),   m_f = kb/(2 |f|)
+///   m_ee = -(kb (u + t)^T + (u + t) kb^T)/(4 |e|^2),   m_ff = -(kb (v + t)^T + (v + t) kb^T)/(4 |f|^2)
+///   m_ef = ((2/chi) [u]x - kb t^T)/(2 |e| |f|)
+///
+/// The Hessian is that of E as a function of positions and angles, the reference frame being transported from the
+/// present one; it is symmetric. Differentiating m_e as it stands gives m_ee plus an antisymmetric part, the area
+/// that the tangent sweeps on its way; it stands against dE/dtheta, and balances where the edge is free to turn.
+/// Source: Bergou et al. 2010, section 4.2; Jawed, Novelia, O'Reilly 2018, chapters 4 and 7.
+struct TwistingInput {
+  double k_t = 0.0;             ///< [N m^2]
+  double voronoi_length = 0.0;  ///< lbar [m]
+  double natural_twist = 0.0;   ///< mbar [rad]
+};
+
+double twisting_energy(const TwistingInput& input, double twist);
+
+/// `twist` is m [rad]; e and f are the edge vectors before and behind the node [m].
+StencilGradient twisting_gradient(const TwistingInput& input, const Vec3& e, const Vec3& f, double twist);
+
+StencilLocal twisting(const TwistingInput& input, const Vec3& e, const Vec3& f, double twist);
+
+}  // namespace knot_utm

@@ -1,0 +1,86 @@
+#include "knot_utm/rod/energy.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
+
+namespace knot_utm {
+namespace {
+
+Material material() {
+  Material m;
+  m.radius = 1e-2;
+  m.density = 1000.0;
+  m.stretching_stiffness = 50.0;
+  m.bending_stiffness = 2.0;
+  m.twisting_stiffness = 1.5;
+  return m;
+}
+
+/// A circular arc of n edges of length l that turns by `angle` at every node.
+RodState arc(Eigen::Index n, double l, double angle) {
+  RodState state;
+  state.position = Points::Zero(3, n + 1);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double direction = angle * static_cast<double>(j);
+    state.position.col(j + 1) = state.position.col(j) + l * Vec3(std::cos(direction), std::sin(direction), 0.0);
+  }
+  return state;
+}
+
+TEST(Energy, OfAnArcIsTheSameWithAndWithoutFrame) {
+  const RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(8, 0.1));
+  RodState state = arc(8, 0.12, 0.3);
+  const ElasticEnergy twist_free = elastic_energy(rod, state);
+  const double kappa = 2.0 * std::tan(0.15);
+  EXPECT_NEAR(twist_free.bending, 7 * 0.5 * 2.0 / 0.1 * kappa * kappa, 1e-12);
+  EXPECT_NEAR(twist_free.stretching, 8 * 0.5 * 50.0 * 0.1 * 0.04, 1e-12);
+  EXPECT_EQ(twist_free.twisting, 0.0);
+  initialise_frames(&state);
+  const ElasticEnergy full = elastic_energy(rod, state);
+  EXPECT_NEAR(full.total(), twist_free.total(), 1e-12);
+  EXPECT_NEAR(full.twisting, 0.0, 1e-20);
+}
+
+TEST(Energy, OfTwistIsHalfMomentTimesAngle) {
+  const RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(8, 0.1));
+  RodState state = arc(8, 0.1, 0.0);
+  initialise_frames(&state);
+  state.twist.setLinSpaced(0.0, 1.4);
+  const double moment = 1.5 * 0.2 / 0.1;
+  EXPECT_NEAR(elastic_energy(rod, state).twisting, 0.5 * moment * 1.4, 1e-12);
+}
+
+TEST(Energy, VanishesInTheNaturalShape) {
+  RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(8, 0.1));
+  RodState state = arc(8, 0.1, 0.3);
+  initialise_frames(&state);
+  state.twist.setLinSpaced(0.0, 0.7);
+  rod.natural_curvature.resize(2, 7);
+  rod.natural_twist.resize(7);
+  for (Eigen::Index i = 1; i < 8; ++i) {
+    const InnerNode node = inner_node(rod, state, i);
+    rod.natural_curvature.col(i - 1) = material_curvature(node.e, node.f, node.on_e, node.on_f);
+    rod.natural_twist[i - 1] = node.twist;
+  }
+  EXPECT_NEAR(elastic_energy(rod, state).total(), 0.0, 1e-20);
+}
+
+TEST(Energy, TensionIsPositiveWhereTheEdgeIsLonger) {
+  const RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(8, 0.1));
+  EXPECT_LT((edge_tension(rod, arc(8, 0.12, 0.3).position).array() - 10.0).abs().maxCoeff(), 1e-12);
+  EXPECT_LT((edge_tension(rod, arc(8, 0.09, 0.3).position).array() + 5.0).abs().maxCoeff(), 1e-12);
+}
+
+TEST(Energy, RefusesAStateThatDoesNotFitTheRod) {
+  RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(8, 0.1));
+  EXPECT_THROW(elastic_energy(rod, arc(7, 0.1, 0.0)), InvalidInput);
+  rod.natural_curvature = Eigen::Matrix2Xd::Zero(2, 7);
+  EXPECT_THROW(elastic_energy(rod, arc(8, 0.1, 0.0)), InvalidInput);
+}
+
+}  // namespace
+}  // namespace knot_utm

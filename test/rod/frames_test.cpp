@@ -1,0 +1,149 @@
+#include "knot_utm/rod/frames.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+namespace knot_utm {
+namespace {
+
+constexpr double kRounding = 1e-12;
+
+/// Closed trefoil of n edges; the first node is repeated at the end, and the second after it.
+Points trefoil(Eigen::Index n) {
+  Points x(3, n + 2);
+  for (Eigen::Index i = 0; i < n + 2; ++i) {
+    const double s = 2.0 * M_PI * static_cast<double>(i % n) / static_cast<double>(n);
+    x.col(i) = Vec3(std::sin(s) + 2.0 * std::sin(2.0 * s), std::cos(s) - 2.0 * std::cos(2.0 * s), -std::sin(3.0 * s));
+  }
+  return x;
+}
+
+/// Writhe of the closed polygon x_0 ... x_{n-1}: the exact double sum over pairs of edges.
+double writhe(const Points& x, Eigen::Index n) {
+  double sum = 0.0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    for (Eigen::Index j = i + 2; j < n; ++j) {
+      if (i == 0 && j == n - 1) continue;
+      const Vec3 a = x.col(i), b = x.col(i + 1), c = x.col(j), d = x.col(j + 1);
+      const Vec3 n1 = (c - a).cross(d - a).normalized();
+      const Vec3 n2 = (d - a).cross(d - b).normalized();
+      const Vec3 n3 = (d - b).cross(c - b).normalized();
+      const Vec3 n4 = (c - b).cross(c - a).normalized();
+      const double area = std::asin(n1.dot(n2)) + std::asin(n2.dot(n3)) + std::asin(n3.dot(n4)) + std::asin(n4.dot(n1));
+      sum += std::copysign(area, (d - c).cross(b - a).dot(c - a));
+    }
+  }
+  return sum / (2.0 * M_PI);
+}
+
+void expect_normal_to_tangents(const Points& d1, const Points& position) {
+  const Points t = tangents(position);
+  EXPECT_LT((d1.colwise().norm().array() - 1.0).abs().maxCoeff(), kRounding);
+  EXPECT_LT(d1.cwiseProduct(t).colwise().sum().cwiseAbs().maxCoeff(), kRounding);
+}
+
+TEST(Frames, TransportRotatesTangentToTangentAndKeepsTheirNormal) {
+  const Vec3 from = Vec3(1.0, 2.0, 3.0).normalized();
+  const Vec3 to = Vec3(-2.0, 1.0, 0.4).normalized();
+  const Vec3 normal = from.cross(to).normalized();
+  EXPECT_LT((parallel_transport(from, from, to) - to).norm(), kRounding);
+  EXPECT_LT((parallel_transport(normal, from, to) - normal).norm(), kRounding);
+  EXPECT_LT((parallel_transport(from.cross(normal), from, to) - to.cross(normal)).norm(), kRounding);
+  const Vec3 same = parallel_transport(normal, from, from);
+  EXPECT_LT((same - normal).norm(), kRounding);
+}
+
+TEST(Frames, TransportToTheOppositeTangentKeepsAFrame) {
+  const Vec3 from = Vec3(1.0, 2.0, 3.0).normalized();
+  const Vec3 d = any_normal(from);
+  const Vec3 moved = parallel_transport(from.cross(d), from, -from);
+  EXPECT_NEAR(moved.norm(), 1.0, kRounding);
+  EXPECT_NEAR(moved.dot(from), 0.0, kRounding);
+  EXPECT_LT((parallel_transport(from, from, -from) + from).norm(), kRounding);
+}
+
+TEST(Frames, HolonomyIsTheAreaTheTangentEncloses) {
+  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
+  const Vec3 start = y;
+  const Vec3 end = parallel_transport(parallel_transport(parallel_transport(start, x, y), y, z), z, x);
+  EXPECT_NEAR(signed_angle(start, end, x), M_PI / 2.0, kRounding);
+}
+
+TEST(Frames, SpaceParallelFrameHasNoReferenceTwist) {
+  const Points x = trefoil(60);
+  const Points t = tangents(x);
+  const Points d1 = space_parallel_directors(x, Vec3::UnitZ());
+  expect_normal_to_tangents(d1, x);
+  for (Eigen::Index i = 0; i + 1 < d1.cols(); ++i) {
+    EXPECT_NEAR(reference_twist(d1.col(i), t.col(i), d1.col(i + 1), t.col(i + 1)), 0.0, kRounding);
+  }
+}
+
+TEST(Frames, HolonomyOfATrefoilIsItsWrithe) {
+  for (const Eigen::Index n : {24, 61, 120}) {
+    const Points x = trefoil(n);
+    const Points t = tangents(x);
+    const Points d1 = space_parallel_directors(x, Vec3::UnitZ());
+    const Vec3 start = d1.col(0);
+    const Vec3 end = d1.col(n);
+    // A ribbon closes after a whole number of turns (Calugareanu): holonomy/2pi = writhe modulo 1.
+    const double turns = signed_angle(start, end, t.col(0)) / (2.0 * M_PI);
+    EXPECT_NEAR(std::remainder(turns - writhe(x, n), 1.0), 0.0, 1e-10) << "n = " << n;
+    EXPECT_GT(std::abs(writhe(x, n)), 3.0);
+  }
+}
+
+TEST(Frames, RightHandedTwistIsPositive) {
+  const Vec3 t = Vec3::UnitZ();
+  const Directors m = material_directors(t, Vec3::UnitX(), 0.3);
+  EXPECT_LT((m.m1 - Vec3(std::cos(0.3), std::sin(0.3), 0.0)).norm(), kRounding);
+  EXPECT_LT((m.m2 - t.cross(m.m1)).norm(), kRounding);
+  EXPECT_NEAR(reference_twist(Vec3::UnitX(), t, m.m1, t), 0.3, kRounding);
+}
+
+TEST(Frames, RigidMotionLeavesTheTwistAlone) {
+  RodState state;
+  state.position = trefoil(40);
+  initialise_frames(&state);
+  state.twist.setLinSpaced(0.0, 50.0);
+  const auto twist = [&] { return state.twist.tail(40) - state.twist.head(40) + state.reference_twist; };
+  const Eigen::VectorXd twist_before = twist();
+  const Mat3 rotation = Eigen::AngleAxisd(0.1, Vec3(0.3, 1.0, -0.4).normalized()).toRotationMatrix();
+  for (int step = 0; step < 70; ++step) {
+    const Points before = state.position;
+    const Points director_before = state.reference_director;
+    state.position = rotation * before;
+    transport_frames(before, &state);
+    // The reference frame lags behind the body by each edge's holonomy; theta makes up for it.
+    const Points t = tangents(state.position);
+    for (Eigen::Index j = 0; j < t.cols(); ++j) {
+      state.twist[j] += signed_angle(state.reference_director.col(j), rotation * director_before.col(j), t.col(j));
+    }
+  }
+  expect_normal_to_tangents(state.reference_director, state.position);
+  EXPECT_LT((twist() - twist_before).cwiseAbs().maxCoeff(), 1e-10);
+}
+
+TEST(Frames, ReferenceTwistCountsWholeTurns) {
+  // A right-angled corner whose second edge circles around the first, twice.
+  RodState state;
+  state.position.resize(3, 3);
+  state.position.col(0) = -Vec3::UnitZ();
+  state.position.col(1).setZero();
+  state.position.col(2) = Vec3::UnitX();
+  initialise_frames(&state);
+  constexpr int kSteps = 400;
+  for (int step = 1; step <= kSteps; ++step) {
+    const Points before = state.position;
+    const double angle = 4.0 * M_PI * step / kSteps;
+    state.position.col(2) = Vec3(std::cos(angle), std::sin(angle), 0.0);
+    transport_frames(before, &state);
+  }
+  // On the second edge nothing turns about the tangent; seen from the first, its frame goes round with the corner.
+  EXPECT_NEAR(std::abs(state.reference_twist[0]), 4.0 * M_PI, 1e-10);
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,231 @@
+#include "knot_utm/specimen/centreline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
+
+#include "knot_utm/rod/invalid_input.hpp"
+
+namespace knot_utm {
+namespace {
+
+void expect_equal_edges(const Points& points, double edge_length) {
+  const Eigen::Index edges = points.cols() - 1;
+  const Eigen::VectorXd length = (points.rightCols(edges) - points.leftCols(edges)).colwise().norm();
+  EXPECT_LT(length.maxCoeff() / length.minCoeff() - 1.0, 1e-9);
+  EXPECT_NEAR(length.mean(), edge_length, 0.02 * edge_length);
+}
+
+Vec3 at(const Centreline& line, double arclength) {
+  const double x = arclength / line.edge_length();
+  const auto i = std::min(static_cast<Eigen::Index>(x), line.points.cols() - 2);
+  return line.points.col(i) + (x - static_cast<double>(i)) * (line.points.col(i + 1) - line.points.col(i));
+}
+
+double largest_turn(const Points& points) {
+  double largest = 0.0;
+  for (Eigen::Index i = 1; i + 1 < points.cols(); ++i) {
+    const Vec3 a = points.col(i) - points.col(i - 1);
+    const Vec3 b = points.col(i + 1) - points.col(i);
+    largest = std::max(largest, std::atan2(a.cross(b).norm(), a.dot(b)));
+  }
+  return largest;
+}
+
+TEST(FishermanLoop, KeepsItsStrandsApartInEqualEdges) {
+  const double h = FishermanShape().radius;
+  for (const Handedness handedness : {Handedness::kSame, Handedness::kOpposite}) {
+    for (const double looseness : {4.2, 4.7, 5.1}) {
+      for (const double edge : {0.5 * h, 0.75 * h, h}) {
+        FishermanShape shape;
+        shape.handedness = handedness;
+        shape.looseness = looseness;
+        shape.edge_length = edge;
+        const Centreline line = fisherman_loop(shape);
+        EXPECT_TRUE(line.closed_by_tails);
+        expect_equal_edges(line.points, edge);
+        const double gap = smallest_distance(line.points, 1.5 * M_PI * h) / (2.0 * h);
+        EXPECT_GT(gap, 1.05) << "looseness " << looseness << " edge " << edge / h;
+        EXPECT_LT(largest_turn(line.points), edge / (0.8 * h));
+        RecordProperty("gap", std::to_string(gap));
+      }
+    }
+  }
+}
+
+TEST(FishermanLoop, LiesAroundItsRollersWithItsKnotsOnOneSide) {
+  for (const Handedness handedness : {Handedness::kSame, Handedness::kOpposite}) {
+    FishermanShape shape;
+    shape.handedness = handedness;
+    shape.knot_distance = 0.12;
+    const double h = shape.radius;
+    const Centreline line = fisherman_loop(shape);
+    const double rolled = shape.roller_radius + h;
+    for (const double z : {0.0, shape.end_to_end}) {
+      const Eigen::VectorXd distance =
+          (line.points.row(0).array().square() + (line.points.row(2).array() - z).square()).sqrt();
+      EXPECT_GT(distance.minCoeff(), rolled - 0.02 * h);
+      EXPECT_LT(distance.minCoeff(), rolled + 0.05 * h);
+    }
+    const Vec3 top = at(line, line.upper_apex);
+    const Vec3 bottom = at(line, line.lower_apex);
+    EXPECT_NEAR(top.z(), line.points.row(2).maxCoeff(), 0.1 * h);
+    EXPECT_NEAR(bottom.z(), line.points.row(2).minCoeff(), 0.1 * h);
+    EXPECT_NEAR(top.z() - bottom.z(), shape.end_to_end + 2.0 * rolled, 0.1 * h);
+
+    ASSERT_EQ(line.knots.size(), 2u);
+    const double middle = 0.5 * shape.end_to_end;
+    for (int k = 0; k < 2; ++k) {
+      const KnotLandmarks& knot = line.knots[static_cast<std::size_t>(k)];
+      const double out = k == 0 ? -1.0 : 1.0;
+      const double z = middle + out * 0.5 * shape.knot_distance;
+      EXPECT_NEAR(at(line, knot.coil_middle).z(), z, 0.2 * h);
+      EXPECT_NEAR(at(line, knot.threaded).z(), z, 0.05 * h);
+      EXPECT_NEAR((at(line, knot.standing_begin).z() - z) * out, -5.0 * h, 0.05 * h);
+      EXPECT_NEAR((at(line, knot.tail_end) - at(line, knot.tail_exit)).norm(), shape.tail, 1e-6);
+      // Middle of the coil lies a coil's radius from the strand that it holds, and from its own standing part.
+      const Vec3 axis = 0.5 * (at(line, knot.threaded) + at(line, knot.standing_begin));
+      const Vec3 across = at(line, knot.coil_middle) - axis;
+      EXPECT_NEAR(std::hypot(across.x(), across.y()), shape.looseness * h, 0.15 * h);
+    }
+  }
+}
+
+TEST(FishermanLoop, SameHandedKnotsAreImagesUnderAHalfTurn) {
+  const FishermanShape shape;
+  const Centreline line = fisherman_loop(shape);
+  Points turned = line.points.rowwise().reverse();
+  turned.row(1) *= -1.0;
+  turned.row(2) = (shape.end_to_end - turned.row(2).array()).matrix();
+  EXPECT_LT((turned - line.points).cwiseAbs().maxCoeff(), 1e-3 * shape.radius);
+}
+
+std::string refused_key(const FishermanShape& shape) {
+  try {
+    fisherman_loop(shape);
+  } catch (const InvalidInput& error) {
+    return error.key;
+  }
+  return "";
+}
+
+TEST(FishermanLoop, RefusesWhatDoesNotFitTheMachine) {
+  FishermanShape shape;
+  EXPECT_EQ(refused_key(shape), "");
+  shape.knot_distance = 0.02;
+  EXPECT_EQ(refused_key(shape), "specimen.knot_distance");
+  shape.knot_distance = 0.22;
+  EXPECT_EQ(refused_key(shape), "specimen.knot_distance");
+  shape = {};
+  shape.end_to_end = 0.05;
+  EXPECT_EQ(refused_key(shape), "specimen.end_to_end");
+  shape = {};
+  shape.edge_length = 0.01;
+  EXPECT_EQ(refused_key(shape), "specimen.edge_length");
+  shape = {};
+  shape.edge_length = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(refused_key(shape), "specimen.edge_length");
+  shape = {};
+  shape.tail = -0.1;
+  EXPECT_EQ(refused_key(shape), "specimen.tail");
+  shape = {};
+  shape.looseness = 3.0;
+  EXPECT_EQ(refused_key(shape), "specimen.looseness");
+  shape = {};
+  shape.roller_radius = 0.004;
+  EXPECT_EQ(refused_key(shape), "machine.roller_diameter");
+}
+
+TEST(FishermanLoop, FitsWhereverItIsAccepted) {
+  for (const Handedness handedness : {Handedness::kSame, Handedness::kOpposite}) {
+    for (const double e : {0.042, 0.15, 0.165}) {
+      FishermanShape shape;
+      shape.handedness = handedness;
+      shape.knot_distance = e;
+      shape.tail = 0.1;
+      const Centreline line = fisherman_loop(shape);
+      for (const double z : {0.0, shape.end_to_end}) {
+        const Eigen::VectorXd distance =
+            (line.points.row(0).array().square() + (line.points.row(2).array() - z).square()).sqrt();
+        EXPECT_GT(distance.minCoeff(), shape.roller_radius + 0.98 * shape.radius) << "e " << e;
+      }
+    }
+  }
+}
+
+TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
+  for (int turns = 1; turns <= 4; ++turns) {
+    for (const double excess : {0.65, 0.9}) {
+      OverhandShape shape;
+      shape.turns = turns;
+      shape.length = 2.0;
+      shape.end_to_end = shape.length - excess;
+      const Centreline line = overhand(shape);
+      expect_equal_edges(line.points, shape.edge_length);
+      EXPECT_NEAR(line.length(), shape.length, 0.01 * excess);
+      EXPECT_LT(line.points.leftCols(1).norm(), 1e-9);
+      EXPECT_LT((line.points.rightCols(1) - Vec3(0.0, 0.0, shape.end_to_end)).norm(), 1e-9);
+      EXPECT_GT(smallest_distance(line.points, 1.5 * M_PI * shape.radius), 2.1 * shape.radius);
+    }
+  }
+}
+
+TEST(Overhand, RefusesTooLittleOrTooMuchExcessLength) {
+  OverhandShape shape;
+  shape.length = 1.0;
+  for (const double end_to_end : {0.99, 0.15, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+    shape.end_to_end = end_to_end;
+    EXPECT_THROW(overhand(shape), InvalidInput) << end_to_end;
+  }
+  shape.end_to_end = 0.7;
+  shape.turns = 5;
+  EXPECT_THROW(overhand(shape), InvalidInput);
+}
+
+TEST(Straight, LiesAlongTheLoadAxis) {
+  const Centreline line = straight(1.0, 3.175e-3, 0.0032);
+  expect_equal_edges(line.points, 0.0032);
+  EXPECT_EQ(line.points.col(0), Vec3::Zero());
+  EXPECT_NEAR((line.points.rightCols(1) - Vec3(0.0, 0.0, 1.0)).norm(), 0.0, 1e-15);
+}
+
+TEST(FromPoints, ResamplesACircleAndClosesIt) {
+  Points circle(3, 200);
+  for (int i = 0; i < 200; ++i) circle.col(i) << 0.1 * std::cos(0.01 * M_PI * i), 0.1 * std::sin(0.01 * M_PI * i), 0.0;
+  const Centreline line = from_points(circle, true, 3e-3, 3e-3);
+  EXPECT_TRUE(line.closed);
+  expect_equal_edges(line.points, 3e-3);
+  EXPECT_EQ(line.points.col(0), line.points.rightCols(1));
+  EXPECT_NEAR(line.length(), 0.2 * M_PI, 1e-3);
+}
+
+TEST(FromPoints, RefusesOverlapAndNonsense) {
+  Points crossing(3, 4);
+  crossing.col(0) << 0.0, 0.0, 0.0;
+  crossing.col(1) << 0.2, 0.0, 0.0;
+  crossing.col(2) << 0.2, 0.1, 0.0;
+  crossing.col(3) << 0.1, -0.1, 0.0;
+  EXPECT_THROW(from_points(crossing, false, 3e-3, 3e-3), InvalidInput);
+  crossing(2, 3) = 0.1;
+  EXPECT_NO_THROW(from_points(crossing, false, 3e-3, 3e-3));
+  crossing(0, 0) = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(from_points(crossing, false, 3e-3, 3e-3), InvalidInput);
+  EXPECT_THROW(from_points(Points(3, 0), false, 3e-3, 3e-3), InvalidInput);
+}
+
+TEST(SmallestDistance, SeesParallelCrossingAndEndOnSegments) {
+  Points u(3, 4);
+  u.col(0) << 0.0, 0.0, 0.0;
+  u.col(1) << 1.0, 0.0, 0.0;
+  u.col(2) << 1.0, 0.3, 0.0;
+  u.col(3) << 0.0, 0.3, 0.0;
+  EXPECT_NEAR(smallest_distance(u, 0.1), 0.3, 1e-12);
+  u.col(3) << 0.5, -0.2, 0.1;
+  EXPECT_NEAR(smallest_distance(u, 0.1), 0.3 * 0.1 / std::hypot(0.3, 0.1), 0.07);
+  EXPECT_EQ(smallest_distance(u, 10.0), std::numeric_limits<double>::infinity());
+}
+
+}  // namespace
+}  // namespace knot_utm
