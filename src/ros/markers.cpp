@@ -1,5 +1,6 @@
 #include "knot_utm/ros/markers.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
