@@ -112,7 +112,7 @@ void KnotNode::answer(const Crosshead& message) {
   for (const Sample& step : bench_.substeps()) {
     record->steps.push_back(to_message(step, message.run, test_stamp(start, step.time)));
   }
-  if (shape_is_due(command)) put_shape(*record);
+  if (shape_is_due(command) || sample_.status == BenchStatus::kFailed) put_shape(*record);
   kept_.push_back(record);
   if (kept_.size() > kKeptAnswers) kept_.pop_front();
   publish(*record);

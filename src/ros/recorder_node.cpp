@@ -111,6 +111,7 @@ void RecorderNode::write(const KnotRecord& record) {
   const std::vector<double>& tension = record.shape.tension;
   run_->bag.add(command, sample, points_from_message(record.shape),
                 Eigen::Map<const Eigen::VectorXd>(tension.data(), static_cast<Eigen::Index>(tension.size())));
+  run_->failed = sample.status == BenchStatus::kFailed;
   run_->stamp = record.command.header.stamp;
   ++run_->recorded;
   run_->next = command.sequence + 1;
@@ -145,7 +146,8 @@ void RecorderNode::finish_when_ready() {
   if (test_.state != TestStatus::ENDED || test_.run != run_number_) return;
   const bool all = run_->next > test_.sequence;
   const bool shape = run_->shape.cols() > 0 && run_->shape_sequence == test_.sequence;
-  if (all && shape) {
+  // A physics that has failed may not have the specimen any more.
+  if (all && (shape || run_->failed)) {
     finish(ended_by_from_name(test_.ended_by), test_.reason, "");
   } else if (seconds_since(run_->progress) > kPatienceAtEnd) {
     if (!all) run_->dropped += test_.sequence + 1 - run_->next;
@@ -185,7 +187,7 @@ bool RecorderNode::on_save(std_srvs::Trigger::Request& /*request*/, std_srvs::Tr
   }
   if (!run_->complete && error_.empty()) {
     try {
-      run_->bag.save();
+      run_->bag.save((std::filesystem::path(run_->folder) / "saved.bag").string());
       RunFacts facts = run_->writer.facts();
       facts.reason = "saved while the test was running";
       facts.wall_time = seconds_since(run_->begin);

@@ -1,5 +1,7 @@
 #include "knot_utm/ros/test_bag.hpp"
 
+#include <filesystem>
+
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
 
@@ -42,8 +44,10 @@ void TestBag::add(const Command& command, const Sample& sample, const Points& sh
   }
 }
 
-void TestBag::save() {
+void TestBag::save(const std::string& file) {
+  // Only a closed bag has an index.
   bag_.close();
+  std::filesystem::copy_file(file_, file, std::filesystem::copy_options::overwrite_existing);
   bag_.open(file_, rosbag::bagmode::Append);
   bag_.setChunkThreshold(kChunk);
 }

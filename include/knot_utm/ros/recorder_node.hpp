@@ -19,7 +19,8 @@ namespace knot_utm {
 
 /// Writes every command and its answer in order, by the code that writes them headless. What is missing it waits for,
 /// as the machine asks for it again; what does not come it counts as dropped. The first test of a launch goes to the
-/// folder given, the second one to the folder beside it with "-2", and so on.
+/// folder given, the second one to the folder beside it with "-2", and so on. The service recorder/save leaves
+/// result.yaml as of now and saved.bag, a copy of the bag so far.
 class RecorderNode {
  public:
   RecorderNode(const ros::NodeHandle& node, TestSetup setup);
@@ -46,6 +47,7 @@ class RecorderNode {
     ros::Time stamp;                                      ///< of the last record
     Clock::time_point begin = Clock::now();
     Clock::time_point progress = Clock::now();  ///< when something last came
+    bool failed = false;                        ///< the last answer was that of a physics that failed
     bool complete = false;
   };
 

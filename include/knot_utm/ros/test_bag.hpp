@@ -22,7 +22,8 @@ class TestBag {
   void add(const Command& command, const Sample& sample, const TestBench& bench);
   void add(const Command& command, const Sample& sample, const Points& shape, const Eigen::VectorXd& tension);
 
-  void save();  ///< makes the file one that can be read, and goes on
+  /// Copies what there is so far to `file`, which can be read at once, and goes on.
+  void save(const std::string& file);
   void close();
 
   std::uint64_t messages() const { return messages_; }  ///< written so far
