@@ -66,6 +66,7 @@ void KnotNode::new_specimen() {
   next_ = 0;
   kept_.clear();
   sample_ = Sample();
+  motion_ = MotionPatternTracker();
   view_is_old_ = true;
 
   SpecimenInfo info;
@@ -101,12 +102,14 @@ void KnotNode::answer(const Crosshead& message) {
   const Command command = from_message(message);
   stamp_ = message.header.stamp;
   sample_ = bench_.respond(command);
+  motion_.add(sample_);
   ++next_;
   view_is_old_ = true;
 
   auto record = boost::make_shared<KnotRecord>();
   record->command = message;
   record->answer = to_message(sample_, message.run, stamp_);
+  record->answer.motion_pattern = motion_pattern_name(motion_.pattern());
   const double start = stamp_.toSec() - command.time;
   record->steps.reserve(bench_.substeps().size());
   for (const Sample& step : bench_.substeps()) {
@@ -127,6 +130,7 @@ void KnotNode::refuse(const Crosshead& message, const std::string& why) {
   KnotRecord record;
   record.command = message;
   record.answer = to_message(failed, message.run, message.header.stamp);
+  record.answer.motion_pattern = motion_pattern_name(motion_.pattern());
   publish(record);
 }
 
@@ -175,10 +179,9 @@ void KnotNode::on_view_timer(const ros::WallTimerEvent& /*event*/) {
 void KnotNode::publish_markers() {
   const Eigen::VectorXd tension = bench_.tension();
   if (tension.size() > 0) highest_tension_ = std::max(highest_tension_, tension.maxCoeff());
-  const SceneView view{
-      bench_.state().position, tension,         method_.material.radius,
-      highest_tension_,        method_.machine, bench_.lower_grip(),
-      bench_.upper_grip(),     sample_,         kept_.empty() ? "none" : kept_.back()->answer.motion_pattern};
+  const SceneView view{bench_.state().position, tension,         method_.material.radius,
+                       highest_tension_,        method_.machine, bench_.lower_grip(),
+                       bench_.upper_grip(),     sample_,         motion_pattern_name(motion_.pattern())};
   markers_.publish(scene_markers(view, stamp_));
 }
 

@@ -165,7 +165,7 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
     facts.wall_time = seconds_since(run.begin);
     if (!warning.empty()) facts.warnings.push_back(warning);
     if (run.dropped > 0) facts.warnings.push_back(std::to_string(run.dropped) + " commands were not recorded");
-    run.writer.finish(Results(), facts, run.shape);
+    run.writer.finish(run.writer.results(ended_by), facts, run.shape);
     run.complete = true;
     ROS_INFO("written to %s: %zu rows, %llu commands dropped", run.folder.c_str(), run.writer.rows(),
              static_cast<unsigned long long>(run.dropped));
@@ -191,7 +191,7 @@ bool RecorderNode::on_save(std_srvs::Trigger::Request& /*request*/, std_srvs::Tr
       RunFacts facts = run_->writer.facts();
       facts.reason = "saved while the test was running";
       facts.wall_time = seconds_since(run_->begin);
-      run_->writer.finish(Results(), facts, run_->shape);
+      run_->writer.finish(run_->writer.results(facts.ended_by), facts, run_->shape);
     } catch (const std::exception& error) {
       fail(error.what());
     }

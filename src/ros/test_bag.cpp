@@ -33,7 +33,10 @@ void TestBag::add(const Command& command, const Sample& sample, const Points& sh
   const ros::Time stamp = test_stamp(0.0, command.time);
   write(names::kCrosshead, stamp, to_message(command, kRun, stamp));
   write(names::kJointStates, stamp, to_joint_state(command, sample, stamp));
-  write(names::kKnotState, stamp, to_message(sample, kRun, stamp));
+  motion_.add(sample);
+  KnotState state = to_message(sample, kRun, stamp);
+  state.motion_pattern = motion_pattern_name(motion_.pattern());
+  write(names::kKnotState, stamp, state);
   if (command.read_cell) write(names::kLoadCell, stamp, to_wrench(sample, stamp));
   if (shape_is_due(command) && shape.cols() > 0) {
     KnotShape message = to_message(shape, tension, radius_);

@@ -13,6 +13,7 @@
 #include <deque>
 #include <string>
 
+#include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/test_bench.hpp"
 
@@ -51,6 +52,7 @@ class KnotNode {
   std::uint64_t next_ = 0;                          ///< sequence of the command that comes next
   std::deque<boost::shared_ptr<KnotRecord>> kept_;  ///< the last answers, in order
   Sample sample_;                                   ///< the last answer
+  MotionPatternTracker motion_;                     ///< of this specimen
   ros::Time stamp_;                                 ///< of the last answer
   double highest_tension_ = 0.0;                    ///< seen in any picture [N]
   bool view_is_old_ = true;

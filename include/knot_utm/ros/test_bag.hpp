@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 
+#include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/sample.hpp"
 #include "knot_utm/machine/test_bench.hpp"
@@ -35,6 +36,7 @@ class TestBag {
   std::string file_;
   rosbag::Bag bag_;
   double radius_;  ///< [m]
+  MotionPatternTracker motion_;
   std::uint64_t messages_ = 0;
 };
 
