@@ -26,10 +26,17 @@ endif()
 # Executables find the package's libraries beside themselves, sourced environment or not.
 set(CMAKE_INSTALL_RPATH "$ORIGIN/..")
 
+# Everything but the tests.
+add_custom_target(programs)
+if(catkin_FOUND)
+  add_dependencies(programs ${${PROJECT_NAME}_EXPORTED_TARGETS})
+endif()
+
 # One executable, with the flags of the package, where `rosrun` looks for it.
 function(knot_utm_executable name)
   add_executable(${name} ${ARGN})
   target_link_libraries(${name} PRIVATE knot_utm_core)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${KNOT_UTM_EXECUTABLE_DIR})
+  add_dependencies(programs ${name})
   install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endfunction()
