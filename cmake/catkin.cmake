@@ -1,6 +1,12 @@
 # catkin where it is there: messages, and where executables go. Without it the core and the tools are built all the same.
 set(catkin_FOUND FALSE)
 if(KNOT_UTM_ROS)
+  # catkin installs setup.bash to where CMAKE_INSTALL_PREFIX was when configured, whatever `cmake --install --prefix`
+  # says. Built on its own, the package installs these files itself; in a workspace that is the workspace's task.
+  if(CMAKE_SOURCE_DIR STREQUAL PROJECT_SOURCE_DIR AND NOT DEFINED CATKIN_INSTALL_INTO_PREFIX_ROOT)
+    set(CATKIN_INSTALL_INTO_PREFIX_ROOT FALSE)
+    set(KNOT_UTM_INSTALLS_SETUP TRUE)
+  endif()
   set(message_packages geometry_msgs std_msgs)
   set(node_packages diagnostic_updater rosbag roscpp rosgraph_msgs sensor_msgs std_srvs tf2_ros visualization_msgs)
   find_package(catkin QUIET COMPONENTS message_generation ${message_packages} ${node_packages})

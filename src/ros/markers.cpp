@@ -40,6 +40,16 @@ std_msgs::ColorRGBA tension_color(double tension, double highest) {
   return color(1.0 - 0.3 * (x - 0.5), 0.8 - 1.5 * (x - 0.5), 0.1);
 }
 
+/// rviz does not light triangles that have colours of their own, so the light is put into the colours: one lamp, and
+/// soft enough that no side is black (half-Lambert).
+std_msgs::ColorRGBA lit(const std_msgs::ColorRGBA& c, const Vec3& normal) {
+  static const Vec3 kToLamp = Vec3(0.55, -0.65, 0.55).normalized();
+  const double half = 0.5 + 0.5 * normal.dot(kToLamp);
+  const double light = 0.3 + 0.75 * half * half;
+  return color(std::min(1.0, light * static_cast<double>(c.r)), std::min(1.0, light * static_cast<double>(c.g)),
+               std::min(1.0, light * static_cast<double>(c.b)));
+}
+
 Vec3 any_normal(const Vec3& t) {
   const Vec3 axis = std::abs(t.x()) < 0.5 ? Vec3::UnitX() : Vec3::UnitY();
   return t.cross(axis).normalized();
@@ -122,10 +132,9 @@ Marker tube_marker(const Points& points, const Eigen::VectorXd& tension, double 
   if (n < 2) return m;
 
   const std::vector<Ring> rings = rings_of(points);
-  const auto vertex = [&](std::size_t ring, int side) {
+  const auto outwards = [&](std::size_t ring, int side) -> Vec3 {
     const double angle = 2.0 * kPi * side / options.sides;
-    const Ring& r = rings[ring];
-    return to_point(r.center + radius * (std::cos(angle) * r.normal + std::sin(angle) * r.binormal));
+    return std::cos(angle) * rings[ring].normal + std::sin(angle) * rings[ring].binormal;
   };
   const auto color_at = [&](std::size_t node) {
     const Eigen::Index i = static_cast<Eigen::Index>(node);
@@ -134,34 +143,37 @@ Marker tube_marker(const Points& points, const Eigen::VectorXd& tension, double 
     const double mean = 0.5 * (tension[std::clamp<Eigen::Index>(i - 1, 0, last)] + tension[std::min(i, last)]);
     return tension_color(mean, options.highest_tension);
   };
-  const auto add = [&](const geometry_msgs::Point& point, const std_msgs::ColorRGBA& c) {
-    m.points.push_back(point);
+  const auto add = [&](const Vec3& point, const std_msgs::ColorRGBA& c) {
+    m.points.push_back(to_point(point));
     m.colors.push_back(c);
   };
 
   const std::size_t triangles = static_cast<std::size_t>(options.sides) * 2 * rings.size();
   m.points.reserve(3 * triangles);
   m.colors.reserve(3 * triangles);
+  const auto surface = [&](std::size_t ring, int side, const std_msgs::ColorRGBA& c) {
+    const Vec3 normal = outwards(ring, side);
+    add(rings[ring].center + radius * normal, lit(c, normal));
+  };
   for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
     const std_msgs::ColorRGBA low = color_at(i);
     const std_msgs::ColorRGBA high = color_at(i + 1);
     for (int side = 0; side < options.sides; ++side) {
-      const geometry_msgs::Point a = vertex(i, side);
-      const geometry_msgs::Point b = vertex(i, side + 1);
-      const geometry_msgs::Point c = vertex(i + 1, side + 1);
-      const geometry_msgs::Point d = vertex(i + 1, side);
-      add(a, low), add(b, low), add(c, high);
-      add(a, low), add(c, high), add(d, high);
+      surface(i, side, low), surface(i, side + 1, low), surface(i + 1, side + 1, high);
+      surface(i, side, low), surface(i + 1, side + 1, high), surface(i + 1, side, high);
     }
   }
-  const std::size_t last = rings.size() - 1;
+  const auto end_cap = [&](std::size_t ring, int from, int to) {
+    const Ring& r = rings[ring];
+    const double direction = to > from ? 1.0 : -1.0;
+    const std_msgs::ColorRGBA c = lit(color_at(ring), direction * r.normal.cross(r.binormal));
+    add(r.center, c);
+    add(r.center + radius * outwards(ring, from), c);
+    add(r.center + radius * outwards(ring, to), c);
+  };
   for (int side = 0; side < options.sides; ++side) {
-    add(to_point(rings[0].center), color_at(0));
-    add(vertex(0, side + 1), color_at(0));
-    add(vertex(0, side), color_at(0));
-    add(to_point(rings[last].center), color_at(last));
-    add(vertex(last, side), color_at(last));
-    add(vertex(last, side + 1), color_at(last));
+    end_cap(0, side + 1, side);
+    end_cap(rings.size() - 1, side, side + 1);
   }
   return m;
 }
@@ -176,7 +188,7 @@ visualization_msgs::MarkerArray scene_markers(const SceneView& view, const ros::
 
   Marker text = base_marker("reading", 0, Marker::TEXT_VIEW_FACING);
   const double height = 0.04 * std::max((view.upper_grip - view.lower_grip).norm(), 0.1);
-  text.pose.position = to_point(view.upper_grip + Vec3(0.0, 0.0, 4.0 * height + 0.5 * view.machine.roller_diameter));
+  text.pose.position = to_point(view.upper_grip - Vec3(4.0 * height + view.machine.roller_diameter, 0.0, height));
   text.scale.z = height;
   text.color = color(1.0, 1.0, 1.0);
   text.text = reading_text(view.sample, view.motion_pattern);

@@ -61,7 +61,7 @@ TEST(TubeMarker, TensionIsRedderThanSlack) {
   const Points points = helix(2);
   const auto tight = tube_marker(points, tension, 0.01, options).colors.front();
   const auto slack = tube_marker(points, Eigen::VectorXd::Zero(1), 0.01, options).colors.front();
-  EXPECT_GT(tight.r - tight.b, slack.r - slack.b + 0.5f);
+  EXPECT_GT(tight.r / tight.b, 3.0f * slack.r / slack.b);
 }
 
 TEST(TubeMarker, NothingToShow) { EXPECT_TRUE(tube_marker(Points(3, 0), {}, 0.01, TubeOptions()).points.empty()); }

@@ -12,7 +12,7 @@
 
 namespace knot_utm {
 
-/// Surface of a tube around a centreline: a TRIANGLE_LIST with outward winding, which rviz lights, and flat ends.
+/// Surface of a tube around a centreline: a TRIANGLE_LIST with outward winding and flat ends, lit by its colours.
 /// The cross-section is carried along without twist, so that the surface does not wring where the rod turns.
 struct TubeOptions {
   int sides = 10;
