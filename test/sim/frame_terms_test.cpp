@@ -13,16 +13,17 @@ namespace {
 
 constexpr int kNodes = 8;
 constexpr double kDt = 0.3;
-constexpr double kDrag = 0.4;
 
 /// A bent and twisted rod on its way: the step begins in one shape and is tried in another, half an edge away.
 class FrameTermsOf : public testing::TestWithParam<bool> {
  protected:
   RodProperties rod;
   RodState start;
+  StepSettings settings;
   Eigen::VectorXd trial;  // x_0, theta_0, ... as the lanes have it; the last angle is none
 
   FrameTermsOf() {
+    settings.drag = 0.4;
     std::mt19937 random(7);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     Material material;
@@ -86,7 +87,7 @@ class FrameTermsOf : public testing::TestWithParam<bool> {
 };
 
 TEST_P(FrameTermsOf, StiffnessIsTheForcesDerivative) {
-  FrameTerms terms(rod, kDrag);
+  FrameTerms terms(rod, settings);
   const Eigen::MatrixXd expected =
       -finite_difference([&](const Eigen::VectorXd& y) { return force_at(terms, y); }, trial, 1e-3);
   force_at(terms, trial);
@@ -112,8 +113,8 @@ TEST_P(FrameTermsOf, StiffnessIsTheForcesDerivative) {
 }
 
 TEST_P(FrameTermsOf, ForcesAreTheEnergysSlopeAtFixedSpin) {
-  rod.material.density = 0.0;
-  FrameTerms terms(rod, 0.0);
+  settings.spin_inertia = false;
+  FrameTerms terms(rod, settings);
   const Eigen::VectorXd force = force_at(terms, trial);
   RodState at_trial = start;
   at_trial.position = positions(trial);
@@ -131,7 +132,7 @@ TEST_P(FrameTermsOf, ForcesAreTheEnergysSlopeAtFixedSpin) {
 }
 
 TEST_P(FrameTermsOf, AHeldAngleStandsWhereItMust) {
-  FrameTerms terms(rod, kDrag);
+  FrameTerms terms(rod, settings);
   terms.begin_step(start, {{2, 0.4}}, kDt);
   EXPECT_TRUE(terms.held(2));
   EXPECT_FALSE(terms.held(3));

@@ -11,16 +11,22 @@ namespace knot_utm {
 /// What material frames bring to one implicit step: the angle theta_j of every edge as an unknown beside the nodes'
 /// positions, twisting, bending where the rod has a natural curvature, and inertia and drag of the rod's spin.
 ///
-///   I_j (theta_j - theta_j^n - dt omega_j^n)/dt^2 + c h^2 l_j (theta_j - theta_j^n)/dt = -dE/dtheta_j + T_j
+///   I_j (theta_j - theta_j^n - dt omega_j^n)/dt^2 + (c h^2 l_j/dt + r_j) (theta_j - theta_j^n) = -dE/dtheta_j + T_j
 ///
 ///   theta_j  angle of the material against the reference frame of edge j at the end of the step  [rad]
 ///   theta_j^n, omega_j^n   angle and rate at its beginning  [rad], [rad/s]
 ///   I_j      rho pi h^4/2 l_j, polar moment of inertia      [kg m^2]
 ///   c        viscous drag per length, as for the positions: it acts on the rod's surface, whose speed is h omega and
 ///            whose lever is h [N s/m^2]
+///   r_j      0, or where spin has neither inertia nor drag a trifle of k_t/l_j, so that a rod that is free to turn
+///            stays where it is [N m]
 ///   E        k_t/(2 lbar) (m - mbar)^2 at every inner node (twisting.hpp) and, where the rod has a natural curvature,
 ///            bending.hpp [J]; a rod that is straight at rest bends as without frames (isotropic_bending.hpp)
 ///   T_j      torque of the holder of a held frame about the tangent [N m]
+///
+/// StepSettings::spin_inertia says whether I and c count. Without them every trial is in equilibrium of twist: a rod
+/// that is straight at rest and whose ends are free to turn then has no twist at any time, and moves exactly as one
+/// without frames. With them it has some while it moves, until the waves of twist have run out.
 ///
 /// The reference frame of a trial position is that of the step's beginning, transported from tangent t^n to tangent t
 /// edge by edge; so it does not depend on the way of the iterations, and theta - theta^n is how far the rod really
@@ -44,12 +50,12 @@ class FrameTerms {
   /// Terms of one edge beyond those of its nodes.
   struct EdgeStiffness {
     Mat3 sweep;   ///< d(dE/de)/de that comes from the tangent's way alone, antisymmetric [N/m]
-    double spin;  ///< of inertia and drag: d(torque)/dtheta [N m]
+    double spin;  ///< of inertia, drag and r: d(torque)/dtheta [N m]
     Vec3 lean;    ///< dtheta = ds - lean . de [1/m]
   };
 
-  /// `rod` must outlive this; `drag` is c [N s/m^2].
-  FrameTerms(const RodProperties& rod, double drag);
+  /// `rod` must outlive this.
+  FrameTerms(const RodProperties& rod, const StepSettings& settings);
 
   /// Begins a step of length dt [s] from `start`, a state with frames, which must stay unchanged until it ends. Held
   /// angles stand where they must, all others turn on as they did.
@@ -85,6 +91,7 @@ class FrameTerms {
   const RodProperties& rod_;
   Eigen::VectorXd inertia_;  // I_j
   Eigen::VectorXd drag_;     // c h^2 l_j [N m s]
+  Eigen::VectorXd rest_;     // r_j
   bool curved_;              // at rest
   const RodState* start_ = nullptr;
   double dt_ = 0.0;
