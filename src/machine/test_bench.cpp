@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "knot_utm/machine/load_cell.hpp"
+#include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
@@ -63,6 +64,7 @@ StepSettings step_settings(const Material& material, const MachineOptions& machi
   out.roller_friction.coefficient = machine.roller_friction;
   out.gravity = physics.gravity;
   out.drag = physics.drag;
+  out.spin_inertia = false;  // a slow test; and a rod that is free to turn is then the same with twist and without
   out.residual = tolerance.residual * material.bending_stiffness / (h * h);
   out.residual_of_tension = kResidualOfTension;
   out.newton_cap = 0.1 * h;
@@ -123,6 +125,7 @@ struct TestBench::Impl {
   LoadCell cell;
   std::optional<TyingRig> rig;
   std::vector<FixedNode> lower_nodes, upper_nodes;  // grips that hold nodes, as they stood at displacement 0
+  std::vector<FixedTwist> held_frames;              // of clamps
   std::vector<Roller> rollers;                      // lower, upper, at displacement 0
   Boundary boundary;
 
@@ -153,6 +156,8 @@ struct TestBench::Impl {
     state.position = centreline.points;
     state.velocity = Points::Zero(3, nodes);
     const RodProperties rod = make_rod(material, rest);
+    place_grips();
+    if (solves_for_twist(rod)) initialise_frames(&state);
     stepper = TimeStep::make(rod, state, step_settings(material, machine, physics));
     StepControl::Options options;
     options.longest = tolerances(physics).longest_step;
@@ -163,7 +168,6 @@ struct TestBench::Impl {
       tying.preload = preload(specimen, material);
       rig.emplace(centreline, rod, tying);
     }
-    place_grips();
     extension_zero = end_to_end();
   }
 
@@ -191,6 +195,7 @@ struct TestBench::Impl {
       if (machine.grips == GripKind::kClamps) {
         hold(lower_nodes, lower + 1);
         hold(upper_nodes, upper + 1);
+        held_frames = {{lower, 0.0}, {upper, 0.0}};
       }
       return;
     }
@@ -199,7 +204,23 @@ struct TestBench::Impl {
     if (machine.grips != GripKind::kNodes) {
       hold(lower_nodes, 1);
       hold(upper_nodes, nodes - 2);
+      held_frames = {{0, 0.0}, {nodes - 2, 0.0}};
     }
+  }
+
+  /// `auto`: where frames are held at two places, or the rod at rest is curved or twisted. A rod whose ends are free
+  /// to turn has no twist, contacts acting on its centreline; nor has one that stays straight.
+  bool solves_for_twist(const RodProperties& rod) const {
+    switch (physics.twist) {
+      case TwistMode::kOn:
+        return true;
+      case TwistMode::kOff:
+        return false;
+      case TwistMode::kAuto:
+        break;
+    }
+    return rod.natural_curvature.cols() > 0 || rod.natural_twist.size() > 0 ||
+           (held_frames.size() > 1 && specimen.knot != KnotKind::kStraight);
   }
 
   const Boundary& boundary_at(const Command& command, double from, double to, double start_time,
@@ -210,7 +231,7 @@ struct TestBench::Impl {
     boundary.rollers = rollers;
     if (on_rollers()) boundary.rollers[1].centre[2] += travel;
     boundary.fixed_nodes.clear();
-    boundary.fixed_twists.clear();
+    boundary.fixed_twists = held_frames;
     boundary.forces.clear();
     boundary.grips.clear();
     boundary.extra_drag = 0.0;

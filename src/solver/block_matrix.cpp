@@ -139,6 +139,19 @@ void BlockMatrix<D>::set_identity_row(int node) {
 }
 
 template <int D>
+void BlockMatrix<D>::set_identity_row(int node, const Lanes& keep) {
+  const int r = pattern_->position(node);
+  const auto clear = [&](Block<D>& b) {
+    for (Lanes& column : b.column) column *= keep;
+  };
+  Block<D>& own = block(pattern_->diagonal(r));
+  clear(own);
+  for (int j = 0; j < D; ++j) own.at(j, j) += 1.0 - keep[j];
+  for (int a = 0; a < pattern_->below(r); ++a) clear(block(pattern_->diagonal(r) + 2 + 2 * a));
+  for (const int* lower = pattern_->lower_begin(r); lower != pattern_->lower_end(r); ++lower) clear(block(*lower));
+}
+
+template <int D>
 void BlockMatrix<D>::multiply(const Vector& x, Vector& y) const {
   const int nodes = pattern_->nodes();
   std::vector<int> node_at(at(nodes));

@@ -16,7 +16,7 @@ struct PhysicsOptions {
   FrictionLaw friction_law = FrictionLaw::kMemory;    ///< friction.law: memory | smoothed
   double slip_tolerance = 1e-3;                       ///< friction.slip_tolerance v_s [m/s], `smoothed` only
   ContactLaw contact_law = ContactLaw::kSmooth;       ///< contact.law: smooth | edge
-  TwistMode twist = TwistMode::kAuto;                 ///< twist: auto | on | off
+  TwistMode twist = TwistMode::kAuto;                 ///< twist: auto (where the scene can twist) | on | off
   Accuracy accuracy = Accuracy::kNormal;              ///< accuracy: draft | normal | fine
   double drag = 0.1;                                  ///< viscous drag per length of rod [N s/m^2]
   std::optional<double> contact_tolerance;            ///< contact.tolerance delta [fraction of radius]

@@ -60,6 +60,7 @@ struct StepSettings {
   Friction roller_friction;
   Vec3 gravity = Vec3::Zero();       ///< g [m/s^2]
   double drag = 0.0;                 ///< c, force -c v per length [N s/m^2]
+  bool spin_inertia = true;          ///< turning of the rod about itself has inertia and drag (frame_terms.hpp)
   double residual = 0.0;             ///< Newton's largest nodal residual [N]
   double residual_of_tension = 0.0;  ///< to which this share of the largest tension is added [-]
   double newton_cap = 0.0;           ///< longest movement of a node in one Newton iteration [m]

@@ -66,6 +66,8 @@ class BlockMatrix {
 
   /// Row `node` becomes that of the identity: its unknown is prescribed by the right-hand side.
   void set_identity_row(int node);
+  /// As set_identity_row, in those rows of the block whose lane of `keep` is 0; the others, of lane 1, stay.
+  void set_identity_row(int node, const Lanes& keep);
 
   /// y = A x, before factorising.
   void multiply(const Vector& x, Vector& y) const;
