@@ -43,6 +43,17 @@ std::size_t point_of(const ContactPoint& contact) {
   return 2 * static_cast<std::size_t>(contact.a0 + 1) + (contact.c[0] > contact.c[2] ? 0u : 1u);
 }
 
+/// max(0, g) of x against the curve at parameter u of a segment: g = 1 - x.c''/|c'|^2 of the segment itself at its
+/// middle, the smaller of the two that meet at its ends, linear between.
+double least_curvature_share(const Points& nodes, int segment, double u, const Vec3& x, double length2) {
+  const int last = static_cast<int>(nodes.cols()) - 2;
+  const double own = 1.0 - x.dot(second_difference(nodes, segment)) / length2;
+  const int other = u < 0.5 ? std::max(segment - 1, 1) : std::min(segment + 1, last);
+  const double end = std::min(own, 1.0 - x.dot(second_difference(nodes, other)) / length2);
+  const double towards_end = 2.0 * std::abs(u - 0.5);
+  return std::max(0.0, own + towards_end * (end - own));
+}
+
 }  // namespace
 
 SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction,
@@ -59,32 +70,19 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
   arclength_.resize(nodes);
   arclength_[0] = 0.0;
   for (Eigen::Index i = 1; i < nodes; ++i) arclength_[i] = arclength_[i - 1] + rod.rest_length[i - 1];
-  memory_begin_.assign(2 * static_cast<std::size_t>(nodes) + 1, 0);
-  next_begin_ = memory_begin_;
-  estimate_begin_ = memory_begin_;
+  accepted_.begin.assign(2 * static_cast<std::size_t>(nodes) + 1, 0);
+  iterate_ = accepted_;
   edge_middle_.resize(3, nodes - 1);
   edge_.resize(3, nodes - 1);
 }
 
 void SmoothContact::begin_step() {
-  contacts_.clear();
-  estimate_.clear();
-  for (const Memory& memory : memory_) estimate_.push_back({memory.arclength_b, memory.pressure});
-  estimate_begin_ = memory_begin_;
+  iterate_ = accepted_;
   first_evaluation_ = true;
 }
 
 void SmoothContact::evaluate(const Points& position, const Points& start, double dt) {
-  if (!first_evaluation_) {
-    estimate_.clear();
-    std::size_t q_done = 0;
-    for (const ContactPoint& contact : contacts_) {
-      const std::size_t q = point_of(contact);
-      while (q_done <= q) estimate_begin_[q_done++] = static_cast<int>(estimate_.size());
-      estimate_.push_back({contact.arclength_b, contact.estimate});
-    }
-    while (q_done < estimate_begin_.size()) estimate_begin_[q_done++] = static_cast<int>(estimate_.size());
-  }
+  if (!first_evaluation_) remember(nullptr, iterate_);
   first_evaluation_ = false;
   contacts_.clear();
   friction_scale_ = friction_.scale(dt);
@@ -145,25 +143,25 @@ void SmoothContact::add_contact(int segment, int point, int foot, double u, cons
   contact.inverse_g = 1.0 / std::max(length2 - contact.x.dot(second_difference(position, foot)), 1e-3 * length2);
 
   const Memory* found = nullptr;
-  const std::size_t q = 2 * static_cast<std::size_t>(segment) + static_cast<std::size_t>(point);
-  for (int m = memory_begin_[q]; m < memory_begin_[q + 1]; ++m) {
-    const Memory& memory = memory_[static_cast<std::size_t>(m)];
-    if (std::abs(memory.arclength_b - contact.arclength_b) > window_) continue;
-    if (!found || std::abs(memory.arclength_b - contact.arclength_b) < std::abs(found->arclength_b - contact.arclength_b))
-      found = &memory;
-  }
   double nearest = window_;
-  for (int m = estimate_begin_[q]; m < estimate_begin_[q + 1]; ++m) {
-    const Estimate& estimate = estimate_[static_cast<std::size_t>(m)];
-    const double away = std::abs(estimate.arclength_b - contact.arclength_b);
+  const std::size_t q = 2 * static_cast<std::size_t>(segment) + static_cast<std::size_t>(point);
+  for (int m = iterate_.begin[q]; m < iterate_.begin[q + 1]; ++m) {
+    const Memory& memory = iterate_.entries[static_cast<std::size_t>(m)];
+    const double away = std::abs(memory.arclength_b - contact.arclength_b);
     if (away > nearest) continue;
     nearest = away;
-    contact.estimate = estimate.pressure;
+    found = &memory;
   }
-  contact.weight = 0.5 * voronoi_[segment] * (found ? found->share : share(contact, position));
+  if (found) {
+    contact.share = found->share;
+    contact.estimate = found->pressure;
+    contact.memory = found->slip;
+  } else {
+    contact.share = share(contact, position);
+  }
+  contact.weight = 0.5 * voronoi_[segment] * contact.share;
 
   if (friction_.on() && contact.active()) {
-    if (found && friction_.remembers()) contact.memory = found->slip;
     contact.slip = contact.memory;
     for (int k = 0; k < 3; ++k) {
       contact.slip += contact.c[k] * (position.col(contact.a0 + k) - start.col(contact.a0 + k));
@@ -178,31 +176,33 @@ void SmoothContact::add_contact(int segment, int point, int foot, double u, cons
 
 double SmoothContact::share(const ContactPoint& contact, const Points& position) const {
   const int segment = contact.a0 + 1, foot = contact.b0 + 1;
-  // Derivatives of the weights are the weights' own: recover u from them.
+  // Of the weights' derivatives the last is the parameter itself.
   const double ua = contact.c[0] > contact.c[2] ? kPoints[0] : kPoints[1];
   const double ub = contact.beta[5];
   const Vec3 da = combine(SegmentWeights(ua).derivative, position, segment);
-  const double g_b = std::max(
-      0.0, 1.0 - contact.x.dot(smooth_second_derivative(position, foot, ub)) / contact.db.squaredNorm());
-  const double g_a =
-      std::max(0.0, 1.0 + contact.x.dot(smooth_second_derivative(position, segment, ua)) / da.squaredNorm());
+  const double g_b = least_curvature_share(position, foot, ub, contact.x, contact.db.squaredNorm());
+  const double g_a = least_curvature_share(position, segment, ua, -contact.x, da.squaredNorm());
   const double a4 = g_a * g_a * g_a * g_a, b4 = g_b * g_b * g_b * g_b;
   return b4 / std::max(a4 + b4, 1e-12);
 }
 
-void SmoothContact::commit(const Points& position) {
-  next_memory_.clear();
-  std::size_t q_done = 0;
+void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
+  list.entries.clear();
+  std::size_t done = 0;
   for (const ContactPoint& contact : contacts_) {
     const std::size_t q = point_of(contact);
-    while (q_done <= q) next_begin_[q_done++] = static_cast<int>(next_memory_.size());
-    const bool sticks = friction_.on() && friction_.remembers() && contact.touches();
-    next_memory_.push_back(
-        {contact.arclength_b, sticks ? Vec3(friction_.presliding * contact.z) : Vec3::Zero(), share(contact, position), contact.pressure});
+    while (done <= q) list.begin[done++] = static_cast<int>(list.entries.size());
+    if (accepted) {
+      const bool sticks = friction_.on() && friction_.remembers() && contact.touches();
+      list.entries.push_back({contact.arclength_b, share(contact, *accepted), contact.pressure,
+                              sticks ? Vec3(friction_.presliding * contact.z) : Vec3::Zero()});
+    } else {
+      list.entries.push_back({contact.arclength_b, contact.share, contact.estimate, contact.memory});
+    }
   }
-  while (q_done < next_begin_.size()) next_begin_[q_done++] = static_cast<int>(next_memory_.size());
-  memory_.swap(next_memory_);
-  memory_begin_.swap(next_begin_);
+  while (done < list.begin.size()) list.begin[done++] = static_cast<int>(list.entries.size());
 }
+
+void SmoothContact::commit(const Points& position) { remember(&position, accepted_); }
 
 }  // namespace knot_utm

@@ -6,6 +6,13 @@
 
 namespace knot_utm {
 
+namespace {
+
+constexpr double kGrowth = 1.2;
+constexpr double kShrink = 0.7;
+
+}  // namespace
+
 std::string StepControl::advance(TimeStep& stepper, double& time, double end, const BoundaryAt& boundary,
                                  const Accepted& accepted) {
   while (time < end) {
@@ -31,12 +38,13 @@ std::string StepControl::advance(TimeStep& stepper, double& time, double end, co
     }
     ++counters_.steps;
     time = to;
-    double factor = summary.newton.iterations <= options_.easy_iterations   ? 1.2
-                    : summary.newton.iterations >= options_.hard_iterations ? 0.7
-                                                                            : 1.0;
-    if (summary.largest_motion > 0.0) factor = std::min(factor, options_.motion / summary.largest_motion);
-    // A piece cut short to meet `end` says nothing against the length it was cut from.
-    next_ = std::min(options_.longest, std::max(factor, 0.3) * (factor >= 1.0 ? std::max(dt, last ? next_ : dt) : dt));
+    // Growth starts from what was wanted: the step taken may have been cut to meet `end`.
+    if (summary.newton.iterations <= options_.easy_iterations)
+      next_ = std::max(next_, dt) * kGrowth;
+    else if (summary.newton.iterations >= options_.hard_iterations)
+      next_ = dt * kShrink;
+    if (summary.largest_motion > 0.0) next_ = std::min(next_, dt * options_.motion / summary.largest_motion);
+    next_ = std::clamp(next_, options_.shortest, options_.longest);
     accepted(time, dt, summary);
   }
   return {};

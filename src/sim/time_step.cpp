@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
 
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/rod/isotropic_bending.hpp"
@@ -55,6 +57,7 @@ class ImplicitStep final : public TimeStep {
     predict();
     contact_.begin_step();
     rollers_.begin_step();
+    if (getenv("HIST")) fprintf(stderr, "DT %.3e\n", dt);
     summary.newton = newton(*this, NewtonOptions{settings_.max_iterations});
     examine(summary);
     if (summary.accepted()) commit();
@@ -72,6 +75,8 @@ class ImplicitStep final : public TimeStep {
     for (const ContactPoint& contact : contact_.contacts()) add_contact_force(contact);
     for (const ContactPoint& contact : rollers_.contacts()) add_contact_force(contact);
     add_grips_and_forces();
+    //DBG
+    if (getenv("HIST")) { double r=0; int w=0; for(int i=0;i<nodes_;++i) if(!held_[at(i)]){ double q=to_vec3(force_[at(i)]).norm(); if(q>r){r=q;w=i;} } fprintf(stderr,"   res %.2e at %d of %d |",r,w,nodes_); for(const ContactPoint&c:contact_.contacts()) if(c.active()&&(std::abs(c.a0+1-w)<2||std::abs(c.b0+1-w)<2)) fprintf(stderr," (%d-%d D %.4f est %.1e p %.1e w %.2f ig %.2f z %.2f)",c.a0+1,c.b0+1,c.overlap/rod_.material.radius,c.estimate,c.pressure,c.weight/rod_.voronoi_length[5],1/(c.inverse_g*c.db.squaredNorm()),c.z.norm()); fprintf(stderr,"\n"); }
     return largest_free_force();
   }
 
@@ -100,14 +105,14 @@ class ImplicitStep final : public TimeStep {
     return true;
   }
 
-  void move() {
+  void move(double wanted_share) {
     double longest2 = 0.0;
     for (const Lanes& change : change_) {
       const double size2 = change[0] * change[0] + change[1] * change[1] + change[2] * change[2];
       longest2 = std::max(longest2, size2);
     }
     const double longest = std::sqrt(longest2);
-    const double share = longest > settings_.newton_cap ? settings_.newton_cap / longest : 1.0;
+    const double share = wanted_share * (longest > settings_.newton_cap ? settings_.newton_cap / longest : 1.0);
     for (int i = 0; i < nodes_; ++i) x_.col(i) += share * to_vec3(change_[at(i)]);
     std::size_t m = 0;
     estimate_pressures(contact_, share, m);

@@ -160,16 +160,30 @@ void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
     case Stage::kReleased:
       break;
   }
-  const bool waits = stage_ == Stage::kPulling || stage_ == Stage::kTailsRest || stage_ == Stage::kClampsRest;
-  if (waits && time - stage_begin_ > options_.patience) {
-    const double fastest = std::sqrt(stepper.state().velocity.colwise().squaredNorm().maxCoeff());
-    std::ostringstream message;
-    message << "not equilibrated: after " << options_.patience << " s of "
-            << (stage_ == Stage::kPulling ? "tying" : "release") << " the fastest node moves at " << fastest
+  if (stage_ == Stage::kPulling && all_slip && reached_ < 0.0) reached_ = time;
+  judge_patience(stepper, time);
+}
+
+void TyingRig::judge_patience(const TimeStep& stepper, double time) {
+  std::ostringstream message;
+  if (stage_ == Stage::kPulling && reached_ < 0.0) {
+    if (time - stage_begin_ <= options_.pull_patience) return;
+    message << "not equilibrated: after " << options_.pull_patience << " s of tying the tail grips hold";
+    for (const double force : tail_force_) message << ' ' << force;
+    message << " N and have not reached the pre-load, " << options_.preload << " N";
+  } else if (stage_ == Stage::kPulling || stage_ == Stage::kTailsRest || stage_ == Stage::kClampsRest) {
+    const double since = stage_ == Stage::kPulling ? reached_ : stage_begin_;
+    if (time - since <= options_.patience) return;
+    message << "not equilibrated: " << options_.patience << " s after "
+            << (stage_ == Stage::kPulling     ? "the tail grips reached the pre-load"
+                : stage_ == Stage::kTailsRest ? "the tails were released"
+                                              : "the clamps were released")
+            << " the fastest node still moves at " << std::sqrt(stepper.state().velocity.colwise().squaredNorm().maxCoeff())
             << " m/s (rest is " << options_.rest_speed << " m/s)";
-    if (stage_ == Stage::kPulling && !all_slip) message << ", and a tail grip has not reached the pre-load";
-    not_equilibrated_ = message.str();
+  } else {
+    return;
   }
+  not_equilibrated_ = message.str();
 }
 
 double TyingRig::excess_length(int knot, const RodProperties& rod, const RodState& state) const {

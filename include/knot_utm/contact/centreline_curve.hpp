@@ -25,12 +25,4 @@ inline Vec3 second_difference(const Points& nodes, int segment) {
   return nodes.col(segment - 1) - 2.0 * nodes.col(segment) + nodes.col(segment + 1);
 }
 
-/// c'' made continuous: linear between the middles of segments, where it is the second difference.
-inline Vec3 smooth_second_derivative(const Points& nodes, int segment, double u) {
-  const int last = static_cast<int>(nodes.cols()) - 2;
-  const int other = u < 0.5 ? (segment > 1 ? segment - 1 : 1) : (segment < last ? segment + 1 : last);
-  const double share = u < 0.5 ? 0.5 - u : u - 0.5;
-  return (1.0 - share) * second_difference(nodes, segment) + share * second_difference(nodes, other);
-}
-
 }  // namespace knot_utm

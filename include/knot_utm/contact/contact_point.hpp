@@ -27,6 +27,7 @@ struct ContactPoint {
   Vec3 n = Vec3::Zero();     ///< x/d
   double d = 0.0;            ///< [m]
   double overlap = 0.0;      ///< D [m]
+  double share = 1.0;        ///< omega, of the contact that this side carries
   double weight = 0.0;       ///< w: rest length it stands for, times its share of the contact [m]
   double pressure = 0.0;     ///< p [N/m]
   double estimate = -1.0;    ///< of the pressure at the solution, from the last linear solve [N/m]; < 0: none

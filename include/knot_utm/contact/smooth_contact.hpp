@@ -15,8 +15,10 @@ namespace knot_utm {
 ///
 /// so that the curved strand is integrated and the straighter one projected on: where a strand coils around another
 /// at the distance of contact, the other one stands in its centre of curvature and has no foot on it.
-/// omega and the friction's memory belong to the last accepted step: they are carried by the point of integration
-/// and found again by the nearest arclength of the foot.
+/// g is linear between the middle of a segment, where it is its own, and its ends, where it is the smaller one of the
+/// two segments that meet: a foot that is about to vanish has lost its share by then.
+/// omega and the friction's memory belong to the last accepted step and are constant within a step: they are carried
+/// by the point of integration and found again by the nearest arclength of the foot, iterate by iterate.
 class SmoothContact {
  public:
   SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin);
@@ -45,20 +47,23 @@ class SmoothContact {
   void set_friction(const Friction& friction) { friction_ = friction; }
 
  private:
+  /// What a contact carries from iteration to iteration, and from step to step.
   struct Memory {
     double arclength_b;
-    Vec3 slip;     // xi [m]
-    double share;  // omega
-    double pressure;
+    double share;     // omega
+    double pressure;  // estimate of it; < 0: none
+    Vec3 slip;        // xi [m]
   };
-  struct Estimate {
-    double arclength_b;
-    double pressure;
+  /// Contacts of every point of integration 2 segment + point, as compressed rows.
+  struct MemoryList {
+    std::vector<Memory> entries;
+    std::vector<int> begin;
   };
   static constexpr double kPoints[2] = {0.25, 0.75};
 
   void find_feet(int segment, int point, const Candidates::Run& run, const Points& position, const Points& start);
   void add_contact(int segment, int point, int foot, double u, const Points& position, const Points& start);
+  void remember(const Points* position, MemoryList& list) const;
   double share(const ContactPoint& contact, const Points& position) const;
 
   NormalLaw normal_;
@@ -70,12 +75,8 @@ class SmoothContact {
   Eigen::VectorXd voronoi_;
   Candidates candidates_;
   std::vector<ContactPoint> contacts_;
-  std::vector<Memory> memory_;
-  std::vector<int> memory_begin_;  // point of integration 2 segment + point -> first of memory_
-  std::vector<Memory> next_memory_;
-  std::vector<int> next_begin_;
-  std::vector<Estimate> estimate_;
-  std::vector<int> estimate_begin_;
+  MemoryList accepted_;  // of the last accepted step
+  MemoryList iterate_;   // of the last evaluation; before the first of a step, the accepted ones
   Points edge_middle_, edge_;      // of the evaluated position
   double friction_scale_ = 0.0;
   bool first_evaluation_ = true;

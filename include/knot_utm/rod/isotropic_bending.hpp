@@ -79,16 +79,19 @@ inline IsotropicBendingLocal isotropic_bending(double k_b, double voronoi_length
   local.gradient_e = slope * c_e;
   local.gradient_f = slope * c_f;
 
-  // The rank-one terms of each block are gathered by their left factor, so each block costs two outer products.
+  // The rank-one terms of each block are gathered by their right factor: two multiples of a vector make a column.
   const double diagonal_e = slope * c * inverse_e * inverse_e;
   const double diagonal_f = slope * c * inverse_f * inverse_f;
   const double diagonal_ef = slope * inverse_e * inverse_f;
-  local.hessian_ee.noalias() = (curve * c_e - (slope * inverse_e) * t_e) * c_e.transpose() +
-                               (diagonal_e * t_e - (slope * inverse_e) * c_e) * t_e.transpose();
-  local.hessian_ff.noalias() = (curve * c_f - (slope * inverse_f) * t_f) * c_f.transpose() +
-                               (diagonal_f * t_f - (slope * inverse_f) * c_f) * t_f.transpose();
-  local.hessian_ef.noalias() =
-      (curve * c_e - (slope * inverse_e) * t_e) * c_f.transpose() - (diagonal_ef * t_f) * t_f.transpose();
+  const Vec3 on_c_e = curve * c_e - (slope * inverse_e) * t_e;
+  const Vec3 on_c_f = curve * c_f - (slope * inverse_f) * t_f;
+  const Vec3 on_t_e = diagonal_e * t_e - (slope * inverse_e) * c_e;
+  const Vec3 on_t_f = diagonal_f * t_f - (slope * inverse_f) * c_f;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    local.hessian_ee.col(k) = c_e[k] * on_c_e + t_e[k] * on_t_e;
+    local.hessian_ff.col(k) = c_f[k] * on_c_f + t_f[k] * on_t_f;
+    local.hessian_ef.col(k) = c_f[k] * on_c_e - (diagonal_ef * t_f[k]) * t_f;
+  }
   local.hessian_ee.diagonal().array() -= diagonal_e;
   local.hessian_ff.diagonal().array() -= diagonal_f;
   local.hessian_ef.diagonal().array() += diagonal_ef;

@@ -14,10 +14,11 @@ using Points = Eigen::Matrix3Xd;  ///< one column a point [m]
 /// Symbols: l_j rest length of edge j, lbar_i = (l_{i-1}+l_i)/2 Voronoi length of node i.
 struct RodProperties {
   Material material;
-  Eigen::VectorXd rest_length;     ///< l_j [m], N-1
-  Eigen::VectorXd voronoi_length;  ///< lbar_i [m], N (half an edge at the ends)
-  Eigen::VectorXd mass;            ///< m_i [kg], N
-  Eigen::Matrix2Xd natural_curvature;  ///< kappa-bar of inner node i+1 on (m1, m2), as integrated 2 tan(phi/2) [-], N-2; empty: straight
+  Eigen::VectorXd rest_length;         ///< l_j [m], N-1
+  Eigen::VectorXd voronoi_length;      ///< lbar_i [m], N (half an edge at the ends)
+  Eigen::VectorXd mass;                ///< m_i [kg], N
+  Eigen::Matrix2Xd natural_curvature;  ///< kappa-bar of inner node i+1 on (m1, m2), as integrated 2 tan(phi/2) [-],
+                                       ///< N-2; empty: straight
   Eigen::VectorXd natural_twist;       ///< m-bar of inner node i+1 [rad], N-2; empty: untwisted
 
   Eigen::Index nodes() const { return voronoi_length.size(); }
@@ -30,12 +31,12 @@ RodProperties make_rod(const Material& material, const Eigen::VectorXd& rest_len
 
 /// What moves. Twist members are empty where the scene does not solve for twist.
 struct RodState {
-  Points position;            ///< x_i [m], 3 x N
-  Points velocity;            ///< v_i [m/s], 3 x N
-  Eigen::VectorXd twist;           ///< theta_j [rad] of the material frame against the reference frame, N-1
-  Eigen::VectorXd twist_rate;      ///< [rad/s], N-1
-  Points reference_director;       ///< d1_j, unit, normal to edge j, 3 x (N-1)
-  Eigen::VectorXd reference_twist; ///< m_ref of inner node i+1 [rad], N-2
+  Points position;                  ///< x_i [m], 3 x N
+  Points velocity;                  ///< v_i [m/s], 3 x N
+  Eigen::VectorXd twist;            ///< theta_j [rad] of the material frame against the reference frame, N-1
+  Eigen::VectorXd twist_rate;       ///< [rad/s], N-1
+  Points reference_director;        ///< d1_j, unit, normal to edge j, 3 x (N-1)
+  Eigen::VectorXd reference_twist;  ///< m_ref of inner node i+1 [rad], N-2
 };
 
 }  // namespace knot_utm

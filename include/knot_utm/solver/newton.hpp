@@ -33,12 +33,16 @@ struct NewtonSummary {
 ///   double residual()     evaluates at the current unknowns, returns the residual's size
 ///   double tolerance()    what that may be
 ///   bool solve()          assembles and factors the Jacobian, solves for the change; false where singular
-///   void move()           takes the change, capped as the system sees fit
+///   void move(share)      takes that share of the change, capped as the system sees fit
 /// There is no line search: along stiff, nearly inextensible rods the energy is no guide. Whoever calls guards the
-/// step by its size and halves it where this does not converge.
+/// step by its size and halves it where this does not converge. Where
+/// the residual has not halved over two iterations after the first few, the iterates run in a cycle between two sides
+/// of a kink (a foot that jumps, a contact that sticks and slips): half the change breaks it.
 template <typename System>
 NewtonSummary newton(System& system, const NewtonOptions& options) {
+  constexpr int kUndamped = 5;
   NewtonSummary summary;
+  double last = 0.0, before = 0.0;
   for (;;) {
     summary.residual = system.residual();
     summary.tolerance = system.tolerance();
@@ -58,7 +62,10 @@ NewtonSummary newton(System& system, const NewtonOptions& options) {
       summary.end = NewtonSummary::End::kSingular;
       return summary;
     }
-    system.move();
+    const bool cycles = summary.iterations >= kUndamped && summary.residual > 0.5 * before;
+    system.move(cycles ? 0.5 : 1.0);
+    before = last;
+    last = summary.residual;
     ++summary.iterations;
   }
 }

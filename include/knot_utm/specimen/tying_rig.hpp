@@ -26,6 +26,7 @@ class TyingRig {
     double rest_speed = 2e-5;      ///< every node slower than this ... [m/s]
     double rest_time = 0.3;        ///< ... for this long: at rest [s]
     double patience = 20.0;        ///< without rest for so long: not equilibrated [s]
+    double pull_patience = 90.0;   ///< grips that have not reached the pre-load by then: not equilibrated [s]
   };
   enum class Stage { kIdle, kSettling, kPulling, kTied, kTailsRamp, kTailsRest, kClampsRamp, kClampsRest, kReleased };
 
@@ -66,6 +67,7 @@ class TyingRig {
     int standing_node;
   };
   void enter(Stage stage, double time);
+  void judge_patience(const TimeStep& stepper, double time);
   bool at_rest(const TimeStep& stepper, double dt);
 
   Options options_;
@@ -77,6 +79,7 @@ class TyingRig {
   std::vector<double> ramp_from_;
   Stage stage_ = Stage::kIdle;
   double speed_ = 0.0, ramp_time_ = 1.0, stage_begin_ = 0.0, rested_ = 0.0;
+  double reached_ = -1.0;  // when both tail grips had first reached the pre-load; < 0: not yet
   std::string not_equilibrated_;
 };
 
