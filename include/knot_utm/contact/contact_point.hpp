@@ -27,6 +27,7 @@ struct ContactPoint {
   Vec3 n = Vec3::Zero();     ///< x/d
   double d = 0.0;            ///< [m]
   double overlap = 0.0;      ///< D [m]
+  double begins = 0.0;       ///< overlap at which the normal law begins [m]
   double share = 1.0;        ///< omega, of the contact that this side carries
   double weight = 0.0;       ///< w: rest length it stands for, times its share of the contact [m]
   double pressure = 0.0;     ///< p [N/m]
@@ -41,9 +42,9 @@ struct ContactPoint {
   Vec3 force = Vec3::Zero();   ///< g [N]
 
   bool on_roller() const { return b0 < 0; }
-  bool touches() const { return overlap > 0.0; }
+  bool touches() const { return overlap > begins; }
   /// Takes part in the next linear solve.
-  bool active() const { return overlap > 0.0 || estimate > 0.0; }
+  bool active() const { return overlap > begins || estimate > 0.0; }
 };
 
 /// The linear model of a contact that Newton's method solves with. Its pressure is the tangent of the normal law,
@@ -65,7 +66,10 @@ struct ContactModel {
   Padded cc, cb, bc, bb;
 };
 
-/// Fills pressure, z and force from overlap, n, slip and weight.
+/// Fills z and force from pressure, n, slip and weight.
+void evaluate_force(const Friction& friction, double friction_scale, ContactPoint& contact);
+
+/// The same with the pressure from the overlap.
 void evaluate_force(const NormalLaw& normal, const Friction& friction, double friction_scale, ContactPoint& contact);
 
 /// The consistent linearisation of `evaluate_force`, movement of the foot included; weight w is held constant.

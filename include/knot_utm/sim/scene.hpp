@@ -4,6 +4,7 @@
 
 #include "knot_utm/contact/roller_contact.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/sim/options.hpp"
 
 namespace knot_utm {
 
@@ -55,6 +56,7 @@ struct Boundary {
 
 /// What a time step needs to know besides rod and boundary; constant during a run.
 struct StepSettings {
+  ContactLaw contact_law = ContactLaw::kSmooth;  ///< between strands; rollers always touch the smooth centreline
   NormalLaw normal;          ///< between strands, and on rollers
   Friction friction;         ///< between strands
   Friction roller_friction;
