@@ -10,7 +10,7 @@ namespace knot_utm {
 namespace {
 
 constexpr double kReachMargin = 0.3;      // contacts are kept, forceless, up to this gap [fraction of radius]
-constexpr double kRegularisation = 0.01;  // r over the product of the edges' lengths: acts below about 0.1 rad
+constexpr double kRegularisation = 0.1;   // r over the product of the edges' lengths: acts below about 0.3 rad
 constexpr double kLeastEstimate = 1e-6;   // of the pressure, in K delta
 
 using Mat39 = Eigen::Matrix<double, 3, 9>;
