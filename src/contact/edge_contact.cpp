@@ -9,9 +9,9 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kReachMargin = 0.3;      // contacts are kept, forceless, up to this gap [fraction of radius]
-constexpr double kRegularisation = 0.1;   // r over the product of the edges' lengths: acts below about 0.3 rad
-constexpr double kLeastEstimate = 1e-6;   // of the pressure, in K delta
+constexpr double kReachMargin = 0.3;     // contacts are kept, forceless, up to this gap [fraction of radius]
+constexpr double kRegularisation = 0.1;  // r over the product of the edges' lengths: acts below about 0.3 rad
+constexpr double kLeastEstimate = 1e-6;  // of the pressure, in K delta
 
 using Mat39 = Eigen::Matrix<double, 3, 9>;
 using Row9 = Eigen::Matrix<double, 1, 9>;
@@ -38,9 +38,12 @@ bool EdgeContact::refresh(const Points& position) {
   if (!candidates_.refresh(position)) return false;
   const int last_node = static_cast<int>(position.cols()) - 2;
   pairs_.clear();
+  auto add = [this](int a, int b) {
+    if (arclength_[b] - arclength_[a + 1] >= candidates_.exclusion()) pairs_.push_back({a, b});
+  };
   for (const auto& [i, j] : candidates_.pairs()) {
-    pairs_.push_back({i - 1, j - 1});
-    if (j == last_node) pairs_.push_back({i - 1, j});  // the last edge ends at no inner node
+    add(i - 1, j - 1);
+    if (j == last_node) add(i - 1, j);  // the last edge ends at no inner node
   }
   return true;
 }

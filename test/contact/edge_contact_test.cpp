@@ -110,7 +110,7 @@ TEST(ClosestPoints, DoNotJumpThroughParallelOnceRegularised) {
 // ---- forces and their derivative --------------------------------------------------------------------------------
 
 /// A rod of two strands of which just one edge each comes near: strand a along x, strand b across, at `angle` from
-/// it, passing the point `where` (fractions of the two edges) at the distance `gap`. Far edges are long.
+/// it, passing the point `where` (fractions of the two edges) at the distance `gap`. All other edges lead away.
 struct TwoEdges {
   RodProperties rod;
   Points start, position;
@@ -120,18 +120,20 @@ struct TwoEdges {
     material.radius = kRadius;
     material.density = 1000.0;
     const double l = 0.9 * kRadius;
-    Eigen::VectorXd rest(5);
-    rest << 4.0 * kRadius, l, 4.0 * kRadius, l, 4.0 * kRadius;
-    rod = make_rod(material, rest);
     const Vec3 a(l, 0.0, 0.0), b(l * std::cos(angle), l * std::sin(angle), 0.0);
-    const Vec3 bend(0.0, 0.0, 4.0 * kRadius);
-    position.resize(3, 6);
+    const double away = 10.0 * kRadius;
+    position.resize(3, 8);
     position.col(1) = -where_a * a;
     position.col(2) = position.col(1) + a;
-    position.col(3) = Vec3(0.0, 0.0, gap) - where_b * b;
-    position.col(4) = position.col(3) + b;
-    position.col(0) = Vec3(position.col(1)) - bend;
-    position.col(5) = Vec3(position.col(4)) + bend;
+    position.col(5) = Vec3(0.0, 0.0, gap) - where_b * b;
+    position.col(6) = position.col(5) + b;
+    position.col(0) = position.col(1) - Vec3(0.0, 0.0, away);
+    position.col(3) = position.col(2) - Vec3(0.0, away, away);
+    position.col(4) = position.col(5) + Vec3(0.0, -away, away);
+    position.col(7) = position.col(6) + Vec3(0.0, 0.0, away);
+    Eigen::VectorXd rest(7);
+    for (int i = 0; i < 7; ++i) rest[i] = (position.col(i + 1) - position.col(i)).norm();
+    rod = make_rod(material, rest);
     start = position;
     std::mt19937 random(3);
     std::normal_distribution<double> noise(0.0, 0.002 * kRadius);
@@ -229,7 +231,7 @@ TEST(EdgeContact, PlacesOfTheJacobianCoverEveryCase) {
   for (const auto& [place, t_free, u_free] : cases) {
     const Points x = TwoEdges(place.angle, place.where_a, place.where_b, place.gap * kRadius).position;
     const double l = 0.9 * kRadius;
-    const ClosestPoints at = closest_points(x.col(1), x.col(2) - x.col(1), x.col(3), x.col(4) - x.col(3), 0.1 * l * l);
+    const ClosestPoints at = closest_points(x.col(1), x.col(2) - x.col(1), x.col(5), x.col(6) - x.col(5), 0.1 * l * l);
     EXPECT_EQ(at.t_free, t_free);
     EXPECT_EQ(at.u_free, u_free);
   }
@@ -267,8 +269,7 @@ TEST(EdgeContact, PairsHoldEveryPairThatBruteForceFinds) {
   int near = 0;
   for (int a = 0; a + 1 < nodes; ++a)
     for (int b = a + 1; b + 1 < nodes; ++b) {
-      // The ends' own rule of exclusion is by the nodes the candidates stand for.
-      if (l * (std::min(b, nodes - 3) - a) < 5.0 * kRadius) continue;
+      if (l * (b - a - 1) < 5.0 * kRadius) continue;
       const Vec3 da = x.col(a + 1) - x.col(a), db = x.col(b + 1) - x.col(b);
       const ClosestPoints at = closest_points(x.col(a), da, x.col(b), db, 0.0);
       if ((x.col(a) + at.t * da - x.col(b) - at.u * db).norm() > 2.3 * kRadius) continue;
