@@ -309,6 +309,8 @@ Method load_method(const std::string& file, const std::vector<std::string>& over
       method.machine.load_cell = read_load_cell(reader.take("load_cell"), file, method.material, library);
     });
     method.program = read_program(top.take("program"), file);
+    method.specimen.to_be_tied = std::any_of(method.program.begin(), method.program.end(),
+                                             [](const ProgramStep& step) { return step.phase == Phase::kTie; });
     top.section("physics", [&](Reader& reader) { fields::physics(reader, method.physics); });
     top.finish();
 
