@@ -379,6 +379,9 @@ struct TestBench::Impl {
         },
         [&](double to, double dt, const StepSummary&) {
           displacement = to < command.time ? start_displacement + speed * (to - start_time) : command.displacement;
+          const StepWork done = stepper->work();
+          work += done.boundary;
+          dissipation += done.friction + done.drag;
           if (rig) rig->follow(*stepper, to, dt);
           substeps.push_back(read(command, to));
         });

@@ -65,7 +65,6 @@ class EdgeContact {
 
   const EdgeLaw& normal() const { return normal_; }
   const Friction& friction() const { return friction_; }
-  void set_friction(const Friction& friction) { friction_ = friction; }
 
  private:
   /// What a contact between edges knows beside its ContactPoint.
