@@ -51,9 +51,8 @@ void Candidates::build(const Points& position) {
                     static_cast<std::int64_t>(q[2]) + dk);
   };
   for (int i = 1; i + 1 < nodes; ++i) entries.push_back({key_of(i, 0, 0, 0), i});
-  std::sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) {
-    return a.key != b.key ? a.key < b.key : a.segment < b.segment;
-  });
+  std::sort(entries.begin(), entries.end(),
+            [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.segment < b.segment; });
 
   pairs_.clear();
   segments_.clear();

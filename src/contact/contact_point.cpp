@@ -1,5 +1,7 @@
 #include "knot_utm/contact/contact_point.hpp"
 
+#include <algorithm>
+
 namespace knot_utm {
 
 void evaluate_force(const Friction& friction, double friction_scale, ContactPoint& contact) {
@@ -19,7 +21,9 @@ void evaluate_force(const NormalLaw& normal, const Friction& friction, double fr
 
 void linearise(const NormalLaw& normal, const Friction& friction, double friction_scale, const ContactPoint& contact,
                ContactModel& model) {
-  const double tangent_at = contact.estimate > 0.0 ? normal.overlap_at(contact.estimate) : contact.overlap;
+  // A contact that is new and deep: half the tolerance is a better guess than a wall.
+  const double tangent_at =
+      contact.estimate > 0.0 ? normal.overlap_at(contact.estimate) : std::min(contact.overlap, 0.5 * normal.tolerance);
   model.slope = normal.slope(tangent_at);
   model.pressure = normal.pressure(tangent_at) + model.slope * (contact.overlap - tangent_at);
   const Vec3& n = contact.n;
@@ -28,8 +32,7 @@ void linearise(const NormalLaw& normal, const Friction& friction, double frictio
   const Vec3 du_r = contact.inverse_g * contact.x;
 
   // dn = n_s S + n_r R; a roller's gap has no part along its axis.
-  const Mat3 n_s =
-      (normal_plane - contact.axis * contact.axis.transpose() - contact.db * du_s.transpose()) / contact.d;
+  const Mat3 n_s = (normal_plane - contact.axis * contact.axis.transpose() - contact.db * du_s.transpose()) / contact.d;
   const Mat3 n_r = -contact.db * du_r.transpose() / contact.d;
 
   // dg = g_s S + g_r R, per weight.
@@ -41,8 +44,7 @@ void linearise(const NormalLaw& normal, const Friction& friction, double frictio
     const Vec3& r = contact.slip;
     const double along = n.dot(r);
     const Vec3 tangential = r - along * n;
-    const FrictionDirection direction =
-        friction_direction_and_slope(friction.law, tangential / friction_scale);
+    const FrictionDirection direction = friction_direction_and_slope(friction.law, tangential / friction_scale);
     const Mat3 scaled = (friction.coefficient * model.pressure / friction_scale) * direction.slope;
     const Vec3 turned = contact.turn - n * n.dot(contact.turn);
     // d(P r) = -(n.r) dn - n (r.dn) + P (S - V du)

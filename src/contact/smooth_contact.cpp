@@ -56,8 +56,7 @@ double least_curvature_share(const Points& nodes, int segment, double u, const V
 
 }  // namespace
 
-SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction,
-                             double margin)
+SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin)
     : normal_(normal),
       friction_(friction),
       diameter_(2.0 * rod.material.radius),
@@ -183,7 +182,9 @@ double SmoothContact::share(const ContactPoint& contact, const Points& position)
   const double g_b = least_curvature_share(position, foot, ub, contact.x, contact.db.squaredNorm());
   const double g_a = least_curvature_share(position, segment, ua, -contact.x, da.squaredNorm());
   const double a4 = g_a * g_a * g_a * g_a, b4 = g_b * g_b * g_b * g_b;
-  return b4 / std::max(a4 + b4, 1e-12);
+  // Where each strand stands in the other's centre of curvature neither side has a foot that means anything.
+  constexpr double kBlind = 1e-4;
+  return b4 / (a4 + b4 + kBlind);
 }
 
 void SmoothContact::remember(const Points* accepted, MemoryList& list) const {

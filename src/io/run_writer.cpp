@@ -108,7 +108,10 @@ void RunWriter::add(const Sample& sample, bool read_cell, const std::vector<Samp
   }
   if (read_cell && sample.status != BenchStatus::kFailed) curve_.write(sample);
   monitor_.add(sample);
+  if (sample.status != BenchStatus::kFailed) answers_.push_back(sample);
 }
+
+Results RunWriter::results(EndedBy ended_by) const { return analyse(answers_, ended_by); }
 
 RunFacts RunWriter::facts() const {
   RunFacts facts = known_;

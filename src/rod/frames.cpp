@@ -32,19 +32,25 @@ Points tangents(const Points& position) {
 
 namespace {
 
-/// The unit vector along the part of d normal to t: keeps rounding from piling up over many transports.
+/// The unit vector along the part of d normal to t.
 Vec3 normal_part(const Vec3& d, const Vec3& t) { return (d - d.dot(t) * t).normalized(); }
 
 Vec3 column(const Points& points, Eigen::Index j) { return points.col(j); }
 
 }  // namespace
 
+Vec3 transported_director(const Vec3& d1, const Vec3& from, const Vec3& to) {
+  return normal_part(parallel_transport(d1, from, to), to);
+}
+
+double nearest_turn(double angle, double last) { return last + std::remainder(angle - last, 2.0 * M_PI); }
+
 Points space_parallel_directors(const Points& position, const Vec3& first) {
   const Points t = tangents(position);
   Points d1(3, t.cols());
   d1.col(0) = normal_part(first, t.col(0));
   for (Eigen::Index j = 1; j < t.cols(); ++j) {
-    d1.col(j) = normal_part(parallel_transport(d1.col(j - 1), t.col(j - 1), t.col(j)), t.col(j));
+    d1.col(j) = transported_director(d1.col(j - 1), t.col(j - 1), t.col(j));
   }
   return d1;
 }
@@ -78,13 +84,12 @@ void transport_frames(const Points& position_before, RodState* state) {
   const Points now = tangents(state->position);
   Points& d1 = state->reference_director;
   for (Eigen::Index j = 0; j < now.cols(); ++j) {
-    d1.col(j) = normal_part(parallel_transport(d1.col(j), before.col(j), now.col(j)), now.col(j));
+    d1.col(j) = transported_director(d1.col(j), before.col(j), now.col(j));
   }
   for (Eigen::Index i = 0; i + 1 < now.cols(); ++i) {
     const double angle = reference_twist(column(d1, i), column(now, i), column(d1, i + 1), column(now, i + 1));
-    const double last = state->reference_twist[i];
     // The angle is known up to whole turns; the one next to the last value is the one that moved there.
-    state->reference_twist[i] = last + std::remainder(angle - last, 2.0 * M_PI);
+    state->reference_twist[i] = nearest_turn(angle, state->reference_twist[i]);
   }
 }
 

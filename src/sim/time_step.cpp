@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
+#include <type_traits>
 
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/isotropic_bending.hpp"
 #include "knot_utm/rod/stretching.hpp"
+#include "knot_utm/sim/frame_terms.hpp"
 #include "knot_utm/solver/block_matrix.hpp"
 
 namespace knot_utm {
@@ -29,8 +30,8 @@ void add(Block<D>& block, const Mat3& m, double sign) {
 /// Stored indices of the rod's own blocks: node i with itself, the next and the one after.
 struct BandIndex {
   int own;
-  int next, next_back;        // (i, i+1) and (i+1, i)
-  int second, second_back;    // (i, i+2) and (i+2, i)
+  int next, next_back;      // (i, i+1) and (i+1, i)
+  int second, second_back;  // (i, i+2) and (i+2, i)
 };
 
 /// Pressure of a contact's linear model at the present overlap, and its slope [N/m], [N/m^2].
@@ -40,7 +41,13 @@ struct PressureTangent {
 
 constexpr int kFootRoom = 1;  // segments by which a foot may slide on before the pattern is rebuilt
 
-/// `StrandContact` is the contact law between strands.
+/// Stands for FrameTerms where the scene does not solve for twist.
+struct NoFrames {
+  NoFrames(const RodProperties&, const StepSettings&) {}
+};
+
+/// D = 3: the unknowns of node i are x_i. D = 4: they are x_i and the spin of edge i (FrameTerms); that of the last
+/// node stands for nothing and is held. `StrandContact` is the contact law between strands.
 template <int D, typename StrandContact>
 class ImplicitStep final : public TimeStep {
  public:
@@ -49,12 +56,13 @@ class ImplicitStep final : public TimeStep {
         settings_(settings),
         contact_(rod, settings.normal, settings.friction, settings.candidate_margin),
         rollers_(rod, settings.normal, settings.roller_friction),
+        frames_(rod_, settings_),
         nodes_(static_cast<int>(rod.nodes())),
+        curved_(rod.natural_curvature.cols() > 0),
         force_(at(nodes_)),
         change_(at(nodes_)),
         committed_force_(at(nodes_)),
-        held_(at(nodes_), 0) {
-  }
+        held_(at(nodes_), 0) {}
 
   StepSummary step(const Boundary& boundary, double dt) override {
     boundary_ = &boundary;
@@ -64,7 +72,7 @@ class ImplicitStep final : public TimeStep {
     predict();
     contact_.begin_step();
     rollers_.begin_step();
-    if (getenv("HIST")) fprintf(stderr, "DT %.3e\n", dt);
+    if constexpr (D == 4) frames_.begin_step(state_, boundary.fixed_twists, dt);
     summary.newton = newton(*this, NewtonOptions{settings_.max_iterations});
     examine(summary);
     if (summary.accepted()) commit();
@@ -77,14 +85,18 @@ class ImplicitStep final : public TimeStep {
     std::fill(force_.begin(), force_.end(), Lanes{0.0, 0.0, 0.0, 0.0});
     add_inertia_gravity_and_drag();
     add_elastic_forces();
+    if constexpr (D == 4) frames_.add_forces(x_, force_);
     contact_.evaluate(x_, state_.position, dt_);
     rollers_.evaluate(boundary_->rollers, x_, state_.position, dt_);
     for (const ContactPoint& contact : contact_.contacts()) add_contact_force(contact);
     for (const ContactPoint& contact : rollers_.contacts()) add_contact_force(contact);
     add_grips_and_forces();
-    //DBG
-    if (getenv("HIST")) { double r=0; int w=0; for(int i=0;i<nodes_;++i) if(!held_[at(i)]){ double q=to_vec3(force_[at(i)]).norm(); if(q>r){r=q;w=i;} } fprintf(stderr,"   res %.2e at %d of %d |",r,w,nodes_); for(const ContactPoint&c:contact_.contacts()) if(c.active()&&(std::abs(c.a0+1-w)<2||std::abs(c.b0+1-w)<2)) fprintf(stderr," (%d-%d D %.4f est %.1e p %.1e w %.2f ig %.2f z %.2f)",c.a0+1,c.b0+1,c.overlap/rod_.material.radius,c.estimate,c.pressure,c.weight/rod_.voronoi_length[5],1/(c.inverse_g*c.db.squaredNorm()),c.z.norm()); fprintf(stderr,"\n"); }
-    return largest_free_force();
+    const double force = largest_free_force();
+    if constexpr (D == 4) {
+      const double torque = frames_.largest_free_torque(force_) / rod_.material.radius;
+      if (!(torque <= force)) return torque;
+    }
+    return force;
   }
 
   double tolerance() const { return settings_.residual + settings_.residual_of_tension * largest_tension_; }
@@ -98,15 +110,12 @@ class ImplicitStep final : public TimeStep {
     tangents_.clear();
     add_inertia_and_drag_stiffness();
     add_elastic_stiffness();
+    if constexpr (D == 4) add_frame_stiffness();
     change_ = force_;
     linearise_contacts(contact_);
     linearise_contacts(rollers_);
     add_grip_stiffness();
-    for (int node = 0; node < nodes_; ++node) {
-      if (!held_[at(node)]) continue;
-      matrix_.set_identity_row(node);
-      change_[at(node)] = Lanes{0.0, 0.0, 0.0, 0.0};
-    }
+    for (int node = 0; node < nodes_; ++node) hold(node);
     if (!matrix_.factor()) return false;
     matrix_.solve(change_);
     return true;
@@ -119,7 +128,11 @@ class ImplicitStep final : public TimeStep {
       longest2 = std::max(longest2, size2);
     }
     const double longest = std::sqrt(longest2);
-    const double share = wanted_share * (longest > settings_.newton_cap ? settings_.newton_cap / longest : 1.0);
+    double share = wanted_share * (longest > settings_.newton_cap ? settings_.newton_cap / longest : 1.0);
+    if constexpr (D == 4) {
+      share = std::min(share, wanted_share * frames_.longest_share(change_));
+      frames_.move(change_, share);
+    }
     for (int i = 0; i < nodes_; ++i) x_.col(i) += share * to_vec3(change_[at(i)]);
     std::size_t m = 0;
     estimate_pressures(contact_, share, m);
@@ -129,24 +142,22 @@ class ImplicitStep final : public TimeStep {
   // ---- readings ---------------------------------------------------------------------------------------------------
 
   Vec3 reaction(int node) const override { return -to_vec3(committed_force_[at(node)]); }
+  double reaction_torque(int edge) const override { return D == 4 ? -committed_force_[at(edge)][3] : 0.0; }
   Vec3 roller_force(int roller) const override { return rollers_.force_on(roller); }
   const std::vector<ContactPoint>& contacts() const override { return contact_.contacts(); }
 
   Energies energies() const override {
+    const ElasticEnergy elastic = elastic_energy(rod_, state_);
     Energies out;
-    const Material& material = rod_.material;
-    for (int i = 0; i + 1 < nodes_; ++i)
-      out.stretching +=
-          stretching_gradient(material.stretching_stiffness, rod_.rest_length[i], edge(state_.position, i)).energy;
-    for (int i = 1; i + 1 < nodes_; ++i)
-      out.bending += isotropic_bending_gradient(material.bending_stiffness, rod_.voronoi_length[i],
-                                                edge(state_.position, i - 1), edge(state_.position, i))
-                         .energy;
+    out.stretching = elastic.stretching;
+    out.bending = elastic.bending;
+    out.twisting = elastic.twisting;
     for (const ContactPoint& contact : contact_.contacts())
       out.contact += contact.weight * contact_.normal().energy(contact.overlap);
     for (const ContactPoint& contact : rollers_.contacts())
       out.contact += contact.weight * settings_.normal.energy(contact.overlap);
     for (int i = 0; i < nodes_; ++i) out.kinetic += 0.5 * rod_.mass[i] * state_.velocity.col(i).squaredNorm();
+    if constexpr (D == 4) out.kinetic += frames_.kinetic_energy(state_);
     return out;
   }
 
@@ -221,7 +232,8 @@ class ImplicitStep final : public TimeStep {
 
   void add_inertia_and_drag_stiffness() {
     for (int i = 0; i < nodes_; ++i) {
-      const double k = rod_.mass[i] / (dt_ * dt_) + (settings_.drag + boundary_->extra_drag) * rod_.voronoi_length[i] / dt_;
+      const double k =
+          rod_.mass[i] / (dt_ * dt_) + (settings_.drag + boundary_->extra_drag) * rod_.voronoi_length[i] / dt_;
       Block<D>& block = matrix_.block(band_[at(i)].own);
       for (int j = 0; j < 3; ++j) block.column[j][j] += k;
     }
@@ -231,16 +243,17 @@ class ImplicitStep final : public TimeStep {
     const Material& material = rod_.material;
     largest_tension_ = 0.0;
     for (int i = 0; i + 1 < nodes_; ++i) {
-      const Lanes pull = to_lanes(
-          stretching_gradient(material.stretching_stiffness, rod_.rest_length[i], edge(x_, i)).gradient);
+      const Lanes pull =
+          to_lanes(stretching_gradient(material.stretching_stiffness, rod_.rest_length[i], edge(x_, i)).gradient);
       largest_tension_ = std::max(largest_tension_, pull[0] * pull[0] + pull[1] * pull[1] + pull[2] * pull[2]);
       force_[at(i)] += pull;
       force_[at(i + 1)] -= pull;
     }
     largest_tension_ = std::sqrt(largest_tension_);
+    if (curved_) return;
     for (int i = 1; i + 1 < nodes_; ++i) {
-      const IsotropicBendingGradient bending = isotropic_bending_gradient(
-          material.bending_stiffness, rod_.voronoi_length[i], edge(x_, i - 1), edge(x_, i));
+      const IsotropicBendingGradient bending =
+          isotropic_bending_gradient(material.bending_stiffness, rod_.voronoi_length[i], edge(x_, i - 1), edge(x_, i));
       const Lanes e = to_lanes(bending.gradient_e), f = to_lanes(bending.gradient_f);
       force_[at(i - 1)] += e;
       force_[at(i)] += f - e;
@@ -257,6 +270,7 @@ class ImplicitStep final : public TimeStep {
       add(matrix_.block(band_[at(i)].next), h, -1.0);
       add(matrix_.block(band_[at(i)].next_back), h, -1.0);
     }
+    if (curved_) return;
     for (int i = 1; i + 1 < nodes_; ++i) {
       const IsotropicBendingLocal bending =
           isotropic_bending(material.bending_stiffness, rod_.voronoi_length[i], edge(x_, i - 1), edge(x_, i));
@@ -271,6 +285,58 @@ class ImplicitStep final : public TimeStep {
       add(matrix_.block(here.next), ef - bending.hessian_ff, 1.0);
       add(matrix_.block(here.next_back), fe - bending.hessian_ff, 1.0);
       add(matrix_.block(after.own), bending.hessian_ff, 1.0);
+    }
+  }
+
+  void add_frame_stiffness() {
+    for (int i = 1; i + 1 < nodes_; ++i) {
+      const FrameTerms::NodeStiffness local = frames_.node_stiffness(i);
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l) {
+          Block<D>& block = matrix_.block(band_index(i - 1, k, l));
+          for (int j = 0; j < D; ++j) {
+            Lanes column;
+            std::copy_n(&local(4 * k, 4 * l + j), 4, reinterpret_cast<double*>(&column));
+            block.column[j] += column;
+          }
+        }
+    }
+    for (int i = 0; i + 1 < nodes_; ++i) {
+      const FrameTerms::EdgeStiffness local = frames_.edge_stiffness(i);
+      Block<D>&own = matrix_.block(band_[at(i)].own), &next = matrix_.block(band_[at(i)].next);
+      add(own, local.sweep, 1.0);
+      add(matrix_.block(band_[at(i + 1)].own), local.sweep, 1.0);
+      add(next, local.sweep, -1.0);
+      add(matrix_.block(band_[at(i)].next_back), local.sweep, -1.0);
+      own.at(3, 3) += local.spin;
+      add_to_row(3, local.spin * local.lean, own, next);
+    }
+  }
+
+  /// Adds the row `times` . (x_i - x_{i+1}) to blocks (i, i) and (i, i+1).
+  static void add_to_row(int row, const Vec3& times, Block<D>& own, Block<D>& next) {
+    for (int j = 0; j < 3; ++j) {
+      own.at(row, j) += times[j];
+      next.at(row, j) -= times[j];
+    }
+  }
+
+  /// Rows of the unknowns that the boundary prescribes.
+  void hold(int node) {
+    if constexpr (D == 4) {
+      const double free = held_[at(node)] ? 0.0 : 1.0, turns = frames_.held(node) ? 0.0 : 1.0;
+      if (free == 1.0 && turns == 1.0) return;
+      const Lanes keep = {free, free, free, turns};
+      matrix_.set_identity_row(node, keep);
+      change_[at(node)] *= keep;
+      // A held angle is one of no change: the spin is what transport alone makes.
+      if (turns == 0.0 && node + 1 < nodes_)
+        add_to_row(3, frames_.edge_stiffness(node).lean, matrix_.block(band_[at(node)].own),
+                   matrix_.block(band_[at(node)].next));
+    } else {
+      if (!held_[at(node)]) return;
+      matrix_.set_identity_row(node);
+      change_[at(node)] = Lanes{0.0, 0.0, 0.0, 0.0};
     }
   }
 
@@ -314,8 +380,7 @@ class ImplicitStep final : public TimeStep {
     }
   }
 
-  void add_contact_stiffness(const ContactPoint& contact, const ContactModel& local,
-                             const ContactBlocks* blocks) {
+  void add_contact_stiffness(const ContactPoint& contact, const ContactModel& local, const ContactBlocks* blocks) {
     Lanes cc[3], cb[3], bc[3], bb[3];
     for (int j = 0; j < 3; ++j) {
       std::copy_n(local.cc.data() + 4 * j, 4, reinterpret_cast<double*>(&cc[j]));
@@ -355,11 +420,16 @@ class ImplicitStep final : public TimeStep {
   int band_index(int first, int k, int l) const {
     const BandIndex& band = band_[at(first + std::min(k, l))];
     switch (l - k) {
-      case 0: return band.own;
-      case 1: return band.next;
-      case -1: return band.next_back;
-      case 2: return band.second;
-      default: return band.second_back;
+      case 0:
+        return band.own;
+      case 1:
+        return band.next;
+      case -1:
+        return band.next_back;
+      case 2:
+        return band.second;
+      default:
+        return band.second_back;
     }
   }
 
@@ -418,6 +488,7 @@ class ImplicitStep final : public TimeStep {
     contact_.commit(x_);
     rollers_.commit(boundary_->rollers);
     state_.velocity = (x_ - state_.position) / dt_;
+    if constexpr (D == 4) frames_.commit(state_);
     state_.position = x_;
     committed_force_ = force_;
   }
@@ -425,7 +496,9 @@ class ImplicitStep final : public TimeStep {
   StepSettings settings_;
   StrandContact contact_;
   RollerContact rollers_;
+  std::conditional_t<D == 4, FrameTerms, NoFrames> frames_;
   int nodes_;
+  bool curved_;  // at rest: its bending needs the frames
   const Boundary* boundary_ = nullptr;
   double dt_ = 0.0;
   Points x_;
@@ -435,11 +508,17 @@ class ImplicitStep final : public TimeStep {
   ContactReading contact_reading_;
   std::vector<PressureTangent> tangents_;  // of the active contacts, in order
   std::vector<std::pair<int, int>> pairs_;
-  std::vector<ContactBlocks> contact_blocks_;               // of the active contacts between strands, in order
+  std::vector<ContactBlocks> contact_blocks_;  // of the active contacts between strands, in order
   BlockPattern pattern_;
   BlockMatrix<D> matrix_;
   std::vector<BandIndex> band_;
 };
+
+template <typename StrandContact>
+std::unique_ptr<TimeStep> make_step(const RodProperties& rod, const RodState& state, const StepSettings& settings) {
+  if (state.twist.size() == 0) return std::make_unique<ImplicitStep<3, StrandContact>>(rod, state, settings);
+  return std::make_unique<ImplicitStep<4, StrandContact>>(rod, state, settings);
+}
 
 }  // namespace
 
@@ -453,9 +532,9 @@ Eigen::VectorXd TimeStep::tension() const {
 
 std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodState& state,
                                          const StepSettings& settings) {
-  if (settings.contact_law == ContactLaw::kEdge)
-    return std::make_unique<ImplicitStep<3, EdgeContact>>(rod, state, settings);
-  return std::make_unique<ImplicitStep<3, SmoothContact>>(rod, state, settings);
+  elastic_energy(rod, state);  // throws where rod and state do not fit together
+  return settings.contact_law == ContactLaw::kEdge ? make_step<EdgeContact>(rod, state, settings)
+                                                   : make_step<SmoothContact>(rod, state, settings);
 }
 
 }  // namespace knot_utm

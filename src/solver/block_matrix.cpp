@@ -1,8 +1,8 @@
 #include "knot_utm/solver/block_matrix.hpp"
 
-#include <algorithm>
-
 #include <suitesparse/amd.h>
+
+#include <algorithm>
 
 namespace knot_utm {
 
@@ -136,6 +136,19 @@ void BlockMatrix<D>::set_identity_row(int node) {
   // Upper blocks of the row stand with its own pivot, lower ones with the pivots of its earlier neighbours.
   for (int a = 0; a < pattern_->below(r); ++a) block(pattern_->diagonal(r) + 2 + 2 * a).set_zero();
   for (const int* lower = pattern_->lower_begin(r); lower != pattern_->lower_end(r); ++lower) block(*lower).set_zero();
+}
+
+template <int D>
+void BlockMatrix<D>::set_identity_row(int node, const Lanes& keep) {
+  const int r = pattern_->position(node);
+  const auto clear = [&](Block<D>& b) {
+    for (Lanes& column : b.column) column *= keep;
+  };
+  Block<D>& own = block(pattern_->diagonal(r));
+  clear(own);
+  for (int j = 0; j < D; ++j) own.at(j, j) += 1.0 - keep[j];
+  for (int a = 0; a < pattern_->below(r); ++a) clear(block(pattern_->diagonal(r) + 2 + 2 * a));
+  for (const int* lower = pattern_->lower_begin(r); lower != pattern_->lower_end(r); ++lower) clear(block(*lower));
 }
 
 template <int D>

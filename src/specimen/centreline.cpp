@@ -494,12 +494,26 @@ Centreline overhand(const OverhandShape& shape) {
                        "such that specimen.length exceeds it by " + text(shortest) + " to " + text(longest) +
                            " m, and at least " + text(braid_length(h, shape.turns, smallest) + 8.0 * h) + " m");
   }
+  // The rod's length grows smoothly with the loop's radius: false position with a bracket (Illinois).
   double low = smallest;
-  for (int i = 0; i < 40; ++i) {
-    const double radius = 0.5 * (low + high);
-    (rod_length(radius) < shape.length ? low : high) = radius;
+  double below = shortest + shape.end_to_end - shape.length;
+  double above = longest + shape.end_to_end - shape.length;
+  double loop_radius = high;
+  for (int i = 0; i < 60 && above > below; ++i) {
+    loop_radius = (low * above - high * below) / (above - below);
+    const double excess = rod_length(loop_radius) - shape.length;
+    if (std::abs(excess) < 1e-3 * spacing) break;
+    if (excess > 0.0) {
+      high = loop_radius;
+      above = excess;
+      below *= 0.5;
+    } else {
+      low = loop_radius;
+      below = excess;
+      above *= 0.5;
+    }
   }
-  const Path path = draw_overhand(shape, high, spacing);
+  const Path path = draw_overhand(shape, loop_radius, spacing);
   Centreline centreline;
   centreline.points = Resampled(path, smoothed(path, h, spacing), shape.edge_length).points;
   check_no_overlap(centreline, h, "specimen.end_to_end", text(shape.end_to_end));

@@ -11,7 +11,7 @@ namespace knot_utm {
 namespace {
 
 // Places of the clamps, in rod radii. A knot that runs over its clamp reads wrong: they stand clear of where it ends.
-constexpr double kStandingFromMiddle = 5.0;   // from the middle of the specimen, towards the own knot
+constexpr double kStandingFromMiddle = 5.0;  // from the middle of the specimen, towards the own knot
 // The settling drag relaxes waves of this many radii in about a tenth of the settling time.
 constexpr double kSettlingTime = 0.3;  // [s]
 constexpr double kSettlingWave = 40.0;
@@ -178,8 +178,9 @@ void TyingRig::judge_patience(const TimeStep& stepper, double time) {
             << (stage_ == Stage::kPulling     ? "the tail grips reached the pre-load"
                 : stage_ == Stage::kTailsRest ? "the tails were released"
                                               : "the clamps were released")
-            << " the fastest node still moves at " << std::sqrt(stepper.state().velocity.colwise().squaredNorm().maxCoeff())
-            << " m/s (rest is " << options_.rest_speed << " m/s)";
+            << " the fastest node still moves at "
+            << std::sqrt(stepper.state().velocity.colwise().squaredNorm().maxCoeff()) << " m/s (rest is "
+            << options_.rest_speed << " m/s)";
   } else {
     return;
   }

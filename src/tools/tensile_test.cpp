@@ -111,7 +111,7 @@ int run(const Arguments& arguments) {
   facts.ended_by = program.ended_by();
   facts.reason = program.reason();
   facts.wall_time = clock.seconds();
-  writer.finish(Results(), facts, bench.state().position);
+  writer.finish(writer.results(facts.ended_by), facts, bench.state().position);
 
   const bool gave_up = program.ended_by() == EndedBy::kSolver;
   if (gave_up) {

@@ -1,9 +1,9 @@
 #include "knot_utm/contact/smooth_contact.hpp"
 
-#include <random>
+#include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <gtest/gtest.h>
+#include <random>
 
 namespace knot_utm {
 namespace {
@@ -117,8 +117,7 @@ TEST(SmoothContact, ForcesAndMomentsBalance) {
   const Eigen::VectorXd flat = scene.force(contact, scene.position, 0.01);
   const Eigen::Map<const Points> force(flat.data(), 3, scene.position.cols());
   Vec3 moment = Vec3::Zero();
-  for (Eigen::Index i = 0; i < force.cols(); ++i)
-    moment += Vec3(scene.position.col(i)).cross(Vec3(force.col(i)));
+  for (Eigen::Index i = 0; i < force.cols(); ++i) moment += Vec3(scene.position.col(i)).cross(Vec3(force.col(i)));
   ASSERT_GT(force.norm(), 1e-3);
   EXPECT_LT(force.rowwise().sum().norm(), 1e-12 * force.norm());
   // Normal forces act along the gap; friction acts at both ends of it, whose arm is the gap itself.

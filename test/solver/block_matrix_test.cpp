@@ -1,9 +1,9 @@
 #include "knot_utm/solver/block_matrix.hpp"
 
-#include <random>
+#include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <gtest/gtest.h>
+#include <random>
 
 namespace knot_utm {
 namespace {
@@ -19,7 +19,7 @@ struct Example {
   static constexpr int kNodes = 40;
   BlockPattern pattern;
   BlockMatrix<D> matrix;
-  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(D * kNodes, D * kNodes);
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(D * kNodes, D* kNodes);
 
   Example() {
     std::mt19937 random(7);

@@ -1,29 +1,60 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <optional>
+#include <vector>
+
+#include "knot_utm/analysis/motion_pattern.hpp"
+#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/machine/test_program.hpp"
 
 namespace knot_utm {
 
-enum class MotionPattern { kNone, kSliding, kStretching, kUntangling };
-
-/// "none", "sliding", "stretching", "untangling"
-inline const char* motion_pattern_name(MotionPattern pattern) {
-  constexpr const char* kNames[] = {"none", "sliding", "stretching", "untangling"};
-  return kNames[static_cast<int>(pattern)];
-}
-
-/// What a curve and the shapes on the way mean.
+/// What a test says: every measured key of result.yaml. A value that the test does not have is empty.
+/// Symbols: s extension, F load, s_l lock extension. "The pull" is the samples of phase `pull` that reach a new
+/// largest s, up to a break.
 struct Results {
   MotionPattern motion_pattern = MotionPattern::kNone;
-  double motion_pattern_confidence = 0.0;  ///< 0..1
-  std::optional<double> plateau_force;     ///< [N]
-  std::optional<double> plateau_force_sd;  ///< [N]
-  std::optional<double> lock_extension;    ///< [m]; unset: never locked
-  std::optional<double> locked_stiffness;  ///< [N/m]
-  double peak_force = 0.0;                 ///< [N]
-  std::optional<double> break_extension;   ///< [m]; unset: not broken
-  std::optional<double> untangled_at;      ///< [s]; unset: still tied
+  double motion_pattern_confidence = 0.0;  ///< 0 to 1, see MotionPatternTracker
+  EndedBy ended_by = EndedBy::kNotYet;
+
+  /// Sliding only: mean and standard deviation of F, weighted by extension, over s from 0.3 to 0.8 of s_l, or of the
+  /// whole pull where it never locked. The breakaway lies before, the onset of locking behind. [N]
+  std::optional<double> plateau_force;
+  std::optional<double> plateau_force_sd;
+  std::optional<double> plateau_slope;    ///< de/ds over the same part [-]; -2: rigid sliding
+  std::optional<double> breakaway_force;  ///< sliding only: largest F up to 0.3 of s_l [N]
+  std::optional<double> lock_extension;   ///< s_l, where sliding turned into stretching [m]
+
+  /// Least-squares slope of F(s) where the rod carries the load: over the samples after s_l (stretching: all), up to
+  /// the peak, whose F lies between half the peak and the peak; at least the last three. [N/m]
+  std::optional<double> locked_stiffness;
+  double peak_force = 0.0;                ///< largest F of the pull [N]
+  std::optional<double> break_extension;  ///< s where the rod broke [m]
+  std::optional<double> untangled_at;     ///< time [s], see MotionPatternTracker
   bool knot_type_preserved = true;
+  bool equilibrated = true;  ///< tying and release ended at rest
+
+  double max_penetration = 0.0;      ///< [fraction of radius], over the whole test
+  double force_balance_error = 0.0;  ///< largest |upper - lower| of the pull / peak force
+
+  /// Largest |change of stored and kinetic energy + dissipation - work of the grips| since the first sample, over the
+  /// largest of these three.
+  double energy_balance_error = 0.0;
+
+  std::array<std::optional<double>, 2> tied_excess_length;   ///< rod hidden in each knot when the pull begins [m]
+  std::array<std::optional<double>, 2> final_excess_length;  ///< and at the end [m]
+  std::optional<double> tied_knot_distance;                  ///< e when the pull begins [m]
+  double fastest_node = 0.0;  ///< of the pull [m/s]; above 0.1 m/s a knot opened at breakaway
+
+  std::uint64_t steps = 0;
+  std::uint64_t rejected_steps = 0;
+  std::uint64_t newton_iterations = 0;
+  double simulated_time = 0.0;  ///< [s]
 };
+
+/// Evaluates a whole test. `knot_lost_at`: when the knot's topology was found changed, if it was [s].
+Results analyse(const std::vector<Sample>& samples, EndedBy ended_by, std::optional<double> knot_lost_at = {});
 
 }  // namespace knot_utm

@@ -8,9 +8,9 @@ namespace knot_utm {
 
 /// A cylinder the rod may lie on, of unlimited length.
 struct Roller {
-  Vec3 centre = Vec3::Zero();       ///< a point of its axis [m]
-  Vec3 axis = Vec3::UnitY();        ///< unit
-  double radius = 0.0;              ///< [m]
+  Vec3 centre = Vec3::Zero();  ///< a point of its axis [m]
+  Vec3 axis = Vec3::UnitY();   ///< unit
+  double radius = 0.0;         ///< [m]
 };
 
 /// Contact of the rod's smooth centreline with rollers that move without turning: the normal law of the rod with

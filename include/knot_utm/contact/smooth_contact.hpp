@@ -71,15 +71,15 @@ class SmoothContact {
   NormalLaw normal_;
   Friction friction_;
   double diameter_;
-  double window_;             // of arclength within which a foot is the same one [m]
-  double reach_;              // of centrelines within which contacts are kept [m]
-  Eigen::VectorXd arclength_; // of the nodes
+  double window_;              // of arclength within which a foot is the same one [m]
+  double reach_;               // of centrelines within which contacts are kept [m]
+  Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd voronoi_;
   Candidates candidates_;
   std::vector<ContactPoint> contacts_;
-  MemoryList accepted_;  // of the last accepted step
-  MemoryList iterate_;   // of the last evaluation; before the first of a step, the accepted ones
-  Points edge_middle_, edge_;      // of the evaluated position
+  MemoryList accepted_;        // of the last accepted step
+  MemoryList iterate_;         // of the last evaluation; before the first of a step, the accepted ones
+  Points edge_middle_, edge_;  // of the evaluated position
   double friction_scale_ = 0.0;
   bool first_evaluation_ = true;
 };

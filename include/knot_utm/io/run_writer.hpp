@@ -35,14 +35,17 @@ class RunWriter {
   /// caller knows.
   void finish(const Results& results, const RunFacts& facts, const Points& final_shape);
 
-  RunFacts facts() const;  ///< what the method and the samples so far say
+  RunFacts facts() const;                   ///< what the method and the samples so far say
+  Results results(EndedBy ended_by) const;  ///< what the answers so far mean
 
-  std::size_t rows() const { return curve_.rows(); }  ///< of curve.csv
+  std::size_t rows() const { return curve_.rows(); }            ///< of curve.csv
+  std::size_t full_rows() const { return full_curve_.rows(); }  ///< of curve_full.csv
 
  private:
   std::string folder_;
   RunFacts known_;
   RunMonitor monitor_;
+  std::vector<Sample> answers_;
   CurveWriter curve_;
   CurveWriter full_curve_;
   double last_step_time_ = -std::numeric_limits<double>::infinity();  ///< [s]

@@ -16,10 +16,10 @@ struct Command {
   double velocity = 0.0;       ///< of the crosshead [m/s]
   int step = 0;                ///< index of the program's step; -1 before the first
   Phase phase = Phase::kIdle;
-  double speed = 0.0;          ///< of the step: tie: speed of the tail grips [m/s]
-  double duration = 0.0;       ///< of the step: release [s]
-  bool balance = false;        ///< zero the load cell and the extension before moving on
-  bool read_cell = false;      ///< `time` is a sampling instant of the load cell: `load` is its reading
+  double speed = 0.0;      ///< of the step: tie: speed of the tail grips [m/s]
+  double duration = 0.0;   ///< of the step: release [s]
+  bool balance = false;    ///< zero the load cell and the extension before moving on
+  bool read_cell = false;  ///< `time` is a sampling instant of the load cell: `load` is its reading
 };
 
 /// How the physics stands after a command.
@@ -35,31 +35,31 @@ enum class BenchStatus {
 struct Sample {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   std::uint64_t sequence = 0;
-  double time = 0.0;              ///< [s]
+  double time = 0.0;  ///< [s]
   Phase phase = Phase::kIdle;
-  double displacement = 0.0;      ///< of the crosshead [m]
-  double extension = 0.0;         ///< s [m], growth of L since balance
-  double end_to_end = 0.0;        ///< L [m]
-  double knot_distance = kNone;   ///< e [m]; NaN: no two knots
-  double load = 0.0;              ///< as the cell reads it at a sampling instant, else the balanced true force [N]
-  double force_upper = 0.0;       ///< true force on the upper grip [N]
-  double force_lower = 0.0;       ///< true force on the lower grip [N]
+  double displacement = 0.0;     ///< of the crosshead [m]
+  double extension = 0.0;        ///< s [m], growth of L since balance
+  double end_to_end = 0.0;       ///< L [m]
+  double knot_distance = kNone;  ///< e [m]; NaN: no two knots
+  double load = 0.0;             ///< as the cell reads it at a sampling instant, else the balanced true force [N]
+  double force_upper = 0.0;      ///< true force on the upper grip [N]
+  double force_lower = 0.0;      ///< true force on the lower grip [N]
   double tail_force[2] = {kNone, kNone};     ///< tail grips while tying [N]
   double excess_length[2] = {kNone, kNone};  ///< rod length hidden in each knot [m]
-  double max_penetration = 0.0;   ///< deepest contact [fraction of radius]
-  double normal_force = 0.0;      ///< sum over all rod-rod contacts [N]
-  int contacts = 0;               ///< contact points that carry force
-  double fastest_node = 0.0;      ///< [m/s]
-  double stretching_energy = 0.0; ///< [J]
-  double bending_energy = 0.0;    ///< [J]
-  double twisting_energy = 0.0;   ///< [J]
-  double contact_energy = 0.0;    ///< [J]
-  double kinetic_energy = 0.0;    ///< [J]
-  double grip_work = 0.0;         ///< done by grips and fixtures since the start [J]
-  double dissipation = 0.0;       ///< by friction and drag since the start [J]
-  std::uint64_t steps = 0;             ///< time steps since the start
-  std::uint64_t rejected_steps = 0;    ///< of which thrown away
-  std::uint64_t newton_iterations = 0; ///< since the start
+  double max_penetration = 0.0;              ///< deepest contact [fraction of radius]
+  double normal_force = 0.0;                 ///< sum over all rod-rod contacts [N]
+  int contacts = 0;                          ///< contact points that carry force
+  double fastest_node = 0.0;                 ///< [m/s]
+  double stretching_energy = 0.0;            ///< [J]
+  double bending_energy = 0.0;               ///< [J]
+  double twisting_energy = 0.0;              ///< [J]
+  double contact_energy = 0.0;               ///< [J]
+  double kinetic_energy = 0.0;               ///< [J]
+  double grip_work = 0.0;                    ///< done by grips and fixtures since the start [J]
+  double dissipation = 0.0;                  ///< by friction and drag since the start [J]
+  std::uint64_t steps = 0;                   ///< time steps since the start
+  std::uint64_t rejected_steps = 0;          ///< of which thrown away
+  std::uint64_t newton_iterations = 0;       ///< since the start
   BenchStatus status = BenchStatus::kRunning;
   std::string message;
 };

@@ -9,7 +9,6 @@
 #include "knot_utm/sim/options.hpp"
 #include "knot_utm/specimen/options.hpp"
 
-
 namespace knot_utm {
 
 /// The specimen on the machine: rod, grips, rollers, tying rig and load cell, stepped by commands.
@@ -34,9 +33,9 @@ class TestBench {
 
   const RodProperties& rod() const;
   const RodState& state() const;
-  bool closed() const;        ///< the test's knot is that of the loop closed by joining the tails
-  Vec3 lower_grip() const;    ///< centre of roller, node or clamp [m]
-  Vec3 upper_grip() const;    ///< [m]
+  bool closed() const;          ///< the test's knot is that of the loop closed by joining the tails
+  Vec3 lower_grip() const;      ///< centre of roller, node or clamp [m]
+  Vec3 upper_grip() const;      ///< [m]
   double longest_step() const;  ///< longest time step of the chosen accuracy [s]: the longest command period
 
   /// Force in the rod at each edge, tension positive [N], as the last accepted step left it.

@@ -48,6 +48,13 @@ Directors material_directors(const Vec3& t, const Vec3& d1, double theta);
 /// theta rate = 0 and m_ref = 0.
 void initialise_frames(RodState* state);
 
+/// Director d1 of tangent `from` transported to tangent `to`, made normal to it and unit again: keeps rounding from
+/// piling up over many transports.
+Vec3 transported_director(const Vec3& d1, const Vec3& from, const Vec3& to);
+
+/// The angle that differs from `angle` by whole turns and lies nearest to `last` [rad].
+double nearest_turn(double angle, double last);
+
 /// Carries the reference frame of a state whose positions have moved from `position_before`: d1 by parallel transport
 /// in time, edge by edge, then m_ref. To be called once on a committed step, or on a copy for a trial one.
 void transport_frames(const Points& position_before, RodState* state);

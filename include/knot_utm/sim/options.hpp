@@ -1,8 +1,7 @@
 #pragma once
 
-#include <optional>
-
 #include <Eigen/Core>
+#include <optional>
 
 namespace knot_utm {
 
@@ -13,17 +12,18 @@ enum class Accuracy { kDraft, kNormal, kFine };
 
 /// The `physics` section of a method. Values left unset follow from `accuracy`.
 struct PhysicsOptions {
-  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();     ///< g [m/s^2]
-  FrictionLaw friction_law = FrictionLaw::kMemory;       ///< friction.law: memory | smoothed
-  double slip_tolerance = 1e-3;                          ///< friction.slip_tolerance v_s [m/s], `smoothed` only
-  ContactLaw contact_law = ContactLaw::kSmooth;          ///< contact.law: smooth | edge
-  TwistMode twist = TwistMode::kAuto;                    ///< twist: auto | on | off
-  Accuracy accuracy = Accuracy::kNormal;                 ///< accuracy: draft | normal | fine
-  double drag = 0.1;                                     ///< viscous drag per length of rod [N s/m^2]
-  std::optional<double> contact_tolerance;  ///< contact.tolerance delta [fraction of radius]
-  std::optional<double> presliding;         ///< friction.presliding, slip at which memory friction saturates [fraction of radius]
-  std::optional<double> max_step;           ///< longest time step [s]
-  std::optional<double> residual;           ///< Newton residual [k_b/h^2]
+  Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< g [m/s^2]
+  FrictionLaw friction_law = FrictionLaw::kMemory;    ///< friction.law: memory | smoothed
+  double slip_tolerance = 1e-3;                       ///< friction.slip_tolerance v_s [m/s], `smoothed` only
+  ContactLaw contact_law = ContactLaw::kSmooth;       ///< contact.law: smooth | edge
+  TwistMode twist = TwistMode::kAuto;                 ///< twist: auto (where the scene can twist) | on | off
+  Accuracy accuracy = Accuracy::kNormal;              ///< accuracy: draft | normal | fine
+  double drag = 0.1;                                  ///< viscous drag per length of rod [N s/m^2]
+  std::optional<double> contact_tolerance;            ///< contact.tolerance delta [fraction of radius]
+  std::optional<double>
+      presliding;  ///< friction.presliding, slip at which memory friction saturates [fraction of radius]
+  std::optional<double> max_step;  ///< longest time step [s]
+  std::optional<double> residual;  ///< Newton residual [k_b/h^2]
 };
 
 }  // namespace knot_utm

@@ -57,17 +57,18 @@ struct Boundary {
 /// What a time step needs to know besides rod and boundary; constant during a run.
 struct StepSettings {
   ContactLaw contact_law = ContactLaw::kSmooth;  ///< between strands; rollers always touch the smooth centreline
-  NormalLaw normal;          ///< between strands, and on rollers
-  Friction friction;         ///< between strands
+  NormalLaw normal;                              ///< between strands, and on rollers
+  Friction friction;                             ///< between strands
   Friction roller_friction;
-  Vec3 gravity = Vec3::Zero();    ///< g [m/s^2]
-  double drag = 0.0;              ///< c, force -c v per length [N s/m^2]
-  double residual = 0.0;          ///< Newton's largest nodal residual [N]
+  Vec3 gravity = Vec3::Zero();       ///< g [m/s^2]
+  double drag = 0.0;                 ///< c, force -c v per length [N s/m^2]
+  bool spin_inertia = true;          ///< turning of the rod about itself has inertia and drag (frame_terms.hpp)
+  double residual = 0.0;             ///< Newton's largest nodal residual [N]
   double residual_of_tension = 0.0;  ///< to which this share of the largest tension is added [-]
-  double newton_cap = 0.0;        ///< longest movement of a node in one Newton iteration [m]
-  double motion_limit = 0.0;      ///< longest movement of a node in one step [m]
-  double overlap_limit = 0.0;     ///< deepest overlap of a step that may be accepted [m]
-  double candidate_margin = 0.0;  ///< of the contact search [m]
+  double newton_cap = 0.0;           ///< longest movement of a node in one Newton iteration [m]
+  double motion_limit = 0.0;         ///< longest movement of a node in one step [m]
+  double overlap_limit = 0.0;        ///< deepest overlap of a step that may be accepted [m]
+  double candidate_margin = 0.0;     ///< of the contact search [m]
   int max_iterations = 20;
 };
 

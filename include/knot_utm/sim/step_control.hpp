@@ -13,11 +13,11 @@ namespace knot_utm {
 class StepControl {
  public:
   struct Options {
-    double longest = 0.1;         ///< [s]
-    double shortest = 1e-7;       ///< below it the run gives up [s]
-    double motion = 0.0;          ///< movement of the fastest node in a step that is aimed at [m]
-    int easy_iterations = 6;      ///< up to here the next step may be longer
-    int hard_iterations = 10;     ///< from here on it is shorter
+    double longest = 0.1;      ///< [s]
+    double shortest = 1e-7;    ///< below it the run gives up [s]
+    double motion = 0.0;       ///< movement of the fastest node in a step that is aimed at [m]
+    int easy_iterations = 6;   ///< up to here the next step may be longer
+    int hard_iterations = 10;  ///< from here on it is shorter
   };
   struct Counters {
     std::uint64_t steps = 0, rejected = 0, iterations = 0;

@@ -26,22 +26,25 @@ struct Energies {
 };
 
 struct ContactReading {
-  int touching = 0;               ///< points of integration that carry force
-  double normal_force = 0.0;      ///< sum of their normal forces [N]
-  double largest_overlap = 0.0;   ///< between strands [m]
-  double friction_work = 0.0;     ///< lost in the last step [J]
+  int touching = 0;              ///< points of integration that carry force
+  double normal_force = 0.0;     ///< sum of their normal forces [N]
+  double largest_overlap = 0.0;  ///< between strands [m]
+  double friction_work = 0.0;    ///< lost in the last step [J]
 };
 
 /// One implicit Euler step of a rod with contact and friction: find x at t + dt with
 ///
 ///   M (x - x_n - dt v_n)/dt^2 = -dE/dx + F_contact + F_friction + F_grips + M g - c lbar (x - x_n)/dt,
 ///
-/// all of the right-hand side taken at t + dt. A step that is not accepted changes nothing.
+/// all of the right-hand side taken at t + dt. Where the scene solves for twist, the angles of the material frames are
+/// unknowns beside x, with equations of their own (frame_terms.hpp); where it does not, they cost nothing. A step that
+/// is not accepted changes nothing.
 class TimeStep {
  public:
   virtual ~TimeStep() = default;
 
-  /// `state.twist` empty: the scene does not solve for twist (three unknowns a node); else four.
+  /// `state.twist` empty: the scene does not solve for twist (three unknowns a node); else four, from the frames of
+  /// the state (initialise_frames). Throws InvalidInput where rod and state do not fit together.
   static std::unique_ptr<TimeStep> make(const RodProperties& rod, const RodState& state, const StepSettings& settings);
 
   virtual StepSummary step(const Boundary& boundary, double dt) = 0;
@@ -51,6 +54,8 @@ class TimeStep {
 
   /// Force that the step's own equations need at a fixed node: what its holder exerts on the rod [N].
   virtual Vec3 reaction(int node) const = 0;
+  /// Torque about an edge's tangent that the holder of its material frame exerts on the rod [N m].
+  virtual double reaction_torque(int edge) const = 0;
   /// Force of the rod on a roller [N].
   virtual Vec3 roller_force(int roller) const = 0;
   virtual Energies energies() const = 0;

@@ -16,7 +16,7 @@ class BlockPattern {
   void build(int nodes, const std::vector<std::pair<int, int>>& pairs);
 
   int nodes() const { return static_cast<int>(position_.size()); }
-  int blocks() const { return blocks_; }                ///< stored: diagonal, lower and upper
+  int blocks() const { return blocks_; }  ///< stored: diagonal, lower and upper
   int position(int node) const { return position_[static_cast<std::size_t>(node)]; }  ///< in elimination order
 
   /// Where block (row, column) is stored; -1 where the pattern has none.
@@ -25,7 +25,9 @@ class BlockPattern {
   std::pair<int, int> indices(int row, int column) const;
 
   /// For pivot k: how many later rows it touches, and where its blocks stand.
-  int below(int k) const { return row_begin_[static_cast<std::size_t>(k) + 1] - row_begin_[static_cast<std::size_t>(k)]; }
+  int below(int k) const {
+    return row_begin_[static_cast<std::size_t>(k) + 1] - row_begin_[static_cast<std::size_t>(k)];
+  }
   const int* rows(int k) const { return rows_.data() + row_begin_[static_cast<std::size_t>(k)]; }
   int diagonal(int k) const { return diagonal_[static_cast<std::size_t>(k)]; }
   /// Stored index of the lower block of the a-th row below pivot k is diagonal(k) + 1 + 2 a; its mirror follows it.
@@ -36,14 +38,14 @@ class BlockPattern {
 
  private:
   int blocks_ = 0;
-  std::vector<int> position_;      // node -> elimination position
-  std::vector<int> row_begin_;     // pivot -> first of rows_
-  std::vector<int> rows_;          // positions later than the pivot, ascending
-  std::vector<int> diagonal_;      // pivot -> stored index of its diagonal block
-  std::vector<int> lower_begin_;   // row -> first of lower_
+  std::vector<int> position_;     // node -> elimination position
+  std::vector<int> row_begin_;    // pivot -> first of rows_
+  std::vector<int> rows_;         // positions later than the pivot, ascending
+  std::vector<int> diagonal_;     // pivot -> stored index of its diagonal block
+  std::vector<int> lower_begin_;  // row -> first of lower_
   std::vector<int> lower_;
   std::vector<std::size_t> target_begin_;
-  std::vector<int> targets_;       // pivot, row a, column b -> stored index of the block that L_a U_b updates
+  std::vector<int> targets_;  // pivot, row a, column b -> stored index of the block that L_a U_b updates
 };
 
 /// Square matrix of D x D blocks on a fixed pattern, factored in place: A = L U, blocks of L with unit diagonal.
@@ -64,6 +66,8 @@ class BlockMatrix {
 
   /// Row `node` becomes that of the identity: its unknown is prescribed by the right-hand side.
   void set_identity_row(int node);
+  /// As set_identity_row, in those rows of the block whose lane of `keep` is 0; the others, of lane 1, stay.
+  void set_identity_row(int node, const Lanes& keep);
 
   /// y = A x, before factorising.
   void multiply(const Vector& x, Vector& y) const;

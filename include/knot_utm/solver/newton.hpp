@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace knot_utm {
@@ -12,18 +13,23 @@ struct NewtonOptions {
 struct NewtonSummary {
   enum class End { kNotRun, kConverged, kIterationLimit, kSingular, kNotFinite };
   End end = End::kNotRun;
-  int iterations = 0;       ///< linear solves
-  double residual = 0.0;    ///< largest nodal residual at the end [N]
-  double tolerance = 0.0;   ///< what it was compared with [N]
+  int iterations = 0;      ///< linear solves
+  double residual = 0.0;   ///< largest nodal residual at the end [N]
+  double tolerance = 0.0;  ///< what it was compared with [N]
 
   bool converged() const { return end == End::kConverged; }
   const char* reason() const {
     switch (end) {
-      case End::kConverged: return "converged";
-      case End::kIterationLimit: return "the residual did not fall below its tolerance within the iteration limit";
-      case End::kSingular: return "the Jacobian is singular";
-      case End::kNotFinite: return "the residual is not a number";
-      case End::kNotRun: break;
+      case End::kConverged:
+        return "converged";
+      case End::kIterationLimit:
+        return "the residual did not fall below its tolerance within the iteration limit";
+      case End::kSingular:
+        return "the Jacobian is singular";
+      case End::kNotFinite:
+        return "the residual is not a number";
+      case End::kNotRun:
+        break;
     }
     return "not run";
   }
@@ -42,7 +48,7 @@ template <typename System>
 NewtonSummary newton(System& system, const NewtonOptions& options) {
   constexpr int kUndamped = 5;
   NewtonSummary summary;
-  double last = 0.0, before = 0.0;
+  double last = 0.0, before = 0.0, share = 1.0;
   for (;;) {
     summary.residual = system.residual();
     summary.tolerance = system.tolerance();
@@ -63,7 +69,8 @@ NewtonSummary newton(System& system, const NewtonOptions& options) {
       return summary;
     }
     const bool cycles = summary.iterations >= kUndamped && summary.residual > 0.5 * before;
-    system.move(cycles ? 0.5 : 1.0);
+    share = cycles ? std::max(0.5 * share, 1.0 / 16.0) : std::min(2.0 * share, 1.0);
+    system.move(share);
     before = last;
     last = summary.residual;
     ++summary.iterations;

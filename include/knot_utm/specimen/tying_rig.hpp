@@ -21,12 +21,12 @@ namespace knot_utm {
 class TyingRig {
  public:
   struct Options {
-    double preload = 0.0;          ///< F_p, at which the tail grips slip [N]
-    double grip_stiffness = 2e4;   ///< [N/m]
-    double rest_speed = 2e-5;      ///< every node slower than this ... [m/s]
-    double rest_time = 0.3;        ///< ... for this long: at rest [s]
-    double patience = 20.0;        ///< without rest for so long: not equilibrated [s]
-    double pull_patience = 90.0;   ///< grips that have not reached the pre-load by then: not equilibrated [s]
+    double preload = 0.0;         ///< F_p, at which the tail grips slip [N]
+    double grip_stiffness = 2e4;  ///< [N/m]
+    double rest_speed = 2e-5;     ///< every node slower than this ... [m/s]
+    double rest_time = 0.3;       ///< ... for this long: at rest [s]
+    double patience = 20.0;       ///< without rest for so long: not equilibrated [s]
+    double pull_patience = 90.0;  ///< grips that have not reached the pre-load by then: not equilibrated [s]
   };
   enum class Stage { kIdle, kSettling, kPulling, kTied, kTailsRamp, kTailsRest, kClampsRamp, kClampsRest, kReleased };
 

@@ -1,0 +1,48 @@
+# catkin where it is there: messages, and where executables go. Without it the core and the tools are built all the same.
+set(catkin_FOUND FALSE)
+if(KNOT_UTM_ROS)
+  # catkin installs setup.bash to where CMAKE_INSTALL_PREFIX was when configured, whatever `cmake --install --prefix`
+  # says. Built on its own, the package installs these files itself; in a workspace that is the workspace's task.
+  if(CMAKE_SOURCE_DIR STREQUAL PROJECT_SOURCE_DIR AND NOT DEFINED CATKIN_INSTALL_INTO_PREFIX_ROOT)
+    set(CATKIN_INSTALL_INTO_PREFIX_ROOT FALSE)
+    set(KNOT_UTM_INSTALLS_SETUP TRUE)
+  endif()
+  set(message_packages geometry_msgs std_msgs)
+  set(node_packages diagnostic_updater rosbag roscpp rosgraph_msgs sensor_msgs std_srvs tf2_ros visualization_msgs)
+  find_package(catkin QUIET COMPONENTS message_generation ${message_packages} ${node_packages})
+endif()
+
+if(catkin_FOUND)
+  add_message_files(DIRECTORY msg FILES
+                    Crosshead.msg KnotRecord.msg KnotShape.msg KnotState.msg RecorderStatus.msg SpecimenInfo.msg
+                    TestStatus.msg)
+  generate_messages(DEPENDENCIES ${message_packages})
+  get_target_property(EIGEN3_INCLUDE_DIRS Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+  catkin_package(INCLUDE_DIRS include LIBRARIES knot_utm_ros knot_utm_core
+                 CATKIN_DEPENDS message_runtime ${message_packages} ${node_packages} DEPENDS EIGEN3)
+  set(KNOT_UTM_EXECUTABLE_DIR ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
+else()
+  include(GNUInstallDirs)
+  set(CATKIN_PACKAGE_BIN_DESTINATION lib/knot_utm)
+  set(CATKIN_PACKAGE_LIB_DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  set(CATKIN_PACKAGE_SHARE_DESTINATION share/knot_utm)
+  set(KNOT_UTM_EXECUTABLE_DIR ${PROJECT_BINARY_DIR}/devel/lib/knot_utm)
+endif()
+
+# Executables find the package's libraries beside themselves, sourced environment or not.
+set(CMAKE_INSTALL_RPATH "$ORIGIN/..")
+
+# Everything but the tests.
+add_custom_target(programs)
+if(catkin_FOUND)
+  add_dependencies(programs ${${PROJECT_NAME}_EXPORTED_TARGETS})
+endif()
+
+# One executable, with the flags of the package, where `rosrun` looks for it.
+function(knot_utm_executable name)
+  add_executable(${name} ${ARGN})
+  target_link_libraries(${name} PRIVATE knot_utm_core)
+  set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${KNOT_UTM_EXECUTABLE_DIR})
+  add_dependencies(programs ${name})
+  install(TARGETS ${name} RUNTIME DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
+endfunction()

@@ -1,0 +1,19 @@
+# Executables are installed where they are made (knot_utm_executable).
+set(libraries knot_utm_core)
+if(catkin_FOUND)
+  list(APPEND libraries knot_utm_ros)
+  if(KNOT_UTM_INSTALLS_SETUP)
+    set(setup ${PROJECT_BINARY_DIR}/catkin_generated/installspace)
+    install(PROGRAMS ${setup}/_setup_util.py ${setup}/env.sh DESTINATION .)
+    foreach(shell bash sh zsh)
+      install(FILES ${setup}/setup.${shell} ${setup}/local_setup.${shell} DESTINATION .)
+    endforeach()
+    install(CODE "file(TOUCH \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/.catkin\")")
+  endif()
+  install(DIRECTORY launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} FILES_MATCHING PATTERN "*.launch")
+endif()
+install(TARGETS ${libraries}
+        ARCHIVE DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION}
+        LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+install(DIRECTORY include/knot_utm DESTINATION include FILES_MATCHING PATTERN "*.hpp")
+install(DIRECTORY config DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

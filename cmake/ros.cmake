@@ -1,0 +1,15 @@
+# The thin edge to ROS, and the nodes.
+file(GLOB ros_sources CONFIGURE_DEPENDS src/ros/*.cpp)
+add_library(knot_utm_ros ${ros_sources})
+add_dependencies(knot_utm_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+target_include_directories(knot_utm_ros SYSTEM
+                           PUBLIC ${catkin_INCLUDE_DIRS}
+                                  $<BUILD_INTERFACE:${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION}>)
+target_link_libraries(knot_utm_ros PUBLIC knot_utm_core ${catkin_LIBRARIES})
+
+file(GLOB nodes CONFIGURE_DEPENDS src/nodes/*.cpp)
+foreach(source ${nodes})
+  get_filename_component(name ${source} NAME_WE)
+  knot_utm_executable(${name} ${source})
+  target_link_libraries(${name} PRIVATE knot_utm_ros)
+endforeach()

@@ -1,0 +1,43 @@
+enable_testing()
+find_package(GTest REQUIRED)
+include(GoogleTest)
+
+# The core's tests, one executable.
+set(core_test_sources)
+foreach(room ${core_rooms})
+  file(GLOB room_tests CONFIGURE_DEPENDS test/${room}/*_test.cpp)
+  list(APPEND core_test_sources ${room_tests})
+endforeach()
+list(APPEND core_test_sources test/rooms_test.cpp)
+add_executable(core_tests ${core_test_sources})
+target_include_directories(core_tests PRIVATE test)
+target_link_libraries(core_tests PRIVATE knot_utm_core yaml-cpp GTest::gtest_main GTest::gmock)
+target_compile_definitions(core_tests PRIVATE KNOT_UTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+                                              KNOT_UTM_TOOLS_DIR="${KNOT_UTM_EXECUTABLE_DIR}")
+add_dependencies(core_tests tensile_test)
+gtest_discover_tests(core_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+
+if(catkin_FOUND)
+  # Conversions, markers and bags need no master.
+  file(GLOB ros_test_sources CONFIGURE_DEPENDS test/ros/*_test.cpp)
+  add_executable(ros_tests ${ros_test_sources})
+  target_include_directories(ros_tests PRIVATE test)
+  target_link_libraries(ros_tests PRIVATE knot_utm_ros GTest::gtest_main GTest::gmock)
+  target_compile_definitions(ros_tests PRIVATE KNOT_UTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(ros_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 120)
+
+  if(CATKIN_ENABLE_TESTING)
+    find_package(rostest REQUIRED)
+    file(GLOB launched_tests CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} test/ros/*.test)
+    get_property(before DIRECTORY PROPERTY TESTS)
+    foreach(test ${launched_tests})
+      add_rostest(${test})
+    endforeach()
+    get_property(all DIRECTORY PROPERTY TESTS)
+    list(REMOVE_ITEM all ${before})
+    if(all)
+      # Each has a master of its own, but two at a time would compete for the cores.
+      set_tests_properties(${all} PROPERTIES ENVIRONMENT "ROS_HOSTNAME=localhost" TIMEOUT 120 RUN_SERIAL TRUE)
+    endif()
+  endif()
+endif()

@@ -1,0 +1,12 @@
+# Every file of src/tools is one executable that needs no ROS master; with catkin they write bags too.
+find_package(CLI11 REQUIRED)
+file(GLOB tools CONFIGURE_DEPENDS src/tools/*.cpp)
+foreach(source ${tools})
+  get_filename_component(name ${source} NAME_WE)
+  knot_utm_executable(${name} ${source})
+  target_link_libraries(${name} PRIVATE CLI11::CLI11)
+  if(catkin_FOUND)
+    target_link_libraries(${name} PRIVATE knot_utm_ros)
+    target_compile_definitions(${name} PRIVATE KNOT_UTM_HAS_ROS)
+  endif()
+endforeach()

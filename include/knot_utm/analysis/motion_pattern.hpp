@@ -1,0 +1,86 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "knot_utm/machine/sample.hpp"
+
+namespace knot_utm {
+
+/// How a fisherman's loop answers the pull.
+enum class MotionPattern {
+  kNone,        ///< no pull yet, or no two knots
+  kSliding,     ///< the knots slide towards each other under a low, steady load; they may lock later
+  kStretching,  ///< the knots hold from the start: e and the load grow
+  kUntangling   ///< a knot came undone, or opened after breakaway and carries no load any more
+};
+
+const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding", ... as in result.yaml
+
+/// Follows the motion pattern of a test, sample by sample; live displays and `analyse` use the same one.
+///
+/// Symbols: s extension, e knot distance, F load. Only samples of the pull count, and of these only those that reach a
+/// new largest s (pulling back says nothing), up to a break.
+///
+/// Kinematics: knots that slide rigidly along the two strands give de/ds = -2 exactly; strands that only stretch give
+/// de/ds = e/L > 0. de/ds is the least-squares slope over a window of s, 3 % of the first e wide; half-way, at -1, the
+/// one turns into the other. The specimen **slides** as long as de/ds < -1, and has **locked** where it last was.
+///
+///   sliding     at least one window, and 15 % of all extension, was passed at de/ds < -1
+///   untangling  the knot type is lost; or F fell for a window below 5 % of its largest value, has not come back, and
+///               the excess length in a knot, where known, grew beyond 1.5 times that of the tied knot
+///   stretching  anything else
+///
+/// Confidence, 0 to 1, is the mean of independent signs, each 0 to 1, where they can be read. Deviations are those
+/// from a line, means weighted by extension, both over the part that decides (sliding: 0.3 to 0.8 of the lock
+/// extension; stretching: all of it):
+///   kinematics  sliding: 1 - |de/ds + 2|; stretching: 1 + de/ds
+///   load        sliding: 1 - (rise over the part + standard deviation) / mean; stretching: correlation with s
+///   contact     the same of the sum of normal forces between strands
+/// Untangling: 1 where the knot type is lost, 0.75 where load and excess length show it, 0.5 where the load alone does.
+class MotionPatternTracker {
+ public:
+  void add(const Sample& sample);
+
+  /// The knot's topology was found changed at this time [s].
+  void knot_lost(double time);
+
+  MotionPattern pattern() const;  ///< of the whole test so far
+  MotionPattern current() const;  ///< of the last window alone: sliding or stretching; live displays
+  double confidence() const;
+
+  /// Extension at which sliding turned into stretching, for good as far as seen [m]; none before it has gone on for a
+  /// window, and where nothing slid.
+  std::optional<double> lock_extension() const;
+
+  /// Time at which the knot came undone [s]: the knot type lost, or else the load fallen for good.
+  std::optional<double> untangled_at() const;
+
+  /// The samples of the pull that count.
+  struct Pull {
+    double time, extension, knot_distance, load, normal_force;
+  };
+  const std::vector<Pull>& pull() const { return pull_; }
+
+ private:
+  double slope() const;
+  bool opened() const;
+  bool load_gone() const;
+
+  std::vector<Pull> pull_;
+  std::size_t window_begin_ = 0;  ///< first sample of the current window
+  double window_ = 0.0;           ///< its width [m]
+  double slope_ = 0.0;            ///< de/ds in the current window, NaN before the first is full
+  double centre_ = 0.0;           ///< mean extension of the current window [m]
+  double slid_ = 0.0;             ///< extension passed while sliding [m]
+  double last_sliding_ = 0.0;     ///< where de/ds last rose through -1 or was still below [m]
+  double peak_ = 0.0;             ///< largest load [N]
+  double tied_excess_[2] = {Sample::kNone, Sample::kNone};     ///< [m]
+  double largest_excess_[2] = {Sample::kNone, Sample::kNone};  ///< during the pull [m]
+  std::optional<double> gone_since_;                           ///< time since which the load is gone [s]
+  double gone_extension_ = 0.0;                                ///< extension there [m]
+  std::optional<double> knot_lost_;                            ///< [s]
+  bool broken_ = false;
+};
+
+}  // namespace knot_utm

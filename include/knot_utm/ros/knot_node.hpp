@@ -1,0 +1,71 @@
+#pragma once
+
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <knot_utm/Crosshead.h>
+#include <knot_utm/KnotRecord.h>
+#include <knot_utm/TestStatus.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include <boost/shared_ptr.hpp>
+#include <deque>
+#include <string>
+
+#include "knot_utm/analysis/motion_pattern.hpp"
+#include "knot_utm/io/method.hpp"
+#include "knot_utm/machine/test_bench.hpp"
+
+namespace knot_utm {
+
+/// The physics as a node. It answers each command with the state of the same sequence and stamp, and a command that
+/// it has answered already with the same answer again, so that a lost message never makes a step twice. Command 0 of
+/// a new test begins with a new specimen. A command out of turn (the specimen was reset in the middle of a test) is
+/// answered with a failure.
+class KnotNode {
+ public:
+  /// Answers kept for asking again. The recorder may fall behind by so many commands.
+  static constexpr std::size_t kKeptAnswers = 256;
+
+  KnotNode(const ros::NodeHandle& node, const Method& method);
+
+ private:
+  void on_command(const Crosshead& message);
+  void on_status(const TestStatus& status);
+  bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  void on_view_timer(const ros::WallTimerEvent& event);
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+
+  void new_specimen();
+  void answer(const Crosshead& message);
+  void refuse(const Crosshead& message, const std::string& why);
+  void publish(const KnotRecord& record);
+  void put_shape(KnotRecord& record) const;
+  void publish_markers();
+  void publish_transforms();
+
+  ros::NodeHandle node_;
+  Method method_;
+  TestBench bench_;
+  std::uint32_t run_ = 0;                           ///< the test being answered; 0: none
+  std::uint64_t next_ = 0;                          ///< sequence of the command that comes next
+  std::deque<boost::shared_ptr<KnotRecord>> kept_;  ///< the last answers, in order
+  Sample sample_;                                   ///< the last answer
+  MotionPatternTracker motion_;                     ///< of this specimen
+  ros::Time stamp_;                                 ///< of the last answer
+  double highest_tension_ = 0.0;                    ///< seen in any picture [N]
+  bool view_is_old_ = true;
+  std::uint32_t viewers_ = 0;
+  ros::Time transforms_stamp_;
+
+  ros::Publisher state_, record_, load_cell_, shape_, specimen_, markers_;
+  ros::Subscriber commands_, status_;
+  ros::ServiceServer reset_;
+  ros::WallTimer view_timer_, diagnostics_timer_;
+  tf2_ros::TransformBroadcaster transforms_;
+  tf2_ros::StaticTransformBroadcaster static_transforms_;
+  diagnostic_updater::Updater diagnostics_;
+};
+
+}  // namespace knot_utm

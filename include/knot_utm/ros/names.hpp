@@ -1,0 +1,38 @@
+#pragma once
+
+/// Every name that the nodes share. All are relative: the launch file decides where they stand.
+namespace knot_utm::names {
+
+// Topics
+inline constexpr char kCrosshead[] = "utm/crosshead";         ///< Crosshead, a command for the physics
+inline constexpr char kJointStates[] = "utm/joint_states";    ///< sensor_msgs/JointState of the crosshead
+inline constexpr char kLoadCell[] = "utm/load_cell";          ///< geometry_msgs/WrenchStamped, as the cell reads it
+inline constexpr char kTestStatus[] = "utm/status";           ///< TestStatus, latched
+inline constexpr char kClock[] = "/clock";                    ///< rosgraph_msgs/Clock, the time of the test
+inline constexpr char kKnotState[] = "knot/state";            ///< KnotState, the answer to each command
+inline constexpr char kKnotRecord[] = "knot/record";          ///< KnotRecord, all of it for the recorder
+inline constexpr char kKnotShape[] = "knot/shape";            ///< KnotShape, at each reading of the load cell
+inline constexpr char kSpecimen[] = "knot/specimen";          ///< SpecimenInfo, latched
+inline constexpr char kMarkers[] = "knot/markers";            ///< visualization_msgs/MarkerArray
+inline constexpr char kRecorderStatus[] = "recorder/status";  ///< RecorderStatus, latched
+
+// Services, all of them std_srvs/Trigger
+inline constexpr char kStartTest[] = "utm/start_test";
+inline constexpr char kStopTest[] = "utm/stop_test";
+inline constexpr char kBalance[] = "utm/balance";
+inline constexpr char kPause[] = "utm/pause";
+inline constexpr char kStep[] = "utm/step";
+inline constexpr char kReset[] = "knot/reset";
+inline constexpr char kSave[] = "recorder/save";
+
+// Frames
+inline constexpr char kWorldFrame[] = "world";
+inline constexpr char kBaseFrame[] = "utm_base";
+inline constexpr char kLowerGripFrame[] = "lower_grip";
+inline constexpr char kCrossheadFrame[] = "crosshead";
+inline constexpr char kUpperGripFrame[] = "upper_grip";
+inline constexpr char kLoadCellFrame[] = "load_cell";
+
+inline constexpr char kCrossheadJoint[] = "crosshead";  ///< in utm/joint_states
+
+}  // namespace knot_utm::names

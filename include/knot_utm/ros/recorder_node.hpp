@@ -1,0 +1,80 @@
+#pragma once
+
+#include <knot_utm/KnotRecord.h>
+#include <knot_utm/RecorderStatus.h>
+#include <knot_utm/TestStatus.h>
+#include <ros/ros.h>
+#include <std_srvs/Trigger.h>
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "knot_utm/io/run_writer.hpp"
+#include "knot_utm/ros/test_bag.hpp"
+#include "knot_utm/ros/test_setup.hpp"
+
+namespace knot_utm {
+
+/// Writes every command and its answer in order, by the code that writes them headless. What is missing it waits for,
+/// as the machine asks for it again; what does not come it counts as dropped. The first test of a launch goes to the
+/// folder given, the second one to the folder beside it with "-2", and so on. The service recorder/save leaves
+/// result.yaml as of now and saved.bag, a copy of the bag so far.
+class RecorderNode {
+ public:
+  RecorderNode(const ros::NodeHandle& node, TestSetup setup);
+
+  /// Runs until ROS is shut down; a test that has not ended then is closed as stopped by the operator. Returns the exit
+  /// code: 1 where something could not be written.
+  int spin();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// The test being written.
+  struct Run {
+    Run(const std::string& folder_, const Method& method);
+    std::string folder;
+    RunWriter writer;
+    TestBag bag;
+    std::uint64_t next = 0;      ///< sequence of the record that comes next
+    std::uint64_t recorded = 0;  ///< records written
+    std::uint64_t dropped = 0;
+    std::map<std::uint64_t, KnotRecord::ConstPtr> early;  ///< came before `next` did
+    Points shape;                                         ///< the latest
+    std::uint64_t shape_sequence = 0;                     ///< of its record
+    ros::Time stamp;                                      ///< of the last record
+    Clock::time_point begin = Clock::now();
+    Clock::time_point progress = Clock::now();  ///< when something last came
+    bool failed = false;                        ///< the last answer was that of a physics that failed
+    bool complete = false;
+  };
+
+  void on_record(const KnotRecord::ConstPtr& record);
+  void on_status(const TestStatus& status);
+  bool on_save(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+
+  void begin_run(std::uint32_t run);
+  void write(const KnotRecord& record);
+  void write_early();
+  void give_up_gap();
+  void finish_when_ready();
+  void finish(EndedBy ended_by, const std::string& reason, const std::string& warning);
+  void fail(const std::string& why);
+  void publish_status();
+
+  ros::NodeHandle node_;
+  TestSetup setup_;
+  std::uint32_t run_number_ = 0;
+  std::unique_ptr<Run> run_;  ///< none before the first record
+  TestStatus test_;           ///< the latest
+  std::string error_;
+  RecorderStatus published_;
+  Clock::time_point published_at_;
+  ros::Publisher status_;
+  ros::Subscriber records_, test_status_;
+  ros::ServiceServer save_;
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <rosbag/bag.h>
+
+#include <cstdint>
+#include <string>
+
+#include "knot_utm/analysis/motion_pattern.hpp"
+#include "knot_utm/io/method.hpp"
+#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/rod/rod.hpp"
+
+namespace knot_utm {
+
+/// test.bag: the topics of one test with the stamps of their headers, the same from a live and from a headless run.
+/// utm/crosshead, utm/joint_states and knot/state for every command; utm/load_cell and knot/shape for every reading.
+class TestBag {
+ public:
+  /// Throws std::runtime_error where the file cannot be written, as all of it does.
+  TestBag(const std::string& file, const Method& method);
+
+  void add(const Command& command, const Sample& sample, const TestBench& bench);
+  void add(const Command& command, const Sample& sample, const Points& shape, const Eigen::VectorXd& tension);
+
+  /// Copies what there is so far to `file`, which can be read at once, and goes on.
+  void save(const std::string& file);
+  void close();
+
+  std::uint64_t messages() const { return messages_; }  ///< written so far
+
+ private:
+  template <class Message>
+  void write(const std::string& topic, const ros::Time& stamp, const Message& message);
+
+  std::string file_;
+  rosbag::Bag bag_;
+  double radius_;  ///< [m]
+  MotionPatternTracker motion_;
+  std::uint64_t messages_ = 0;
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+
+#include "knot_utm/io/method.hpp"
+#include "knot_utm/machine/test_program.hpp"
+
+namespace knot_utm {
+
+/// What the parameters of a test say. All nodes of a test read the same, relative to their namespace:
+///   test/method             a method file: as given, or one of test/shipped_methods, with or without ".yaml"
+///   test/shipped_methods    folder of the methods that come with the package
+///   test/material           instead of the method's; empty: the method's
+///   test/preload            specimen.preload [N]; empty: the method's
+///   test/overrides          list of "dotted.key=YAML", applied last
+///   test/working_directory  where relative paths begin; empty: the node's own
+///   test/out                folder of the files [out/NAME of the method]
+struct TestSetup {
+  Method method;
+  std::string out;  ///< absolute
+};
+
+/// Throws InvalidInput.
+TestSetup read_test_setup(const ros::NodeHandle& node);
+
+/// The program of a method for a physics whose longest step is `longest_step` [s], as the headless tool makes it.
+TestProgram make_program(const Method& method, double longest_step);
+
+/// Runs `body` and says in one line what went wrong. Returns the exit code: 0, 1 failed, 2 wrong input.
+template <class Body>
+int run_node(const char* name, Body body);
+
+/// For `run_node`: one line on the console, whether or not ROS logging is up.
+int report_failure(const char* name, const char* what, int code);
+
+template <class Body>
+int run_node(const char* name, Body body) {
+  try {
+    return body();
+  } catch (const InvalidInput& error) {
+    return report_failure(name, error.what(), 2);
+  } catch (const std::exception& error) {
+    return report_failure(name, error.what(), 1);
+  }
+}
+
+}  // namespace knot_utm

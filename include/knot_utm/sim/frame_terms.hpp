@@ -1,0 +1,108 @@
+#pragma once
+
+#include <vector>
+
+#include "knot_utm/rod/stencil.hpp"
+#include "knot_utm/sim/scene.hpp"
+#include "knot_utm/solver/block.hpp"
+
+namespace knot_utm {
+
+/// What material frames bring to one implicit step: the angle theta_j of every edge as an unknown beside the nodes'
+/// positions, twisting, bending where the rod has a natural curvature, and inertia and drag of the rod's spin.
+///
+///   I_j (theta_j - theta_j^n - dt omega_j^n)/dt^2 + (c h^2 l_j/dt + r_j) (theta_j - theta_j^n) = -dE/dtheta_j + T_j
+///
+///   theta_j  angle of the material against the reference frame of edge j at the end of the step  [rad]
+///   theta_j^n, omega_j^n   angle and rate at its beginning  [rad], [rad/s]
+///   I_j      rho pi h^4/2 l_j, polar moment of inertia      [kg m^2]
+///   c        viscous drag per length, as for the positions: it acts on the rod's surface, whose speed is h omega and
+///            whose lever is h [N s/m^2]
+///   r_j      0, or where spin has neither inertia nor drag a trifle of k_t/l_j, so that a rod that is free to turn
+///            stays where it is [N m]
+///   E        k_t/(2 lbar) (m - mbar)^2 at every inner node (twisting.hpp) and, where the rod has a natural curvature,
+///            bending.hpp [J]; a rod that is straight at rest bends as without frames (isotropic_bending.hpp)
+///   T_j      torque of the holder of a held frame about the tangent [N m]
+///
+/// StepSettings::spin_inertia says whether I and c count. Without them every trial is in equilibrium of twist: a rod
+/// that is straight at rest and whose ends are free to turn then has no twist at any time, and moves exactly as one
+/// without frames. With them it has some while it moves, until the waves of twist have run out.
+///
+/// The reference frame of a trial position is that of the step's beginning, transported from tangent t^n to tangent t
+/// edge by edge; so it does not depend on the way of the iterations, and theta - theta^n is how far the rod really
+/// turned about itself. Forces are -dE/dx at fixed spin of the material frames. As transport depends on the way that
+/// a tangent goes, these have no potential beyond one step; with g the gradient, H the symmetric Hessian of
+/// stencil.hpp's energies and s_j the spin of edge j their exact derivative is
+///
+///   dg = H (dx, ds) + 1/2 dE/dtheta_j t_j x de_j/|e_j|^2 on (x_{j+1}; minus that on x_j)
+///   ds_j = dtheta_j + lean_j . de_j,    lean_j = -(t_j^n x t_j)/((1 + t_j^n . t_j) |e_j|)
+///
+/// lean being the area that the transport from t^n sweeps over as t moves. Newton's method therefore solves for spins
+/// s in place of angles. What it solves with is not symmetric, but exact.
+/// Contacts act on the centreline: friction does not turn the rod about itself.
+/// Source: Bergou et al. 2010, sections 3 and 4; Jawed, Novelia, O'Reilly 2018, chapters 4 to 7; the derivative along
+/// the moving frame our own.
+class FrameTerms {
+ public:
+  /// The unknowns x_{i-1}, s_{i-1}, x_i, s_i, x_{i+1}, s_{i+1} of an inner node; the last one takes no part.
+  using NodeStiffness = Eigen::Matrix<double, 12, 12>;
+
+  /// Terms of one edge beyond those of its nodes.
+  struct EdgeStiffness {
+    Mat3 sweep;   ///< d(dE/de)/de that comes from the tangent's way alone, antisymmetric [N/m]
+    double spin;  ///< of inertia, drag and r: d(torque)/dtheta [N m]
+    Vec3 lean;    ///< dtheta = ds - lean . de [1/m]
+  };
+
+  /// `rod` must outlive this.
+  FrameTerms(const RodProperties& rod, const StepSettings& settings);
+
+  /// Begins a step of length dt [s] from `start`, a state with frames, which must stay unchanged until it ends. Held
+  /// angles stand where they must, all others turn on as they did.
+  void begin_step(const RodState& start, const std::vector<FixedTwist>& held, double dt);
+
+  /// Adds forces [N] (lanes 0 to 2 of every node) and torques [N m] (lane 3: of the edge behind the node) at trial
+  /// positions. The stiffness that is read later belongs to them.
+  void add_forces(const Points& position, std::vector<Lanes>& force);
+
+  /// -d(force, torque)/d(x, s) of the elastic terms at inner node i, 1 <= i <= N-2.
+  NodeStiffness node_stiffness(int i) const;
+  EdgeStiffness edge_stiffness(int j) const;
+
+  /// The angle is prescribed; so is that of the last node, which has no edge behind it.
+  bool held(int edge) const { return held_[static_cast<std::size_t>(edge)] != 0; }
+  /// Largest torque on an edge that is free to turn [N m].
+  double largest_free_torque(const std::vector<Lanes>& force) const;
+
+  /// A share of at most 1 of the change (dx, ds) that no angle takes further than it may go in one iteration.
+  double longest_share(const std::vector<Lanes>& change) const;
+  void move(const std::vector<Lanes>& change, double share);
+
+  /// Writes angles, rates and frames into the state whose positions were evaluated last.
+  void commit(RodState& state) const;
+
+  /// Kinetic energy of spinning [J].
+  double kinetic_energy(const RodState& state) const;
+
+ private:
+  double angle_change(const std::vector<Lanes>& change, int edge) const;
+  Vec3 lean(int edge) const;
+
+  const RodProperties& rod_;
+  Eigen::VectorXd inertia_;  // I_j
+  Eigen::VectorXd drag_;     // c h^2 l_j [N m s]
+  Eigen::VectorXd rest_;     // r_j
+  bool curved_;              // at rest
+  const RodState* start_ = nullptr;
+  double dt_ = 0.0;
+  std::vector<char> held_;  // N
+  Points start_tangent_;    // t^n
+  Points edge_, tangent_;   // e_j, t_j of the trial positions
+  Eigen::VectorXd length_;  // |e_j|
+  Points director_;         // d1_j
+  Eigen::VectorXd angle_;   // theta_j
+  Eigen::VectorXd reference_twist_;
+  Eigen::VectorXd torque_;  // dE/dtheta_j [N m]
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,417 @@
+#include "knot_utm/analysis/knot_invariants.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace knot_utm {
+namespace {
+
+/// Integers modulo the Mersenne prime 2^61 - 1.
+namespace modular {
+
+constexpr std::uint64_t kPrime = (std::uint64_t{1} << 61) - 1;
+__extension__ using Wide = unsigned __int128;
+
+std::uint64_t add(std::uint64_t a, std::uint64_t b) {
+  const std::uint64_t sum = a + b;
+  return sum >= kPrime ? sum - kPrime : sum;
+}
+
+std::uint64_t subtract(std::uint64_t a, std::uint64_t b) { return a >= b ? a - b : a + kPrime - b; }
+
+std::uint64_t multiply(std::uint64_t a, std::uint64_t b) {
+  const Wide product = static_cast<Wide>(a) * b;
+  return add(static_cast<std::uint64_t>(product & kPrime), static_cast<std::uint64_t>(product >> 61));
+}
+
+std::uint64_t inverse(std::uint64_t a) {
+  std::uint64_t result = 1;
+  for (std::uint64_t exponent = kPrime - 2; exponent > 0; exponent >>= 1) {
+    if (exponent & 1) result = multiply(result, a);
+    a = multiply(a, a);
+  }
+  return result;
+}
+
+/// Determinant of a square matrix given by rows, which it destroys.
+std::uint64_t determinant(std::vector<std::vector<std::uint64_t>>& rows) {
+  std::uint64_t result = 1;
+  const std::size_t n = rows.size();
+  for (std::size_t column = 0; column < n; ++column) {
+    std::size_t pivot = column;
+    while (pivot < n && rows[pivot][column] == 0) ++pivot;
+    if (pivot == n) return 0;
+    if (pivot != column) {
+      std::swap(rows[pivot], rows[column]);
+      result = subtract(0, result);
+    }
+    result = multiply(result, rows[column][column]);
+    const std::uint64_t scale = inverse(rows[column][column]);
+    for (std::size_t row = column + 1; row < n; ++row) {
+      if (rows[row][column] == 0) continue;
+      const std::uint64_t factor = multiply(rows[row][column], scale);
+      for (std::size_t k = column; k < n; ++k) {
+        if (rows[column][k] != 0) rows[row][k] = subtract(rows[row][k], multiply(factor, rows[column][k]));
+      }
+    }
+  }
+  return result;
+}
+
+/// Coefficients of the polynomial of degree below values.size() with value values[i] at t = i + 1.
+std::vector<std::uint64_t> interpolate(std::vector<std::uint64_t> values) {
+  const std::size_t n = values.size();
+  for (std::size_t order = 1; order < n; ++order) {
+    const std::uint64_t scale = inverse(order);  // the places are `order` apart
+    for (std::size_t i = n - 1; i >= order; --i) values[i] = multiply(subtract(values[i], values[i - 1]), scale);
+  }
+  std::vector<std::uint64_t> result(n, 0);
+  for (std::size_t i = n; i-- > 0;) {
+    // result = result * (t - (i + 1)) + values[i]
+    for (std::size_t k = n - 1; k > 0; --k) {
+      result[k] = subtract(result[k - 1], multiply(result[k], static_cast<std::uint64_t>(i + 1)));
+    }
+    result[0] = subtract(values[i], multiply(result[0], static_cast<std::uint64_t>(i + 1)));
+  }
+  return result;
+}
+
+}  // namespace modular
+
+using Vec2 = Eigen::Vector2d;
+
+/// Whether c lies to the left of the line from a to b, or on it. Each pair of segments that shares a point asks the
+/// same about it, so that a crossing at a node is seen once and not twice or never.
+bool left_of(const Vec2& a, const Vec2& b, const Vec2& c) {
+  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()) >= 0.0;
+}
+
+/// A place where two segments cross in projection.
+struct Crossing {
+  Eigen::Index over, under;              ///< segments
+  double over_fraction, under_fraction;  ///< places on them
+  bool positive;
+};
+
+/// A rotation whose third row is the viewing direction; the nth of a fixed, generic set.
+Mat3 generic_view(int n) {
+  const double golden = 0.5 * (std::sqrt(5.0) - 1.0);
+  const double height = 1.0 - 2.0 * std::fmod(0.3137 + golden * n, 1.0);
+  const double azimuth = 0.7391 + 2.0 * M_PI * std::fmod(golden * golden * n + 0.117 * n, 1.0);
+  const double ring = std::sqrt(1.0 - height * height);
+  const Vec3 view(ring * std::cos(azimuth), ring * std::sin(azimuth), height);
+  const Vec3 side = view.unitOrthogonal();
+  Mat3 rotation;
+  rotation.row(0) = side;
+  rotation.row(1) = view.cross(side);
+  rotation.row(2) = view;
+  return rotation;
+}
+
+/// Segments of a closed polygon as seen from a viewing direction, with their bounds.
+struct View {
+  View(const Points& polygon, const Mat3& rotation) : points(rotation * polygon), n(polygon.cols()) {
+    low.resize(2, n);
+    high.resize(2, n);
+    for (Eigen::Index i = 0; i < n; ++i) {
+      low.col(i) = at(i).cwiseMin(at(i + 1));
+      high.col(i) = at(i).cwiseMax(at(i + 1));
+    }
+  }
+  Vec2 at(Eigen::Index i) const { return points.col(i == n ? 0 : i).head<2>(); }
+  double depth(Eigen::Index segment, double fraction) const {
+    const double a = points(2, segment);
+    const double b = points(2, segment + 1 == n ? 0 : segment + 1);
+    return a + fraction * (b - a);
+  }
+
+  Points points;
+  Eigen::Index n;
+  Eigen::Matrix2Xd low, high;
+};
+
+/// Calls visit(crossing, first is over) where segment i of one view crosses segment j of another.
+template <typename Visit>
+void cross(const View& first, Eigen::Index i, const View& second, Eigen::Index j, Visit visit) {
+  if (first.low(0, i) > second.high(0, j) || second.low(0, j) > first.high(0, i) ||
+      first.low(1, i) > second.high(1, j) || second.low(1, j) > first.high(1, i)) {
+    return;
+  }
+  const Vec2 a = first.at(i);
+  const Vec2 b = first.at(i + 1);
+  const Vec2 c = second.at(j);
+  const Vec2 d = second.at(j + 1);
+  const bool to_left = left_of(a, b, d);
+  if (left_of(a, b, c) == to_left || left_of(c, d, a) == left_of(c, d, b)) return;
+  const Vec2 u = b - a;
+  const Vec2 v = d - c;
+  const Vec2 w = c - a;
+  const double area = u.x() * v.y() - u.y() * v.x();
+  const double s = std::clamp((w.x() * v.y() - w.y() * v.x()) / area, 0.0, 1.0);
+  const double t = std::clamp((w.x() * u.y() - w.y() * u.x()) / area, 0.0, 1.0);
+  const bool first_over = first.depth(i, s) > second.depth(j, t);
+  // Positive: turning the upper strand to the left brings it onto the lower one.
+  const bool positive = to_left == first_over;
+  visit(first_over ? Crossing{i, j, s, t, positive} : Crossing{j, i, t, s, positive}, first_over);
+}
+
+std::vector<Crossing> crossings_of(const Points& polygon, const Mat3& rotation) {
+  const View view(polygon, rotation);
+  std::vector<Crossing> crossings;
+  for (Eigen::Index i = 0; i < view.n; ++i) {
+    const Eigen::Index last = i == 0 ? view.n - 1 : view.n;
+    for (Eigen::Index j = i + 2; j < last; ++j) {
+      cross(view, i, view, j, [&](const Crossing& crossing, bool) { crossings.push_back(crossing); });
+    }
+  }
+  return crossings;
+}
+
+/// Empty where the crossings are not those of a knot.
+KnotPolynomial polynomial_of(std::vector<Crossing> crossings) {
+  if (crossings.size() < 3) return {1};
+  std::sort(crossings.begin(), crossings.end(), [](const Crossing& a, const Crossing& b) {
+    return a.under != b.under ? a.under < b.under : a.under_fraction < b.under_fraction;
+  });
+  const std::size_t n = crossings.size();
+  // Arc k runs from under-crossing k - 1 to under-crossing k; the over-strand of a crossing is the arc it lies on.
+  std::vector<std::size_t> over_arc(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    const auto next = std::lower_bound(
+        crossings.begin(), crossings.end(), crossings[k], [](const Crossing& under, const Crossing& place) {
+          return under.under != place.over ? under.under < place.over : under.under_fraction < place.over_fraction;
+        });
+    over_arc[k] = static_cast<std::size_t>(next - crossings.begin()) % n;
+  }
+  std::vector<std::uint64_t> values;
+  for (std::uint64_t t = 1; t <= n; ++t) {
+    std::vector<std::vector<std::uint64_t>> rows(n - 1, std::vector<std::uint64_t>(n, 0));
+    for (std::size_t k = 0; k + 1 < n; ++k) {
+      std::vector<std::uint64_t>& row = rows[k];
+      const std::size_t in = crossings[k].positive ? k : k + 1;
+      const std::size_t out = crossings[k].positive ? k + 1 : k;
+      row[over_arc[k]] = modular::add(row[over_arc[k]], modular::subtract(1, t));
+      row[in] = modular::add(row[in], t);
+      row[out] = modular::subtract(row[out], 1);
+    }
+    for (auto& row : rows) row.pop_back();
+    values.push_back(modular::determinant(rows));
+  }
+  KnotPolynomial coefficients;
+  std::int64_t sum = 0;
+  for (const std::uint64_t value : modular::interpolate(values)) {
+    coefficients.push_back(value > modular::kPrime / 2 ? -static_cast<std::int64_t>(modular::kPrime - value)
+                                                       : static_cast<std::int64_t>(value));
+    sum += coefficients.back();
+  }
+  if (sum != 1 && sum != -1) return {};
+  while (coefficients.back() == 0) coefficients.pop_back();
+  while (coefficients.front() == 0) coefficients.erase(coefficients.begin());
+  for (std::int64_t& coefficient : coefficients) coefficient *= sum;
+  return coefficients;
+}
+
+Points joined(const std::vector<Vec3>& points) {
+  Points result(3, static_cast<Eigen::Index>(points.size()));
+  for (std::size_t i = 0; i < points.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = points[i];
+  return result;
+}
+
+/// Larger than anything in the scene, by far.
+double far_away(const Points& points) {
+  return 10.0 * (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).norm();
+}
+
+}  // namespace
+
+KnotPolynomial alexander_polynomial(const Points& polygon) {
+  constexpr int kViews = 6;
+  constexpr int kMostViews = 12;
+  std::vector<std::vector<Crossing>> views;
+  for (int n = 0; n < kMostViews; ++n) {
+    views.push_back(crossings_of(polygon, generic_view(n)));
+    if (n + 1 < kViews && views.back().size() > 16) continue;
+    // The projection with the fewest crossings first; one that is no knot's met a degenerate place.
+    std::sort(views.begin(), views.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    for (std::vector<Crossing>& view : views) {
+      KnotPolynomial polynomial = polynomial_of(std::move(view));
+      if (!polynomial.empty()) return polynomial;
+    }
+    views.clear();
+  }
+  throw std::runtime_error("the rod runs through itself: no projection is that of a knot");
+}
+
+std::int64_t knot_determinant(const KnotPolynomial& polynomial) {
+  std::int64_t sum = 0;
+  for (std::size_t i = 0; i < polynomial.size(); ++i) sum += i % 2 == 0 ? polynomial[i] : -polynomial[i];
+  return std::abs(sum);
+}
+
+int linking_number(const Points& first, const Points& second) {
+  const Mat3 rotation = generic_view(0);
+  const View a(first, rotation);
+  const View b(second, rotation);
+  int over = 0;  // the crossings where the first lies over the second already count the linking number
+  for (Eigen::Index i = 0; i < a.n; ++i) {
+    for (Eigen::Index j = 0; j < b.n; ++j) {
+      cross(a, i, b, j, [&](const Crossing& crossing, bool first_over) {
+        if (first_over) over += crossing.positive ? 1 : -1;
+      });
+    }
+  }
+  return over;
+}
+
+Points closed_far_away(const Points& open, const Vec3& axis) {
+  const double distance = far_away(open);
+  const Vec3 along = axis.normalized();
+  const Vec3 aside = along.unitOrthogonal();
+  Points closed(3, open.cols() + 4);
+  closed.leftCols(open.cols()) = open;
+  const Vec3 last = open.rightCols(1) + distance * along;
+  const Vec3 first = open.leftCols(1) - distance * along;
+  closed.col(open.cols()) = last;
+  closed.col(open.cols() + 1) = last + distance * aside;
+  closed.col(open.cols() + 2) = first + distance * aside;
+  closed.col(open.cols() + 3) = first;
+  return closed;
+}
+
+bool LoopTopology::Reading::same_knot(const Reading& other) const {
+  return polynomial == other.polynomial && linking == other.linking &&
+         overhand_determinant == other.overhand_determinant && coil_found == other.coil_found;
+}
+
+LoopTopology::LoopTopology(Eigen::Index lower_standing, Eigen::Index upper_standing, double radius)
+    : standing_{lower_standing, upper_standing}, radius_(radius) {}
+
+/// One end of the rod, from the standing part to the cut.
+struct LoopTopology::Tail {
+  Eigen::Index cut = 0;  ///< last node kept
+  double level = 0.0;    ///< along the outward axis, where the closure leaves the knot
+  bool coil_found = false;
+};
+
+LoopTopology::Reading LoopTopology::read(const Points& points, const Vec3& load_axis) {
+  const Eigen::Index nodes = points.cols();
+  const Eigen::Index middle = nodes / 2;
+  const Vec3 axis = load_axis.normalized();
+  const double distance = far_away(points);
+  const Vec3 knots = 0.5 * (points.col(standing_[0]) + points.col(standing_[1]));
+  Vec3 away = knots - points.col(middle);
+  away = (away - away.dot(axis) * axis).normalized();
+  const Vec3 side = axis.cross(away);
+
+  std::array<Tail, 2> tails;
+  std::array<std::vector<Vec3>, 2> closures;
+  Reading reading;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Eigen::Index step = k == 0 ? -1 : 1;
+    const Eigen::Index end = k == 0 ? 0 : nodes - 1;
+    const Vec3 outwards = static_cast<double>(step) * axis;
+    const auto height = [&](Eigen::Index i) { return points.col(i).dot(outwards); };
+    // Follow the own strand: up to the coil's top, down to its bottom, up to the level of the cut. A turn counts once
+    // the strand has come back from it by 1.5 h; a coil is longer than that however tight.
+    const double turn = 1.5 * radius_;
+    Tail& tail = tails[k];
+    double top = height(standing_[k]);
+    double bottom = top;
+    enum { kRising, kFalling, kLeaving } part = kRising;
+    Eigen::Index i = standing_[k];
+    tail.cut = end;
+    double highest = 0.0;
+    for (; i != end + step; i += step) {
+      const double z = height(i);
+      if (part == kRising) {
+        top = std::max(top, z);
+        if (z < top - turn) {
+          part = kFalling;
+          bottom = z;
+        }
+      } else if (part == kFalling) {
+        bottom = std::min(bottom, z);
+        if (z > bottom + turn) {
+          part = kLeaving;
+          highest = z;
+          tail.cut = i;
+        }
+      } else {
+        if (z > highest) {
+          highest = z;
+          tail.cut = i;
+        }
+        if (z > top + radius_ || z < highest - turn) break;
+      }
+    }
+    tail.coil_found = part == kLeaving;
+    tail.level = std::max(top + radius_, height(tail.cut));
+    reading.coil_found[k] = tail.coil_found;
+
+    // The threaded strand is the other knot's own; where it passes the level of the cut, or comes nearest to it.
+    const Eigen::Index back = k == 0 ? -1 : 1;
+    Eigen::Index pass = standing_[1 - k];
+    for (Eigen::Index j = pass; j != middle; j += back) {
+      if (height(j) > height(pass)) pass = j;
+      if (height(pass) >= tail.level) break;
+    }
+    const Vec3 cut = points.col(tail.cut);
+    const Vec3 offset = cut - points.col(pass);
+    const double x = offset.dot(away);
+    const double y = offset.dot(side);
+    const double apart = std::hypot(x, y);
+    angle_[k] += std::remainder(std::atan2(y, x) - angle_[k], 2.0 * M_PI);
+
+    std::vector<Vec3>& closure = closures[k];
+    const Vec3 level_cut = cut + (tail.level - height(tail.cut)) * outwards;
+    const Vec3 hub = level_cut - x * away - y * side;
+    closure.push_back(level_cut);
+    // A spiral that widens as it unwinds, so that several turns do not meet each other nor the way out.
+    const int pieces = static_cast<int>(std::ceil(std::abs(angle_[k]) / (M_PI / 12.0)));
+    for (int piece = pieces - 1; piece >= 0; --piece) {
+      const double angle = angle_[k] * piece / pieces;
+      const double wider = 1.0 + 0.02 * std::abs(angle_[k] - angle);
+      closure.push_back(hub + wider * apart * (std::cos(angle) * away + std::sin(angle) * side));
+    }
+    closure.push_back(hub + distance * away);
+  }
+
+  std::vector<Vec3> loop(closures[0].rbegin(), closures[0].rend());
+  for (Eigen::Index i = tails[0].cut; i <= tails[1].cut; ++i) loop.emplace_back(points.col(i));
+  loop.insert(loop.end(), closures[1].begin(), closures[1].end());
+  reading.polynomial = alexander_polynomial(joined(loop));
+  reading.determinant = knot_determinant(reading.polynomial);
+
+  // The halves part in the middle of the far side. Each goes from there away from the knots, over its own knot's end
+  // of the loop, and meets its tail's closure; where they cross behind the far side the lower knot's passes in front.
+  std::array<Points, 2> halves;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double sign = k == 0 ? -1.0 : 1.0;
+    const Vec3 outwards = sign * axis;
+    std::vector<Vec3> half;
+    if (k == 0) {
+      for (Eigen::Index i = middle; i >= tails[0].cut; --i) half.emplace_back(points.col(i));
+    } else {
+      for (Eigen::Index i = middle + 1; i <= tails[1].cut; ++i) half.emplace_back(points.col(i));
+    }
+    half.insert(half.end(), closures[k].begin(), closures[k].end());
+    half.push_back(half.back() + distance * outwards);
+    half.push_back(half.back() - 2.0 * distance * away + sign * 0.5 * distance * side);
+    half.push_back(half.front() - distance * away + sign * 0.5 * distance * side);
+    half.push_back(half.front() - 0.5 * distance * away);
+    halves[k] = joined(half);
+  }
+  reading.linking = linking_number(halves[0], halves[1]);
+
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Eigen::Index from = std::min(standing_[k], tails[k].cut);
+    const Eigen::Index to = std::max(standing_[k], tails[k].cut);
+    const Points strand = points.middleCols(from, to - from + 1);
+    reading.overhand_determinant[k] = knot_determinant(alexander_polynomial(closed_far_away(strand, axis)));
+  }
+  return reading;
+}
+
+}  // namespace knot_utm

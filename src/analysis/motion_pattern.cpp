@@ -1,0 +1,211 @@
+#include "knot_utm/analysis/motion_pattern.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knot_utm {
+namespace {
+
+constexpr double kWindow = 0.03;        // of the first knot distance
+constexpr double kTurnover = -1.0;      // de/ds between sliding (-2) and stretching (> 0)
+constexpr double kLeastSliding = 0.15;  // of all extension
+constexpr double kGone = 0.05;          // of the largest load
+constexpr double kOpened = 1.5;         // times the tied excess length
+
+using Pull = MotionPatternTracker::Pull;
+
+/// Least-squares line y(s) through the samples from `begin` to `end`, each weighted by the extension it stands for.
+struct Line {
+  double mean_s = 0.0, mean = 0.0, slope = 0.0;
+  double deviation = 0.0;    ///< standard deviation from the line
+  double correlation = 0.0;  ///< of y with s
+  double width = 0.0;        ///< of s
+};
+
+template <typename Value>
+Line fit(const std::vector<Pull>& pull, std::size_t begin, std::size_t end, Value value) {
+  Line line;
+  double weights = 0.0;
+  const auto weight = [&](std::size_t i) {
+    const double from = pull[i > begin ? i - 1 : i].extension;
+    const double to = pull[i + 1 < end ? i + 1 : i].extension;
+    return 0.5 * (to - from);
+  };
+  for (std::size_t i = begin; i < end; ++i) {
+    weights += weight(i);
+    line.mean_s += weight(i) * pull[i].extension;
+    line.mean += weight(i) * value(pull[i]);
+  }
+  if (!(weights > 0.0)) return line;
+  line.mean_s /= weights;
+  line.mean /= weights;
+  double ss = 0.0, sy = 0.0, yy = 0.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    const double s = pull[i].extension - line.mean_s;
+    const double y = value(pull[i]) - line.mean;
+    ss += weight(i) * s * s;
+    sy += weight(i) * s * y;
+    yy += weight(i) * y * y;
+  }
+  line.width = pull[end - 1].extension - pull[begin].extension;
+  if (ss > 0.0) {
+    line.slope = sy / ss;
+    line.deviation = std::sqrt(std::max(0.0, (yy - sy * line.slope) / weights));
+    if (yy > 0.0) line.correlation = sy / std::sqrt(ss * yy);
+  }
+  return line;
+}
+
+double unit(double x) { return std::isfinite(x) ? std::clamp(x, 0.0, 1.0) : 0.0; }
+
+}  // namespace
+
+const char* motion_pattern_name(MotionPattern pattern) {
+  switch (pattern) {
+    case MotionPattern::kSliding:
+      return "sliding";
+    case MotionPattern::kStretching:
+      return "stretching";
+    case MotionPattern::kUntangling:
+      return "untangling";
+    case MotionPattern::kNone:
+      break;
+  }
+  return "none";
+}
+
+void MotionPatternTracker::add(const Sample& sample) {
+  // After a break the load says nothing about the knot; the sample that reports it is the last that counts.
+  if (broken_) return;
+  if (sample.status == BenchStatus::kBroken) broken_ = true;
+  if (sample.status == BenchStatus::kFailed) return;
+  if (sample.phase != Phase::kPull) {
+    if (pull_.empty() && (sample.phase == Phase::kTie || sample.phase == Phase::kRelease)) {
+      for (int k = 0; k < 2; ++k) {
+        // The end of tying sets the mark; a release that lets the knot open does not move it.
+        const double excess = sample.excess_length[k];
+        if (std::isfinite(excess) && (sample.phase == Phase::kTie || !std::isfinite(tied_excess_[k]))) {
+          tied_excess_[k] = excess;
+        }
+      }
+    }
+    return;
+  }
+  if (!std::isfinite(sample.extension) || !std::isfinite(sample.load)) return;
+  for (int k = 0; k < 2; ++k) {
+    const double excess = sample.excess_length[k];
+    if (!std::isfinite(excess)) continue;
+    if (!std::isfinite(tied_excess_[k])) tied_excess_[k] = excess;
+    if (!(largest_excess_[k] > excess)) largest_excess_[k] = excess;
+  }
+  if (!pull_.empty() && sample.extension <= pull_.back().extension) return;
+  const double before = pull_.empty() ? sample.extension : pull_.back().extension;
+  pull_.push_back({sample.time, sample.extension, sample.knot_distance, sample.load, sample.normal_force});
+  if (pull_.size() == 1) {
+    window_ = kWindow * sample.knot_distance;
+    slope_ = Sample::kNone;
+  }
+
+  peak_ = std::max(peak_, sample.load);
+  if (sample.load >= kGone * peak_ || broken_) {
+    gone_since_.reset();
+  } else if (!gone_since_) {
+    gone_since_ = sample.time;
+    gone_extension_ = sample.extension;
+  }
+
+  if (!(window_ > 0.0) || sample.extension - pull_.front().extension < window_) return;
+  while (window_begin_ + 3 < pull_.size() && sample.extension - pull_[window_begin_ + 1].extension >= window_) {
+    ++window_begin_;
+  }
+  const Line line = fit(pull_, window_begin_, pull_.size(), [](const Pull& p) { return p.knot_distance; });
+  const double slope_before = slope_;
+  const double centre_before = centre_;
+  const bool first = !std::isfinite(slope_before);
+  slope_ = line.slope;
+  centre_ = line.mean_s;
+  const double passed = first ? sample.extension - pull_.front().extension : sample.extension - before;
+  if (slope_ < kTurnover) {
+    slid_ += passed;
+    last_sliding_ = centre_;
+  } else if (!first && slope_before < kTurnover) {
+    const double t = (kTurnover - slope_before) / (slope_ - slope_before);
+    last_sliding_ = centre_before + t * (centre_ - centre_before);
+  }
+}
+
+void MotionPatternTracker::knot_lost(double time) {
+  if (!knot_lost_) knot_lost_ = time;
+}
+
+bool MotionPatternTracker::opened() const {
+  for (int k = 0; k < 2; ++k) {
+    if (largest_excess_[k] > kOpened * tied_excess_[k]) return true;
+  }
+  return false;
+}
+
+bool MotionPatternTracker::load_gone() const {
+  if (!gone_since_ || pull_.back().extension - gone_extension_ < window_) return false;
+  const bool known = std::isfinite(largest_excess_[0]) || std::isfinite(largest_excess_[1]);
+  return !known || opened();
+}
+
+MotionPattern MotionPatternTracker::pattern() const {
+  if (knot_lost_ || load_gone()) return MotionPattern::kUntangling;
+  if (pull_.empty() || !std::isfinite(slope_)) return MotionPattern::kNone;
+  const double all = pull_.back().extension - pull_.front().extension;
+  return slid_ >= window_ && slid_ >= kLeastSliding * all ? MotionPattern::kSliding : MotionPattern::kStretching;
+}
+
+MotionPattern MotionPatternTracker::current() const {
+  if (knot_lost_ || load_gone()) return MotionPattern::kUntangling;
+  if (pull_.empty() || !std::isfinite(slope_)) return MotionPattern::kNone;
+  return slope_ < kTurnover ? MotionPattern::kSliding : MotionPattern::kStretching;
+}
+
+std::optional<double> MotionPatternTracker::lock_extension() const {
+  if (pattern() != MotionPattern::kSliding || slope_ < kTurnover || centre_ - last_sliding_ < window_) return {};
+  return last_sliding_;
+}
+
+std::optional<double> MotionPatternTracker::untangled_at() const {
+  if (knot_lost_) return knot_lost_;
+  if (load_gone()) return gone_since_;
+  return {};
+}
+
+double MotionPatternTracker::confidence() const {
+  const MotionPattern found = pattern();
+  if (found == MotionPattern::kNone) return 0.0;
+  if (found == MotionPattern::kUntangling) {
+    if (knot_lost_) return 1.0;
+    return opened() ? 0.75 : 0.5;
+  }
+  const bool sliding = found == MotionPattern::kSliding;
+  const double start = pull_.front().extension;
+  const double end = sliding ? lock_extension().value_or(pull_.back().extension) : pull_.back().extension;
+  const double low = sliding ? start + 0.3 * (end - start) : start;
+  const double high = sliding ? start + 0.8 * (end - start) : end;
+  const auto place = [&](double s) {
+    const auto found_at = std::lower_bound(pull_.begin(), pull_.end(), s,
+                                           [](const Pull& p, double extension) { return p.extension < extension; });
+    return static_cast<std::size_t>(found_at - pull_.begin());
+  };
+  const std::size_t first = place(low);
+  const std::size_t last = std::min(place(high) + 1, pull_.size());
+  if (last < first + 3) return 0.0;
+
+  const auto force_sign = [&](const Line& line) {
+    if (!sliding) return unit(line.correlation);
+    return unit(1.0 - (std::max(0.0, line.slope) * line.width + line.deviation) / line.mean);
+  };
+  const double rate = fit(pull_, first, last, [](const Pull& p) { return p.knot_distance; }).slope;
+  double signs = sliding ? unit(1.0 - std::abs(rate + 2.0)) : unit(1.0 + rate);
+  signs += force_sign(fit(pull_, first, last, [](const Pull& p) { return p.load; }));
+  const Line contact = fit(pull_, first, last, [](const Pull& p) { return p.normal_force; });
+  if (!(contact.mean > 0.0)) return signs / 2.0;
+  return (signs + force_sign(contact)) / 3.0;
+}
+
+}  // namespace knot_utm

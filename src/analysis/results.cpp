@@ -1,0 +1,141 @@
+#include "knot_utm/analysis/results.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knot_utm {
+namespace {
+
+using Pull = MotionPatternTracker::Pull;
+
+std::optional<double> known(double value) { return std::isfinite(value) ? std::optional<double>(value) : std::nullopt; }
+
+/// Means over extension, by the trapezoidal rule, of what lies between two extensions.
+struct Plateau {
+  double width = 0.0, force = 0.0, square = 0.0, distance_change = 0.0;
+};
+
+Plateau plateau_between(const std::vector<Pull>& pull, double low, double high) {
+  Plateau plateau;
+  for (std::size_t i = 1; i < pull.size(); ++i) {
+    const Pull& a = pull[i - 1];
+    const Pull& b = pull[i];
+    const double from = std::max(a.extension, low);
+    const double to = std::min(b.extension, high);
+    if (!(to > from)) continue;
+    const double part = (to - from) / (b.extension - a.extension);
+    plateau.width += to - from;
+    plateau.force += (to - from) * 0.5 * (a.load + b.load);
+    plateau.square += (to - from) * 0.5 * (a.load * a.load + b.load * b.load);
+    plateau.distance_change += part * (b.knot_distance - a.knot_distance);
+  }
+  return plateau;
+}
+
+std::optional<double> locked_stiffness(const std::vector<Pull>& pull, double from, double peak) {
+  std::size_t end = 0;
+  while (end < pull.size() && pull[end].load < peak) ++end;
+  end = std::min(end + 1, pull.size());
+  std::size_t begin = end;
+  while (begin > 0 && pull[begin - 1].extension >= from && (pull[begin - 1].load >= 0.5 * peak || end - begin < 3)) {
+    --begin;
+  }
+  if (end < begin + 3) return {};
+  double count = 0.0, s = 0.0, f = 0.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    count += 1.0;
+    s += pull[i].extension;
+    f += pull[i].load;
+  }
+  double ss = 0.0, sf = 0.0;
+  for (std::size_t i = begin; i < end; ++i) {
+    ss += std::pow(pull[i].extension - s / count, 2);
+    sf += (pull[i].extension - s / count) * (pull[i].load - f / count);
+  }
+  return sf / ss;
+}
+
+double energy(const Sample& sample) {
+  return sample.stretching_energy + sample.bending_energy + sample.twisting_energy + sample.contact_energy +
+         sample.kinetic_energy;
+}
+
+}  // namespace
+
+Results analyse(const std::vector<Sample>& samples, EndedBy ended_by, std::optional<double> knot_lost_at) {
+  Results results;
+  results.ended_by = ended_by;
+  if (samples.empty()) return results;
+
+  MotionPatternTracker tracker;
+  double imbalance = 0.0;
+  double energy_error = 0.0;
+  double energy_scale = 0.0;
+  const Sample& first = samples.front();
+  const Sample* pull_begin = nullptr;
+  for (const Sample& sample : samples) {
+    tracker.add(sample);
+    results.max_penetration = std::max(results.max_penetration, sample.max_penetration);
+    if (sample.status == BenchStatus::kNotEquilibrated) results.equilibrated = false;
+    const double stored = energy(sample) - energy(first);
+    const double lost = sample.dissipation - first.dissipation;
+    const double work = sample.grip_work - first.grip_work;
+    energy_error = std::max(energy_error, std::abs(stored + lost - work));
+    energy_scale = std::max({energy_scale, std::abs(stored), std::abs(lost), std::abs(work)});
+    if (sample.phase != Phase::kPull) continue;
+    if (!pull_begin) pull_begin = &sample;
+    if (sample.status == BenchStatus::kBroken && !results.break_extension) results.break_extension = sample.extension;
+    imbalance = std::max(imbalance, std::abs(sample.force_upper - sample.force_lower));
+    results.fastest_node = std::max(results.fastest_node, sample.fastest_node);
+  }
+  if (knot_lost_at) tracker.knot_lost(*knot_lost_at);
+  results.knot_type_preserved = !knot_lost_at;
+  results.motion_pattern = tracker.pattern();
+  results.motion_pattern_confidence = tracker.confidence();
+  results.lock_extension = tracker.lock_extension();
+  results.untangled_at = tracker.untangled_at();
+  if (energy_scale > 0.0) results.energy_balance_error = energy_error / energy_scale;
+
+  const Sample& last = samples.back();
+  results.steps = last.steps;
+  results.rejected_steps = last.rejected_steps;
+  results.newton_iterations = last.newton_iterations;
+  results.simulated_time = last.time;
+  for (std::size_t k = 0; k < 2; ++k) {
+    results.final_excess_length[k] = known(last.excess_length[k]);
+    if (pull_begin) results.tied_excess_length[k] = known(pull_begin->excess_length[k]);
+  }
+  if (pull_begin) results.tied_knot_distance = known(pull_begin->knot_distance);
+
+  const std::vector<Pull>& pull = tracker.pull();
+  if (pull.empty()) return results;
+  for (const Pull& p : pull) results.peak_force = std::max(results.peak_force, p.load);
+  if (results.peak_force > 0.0) results.force_balance_error = imbalance / results.peak_force;
+
+  const double start = pull.front().extension;
+  if (results.motion_pattern == MotionPattern::kSliding) {
+    const double end = results.lock_extension.value_or(pull.back().extension);
+    const double low = start + 0.3 * (end - start);
+    const Plateau plateau = plateau_between(pull, low, start + 0.8 * (end - start));
+    if (plateau.width > 0.0) {
+      const double mean = plateau.force / plateau.width;
+      results.plateau_force = mean;
+      results.plateau_force_sd = std::sqrt(std::max(0.0, plateau.square / plateau.width - mean * mean));
+      results.plateau_slope = plateau.distance_change / plateau.width;
+    }
+    double breakaway = 0.0;
+    for (const Pull& p : pull) {
+      if (p.extension <= low) breakaway = std::max(breakaway, p.load);
+    }
+    results.breakaway_force = breakaway;
+  }
+  // A rod that still slides, or lost its knot, has no stiffness of its own yet.
+  const bool carries = results.motion_pattern == MotionPattern::kStretching || results.lock_extension ||
+                       results.motion_pattern == MotionPattern::kNone;
+  if (carries) {
+    results.locked_stiffness = locked_stiffness(pull, results.lock_extension.value_or(start), results.peak_force);
+  }
+  return results;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,14 @@
+// The physics: answers the commands of utm_node.
+#include "knot_utm/ros/knot_node.hpp"
+
+#include "knot_utm/ros/test_setup.hpp"
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "knot_node");
+  return knot_utm::run_node("knot_node", [] {
+    const ros::NodeHandle node;
+    const knot_utm::KnotNode knot(node, knot_utm::read_test_setup(node).method);
+    ros::spin();
+    return 0;
+  });
+}

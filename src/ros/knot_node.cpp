@@ -1,0 +1,217 @@
+#include "knot_utm/ros/knot_node.hpp"
+
+#include <geometry_msgs/TransformStamped.h>
+#include <knot_utm/SpecimenInfo.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+
+#include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/markers.hpp"
+#include "knot_utm/ros/names.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kViewPeriod = 0.04;        // wall time between pictures [s]
+constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
+constexpr std::uint32_t kQueue = 2 * KnotNode::kKeptAnswers;
+
+TestBench make_bench(const Method& method) {
+  return TestBench(method.specimen, method.material, method.machine, method.physics);
+}
+
+geometry_msgs::TransformStamped transform(const char* parent, const char* child, const Vec3& translation,
+                                          const ros::Time& stamp) {
+  geometry_msgs::TransformStamped t;
+  t.header.stamp = stamp;
+  t.header.frame_id = parent;
+  t.child_frame_id = child;
+  t.transform.translation.x = translation.x();
+  t.transform.translation.y = translation.y();
+  t.transform.translation.z = translation.z();
+  t.transform.rotation.w = 1.0;
+  return t;
+}
+
+}  // namespace
+
+KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
+    : node_(node), method_(method), bench_(make_bench(method)), diagnostics_(node_) {
+  state_ = node_.advertise<KnotState>(names::kKnotState, kQueue);
+  record_ = node_.advertise<KnotRecord>(names::kKnotRecord, kQueue);
+  load_cell_ = node_.advertise<geometry_msgs::WrenchStamped>(names::kLoadCell, kQueue);
+  shape_ = node_.advertise<KnotShape>(names::kKnotShape, 10);
+  specimen_ = node_.advertise<SpecimenInfo>(names::kSpecimen, 1, true);
+  markers_ = node_.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 1);
+  commands_ =
+      node_.subscribe(names::kCrosshead, kQueue, &KnotNode::on_command, this, ros::TransportHints().tcpNoDelay());
+  status_ = node_.subscribe(names::kTestStatus, 10, &KnotNode::on_status, this);
+  reset_ = node_.advertiseService(names::kReset, &KnotNode::on_reset, this);
+
+  static_transforms_.sendTransform(std::vector<geometry_msgs::TransformStamped>{
+      transform(names::kWorldFrame, names::kBaseFrame, Vec3::Zero(), ros::TIME_MIN),
+      transform(names::kBaseFrame, names::kLowerGripFrame, bench_.lower_grip(), ros::TIME_MIN),
+      transform(names::kUpperGripFrame, names::kLoadCellFrame, Vec3::Zero(), ros::TIME_MIN)});
+  diagnostics_.setHardwareID(method_.material.name);
+  diagnostics_.add("physics", this, &KnotNode::diagnose);
+  diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(kDiagnosticsPeriod),
+                                             [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
+  view_timer_ = node_.createWallTimer(ros::WallDuration(kViewPeriod), &KnotNode::on_view_timer, this);
+  new_specimen();
+}
+
+void KnotNode::new_specimen() {
+  run_ = 0;
+  next_ = 0;
+  kept_.clear();
+  sample_ = Sample();
+  motion_ = MotionPatternTracker();
+  view_is_old_ = true;
+
+  SpecimenInfo info;
+  info.header.stamp = stamp_;
+  info.header.frame_id = names::kBaseFrame;
+  info.longest_step = bench_.longest_step();
+  info.radius = method_.material.radius;
+  info.length = bench_.rod().length();
+  info.nodes = static_cast<std::uint32_t>(bench_.rod().nodes());
+  specimen_.publish(info);
+}
+
+void KnotNode::on_command(const Crosshead& message) {
+  if (message.run < run_) return;  // left over from a test that has ended
+  if (message.run != run_) {
+    if (message.sequence != 0) return refuse(message, "the specimen was reset during the test");
+    if (next_ != 0) {
+      bench_ = make_bench(method_);
+      new_specimen();
+    }
+    run_ = message.run;
+  }
+  if (message.sequence == next_) return answer(message);
+  const std::uint64_t first_kept = next_ - kept_.size();
+  if (message.sequence >= first_kept && message.sequence < next_) {
+    return publish(*kept_[static_cast<std::size_t>(message.sequence - first_kept)]);
+  }
+  refuse(message,
+         "command " + std::to_string(message.sequence) + " came where " + std::to_string(next_) + " was expected");
+}
+
+void KnotNode::answer(const Crosshead& message) {
+  const Command command = from_message(message);
+  stamp_ = message.header.stamp;
+  sample_ = bench_.respond(command);
+  motion_.add(sample_);
+  ++next_;
+  view_is_old_ = true;
+
+  auto record = boost::make_shared<KnotRecord>();
+  record->command = message;
+  record->answer = to_message(sample_, message.run, stamp_);
+  record->answer.motion_pattern = motion_pattern_name(motion_.pattern());
+  const double start = stamp_.toSec() - command.time;
+  record->steps.reserve(bench_.substeps().size());
+  for (const Sample& step : bench_.substeps()) {
+    record->steps.push_back(to_message(step, message.run, test_stamp(start, step.time)));
+  }
+  if (shape_is_due(command) || sample_.status == BenchStatus::kFailed) put_shape(*record);
+  kept_.push_back(record);
+  if (kept_.size() > kKeptAnswers) kept_.pop_front();
+  publish(*record);
+}
+
+void KnotNode::refuse(const Crosshead& message, const std::string& why) {
+  Sample failed = sample_;
+  failed.sequence = message.sequence;
+  failed.time = message.time;
+  failed.status = BenchStatus::kFailed;
+  failed.message = why;
+  KnotRecord record;
+  record.command = message;
+  record.answer = to_message(failed, message.run, message.header.stamp);
+  record.answer.motion_pattern = motion_pattern_name(motion_.pattern());
+  publish(record);
+}
+
+void KnotNode::put_shape(KnotRecord& record) const {
+  record.shape = to_message(bench_.state().position, bench_.tension(), method_.material.radius);
+  record.shape.header.stamp = record.command.header.stamp;
+  record.shape.run = record.command.run;
+  record.shape.sequence = record.command.sequence;
+}
+
+void KnotNode::publish(const KnotRecord& record) {
+  state_.publish(record.answer);
+  if (record_.getNumSubscribers() > 0) record_.publish(record);
+  if (record.command.read_cell != 0 && load_cell_.getNumSubscribers() > 0) {
+    load_cell_.publish(to_wrench(from_message(record.answer), record.answer.header.stamp));
+  }
+  if (!record.shape.points.empty() && shape_.getNumSubscribers() > 0) shape_.publish(record.shape);
+}
+
+void KnotNode::on_status(const TestStatus& status) {
+  // The recorder wants the shape at the very end, which nobody could foresee. The status is repeated until it has it.
+  if (status.state != TestStatus::ENDED || status.run != run_ || kept_.empty()) return;
+  KnotRecord& last = *kept_.back();
+  if (last.command.sequence != status.sequence) return;
+  if (last.shape.points.empty()) put_shape(last);
+  if (record_.getNumSubscribers() > 0) record_.publish(last);
+}
+
+bool KnotNode::on_reset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  bench_ = make_bench(method_);
+  new_specimen();
+  response.success = 1;
+  response.message = "a new specimen";
+  return true;
+}
+
+void KnotNode::on_view_timer(const ros::WallTimerEvent& /*event*/) {
+  const std::uint32_t viewers = markers_.getNumSubscribers();
+  const bool somebody_is_new = viewers > viewers_;
+  viewers_ = viewers;
+  if (viewers > 0 && (view_is_old_ || somebody_is_new)) publish_markers();
+  view_is_old_ = false;
+  publish_transforms();
+}
+
+void KnotNode::publish_markers() {
+  const Eigen::VectorXd tension = bench_.tension();
+  if (tension.size() > 0) highest_tension_ = std::max(highest_tension_, tension.maxCoeff());
+  const SceneView view{bench_.state().position, tension,         method_.material.radius,
+                       highest_tension_,        method_.machine, bench_.lower_grip(),
+                       bench_.upper_grip(),     sample_,         motion_pattern_name(motion_.pattern())};
+  markers_.publish(scene_markers(view, stamp_));
+}
+
+void KnotNode::publish_transforms() {
+  const ros::Time stamp = std::max(stamp_, ros::TIME_MIN);
+  if (stamp == transforms_stamp_) return;  // tf2 warns of a stamp that it has already
+  transforms_stamp_ = stamp;
+  const Vec3 crosshead = bench_.lower_grip() + Vec3(0.0, 0.0, method_.specimen.end_to_end + sample_.displacement);
+  transforms_.sendTransform(std::vector<geometry_msgs::TransformStamped>{
+      transform(names::kBaseFrame, names::kCrossheadFrame, crosshead, stamp),
+      transform(names::kCrossheadFrame, names::kUpperGripFrame, bench_.upper_grip() - crosshead, stamp)});
+}
+
+void KnotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  if (sample_.status == BenchStatus::kFailed) {
+    status.summary(DiagnosticStatus::ERROR, "gave up: " + sample_.message);
+  } else if (sample_.status == BenchStatus::kNotEquilibrated) {
+    status.summary(DiagnosticStatus::WARN, "did not come to rest in time");
+  } else if (sample_.status == BenchStatus::kBroken) {
+    status.summary(DiagnosticStatus::OK, "the rod broke");
+  } else {
+    status.summary(DiagnosticStatus::OK, phase_name(sample_.phase));
+  }
+  status.add("time [s]", sample_.time);
+  status.add("time steps", sample_.steps);
+  status.add("rejected time steps", sample_.rejected_steps);
+  status.add("Newton iterations", sample_.newton_iterations);
+  status.add("contacts", sample_.contacts);
+  status.add("deepest contact [fraction of radius]", sample_.max_penetration);
+}
+
+}  // namespace knot_utm

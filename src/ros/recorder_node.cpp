@@ -1,0 +1,225 @@
+#include "knot_utm/ros/recorder_node.hpp"
+
+#include <ros/callback_queue.h>
+
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/knot_node.hpp"
+#include "knot_utm/ros/names.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr std::uint32_t kQueue = 4 * KnotNode::kKeptAnswers;
+constexpr double kPatience = 2.0;                // wall time to wait for a record that is missing [s]
+constexpr double kPatienceAtEnd = 10.0;          // the same for the final shape [s]
+constexpr double kAcknowledgePeriod = 0.005;     // wall time between acknowledgements [s]
+constexpr std::uint64_t kAcknowledgeAfter = 16;  // records, where they come faster
+
+double seconds_since(std::chrono::steady_clock::time_point then) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+}
+
+EndedBy ended_by_from_name(const std::string& name) {
+  for (const EndedBy end : {EndedBy::kBreak, EndedBy::kExtension, EndedBy::kLoad, EndedBy::kTravel, EndedBy::kOperator,
+                            EndedBy::kSolver, EndedBy::kProgram}) {
+    if (name == ended_by_name(end)) return end;
+  }
+  return EndedBy::kNotYet;
+}
+
+}  // namespace
+
+RecorderNode::Run::Run(const std::string& folder_, const Method& method)
+    : folder(folder_), writer(folder_, method), bag((std::filesystem::path(folder_) / "test.bag").string(), method) {}
+
+RecorderNode::RecorderNode(const ros::NodeHandle& node, TestSetup setup) : node_(node), setup_(std::move(setup)) {
+  status_ = node_.advertise<RecorderStatus>(names::kRecorderStatus, 100, true);
+  save_ = node_.advertiseService(names::kSave, &RecorderNode::on_save, this);
+  const ros::TransportHints at_once = ros::TransportHints().tcpNoDelay();
+  records_ = node_.subscribe(names::kKnotRecord, kQueue, &RecorderNode::on_record, this, at_once);
+  test_status_ = node_.subscribe(names::kTestStatus, 10, &RecorderNode::on_status, this, at_once);
+  publish_status();
+}
+
+int RecorderNode::spin() {
+  while (ros::ok()) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kAcknowledgePeriod));
+    if (run_ && !run_->complete && error_.empty()) {
+      give_up_gap();
+      finish_when_ready();
+    }
+    const bool complete = run_ && run_->complete;
+    const std::uint64_t next = run_ ? run_->next : 0;
+    const bool news = next != published_.next_sequence || run_number_ != published_.run ||
+                      complete != (published_.complete != 0) || error_ != published_.error;
+    if (news && (seconds_since(published_at_) > kAcknowledgePeriod)) publish_status();
+  }
+  if (run_ && !run_->complete && error_.empty()) {
+    finish(EndedBy::kOperator, "the recorder was stopped before the test had ended", "");
+  }
+  return error_.empty() ? 0 : 1;
+}
+
+void RecorderNode::begin_run(std::uint32_t run) {
+  if (run_ && !run_->complete) {
+    finish(EndedBy::kOperator, "another test was started", "");
+  }
+  const bool first = run_number_ == 0;
+  const std::string folder = first ? setup_.out : setup_.out + "-" + std::to_string(run);
+  run_number_ = run;
+  run_ = std::make_unique<Run>(folder, setup_.method);
+}
+
+void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
+  if (!error_.empty()) return;
+  try {
+    const Crosshead& command = record->command;
+    if (command.run < run_number_) return;
+    if (command.run > run_number_) begin_run(command.run);
+    Run& run = *run_;
+    if (run.complete) return;
+    run.progress = Clock::now();
+    if (!record->shape.points.empty() && command.sequence >= run.shape_sequence) {
+      run.shape = points_from_message(record->shape);
+      run.shape_sequence = command.sequence;
+    }
+    if (command.sequence == run.next) {
+      write(*record);
+      write_early();
+    } else if (command.sequence > run.next) {
+      run.early.emplace(command.sequence, record);
+      if (run.early.size() > KnotNode::kKeptAnswers) give_up_gap();
+    }
+    if (run.next >= published_.next_sequence + kAcknowledgeAfter) publish_status();
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+}
+
+void RecorderNode::write(const KnotRecord& record) {
+  const Command command = from_message(record.command);
+  const Sample sample = from_message(record.answer);
+  std::vector<Sample> steps;
+  steps.reserve(record.steps.size());
+  for (const KnotState& step : record.steps) steps.push_back(from_message(step));
+  run_->writer.add(sample, command.read_cell, steps);
+
+  const std::vector<double>& tension = record.shape.tension;
+  run_->bag.add(command, sample, points_from_message(record.shape),
+                Eigen::Map<const Eigen::VectorXd>(tension.data(), static_cast<Eigen::Index>(tension.size())));
+  run_->failed = sample.status == BenchStatus::kFailed;
+  run_->stamp = record.command.header.stamp;
+  ++run_->recorded;
+  run_->next = command.sequence + 1;
+}
+
+void RecorderNode::write_early() {
+  auto& early = run_->early;
+  while (!early.empty() && early.begin()->first <= run_->next) {
+    if (early.begin()->first == run_->next) write(*early.begin()->second);
+    early.erase(early.begin());
+  }
+}
+
+void RecorderNode::give_up_gap() {
+  Run& run = *run_;
+  if (run.early.empty()) return;
+  if (seconds_since(run.progress) < kPatience && run.early.size() <= KnotNode::kKeptAnswers) return;
+  run.dropped += run.early.begin()->first - run.next;
+  ROS_WARN("%llu commands of the test never arrived",
+           static_cast<unsigned long long>(run.early.begin()->first - run.next));
+  run.next = run.early.begin()->first;
+  try {
+    write_early();
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+}
+
+void RecorderNode::on_status(const TestStatus& status) { test_ = status; }
+
+void RecorderNode::finish_when_ready() {
+  if (test_.state != TestStatus::ENDED || test_.run != run_number_) return;
+  const bool all = run_->next > test_.sequence;
+  const bool shape = run_->shape.cols() > 0 && run_->shape_sequence == test_.sequence;
+  // A physics that has failed may not have the specimen any more.
+  if (all && (shape || run_->failed)) {
+    finish(ended_by_from_name(test_.ended_by), test_.reason, "");
+  } else if (seconds_since(run_->progress) > kPatienceAtEnd) {
+    if (!all) run_->dropped += test_.sequence + 1 - run_->next;
+    finish(ended_by_from_name(test_.ended_by), test_.reason, "the physics did not answer at the end of the test");
+  }
+}
+
+void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std::string& warning) {
+  Run& run = *run_;
+  try {
+    run.bag.close();
+    RunFacts facts = run.writer.facts();
+    facts.ended_by = ended_by;
+    facts.reason = reason;
+    facts.wall_time = seconds_since(run.begin);
+    if (!warning.empty()) facts.warnings.push_back(warning);
+    if (run.dropped > 0) facts.warnings.push_back(std::to_string(run.dropped) + " commands were not recorded");
+    run.writer.finish(run.writer.results(ended_by), facts, run.shape);
+    run.complete = true;
+    ROS_INFO("written to %s: %zu rows, %llu commands dropped", run.folder.c_str(), run.writer.rows(),
+             static_cast<unsigned long long>(run.dropped));
+  } catch (const std::exception& error) {
+    fail(error.what());
+  }
+}
+
+void RecorderNode::fail(const std::string& why) {
+  error_ = why;
+  ROS_ERROR("%s", why.c_str());
+}
+
+bool RecorderNode::on_save(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  response.success = 0;
+  if (!run_) {
+    response.message = "there is nothing to save yet";
+    return true;
+  }
+  if (!run_->complete && error_.empty()) {
+    try {
+      run_->bag.save((std::filesystem::path(run_->folder) / "saved.bag").string());
+      RunFacts facts = run_->writer.facts();
+      facts.reason = "saved while the test was running";
+      facts.wall_time = seconds_since(run_->begin);
+      run_->writer.finish(run_->writer.results(facts.ended_by), facts, run_->shape);
+    } catch (const std::exception& error) {
+      fail(error.what());
+    }
+  }
+  response.success = static_cast<std::uint8_t>(error_.empty());
+  response.message = error_.empty() ? "saved to " + run_->folder : error_;
+  return true;
+}
+
+void RecorderNode::publish_status() {
+  RecorderStatus status;
+  status.run = run_number_;
+  status.error = error_;
+  status.directory = setup_.out;
+  if (run_) {
+    status.header.stamp = run_->stamp;
+    status.recorded = run_->recorded;
+    status.dropped = run_->dropped;
+    status.next_sequence = run_->next;
+    status.curve_rows = run_->writer.rows();
+    status.full_rows = run_->writer.full_rows();
+    status.bag_messages = run_->bag.messages();
+    status.complete = static_cast<std::uint8_t>(run_->complete);
+    status.directory = run_->folder;
+  }
+  published_ = status;
+  published_at_ = Clock::now();
+  status_.publish(status);
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,66 @@
+#include "knot_utm/ros/test_bag.hpp"
+
+#include <filesystem>
+
+#include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/names.hpp"
+
+namespace knot_utm {
+namespace {
+
+/// Small enough that a run that is killed loses little, large enough for few chunks [bytes].
+constexpr std::uint32_t kChunk = 64 * 1024;
+
+/// The bag holds one test, whatever number it had in the life of the node that ran it.
+constexpr std::uint32_t kRun = 1;
+
+}  // namespace
+
+TestBag::TestBag(const std::string& file, const Method& method) : file_(file), radius_(method.material.radius) {
+  bag_.open(file_, rosbag::bagmode::Write);
+  bag_.setChunkThreshold(kChunk);
+}
+
+void TestBag::add(const Command& command, const Sample& sample, const TestBench& bench) {
+  if (shape_is_due(command)) {
+    add(command, sample, bench.state().position, bench.tension());
+  } else {
+    add(command, sample, Points(), Eigen::VectorXd());
+  }
+}
+
+void TestBag::add(const Command& command, const Sample& sample, const Points& shape, const Eigen::VectorXd& tension) {
+  const ros::Time stamp = test_stamp(0.0, command.time);
+  write(names::kCrosshead, stamp, to_message(command, kRun, stamp));
+  write(names::kJointStates, stamp, to_joint_state(command, sample, stamp));
+  motion_.add(sample);
+  KnotState state = to_message(sample, kRun, stamp);
+  state.motion_pattern = motion_pattern_name(motion_.pattern());
+  write(names::kKnotState, stamp, state);
+  if (command.read_cell) write(names::kLoadCell, stamp, to_wrench(sample, stamp));
+  if (shape_is_due(command) && shape.cols() > 0) {
+    KnotShape message = to_message(shape, tension, radius_);
+    message.header.stamp = stamp;
+    message.run = kRun;
+    message.sequence = command.sequence;
+    write(names::kKnotShape, stamp, message);
+  }
+}
+
+void TestBag::save(const std::string& file) {
+  // Only a closed bag has an index.
+  bag_.close();
+  std::filesystem::copy_file(file_, file, std::filesystem::copy_options::overwrite_existing);
+  bag_.open(file_, rosbag::bagmode::Append);
+  bag_.setChunkThreshold(kChunk);
+}
+
+void TestBag::close() { bag_.close(); }
+
+template <class Message>
+void TestBag::write(const std::string& topic, const ros::Time& stamp, const Message& message) {
+  bag_.write("/" + topic, stamp, message);
+  ++messages_;
+}
+
+}  // namespace knot_utm

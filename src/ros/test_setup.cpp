@@ -1,0 +1,78 @@
+#include "knot_utm/ros/test_setup.hpp"
+
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// roslaunch makes numbers of texts that look like one.
+std::string text_parameter(const ros::NodeHandle& node, const std::string& name) {
+  XmlRpc::XmlRpcValue value;
+  if (!node.getParam(name, value)) return "";
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeString) return static_cast<std::string>(value);
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) return std::to_string(static_cast<int>(value));
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", static_cast<double>(value));
+    return text;
+  }
+  throw InvalidInput(node.resolveName(name), value.toXml(), "a text or a number");
+}
+
+std::string find_method(const std::string& method, const fs::path& base, const fs::path& shipped) {
+  if (method.empty()) throw InvalidInput("test/method", "\"\"", "a method file");
+  std::vector<fs::path> places = {base / method};
+  // The launch file knows the package's own methods, wherever the package is installed.
+  places.push_back(shipped / method);
+  places.push_back(shipped / (method + ".yaml"));
+  for (const fs::path& place : places) {
+    if (fs::is_regular_file(place)) return place.lexically_normal().string();
+  }
+  return places.front().string();  // load_method says what is wrong with it
+}
+
+}  // namespace
+
+TestSetup read_test_setup(const ros::NodeHandle& node) {
+  fs::path base = text_parameter(node, "test/working_directory");
+  if (base.empty()) base = fs::current_path();
+
+  std::vector<std::string> overrides;
+  const std::string material = text_parameter(node, "test/material");
+  const std::string preload = text_parameter(node, "test/preload");
+  if (!material.empty()) overrides.push_back("material=" + material);
+  if (!preload.empty()) overrides.push_back("specimen.preload=" + preload);
+  std::vector<std::string> more;
+  node.getParam("test/overrides", more);
+  overrides.insert(overrides.end(), more.begin(), more.end());
+
+  TestSetup setup;
+  const std::string file =
+      find_method(text_parameter(node, "test/method"), base, text_parameter(node, "test/shipped_methods"));
+  try {
+    setup.method = load_method(file, overrides);
+  } catch (const InvalidInput& error) {
+    throw error.in_file(file);
+  }
+  const std::string out = text_parameter(node, "test/out");
+  setup.out = (base / (out.empty() ? fs::path("out") / setup.method.name : fs::path(out))).lexically_normal().string();
+  return setup;
+}
+
+TestProgram make_program(const Method& method, double longest_step) {
+  TestProgram::Limits limits;
+  limits.load = method.machine.load_cell.capacity;
+  limits.travel = method.machine.travel;
+  return TestProgram(method.program, method.machine.load_cell.sampling_rate, longest_step, limits);
+}
+
+int report_failure(const char* name, const char* what, int code) {
+  std::fprintf(stderr, "%s: %s\n", name, what);
+  return code;
+}
+
+}  // namespace knot_utm

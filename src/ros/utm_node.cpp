@@ -1,0 +1,262 @@
+#include "knot_utm/ros/utm_node.hpp"
+
+#include <knot_utm/TestStatus.h>
+#include <ros/callback_queue.h>
+#include <rosgraph_msgs/Clock.h>
+#include <sensor_msgs/JointState.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/test_setup.hpp"
+
+namespace knot_utm {
+namespace {
+
+using Seconds = std::chrono::duration<double>;
+using std::chrono::steady_clock;
+
+constexpr double kClockPeriod = 0.002;    // shortest wall time between two messages on /clock [s]
+constexpr double kIdleClockPeriod = 0.1;  // longest wall time between them [s]
+constexpr double kStatusPeriod = 0.2;     // wall time between two statuses [s]
+constexpr double kCatchUp = 0.1;          // wall time that is made up for after a slow step [s]
+constexpr double kGapBetweenTests = 1.0;  // on /clock [s]
+constexpr double kGoodbye = 0.3;          // wall time for the last messages to leave before the node ends [s]
+constexpr std::uint32_t kQueue = 1000;
+
+double seconds_since(steady_clock::time_point then) { return Seconds(steady_clock::now() - then).count(); }
+
+steady_clock::duration to_duration(double seconds) {
+  return std::chrono::duration_cast<steady_clock::duration>(Seconds(seconds));
+}
+
+bool refuse(std_srvs::Trigger::Response& response, const char* why) {
+  response.success = 0;
+  response.message = why;
+  return true;
+}
+
+bool accept(std_srvs::Trigger::Response& response, const std::string& what) {
+  response.success = 1;
+  response.message = what;
+  return true;
+}
+
+}  // namespace
+
+UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOptions& options)
+    : node_(node), method_(method), options_(options), factor_(std::numeric_limits<double>::quiet_NaN()) {
+  crosshead_ = node_.advertise<Crosshead>(names::kCrosshead, kQueue);
+  joint_states_ = node_.advertise<sensor_msgs::JointState>(names::kJointStates, kQueue);
+  status_ = node_.advertise<TestStatus>(names::kTestStatus, 10, true);
+  clock_ = node_.advertise<rosgraph_msgs::Clock>(names::kClock, 10);
+  const ros::TransportHints at_once = ros::TransportHints().tcpNoDelay();
+  states_ = node_.subscribe(names::kKnotState, kQueue, &UtmNode::on_state, this, at_once);
+  specimens_ = node_.subscribe(names::kSpecimen, 1, &UtmNode::on_specimen, this, at_once);
+  if (options_.record) recorder_ = node_.subscribe(names::kRecorderStatus, 10, &UtmNode::on_recorder, this, at_once);
+  start_ = node_.advertiseService(names::kStartTest, &UtmNode::on_start, this);
+  stop_ = node_.advertiseService(names::kStopTest, &UtmNode::on_stop, this);
+  balance_ = node_.advertiseService(names::kBalance, &UtmNode::on_balance, this);
+  pause_ = node_.advertiseService(names::kPause, &UtmNode::on_pause, this);
+  step_ = node_.advertiseService(names::kStep, &UtmNode::on_step, this);
+  publish_status();
+}
+
+int UtmNode::spin() {
+  while (ros::ok()) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(wait_time()));
+    if (options_.autostart && run_ == 0 && longest_step_ > 0.0) start();
+    if (may_advance()) advance();
+    if (seconds_since(sent_) > options_.resend_period) resend();
+    if (seconds_since(clock_published_) > kIdleClockPeriod) publish_clock(true);
+    if (seconds_since(status_published_) > kStatusPeriod && (active() || !all_is_recorded())) publish_status();
+    if (options_.exit_at_end && state_ == State::kEnded && all_is_recorded()) {
+      ros::WallDuration(kGoodbye).sleep();
+      break;
+    }
+  }
+  const bool gave_up = program_ && program_->ended_by() == EndedBy::kSolver;
+  return gave_up || recorder_failed_ ? 1 : 0;
+}
+
+double UtmNode::wait_time() const {
+  const bool to_be_paced = state_ == State::kRunning && !waiting_ && options_.real_time_factor > 0.0;
+  const double until_due = to_be_paced ? Seconds(due_ - steady_clock::now()).count() : kIdleClockPeriod;
+  return std::clamp(until_due, 0.0, 0.02);
+}
+
+void UtmNode::on_specimen(const SpecimenInfo& specimen) { longest_step_ = specimen.longest_step; }
+
+void UtmNode::on_state(const KnotState& state) {
+  if (!waiting_ || state.run != run_ || state.sequence != command_.sequence) return;  // an answer given twice
+  sample_ = from_message(state);
+  waiting_ = false;
+  now_ = state.header.stamp;
+  publish_clock(false);
+  if (joint_states_.getNumSubscribers() > 0) joint_states_.publish(to_joint_state(command_, sample_, now_));
+}
+
+void UtmNode::on_recorder(const RecorderStatus& status) {
+  if (status.run != run_) return;
+  if (status.next_sequence > recorded_) sent_ = steady_clock::now();
+  recorded_ = std::max(recorded_, status.next_sequence);
+  while (!unrecorded_.empty() && unrecorded_.front().sequence < recorded_) unrecorded_.pop_front();
+  recorder_complete_ = status.complete != 0;
+  if (!status.error.empty()) {
+    recorder_failed_ = true;
+    if (active()) {
+      ROS_ERROR("the recorder failed: %s", status.error.c_str());
+      program_->stop();
+    }
+  }
+}
+
+bool UtmNode::recorder_keeps_up() const {
+  // Until the recorder has the first command it may not be connected; ROS would drop what is sent meanwhile.
+  return !options_.record || recorder_failed_ || (recorded_ > 0 && command_.sequence < recorded_ + kWindow);
+}
+
+bool UtmNode::all_is_recorded() const { return !options_.record || recorder_complete_ || recorder_failed_; }
+
+bool UtmNode::may_advance() const {
+  if (!active() || waiting_) return false;
+  if (program_->ended()) return true;
+  if (!recorder_keeps_up()) return false;
+  if (state_ == State::kPaused) return single_steps_ > 0;
+  return options_.real_time_factor <= 0.0 || steady_clock::now() >= due_;
+}
+
+void UtmNode::start() {
+  program_.emplace(make_program(method_, longest_step_));
+  if (run_ > 0) run_start_ = now_.toSec() + kGapBetweenTests;
+  ++run_;
+  recorded_ = 0;
+  unrecorded_.clear();
+  recorder_complete_ = false;
+  recorder_failed_ = false;
+  single_steps_ = 0;
+  sample_ = Sample();
+  state_ = State::kRunning;
+  due_ = steady_clock::now();
+  factor_measured_ = due_;
+  factor_time_ = 0.0;
+  send(program_->first());
+  publish_status();
+}
+
+void UtmNode::advance() {
+  const Command next = program_->next(sample_);
+  if (program_->ended()) return end();
+  if (state_ == State::kPaused) --single_steps_;
+  if (options_.real_time_factor > 0.0) {
+    const auto period = to_duration((next.time - command_.time) / options_.real_time_factor);
+    due_ = std::max(due_ + period, steady_clock::now() - to_duration(kCatchUp));
+  }
+  send(next);
+}
+
+void UtmNode::send(const Command& command) {
+  command_ = command;
+  waiting_ = true;
+  sent_ = steady_clock::now();
+  const Crosshead message = to_message(command, run_, test_stamp(run_start_, command.time));
+  if (options_.record) unrecorded_.push_back(message);
+  crosshead_.publish(message);
+}
+
+void UtmNode::resend() {
+  sent_ = steady_clock::now();
+  const bool recorder_lags = options_.record && !all_is_recorded() && !unrecorded_.empty();
+  if (recorder_lags) {
+    for (const Crosshead& message : unrecorded_) crosshead_.publish(message);
+  } else if (waiting_) {
+    crosshead_.publish(to_message(command_, run_, test_stamp(run_start_, command_.time)));
+  }
+}
+
+void UtmNode::end() {
+  state_ = State::kEnded;
+  if (program_->reason().empty()) {
+    ROS_INFO("the test ended by %s", ended_by_name(program_->ended_by()));
+  } else {
+    ROS_INFO("the test ended by %s: %s", ended_by_name(program_->ended_by()), program_->reason().c_str());
+  }
+  publish_clock(true);
+  publish_status();
+}
+
+void UtmNode::publish_clock(bool at_once) {
+  if (!at_once && seconds_since(clock_published_) < kClockPeriod) return;
+  clock_published_ = steady_clock::now();
+  rosgraph_msgs::Clock clock;
+  clock.clock = std::max(now_, ros::TIME_MIN);
+  clock_.publish(clock);
+}
+
+void UtmNode::publish_status() {
+  status_published_ = steady_clock::now();
+  TestStatus status;
+  status.header.stamp = now_;
+  status.state = static_cast<std::uint8_t>(state_);
+  status.run = run_;
+  status.sequence = command_.sequence;
+  status.time = sample_.time;
+  status.phase = phase_name(program_ ? program_->phase() : Phase::kIdle);
+  status.time_left = std::numeric_limits<double>::quiet_NaN();
+  if (program_) {
+    const double wall = seconds_since(factor_measured_);
+    if (wall > 0.9 * kStatusPeriod) {
+      factor_ = (sample_.time - factor_time_) / wall;
+      factor_measured_ = steady_clock::now();
+      factor_time_ = sample_.time;
+    }
+    if (state_ == State::kEnded) {
+      status.ended_by = ended_by_name(program_->ended_by());
+      status.reason = program_->reason();
+    }
+    status.progress = program_->progress();
+    if (factor_ > 0.0) status.time_left = program_->time_left() / factor_;
+  }
+  status.real_time_factor = factor_;
+  status_.publish(status);
+}
+
+bool UtmNode::on_start(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  if (active()) return refuse(response, "a test is running");
+  if (longest_step_ <= 0.0) return refuse(response, "there is no specimen yet");
+  if (run_ > 0 && !all_is_recorded()) return refuse(response, "the last test is still being recorded");
+  start();
+  return accept(response, "test " + std::to_string(run_) + " runs");
+}
+
+bool UtmNode::on_stop(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  if (!active()) return refuse(response, "no test is running");
+  program_->stop();
+  return accept(response, "the test ends");
+}
+
+bool UtmNode::on_balance(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  if (!active()) return refuse(response, "no test is running");
+  program_->balance();
+  return accept(response, "the next command balances");
+}
+
+bool UtmNode::on_pause(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  if (!active()) return refuse(response, "no test is running");
+  const bool goes_on = state_ == State::kPaused;
+  state_ = goes_on ? State::kRunning : State::kPaused;
+  single_steps_ = 0;
+  due_ = steady_clock::now();
+  publish_status();
+  return accept(response, goes_on ? "the test goes on" : "the test is paused");
+}
+
+bool UtmNode::on_step(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  if (state_ != State::kPaused) return refuse(response, "the test is not paused");
+  ++single_steps_;
+  return accept(response, "one command");
+}
+
+}  // namespace knot_utm

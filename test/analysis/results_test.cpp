@@ -1,0 +1,219 @@
+#include "knot_utm/analysis/results.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace knot_utm {
+namespace {
+
+/// A made-up test of a fisherman's loop, at the cell's 3 Hz and 3.3 mm/s.
+struct Curve {
+  double lock = 0.08;      ///< [m]; 0: holds from the start
+  double plateau = 6.6;    ///< [N]
+  double breakaway = 1.0;  ///< times the plateau, on top of it
+  double stiffness = 2e5;  ///< once locked [N/m]
+  double ripple = 0.03;    ///< of the plateau
+  double noise = 0.01;     ///< of the plateau, standard deviation
+  double end = 0.12;       ///< [m]
+  double step = 1.1e-3;    ///< of extension between samples [m]
+  unsigned seed = 1;
+
+  std::vector<Sample> samples() const {
+    std::mt19937 random(seed);
+    std::normal_distribution<double> normal;
+    std::vector<Sample> result;
+    double e = 0.15;
+    const auto count = static_cast<int>(end / step);
+    for (int i = 0; i <= count; ++i) {
+      const double s = i * step;
+      Sample sample;
+      sample.phase = Phase::kPull;
+      sample.extension = s;
+      sample.time = 5.0 + s / 3.3e-3;
+      const double soft = 2e-3;  // the turn from sliding to stretching is not sharp
+      const double share = lock > 0.0 ? 0.5 * std::erfc((s - lock) / soft) : 0.0;
+      if (i > 0) e += step * (-2.0 * share + 0.5 * (1.0 - share));
+      sample.knot_distance = e + 2e-5 * normal(random);
+      const double beyond = std::max(0.0, s - lock);
+      const double sliding =
+          lock > 0.0 ? plateau * (1.0 + breakaway * std::exp(-s / 3e-3)) * std::min(1.0, s / 1e-3) : 0.0;
+      const double wave = 1.0 + 0.5 * ripple * std::sin(2.0 * M_PI * s / 3.2e-3);
+      sample.load = sliding * wave + plateau * noise * normal(random) + stiffness * beyond;
+      sample.force_upper = sample.load;
+      sample.force_lower = sample.load * (1.0 + 1e-3);
+      sample.normal_force = 3.0 * sample.load + 20.0;
+      sample.excess_length[0] = sample.excess_length[1] = 0.04;
+      result.push_back(sample);
+    }
+    return result;
+  }
+};
+
+TEST(MotionPattern, SlidingThenStretching) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Curve curve;
+    curve.seed = seed;
+    curve.lock = 0.05 + 0.003 * seed;
+    curve.breakaway = 0.2 * seed;
+    for (const double step : {1.1e-3, 1e-4}) {
+      curve.step = step;
+      const Results results = analyse(curve.samples(), EndedBy::kExtension);
+      EXPECT_EQ(results.motion_pattern, MotionPattern::kSliding);
+      EXPECT_GT(results.motion_pattern_confidence, 0.85);
+      ASSERT_TRUE(results.lock_extension);
+      // de/ds passes -1 a little before the middle of the soft turn, and e lags the rate by half a step.
+      EXPECT_NEAR(*results.lock_extension, curve.lock, 1.5e-3);
+      ASSERT_TRUE(results.plateau_force);
+      EXPECT_NEAR(*results.plateau_force, curve.plateau, 0.03 * curve.plateau);
+      EXPECT_LT(*results.plateau_force_sd, 0.05 * curve.plateau);
+      EXPECT_NEAR(*results.plateau_slope, -2.0, 0.02);
+      ASSERT_TRUE(results.locked_stiffness);
+      EXPECT_NEAR(*results.locked_stiffness, curve.stiffness, 0.01 * curve.stiffness);
+      EXPECT_FALSE(results.untangled_at);
+      EXPECT_TRUE(results.knot_type_preserved);
+      EXPECT_NEAR(results.force_balance_error, 1e-3, 1e-4);
+    }
+  }
+}
+
+TEST(MotionPattern, SlidingToTheEndHasNeitherLockNorStiffness) {
+  Curve curve;
+  curve.end = 0.06;
+  curve.breakaway = 3.0;
+  const Results results = analyse(curve.samples(), EndedBy::kExtension);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kSliding);
+  EXPECT_GT(results.motion_pattern_confidence, 0.85);
+  EXPECT_FALSE(results.lock_extension);
+  EXPECT_FALSE(results.locked_stiffness);
+  EXPECT_NEAR(*results.plateau_force, curve.plateau, 0.03 * curve.plateau);
+  EXPECT_GT(*results.breakaway_force, 2.0 * curve.plateau);
+}
+
+TEST(MotionPattern, StretchingFromTheStart) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Curve curve;
+    curve.seed = seed;
+    curve.lock = 0.0;
+    curve.stiffness = 20.0 * seed;
+    curve.plateau = 0.01 * curve.stiffness;
+    const Results results = analyse(curve.samples(), EndedBy::kExtension);
+    EXPECT_EQ(results.motion_pattern, MotionPattern::kStretching);
+    EXPECT_GT(results.motion_pattern_confidence, 0.95);
+    EXPECT_FALSE(results.lock_extension);
+    EXPECT_FALSE(results.plateau_force);
+    EXPECT_NEAR(*results.locked_stiffness, curve.stiffness, 0.01 * curve.stiffness);
+  }
+}
+
+TEST(MotionPattern, UntanglingWhenKnotsOpenAfterBreakaway) {
+  Curve curve;
+  curve.lock = 0.2;
+  std::vector<Sample> samples = curve.samples();
+  for (Sample& sample : samples) {
+    if (sample.extension < 0.03) continue;
+    sample.load *= 1e-3;
+    sample.excess_length[1] = 0.1;
+  }
+  const Results results = analyse(samples, EndedBy::kExtension);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kUntangling);
+  ASSERT_TRUE(results.untangled_at);
+  EXPECT_NEAR(*results.untangled_at, 5.0 + 0.03 / 3.3e-3, 0.5);
+  EXPECT_GE(results.motion_pattern_confidence, 0.75);
+
+  // A low load alone, in knots that did not open, is a slide after a high breakaway.
+  for (Sample& sample : samples) sample.excess_length[1] = 0.04;
+  EXPECT_EQ(analyse(samples, EndedBy::kExtension).motion_pattern, MotionPattern::kSliding);
+}
+
+TEST(MotionPattern, UntanglingWhenTheKnotTypeIsLost) {
+  const Results results = analyse(Curve().samples(), EndedBy::kExtension, 12.5);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kUntangling);
+  EXPECT_EQ(results.motion_pattern_confidence, 1.0);
+  EXPECT_EQ(results.untangled_at, 12.5);
+  EXPECT_FALSE(results.knot_type_preserved);
+  EXPECT_FALSE(results.locked_stiffness);
+}
+
+TEST(MotionPattern, NoneWithoutAPullOrWithoutTwoKnots) {
+  EXPECT_EQ(analyse({}, EndedBy::kOperator).motion_pattern, MotionPattern::kNone);
+  std::vector<Sample> samples = Curve().samples();
+  for (Sample& sample : samples) sample.phase = Phase::kHold;
+  EXPECT_EQ(analyse(samples, EndedBy::kOperator).motion_pattern, MotionPattern::kNone);
+  samples = Curve().samples();
+  for (Sample& sample : samples) sample.knot_distance = Sample::kNone;
+  const Results results = analyse(samples, EndedBy::kExtension);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kNone);
+  EXPECT_EQ(results.motion_pattern_confidence, 0.0);
+  EXPECT_TRUE(results.locked_stiffness);
+}
+
+TEST(MotionPattern, IsFollowedLive) {
+  const Curve curve;
+  MotionPatternTracker tracker;
+  EXPECT_EQ(tracker.current(), MotionPattern::kNone);
+  for (const Sample& sample : curve.samples()) {
+    tracker.add(sample);
+    if (sample.extension > 0.01 && sample.extension < curve.lock - 0.005) {
+      EXPECT_EQ(tracker.current(), MotionPattern::kSliding) << sample.extension;
+      EXPECT_FALSE(tracker.lock_extension());
+    }
+    if (sample.extension > curve.lock + 0.01) {
+      EXPECT_EQ(tracker.current(), MotionPattern::kStretching) << sample.extension;
+      EXPECT_TRUE(tracker.lock_extension()) << sample.extension;
+    }
+    if (sample.extension > 0.01) {
+      EXPECT_EQ(tracker.pattern(), MotionPattern::kSliding) << sample.extension;
+    }
+  }
+}
+
+TEST(Results, ABreakEndsThePullAndIsNoUntangling) {
+  std::vector<Sample> samples = Curve().samples();
+  const std::size_t at = samples.size() - 10;
+  samples[at].status = BenchStatus::kBroken;
+  const double peak = samples[at].load;
+  for (std::size_t i = at + 1; i < samples.size(); ++i) samples[i].load = 0.0;
+  const Results results = analyse(samples, EndedBy::kBreak);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kSliding);
+  EXPECT_EQ(results.break_extension, samples[at].extension);
+  EXPECT_EQ(results.peak_force, peak);
+  EXPECT_EQ(results.ended_by, EndedBy::kBreak);
+}
+
+TEST(Results, EnergyBalanceIsThatOfWorkStorageAndLoss) {
+  std::vector<Sample> samples = Curve().samples();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double x = static_cast<double>(i);
+    samples[i].grip_work = 3.0 + 1.0 * x;
+    samples[i].stretching_energy = 7.0 + 0.3 * x;
+    samples[i].bending_energy = 0.1 * x;
+    samples[i].dissipation = 0.59 * x;
+  }
+  EXPECT_NEAR(analyse(samples, EndedBy::kExtension).energy_balance_error, 0.01, 1e-9);
+}
+
+TEST(Results, CountsAndNotEquilibratedAreCarriedOver) {
+  std::vector<Sample> samples = Curve().samples();
+  Sample tie;
+  tie.phase = Phase::kTie;
+  tie.status = BenchStatus::kNotEquilibrated;
+  tie.max_penetration = 0.04;
+  samples.insert(samples.begin(), tie);
+  samples.back().steps = 100;
+  samples.back().rejected_steps = 3;
+  samples.back().newton_iterations = 450;
+  const Results results = analyse(samples, EndedBy::kExtension);
+  EXPECT_FALSE(results.equilibrated);
+  EXPECT_EQ(results.max_penetration, 0.04);
+  EXPECT_EQ(results.steps, 100u);
+  EXPECT_EQ(results.rejected_steps, 3u);
+  EXPECT_EQ(results.newton_iterations, 450u);
+  EXPECT_EQ(results.simulated_time, samples.back().time);
+  EXPECT_NEAR(*results.tied_knot_distance, 0.15, 1e-3);
+  EXPECT_NEAR(*results.tied_excess_length[0], 0.04, 1e-9);
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,121 @@
+// physics.twist on the machine.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+
+#include "knot_utm/machine/test_bench.hpp"
+
+namespace knot_utm {
+namespace {
+
+Material pink_vps() {
+  Material material;
+  material.radius = 3.175e-3;
+  material.density = 1150.0;
+  material.stretching_stiffness = 1.70;
+  material.bending_stiffness = 4.34e-6;
+  material.twisting_stiffness = 2.893e-6;
+  material.friction_coefficient = 0.54;
+  material.tying_preload = 1.7;
+  return material;
+}
+
+TestBench bench(const SpecimenOptions& specimen, GripKind grips, TwistMode twist, double residual = 2e-5) {
+  MachineOptions machine;
+  machine.grips = grips;
+  PhysicsOptions physics;
+  physics.twist = twist;
+  physics.residual = residual;
+  return TestBench(specimen, pink_vps(), machine, physics);
+}
+
+/// Steps of `period` in one phase.
+Sample run(TestBench& machine, Phase phase, int commands, double period, double speed) {
+  Command command;
+  machine.respond(command);
+  command.phase = phase;
+  command.speed = speed;
+  command.step = 1;
+  Sample sample;
+  for (int k = 1; k <= commands; ++k) {
+    command.sequence = static_cast<std::uint64_t>(k);
+    command.time = period * k;
+    if (phase == Phase::kPull) command.displacement = speed * command.time;
+    sample = machine.respond(command);
+    EXPECT_NE(sample.status, BenchStatus::kFailed) << sample.message;
+  }
+  return sample;
+}
+
+SpecimenOptions loop() {
+  SpecimenOptions specimen;
+  specimen.edge_length = 0.005;
+  return specimen;
+}
+
+SpecimenOptions open_overhand() {
+  SpecimenOptions specimen;
+  specimen.knot = KnotKind::kOverhand;
+  specimen.length = 1.0;
+  specimen.end_to_end = 0.7;
+  specimen.edge_length = 0.005;
+  return specimen;
+}
+
+bool has_twist(const TestBench& machine) { return machine.state().twist.size() > 0; }
+
+TEST(TwistOnTheMachine, AutoIsOnWhereClampsHoldTwoFrames) {
+  const auto by_itself = [](const SpecimenOptions& specimen, GripKind grips) {
+    return has_twist(bench(specimen, grips, TwistMode::kAuto));
+  };
+  SpecimenOptions straight;
+  straight.knot = KnotKind::kStraight;
+  EXPECT_FALSE(by_itself(loop(), GripKind::kRollers));
+  EXPECT_FALSE(by_itself(loop(), GripKind::kNodes));
+  EXPECT_TRUE(by_itself(loop(), GripKind::kClamps));
+  EXPECT_TRUE(by_itself(open_overhand(), GripKind::kClamps));
+  EXPECT_FALSE(by_itself(open_overhand(), GripKind::kNodes));
+  EXPECT_FALSE(by_itself(straight, GripKind::kClamps));
+  EXPECT_TRUE(has_twist(bench(straight, GripKind::kClamps, TwistMode::kOn)));
+  EXPECT_FALSE(has_twist(bench(open_overhand(), GripKind::kClamps, TwistMode::kOff)));
+}
+
+TEST(TwistOnTheMachine, ALoopTiesTheSameWithIt) {
+  // Newton's tolerance is a hundredth of the usual one: where it leaves its mark, one of the two may need an iteration
+  // more and take another step next, and paths that jump from contact to contact then part by tenths of a radius.
+  constexpr double kResidual = 2e-7;
+  TestBench on = bench(loop(), GripKind::kRollers, TwistMode::kOn, kResidual);
+  TestBench off = bench(loop(), GripKind::kRollers, TwistMode::kOff, kResidual);
+  const Sample with = run(on, Phase::kTie, 10, 0.1, 0.02), without = run(off, Phase::kTie, 10, 0.1, 0.02);
+  const double difference = (on.state().position - off.state().position).colwise().norm().maxCoeff();
+  RecordProperty("largest_difference_in_radii", std::to_string(1e6 * difference / on.rod().material.radius) + "e-6");
+  EXPECT_LT(difference, 0.01 * on.rod().material.radius);
+  EXPECT_NEAR(with.tail_force[0], without.tail_force[0], 1e-3 * without.tail_force[0]);
+  EXPECT_LT(with.twisting_energy, 1e-9 * with.bending_energy);
+  EXPECT_EQ(without.twisting_energy, 0.0);
+}
+
+TEST(TwistOnTheMachine, AStraightRodPullsTheSameWithIt) {
+  SpecimenOptions specimen;
+  specimen.knot = KnotKind::kStraight;
+  specimen.length = 0.25;
+  specimen.edge_length = 0.005;
+  TestBench on = bench(specimen, GripKind::kClamps, TwistMode::kOn);
+  TestBench off = bench(specimen, GripKind::kClamps, TwistMode::kOff);
+  const Sample with = run(on, Phase::kPull, 10, 0.1, 0.0033), without = run(off, Phase::kPull, 10, 0.1, 0.0033);
+  EXPECT_GT(without.force_upper, 0.0);
+  EXPECT_NEAR(with.force_upper, without.force_upper, 1e-6 * without.force_upper);
+  EXPECT_EQ(with.twisting_energy, 0.0);
+}
+
+TEST(TwistOnTheMachine, AnOverhandBetweenClampsStoresIt) {
+  TestBench on = bench(open_overhand(), GripKind::kClamps, TwistMode::kAuto);
+  const Sample with = run(on, Phase::kPull, 30, 0.1, 0.0033);
+  EXPECT_GT(with.twisting_energy, 1e-6 * with.bending_energy);
+  EXPECT_LT(with.twisting_energy, with.bending_energy);
+}
+
+}  // namespace
+}  // namespace knot_utm

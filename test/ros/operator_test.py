@@ -1,0 +1,127 @@
+#!/usr/bin/python3
+"""The machine is operated as a user does it: by services and with the tools of ROS."""
+import os
+import subprocess
+import sys
+import time
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+
+import rospy
+import rostest
+from geometry_msgs.msg import WrenchStamped
+from knot_utm.msg import KnotState, RecorderStatus, TestStatus
+from node_test import Latest, call
+from std_srvs.srv import Trigger
+from visualization_msgs.msg import Marker, MarkerArray
+
+OUT = '/tmp/knot_utm_operator_test'
+
+
+def tool(*command, timeout=15):
+    """Output of a tool that ends by itself or is ended."""
+    try:
+        return subprocess.run(command, timeout=timeout, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                              universal_newlines=True, check=False).stdout
+    except subprocess.TimeoutExpired as late:
+        return (late.stdout or b'').decode()
+
+
+class OperatorTest(unittest.TestCase):
+    """One story, told in order."""
+
+    @classmethod
+    def setUpClass(cls):
+        rospy.init_node('operator_test')
+        cls.status = Latest('utm/status', TestStatus)
+        cls.state = Latest('knot/state', KnotState)
+        cls.recorder = Latest('recorder/status', RecorderStatus)
+        cls.load = Latest('utm/load_cell', WrenchStamped)
+
+    def test_1_waits_for_start(self):
+        self.status.wait('idle', lambda s: s.state == TestStatus.IDLE)
+        self.assertFalse(call('utm/stop_test', Trigger).success)
+        self.assertFalse(call('utm/balance', Trigger).success)
+
+    def test_2_start(self):
+        end = time.monotonic() + 10.0
+        while not call('utm/start_test', Trigger).success and time.monotonic() < end:
+            time.sleep(0.2)
+        self.status.wait('running', lambda s: s.state == TestStatus.RUNNING)
+        self.state.wait('holds', lambda s: s.phase == 'hold')
+        self.assertGreater(self.state.last.load, 1.0)
+        self.load.wait('a reading', lambda w: w.wrench.force.z > 1.0)
+        self.assertFalse(call('utm/start_test', Trigger).success)
+
+    def test_3_balance(self):
+        self.assertTrue(call('utm/balance', Trigger).success)
+        self.state.wait('no load', lambda s: s.phase == 'hold' and abs(s.load) < 1e-6 * abs(s.force_upper))
+        self.assertGreater(self.state.last.force_upper, 1.0)
+
+    def test_4_pause_and_step(self):
+        self.assertFalse(call('utm/step', Trigger).success)
+        self.assertTrue(call('utm/pause', Trigger).success)
+        self.status.wait('paused', lambda s: s.state == TestStatus.PAUSED)
+        time.sleep(0.5)
+        before = self.state.last.sequence
+        time.sleep(0.7)
+        self.assertEqual(self.state.last.sequence, before)
+        self.assertTrue(call('utm/step', Trigger).success)
+        self.state.wait('one step', lambda s: s.sequence == before + 1)
+        time.sleep(0.5)
+        self.assertEqual(self.state.last.sequence, before + 1)
+        self.assertTrue(call('utm/pause', Trigger).success)
+        self.state.wait('goes on', lambda s: s.sequence > before + 3)
+
+    def test_5_tools(self):
+        topics = tool('rostopic', 'list').split()
+        for topic in ['/utm/crosshead', '/utm/joint_states', '/utm/load_cell', '/utm/status', '/knot/state',
+                      '/knot/markers', '/knot/shape', '/recorder/status', '/clock', '/tf', '/diagnostics']:
+            self.assertIn(topic, topics)
+        for topic in ['/utm/crosshead', '/utm/joint_states', '/utm/load_cell', '/utm/status', '/knot/state',
+                      '/knot/shape', '/knot/record', '/knot/specimen', '/recorder/status', '/tf', '/diagnostics']:
+            text = tool('rostopic', 'echo', '-n', '1', '--noarr', topic)
+            self.assertIn('---', text, topic)
+        self.assertIn('average rate', tool('rostopic', 'hz', '--wall-time', '/knot/state', timeout=4))
+        self.assertIn('success: True', tool('rosservice', 'call', '/recorder/save'))
+
+    def test_6_markers(self):
+        markers = Latest('knot/markers', MarkerArray).wait('a picture', lambda m: True).markers
+        self.assertEqual([m.type for m in markers if m.ns == 'rod'], [Marker.TRIANGLE_LIST])
+        self.assertEqual(len([m for m in markers if m.ns == 'grips']), 2)
+        self.assertTrue(any('F = ' in m.text for m in markers))
+
+    def test_7_saved_while_it_runs(self):
+        self.assertIn('messages:', tool('rosbag', 'info', OUT + '/saved.bag'))
+        self.assertTrue(os.path.exists(OUT + '/result.yaml'))
+
+    def test_8_stop(self):
+        self.assertTrue(call('utm/stop_test', Trigger).success)
+        status = self.status.wait('ended', lambda s: s.state == TestStatus.ENDED)
+        self.assertEqual(status.ended_by, 'operator')
+        recorder = self.recorder.wait('complete', lambda r: r.complete)
+        self.assertEqual(recorder.dropped, 0)
+        self.assertEqual(recorder.recorded, status.sequence + 1)
+        self.assertIn('ended_by: operator', open(OUT + '/result.yaml').read())
+        self.assertIn('/knot/state', tool('rosbag', 'info', OUT + '/test.bag'))
+        tool('rosbag', 'check', OUT + '/test.bag')
+        text = tool('rostopic', 'echo', '-b', OUT + '/test.bag', '-p', '/knot/state')
+        self.assertEqual(len(text.strip().splitlines()), status.sequence + 2)
+
+    def test_9_reset(self):
+        before = self.state.last
+        self.assertTrue(call('knot/reset', Trigger).success)
+        self.assertTrue(call('utm/start_test', Trigger).success)
+        second = self.state.wait('second test', lambda s: s.run == 2 and s.phase == 'pull')
+        self.assertGreater(second.header.stamp, before.header.stamp)
+        # A specimen that is taken out during the test ends it, and says so.
+        self.assertTrue(call('knot/reset', Trigger).success)
+        status = self.status.wait('ended', lambda s: s.run == 2 and s.state == TestStatus.ENDED)
+        self.assertEqual(status.ended_by, 'solver')
+        self.assertIn('reset', status.reason)
+        self.recorder.wait('complete', lambda r: r.run == 2 and r.complete)
+
+
+if __name__ == '__main__':
+    rostest.rosrun('knot_utm', 'operator', OperatorTest)
