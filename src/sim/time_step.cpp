@@ -47,7 +47,8 @@ struct NoFrames {
 };
 
 /// D = 3: the unknowns of node i are x_i. D = 4: they are x_i and the spin of edge i (FrameTerms); that of the last
-/// node stands for nothing and is held. `StrandContact` is the contact law between strands.
+/// node stands for nothing and is held.
+/// `StrandContact` is the contact law between strands.
 template <int D, typename StrandContact>
 class ImplicitStep final : public TimeStep {
  public:
@@ -514,12 +515,6 @@ class ImplicitStep final : public TimeStep {
   std::vector<BandIndex> band_;
 };
 
-template <typename StrandContact>
-std::unique_ptr<TimeStep> make_step(const RodProperties& rod, const RodState& state, const StepSettings& settings) {
-  if (state.twist.size() == 0) return std::make_unique<ImplicitStep<3, StrandContact>>(rod, state, settings);
-  return std::make_unique<ImplicitStep<4, StrandContact>>(rod, state, settings);
-}
-
 }  // namespace
 
 Eigen::VectorXd TimeStep::tension() const {
@@ -533,8 +528,13 @@ Eigen::VectorXd TimeStep::tension() const {
 std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodState& state,
                                          const StepSettings& settings) {
   elastic_energy(rod, state);  // throws where rod and state do not fit together
-  return settings.contact_law == ContactLaw::kEdge ? make_step<EdgeContact>(rod, state, settings)
-                                                   : make_step<SmoothContact>(rod, state, settings);
+  const bool edges = settings.contact_law == ContactLaw::kEdge;
+  if (state.twist.size() == 0) {
+    if (edges) return std::make_unique<ImplicitStep<3, EdgeContact>>(rod, state, settings);
+    return std::make_unique<ImplicitStep<3, SmoothContact>>(rod, state, settings);
+  }
+  if (edges) return std::make_unique<ImplicitStep<4, EdgeContact>>(rod, state, settings);
+  return std::make_unique<ImplicitStep<4, SmoothContact>>(rod, state, settings);
 }
 
 }  // namespace knot_utm
