@@ -162,7 +162,7 @@ struct TestBench::Impl {
     stepper = TimeStep::make(rod, state, step_settings(material, machine, physics));
     StepControl::Options options;
     options.longest = tolerances(physics).longest_step;
-    options.motion = 0.4 * material.radius;
+    options.motion = .2 * material.radius;
     control = StepControl(options);
     if (!centreline.knots.empty()) {
       TyingRig::Options tying;
