@@ -17,6 +17,10 @@ target_compile_definitions(core_tests PRIVATE KNOT_UTM_SOURCE_DIR="${PROJECT_SOU
 add_dependencies(core_tests tensile_test)
 gtest_discover_tests(core_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 
+# What scripts/bench makes of its runs; README and doc/ against the code.
+add_test(NAME bench_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/bench_test.py)
+add_test(NAME doc_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/doc_test.py)
+
 if(catkin_FOUND)
   # Conversions, markers and bags need no master.
   file(GLOB ros_test_sources CONFIGURE_DEPENDS test/ros/*_test.cpp)

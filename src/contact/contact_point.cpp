@@ -4,8 +4,7 @@
 
 namespace knot_utm {
 
-void evaluate_force(const NormalLaw& normal, const Friction& friction, double friction_scale, ContactPoint& contact) {
-  contact.pressure = normal.pressure(contact.overlap);
+void evaluate_force(const Friction& friction, double friction_scale, ContactPoint& contact) {
   contact.force = contact.n;
   if (friction.on()) {
     const Vec3 tangential = contact.slip - contact.n * contact.n.dot(contact.slip);
@@ -13,6 +12,11 @@ void evaluate_force(const NormalLaw& normal, const Friction& friction, double fr
     contact.force -= friction.coefficient * contact.z;
   }
   contact.force *= contact.weight * contact.pressure;
+}
+
+void evaluate_force(const NormalLaw& normal, const Friction& friction, double friction_scale, ContactPoint& contact) {
+  contact.pressure = normal.pressure(contact.overlap);
+  evaluate_force(friction, friction_scale, contact);
 }
 
 void linearise(const NormalLaw& normal, const Friction& friction, double friction_scale, const ContactPoint& contact,

@@ -57,6 +57,7 @@ StepSettings step_settings(const Material& material, const MachineOptions& machi
   const Tolerances tolerance = tolerances(physics);
   const double h = material.radius;
   StepSettings out;
+  out.contact_law = physics.contact_law;
   out.normal = {contact_stiffness(material), tolerance.contact_tolerance * h};
   out.friction = {physics.friction_law, material.friction_coefficient, tolerance.presliding * h,
                   physics.slip_tolerance};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/isotropic_bending.hpp"
@@ -33,6 +34,11 @@ struct BandIndex {
   int second, second_back;  // (i, i+2) and (i+2, i)
 };
 
+/// Pressure of a contact's linear model at the present overlap, and its slope [N/m], [N/m^2].
+struct PressureTangent {
+  double pressure, slope;
+};
+
 constexpr int kFootRoom = 1;  // segments by which a foot may slide on before the pattern is rebuilt
 
 /// Stands for FrameTerms where the scene does not solve for twist.
@@ -42,7 +48,8 @@ struct NoFrames {
 
 /// D = 3: the unknowns of node i are x_i. D = 4: they are x_i and the spin of edge i (FrameTerms); that of the last
 /// node stands for nothing and is held.
-template <int D>
+/// `StrandContact` is the contact law between strands.
+template <int D, typename StrandContact>
 class ImplicitStep final : public TimeStep {
  public:
   ImplicitStep(const RodProperties& rod, const RodState& state, const StepSettings& settings)
@@ -101,7 +108,7 @@ class ImplicitStep final : public TimeStep {
       find_contact_blocks();
     }
     matrix_.set_zero();
-    models_.clear();
+    tangents_.clear();
     add_inertia_and_drag_stiffness();
     add_elastic_stiffness();
     if constexpr (D == 4) add_frame_stiffness();
@@ -147,7 +154,7 @@ class ImplicitStep final : public TimeStep {
     out.bending = elastic.bending;
     out.twisting = elastic.twisting;
     for (const ContactPoint& contact : contact_.contacts())
-      out.contact += contact.weight * settings_.normal.energy(contact.overlap);
+      out.contact += contact.weight * contact_.normal().energy(contact.overlap);
     for (const ContactPoint& contact : rollers_.contacts())
       out.contact += contact.weight * settings_.normal.energy(contact.overlap);
     for (int i = 0; i < nodes_; ++i) out.kinetic += 0.5 * rod_.mass[i] * state_.velocity.col(i).squaredNorm();
@@ -348,9 +355,9 @@ class ImplicitStep final : public TimeStep {
     std::size_t block = 0;
     for (const ContactPoint& contact : contacts.contacts()) {
       if (!contact.active()) continue;
-      models_.emplace_back();
-      ContactModel& model = models_.back();
+      typename Contacts::Model model;
       contacts.linearise_contact(contact, dt_, model);
+      tangents_.push_back({model.pressure, model.slope});
       const Lanes difference = to_lanes(model.force - contact.force);
       for (int k = 0; k < 3; ++k) change_[at(contact.a0 + k)] += contact.c[k] * difference;
       if (!contact.on_roller())
@@ -364,13 +371,13 @@ class ImplicitStep final : public TimeStep {
   void estimate_pressures(Contacts& contacts, double share, std::size_t& m) {
     for (ContactPoint& contact : contacts.contacts()) {
       if (!contact.active()) continue;
-      const ContactModel& model = models_[m++];
+      const PressureTangent& tangent = tangents_[m++];
       Vec3 moved = Vec3::Zero();
       for (int k = 0; k < 3; ++k) {
         moved += contact.c[k] * to_vec3(change_[at(contact.a0 + k)]);
         if (!contact.on_roller()) moved += contact.c[3 + k] * to_vec3(change_[at(contact.b0 + k)]);
       }
-      contact.estimate = model.pressure - share * model.slope * contact.n.dot(moved);
+      contact.estimate = tangent.pressure - share * tangent.slope * contact.n.dot(moved);
     }
   }
 
@@ -397,6 +404,16 @@ class ImplicitStep final : public TimeStep {
         Block<D>& own = matrix_.block(band_index(contact.b0, k, l));
         for (int j = 0; j < 3; ++j)
           own.column[j] += (ck * cl) * cc[j] + (ck * bl) * cb[j] + (bk * cl) * bc[j] + (bk * bl) * bb[j];
+      }
+  }
+
+  void add_contact_stiffness(const ContactPoint& contact, const EdgeContactModel& local, const ContactBlocks* blocks) {
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l) {
+        add(matrix_.block(band_index(contact.a0, k, l)), local.stiffness(k, l), 1.0);
+        add(matrix_.block(band_index(contact.b0, k, l)), local.stiffness(3 + k, 3 + l), 1.0);
+        add(matrix_.block((*blocks)[at(3 * k + l)].first), local.stiffness(k, 3 + l), 1.0);
+        add(matrix_.block((*blocks)[at(3 * k + l)].second), local.stiffness(3 + l, k), 1.0);
       }
   }
 
@@ -478,7 +495,7 @@ class ImplicitStep final : public TimeStep {
   }
 
   StepSettings settings_;
-  SmoothContact contact_;
+  StrandContact contact_;
   RollerContact rollers_;
   std::conditional_t<D == 4, FrameTerms, NoFrames> frames_;
   int nodes_;
@@ -490,7 +507,7 @@ class ImplicitStep final : public TimeStep {
   std::vector<char> held_;
   double largest_tension_ = 0.0;
   ContactReading contact_reading_;
-  std::vector<ContactModel> models_;  // of the active contacts, in order
+  std::vector<PressureTangent> tangents_;  // of the active contacts, in order
   std::vector<std::pair<int, int>> pairs_;
   std::vector<ContactBlocks> contact_blocks_;  // of the active contacts between strands, in order
   BlockPattern pattern_;
@@ -511,8 +528,13 @@ Eigen::VectorXd TimeStep::tension() const {
 std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodState& state,
                                          const StepSettings& settings) {
   elastic_energy(rod, state);  // throws where rod and state do not fit together
-  if (state.twist.size() == 0) return std::make_unique<ImplicitStep<3>>(rod, state, settings);
-  return std::make_unique<ImplicitStep<4>>(rod, state, settings);
+  const bool edges = settings.contact_law == ContactLaw::kEdge;
+  if (state.twist.size() == 0) {
+    if (edges) return std::make_unique<ImplicitStep<3, EdgeContact>>(rod, state, settings);
+    return std::make_unique<ImplicitStep<3, SmoothContact>>(rod, state, settings);
+  }
+  if (edges) return std::make_unique<ImplicitStep<4, EdgeContact>>(rod, state, settings);
+  return std::make_unique<ImplicitStep<4, SmoothContact>>(rod, state, settings);
 }
 
 }  // namespace knot_utm

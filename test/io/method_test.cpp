@@ -139,6 +139,11 @@ TEST(Method, PreloadAutoIsTheMaterialsOrFourBendingForces) {
   EXPECT_EQ(load_method(kTighten, {"specimen.preload=3"}).specimen.preload, 3.0);
 }
 
+TEST(Method, ASpecimenIsToBeTiedWhereTheProgramTies) {
+  EXPECT_TRUE(load_method(kTighten).specimen.to_be_tied);
+  EXPECT_FALSE(load_method(kTighten, {"program=[{balance: {}}]"}).specimen.to_be_tied);
+}
+
 TEST(Method, FilesBesideTheMethodComeFirst) {
   const fs::path folder = fs::path(::testing::TempDir()) / "knot_utm_own";
   fs::create_directories(folder / "methods");

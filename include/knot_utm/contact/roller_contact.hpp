@@ -17,6 +17,8 @@ struct Roller {
 /// D = r + h - d, d the distance from the axis, and a friction of their own.
 class RollerContact {
  public:
+  using Model = ContactModel;
+
   RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction);
 
   /// Before the first evaluation of a step: estimates of the pressures are those of the last accepted step.

@@ -21,6 +21,8 @@ namespace knot_utm {
 /// by the point of integration and found again by the nearest arclength of the foot, iterate by iterate.
 class SmoothContact {
  public:
+  using Model = ContactModel;
+
   SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin);
 
   /// Rebuilds the candidates where something moved far enough; true if it did.

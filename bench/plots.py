@@ -1,0 +1,51 @@
+"""Pictures of curves, drawn without a display."""
+import math
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+
+def force_and_knot_distance(file, runs):
+    """One panel a run: load and knot distance over extension while it is pulled."""
+    figure, panels = plt.subplots(1, len(runs), figsize=(4.2 * len(runs), 3.4), squeeze=False)
+    for axes, (name, run) in zip(panels[0], runs.items()):
+        pull = run.phase("pull")
+        s = [1e3 * value for value in pull.get("extension", [])]
+        axes.plot(s, pull.get("load", []), color="tab:blue")
+        axes.set_title(name)
+        axes.set_xlabel("extension s [mm]")
+        axes.set_ylabel("load F [N]", color="tab:blue")
+        logarithmic(axes, pull.get("load", []))
+        other = axes.twinx()
+        other.plot(s, [1e3 * value for value in pull.get("knot_distance", [])], color="tab:orange")
+        other.set_ylabel("knot distance e [mm]", color="tab:orange")
+    save(figure, file)
+
+
+def curves_together(file, curves, x_label, y_label, log=False):
+    """`curves`: name -> (x, y)."""
+    figure, axes = plt.subplots(figsize=(7.0, 4.2))
+    for name, (x, y) in curves.items():
+        axes.plot(x, y, label=name)
+    if log:
+        logarithmic(axes, [value for _, y in curves.values() for value in y])
+    axes.set_xlabel(x_label)
+    axes.set_ylabel(y_label)
+    axes.legend()
+    save(figure, file)
+
+
+def logarithmic(axes, values):
+    """Logarithmic, and linear around zero: below a tenth of what is usual."""
+    sizes = sorted(abs(value) for value in values)
+    usual = sizes[len(sizes) // 2] if sizes else 0.0
+    if usual > 0.0:
+        axes.set_yscale("symlog", linthresh=10.0 ** math.floor(math.log10(0.1 * usual)))
+
+
+def save(figure, file):
+    figure.tight_layout()
+    figure.savefig(file, dpi=110, metadata={"Software": None})
+    plt.close(figure)

@@ -1,0 +1,127 @@
+"""Tables whose cells may have a gate, and the report made of them."""
+import csv
+import datetime
+import math
+import os
+
+
+REFERENCE = "(reference)"  # what the others are compared with
+
+
+class Gate:
+    """What a value must be. `words` says it in the table, `test` decides."""
+
+    def __init__(self, words, test):
+        self.words, self.test = words, test
+
+
+def at_least(bound):
+    return Gate(f">= {bound:g}", lambda value: value >= bound)
+
+
+def at_most(bound):
+    return Gate(f"<= {bound:g}", lambda value: value <= bound)
+
+
+def above(bound):
+    return Gate(f"> {bound:g}", lambda value: value > bound)
+
+
+def within(low, high):
+    return Gate(f"{low:.4g} to {high:.4g}", lambda value: low <= value <= high)
+
+
+def is_(wanted):
+    return Gate(text_of(wanted), lambda value: value == wanted)
+
+
+def text_of(value, digits=".4g"):
+    if is_missing(value):
+        return "missing"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return format(value, digits)
+    return str(value)
+
+
+def is_missing(value):
+    return value is None or (isinstance(value, float) and math.isnan(value))
+
+
+class Table:
+    """One row a quantity, one column a run."""
+
+    def __init__(self, title, columns):
+        self.title, self.columns, self.rows = title, columns, []
+
+    def add(self, quantity, unit, values, gates=None, digits=".4g"):
+        """`gates`: one for all runs, or one a run; None where a run has none."""
+        if not isinstance(gates, (list, tuple)):
+            gates = [gates] * len(values)
+        self.rows.append((quantity, unit, list(values), list(gates), digits))
+
+    def verdict(self, value, gate):
+        """"" without a gate, else pass or FAIL; a missing value fails."""
+        if gate is None:
+            return ""
+        return "pass" if not is_missing(value) and gate.test(value) else "FAIL"
+
+    def failed(self):
+        return [f"{self.title}: {column}: {quantity} is {text_of(value, digits)}, must be {gate.words} {unit}"
+                .rstrip(" -")
+                for quantity, unit, values, gates, digits in self.rows
+                for column, value, gate in zip(self.columns, values, gates)
+                if self.verdict(value, gate) == "FAIL"]
+
+    def cell(self, value, gate, digits):
+        verdict = self.verdict(value, gate)
+        return text_of(value, digits) + (f" ({gate.words}: {verdict})" if verdict else "")
+
+    def markdown(self):
+        lines = [f"## {self.title}", "", "| Quantity | Unit | " + " | ".join(self.columns) + " |",
+                 "|" + " --- |" * (2 + len(self.columns))]
+        for quantity, unit, values, gates, digits in self.rows:
+            cells = [self.cell(value, gate, digits) for value, gate in zip(values, gates)]
+            lines.append(f"| {quantity} | {unit} | " + " | ".join(cells) + " |")
+        return "\n".join(lines) + "\n"
+
+    def csv_rows(self):
+        for quantity, unit, values, gates, _ in self.rows:
+            for column, value, gate in zip(self.columns, values, gates):
+                yield [self.title, quantity, unit, column, "" if value is None else value,
+                       gate.words if gate else "", self.verdict(value, gate)]
+
+
+class Report:
+    """A study's tables, its picture and the words above them."""
+
+    def __init__(self, title, introduction, tables, draw=None):
+        self.title, self.introduction, self.tables, self.draw = title, introduction, tables, draw
+
+    def text(self):
+        return "\n".join(table.markdown() for table in self.tables)
+
+    def failed(self):
+        return [line for table in self.tables for line in table.failed()]
+
+    def write(self, folder, name, runner):
+        os.makedirs(folder, exist_ok=True)
+        head = [f"# {self.title}", "", self.introduction, "",
+                f"- Command: `{runner.command_line()}`", f"- Commit: {runner.commit()}",
+                f"- Machine: {runner.machine()}",
+                f"- Written: {datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d %H:%M} UTC", ""]
+        if self.draw:
+            self.draw(os.path.join(folder, name + ".png"))
+            head += [f"![{self.title}]({name}.png)", ""]
+        failed = self.failed()
+        tail = ["", "Every gate passed."]
+        if failed:
+            tail = ["", "## Gates that failed", ""] + ["- " + line for line in failed]
+        with open(os.path.join(folder, name + ".md"), "w", encoding="utf-8") as out:
+            out.write("\n".join(head) + "\n" + self.text() + "\n".join(tail) + "\n")
+        with open(os.path.join(folder, name + ".csv"), "w", encoding="utf-8", newline="") as out:
+            writer = csv.writer(out)
+            writer.writerow(["table", "quantity", "unit", "run", "value", "gate", "verdict"])
+            for table in self.tables:
+                writer.writerows(table.csv_rows())

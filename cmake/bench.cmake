@@ -1,0 +1,13 @@
+# knot_utm_bench: the parts of a Newton iteration, timed. Built only where it is asked for and Google Benchmark is found.
+option(KNOT_UTM_BENCH "Build knot_utm_bench where Google Benchmark is found" OFF)
+if(NOT KNOT_UTM_BENCH)
+  return()
+endif()
+find_package(benchmark QUIET)
+if(NOT benchmark_FOUND)
+  message(STATUS "knot_utm_bench is not built: Google Benchmark was not found (libbenchmark-dev)")
+  return()
+endif()
+add_executable(knot_utm_bench bench/newton_parts_bench.cpp)
+target_link_libraries(knot_utm_bench PRIVATE knot_utm_core benchmark::benchmark)
+set_target_properties(knot_utm_bench PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${KNOT_UTM_EXECUTABLE_DIR}")

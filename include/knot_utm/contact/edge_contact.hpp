@@ -1,0 +1,104 @@
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "knot_utm/contact/candidates.hpp"
+#include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/contact/edge_law.hpp"
+
+namespace knot_utm {
+
+/// The linear model of a contact between edges. Both feet move: with S = sum_k c_k dq_k, and A, R the changes of the
+/// edges' directions a' and b' (sum_k beta_k dq_k over the nodes of a, of b),
+///
+///     dx = S + a' dt - b' du,     H (dt, du) = (-a'.S - x.A,  b'.S + x.R),
+///     H = [ |a'|^2 + r   -a'.b' ;  -a'.b'   |b'|^2 + r ],
+///
+/// a foot at the end of its edge staying there. Pressure as in ContactModel.
+struct EdgeContactModel {
+  double pressure = 0.0;      ///< of the tangent at the present overlap [N/m]
+  double slope = 0.0;         ///< p'(D^) [N/m^2]
+  Vec3 force = Vec3::Zero();  ///< g with that pressure [N]
+  double c[6], moves[6];      ///< df_k = c_k dg + moves_k g (dt on a, du on b)
+  Mat3 force_by[6];           ///< dg/dq_l [N/m]
+  Vec3 t_by[6], u_by[6];      ///< dt/dq_l, du/dq_l [1/m]
+
+  /// -df_k/dq_l [N/m]
+  Mat3 stiffness(int k, int l) const {
+    return -c[k] * force_by[l] - moves[k] * force * (k < 3 ? t_by[l] : u_by[l]).transpose();
+  }
+};
+
+/// Self-contact of the rod between its edges, as in the source paper: each pair of edges presses on one another at
+/// its closest points (Lumelsky, regularised, see closest_points.hpp) with EdgeLaw, a pair standing for its mean rest
+/// length. Near the ends of edges two pairs see the same contact and both count, as in the paper: the force ripples
+/// as strands slide over nodes, and strands side by side are up to three times stiffer than K.
+///
+/// ContactPoint's stencils take three nodes a strand; an edge fills two of them. Its `beta` holds dc_k/dt on a.
+/// Friction's memory belongs to the last accepted step and is found again by the arclengths of both feet, so that it
+/// survives as strands slide on from edge to edge.
+class EdgeContact {
+ public:
+  using Model = EdgeContactModel;
+
+  EdgeContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin);
+
+  /// Rebuilds the candidates where something moved far enough; true if it did.
+  bool refresh(const Points& position);
+  /// Pairs of edges that may touch.
+  const std::vector<std::pair<int, int>>& pairs() const { return pairs_; }
+
+  /// Before the first evaluation of a step: estimates of the pressures are those of the last accepted step.
+  void begin_step();
+
+  /// All contacts at `position` in a step of length dt from `start`.
+  void evaluate(const Points& position, const Points& start, double dt);
+  const std::vector<ContactPoint>& contacts() const { return contacts_; }
+  std::vector<ContactPoint>& contacts() { return contacts_; }
+
+  /// The consistent linearisation of one of `contacts()`.
+  void linearise_contact(const ContactPoint& contact, double dt, EdgeContactModel& model) const;
+
+  /// The evaluated state becomes the one that the next step remembers.
+  void commit(const Points& position);
+
+  const EdgeLaw& normal() const { return normal_; }
+  const Friction& friction() const { return friction_; }
+  void set_friction(const Friction& friction) { friction_ = friction; }
+
+ private:
+  /// What a contact between edges knows beside its ContactPoint.
+  struct Feet {
+    int pair;
+    Vec3 da;                                    // a' [m]
+    Vec3 turn_a;                                // how a' turned in this step [m]
+    double inverse_tt, inverse_tu, inverse_uu;  // of H, zero where a foot stays [1/m^2]
+  };
+  struct Memory {
+    double arclength_a, arclength_b;
+    Vec3 slip;  // xi [m]
+    double pressure;
+  };
+
+  void add_contact(int pair, const Points& position, const Points& start, double friction_scale);
+  const Memory* recall(double arclength_a, double arclength_b) const;
+
+  EdgeLaw normal_;
+  Friction friction_;
+  double diameter_;
+  double window_;          // of arclengths within which a contact is the same one [m]
+  double reach_;           // of centrelines within which contacts are kept [m]
+  double least_estimate_;  // pressures below are no guide to the next [N/m]
+  Eigen::VectorXd rest_length_;
+  Eigen::VectorXd arclength_;  // of the nodes
+  Candidates candidates_;
+  std::vector<std::pair<int, int>> pairs_;
+  std::vector<double> estimate_;  // of the pressure of each pair, < 0: none
+  std::vector<ContactPoint> contacts_;
+  std::vector<Feet> feet_;      // of the contacts
+  std::vector<Memory> memory_;  // ascending in arclength_a
+  bool first_evaluation_ = true;
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,209 @@
+#include "knot_utm/contact/edge_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "knot_utm/contact/closest_points.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr double kReachMargin = 0.3;     // contacts are kept, forceless, up to this gap [fraction of radius]
+constexpr double kRegularisation = 0.1;  // r over the product of the edges' lengths: acts below about 0.3 rad
+constexpr double kLeastEstimate = 1e-6;  // of the pressure, in K delta
+
+using Mat39 = Eigen::Matrix<double, 3, 9>;
+using Row9 = Eigen::Matrix<double, 1, 9>;
+
+}  // namespace
+
+EdgeContact::EdgeContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin)
+    : normal_{normal.stiffness, normal.tolerance},
+      friction_(friction),
+      diameter_(2.0 * rod.material.radius),
+      window_(1.5 * rod.material.radius),
+      reach_((2.0 + kReachMargin) * rod.material.radius),
+      least_estimate_(kLeastEstimate * normal.stiffness * normal.tolerance),
+      rest_length_(rod.rest_length),
+      // Candidates are segments around nodes. An edge is found by the node it ends at, all of it within reach and one
+      // more edge of that node's segment. Strands closer than 5 h along the rod bend, they do not touch.
+      candidates_(rod, reach_ + rod.rest_length.maxCoeff(), margin, 5.0 * rod.material.radius) {
+  arclength_.resize(rod.nodes());
+  arclength_[0] = 0.0;
+  for (Eigen::Index i = 1; i < rod.nodes(); ++i) arclength_[i] = arclength_[i - 1] + rod.rest_length[i - 1];
+}
+
+bool EdgeContact::refresh(const Points& position) {
+  if (!candidates_.refresh(position)) return false;
+  const int last_node = static_cast<int>(position.cols()) - 2;
+  pairs_.clear();
+  auto add = [this](int a, int b) {
+    if (arclength_[b] - arclength_[a + 1] >= candidates_.exclusion()) pairs_.push_back({a, b});
+  };
+  for (const auto& [i, j] : candidates_.pairs()) {
+    add(i - 1, j - 1);
+    if (j == last_node) add(i - 1, j);  // the last edge ends at no inner node
+  }
+  return true;
+}
+
+void EdgeContact::begin_step() {
+  contacts_.clear();
+  feet_.clear();
+  first_evaluation_ = true;
+}
+
+void EdgeContact::evaluate(const Points& position, const Points& start, double dt) {
+  estimate_.assign(pairs_.size(), -1.0);
+  for (std::size_t i = 0; i < contacts_.size(); ++i)
+    if (contacts_[i].estimate > least_estimate_)
+      estimate_[static_cast<std::size_t>(feet_[i].pair)] = contacts_[i].estimate;
+  contacts_.clear();
+  feet_.clear();
+  const double friction_scale = friction_.scale(dt);
+  for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
+    const auto [a, b] = pairs_[pair];
+    const Vec3 apart = position.col(a) + position.col(a + 1) - position.col(b) - position.col(b + 1);
+    const double limit = 2.0 * reach_ + 1.2 * (rest_length_[a] + rest_length_[b]);
+    if (apart.squaredNorm() < limit * limit) add_contact(static_cast<int>(pair), position, start, friction_scale);
+  }
+  first_evaluation_ = false;
+}
+
+void EdgeContact::add_contact(int pair, const Points& position, const Points& start, double friction_scale) {
+  const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
+  const Vec3 da = position.col(a + 1) - position.col(a), db = position.col(b + 1) - position.col(b);
+  const double r = kRegularisation * rest_length_[a] * rest_length_[b];
+  const ClosestPoints at = closest_points(position.col(a), da, position.col(b), db, r);
+
+  ContactPoint contact;
+  contact.x = position.col(a) + at.t * da - position.col(b) - at.u * db;
+  contact.d = contact.x.norm();
+  if (contact.d >= reach_) return;
+  const int last_stencil = static_cast<int>(position.cols()) - 3;
+  contact.a0 = std::min(a, last_stencil);
+  contact.b0 = std::min(b, last_stencil);
+  const int ka = a - contact.a0, kb = 3 + b - contact.b0;
+  contact.c[ka] = 1.0 - at.t;
+  contact.c[ka + 1] = at.t;
+  contact.c[kb] = at.u - 1.0;
+  contact.c[kb + 1] = -at.u;
+  contact.beta[ka] = contact.beta[kb] = -1.0;
+  contact.beta[ka + 1] = contact.beta[kb + 1] = 1.0;
+  contact.arclength_a = arclength_[a] + at.t * rest_length_[a];
+  contact.arclength_b = arclength_[b] + at.u * rest_length_[b];
+  contact.n = contact.x / contact.d;
+  contact.overlap = diameter_ - contact.d;
+  contact.begins = normal_.begin();
+  contact.weight = 0.5 * (rest_length_[a] + rest_length_[b]);
+  contact.db = db;
+
+  const Memory* found = recall(contact.arclength_a, contact.arclength_b);
+  contact.estimate = estimate_[static_cast<std::size_t>(pair)];
+  if (first_evaluation_ && found && found->pressure > least_estimate_) contact.estimate = found->pressure;
+
+  Feet feet{pair, da, Vec3::Zero(), 0.0, 0.0, 0.0};
+  if (contact.active()) {
+    const double aa = da.squaredNorm() + r, bb = db.squaredNorm() + r;
+    if (at.t_free && at.u_free) {
+      const double ab = da.dot(db), determinant = aa * bb - ab * ab;
+      feet.inverse_tt = bb / determinant;
+      feet.inverse_tu = ab / determinant;
+      feet.inverse_uu = aa / determinant;
+    } else if (at.t_free) {
+      feet.inverse_tt = 1.0 / aa;
+    } else if (at.u_free) {
+      feet.inverse_uu = 1.0 / bb;
+    }
+    if (friction_.on()) {
+      if (found && friction_.remembers()) contact.memory = found->slip;
+      contact.slip = contact.memory;
+      for (int k = 0; k < 6; ++k) {
+        const int node = k < 3 ? contact.a0 + k : contact.b0 + k - 3;
+        const Vec3 moved = position.col(node) - start.col(node);
+        contact.slip += contact.c[k] * moved;
+        (k < 3 ? feet.turn_a : contact.turn) += contact.beta[k] * moved;
+      }
+    }
+  }
+  contact.pressure = normal_.pressure(contact.overlap);
+  evaluate_force(friction_, friction_scale, contact);
+  contacts_.push_back(contact);
+  feet_.push_back(feet);
+}
+
+const EdgeContact::Memory* EdgeContact::recall(double arclength_a, double arclength_b) const {
+  auto memory = std::lower_bound(memory_.begin(), memory_.end(), arclength_a - window_,
+                                 [](const Memory& m, double arclength) { return m.arclength_a < arclength; });
+  const Memory* found = nullptr;
+  double nearest = window_;
+  for (; memory != memory_.end() && memory->arclength_a <= arclength_a + window_; ++memory) {
+    const double away = std::hypot(memory->arclength_a - arclength_a, memory->arclength_b - arclength_b);
+    if (away > nearest || (found && away == nearest)) continue;
+    nearest = away;
+    found = &*memory;
+  }
+  return found;
+}
+
+void EdgeContact::linearise_contact(const ContactPoint& contact, double dt, EdgeContactModel& model) const {
+  const Feet& feet = feet_[static_cast<std::size_t>(&contact - contacts_.data())];
+  const double tangent_at = contact.estimate > 0.0 ? normal_.overlap_at(contact.estimate) : contact.overlap;
+  model.slope = normal_.slope(tangent_at);
+  model.pressure = normal_.pressure(tangent_at) + model.slope * (contact.overlap - tangent_at);
+
+  // Everything below is a linear map of (S, A, R).
+  const Vec3& x = contact.x;
+  const Vec3& n = contact.n;
+  Row9 t, u;
+  t << (feet.inverse_tu * contact.db - feet.inverse_tt * feet.da).transpose(), -feet.inverse_tt * x.transpose(),
+      feet.inverse_tu * x.transpose();
+  u << (feet.inverse_uu * contact.db - feet.inverse_tu * feet.da).transpose(), -feet.inverse_tu * x.transpose(),
+      feet.inverse_uu * x.transpose();
+  Mat39 moved = Mat39::Zero();
+  moved.leftCols<3>().setIdentity();
+
+  const Mat39 dx = moved + feet.da * t - contact.db * u;
+  const Row9 dd = n.transpose() * dx;
+  const Mat39 dn = (dx - n * dd) / contact.d;
+  Vec3 direction = n;  // of the force
+  Mat39 turned = dn;
+  if (friction_.on()) {
+    const double scale = friction_.scale(dt);
+    const Vec3& r = contact.slip;
+    const double along = n.dot(r);
+    const FrictionDirection friction = friction_direction_and_slope(friction_.law, (r - along * n) / scale);
+    direction -= friction_.coefficient * friction.z;
+    // d(P r) = -(n.r) dn - n (r.dn) + P dr
+    const Mat39 dr = moved + feet.turn_a * t - contact.turn * u;
+    const Mat39 tangential = dr - n * (n.transpose() * dr) - along * dn - n * (r.transpose() * dn);
+    turned -= (friction_.coefficient / scale) * friction.slope * tangential;
+  }
+  model.force = contact.weight * model.pressure * direction;
+  const Mat39 dg = contact.weight * (model.pressure * turned - model.slope * direction * dd);
+
+  for (int k = 0; k < 6; ++k) {
+    const int turning = k < 3 ? 3 : 6;
+    const double c = contact.c[k], beta = contact.beta[k];
+    model.c[k] = c;
+    model.moves[k] = k < 3 ? beta : -beta;
+    model.force_by[k] = c * dg.leftCols<3>() + beta * dg.middleCols<3>(turning);
+    model.t_by[k] = (c * t.leftCols<3>() + beta * t.middleCols<3>(turning)).transpose();
+    model.u_by[k] = (c * u.leftCols<3>() + beta * u.middleCols<3>(turning)).transpose();
+  }
+}
+
+void EdgeContact::commit(const Points&) {
+  memory_.clear();
+  for (const ContactPoint& contact : contacts_) {
+    if (!contact.touches()) continue;
+    const bool sticks = friction_.on() && friction_.remembers();
+    memory_.push_back({contact.arclength_a, contact.arclength_b,
+                       sticks ? Vec3(friction_.presliding * contact.z) : Vec3::Zero(), contact.pressure});
+  }
+  std::stable_sort(memory_.begin(), memory_.end(),
+                   [](const Memory& l, const Memory& r) { return l.arclength_a < r.arclength_a; });
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+"""What scripts/bench makes of runs: gates, missing values, slopes."""
+import math
+import os
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../bench"))
+
+import runs  # noqa: E402
+from table import Table, at_least, at_most, is_, within  # noqa: E402
+
+
+class Gates(unittest.TestCase):
+    def failed(self, value, gate):
+        table = Table("table", ["run"])
+        table.add("quantity", "N", [value], gate)
+        return table.failed()
+
+    def test_pass_and_fail(self):
+        for value, gate in ((2.0, at_least(2.0)), (2.0, at_most(2.0)), (2.0, within(2.0, 3.0)), (True, is_(True))):
+            self.assertEqual(self.failed(value, gate), [])
+        for value, gate in ((1.9, at_least(2.0)), (2.1, at_most(2.0)), (3.1, within(2.0, 3.0)), (False, is_(True)),
+                            ("none", is_("sliding"))):
+            self.assertEqual(len(self.failed(value, gate)), 1)
+
+    def test_a_missing_value_fails_its_gate_and_is_printed_as_missing(self):
+        for missing in (None, math.nan):
+            self.assertIn("missing", self.failed(missing, at_most(1.0))[0])
+            table = Table("table", ["run"])
+            table.add("quantity", "N", [missing])
+            self.assertIn("missing", table.markdown())
+            self.assertEqual(table.failed(), [])
+
+    def test_a_gate_for_each_run(self):
+        table = Table("table", ["first", "second"])
+        table.add("quantity", "N", [5.0, 5.0], [None, at_most(1.0)])
+        self.assertEqual(len(table.failed()), 1)
+        self.assertIn("second", table.failed()[0])
+
+
+class Runs(unittest.TestCase):
+    def run_of(self, result, rows):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        with open(os.path.join(folder.name, "result.yaml"), "w", encoding="utf-8") as out:
+            out.write(result)
+        with open(os.path.join(folder.name, "curve_full.csv"), "w", encoding="utf-8") as out:
+            out.write("time,extension,load,knot_distance,end_to_end,load_lower,phase\ns,m,N,m,m,N,-\n")
+            out.writelines(",".join(map(str, row)) + "\n" for row in rows)
+        return runs.Run(folder.name, 2.0, 0, "")
+
+    def test_slope_is_that_of_the_sliding_part(self):
+        rows = [(0, 0, 0, 0.5, 0.25, 0, "tie")]
+        rows += [(1 + i, s, 1.0, 0.15 - 2.0 * min(max(s, 0.02), 0.09), 0.25 + s, 1.0, "pull")
+                 for i, s in enumerate(0.001 * k for k in range(121))]
+        run = self.run_of("motion_pattern: sliding\nlock_extension: 0.09\nsimulated_time: 60\n", rows)
+        self.assertAlmostEqual(run.slope_of_knot_distance(), -2.0, places=9)
+        self.assertEqual(run.real_time_factor(), 30.0)
+        self.assertEqual(len(run.phase("tie")["time"]), 1)
+
+    def test_a_run_that_left_nothing(self):
+        run = runs.Run("/nowhere", 1.0, 2, "wrong input")
+        self.assertIsNone(run.value("peak_force"))
+        self.assertIsNone(run.real_time_factor())
+        self.assertIsNone(run.slope_of_knot_distance())
+
+    def test_relative_change(self):
+        self.assertAlmostEqual(runs.relative_change(1.1, 1.0), 0.1)
+        self.assertIsNone(runs.relative_change(None, 1.0))
+        self.assertIsNone(runs.relative_change(1.0, None))
+
+
+if __name__ == "__main__":
+    unittest.main()

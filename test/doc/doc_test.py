@@ -1,0 +1,102 @@
+#!/usr/bin/python3
+"""README.md and doc/ against the code: keys and their ranges, launch arguments, names, tests, files."""
+import os
+import re
+import unittest
+
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../..")
+
+
+def text(path):
+    with open(os.path.join(ROOT, path), encoding="utf-8") as file:
+        return file.read()
+
+
+def rows(readme):
+    """Rows of its tables, by the words in backticks in the first cell."""
+    found = {}
+    for line in readme.splitlines():
+        if line.startswith("|"):
+            cells = [cell.strip() for cell in line.strip("|").split("|")]
+            for word in re.findall(r"`([^`]+)`", cells[0]):
+                found.setdefault(word, []).append(cells)
+    return found
+
+
+def numbers(cell):
+    """All numbers of a cell; infinities as they stand in YAML."""
+    return [float(number.replace(".inf", "inf"))
+            for number in re.findall(r"(?<![\w.])[-–]?(?:\d+(?:\.\d+)?(?:e-?\d+)?|\.inf)", cell.replace("–", "-"))]
+
+
+def files(folder, ending):
+    for where, _, names in os.walk(os.path.join(ROOT, folder)):
+        yield from (os.path.join(where, name) for name in names if name.endswith(ending))
+
+
+class Readme(unittest.TestCase):
+    readme = text("README.md")
+    rows = rows(readme)
+
+    def test_has_every_key_of_a_method(self):
+        for key in re.findall(r'(?:number|integer|text|flag|choice|vector)\("(\w+)"', text("src/io/method_fields.hpp")):
+            self.assertTrue(re.search(rf"`(\w+\.)*{key}`", self.readme), key)
+
+    def test_ranges_are_those_of_the_code(self):
+        checked = 0
+        for key, low, high in re.findall(r'number\("(\w+)", [\w.]+, Range\{([^,]+), ([^,]+),',
+                                         text("src/io/method_fields.hpp")):
+            allowed = [float(low), float(high.replace("kInfinity", "inf"))]
+            for word, found in self.rows.items():
+                if word.split(".")[-1] != key:
+                    continue
+                for cells in found:
+                    if len(cells) == 5 and cells[1] == "number":
+                        # A name may stand in two sections, with a range in each.
+                        self.assertTrue(numbers(cells[3])[:2] == allowed or len(found) > 1 or key == "stiffness",
+                                        f"{word}: {cells[3]}, the code has {allowed}")
+                        checked += 1
+        self.assertGreater(checked, 20)
+
+    def test_has_every_key_of_a_result(self):
+        for key in re.findall(r'lines\.\w+\("(\w+)"', text("src/io/run_writer.cpp")):
+            self.assertTrue(key in self.rows, key)
+
+    def test_has_every_launch_argument_and_its_default(self):
+        for name, default in re.findall(r'<arg name="(\w+)" default="([^"]*)"', text("launch/tighten.launch")):
+            self.assertTrue(name in self.rows, name)
+            if re.fullmatch(r"[\w.]+", default):
+                self.assertIn(default, " ".join(self.rows[name][-1]).replace("`", ""), name)
+
+    def test_has_every_name_of_the_nodes(self):
+        for name in re.findall(r'= "([^"]+)";', text("include/knot_utm/ros/names.hpp")):
+            self.assertTrue(f"`{name}`" in self.readme, name)
+
+    def test_has_every_message(self):
+        for name in (os.path.basename(file)[:-4] for file in files("msg", ".msg")):
+            self.assertTrue(f"knot_utm/{name}`" in self.readme, name)
+
+
+class Documents(unittest.TestCase):
+    def test_links_and_files_are_there(self):
+        for document in ("README.md", "doc/model.md", "doc/references.md", "doc/terminology.md"):
+            folder = os.path.dirname(document)
+            for target in re.findall(r"\]\(([^)#]+)\)", text(document)):
+                self.assertTrue(os.path.exists(os.path.join(ROOT, folder, target)), f"{document}: {target}")
+            for header in re.findall(r"`([\w/]+\.(?:hpp|cpp))`", text(document)):
+                places = [header, "include/knot_utm/" + header]
+                beside = any(file.endswith("/" + header) for file in files("include", ".hpp"))
+                self.assertTrue(beside or any(os.path.exists(os.path.join(ROOT, place)) for place in places),
+                                f"{document}: {header}")
+
+    def test_named_tests_are_there(self):
+        suites = set()
+        for file in files("test", "_test.cpp"):
+            suites.update(re.findall(r"^(?:TYPED_)?TEST(?:_F|_P)?\((\w+),", text(file), re.MULTILINE))
+        for name in re.findall(r"`((?:R\d+|K\d+)\w+|StencilAt|StretchingOf|IsotropicBendingBy|SmoothContactJacobian)",
+                               text("doc/references.md")):
+            self.assertTrue(name in suites, name)
+
+
+if __name__ == "__main__":
+    unittest.main()

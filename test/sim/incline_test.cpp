@@ -1,0 +1,109 @@
+#include "knot_utm/sim/step_control.hpp"
+#include "sim/scenes.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kGravity = 9.81;
+constexpr double kMu = 0.46;
+
+/// A straight rod lies on a plane that falls towards +x by `angle`.
+struct Incline {
+  Boundary boundary;
+  std::unique_ptr<TimeStep> stepper;
+
+  Incline(double angle, const Friction& friction) {
+    const Material material = braided_rope();
+    const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(24, material.radius));
+    StepSettings settings = closed_form_settings(material);
+    settings.gravity = kGravity * Vec3(std::sin(angle), 0.0, -std::cos(angle));
+    settings.roller_friction = friction;
+    settings.motion_limit = 10.0;
+    settings.newton_cap = 10.0;
+    // Pressed in by its own weight already, so that nothing falls.
+    RodState state = straight_state(rod);
+    const double weight = rod.mass.sum() / rod.length() * kGravity * std::cos(angle);
+    state.position.row(2).setConstant(-settings.normal.overlap_at(weight));
+    stepper = TimeStep::make(rod, state, settings);
+    boundary.rollers = {plane_below(material.radius)};
+  }
+
+  /// In steps of at most dt: from sticking to sliding and back Newton's method needs short ones.
+  void run(double duration, double dt) {
+    StepControl::Options options;
+    options.longest = dt;
+    options.motion = 10.0;
+    StepControl control(options);
+    double time = 0.0;
+    const std::string gave_up = control.advance(
+        *stepper, time, duration, [this](double, double) -> const Boundary& { return boundary; },
+        [](double, double, const StepSummary&) {});
+    ASSERT_EQ(gave_up, "");
+  }
+  double place() const { return stepper->state().position.row(0).mean(); }
+  double speed() const { return stepper->state().velocity.row(0).mean(); }
+};
+
+Friction memory(double presliding) { return {FrictionLaw::kMemory, kMu, presliding, 0.0}; }
+
+TEST(R9Incline, BelowTheFrictionAngleTheRodStays) {
+  // Presliding is part of what moves: 1e-4 h of it keeps the whole movement below the reference's 1e-6 m.
+  Incline scene(0.95 * std::atan(kMu), memory(1e-4 * braided_rope().radius));
+  scene.run(60.0, 0.05);
+  EXPECT_GT(scene.place(), 0.0);
+  EXPECT_LT(scene.place(), 1e-6);
+}
+
+TEST(R9Incline, PreslidingSaturatesOnceAndDoesNotCreep) {
+  Incline scene(0.95 * std::atan(kMu), memory(2e-3 * braided_rope().radius));
+  scene.run(1.0, 0.05);
+  const double settled = scene.place();
+  EXPECT_LT(settled, 2e-3 * braided_rope().radius);
+  scene.run(60.0, 0.05);
+  EXPECT_NEAR(scene.place(), settled, 1e-12);
+}
+
+TEST(R9Incline, AboveTheFrictionAngleTheRodSlides) {
+  const double angle = 1.05 * std::atan(kMu);
+  Incline scene(angle, memory(1e-4 * braided_rope().radius));
+  scene.run(0.5, 0.01);
+  const double from = scene.speed();
+  scene.run(1.0, 0.01);
+  const double acceleration = kGravity * (std::sin(angle) - kMu * std::cos(angle));
+  EXPECT_NEAR(scene.speed() - from, acceleration, 1e-5 * acceleration);
+}
+
+TEST(R11Creep, DirectionUnderALoadRatio) {
+  for (const double ratio : {0.5, 0.9, 0.99}) {
+    const double speed = std::log((1.0 + ratio) / (1.0 - ratio)) / 15.0;
+    EXPECT_NEAR(friction_direction(FrictionLaw::kSmoothed, Vec3(0.0, speed, 0.0))[1], ratio, 1e-14);
+    // Eq. 12 as printed.
+    EXPECT_NEAR(2.0 / (1.0 + std::exp(-15.0 * speed)) - 1.0, ratio, 1e-14);
+  }
+  EXPECT_NEAR(std::log(1.5 / 0.5) / 15.0, 0.073, 5e-4);
+  EXPECT_NEAR(std::log(1.9 / 0.1) / 15.0, 0.196, 5e-4);
+  EXPECT_NEAR(std::log(1.99 / 0.01) / 15.0, 0.353, 5e-4);
+}
+
+TEST(R11Creep, SmoothedFrictionCreepsOnAnInclineOfAnySlope) {
+  const double tolerance = 1e-3;
+  for (const double ratio : {0.5, 0.9}) {
+    Incline scene(std::atan(ratio * kMu), {FrictionLaw::kSmoothed, kMu, 0.0, tolerance});
+    scene.run(1.0, 0.05);
+    const double from = scene.place();
+    scene.run(10.0, 0.05);
+    const double expected = tolerance * std::log((1.0 + ratio) / (1.0 - ratio)) / 15.0;
+    EXPECT_NEAR((scene.place() - from) / 10.0, expected, 1e-4 * expected) << "load ratio " << ratio;
+  }
+}
+
+TEST(R11Creep, MemoryFrictionDoesNot) {
+  Incline scene(std::atan(0.5 * kMu), memory(2e-3 * braided_rope().radius));
+  scene.run(1.0, 0.05);
+  const double from = scene.place();
+  scene.run(10.0, 0.05);
+  EXPECT_NEAR(scene.place(), from, 1e-12);
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "knot_utm/sim/time_step.hpp"
+
+namespace knot_utm {
+
+/// A rod of polypropylene (Table 1 of the source paper) and the settings that scenes of closed forms start from.
+inline Material braided_rope() {
+  Material material;
+  material.radius = 3.175e-3;
+  material.density = 900.0;
+  material.stretching_stiffness = 3.9e4;
+  material.bending_stiffness = 1.18e-4;
+  return material;
+}
+
+inline StepSettings closed_form_settings(const Material& material) {
+  const double h = material.radius;
+  StepSettings out;
+  out.normal = {2.0 * material.stretching_stiffness / (h * h), 0.05 * h};
+  out.friction = {FrictionLaw::kMemory, 0.0, 1e-3 * h, 0.0};
+  out.roller_friction = out.friction;
+  out.residual = 1e-8;
+  out.residual_of_tension = 1e-9;
+  out.newton_cap = 0.1 * h;
+  out.motion_limit = 0.8 * h;
+  out.overlap_limit = 0.5 * h;
+  out.candidate_margin = 0.5 * h;
+  out.max_iterations = 40;
+  return out;
+}
+
+/// Rod of equal edges along +x with its middle at the origin, at rest.
+inline RodState straight_state(const RodProperties& rod) {
+  RodState state;
+  state.position = Points::Zero(3, rod.nodes());
+  state.position.row(0).setLinSpaced(rod.nodes(), -0.5 * rod.length(), 0.5 * rod.length());
+  state.velocity = Points::Zero(3, rod.nodes());
+  return state;
+}
+
+/// The plane z = 0 below a rod along x: a cylinder along x whose radius is 1e4 lengths of the rod.
+inline Roller plane_below(double rod_radius) {
+  Roller out;
+  out.radius = 1000.0;
+  out.axis = Vec3::UnitX();
+  out.centre = Vec3(0.0, 0.0, -out.radius - rod_radius);
+  return out;
+}
+
+}  // namespace knot_utm
