@@ -3,11 +3,6 @@
 #include <stdexcept>
 
 namespace knot_utm {
-namespace {
-
-constexpr double kMotionPerReading = 0.5;  // of the radius
-
-}  // namespace
 
 KnotWatch::KnotWatch(const std::vector<int>& standing_nodes, bool closed, double radius, const Points& start)
     : closed_(closed), radius_(radius) {
@@ -17,8 +12,7 @@ KnotWatch::KnotWatch(const std::vector<int>& standing_nodes, bool closed, double
 
 KnotType KnotWatch::follow(const Points& points) {
   if (type_ != KnotType::kKept) return type_;
-  const double motion = kMotionPerReading * radius_;
-  if ((points - last_).colwise().squaredNorm().maxCoeff() < motion * motion) return type_;
+  if ((points - last_).colwise().squaredNorm().maxCoeff() < radius_ * radius_) return type_;
   try {
     if (!read(points).same_knot(start_)) type_ = KnotType::kChanged;
   } catch (const std::runtime_error&) {

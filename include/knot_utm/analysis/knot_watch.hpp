@@ -11,7 +11,7 @@ namespace knot_utm {
 /// Follows whether a specimen still is the knot that it began as.
 ///
 /// Two strands cannot pass through each other, nor an end out of a coil, before some node has moved by the order of the
-/// rod's radius h. So the topology is read where a node has moved by h/2 since the reading before, and in between stays
+/// rod's radius h. So the topology is read where a node has moved by h since the reading before, and in between stays
 /// what it was: a test at rest costs nothing, one that jumps is read at every answer. A knot once lost stays lost.
 ///
 /// What is read: of a fisherman's loop all that LoopTopology says; of any other rod the Alexander polynomial, the rod
