@@ -26,9 +26,9 @@ struct Tolerances {
 };
 
 Tolerances tolerances(const PhysicsOptions& physics) {
-  Tolerances out = physics.accuracy == Accuracy::kDraft    ? Tolerances{0.2, 1e-4, 0.1, 4e-3}
-                   : physics.accuracy == Accuracy::kNormal ? Tolerances{0.1, 2e-5, 0.05, 2e-3}
-                                                           : Tolerances{0.05, 1e-5, 0.025, 1e-3};
+  Tolerances out = physics.accuracy == Accuracy::kDraft    ? Tolerances{0.34, 1e-4, 0.05, 4e-3}
+                   : physics.accuracy == Accuracy::kNormal ? Tolerances{0.17, 2e-5, 0.05, 2e-3}
+                                                           : Tolerances{0.05, 1e-5, 0.05, 1e-3};
   out.longest_step = physics.max_step.value_or(out.longest_step);
   out.residual = physics.residual.value_or(out.residual);
   out.contact_tolerance = physics.contact_tolerance.value_or(out.contact_tolerance);
@@ -164,7 +164,7 @@ struct TestBench::Impl {
     stepper = TimeStep::make(rod, state, step_settings(material, machine, physics));
     StepControl::Options options;
     options.longest = tolerances(physics).longest_step;
-    options.motion = 0.4 * material.radius;
+    options.motion = 0.2 * material.radius;
     control = StepControl(options);
     if (!centreline.knots.empty()) {
       TyingRig::Options tying;
