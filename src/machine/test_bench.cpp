@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "knot_utm/analysis/knot_watch.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
@@ -125,6 +126,7 @@ struct TestBench::Impl {
   StepControl control{StepControl::Options{}};
   LoadCell cell;
   std::optional<TyingRig> rig;
+  std::optional<KnotWatch> watch;                   // of anything that is knotted
   std::vector<FixedNode> lower_nodes, upper_nodes;  // grips that hold nodes, as they stood at displacement 0
   std::vector<FixedTwist> held_frames;              // of clamps
   std::vector<Roller> rollers;                      // lower, upper, at displacement 0
@@ -168,6 +170,10 @@ struct TestBench::Impl {
       TyingRig::Options tying;
       tying.preload = preload(specimen, material);
       rig.emplace(centreline, rod, tying);
+    }
+    if (specimen.knot != KnotKind::kStraight) {
+      watch.emplace(rig ? rig->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
+                    centreline.points);
     }
     extension_zero = end_to_end();
   }
@@ -328,6 +334,7 @@ struct TestBench::Impl {
     s.force_upper = force_upper();
     s.force_lower = force_lower();
     s.load = cell.balanced(s.force_upper);
+    s.balance_offset = cell.offset();
     if (rig) {
       const RodProperties& rod = stepper->rod();
       const RodState& state = stepper->state();
@@ -353,6 +360,7 @@ struct TestBench::Impl {
     s.steps = control.counters().steps;
     s.rejected_steps = control.counters().rejected;
     s.newton_iterations = control.counters().iterations;
+    if (watch) s.knot_type = watch->type();
     s.status = status;
     s.message = message;
     return s;
@@ -392,6 +400,7 @@ struct TestBench::Impl {
       displacement = command.displacement;
       judge_phase();
     }
+    if (watch) watch->follow(stepper->state().position);
     Sample last = read(command, time);
     if (command.read_cell && status != BenchStatus::kFailed) last.load = cell.read(last.force_upper);
     if (substeps.empty())
