@@ -50,7 +50,7 @@ struct TwoStrands {
   Eigen::MatrixXd stiffness(SmoothContact& contact, const Points& x, double dt) const {
     contact.begin_step();
     contact.evaluate(x, start, dt);
-    for (ContactPoint& point : contact.contacts()) point.estimate = -1.0;  // tangents at the present overlap
+    for (ContactPoint& point : contact.contacts()) point.estimate = point.pressure;  // tangents at the present overlap
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x.size(), x.size());
     ContactModel local;
     for (const ContactPoint& point : contact.contacts()) {
