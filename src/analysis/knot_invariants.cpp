@@ -352,7 +352,10 @@ LoopTopology::Reading LoopTopology::read(const Points& points, const Vec3& load_
 
     // The threaded strand is the other knot's own; where it passes the level of the cut, or comes nearest to it.
     const Eigen::Index back = k == 0 ? -1 : 1;
+    // Once the knots have slid together its standing part may begin beyond the level: back then, towards its coil.
     Eigen::Index pass = standing_[1 - k];
+    const Eigen::Index other_end = k == 0 ? nodes - 1 : 0;
+    while (pass != other_end && std::min(height(pass), height(pass - back)) >= tail.level) pass -= back;
     for (Eigen::Index j = pass; j != middle; j += back) {
       if (height(j) > height(pass)) pass = j;
       if (height(pass) >= tail.level) break;

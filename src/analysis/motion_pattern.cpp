@@ -75,6 +75,7 @@ const char* motion_pattern_name(MotionPattern pattern) {
 }
 
 void MotionPatternTracker::add(const Sample& sample) {
+  if (sample.knot_type != KnotType::kKept && !knot_lost_) knot_lost_ = sample.time;
   // After a break the load says nothing about the knot; the sample that reports it is the last that counts.
   if (broken_) return;
   if (sample.status == BenchStatus::kBroken) broken_ = true;
@@ -91,7 +92,7 @@ void MotionPatternTracker::add(const Sample& sample) {
     }
     return;
   }
-  if (!std::isfinite(sample.extension) || !std::isfinite(sample.load)) return;
+  if (!std::isfinite(sample.extension) || !std::isfinite(sample.force_upper)) return;
   for (int k = 0; k < 2; ++k) {
     const double excess = sample.excess_length[k];
     if (!std::isfinite(excess)) continue;
@@ -100,14 +101,14 @@ void MotionPatternTracker::add(const Sample& sample) {
   }
   if (!pull_.empty() && sample.extension <= pull_.back().extension) return;
   const double before = pull_.empty() ? sample.extension : pull_.back().extension;
-  pull_.push_back({sample.time, sample.extension, sample.knot_distance, sample.load, sample.normal_force});
+  pull_.push_back({sample.time, sample.extension, sample.knot_distance, sample.force_upper, sample.normal_force});
   if (pull_.size() == 1) {
     window_ = kWindow * sample.knot_distance;
     slope_ = Sample::kNone;
   }
 
-  peak_ = std::max(peak_, sample.load);
-  if (sample.load >= kGone * peak_ || broken_) {
+  peak_ = std::max(peak_, sample.force_upper);
+  if (sample.force_upper >= kGone * peak_ || broken_) {
     gone_since_.reset();
   } else if (!gone_since_) {
     gone_since_ = sample.time;
@@ -132,10 +133,6 @@ void MotionPatternTracker::add(const Sample& sample) {
     const double t = (kTurnover - slope_before) / (slope_ - slope_before);
     last_sliding_ = centre_before + t * (centre_ - centre_before);
   }
-}
-
-void MotionPatternTracker::knot_lost(double time) {
-  if (!knot_lost_) knot_lost_ = time;
 }
 
 bool MotionPatternTracker::opened() const {
@@ -202,7 +199,7 @@ double MotionPatternTracker::confidence() const {
   };
   const double rate = fit(pull_, first, last, [](const Pull& p) { return p.knot_distance; }).slope;
   double signs = sliding ? unit(1.0 - std::abs(rate + 2.0)) : unit(1.0 + rate);
-  signs += force_sign(fit(pull_, first, last, [](const Pull& p) { return p.load; }));
+  signs += force_sign(fit(pull_, first, last, [](const Pull& p) { return p.force; }));
   const Line contact = fit(pull_, first, last, [](const Pull& p) { return p.normal_force; });
   if (!(contact.mean > 0.0)) return signs / 2.0;
   return (signs + force_sign(contact)) / 3.0;

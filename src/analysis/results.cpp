@@ -25,8 +25,8 @@ Plateau plateau_between(const std::vector<Pull>& pull, double low, double high) 
     if (!(to > from)) continue;
     const double part = (to - from) / (b.extension - a.extension);
     plateau.width += to - from;
-    plateau.force += (to - from) * 0.5 * (a.load + b.load);
-    plateau.square += (to - from) * 0.5 * (a.load * a.load + b.load * b.load);
+    plateau.force += (to - from) * 0.5 * (a.force + b.force);
+    plateau.square += (to - from) * 0.5 * (a.force * a.force + b.force * b.force);
     plateau.distance_change += part * (b.knot_distance - a.knot_distance);
   }
   return plateau;
@@ -34,10 +34,10 @@ Plateau plateau_between(const std::vector<Pull>& pull, double low, double high) 
 
 std::optional<double> locked_stiffness(const std::vector<Pull>& pull, double from, double peak) {
   std::size_t end = 0;
-  while (end < pull.size() && pull[end].load < peak) ++end;
+  while (end < pull.size() && pull[end].force < peak) ++end;
   end = std::min(end + 1, pull.size());
   std::size_t begin = end;
-  while (begin > 0 && pull[begin - 1].extension >= from && (pull[begin - 1].load >= 0.5 * peak || end - begin < 3)) {
+  while (begin > 0 && pull[begin - 1].extension >= from && (pull[begin - 1].force >= 0.5 * peak || end - begin < 3)) {
     --begin;
   }
   if (end < begin + 3) return {};
@@ -45,12 +45,12 @@ std::optional<double> locked_stiffness(const std::vector<Pull>& pull, double fro
   for (std::size_t i = begin; i < end; ++i) {
     count += 1.0;
     s += pull[i].extension;
-    f += pull[i].load;
+    f += pull[i].force;
   }
   double ss = 0.0, sf = 0.0;
   for (std::size_t i = begin; i < end; ++i) {
     ss += std::pow(pull[i].extension - s / count, 2);
-    sf += (pull[i].extension - s / count) * (pull[i].load - f / count);
+    sf += (pull[i].extension - s / count) * (pull[i].force - f / count);
   }
   return sf / ss;
 }
@@ -62,7 +62,7 @@ double energy(const Sample& sample) {
 
 }  // namespace
 
-Results analyse(const std::vector<Sample>& samples, EndedBy ended_by, std::optional<double> knot_lost_at) {
+Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
   Results results;
   results.ended_by = ended_by;
   if (samples.empty()) return results;
@@ -73,6 +73,7 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by, std::optio
   double energy_scale = 0.0;
   const Sample& first = samples.front();
   const Sample* pull_begin = nullptr;
+  const Sample* tied = nullptr;
   for (const Sample& sample : samples) {
     tracker.add(sample);
     results.max_penetration = std::max(results.max_penetration, sample.max_penetration);
@@ -82,20 +83,22 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by, std::optio
     const double work = sample.grip_work - first.grip_work;
     energy_error = std::max(energy_error, std::abs(stored + lost - work));
     energy_scale = std::max({energy_scale, std::abs(stored), std::abs(lost), std::abs(work)});
+    if (sample.phase == Phase::kTie || sample.phase == Phase::kRelease) tied = &sample;
     if (sample.phase != Phase::kPull) continue;
     if (!pull_begin) pull_begin = &sample;
     if (sample.status == BenchStatus::kBroken && !results.break_extension) results.break_extension = sample.extension;
     imbalance = std::max(imbalance, std::abs(sample.force_upper - sample.force_lower));
     results.fastest_node = std::max(results.fastest_node, sample.fastest_node);
   }
-  if (knot_lost_at) tracker.knot_lost(*knot_lost_at);
-  results.knot_type_preserved = !knot_lost_at;
+  results.knot_type = samples.back().knot_type;
   results.motion_pattern = tracker.pattern();
   results.motion_pattern_confidence = tracker.confidence();
   results.lock_extension = tracker.lock_extension();
   results.untangled_at = tracker.untangled_at();
   if (energy_scale > 0.0) results.energy_balance_error = energy_error / energy_scale;
 
+  if (!tied) tied = pull_begin;
+  if (pull_begin) results.balance_offset = pull_begin->balance_offset;
   const Sample& last = samples.back();
   results.steps = last.steps;
   results.rejected_steps = last.rejected_steps;
@@ -103,14 +106,16 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by, std::optio
   results.simulated_time = last.time;
   for (std::size_t k = 0; k < 2; ++k) {
     results.final_excess_length[k] = known(last.excess_length[k]);
-    if (pull_begin) results.tied_excess_length[k] = known(pull_begin->excess_length[k]);
+    if (tied) results.tied_excess_length[k] = known(tied->excess_length[k]);
   }
-  if (pull_begin) results.tied_knot_distance = known(pull_begin->knot_distance);
+  if (tied) results.tied_knot_distance = known(tied->knot_distance);
 
   const std::vector<Pull>& pull = tracker.pull();
   if (pull.empty()) return results;
-  for (const Pull& p : pull) results.peak_force = std::max(results.peak_force, p.load);
-  if (results.peak_force > 0.0) results.force_balance_error = imbalance / results.peak_force;
+  double peak = pull.front().force;
+  for (const Pull& p : pull) peak = std::max(peak, p.force);
+  results.peak_force = peak;
+  if (peak > 0.0) results.force_balance_error = imbalance / peak;
 
   const double start = pull.front().extension;
   if (results.motion_pattern == MotionPattern::kSliding) {
@@ -125,7 +130,7 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by, std::optio
     }
     double breakaway = 0.0;
     for (const Pull& p : pull) {
-      if (p.extension <= low) breakaway = std::max(breakaway, p.load);
+      if (p.extension <= low) breakaway = std::max(breakaway, p.force);
     }
     results.breakaway_force = breakaway;
   }
@@ -133,7 +138,7 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by, std::optio
   const bool carries = results.motion_pattern == MotionPattern::kStretching || results.lock_extension ||
                        results.motion_pattern == MotionPattern::kNone;
   if (carries) {
-    results.locked_stiffness = locked_stiffness(pull, results.lock_extension.value_or(start), results.peak_force);
+    results.locked_stiffness = locked_stiffness(pull, results.lock_extension.value_or(start), peak);
   }
   return results;
 }

@@ -49,6 +49,28 @@ std::string make_folder(const std::string& folder, const Method& method) {
   return folder;
 }
 
+/// Above this a knot has jumped open: its plateau is no longer what its tying made it [m/s].
+constexpr double kJump = 0.1;
+/// A contact deeper than this is no longer that of the rod it stands for [fraction of radius].
+constexpr double kDeep = 0.05;
+
+std::vector<std::string> warnings(const Results& results) {
+  std::vector<std::string> all;
+  if (!results.equilibrated) all.emplace_back("tying did not come to rest in time");
+  if (results.knot_type == KnotType::kCrossed) {
+    all.push_back("the rod ran through itself at " + format_number(results.untangled_at.value_or(Sample::kNone)) +
+                  " s");
+  }
+  if (results.fastest_node > kJump) {
+    all.push_back("a node moved at " + format_number(results.fastest_node) +
+                  " m/s while pulled: a knot may have jumped open; quote the peak force");
+  }
+  if (results.max_penetration > kDeep) {
+    all.push_back("contacts were up to " + format_number(results.max_penetration) + " radii deep");
+  }
+  return all;
+}
+
 bool ties(const Program& program) {
   return std::any_of(program.begin(), program.end(), [](const ProgramStep& s) { return s.phase == Phase::kTie; });
 }
@@ -62,9 +84,9 @@ class Lines {
   void flag(const char* key, bool value) { line(key, value ? "true" : "false"); }
   void word(const char* key, const std::string& value) { line(key, value); }
   void text(const char* key, const std::string& value) { line(key, value.empty() ? "null" : quoted(value)); }
-  void pair(const char* key, const std::array<double, 2>& values) {
-    if (std::isnan(values[0]) && std::isnan(values[1])) return line(key, "null");
-    line(key, "[" + format_yaml_number(values[0]) + ", " + format_yaml_number(values[1]) + "]");
+  void pair(const char* key, const std::array<std::optional<double>, 2>& values) {
+    if (!values[0] || !values[1]) return line(key, "null");
+    line(key, "[" + format_yaml_number(*values[0]) + ", " + format_yaml_number(*values[1]) + "]");
   }
   void list(const char* key, const std::vector<std::string>& texts) {
     std::string all;
@@ -101,21 +123,23 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
 void RunWriter::add(const Sample& sample, bool read_cell, const std::vector<Sample>& substeps) {
   for (const Sample& substep : substeps) {
     // A bench that has failed answers with the last good step again.
-    if (substep.time <= last_step_time_) continue;
+    if (!samples_.empty() && substep.time <= samples_.back().time) continue;
     full_curve_.write(substep);
-    monitor_.add(substep);
-    last_step_time_ = substep.time;
+    samples_.push_back(substep);
   }
-  if (read_cell && sample.status != BenchStatus::kFailed) curve_.write(sample);
-  monitor_.add(sample);
-  if (sample.status != BenchStatus::kFailed) answers_.push_back(sample);
+  if (sample.status == BenchStatus::kFailed) return;
+  if (read_cell) curve_.write(sample);
+  if (samples_.empty() || sample.time > samples_.back().time) {
+    samples_.push_back(sample);
+  } else {
+    samples_.back() = sample;
+  }
 }
 
-Results RunWriter::results(EndedBy ended_by) const { return analyse(answers_, ended_by); }
+Results RunWriter::results(EndedBy ended_by) const { return analyse(samples_, ended_by); }
 
 RunFacts RunWriter::facts() const {
   RunFacts facts = known_;
-  monitor_.report(facts);
   facts.peak_memory = peak_memory();
   return facts;
 }
@@ -129,31 +153,37 @@ std::string result_yaml(const Results& r, const RunFacts& f) {
   Lines lines;
   lines.word("motion_pattern", motion_pattern_name(r.motion_pattern));
   lines.number("motion_pattern_confidence", r.motion_pattern_confidence);
-  lines.word("ended_by", ended_by_name(f.ended_by));
+  lines.word("ended_by", ended_by_name(r.ended_by));
   lines.text("reason", f.reason);
-  lines.list("warnings", f.warnings);
-  lines.flag("not_equilibrated", f.not_equilibrated);
+  std::vector<std::string> all_warnings = warnings(r);
+  all_warnings.insert(all_warnings.end(), f.warnings.begin(), f.warnings.end());
+  lines.list("warnings", all_warnings);
+  lines.flag("not_equilibrated", !r.equilibrated);
   lines.number("preload", f.preload);
-  lines.number("tied_knot_distance", f.tied_knot_distance);
-  lines.pair("excess_length", f.tied_excess_length);
+  lines.number("tied_knot_distance", r.tied_knot_distance);
+  lines.pair("excess_length", r.tied_excess_length);
+  lines.pair("final_excess_length", r.final_excess_length);
   lines.number("plateau_force", r.plateau_force);
   lines.number("plateau_force_sd", r.plateau_force_sd);
+  lines.number("plateau_slope", r.plateau_slope);
+  lines.number("breakaway_force", r.breakaway_force);
   lines.number("lock_extension", r.lock_extension);
   lines.number("locked_stiffness", r.locked_stiffness);
   lines.number("peak_force", r.peak_force);
+  lines.number("balance_offset", r.balance_offset);
   lines.number("break_extension", r.break_extension);
   lines.number("untangled_at", r.untangled_at);
-  lines.flag("knot_type_preserved", r.knot_type_preserved);
-  lines.number("max_penetration", f.max_penetration);
-  lines.number("fastest_node", f.fastest_node);
-  lines.number("force_balance_error", f.force_balance_error);
-  lines.number("energy_balance_error", f.energy_balance_error);
-  lines.count("steps", f.steps);
-  lines.count("rejected_steps", f.rejected_steps);
-  lines.count("newton_iterations", f.newton_iterations);
-  lines.number("simulated_time", f.simulated_time);
+  lines.flag("knot_type_preserved", r.knot_type == KnotType::kKept);
+  lines.number("max_penetration", r.max_penetration);
+  lines.number("fastest_node", r.fastest_node);
+  lines.number("force_balance_error", r.force_balance_error);
+  lines.number("energy_balance_error", r.energy_balance_error);
+  lines.count("steps", r.steps);
+  lines.count("rejected_steps", r.rejected_steps);
+  lines.count("newton_iterations", r.newton_iterations);
+  lines.number("simulated_time", r.simulated_time);
   lines.number("wall_time", f.wall_time);
-  lines.number("real_time_factor", f.real_time_factor());
+  lines.number("real_time_factor", f.wall_time > 0.0 ? r.simulated_time / f.wall_time : 0.0);
   lines.count("peak_memory", f.peak_memory);
   lines.count("seed", f.seed);
   lines.word("version", f.version);

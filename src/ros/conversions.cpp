@@ -11,6 +11,9 @@ namespace {
 constexpr Phase kPhases[] = {Phase::kIdle,    Phase::kTie,  Phase::kRelease, Phase::kMount, Phase::kPreload,
                              Phase::kBalance, Phase::kPull, Phase::kHold,    Phase::kDone};
 
+static_assert(static_cast<int>(KnotType::kKept) == KnotState::KNOT_KEPT);
+static_assert(static_cast<int>(KnotType::kChanged) == KnotState::KNOT_CHANGED);
+static_assert(static_cast<int>(KnotType::kCrossed) == KnotState::KNOT_CROSSED);
 static_assert(static_cast<int>(BenchStatus::kRunning) == KnotState::RUNNING);
 static_assert(static_cast<int>(BenchStatus::kPhaseDone) == KnotState::PHASE_DONE);
 static_assert(static_cast<int>(BenchStatus::kNotEquilibrated) == KnotState::NOT_EQUILIBRATED);
@@ -74,6 +77,7 @@ KnotState to_message(const Sample& sample, std::uint32_t run, const ros::Time& s
   m.end_to_end = sample.end_to_end;
   m.knot_distance = sample.knot_distance;
   m.load = sample.load;
+  m.balance_offset = sample.balance_offset;
   m.force_upper = sample.force_upper;
   m.force_lower = sample.force_lower;
   std::copy(std::begin(sample.tail_force), std::end(sample.tail_force), m.tail_force.begin());
@@ -92,6 +96,7 @@ KnotState to_message(const Sample& sample, std::uint32_t run, const ros::Time& s
   m.steps = sample.steps;
   m.rejected_steps = sample.rejected_steps;
   m.newton_iterations = sample.newton_iterations;
+  m.knot_type = static_cast<std::uint8_t>(sample.knot_type);
   m.status = static_cast<std::uint8_t>(sample.status);
   m.message = sample.message;
   return m;
@@ -99,6 +104,9 @@ KnotState to_message(const Sample& sample, std::uint32_t run, const ros::Time& s
 
 Sample from_message(const KnotState& m) {
   if (m.status > KnotState::FAILED) throw std::invalid_argument("status " + std::to_string(m.status) + " is unknown");
+  if (m.knot_type > KnotState::KNOT_CROSSED) {
+    throw std::invalid_argument("knot type " + std::to_string(m.knot_type) + " is unknown");
+  }
   Sample sample;
   sample.sequence = m.sequence;
   sample.time = m.time;
@@ -108,6 +116,7 @@ Sample from_message(const KnotState& m) {
   sample.end_to_end = m.end_to_end;
   sample.knot_distance = m.knot_distance;
   sample.load = m.load;
+  sample.balance_offset = m.balance_offset;
   sample.force_upper = m.force_upper;
   sample.force_lower = m.force_lower;
   std::copy(m.tail_force.begin(), m.tail_force.end(), std::begin(sample.tail_force));
@@ -126,6 +135,7 @@ Sample from_message(const KnotState& m) {
   sample.steps = m.steps;
   sample.rejected_steps = m.rejected_steps;
   sample.newton_iterations = m.newton_iterations;
+  sample.knot_type = static_cast<KnotType>(m.knot_type);
   sample.status = static_cast<BenchStatus>(m.status);
   sample.message = m.message;
   return sample;

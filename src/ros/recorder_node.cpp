@@ -160,7 +160,6 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
   try {
     run.bag.close();
     RunFacts facts = run.writer.facts();
-    facts.ended_by = ended_by;
     facts.reason = reason;
     facts.wall_time = seconds_since(run.begin);
     if (!warning.empty()) facts.warnings.push_back(warning);
@@ -191,7 +190,7 @@ bool RecorderNode::on_save(std_srvs::Trigger::Request& /*request*/, std_srvs::Tr
       RunFacts facts = run_->writer.facts();
       facts.reason = "saved while the test was running";
       facts.wall_time = seconds_since(run_->begin);
-      run_->writer.finish(run_->writer.results(facts.ended_by), facts, run_->shape);
+      run_->writer.finish(run_->writer.results(EndedBy::kNotYet), facts, run_->shape);
     } catch (const std::exception& error) {
       fail(error.what());
     }

@@ -9,6 +9,8 @@ namespace knot_utm {
 namespace {
 
 constexpr double kGrowth = 1.2;
+constexpr double kFastGrowth = 1.6;  // after a step of hardly any work
+constexpr int kVeryEasy = 3;
 constexpr double kShrink = 0.7;
 
 }  // namespace
@@ -40,7 +42,7 @@ std::string StepControl::advance(TimeStep& stepper, double& time, double end, co
     time = to;
     // Growth starts from what was wanted: the step taken may have been cut to meet `end`.
     if (summary.newton.iterations <= options_.easy_iterations)
-      next_ = std::max(next_, dt) * kGrowth;
+      next_ = std::max(next_, dt) * (summary.newton.iterations <= kVeryEasy ? kFastGrowth : kGrowth);
     else if (summary.newton.iterations >= options_.hard_iterations)
       next_ = dt * kShrink;
     if (summary.largest_motion > 0.0) next_ = std::min(next_, dt * options_.motion / summary.largest_motion);

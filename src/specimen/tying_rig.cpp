@@ -187,6 +187,12 @@ void TyingRig::judge_patience(const TimeStep& stepper, double time) {
   not_equilibrated_ = message.str();
 }
 
+std::vector<int> TyingRig::standing_nodes() const {
+  std::vector<int> nodes;
+  for (const Knot& knot : knots_) nodes.push_back(knot.standing_node);
+  return nodes;
+}
+
 double TyingRig::excess_length(int knot, const RodProperties& rod, const RodState& state) const {
   const Knot& k = knots_[static_cast<std::size_t>(knot)];
   const int first = std::min(k.tail_node, k.standing_node), last = std::max(k.tail_node, k.standing_node);

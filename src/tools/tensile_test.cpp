@@ -108,10 +108,10 @@ int run(const Arguments& arguments) {
   bag.close();
 #endif
   RunFacts facts = writer.facts();
-  facts.ended_by = program.ended_by();
   facts.reason = program.reason();
   facts.wall_time = clock.seconds();
-  writer.finish(writer.results(facts.ended_by), facts, bench.state().position);
+  const Results results = writer.results(program.ended_by());
+  writer.finish(results, facts, bench.state().position);
 
   const bool gave_up = program.ended_by() == EndedBy::kSolver;
   if (gave_up) {
@@ -119,7 +119,7 @@ int run(const Arguments& arguments) {
                  program.reason().c_str(), out.c_str());
   } else if (!arguments.quiet) {
     std::printf("ended by %s after %.1f s, %.1f times real time; written to %s\n", ended_by_name(program.ended_by()),
-                facts.simulated_time, facts.real_time_factor(), out.c_str());
+                results.simulated_time, results.simulated_time / facts.wall_time, out.c_str());
   }
   return gave_up ? kGaveUp : kEnded;
 }

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 #include <random>
+#include <vector>
 
 namespace knot_utm {
 namespace {
@@ -72,8 +74,8 @@ TEST(MotionPattern, SlidingThenStretching) {
       ASSERT_TRUE(results.locked_stiffness);
       EXPECT_NEAR(*results.locked_stiffness, curve.stiffness, 0.01 * curve.stiffness);
       EXPECT_FALSE(results.untangled_at);
-      EXPECT_TRUE(results.knot_type_preserved);
-      EXPECT_NEAR(results.force_balance_error, 1e-3, 1e-4);
+      EXPECT_EQ(results.knot_type, KnotType::kKept);
+      EXPECT_NEAR(*results.force_balance_error, 1e-3, 1e-4);
     }
   }
 }
@@ -113,7 +115,7 @@ TEST(MotionPattern, UntanglingWhenKnotsOpenAfterBreakaway) {
   std::vector<Sample> samples = curve.samples();
   for (Sample& sample : samples) {
     if (sample.extension < 0.03) continue;
-    sample.load *= 1e-3;
+    sample.force_upper *= 1e-3;
     sample.excess_length[1] = 0.1;
   }
   const Results results = analyse(samples, EndedBy::kExtension);
@@ -128,11 +130,18 @@ TEST(MotionPattern, UntanglingWhenKnotsOpenAfterBreakaway) {
 }
 
 TEST(MotionPattern, UntanglingWhenTheKnotTypeIsLost) {
-  const Results results = analyse(Curve().samples(), EndedBy::kExtension, 12.5);
+  std::vector<Sample> samples = Curve().samples();
+  std::optional<double> lost_at;
+  for (Sample& sample : samples) {
+    if (sample.time < 12.5) continue;
+    sample.knot_type = KnotType::kChanged;
+    if (!lost_at) lost_at = sample.time;
+  }
+  const Results results = analyse(samples, EndedBy::kExtension);
   EXPECT_EQ(results.motion_pattern, MotionPattern::kUntangling);
   EXPECT_EQ(results.motion_pattern_confidence, 1.0);
-  EXPECT_EQ(results.untangled_at, 12.5);
-  EXPECT_FALSE(results.knot_type_preserved);
+  EXPECT_EQ(results.untangled_at, lost_at);
+  EXPECT_EQ(results.knot_type, KnotType::kChanged);
   EXPECT_FALSE(results.locked_stiffness);
 }
 
@@ -173,8 +182,8 @@ TEST(Results, ABreakEndsThePullAndIsNoUntangling) {
   std::vector<Sample> samples = Curve().samples();
   const std::size_t at = samples.size() - 10;
   samples[at].status = BenchStatus::kBroken;
-  const double peak = samples[at].load;
-  for (std::size_t i = at + 1; i < samples.size(); ++i) samples[i].load = 0.0;
+  const double peak = samples[at].force_upper;
+  for (std::size_t i = at + 1; i < samples.size(); ++i) samples[i].force_upper = 0.0;
   const Results results = analyse(samples, EndedBy::kBreak);
   EXPECT_EQ(results.motion_pattern, MotionPattern::kSliding);
   EXPECT_EQ(results.break_extension, samples[at].extension);
@@ -191,7 +200,7 @@ TEST(Results, EnergyBalanceIsThatOfWorkStorageAndLoss) {
     samples[i].bending_energy = 0.1 * x;
     samples[i].dissipation = 0.59 * x;
   }
-  EXPECT_NEAR(analyse(samples, EndedBy::kExtension).energy_balance_error, 0.01, 1e-9);
+  EXPECT_NEAR(*analyse(samples, EndedBy::kExtension).energy_balance_error, 0.01, 1e-9);
 }
 
 TEST(Results, CountsAndNotEquilibratedAreCarriedOver) {
@@ -200,6 +209,8 @@ TEST(Results, CountsAndNotEquilibratedAreCarriedOver) {
   tie.phase = Phase::kTie;
   tie.status = BenchStatus::kNotEquilibrated;
   tie.max_penetration = 0.04;
+  tie.knot_distance = 0.16;
+  tie.excess_length[0] = tie.excess_length[1] = 0.05;
   samples.insert(samples.begin(), tie);
   samples.back().steps = 100;
   samples.back().rejected_steps = 3;
@@ -211,8 +222,41 @@ TEST(Results, CountsAndNotEquilibratedAreCarriedOver) {
   EXPECT_EQ(results.rejected_steps, 3u);
   EXPECT_EQ(results.newton_iterations, 450u);
   EXPECT_EQ(results.simulated_time, samples.back().time);
+  EXPECT_EQ(results.tied_knot_distance, 0.16);
+  EXPECT_EQ(results.tied_excess_length[0], 0.05);
+  EXPECT_EQ(results.final_excess_length[1], 0.04);
+}
+
+TEST(Results, WhereNothingIsTiedThePullBeginsWithTheKnotsAsTheyAre) {
+  const Results results = analyse(Curve().samples(), EndedBy::kExtension);
   EXPECT_NEAR(*results.tied_knot_distance, 0.15, 1e-3);
-  EXPECT_NEAR(*results.tied_excess_length[0], 0.04, 1e-9);
+  EXPECT_EQ(results.tied_excess_length[0], 0.04);
+}
+
+TEST(Results, ForcesAreTrueOnesWhateverTheCellWasBalancedTo) {
+  const std::vector<Sample> samples = Curve().samples();
+  std::vector<Sample> balanced = samples;
+  for (Sample& sample : balanced) {
+    sample.balance_offset = 1.5;
+    sample.load = sample.force_upper - 1.5;
+  }
+  const Results as_if_zero = analyse(samples, EndedBy::kExtension);
+  const Results results = analyse(balanced, EndedBy::kExtension);
+  EXPECT_EQ(results.plateau_force, as_if_zero.plateau_force);
+  EXPECT_EQ(results.peak_force, as_if_zero.peak_force);
+  EXPECT_EQ(as_if_zero.balance_offset, 0.0);
+  EXPECT_EQ(results.balance_offset, 1.5);
+}
+
+TEST(Results, WhatATestDoesNotHaveIsEmpty) {
+  std::vector<Sample> samples = Curve().samples();
+  for (Sample& sample : samples) sample.phase = Phase::kHold;
+  const Results results = analyse(samples, EndedBy::kOperator);
+  EXPECT_FALSE(results.peak_force);
+  EXPECT_FALSE(results.balance_offset);
+  EXPECT_FALSE(results.force_balance_error);
+  EXPECT_FALSE(results.energy_balance_error);
+  EXPECT_FALSE(results.tied_knot_distance);
 }
 
 }  // namespace

@@ -39,10 +39,9 @@ class RunFolder : public ::testing::Test {
       writer.add(sample, command.read_cell, bench.substeps);
     });
     RunFacts facts = writer.facts();
-    facts.ended_by = program.ended_by();
     facts.reason = program.reason();
     facts.wall_time = 0.5;
-    writer.finish(Results(), facts, Points::Zero(3, 4));
+    writer.finish(writer.results(program.ended_by()), facts, Points::Zero(3, 4));
     return facts;
   }
 
@@ -80,6 +79,11 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
                           "seed",
                           "version",
                           "excess_length",
+                          "final_excess_length",
+                          "plateau_slope",
+                          "breakaway_force",
+                          "balance_offset",
+                          "fastest_node",
                           "preload",
                           "warnings",
                           "reason",
@@ -146,37 +150,21 @@ TEST(ResultYaml, TextsAreQuotedOnOneLine) {
   EXPECT_EQ(result["warnings"][1].as<std::string>(), "two, three");
 }
 
-TEST(RunMonitor, BalancesAndTheTiedState) {
-  RunMonitor monitor;
-  Sample sample;
-  monitor.add(sample);
-  sample.phase = Phase::kRelease;
-  sample.knot_distance = 0.15;
-  sample.excess_length[0] = 0.05;
-  sample.excess_length[1] = 0.06;
-  sample.max_penetration = 0.03;
-  monitor.add(sample);
-  sample.phase = Phase::kPull;
-  sample.knot_distance = 0.1;
-  sample.max_penetration = 0.01;
-  sample.force_upper = 10.0;
-  sample.force_lower = 9.95;
-  sample.grip_work = 2.0;
-  sample.dissipation = 1.5;
-  sample.stretching_energy = 0.49;
-  sample.time = 3.0;
-  sample.fastest_node = 0.2;
-  monitor.add(sample);
+TEST(ResultYaml, WarnsOfWhatTheResultsShow) {
+  Results results;
+  results.equilibrated = false;
+  results.knot_type = KnotType::kCrossed;
+  results.untangled_at = 12.5;
+  results.fastest_node = 0.2;
+  results.max_penetration = 0.06;
   RunFacts facts;
-  monitor.report(facts);
-  ASSERT_EQ(facts.warnings.size(), 1u);
-  EXPECT_THAT(facts.warnings[0], HasSubstr("0.2 m/s"));
-  EXPECT_EQ(facts.tied_knot_distance, 0.15);
-  EXPECT_EQ(facts.tied_excess_length[1], 0.06);
-  EXPECT_EQ(facts.max_penetration, 0.03);
-  EXPECT_NEAR(facts.force_balance_error, 0.005, 1e-12);
-  EXPECT_NEAR(facts.energy_balance_error, 0.005, 1e-12);
-  EXPECT_EQ(facts.simulated_time, 3.0);
+  facts.warnings = {"of the run"};
+  const YAML::Node result = YAML::Load(result_yaml(results, facts));
+  const std::vector<std::string> warnings = result["warnings"].as<std::vector<std::string>>();
+  EXPECT_THAT(warnings, ::testing::ElementsAre(HasSubstr("rest"), HasSubstr("through itself at 12.5 s"),
+                                               HasSubstr("0.2 m/s"), HasSubstr("0.06 radii"), "of the run"));
+  EXPECT_FALSE(result["knot_type_preserved"].as<bool>());
+  EXPECT_TRUE(result["not_equilibrated"].as<bool>());
 }
 
 }  // namespace

@@ -22,13 +22,14 @@ Sample full_sample() {
       &s.force_upper,      &s.force_lower,     &s.tail_force[0],  &s.tail_force[1],  &s.excess_length[0],
       &s.excess_length[1], &s.max_penetration, &s.normal_force,   &s.fastest_node,   &s.stretching_energy,
       &s.bending_energy,   &s.twisting_energy, &s.contact_energy, &s.kinetic_energy, &s.grip_work,
-      &s.dissipation};
+      &s.dissipation,      &s.balance_offset};
   int i = 1;
   for (double* field : fields) *field = odd_number(i++);
   s.contacts = 31;
   s.steps = 1001;
   s.rejected_steps = 12;
   s.newton_iterations = 5003;
+  s.knot_type = KnotType::kCrossed;
   s.status = BenchStatus::kNotEquilibrated;
   s.message = "not at rest";
   return s;
@@ -45,6 +46,7 @@ TEST(Conversions, SampleSurvivesBitForBit) {
   EXPECT_EQ(out.end_to_end, in.end_to_end);
   EXPECT_EQ(out.knot_distance, in.knot_distance);
   EXPECT_EQ(out.load, in.load);
+  EXPECT_EQ(out.balance_offset, in.balance_offset);
   EXPECT_EQ(out.force_upper, in.force_upper);
   EXPECT_EQ(out.force_lower, in.force_lower);
   for (int i = 0; i < 2; ++i) {
@@ -65,6 +67,7 @@ TEST(Conversions, SampleSurvivesBitForBit) {
   EXPECT_EQ(out.steps, in.steps);
   EXPECT_EQ(out.rejected_steps, in.rejected_steps);
   EXPECT_EQ(out.newton_iterations, in.newton_iterations);
+  EXPECT_EQ(out.knot_type, in.knot_type);
   EXPECT_EQ(out.status, in.status);
   EXPECT_EQ(out.message, in.message);
 }

@@ -19,7 +19,8 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 
 /// Follows the motion pattern of a test, sample by sample; live displays and `analyse` use the same one.
 ///
-/// Symbols: s extension, e knot distance, F load. Only samples of the pull count, and of these only those that reach a
+/// Symbols: s extension, e knot distance, F true force on the upper grip (what the load cell reads is shifted by its
+/// balance). Only samples of the pull count, and of these only those that reach a
 /// new largest s (pulling back says nothing), up to a break.
 ///
 /// Kinematics: knots that slide rigidly along the two strands give de/ds = -2 exactly; strands that only stretch give
@@ -42,9 +43,6 @@ class MotionPatternTracker {
  public:
   void add(const Sample& sample);
 
-  /// The knot's topology was found changed at this time [s].
-  void knot_lost(double time);
-
   MotionPattern pattern() const;  ///< of the whole test so far
   MotionPattern current() const;  ///< of the last window alone: sliding or stretching; live displays
   double confidence() const;
@@ -58,7 +56,7 @@ class MotionPatternTracker {
 
   /// The samples of the pull that count.
   struct Pull {
-    double time, extension, knot_distance, load, normal_force;
+    double time, extension, knot_distance, force, normal_force;
   };
   const std::vector<Pull>& pull() const { return pull_; }
 
@@ -74,12 +72,12 @@ class MotionPatternTracker {
   double centre_ = 0.0;           ///< mean extension of the current window [m]
   double slid_ = 0.0;             ///< extension passed while sliding [m]
   double last_sliding_ = 0.0;     ///< where de/ds last rose through -1 or was still below [m]
-  double peak_ = 0.0;             ///< largest load [N]
+  double peak_ = 0.0;             ///< largest F [N]
   double tied_excess_[2] = {Sample::kNone, Sample::kNone};     ///< [m]
   double largest_excess_[2] = {Sample::kNone, Sample::kNone};  ///< during the pull [m]
-  std::optional<double> gone_since_;                           ///< time since which the load is gone [s]
+  std::optional<double> gone_since_;                           ///< time since which F is gone [s]
   double gone_extension_ = 0.0;                                ///< extension there [m]
-  std::optional<double> knot_lost_;                            ///< [s]
+  std::optional<double> knot_lost_;                            ///< since when it is another one [s]
   bool broken_ = false;
 };
 

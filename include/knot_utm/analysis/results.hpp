@@ -12,7 +12,10 @@
 namespace knot_utm {
 
 /// What a test says: every measured key of result.yaml. A value that the test does not have is empty.
-/// Symbols: s extension, F load, s_l lock extension. "The pull" is the samples of phase `pull` that reach a new
+///
+/// Symbols: s extension, F true force on the upper grip, s_l lock extension. F is not what the cell reads: balancing it
+/// zeroes what the mounted specimen already carried, F = load + balance_offset but for noise and resolution.
+/// "The pull" is the samples of phase `pull` that reach a new
 /// largest s, up to a break.
 struct Results {
   MotionPattern motion_pattern = MotionPattern::kNone;
@@ -30,22 +33,24 @@ struct Results {
   /// Least-squares slope of F(s) where the rod carries the load: over the samples after s_l (stretching: all), up to
   /// the peak, whose F lies between half the peak and the peak; at least the last three. [N/m]
   std::optional<double> locked_stiffness;
-  double peak_force = 0.0;                ///< largest F of the pull [N]
+  std::optional<double> peak_force;       ///< largest F of the pull [N]
+  std::optional<double> balance_offset;   ///< F that the cell reads as zero, once the pull begins [N]
   std::optional<double> break_extension;  ///< s where the rod broke [m]
   std::optional<double> untangled_at;     ///< time [s], see MotionPatternTracker
-  bool knot_type_preserved = true;
-  bool equilibrated = true;  ///< tying and release ended at rest
+  KnotType knot_type = KnotType::kKept;   ///< at the end, see KnotWatch
+  bool equilibrated = true;               ///< tying and release ended at rest
 
-  double max_penetration = 0.0;      ///< [fraction of radius], over the whole test
-  double force_balance_error = 0.0;  ///< largest |upper - lower| of the pull / peak force
+  double max_penetration = 0.0;               ///< [fraction of radius], over the whole test
+  std::optional<double> force_balance_error;  ///< largest |upper - lower| of the pull / peak force
 
   /// Largest |change of stored and kinetic energy + dissipation - work of the grips| since the first sample, over the
   /// largest of these three.
-  double energy_balance_error = 0.0;
+  std::optional<double> energy_balance_error;
 
-  std::array<std::optional<double>, 2> tied_excess_length;   ///< rod hidden in each knot when the pull begins [m]
-  std::array<std::optional<double>, 2> final_excess_length;  ///< and at the end [m]
-  std::optional<double> tied_knot_distance;                  ///< e when the pull begins [m]
+  // Once tied and released; where nothing is tied: when the pull begins.
+  std::optional<double> tied_knot_distance;                  ///< e [m]
+  std::array<std::optional<double>, 2> tied_excess_length;   ///< rod hidden in each knot [m]
+  std::array<std::optional<double>, 2> final_excess_length;  ///< and at the end of the test [m]
   double fastest_node = 0.0;  ///< of the pull [m/s]; above 0.1 m/s a knot opened at breakaway
 
   std::uint64_t steps = 0;
@@ -54,7 +59,7 @@ struct Results {
   double simulated_time = 0.0;  ///< [s]
 };
 
-/// Evaluates a whole test. `knot_lost_at`: when the knot's topology was found changed, if it was [s].
-Results analyse(const std::vector<Sample>& samples, EndedBy ended_by, std::optional<double> knot_lost_at = {});
+/// Evaluates a whole test; best from every accepted time step.
+Results analyse(const std::vector<Sample>& samples, EndedBy ended_by);
 
 }  // namespace knot_utm

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <limits>
 #include <string>
 #include <vector>
 
@@ -35,8 +34,8 @@ class RunWriter {
   /// caller knows.
   void finish(const Results& results, const RunFacts& facts, const Points& final_shape);
 
-  RunFacts facts() const;                   ///< what the method and the samples so far say
-  Results results(EndedBy ended_by) const;  ///< what the answers so far mean
+  RunFacts facts() const;                   ///< what the method and this process say
+  Results results(EndedBy ended_by) const;  ///< what the time steps so far mean
 
   std::size_t rows() const { return curve_.rows(); }            ///< of curve.csv
   std::size_t full_rows() const { return full_curve_.rows(); }  ///< of curve_full.csv
@@ -44,14 +43,12 @@ class RunWriter {
  private:
   std::string folder_;
   RunFacts known_;
-  RunMonitor monitor_;
-  std::vector<Sample> answers_;
+  std::vector<Sample> samples_;  ///< every time step, that of an answer as it was answered
   CurveWriter curve_;
   CurveWriter full_curve_;
-  double last_step_time_ = -std::numeric_limits<double>::infinity();  ///< [s]
 };
 
-/// result.yaml: the keys in a fixed order, SI units, null for what is not there.
+/// result.yaml: the keys in a fixed order, SI units, null for what is not there; warnings of the results first.
 std::string result_yaml(const Results& results, const RunFacts& facts);
 
 }  // namespace knot_utm

@@ -19,6 +19,8 @@ class LoadCell {
 
   void balance(double true_force) { balanced_ = true_force; }  ///< from now on this force reads zero
 
+  double offset() const { return balanced_; }  ///< the true force that reads zero [N]
+
   double balanced(double true_force) const { return true_force - balanced_; }  ///< without noise and resolution
 
   double read(double true_force);  ///< one reading; the next one has other noise

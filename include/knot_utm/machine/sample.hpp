@@ -31,6 +31,13 @@ enum class BenchStatus {
   kFailed            ///< the physics gave up; `message` says why
 };
 
+/// Whether the specimen is the knot that it began as.
+enum class KnotType {
+  kKept,
+  kChanged,  ///< it came undone, or is another one now
+  kCrossed   ///< the rod ran through itself
+};
+
 /// One reading of the whole bench, at the physics' own accuracy but for `load`.
 struct Sample {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
@@ -42,6 +49,7 @@ struct Sample {
   double end_to_end = 0.0;       ///< L [m]
   double knot_distance = kNone;  ///< e [m]; NaN: no two knots
   double load = 0.0;             ///< as the cell reads it at a sampling instant, else the balanced true force [N]
+  double balance_offset = 0.0;   ///< true force on the upper grip that the cell reads as zero [N]
   double force_upper = 0.0;      ///< true force on the upper grip [N]
   double force_lower = 0.0;      ///< true force on the lower grip [N]
   double tail_force[2] = {kNone, kNone};     ///< tail grips while tying [N]
@@ -60,6 +68,7 @@ struct Sample {
   std::uint64_t steps = 0;                   ///< time steps since the start
   std::uint64_t rejected_steps = 0;          ///< of which thrown away
   std::uint64_t newton_iterations = 0;       ///< since the start
+  KnotType knot_type = KnotType::kKept;
   BenchStatus status = BenchStatus::kRunning;
   std::string message;
 };

@@ -47,6 +47,9 @@ class TyingRig {
   /// Empty, or why it waited in vain.
   const std::string& not_equilibrated() const { return not_equilibrated_; }
 
+  /// Node in the standing part of each knot, in the order of the centreline's knots.
+  std::vector<int> standing_nodes() const;
+
   double tail_force(int knot) const { return tail_force_[static_cast<std::size_t>(knot)]; }  ///< [N]
 
   /// Rod length hidden in a knot: that between the clamp of its standing part and its tail's end, less their

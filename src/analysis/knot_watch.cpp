@@ -1,0 +1,38 @@
+#include "knot_utm/analysis/knot_watch.hpp"
+
+#include <stdexcept>
+
+namespace knot_utm {
+
+KnotWatch::KnotWatch(const std::vector<int>& standing_nodes, bool closed, double radius, const Points& start)
+    : closed_(closed), radius_(radius) {
+  if (standing_nodes.size() == 2) loop_.emplace(standing_nodes[0], standing_nodes[1], radius);
+  start_ = read(start);
+}
+
+KnotType KnotWatch::follow(const Points& points) {
+  if (type_ != KnotType::kKept) return type_;
+  if ((points - last_).colwise().squaredNorm().maxCoeff() < radius_ * radius_) return type_;
+  try {
+    if (!read(points).same_knot(start_)) type_ = KnotType::kChanged;
+  } catch (const std::runtime_error&) {
+    type_ = KnotType::kCrossed;
+  }
+  return type_;
+}
+
+LoopTopology::Reading KnotWatch::read(const Points& points) {
+  last_ = points;
+  ++readings_;
+  if (loop_) return loop_->read(points, Vec3::UnitZ());
+  LoopTopology::Reading reading;
+  if (closed_) {
+    reading.polynomial = alexander_polynomial(points.leftCols(points.cols() - 1));
+  } else {
+    const Vec3 axis = points.rightCols(1) - points.leftCols(1);
+    reading.polynomial = alexander_polynomial(closed_far_away(points, axis));
+  }
+  return reading;
+}
+
+}  // namespace knot_utm
