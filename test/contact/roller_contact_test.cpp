@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
+
 #include "sim/scenes.hpp"
 
 namespace knot_utm {

@@ -103,7 +103,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"program=[{pull: {}}]", "program.0.pull.until", "nothing", "extension, load, time and break"},
       {"program=[{pull: {until: {break: false}}}]", "program.0.pull.until", "nothing", "one or more of"},
       {"specimen.closed=true", "specimen.closed", "true", "false: the grips hold"},
-      {"machine.stiffness=1e6", "machine.stiffness", "1000000", "only .inf N/m: the frame is rigid"},
+      {"machine.stiffness=1e6", "machine.stiffness", "1e+06", "only .inf N/m: the frame is rigid"},
       {"specimen.turns=2", "specimen.turns", "2", "only for knot: overhand"},
       {"specimen.length=0.5", "specimen.length", "0.5", "only for knot: straight or overhand"},
       {"specimen.file=shape.csv", "specimen.file", "shape.csv", "only for knot: file"},

@@ -41,14 +41,14 @@ class ScriptedStep : public TimeStep {
   std::vector<ContactPoint> contacts_;
 };
 
-struct Run {
+struct Outcome {
   std::string gave_up;
   double time = 0.0;
   std::vector<double> taken;
 };
 
-Run advance(StepControl& control, ScriptedStep& step, double end) {
-  Run out;
+Outcome advance(StepControl& control, ScriptedStep& step, double end) {
+  Outcome out;
   const Boundary boundary;
   out.gave_up = control.advance(
       step, out.time, end, [&](double, double) -> const Boundary& { return boundary; },
@@ -66,7 +66,7 @@ StepControl::Options options() {
 TEST(StepControl, EndsExactlyAtTheEndWithoutASliver) {
   StepControl control(options());
   ScriptedStep step;
-  const Run run = advance(control, step, 0.25);
+  const Outcome run = advance(control, step, 0.25);
   EXPECT_EQ(run.gave_up, "");
   EXPECT_EQ(run.time, 0.25);
   ASSERT_EQ(run.taken.size(), 3u);
@@ -77,7 +77,7 @@ TEST(StepControl, HalvesAStepThatWasNotAccepted) {
   StepControl control(options());
   ScriptedStep step;
   step.longest_good = 0.03;
-  const Run run = advance(control, step, 0.1);
+  const Outcome run = advance(control, step, 0.1);
   EXPECT_EQ(run.gave_up, "");
   EXPECT_EQ(run.time, 0.1);
   ASSERT_GE(step.tried.size(), 3u);
@@ -94,7 +94,7 @@ TEST(StepControl, GivesUpWithTheReasonOfTheLastStep) {
   StepControl control(options());
   ScriptedStep step;
   step.longest_good = 0.0;
-  const Run run = advance(control, step, 0.1);
+  const Outcome run = advance(control, step, 0.1);
   EXPECT_THAT(run.gave_up, testing::HasSubstr("it was too long"));
   EXPECT_THAT(run.gave_up, testing::HasSubstr("time step fell below 1e-07 s"));
   EXPECT_EQ(run.time, 0.0);
@@ -112,7 +112,7 @@ TEST(StepControl, AimsAtAMovementAndIsShorterWhereNewtonFindsItHard) {
   StepControl labouring(options());
   ScriptedStep hard;
   hard.iterations = 10;
-  const Run run = advance(labouring, hard, 0.3);
+  const Outcome run = advance(labouring, hard, 0.3);
   ASSERT_GE(run.taken.size(), 2u);
   EXPECT_LT(run.taken[1], 0.75 * run.taken[0]);
 }
