@@ -10,7 +10,6 @@
 #include <system_error>
 #include <utility>
 
-#include "knot_utm/specimen/centreline_file.hpp"
 #include "method_fields.hpp"
 #include "method_reader.hpp"
 
@@ -315,13 +314,12 @@ Method load_method(const std::string& file, const std::vector<std::string>& over
     top.finish();
 
     const Material& material = method.material;
-    if (!method.specimen.preload) {
+    if (!method.specimen.preload && method.specimen.knot == KnotKind::kFisherman) {
       method.specimen.preload =
           material.tying_preload.value_or(4.0 * material.bending_stiffness / (material.radius * material.radius));
     }
     if (method.specimen.knot == KnotKind::kFile && !method.specimen.file.empty()) {
       method.specimen.file = fs::absolute(folder / method.specimen.file).lexically_normal().string();
-      read_centreline(method.specimen.file);
     }
     check_method(method);
     return method;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "knot_utm/analysis/knot_watch.hpp"
 #include "knot_utm/machine/load_cell.hpp"
@@ -11,6 +12,7 @@
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/centreline.hpp"
+#include "knot_utm/specimen/centreline_file.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
 
 namespace knot_utm {
@@ -40,6 +42,10 @@ constexpr double kResidualOfTension = 2e-6;  // of the largest tension, so that 
 constexpr double kSlack = 0.002;             // by which the rollers stand closer than taut, until mounting [m]
 constexpr double kTakeUpLoad = 0.02;         // slack is taken up once the load has risen by this much [k_b/h^2] ...
 constexpr double kTakeUpMotion = 0.3;        // ... or once the knots have moved by this much [h]
+
+// A shape that is pulled as it was drawn settles first, under a drag that fades as that of the tying rig does.
+constexpr double kSettlingTime = 1.0;   // [s]
+constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
 
 /// Default contact stiffness K. At k_b/h^2 of force on a radius of rod, the scale of a knot that holds itself by its
 /// own bending, strands overlap by 1.5 % of their radius.
@@ -84,6 +90,27 @@ double outward_shift(const SpecimenOptions& specimen, const Material& material) 
   return (16.6 + 2.6 * strain) * material.radius;
 }
 
+/// The grips hold its ends, the last of them in the upper grip, which moves along +z.
+Centreline centreline_from_file(const SpecimenOptions& specimen, const Material& material) {
+  if (specimen.closed) throw InvalidInput("specimen.closed", "true", "false: the grips hold the rod's two ends");
+  const Points points = read_centreline(specimen.file);
+  Centreline out = from_points(points, false, material.radius, specimen.edge_length);
+  if (!(out.points.rightCols(1)(2) > out.points.leftCols(1)(2))) {
+    throw InvalidInput("specimen.file", specimen.file, "a line whose last point is above its first, along z");
+  }
+  return out;
+}
+
+/// What the clamps hold is one edge more at each end, so that `length` is what stretches: the load grows by k_s/length.
+Centreline straight_rod(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine) {
+  Centreline out = straight(specimen.length, material.radius, specimen.edge_length);
+  if (machine.grips == GripKind::kNodes) return out;
+  const double edge = out.edge_length();
+  out = straight(specimen.length + 2.0 * edge, material.radius, edge);
+  out.points.row(2).array() -= edge;
+  return out;
+}
+
 Centreline build_centreline(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine) {
   switch (specimen.knot) {
     case KnotKind::kFisherman: {
@@ -107,11 +134,11 @@ Centreline build_centreline(const SpecimenOptions& specimen, const Material& mat
       return overhand(shape);
     }
     case KnotKind::kStraight:
-      return straight(specimen.length, material.radius, specimen.edge_length);
+      return straight_rod(specimen, material, machine);
     case KnotKind::kFile:
       break;
   }
-  throw InvalidInput("specimen.knot", "file", "a centreline read from specimen.file");
+  return centreline_from_file(specimen, material);
 }
 
 }  // namespace
@@ -212,6 +239,10 @@ struct TestBench::Impl {
       hold(lower_nodes, 1);
       hold(upper_nodes, nodes - 2);
       held_frames = {{0, 0.0}, {nodes - 2, 0.0}};
+      if (specimen.knot == KnotKind::kStraight) {  // its length is that between the clamps
+        std::swap(lower_nodes[0], lower_nodes[1]);
+        std::swap(upper_nodes[0], upper_nodes[1]);
+      }
     }
   }
 
@@ -241,14 +272,23 @@ struct TestBench::Impl {
     boundary.fixed_twists = held_frames;
     boundary.forces.clear();
     boundary.grips.clear();
-    boundary.extra_drag = 0.0;
+    boundary.extra_drag = settling_drag(to);
     for (const FixedNode& node : lower_nodes) boundary.fixed_nodes.push_back(node);
     for (FixedNode node : upper_nodes) {
       node.position[2] += travel;
       boundary.fixed_nodes.push_back(node);
     }
-    if (rig) rig->hold(boundary, from, to);
+    if (rig && rig->stage() != TyingRig::Stage::kIdle) rig->hold(boundary, from, to);
     return boundary;
+  }
+
+  /// A drawn shape's stored energy is an artefact of the drawing, and would throw it about. A straight rod has none;
+  /// what the rig ties settles there.
+  double settling_drag(double at_time) const {
+    if (specimen.knot == KnotKind::kStraight || specimen.to_be_tied || at_time >= kSettlingTime) return 0.0;
+    const double left = 1.0 - at_time / kSettlingTime;
+    const double wave_number = 2.0 * M_PI / (kSettlingWave * material.radius);
+    return 0.1 * kSettlingTime * material.bending_stiffness * std::pow(wave_number, 4) * left * left;
   }
 
   double end_to_end() const {
@@ -310,7 +350,7 @@ struct TestBench::Impl {
         done = !rig || rig->released();
         break;
       case Phase::kMount:
-        done = !on_rollers() || slack_taken_up();
+        done = !rig || slack_taken_up();
         break;
       default:
         break;
@@ -387,6 +427,9 @@ struct TestBench::Impl {
         },
         [&](double to, double dt, const StepSummary&) {
           displacement = to < command.time ? start_displacement + speed * (to - start_time) : command.displacement;
+          const StepWork done = stepper->work();
+          work += done.boundary;
+          dissipation += done.friction + done.drag;
           if (rig) rig->follow(*stepper, to, dt);
           substeps.push_back(read(command, to));
         });

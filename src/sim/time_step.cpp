@@ -163,8 +163,7 @@ class ImplicitStep final : public TimeStep {
   }
 
   ContactReading contact_reading() const override { return contact_reading_; }
-
-  void set_friction(const Friction& friction) override { contact_.set_friction(friction); }
+  StepWork work() const override { return work_; }
 
   using ContactBlocks = std::array<std::pair<int, int>, 9>;  // stored (a+k, b+l) and its mirror
 
@@ -483,15 +482,54 @@ class ImplicitStep final : public TimeStep {
       ++contact_reading_.touching;
       contact_reading_.normal_force += contact.weight * contact.pressure;
       contact_reading_.largest_overlap = std::max(contact_reading_.largest_overlap, contact.overlap);
-      contact_reading_.friction_work += settings_.friction.coefficient * contact.weight * contact.pressure *
-                                        contact.z.dot(contact.slip - contact.memory);
     }
+    add_up_work();
     contact_.commit(x_);
     rollers_.commit(boundary_->rollers);
     state_.velocity = (x_ - state_.position) / dt_;
     if constexpr (D == 4) frames_.commit(state_);
     state_.position = x_;
     committed_force_ = force_;
+    committed_rollers_ = boundary_->rollers;
+  }
+
+  /// Before the state moves on.
+  void add_up_work() {
+    work_ = StepWork{};
+    auto way = [&](int node) -> Vec3 { return x_.col(node) - state_.position.col(node); };
+    for (const FixedNode& fixed : boundary_->fixed_nodes) {
+      const Vec3 now = -to_vec3(force_[at(fixed.node)]);
+      const Vec3 before = committed_force_.empty() ? now : -to_vec3(committed_force_[at(fixed.node)]);
+      work_.boundary += 0.5 * (now + before).dot(way(fixed.node));
+    }
+    std::vector<Vec3>& roller_force = roller_force_now_;
+    roller_force.clear();
+    for (std::size_t r = 0; r < boundary_->rollers.size(); ++r) {
+      roller_force.push_back(-rollers_.force_on(static_cast<int>(r)));
+      if (r >= committed_rollers_.size()) continue;
+      const Vec3 before = r < roller_force_.size() ? roller_force_[r] : roller_force[r];
+      work_.boundary +=
+          0.5 * (roller_force[r] + before).dot(boundary_->rollers[r].centre - committed_rollers_[r].centre);
+    }
+    roller_force_.swap(roller_force);
+    for (const SlippingGrip& grip : boundary_->grips)
+      work_.boundary += grip.force(x_.col(grip.node)) * grip.direction.dot(way(grip.node));
+    for (const NodeForce& force : boundary_->forces) work_.boundary += force.force.dot(way(force.node));
+    const double drag = settings_.drag + boundary_->extra_drag;
+    for (int i = 0; i < nodes_; ++i) {
+      const Vec3 moved = way(i);
+      work_.boundary += rod_.mass[i] * settings_.gravity.dot(moved);
+      work_.drag += drag * rod_.voronoi_length[i] * moved.squaredNorm() / dt_;
+    }
+    for (const ContactPoint& contact : contact_.contacts())
+      work_.friction += friction_work(settings_.friction, contact);
+    for (const ContactPoint& contact : rollers_.contacts())
+      work_.friction += friction_work(settings_.roller_friction, contact);
+  }
+
+  static double friction_work(const Friction& friction, const ContactPoint& contact) {
+    if (!friction.on() || !contact.touches()) return 0.0;
+    return friction.coefficient * contact.weight * contact.pressure * contact.z.dot(contact.slip - contact.memory);
   }
 
   StepSettings settings_;
@@ -507,7 +545,10 @@ class ImplicitStep final : public TimeStep {
   std::vector<char> held_;
   double largest_tension_ = 0.0;
   ContactReading contact_reading_;
-  std::vector<PressureTangent> tangents_;  // of the active contacts, in order
+  StepWork work_;
+  std::vector<Roller> committed_rollers_;
+  std::vector<Vec3> roller_force_, roller_force_now_;  // on the rod, at the last accepted step
+  std::vector<PressureTangent> tangents_;              // of the active contacts, in order
   std::vector<std::pair<int, int>> pairs_;
   std::vector<ContactBlocks> contact_blocks_;  // of the active contacts between strands, in order
   BlockPattern pattern_;

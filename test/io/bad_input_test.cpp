@@ -102,6 +102,15 @@ const std::vector<Wrong>& wrong_overrides() {
       {"machine.load_cell.resolution=60000", "machine.load_cell.resolution", "60000", "less than capacity"},
       {"program=[{pull: {}}]", "program.0.pull.until", "nothing", "extension, load, time and break"},
       {"program=[{pull: {until: {break: false}}}]", "program.0.pull.until", "nothing", "one or more of"},
+      {"specimen.closed=true", "specimen.closed", "true", "false: the grips hold"},
+      {"machine.stiffness=1e6", "machine.stiffness", "1000000", "only .inf N/m: the frame is rigid"},
+      {"specimen.turns=2", "specimen.turns", "2", "only for knot: overhand"},
+      {"specimen.length=0.5", "specimen.length", "0.5", "only for knot: straight or overhand"},
+      {"specimen.file=shape.csv", "specimen.file", "shape.csv", "only for knot: file"},
+      {"machine={grips: clamps, roller_friction: 0.2}", "machine.roller_friction", "0.2", "only with grips: rollers"},
+      {"physics.friction.slip_tolerance=0.01", "physics.friction.slip_tolerance", "0.01", "only with law: smoothed"},
+      {"physics.friction={law: smoothed, presliding: 0.01}", "physics.friction.presliding", "0.01",
+       "only with law: memory"},
       {"program=[{hold: {duration: 1}}, {tie: {}}]", "program.1", "tie", "the first step only"},
       {"program=[{release: {}}]", "program.0", "release", "right after tie"},
       {"program=[{tie: {}}, {mount: {}}]", "program.1", "mount", "release"},
@@ -156,13 +165,25 @@ TEST_F(BadFile, AWrongMaterialFileIsNamedItself) {
   EXPECT_THAT(text, AllOf(HasSubstr("odd.yaml: radius: 3.175"), HasSubstr("0.05 m")));
 }
 
-TEST_F(BadFile, ACentrelineThatIsNone) {
-  write("shape.csv", "x,y,z\n0,0,0\n0,0\n");
-  const std::string text = complaint(
-      write("method.yaml",
-            "specimen: {knot: file, file: shape.csv}\nmaterial: nylon\nmachine: {grips: clamps}\nprogram: [{hold: "
-            "{duration: 1}}]"));
-  EXPECT_THAT(text, AllOf(HasSubstr("specimen.file"), HasSubstr("row 3"), HasSubstr("three finite numbers")));
+/// Keys that tell nothing about a specimen that is pulled as it is drawn.
+TEST(BadInput, WhatHasNoEffectOnAStraightRod) {
+  const std::string straight = std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml";
+  const std::vector<Wrong> table{
+      {"specimen.handedness=opposite", "specimen.handedness", "opposite", "only for knot: fisherman"},
+      {"specimen.knot_distance=0.1", "specimen.knot_distance", "0.1", "only for knot: fisherman"},
+      {"specimen.end_to_end=0.2", "specimen.end_to_end", "0.2", "only for knot: fisherman or overhand"},
+      {"specimen.tail=0.05", "specimen.tail", "0.05", "only for knot: fisherman"},
+      {"specimen.preload=20", "specimen.preload", "20", "only for knot: fisherman"},
+      {"machine.roller_diameter=0.05", "machine.roller_diameter", "0.05", "only for knot: fisherman"},
+      {"machine.roller_friction=0.1", "machine.roller_friction", "0.1", "only with grips: rollers"},
+      {"program.0={tie: {}}", "program.0", "tie", "for knot: fisherman"},
+      {"program.0={mount: {}}", "program.0", "mount", "for knot: fisherman"},
+  };
+  for (const Wrong& wrong : table) {
+    EXPECT_THAT(complaint(straight, {wrong.set}),
+                AllOf(HasSubstr(std::string(wrong.key) + ": "), HasSubstr(wrong.value), HasSubstr(wrong.allowed)))
+        << wrong.set;
+  }
 }
 
 /// The command itself, where it has been built: exit code 2, one line, nothing written.

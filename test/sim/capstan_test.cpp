@@ -1,5 +1,6 @@
 #include <Eigen/Geometry>
 
+#include "knot_utm/sim/step_control.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -86,18 +87,24 @@ struct Capstan {
     boundary.fixed_nodes = {{last, state.position.col(last)}};
   }
 
-  /// Pulls the rod by `distance` in equal steps of about `stride`; mean of T2/T1 at their ends.
+  /// Pulls the rod by `distance` in steps of no more than `stride`; mean of T2/T1 over their length.
   double pull_by(double distance, double stride) {
-    const int steps = static_cast<int>(std::ceil(distance / stride));
-    double sum = 0.0;
-    for (int i = 0; i < steps; ++i) {
-      boundary.fixed_nodes[0].position += distance / steps * pull;
-      const StepSummary summary = stepper->step(boundary, 0.1);
-      EXPECT_TRUE(summary.accepted()) << summary.reason << " in step " << i;
-      if (!summary.accepted()) break;
-      sum += stepper->reaction(last).norm() / t1;
-    }
-    return sum / steps;
+    constexpr double kSpeed = 0.1;
+    StepControl::Options options;
+    options.longest = stride / kSpeed;
+    options.motion = 0.5;
+    StepControl control(options);
+    const Vec3 from = boundary.fixed_nodes[0].position;
+    double time = 0.0, sum = 0.0;
+    const std::string gave_up = control.advance(
+        *stepper, time, distance / kSpeed,
+        [&](double, double to) -> const Boundary& {
+          boundary.fixed_nodes[0].position = from + kSpeed * to * pull;
+          return boundary;
+        },
+        [&](double, double dt, const StepSummary&) { sum += kSpeed * dt * stepper->reaction(last).norm() / t1; });
+    EXPECT_EQ(gave_up, "");
+    return sum / distance;
   }
 
   /// T2/T1 while sliding: over the length of an edge, once the rod has slid by rho.

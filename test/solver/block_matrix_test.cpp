@@ -97,6 +97,24 @@ TYPED_TEST(BlockMatrixTest, AnIdentityRowPrescribesItsUnknown) {
   EXPECT_LT((example.vector(x) - example.dense.partialPivLu().solve(b)).norm(), 1e-13);
 }
 
+TYPED_TEST(BlockMatrixTest, SomeRowsOfANodeCanBeKept) {
+  constexpr int D = TypeParam::value;
+  Example<D> example;
+  const Lanes keep = {0.0, 1.0, 0.0, 1.0};
+  for (const int node : {0, 17, 39}) {
+    example.matrix.set_identity_row(node, keep);
+    for (const int row : {D * node, D * node + 2}) {
+      example.dense.row(row).setZero();
+      example.dense(row, row) = 1.0;
+    }
+  }
+  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(D * Example<D>::kNodes, -1.0, 2.0);
+  auto x = example.lanes(b);
+  ASSERT_TRUE(example.matrix.factor());
+  example.matrix.solve(x);
+  EXPECT_LT((example.vector(x) - example.dense.partialPivLu().solve(b)).norm(), 1e-13);
+}
+
 TYPED_TEST(BlockMatrixTest, ASingularPivotIsReported) {
   constexpr int D = TypeParam::value;
   BlockPattern pattern;

@@ -65,7 +65,6 @@ class EdgeContact {
 
   const EdgeLaw& normal() const { return normal_; }
   const Friction& friction() const { return friction_; }
-  void set_friction(const Friction& friction) { friction_ = friction; }
 
  private:
   /// What a contact between edges knows beside its ContactPoint.
@@ -76,13 +75,15 @@ class EdgeContact {
     double inverse_tt, inverse_tu, inverse_uu;  // of H, zero where a foot stays [1/m^2]
   };
   struct Memory {
+    std::pair<int, int> edges;
     double arclength_a, arclength_b;
     Vec3 slip;  // xi [m]
     double pressure;
   };
 
   void add_contact(int pair, const Points& position, const Points& start, double friction_scale);
-  const Memory* recall(double arclength_a, double arclength_b) const;
+  /// What is remembered of these edges' contact, or else of the nearest one; null where there was none near.
+  const Memory* recall(std::pair<int, int> edges, double arclength_a, double arclength_b) const;
 
   EdgeLaw normal_;
   Friction friction_;

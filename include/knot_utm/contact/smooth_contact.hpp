@@ -46,7 +46,6 @@ class SmoothContact {
 
   const NormalLaw& normal() const { return normal_; }
   const Friction& friction() const { return friction_; }
-  void set_friction(const Friction& friction) { friction_ = friction; }
 
  private:
   /// What a contact carries from iteration to iteration, and from step to step.

@@ -29,7 +29,14 @@ struct ContactReading {
   int touching = 0;              ///< points of integration that carry force
   double normal_force = 0.0;     ///< sum of their normal forces [N]
   double largest_overlap = 0.0;  ///< between strands [m]
-  double friction_work = 0.0;    ///< lost in the last step [J]
+};
+
+/// Work done in the last accepted step [J]. That of the boundary is the mean of the forces at both ends of the step
+/// times the way; what friction and drag take is that of the forces at its end, as the step's equations have them.
+struct StepWork {
+  double boundary = 0.0;  ///< by grips, held nodes, rollers, forces and gravity on the rod
+  double friction = 0.0;  ///< lost to friction between strands and on rollers
+  double drag = 0.0;      ///< lost to drag
 };
 
 /// One implicit Euler step of a rod with contact and friction: find x at t + dt with
@@ -60,12 +67,10 @@ class TimeStep {
   virtual Vec3 roller_force(int roller) const = 0;
   virtual Energies energies() const = 0;
   virtual ContactReading contact_reading() const = 0;
+  virtual StepWork work() const = 0;
   virtual const std::vector<ContactPoint>& contacts() const = 0;
   /// Tension of each edge [N].
   Eigen::VectorXd tension() const;
-
-  /// Friction between strands from the next step on.
-  virtual void set_friction(const Friction& friction) = 0;
 
  protected:
   TimeStep(const RodProperties& rod, const RodState& state) : rod_(rod), state_(state) {}

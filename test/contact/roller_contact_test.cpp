@@ -1,0 +1,99 @@
+#include "knot_utm/contact/roller_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include "sim/scenes.hpp"
+
+namespace knot_utm {
+namespace {
+
+/// A rod wound by a third of a turn around a roller along y, pressed in by a tenth of the tolerance.
+struct Wound {
+  RodProperties rod = make_rod(braided_rope(), Eigen::VectorXd::Constant(20, 0.0032));
+  NormalLaw normal{1e7, 2e-4};
+  Roller roller;
+  Points position{3, 21};
+
+  Wound() {
+    roller.radius = 0.019;
+    roller.centre = Vec3(0.01, 0.02, -0.03);
+    const double reach = roller.radius + rod.material.radius - 0.1 * normal.tolerance;
+    for (int i = 0; i < 21; ++i) {
+      const double angle = 0.1 * (i - 10);
+      position.col(i) = roller.centre + reach * Vec3(std::sin(angle), 0.0, std::cos(angle));
+    }
+  }
+  RollerContact touch(const Friction& friction, const Points& end) const {
+    RollerContact contact(rod, normal, friction);
+    contact.begin_step();
+    contact.evaluate({roller}, end, position, 0.01);
+    return contact;
+  }
+};
+
+Vec3 force_on_rod(const RollerContact& contact) {
+  Vec3 sum = Vec3::Zero();
+  for (const ContactPoint& point : contact.contacts())
+    for (int k = 0; k < 3; ++k) sum += point.c[k] * point.force;
+  return sum;
+}
+
+TEST(RollerContact, WhatTheRodPushesTheRollerPushesBack) {
+  const Wound scene;
+  Points end = scene.position;
+  end.row(0).array() += 1e-5;  // and slides a little
+  const RollerContact contact = scene.touch({FrictionLaw::kMemory, 0.3, 2e-3 * scene.rod.material.radius, 0.0}, end);
+  ASSERT_GT(contact.contacts().size(), 10u);
+  EXPECT_GT(force_on_rod(contact)[2], 0.0);
+  EXPECT_LT((force_on_rod(contact) + contact.force_on(0)).norm(), 1e-12 * contact.force_on(0).norm());
+}
+
+TEST(RollerContact, WithoutFrictionItPushesStraightOutwards) {
+  const Wound scene;
+  const RollerContact contact = scene.touch({FrictionLaw::kMemory, 0.0, 1e-5, 0.0}, scene.position);
+  for (const ContactPoint& point : contact.contacts()) {
+    EXPECT_LT(point.force.cross(point.n).norm(), 1e-12 * point.force.norm());
+    EXPECT_GT(point.force.dot(point.n), 0.0);
+    EXPECT_NEAR(point.pressure, scene.normal.pressure(point.overlap), 1e-9 * point.pressure);
+    EXPECT_EQ(point.axis.dot(point.force), 0.0);
+  }
+}
+
+TEST(RollerContact, FrictionIsAtMostItsShareAndAgainstTheSlip) {
+  constexpr double kMu = 0.3;
+  const Wound scene;
+  Points end = scene.position;
+  end.row(1).array() += 1e-3;  // along the roller, far beyond presliding
+  const RollerContact contact = scene.touch({FrictionLaw::kMemory, kMu, 1e-5, 0.0}, end);
+  for (const ContactPoint& point : contact.contacts())
+    EXPECT_NEAR(point.force[1], -kMu * point.force.dot(point.n), 0.01 * kMu * point.force.norm());
+}
+
+TEST(RollerContact, ARodThatDoesNotReachItFeelsNothing) {
+  const Wound scene;
+  Points away = scene.position;
+  away.row(2).array() += 0.1;
+  const RollerContact contact = scene.touch({FrictionLaw::kMemory, 0.3, 1e-5, 0.0}, away);
+  EXPECT_TRUE(contact.contacts().empty());
+  EXPECT_EQ(contact.force_on(0), Vec3::Zero());
+}
+
+TEST(RollerContact, ARodPressedOnARollerRestsOnItWithItsWholeWeight) {
+  const Material material = braided_rope();
+  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(20, material.radius));
+  StepSettings settings = closed_form_settings(material);
+  settings.gravity = Vec3(0.0, 0.0, -9.81);
+  settings.drag = 1.0;
+  RodState state = straight_state(rod);
+  state.position.row(2).setConstant(-settings.normal.overlap_at(rod.mass.sum() / rod.length() * 9.81));
+  const std::unique_ptr<TimeStep> stepper = TimeStep::make(rod, state, settings);
+  Boundary boundary;
+  boundary.rollers = {plane_below(material.radius)};
+  const double weight = 9.81 * rod.mass.sum();
+  for (int i = 0; i < 50; ++i) ASSERT_TRUE(stepper->step(boundary, 0.01).accepted());
+  EXPECT_NEAR(stepper->roller_force(0)[2], -weight, 1e-3 * weight);
+  EXPECT_LT(std::abs(stepper->roller_force(0)[0]), 1e-9);
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,156 @@
+#include "knot_utm/machine/test_bench.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "knot_utm/rod/invalid_input.hpp"
+
+namespace knot_utm {
+namespace {
+
+Material nylon() {
+  Material out;
+  out.radius = 3.175e-3;
+  out.density = 1150.0;
+  out.stretching_stiffness = 7.34e4;
+  out.bending_stiffness = 4.31e-5;
+  out.twisting_stiffness = 4.31e-5;
+  out.friction_coefficient = 0.46;
+  return out;
+}
+
+SpecimenOptions straight_rod() {
+  SpecimenOptions out;
+  out.knot = KnotKind::kStraight;
+  out.length = 0.25;
+  out.edge_length = 0.005;
+  return out;
+}
+
+TestBench bench(const SpecimenOptions& specimen, GripKind grips = GripKind::kClamps) {
+  MachineOptions machine;
+  machine.grips = grips;
+  PhysicsOptions physics;
+  physics.accuracy = Accuracy::kDraft;
+  return TestBench(specimen, nylon(), machine, physics);
+}
+
+Command pull(std::uint64_t sequence, double time, double displacement) {
+  Command out;
+  out.sequence = sequence;
+  out.time = time;
+  out.displacement = displacement;
+  out.step = 1;
+  out.phase = Phase::kPull;
+  return out;
+}
+
+/// The key that is complained about; empty: nothing was wrong.
+std::string wrong_key(const SpecimenOptions& specimen) {
+  try {
+    bench(specimen);
+  } catch (const InvalidInput& invalid) {
+    return invalid.key;
+  }
+  return "";
+}
+
+TEST(TestBench, AStraightRodIsASpringOfStiffnessOverLength) {
+  TestBench machine = bench(straight_rod());
+  machine.respond(Command{});
+  const double stiffness = nylon().stretching_stiffness / 0.25;
+  double force = 0.0, extension = 0.0;
+  for (std::uint64_t k = 1; k <= 20; ++k) {
+    const Sample sample = machine.respond(pull(k, 0.1 * static_cast<double>(k), 3.3e-4 * static_cast<double>(k)));
+    ASSERT_EQ(sample.status, BenchStatus::kRunning) << sample.message;
+    EXPECT_NEAR(sample.force_upper, stiffness * sample.extension, 1e-5 * sample.force_upper);
+    EXPECT_NEAR(sample.force_upper, sample.force_lower, 1e-5 * sample.force_upper);
+    if (k > 1) {
+      EXPECT_NEAR((sample.force_upper - force) / (sample.extension - extension), stiffness, 2e-4 * stiffness);
+    }
+    force = sample.force_upper;
+    extension = sample.extension;
+  }
+  EXPECT_NEAR(extension, 6.6e-3, 1e-12);
+}
+
+TEST(TestBench, RefusesASpecimenThatDoesNotFit) {
+  SpecimenOptions loop;
+  loop.end_to_end = 0.05;
+  EXPECT_NE(wrong_key(loop), "");
+  SpecimenOptions overhand;
+  overhand.knot = KnotKind::kOverhand;
+  overhand.end_to_end = 0.999;
+  EXPECT_EQ(wrong_key(overhand), "specimen.end_to_end");
+  SpecimenOptions file;
+  file.knot = KnotKind::kFile;
+  file.file = "no such file";
+  EXPECT_EQ(wrong_key(file), "specimen.file");
+  file.closed = true;
+  EXPECT_EQ(wrong_key(file), "specimen.closed");
+}
+
+TEST(TestBench, HoldsAShapeFromAFileAtItsFirstAndLastEdge) {
+  const std::string name = ::testing::TempDir() + "knot_utm_bench_shape.csv";
+  std::ofstream(name) << "x,y,z\n0,0,0\n0,0,0.03\n0.01,0,0.05\n0,0,0.07\n0,0,0.1\n";
+  SpecimenOptions file;
+  file.knot = KnotKind::kFile;
+  file.file = name;
+  file.edge_length = 0.005;
+  TestBench machine = bench(file);
+  machine.respond(Command{});
+  const Points drawn = machine.state().position;
+  const Eigen::Index last = drawn.cols() - 1;
+  const Sample sample = machine.respond(pull(1, 0.1, 1e-4));
+  EXPECT_EQ(sample.status, BenchStatus::kRunning) << sample.message;
+  const Points& now = machine.state().position;
+  const Vec3 up(0.0, 0.0, 1e-4);
+  for (const Eigen::Index i : {Eigen::Index(0), Eigen::Index(1)}) EXPECT_LT((now.col(i) - drawn.col(i)).norm(), 1e-12);
+  for (const Eigen::Index i : {last - 1, last}) EXPECT_LT((now.col(i) - drawn.col(i) - up).norm(), 1e-12);
+
+  std::ofstream(name) << "0,0,0.1\n0,0,0.07\n0.01,0,0.05\n0,0,0\n";
+  EXPECT_EQ(wrong_key(file), "specimen.file") << "upside down";
+  std::filesystem::remove(name);
+}
+
+/// The shape as drawn stores energy that would throw it about.
+TEST(TestBench, ADrawnOverhandSettlesGently) {
+  SpecimenOptions overhand;
+  overhand.knot = KnotKind::kOverhand;
+  overhand.end_to_end = 0.7;
+  overhand.edge_length = 0.0063;
+  TestBench machine = bench(overhand);
+  machine.respond(Command{});
+  for (std::uint64_t k = 1; k <= 10; ++k) {
+    const Sample sample = machine.respond(pull(k, 0.2 * static_cast<double>(k), 0.0));
+    ASSERT_EQ(sample.status, BenchStatus::kRunning) << sample.message;
+    for (const Sample& substep : machine.substeps()) EXPECT_LT(substep.fastest_node, 0.1) << substep.time;
+  }
+}
+
+TEST(TestBench, OnceFailedItAnswersEveryCommandWithTheSame) {
+  TestBench machine = bench(straight_rod());
+  machine.respond(Command{});
+  const Sample failed = machine.respond(pull(1, 1e-6, 0.2));  // faster than any step may move
+  ASSERT_EQ(failed.status, BenchStatus::kFailed);
+  EXPECT_NE(failed.message, "");
+  const Points position = machine.state().position;
+  for (std::uint64_t k = 2; k < 5; ++k) {
+    Command command = pull(k, 0.1 * static_cast<double>(k), 0.0);
+    command.step = static_cast<int>(k);
+    const Sample sample = machine.respond(command);
+    EXPECT_EQ(sample.sequence, k);
+    EXPECT_EQ(sample.status, BenchStatus::kFailed);
+    EXPECT_EQ(sample.message, failed.message);
+    EXPECT_EQ(sample.time, failed.time);
+    EXPECT_EQ(sample.displacement, failed.displacement);
+    EXPECT_EQ(machine.substeps().size(), 1u);
+  }
+  EXPECT_EQ(machine.state().position, position);
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,121 @@
+#include "knot_utm/sim/step_control.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numeric>
+#include <vector>
+
+#include "sim/scenes.hpp"
+
+namespace knot_utm {
+namespace {
+
+/// Accepts every step that is no longer than `longest_good`, and says of each what it is told to.
+class ScriptedStep : public TimeStep {
+ public:
+  ScriptedStep() : TimeStep(make_rod(braided_rope(), Eigen::VectorXd::Constant(4, 0.01)), RodState{}) {}
+
+  StepSummary step(const Boundary& /*boundary*/, double dt) override {
+    StepSummary out;
+    out.newton.iterations = iterations;
+    out.largest_motion = speed * dt;
+    if (dt > longest_good) out.reason = "it was too long";
+    tried.push_back(dt);
+    return out;
+  }
+  Vec3 reaction(int /*node*/) const override { return Vec3::Zero(); }
+  double reaction_torque(int /*edge*/) const override { return 0.0; }
+  Vec3 roller_force(int /*roller*/) const override { return Vec3::Zero(); }
+  Energies energies() const override { return {}; }
+  ContactReading contact_reading() const override { return {}; }
+  const std::vector<ContactPoint>& contacts() const override { return contacts_; }
+  void set_friction(const Friction& /*friction*/) override {}
+
+  double longest_good = 1.0;  // [s]
+  double speed = 0.0;         // [m/s]
+  int iterations = 3;
+  std::vector<double> tried;
+
+ private:
+  std::vector<ContactPoint> contacts_;
+};
+
+struct Run {
+  std::string gave_up;
+  double time = 0.0;
+  std::vector<double> taken;
+};
+
+Run advance(StepControl& control, ScriptedStep& step, double end) {
+  Run out;
+  const Boundary boundary;
+  out.gave_up = control.advance(
+      step, out.time, end, [&](double, double) -> const Boundary& { return boundary; },
+      [&](double, double dt, const StepSummary&) { out.taken.push_back(dt); });
+  return out;
+}
+
+StepControl::Options options() {
+  StepControl::Options out;
+  out.longest = 0.1;
+  out.motion = 1.0;
+  return out;
+}
+
+TEST(StepControl, EndsExactlyAtTheEndWithoutASliver) {
+  StepControl control(options());
+  ScriptedStep step;
+  const Run run = advance(control, step, 0.25);
+  EXPECT_EQ(run.gave_up, "");
+  EXPECT_EQ(run.time, 0.25);
+  ASSERT_EQ(run.taken.size(), 3u);
+  for (const double dt : run.taken) EXPECT_NEAR(dt, 0.25 / 3.0, 1e-15);
+}
+
+TEST(StepControl, HalvesAStepThatWasNotAccepted) {
+  StepControl control(options());
+  ScriptedStep step;
+  step.longest_good = 0.03;
+  const Run run = advance(control, step, 0.1);
+  EXPECT_EQ(run.gave_up, "");
+  EXPECT_EQ(run.time, 0.1);
+  ASSERT_GE(step.tried.size(), 3u);
+  EXPECT_DOUBLE_EQ(step.tried[0], 0.1);
+  EXPECT_DOUBLE_EQ(step.tried[1], 0.05);
+  EXPECT_DOUBLE_EQ(step.tried[2], 0.025);
+  EXPECT_EQ(control.counters().steps, run.taken.size());
+  EXPECT_EQ(control.counters().rejected, step.tried.size() - run.taken.size());
+  EXPECT_EQ(control.counters().iterations, 3 * step.tried.size());
+  EXPECT_NEAR(std::accumulate(run.taken.begin(), run.taken.end(), 0.0), 0.1, 1e-15);
+}
+
+TEST(StepControl, GivesUpWithTheReasonOfTheLastStep) {
+  StepControl control(options());
+  ScriptedStep step;
+  step.longest_good = 0.0;
+  const Run run = advance(control, step, 0.1);
+  EXPECT_THAT(run.gave_up, testing::HasSubstr("it was too long"));
+  EXPECT_THAT(run.gave_up, testing::HasSubstr("time step fell below 1e-07 s"));
+  EXPECT_EQ(run.time, 0.0);
+  EXPECT_TRUE(run.taken.empty());
+  EXPECT_EQ(control.counters().steps, 0u);
+  EXPECT_GE(step.tried.back(), 1e-7);
+}
+
+TEST(StepControl, AimsAtAMovementAndIsShorterWhereNewtonFindsItHard) {
+  StepControl moving(options());
+  ScriptedStep fast;
+  fast.speed = 20.0;  // a movement of 1 takes 0.05 s
+  EXPECT_NEAR(advance(moving, fast, 1.0).taken.back(), 0.05, 1e-9);
+
+  StepControl labouring(options());
+  ScriptedStep hard;
+  hard.iterations = 10;
+  const Run run = advance(labouring, hard, 0.3);
+  ASSERT_GE(run.taken.size(), 2u);
+  EXPECT_LT(run.taken[1], 0.75 * run.taken[0]);
+}
+
+}  // namespace
+}  // namespace knot_utm

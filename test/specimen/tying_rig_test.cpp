@@ -1,0 +1,134 @@
+#include "knot_utm/specimen/tying_rig.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "knot_utm/sim/step_control.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kPreload = 0.05;  // small: the grips slip soon [N]
+
+Material soft() {
+  Material out;
+  out.radius = 3.175e-3;
+  out.density = 1150.0;
+  out.stretching_stiffness = 1.70;
+  out.bending_stiffness = 4.34e-6;
+  out.twisting_stiffness = 2.893e-6;
+  out.friction_coefficient = 0.3;
+  return out;
+}
+
+/// A short, coarse loop in the tying rig, without a machine around it.
+struct Loop {
+  Centreline centreline;
+  RodProperties rod;
+  std::unique_ptr<TimeStep> stepper;
+  std::unique_ptr<TyingRig> rig;
+  Boundary boundary;
+  double time = 0.0;
+  double largest_tail_force = 0.0, farthest_clamp = 0.0;
+
+  explicit Loop(TyingRig::Options options) {
+    const Material material = soft();
+    const double h = material.radius, bend = material.bending_stiffness / (h * h);
+    FishermanShape shape;
+    shape.edge_length = 0.006;
+    centreline = fisherman_loop(shape);
+    rod = make_rod(material, Eigen::VectorXd::Constant(centreline.points.cols() - 1, centreline.edge_length()));
+    RodState state;
+    state.position = centreline.points;
+    state.velocity = Points::Zero(3, state.position.cols());
+    StepSettings settings;
+    settings.normal = {300.0 * bend / (h * h), 0.1 * h};
+    settings.friction = {FrictionLaw::kMemory, material.friction_coefficient, 4e-3 * h, 0.0};
+    settings.drag = 0.1;
+    settings.residual = 1e-4 * bend;
+    settings.newton_cap = 0.1 * h;
+    settings.motion_limit = 0.8 * h;
+    settings.overlap_limit = 0.5 * h;
+    settings.candidate_margin = 0.5 * h;
+    stepper = TimeStep::make(rod, state, settings);
+    options.preload = kPreload;
+    rig = std::make_unique<TyingRig>(centreline, rod, options);
+  }
+
+  void run(double until) {
+    StepControl::Options options;
+    options.motion = 0.4 * rod.material.radius;
+    StepControl control(options);
+    const std::string gave_up = control.advance(
+        *stepper, time, until,
+        [&](double from, double to) -> const Boundary& {
+          boundary = Boundary{};
+          rig->hold(boundary, from, to);
+          return boundary;
+        },
+        [&](double to, double dt, const StepSummary&) {
+          for (const FixedNode& clamp : boundary.fixed_nodes) {
+            const Vec3 place = stepper->state().position.col(clamp.node);
+            farthest_clamp = std::max(
+                {farthest_clamp, (place - clamp.position).norm(), (place - centreline.points.col(clamp.node)).norm()});
+          }
+          rig->follow(*stepper, to, dt);
+          for (const int k : {0, 1}) largest_tail_force = std::max(largest_tail_force, rig->tail_force(k));
+        });
+    ASSERT_EQ(gave_up, "");
+  }
+};
+
+TEST(TyingRig, ClampsHoldAndGripsNeverPullHarderThanThePreload) {
+  Loop loop(TyingRig::Options{});
+  loop.rig->tie(0.02, 0.0, loop.stepper->state().position);
+  EXPECT_EQ(loop.rig->stage(), TyingRig::Stage::kSettling);
+  loop.run(1.5);
+  EXPECT_EQ(loop.boundary.fixed_nodes.size(), 4u);
+  EXPECT_LT(loop.farthest_clamp, 1e-12);
+  EXPECT_GT(loop.largest_tail_force, 0.0);
+  EXPECT_LE(loop.largest_tail_force, kPreload);
+  EXPECT_GE(loop.rig->stage(), TyingRig::Stage::kPulling);
+  EXPECT_EQ(loop.rig->not_equilibrated(), "");
+}
+
+TEST(TyingRig, SettlesUnderADragThatFades) {
+  Loop loop(TyingRig::Options{});
+  loop.rig->tie(0.02, 0.0, loop.stepper->state().position);
+  const auto drag_at = [&](double to) {
+    Boundary boundary;
+    loop.rig->hold(boundary, 0.0, to);
+    return boundary.extra_drag;
+  };
+  EXPECT_GT(drag_at(0.0), drag_at(0.1));
+  EXPECT_GT(drag_at(0.1), drag_at(0.2));
+  EXPECT_EQ(drag_at(1.0), 0.0);
+}
+
+TEST(TyingRig, SaysWhenThePreloadWasNotReachedInTime) {
+  TyingRig::Options options;
+  options.pull_patience = 0.01;
+  Loop loop(options);
+  loop.rig->tie(1e-6, 0.0, loop.stepper->state().position);
+  loop.run(0.5);
+  EXPECT_THAT(loop.rig->not_equilibrated(), testing::HasSubstr("have not reached the pre-load"));
+  EXPECT_FALSE(loop.rig->tied());
+}
+
+TEST(TyingRig, SaysWhenNothingCameToRestInTime) {
+  TyingRig::Options options;
+  options.patience = 0.01;
+  options.rest_speed = 0.0;  // never
+  Loop loop(options);
+  loop.rig->tie(0.1, 0.0, loop.stepper->state().position);
+  loop.rig->release(0.03, 0.0);
+  loop.run(0.1);
+  EXPECT_THAT(loop.rig->not_equilibrated(), testing::HasSubstr("after the tails were released"));
+  EXPECT_FALSE(loop.rig->released());
+}
+
+}  // namespace
+}  // namespace knot_utm
