@@ -18,23 +18,23 @@ namespace knot_utm {
 /// Force on a: g = w (p n - mu p z); on node k: c_k g. Against a roller there is no b: nodes a only, du = 0.
 struct ContactPoint {
   int a0 = 0;
-  int b0 = -1;          ///< -1: a roller
-  double c[6] = {};     ///< [-]
-  double beta[6] = {};  ///< [-], zero for a
-  double arclength_a = 0.0;  ///< [m], at rest
-  double arclength_b = 0.0;  ///< [m], at rest; of a roller: its index
-  Vec3 x = Vec3::Zero();     ///< a - b [m]
-  Vec3 n = Vec3::Zero();     ///< x/d
-  double d = 0.0;            ///< [m]
-  double overlap = 0.0;      ///< D [m]
-  double begins = 0.0;       ///< overlap at which the normal law begins [m]
-  double share = 1.0;        ///< omega, of the contact that this side carries
-  double weight = 0.0;       ///< w: rest length it stands for, times its share of the contact [m]
-  double pressure = 0.0;     ///< p [N/m]
-  double estimate = -1.0;    ///< of the pressure at the solution, from the last linear solve [N/m]; < 0: none
-  Vec3 db = Vec3::Zero();    ///< b' [m]
-  double inverse_g = 0.0;    ///< 1/G [1/m^2]; 0 against a roller
-  Vec3 axis = Vec3::Zero();  ///< of the roller, unit; zero between strands
+  int b0 = -1;                 ///< -1: a roller
+  double c[6] = {};            ///< [-]
+  double beta[6] = {};         ///< [-], zero for a
+  double arclength_a = 0.0;    ///< [m], at rest
+  double arclength_b = 0.0;    ///< [m], at rest; of a roller: its index
+  Vec3 x = Vec3::Zero();       ///< a - b [m]
+  Vec3 n = Vec3::Zero();       ///< x/d
+  double d = 0.0;              ///< [m]
+  double overlap = 0.0;        ///< D [m]
+  double begins = 0.0;         ///< overlap at which the normal law begins [m]
+  double share = 1.0;          ///< omega, of the contact that this side carries
+  double weight = 0.0;         ///< w: rest length it stands for, times its share of the contact [m]
+  double pressure = 0.0;       ///< p [N/m]
+  double estimate = -1.0;      ///< of the pressure at the solution, from the last linear solve [N/m]; < 0: none
+  Vec3 db = Vec3::Zero();      ///< b' [m]
+  double inverse_g = 0.0;      ///< 1/G [1/m^2]; 0 against a roller
+  Vec3 axis = Vec3::Zero();    ///< of the roller, unit; zero between strands
   Vec3 memory = Vec3::Zero();  ///< xi_n [m]
   Vec3 slip = Vec3::Zero();    ///< r = xi_n + slip of this step, before projection on the tangent plane [m]
   Vec3 turn = Vec3::Zero();    ///< V = sum_k beta_k (q_k - q_k^n), how b' turned in this step [m]

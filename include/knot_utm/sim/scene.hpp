@@ -57,8 +57,8 @@ struct Boundary {
 /// What a time step needs to know besides rod and boundary; constant during a run.
 struct StepSettings {
   ContactLaw contact_law = ContactLaw::kSmooth;  ///< between strands; rollers always touch the smooth centreline
-  NormalLaw normal;          ///< between strands, and on rollers
-  Friction friction;         ///< between strands
+  NormalLaw normal;                              ///< between strands, and on rollers
+  Friction friction;                             ///< between strands
   Friction roller_friction;
   Vec3 gravity = Vec3::Zero();       ///< g [m/s^2]
   double drag = 0.0;                 ///< c, force -c v per length [N s/m^2]
