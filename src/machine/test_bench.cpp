@@ -28,9 +28,9 @@ struct Tolerances {
 };
 
 Tolerances tolerances(const PhysicsOptions& physics) {
-  Tolerances out = physics.accuracy == Accuracy::kDraft    ? Tolerances{0.34, 1e-4, 0.05, 4e-3}
-                   : physics.accuracy == Accuracy::kNormal ? Tolerances{0.17, 2e-5, 0.05, 2e-3}
-                                                           : Tolerances{0.05, 1e-5, 0.05, 1e-3};
+  Tolerances out = physics.accuracy == Accuracy::kDraft    ? Tolerances{0.34, 1e-4, 0.045, 4e-3}
+                   : physics.accuracy == Accuracy::kNormal ? Tolerances{0.17, 2e-5, 0.045, 2e-3}
+                                                           : Tolerances{0.05, 1e-5, 0.045, 1e-3};
   out.longest_step = physics.max_step.value_or(out.longest_step);
   out.residual = physics.residual.value_or(out.residual);
   out.contact_tolerance = physics.contact_tolerance.value_or(out.contact_tolerance);

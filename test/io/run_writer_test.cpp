@@ -92,7 +92,7 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
     EXPECT_TRUE(result[key].IsDefined()) << key;
   }
   EXPECT_EQ(result["ended_by"].as<std::string>(), "extension");
-  EXPECT_EQ(result["preload"].as<double>(), 70.0);
+  EXPECT_EQ(result["preload"].as<double>(), 500.0);
   EXPECT_TRUE(result["lock_extension"].IsNull());
   EXPECT_GT(result["peak_memory"].as<double>(), 1e5);
   EXPECT_DOUBLE_EQ(result["real_time_factor"].as<double>(), result["simulated_time"].as<double>() / 0.5);

@@ -29,8 +29,8 @@ class ScriptedStep : public TimeStep {
   Vec3 roller_force(int /*roller*/) const override { return Vec3::Zero(); }
   Energies energies() const override { return {}; }
   ContactReading contact_reading() const override { return {}; }
+  StepWork work() const override { return {}; }
   const std::vector<ContactPoint>& contacts() const override { return contacts_; }
-  void set_friction(const Friction& /*friction*/) override {}
 
   double longest_good = 1.0;  // [s]
   double speed = 0.0;         // [m/s]
