@@ -18,25 +18,53 @@ double arclength_at(const Eigen::VectorXd& arclength, int segment, double u) {
   return begin + u * (end - begin);
 }
 
-/// The root of the cubic c0 + c1 u + c2 u^2 + c3 u^3 in [0, 1], negative at 0 and not so at 1: Newton's method, kept
-/// inside the bracket.
-double bracketed_root(double c0, double c1, double c2, double c3) {
-  double low = 0.0, high = 1.0;
-  const double at_one = c0 + c1 + c2 + c3;
-  double u = c0 / (c0 - at_one);
-  const double tolerance = 1e-15 * (at_one - c0);
-  for (int i = 0; i < 40; ++i) {
-    const double value = c0 + u * (c1 + u * (c2 + u * c3));
-    if (std::abs(value) <= tolerance) break;
-    (value < 0.0 ? low : high) = u;
-    const double derivative = c1 + u * (2.0 * c2 + u * 3.0 * c3);
-    double next = derivative > 0.0 ? u - value / derivative : 0.5 * (low + high);
-    if (!(next > low && next < high)) next = 0.5 * (low + high);
-    if (next == u) break;
-    u = next;
+/// A cubic c0 + c1 u + c2 u^2 + c3 u^3.
+struct Cubic {
+  double c0, c1, c2, c3;
+  double value(double u) const { return c0 + u * (c1 + u * (c2 + u * c3)); }
+  double slope(double u) const { return c1 + u * (2.0 * c2 + u * 3.0 * c3); }
+
+  /// The root in [low, high], where it rises from below zero to zero or above: Newton's method, kept inside.
+  double rising_root(double low, double high) const {
+    const double begin = value(low), end = value(high);
+    double u = low + (high - low) * begin / (begin - end);
+    const double tolerance = 1e-15 * (end - begin);
+    for (int i = 0; i < 40; ++i) {
+      const double here = value(u);
+      if (std::abs(here) <= tolerance) break;
+      (here < 0.0 ? low : high) = u;
+      const double steepness = slope(u);
+      double next = steepness > 0.0 ? u - here / steepness : 0.5 * (low + high);
+      if (!(next > low && next < high)) next = 0.5 * (low + high);
+      if (next == u) break;
+      u = next;
+    }
+    return u;
   }
-  return u;
-}
+};
+
+/// Where F' rises through zero in [0, 1): one place as a rule; two, or one more between places where it falls, on a
+/// segment that bends around the point. c3 >= 0, so F' rises, falls and rises at most.
+struct RisingRoots {
+  double root[2];
+  int count = 0;
+
+  explicit RisingRoots(const Cubic& f) {
+    const double discriminant = f.c2 * f.c2 - 3.0 * f.c1 * f.c3;
+    if (discriminant <= 0.0 || f.c3 <= 0.0) {
+      search(f, 0.0, 1.0);
+      return;
+    }
+    const double half = std::sqrt(discriminant) / (3.0 * f.c3), middle = -f.c2 / (3.0 * f.c3);
+    search(f, 0.0, std::min(middle - half, 1.0));
+    search(f, std::max(middle + half, 0.0), 1.0);
+  }
+
+ private:
+  void search(const Cubic& f, double low, double high) {
+    if (low < high && f.value(low) < 0.0 && f.value(high) >= 0.0) root[count++] = f.rising_root(low, high);
+  }
+};
 
 /// Number of the point of integration that a contact stands on.
 std::size_t point_of(const ContactPoint& contact) {
@@ -98,22 +126,15 @@ void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run
                               const Points& start) {
   const SegmentWeights w(kPoints[point]);
   const Vec3 a = combine(w.value, position, segment);
-  // F' at the joints of the segments; a joint belongs to the segment it ends.
-  double slope_begin = -(a - edge_middle_.col(run.first - 1)).dot(edge_.col(run.first - 1));
   for (int foot = run.first; foot <= run.last; ++foot) {
-    const double slope_end = -(a - edge_middle_.col(foot)).dot(edge_.col(foot));
-    if (slope_begin < 0.0 && slope_end >= 0.0) {
-      // On the segment c(u) = m + t u + k u^2/2, so F'(u) = -(a - c).c' is a cubic.
-      const Vec3 t = edge_.col(foot - 1), k = edge_.col(foot) - edge_.col(foot - 1);
-      const Vec3 r = a - edge_middle_.col(foot - 1);
-      const double limit = reach_ + 0.5 * voronoi_[foot];
-      const Vec3 halfway = r - 0.5 * t - 0.125 * k;
-      if (halfway.squaredNorm() < limit * limit)
-        add_contact(segment, point, foot,
-                    bracketed_root(slope_begin, t.squaredNorm() - r.dot(k), 1.5 * t.dot(k), 0.5 * k.squaredNorm()),
-                    position, start);
-    }
-    slope_begin = slope_end;
+    // On the segment c(u) = m + t u + k u^2/2, so F'(u) = -(a - c).c' is a cubic.
+    const Vec3 t = edge_.col(foot - 1), k = edge_.col(foot) - edge_.col(foot - 1);
+    const Vec3 r = a - edge_middle_.col(foot - 1);
+    const double limit = reach_ + 0.5 * voronoi_[foot];
+    const Vec3 halfway = r - 0.5 * t - 0.125 * k;
+    if (halfway.squaredNorm() >= limit * limit) continue;
+    const RisingRoots feet({-r.dot(t), t.squaredNorm() - r.dot(k), 1.5 * t.dot(k), 0.5 * k.squaredNorm()});
+    for (int i = 0; i < feet.count; ++i) add_contact(segment, point, foot, feet.root[i], position, start);
   }
 }
 
