@@ -9,6 +9,7 @@ namespace knot_utm {
 
 namespace {
 
+constexpr double kUnknown = -1.0;     // share of a contact that recalls none yet
 constexpr double kReachMargin = 0.3;  // contacts are kept, forceless, up to this gap [fraction of radius]
 
 /// Arclength at rest of parameter u on a segment: from the middle of one edge to the middle of the next.
@@ -112,18 +113,22 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   if (!first_evaluation_) remember(nullptr, iterate_);
   first_evaluation_ = false;
   contacts_.clear();
+  recalled_.assign(iterate_.entries.size(), 0);
   friction_scale_ = friction_.scale(dt);
   const Eigen::Index edges = position.cols() - 1;
   edge_.noalias() = position.rightCols(edges) - position.leftCols(edges);
   edge_middle_.noalias() = 0.5 * (position.rightCols(edges) + position.leftCols(edges));
   for (const int segment : candidates_.segments())
-    for (int point = 0; point < 2; ++point)
+    for (int point = 0; point < 2; ++point) {
+      const std::size_t first = contacts_.size();
       for (const Candidates::Run* run = candidates_.begin(segment); run != candidates_.end(segment); ++run)
-        find_feet(segment, point, *run, position, start);
+        find_feet(segment, point, *run, position);
+      recall(2 * static_cast<std::size_t>(segment) + static_cast<std::size_t>(point), first);
+      for (std::size_t c = first; c < contacts_.size(); ++c) complete(contacts_[c], position, start);
+    }
 }
 
-void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run, const Points& position,
-                              const Points& start) {
+void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run, const Points& position) {
   const SegmentWeights w(kPoints[point]);
   const Vec3 a = combine(w.value, position, segment);
   for (int foot = run.first; foot <= run.last; ++foot) {
@@ -134,17 +139,17 @@ void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run
     const Vec3 halfway = r - 0.5 * t - 0.125 * k;
     if (halfway.squaredNorm() >= limit * limit) continue;
     const RisingRoots feet({-r.dot(t), t.squaredNorm() - r.dot(k), 1.5 * t.dot(k), 0.5 * k.squaredNorm()});
-    for (int i = 0; i < feet.count; ++i) add_contact(segment, point, foot, feet.root[i], position, start);
+    for (int i = 0; i < feet.count; ++i) add_contact(segment, point, foot, feet.root[i], position);
   }
 }
 
-void SmoothContact::add_contact(int segment, int point, int foot, double u, const Points& position,
-                                const Points& start) {
+void SmoothContact::add_contact(int segment, int point, int foot, double u, const Points& position) {
   const SegmentWeights wa(kPoints[point]), wb(u);
   ContactPoint contact;
   contact.x = combine(wa.value, position, segment) - combine(wb.value, position, foot);
   contact.d = contact.x.norm();
   if (contact.d >= reach_) return;
+  contact.share = kUnknown;
   contact.a0 = segment - 1;
   contact.b0 = foot - 1;
   for (int k = 0; k < 3; ++k) {
@@ -162,25 +167,38 @@ void SmoothContact::add_contact(int segment, int point, int foot, double u, cons
   // At a minimum G >= 0; it vanishes where the foot is about to jump, and there omega does too.
   contact.inverse_g = 1.0 / std::max(length2 - contact.x.dot(second_difference(position, foot)), 1e-3 * length2);
 
-  const Memory* found = nullptr;
-  double nearest = window_;
-  const std::size_t q = 2 * static_cast<std::size_t>(segment) + static_cast<std::size_t>(point);
-  for (int m = iterate_.begin[q]; m < iterate_.begin[q + 1]; ++m) {
-    const Memory& memory = iterate_.entries[static_cast<std::size_t>(m)];
-    const double away = std::abs(memory.arclength_b - contact.arclength_b);
-    if (away > nearest) continue;
-    nearest = away;
-    found = &memory;
-  }
-  if (found) {
-    contact.share = found->share;
-    contact.estimate = found->pressure;
-    contact.memory = found->slip;
-  } else {
-    contact.share = share(contact, position);
-  }
-  contact.weight = 0.5 * voronoi_[segment] * contact.share;
+  contacts_.push_back(contact);
+}
 
+void SmoothContact::recall(std::size_t q, std::size_t first) {
+  const int begin = iterate_.begin[q], end = iterate_.begin[q + 1];
+  // Nearest pairs first, each memory to one contact only: of two feet of a point one may be new.
+  for (int pass = begin; pass < end; ++pass) {
+    double nearest = window_;
+    const Memory* memory = nullptr;
+    ContactPoint* contact = nullptr;
+    for (int m = begin; m < end; ++m) {
+      const Memory& candidate = iterate_.entries[static_cast<std::size_t>(m)];
+      if (recalled_[static_cast<std::size_t>(m)]) continue;
+      for (std::size_t c = first; c < contacts_.size(); ++c) {
+        const double away = std::abs(candidate.arclength_b - contacts_[c].arclength_b);
+        if (contacts_[c].share >= 0.0 || away >= nearest) continue;
+        nearest = away;
+        memory = &candidate;
+        contact = &contacts_[c];
+      }
+    }
+    if (!contact) break;
+    recalled_[static_cast<std::size_t>(memory - iterate_.entries.data())] = 1;
+    contact->share = memory->share;
+    contact->estimate = memory->pressure;
+    contact->memory = memory->slip;
+  }
+}
+
+void SmoothContact::complete(ContactPoint& contact, const Points& position, const Points& start) {
+  if (contact.share < 0.0) contact.share = share(contact, position);
+  contact.weight = 0.5 * voronoi_[contact.a0 + 1] * contact.share;
   if (friction_.on() && contact.active()) {
     contact.slip = contact.memory;
     for (int k = 0; k < 3; ++k) {
@@ -191,7 +209,6 @@ void SmoothContact::add_contact(int segment, int point, int foot, double u, cons
     }
   }
   evaluate_force(normal_, friction_, friction_scale_, contact);
-  contacts_.push_back(contact);
 }
 
 double SmoothContact::share(const ContactPoint& contact, const Points& position) const {

@@ -62,8 +62,12 @@ class SmoothContact {
   };
   static constexpr double kPoints[2] = {0.25, 0.75};
 
-  void find_feet(int segment, int point, const Candidates::Run& run, const Points& position, const Points& start);
-  void add_contact(int segment, int point, int foot, double u, const Points& position, const Points& start);
+  void find_feet(int segment, int point, const Candidates::Run& run, const Points& position);
+  void add_contact(int segment, int point, int foot, double u, const Points& position);
+  /// Gives the contacts of point q, from `first` on, what the last iterate remembers of them.
+  void recall(std::size_t q, std::size_t first);
+  /// Share, slip and force of a contact whose place is known.
+  void complete(ContactPoint& contact, const Points& position, const Points& start);
   void remember(const Points* position, MemoryList& list) const;
   double share(const ContactPoint& contact, const Points& position) const;
 
@@ -76,9 +80,10 @@ class SmoothContact {
   Eigen::VectorXd voronoi_;
   Candidates candidates_;
   std::vector<ContactPoint> contacts_;
-  MemoryList accepted_;        // of the last accepted step
-  MemoryList iterate_;         // of the last evaluation; before the first of a step, the accepted ones
-  Points edge_middle_, edge_;  // of the evaluated position
+  MemoryList accepted_;         // of the last accepted step
+  std::vector<char> recalled_;  // of iterate_: given to a contact
+  MemoryList iterate_;          // of the last evaluation; before the first of a step, the accepted ones
+  Points edge_middle_, edge_;   // of the evaluated position
   double friction_scale_ = 0.0;
   bool first_evaluation_ = true;
 };
