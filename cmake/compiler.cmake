@@ -32,3 +32,6 @@ if(KNOT_UTM_SANITIZE)
                                                      -fno-sanitize-recover=all)
   target_link_options(knot_utm_compiler INTERFACE -fsanitize=${KNOT_UTM_SANITIZE})
 endif()
+
+# As a shared library too, the core may inline its own exported functions.
+target_compile_options(knot_utm_compiler INTERFACE $<BUILD_INTERFACE:-fno-semantic-interposition>)
