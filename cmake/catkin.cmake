@@ -9,6 +9,10 @@ if(KNOT_UTM_ROS)
   endif()
   set(message_packages geometry_msgs std_msgs)
   set(node_packages diagnostic_updater rosbag roscpp rosgraph_msgs sensor_msgs std_srvs tf2_ros visualization_msgs)
+  # The environment of the tests is written now, with those of its paths that are there: on a first configuration none.
+  if(NOT DEFINED CATKIN_DEVEL_PREFIX)
+    file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/devel/lib/python3/dist-packages ${CMAKE_BINARY_DIR}/devel/lib/pkgconfig)
+  endif()
   find_package(catkin QUIET COMPONENTS message_generation ${message_packages} ${node_packages})
 endif()
 

@@ -29,6 +29,10 @@ target_compile_options(knot_utm_compiler INTERFACE "$<BUILD_INTERFACE:${warnings
 
 if(KNOT_UTM_SANITIZE)
   target_compile_options(knot_utm_compiler INTERFACE -fsanitize=${KNOT_UTM_SANITIZE} -fno-omit-frame-pointer
-                                                     -fno-sanitize-recover=all)
+                                                     -fno-sanitize-recover=all
+                                                     -Wno-maybe-uninitialized) # false alarms of GCC 12 here
   target_link_options(knot_utm_compiler INTERFACE -fsanitize=${KNOT_UTM_SANITIZE})
 endif()
+
+# As a shared library too, the core may inline its own exported functions.
+target_compile_options(knot_utm_compiler INTERFACE $<BUILD_INTERFACE:-fno-semantic-interposition>)

@@ -41,7 +41,7 @@ if(catkin_FOUND)
     list(REMOVE_ITEM all ${before})
     if(all)
       # Each has a master of its own, but two at a time would compete for the cores.
-      set_tests_properties(${all} PROPERTIES ENVIRONMENT "ROS_HOSTNAME=localhost" TIMEOUT 120 RUN_SERIAL TRUE)
+      set_tests_properties(${all} PROPERTIES ENVIRONMENT "ROS_HOSTNAME=localhost" TIMEOUT 240 RUN_SERIAL TRUE)
     endif()
   endif()
 endif()
