@@ -8,8 +8,11 @@ namespace knot_utm {
 
 namespace {
 
-/// Cells of a uniform grid as one number each; 21 bits a direction.
-std::int64_t cell_key(std::int64_t i, std::int64_t j, std::int64_t k) { return (((i << 21) + j) << 21) + k; }
+/// Cells of a uniform grid as one number each; 21 bits a direction. Neighbours along k have neighbouring numbers.
+std::int64_t cell_key(std::int64_t i, std::int64_t j, std::int64_t k) {
+  constexpr std::int64_t kRow = std::int64_t{1} << 21;
+  return (i * kRow + j) * kRow + k;
+}
 
 }  // namespace
 
