@@ -26,50 +26,49 @@ void linearise(const NormalLaw& normal, const Friction& friction, double frictio
       contact.estimate > 0.0 ? normal.overlap_at(contact.estimate) : std::min(contact.overlap, 0.5 * normal.tolerance);
   model.slope = normal.slope(tangent_at);
   model.pressure = normal.pressure(tangent_at) + model.slope * (contact.overlap - tangent_at);
+  model.du_s = contact.inverse_g * contact.db;
+  model.du_r = contact.inverse_g * contact.x;
+
   const Vec3& n = contact.n;
-  const Mat3 normal_plane = Mat3::Identity() - n * n.transpose();
-  const Vec3 du_s = contact.inverse_g * contact.db;  // du = du_s.S + du_r.R
-  const Vec3 du_r = contact.inverse_g * contact.x;
-
-  // dn = n_s S + n_r R; a roller's gap has no part along its axis.
-  const Mat3 n_s = (normal_plane - contact.axis * contact.axis.transpose() - contact.db * du_s.transpose()) / contact.d;
-  const Mat3 n_r = -contact.db * du_r.transpose() / contact.d;
-
-  // dg = g_s S + g_r R, per weight.
-  Mat3 g_s = model.pressure * n_s - model.slope * n * n.transpose();
-  Mat3 g_r = model.pressure * n_r;
+  const Vec3& axis = contact.axis;
+  const double p = contact.weight * model.pressure, slope = contact.weight * model.slope;
+  const Vec3 n_u = contact.db / -contact.d;  // dn/du
+  // With N = dn/dS = (P - axis axis^T)/d, P = 1 - n n^T (a roller's gap has no part along its axis), and dp/dS = -p' n,
+  //   dg/dS = p N - p' (n - mu z) n^T - s C Y,   s = mu p/scale,
+  //   Y = d(P r)/dS = P - (n.r) N - n (N r)^T.
+  // z and u being tangential, C P = across P + along u u^T and C n = across n: all of it is multiples of the identity,
+  // u u^T and columns times n^T, axis^T and (N r)^T.
+  double on_identity = p / contact.d, on_u = 0.0, on_pulled = 0.0;
+  Vec3 axis_column = -on_identity * axis;
+  Vec3 pressing = slope * n;  // p' (n - mu z)
+  Vec3 u = Vec3::Zero(), pulled = Vec3::Zero();
   model.force = n;
+  model.slide = p * n_u;
   if (friction.on()) {
     model.force -= friction.coefficient * contact.z;
     const Vec3& r = contact.slip;
-    const double along = n.dot(r);
-    const Vec3 tangential = r - along * n;
+    const double away = n.dot(r), left = 1.0 - away / contact.d;
+    const Vec3 tangential = r - away * n;
     const FrictionDirection direction = friction_direction_and_slope(friction.law, tangential / friction_scale);
-    const Mat3 scaled = (friction.coefficient * model.pressure / friction_scale) * direction.slope;
+    const double s = friction.coefficient * p / friction_scale;
+    pressing -= (friction.coefficient * slope) * direction.z;
+    on_identity -= s * direction.across * left;
+    on_u = -s * direction.along * left;
+    on_pulled = s * direction.across / contact.d;
+    axis_column -= (s * away / contact.d) * direction.slope_times(axis);
+    u = direction.u;
+    pulled = tangential - axis * axis.dot(r);
     const Vec3 turned = contact.turn - n * n.dot(contact.turn);
-    // d(P r) = -(n.r) dn - n (r.dn) + P (S - V du)
-    Mat3 y_s = normal_plane - turned * du_s.transpose() - along * n_s;
-    y_s.noalias() -= n * (r.transpose() * n_s);
-    Mat3 y_r = -turned * du_r.transpose() - along * n_r;
-    y_r.noalias() -= n * (r.transpose() * n_r);
-    g_s.noalias() -= scaled * y_s;
-    g_r.noalias() -= scaled * y_r;
-    // dp = -p' n.S
-    g_s.noalias() += (friction.coefficient * model.slope) * direction.z * n.transpose();
+    model.slide += s * direction.slope_times(turned + away * n_u + n * r.dot(n_u));
   }
-  model.force *= contact.weight * model.pressure;
-  g_s *= contact.weight;
-  g_r *= contact.weight;
-
-  // df_k = c_k dg - beta_k g du
-  model.cc.topRows<3>() = -g_s;
-  model.cb.topRows<3>() = -g_r;
-  model.bc.topRows<3>() = model.force * du_s.transpose();
-  model.bb.topRows<3>() = model.force * du_r.transpose();
-  model.cc.row(3).setZero();
-  model.cb.row(3).setZero();
-  model.bc.row(3).setZero();
-  model.bb.row(3).setZero();
+  model.force *= p;
+  for (int j = 0; j < 3; ++j) {
+    Vec3 column =
+        (on_pulled * pulled[j] - on_identity * n[j]) * n + (on_u * u[j]) * u + axis[j] * axis_column - n[j] * pressing;
+    column[j] += on_identity;
+    model.still.col(j).head<3>() = -column;
+  }
+  model.still.row(3).setZero();
 }
 
 }  // namespace knot_utm

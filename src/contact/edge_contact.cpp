@@ -184,7 +184,7 @@ void EdgeContact::linearise_contact(const ContactPoint& contact, double dt, Edge
     // d(P r) = -(n.r) dn - n (r.dn) + P dr
     const Mat39 dr = moved + feet.turn_a * t - contact.turn * u;
     const Mat39 tangential = dr - n * (n.transpose() * dr) - along * dn - n * (r.transpose() * dn);
-    turned -= (friction_.coefficient / scale) * friction.slope * tangential;
+    turned -= (friction_.coefficient / scale) * friction.slope() * tangential;
   }
   model.force = contact.weight * model.pressure * direction;
   const Mat39 dg = contact.weight * (model.pressure * turned - model.slope * direction * dd);

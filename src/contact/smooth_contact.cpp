@@ -25,20 +25,20 @@ struct Cubic {
   double value(double u) const { return c0 + u * (c1 + u * (c2 + u * c3)); }
   double slope(double u) const { return c1 + u * (2.0 * c2 + u * 3.0 * c3); }
 
-  /// The root in [low, high], where it rises from below zero to zero or above: Newton's method, kept inside.
+  /// The root in [low, high], where it rises from below zero to zero or above: Newton's method, kept inside. A step
+  /// of less than the root of double precision is the last: the error after it is its square.
   double rising_root(double low, double high) const {
+    constexpr double kLastStep = 1e-8;
     const double begin = value(low), end = value(high);
     double u = low + (high - low) * begin / (begin - end);
-    const double tolerance = 1e-15 * (end - begin);
     for (int i = 0; i < 40; ++i) {
-      const double here = value(u);
-      if (std::abs(here) <= tolerance) break;
+      const double here = value(u), steepness = slope(u);
       (here < 0.0 ? low : high) = u;
-      const double steepness = slope(u);
       double next = steepness > 0.0 ? u - here / steepness : 0.5 * (low + high);
-      if (!(next > low && next < high)) next = 0.5 * (low + high);
-      if (next == u) break;
+      if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+      const double step = std::abs(next - u);
       u = next;
+      if (step < kLastStep) break;
     }
     return u;
   }
@@ -102,6 +102,9 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
   iterate_ = accepted_;
   edge_middle_.resize(3, nodes - 1);
   edge_.resize(3, nodes - 1);
+  halfway_ = Eigen::MatrixX3d::Zero(nodes, 3);
+  // No point of a segment stands further from its middle than half its length.
+  farthest2_ = (reach_ + 0.5 * voronoi_.array()).square();
 }
 
 void SmoothContact::begin_step() {
@@ -118,6 +121,11 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   const Eigen::Index edges = position.cols() - 1;
   edge_.noalias() = position.rightCols(edges) - position.leftCols(edges);
   edge_middle_.noalias() = 0.5 * (position.rightCols(edges) + position.leftCols(edges));
+  // c(1/2) of segment i is (x_{i-1} + 6 x_i + x_{i+1})/8, halfway between the middles of its edges but for its bend.
+  halfway_.middleRows(1, edges - 1).noalias() =
+      (0.5 * (edge_middle_.leftCols(edges - 1) + edge_middle_.rightCols(edges - 1)) -
+       0.125 * (edge_.rightCols(edges - 1) - edge_.leftCols(edges - 1)))
+          .transpose();
   for (const int segment : candidates_.segments())
     for (int point = 0; point < 2; ++point) {
       const std::size_t first = contacts_.size();
@@ -132,12 +140,11 @@ void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run
   const SegmentWeights w(kPoints[point]);
   const Vec3 a = combine(w.value, position, segment);
   for (int foot = run.first; foot <= run.last; ++foot) {
+    const double dx = a[0] - halfway_(foot, 0), dy = a[1] - halfway_(foot, 1), dz = a[2] - halfway_(foot, 2);
+    if (dx * dx + dy * dy + dz * dz >= farthest2_[foot]) continue;
     // On the segment c(u) = m + t u + k u^2/2, so F'(u) = -(a - c).c' is a cubic.
     const Vec3 t = edge_.col(foot - 1), k = edge_.col(foot) - edge_.col(foot - 1);
     const Vec3 r = a - edge_middle_.col(foot - 1);
-    const double limit = reach_ + 0.5 * voronoi_[foot];
-    const Vec3 halfway = r - 0.5 * t - 0.125 * k;
-    if (halfway.squaredNorm() >= limit * limit) continue;
     const RisingRoots feet({-r.dot(t), t.squaredNorm() - r.dot(k), 1.5 * t.dot(k), 0.5 * k.squaredNorm()});
     for (int i = 0; i < feet.count; ++i) add_contact(segment, point, foot, feet.root[i], position);
   }
@@ -145,10 +152,17 @@ void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run
 
 void SmoothContact::add_contact(int segment, int point, int foot, double u, const Points& position) {
   const SegmentWeights wa(kPoints[point]), wb(u);
-  ContactPoint contact;
-  contact.x = combine(wa.value, position, segment) - combine(wb.value, position, foot);
-  contact.d = contact.x.norm();
-  if (contact.d >= reach_) return;
+  const Vec3 x = combine(wa.value, position, segment) - combine(wb.value, position, foot);
+  const double d2 = x.squaredNorm();
+  if (d2 >= reach_ * reach_) return;
+  const double arclength_a = arclength_at(arclength_, segment, kPoints[point]);
+  const double arclength_b = arclength_at(arclength_, foot, u);
+  if (std::abs(arclength_a - arclength_b) < candidates_.exclusion()) return;
+  ContactPoint& contact = contacts_.emplace_back();
+  contact.x = x;
+  contact.d = std::sqrt(d2);
+  contact.arclength_a = arclength_a;
+  contact.arclength_b = arclength_b;
   contact.share = kUnknown;
   contact.a0 = segment - 1;
   contact.b0 = foot - 1;
@@ -157,17 +171,12 @@ void SmoothContact::add_contact(int segment, int point, int foot, double u, cons
     contact.c[3 + k] = -wb.value[k];
     contact.beta[3 + k] = wb.derivative[k];
   }
-  contact.arclength_a = arclength_at(arclength_, segment, kPoints[point]);
-  contact.arclength_b = arclength_at(arclength_, foot, u);
-  if (std::abs(contact.arclength_a - contact.arclength_b) < candidates_.exclusion()) return;
   contact.n = contact.x / contact.d;
   contact.overlap = diameter_ - contact.d;
   contact.db = combine(wb.derivative, position, foot);
   const double length2 = contact.db.squaredNorm();
   // At a minimum G >= 0; it vanishes where the foot is about to jump, and there omega does too.
   contact.inverse_g = 1.0 / std::max(length2 - contact.x.dot(second_difference(position, foot)), 1e-3 * length2);
-
-  contacts_.push_back(contact);
 }
 
 void SmoothContact::recall(std::size_t q, std::size_t first) {

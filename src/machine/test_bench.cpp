@@ -78,7 +78,7 @@ StepSettings step_settings(const Material& material, const MachineOptions& machi
   out.newton_cap = 0.1 * h;
   out.motion_limit = 0.8 * h;
   out.overlap_limit = 0.5 * h;
-  out.candidate_margin = 0.5 * h;
+  out.candidate_margin = 1.0 * h;
   out.max_iterations = 12;
   return out;
 }

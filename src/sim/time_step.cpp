@@ -8,10 +8,10 @@
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/rod/energy.hpp"
-#include "knot_utm/rod/isotropic_bending.hpp"
 #include "knot_utm/rod/stretching.hpp"
+#include "knot_utm/sim/centreline_terms.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
-#include "knot_utm/solver/block_matrix.hpp"
+#include "knot_utm/sim/step_matrix.hpp"
 
 namespace knot_utm {
 
@@ -27,19 +27,10 @@ void add(Block<D>& block, const Mat3& m, double sign) {
   for (int j = 0; j < 3; ++j) block.column[j] += Lanes{sign * m(0, j), sign * m(1, j), sign * m(2, j), 0.0};
 }
 
-/// Stored indices of the rod's own blocks: node i with itself, the next and the one after.
-struct BandIndex {
-  int own;
-  int next, next_back;      // (i, i+1) and (i+1, i)
-  int second, second_back;  // (i, i+2) and (i+2, i)
-};
-
 /// Pressure of a contact's linear model at the present overlap, and its slope [N/m], [N/m^2].
 struct PressureTangent {
   double pressure, slope;
 };
-
-constexpr int kFootRoom = 1;  // segments by which a foot may slide on before the pattern is rebuilt
 
 /// Stands for FrameTerms where the scene does not solve for twist.
 struct NoFrames {
@@ -57,9 +48,11 @@ class ImplicitStep final : public TimeStep {
         settings_(settings),
         contact_(rod, settings.normal, settings.friction, settings.candidate_margin),
         rollers_(rod, settings.normal, settings.roller_friction),
+        centreline_(rod_, rod.natural_curvature.cols() == 0),
         frames_(rod_, settings_),
         nodes_(static_cast<int>(rod.nodes())),
-        curved_(rod.natural_curvature.cols() > 0),
+        matrix_(nodes_),
+        diagonal_(at(nodes_)),
         force_(at(nodes_)),
         change_(at(nodes_)),
         committed_force_(at(nodes_)),
@@ -85,7 +78,7 @@ class ImplicitStep final : public TimeStep {
   double residual() {
     std::fill(force_.begin(), force_.end(), Lanes{0.0, 0.0, 0.0, 0.0});
     add_inertia_gravity_and_drag();
-    add_elastic_forces();
+    centreline_.add_forces(x_, force_);
     if constexpr (D == 4) frames_.add_forces(x_, force_);
     contact_.evaluate(x_, state_.position, dt_);
     rollers_.evaluate(boundary_->rollers, x_, state_.position, dt_);
@@ -100,25 +93,23 @@ class ImplicitStep final : public TimeStep {
     return force;
   }
 
-  double tolerance() const { return settings_.residual + settings_.residual_of_tension * largest_tension_; }
+  double tolerance() const {
+    return settings_.residual + settings_.residual_of_tension * centreline_.largest_tension();
+  }
 
   bool solve() {
-    if (!find_contact_blocks()) {
-      build_pattern();
-      find_contact_blocks();
-    }
-    matrix_.set_zero();
+    matrix_.locate(contact_.contacts());
+    matrix_.values().set_zero();
     tangents_.clear();
-    add_inertia_and_drag_stiffness();
-    add_elastic_stiffness();
+    centreline_.set_stiffness(inertia_and_drag(), matrix_);
     if constexpr (D == 4) add_frame_stiffness();
     change_ = force_;
     linearise_contacts(contact_);
     linearise_contacts(rollers_);
     add_grip_stiffness();
     for (int node = 0; node < nodes_; ++node) hold(node);
-    if (!matrix_.factor()) return false;
-    matrix_.solve(change_);
+    if (!matrix_.values().factor()) return false;
+    matrix_.values().solve(change_);
     return true;
   }
 
@@ -165,50 +156,8 @@ class ImplicitStep final : public TimeStep {
   ContactReading contact_reading() const override { return contact_reading_; }
   StepWork work() const override { return work_; }
 
-  using ContactBlocks = std::array<std::pair<int, int>, 9>;  // stored (a+k, b+l) and its mirror
-
  private:
-  static Vec3 edge(const Points& x, int i) { return x.col(i + 1) - x.col(i); }
-
-  /// Finds the blocks of every active contact; false where the pattern lacks one.
-  bool find_contact_blocks() {
-    contact_blocks_.clear();
-    if (pattern_.nodes() != nodes_) return false;
-    for (const ContactPoint& contact : contact_.contacts()) {
-      if (!contact.active()) continue;
-      contact_blocks_.emplace_back();
-      for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < 3; ++l) {
-          const std::pair<int, int> stored = pattern_.indices(contact.a0 + k, contact.b0 + l);
-          if (stored.first < 0) return false;
-          contact_blocks_.back()[at(3 * k + l)] = stored;
-        }
-    }
-    return true;
-  }
-
-  /// Blocks of the rod itself and of every contact, with room for feet to slide on by a segment.
-  void build_pattern() {
-    std::vector<std::pair<int, int>>& pairs = pairs_;
-    pairs.clear();
-    for (int i = 0; i + 1 < nodes_; ++i) pairs.push_back({i, i + 1});
-    for (int i = 0; i + 2 < nodes_; ++i) pairs.push_back({i, i + 2});
-    for (const ContactPoint& contact : contact_.contacts())
-      for (int a = contact.a0; a <= contact.a0 + 2; ++a)
-        for (int b = std::max(contact.b0 - kFootRoom, 0); b <= std::min(contact.b0 + 2 + kFootRoom, nodes_ - 1); ++b)
-          if (a != b) pairs.push_back({a, b});
-    pattern_.build(nodes_, pairs);
-    matrix_.set_pattern(pattern_);
-    band_.resize(at(nodes_));
-    for (int i = 0; i < nodes_; ++i) {
-      BandIndex& band = band_[at(i)];
-      band.own = pattern_.index(i, i);
-      band.next = i + 1 < nodes_ ? pattern_.index(i, i + 1) : -1;
-      band.next_back = i + 1 < nodes_ ? pattern_.index(i + 1, i) : -1;
-      band.second = i + 2 < nodes_ ? pattern_.index(i, i + 2) : -1;
-      band.second_back = i + 2 < nodes_ ? pattern_.index(i + 2, i) : -1;
-    }
-  }
+  using ContactBlocks = typename StepMatrix<D>::ContactBlocks;
 
   /// Everything moves on as it did; held nodes stand where they must.
   void predict() {
@@ -230,62 +179,11 @@ class ImplicitStep final : public TimeStep {
     }
   }
 
-  void add_inertia_and_drag_stiffness() {
-    for (int i = 0; i < nodes_; ++i) {
-      const double k =
-          rod_.mass[i] / (dt_ * dt_) + (settings_.drag + boundary_->extra_drag) * rod_.voronoi_length[i] / dt_;
-      Block<D>& block = matrix_.block(band_[at(i)].own);
-      for (int j = 0; j < 3; ++j) block.column[j][j] += k;
-    }
-  }
-
-  void add_elastic_forces() {
-    const Material& material = rod_.material;
-    largest_tension_ = 0.0;
-    for (int i = 0; i + 1 < nodes_; ++i) {
-      const Lanes pull =
-          to_lanes(stretching_gradient(material.stretching_stiffness, rod_.rest_length[i], edge(x_, i)).gradient);
-      largest_tension_ = std::max(largest_tension_, pull[0] * pull[0] + pull[1] * pull[1] + pull[2] * pull[2]);
-      force_[at(i)] += pull;
-      force_[at(i + 1)] -= pull;
-    }
-    largest_tension_ = std::sqrt(largest_tension_);
-    if (curved_) return;
-    for (int i = 1; i + 1 < nodes_; ++i) {
-      const IsotropicBendingGradient bending =
-          isotropic_bending_gradient(material.bending_stiffness, rod_.voronoi_length[i], edge(x_, i - 1), edge(x_, i));
-      const Lanes e = to_lanes(bending.gradient_e), f = to_lanes(bending.gradient_f);
-      force_[at(i - 1)] += e;
-      force_[at(i)] += f - e;
-      force_[at(i + 1)] -= f;
-    }
-  }
-
-  void add_elastic_stiffness() {
-    const Material& material = rod_.material;
-    for (int i = 0; i + 1 < nodes_; ++i) {
-      const Mat3 h = stretching(material.stretching_stiffness, rod_.rest_length[i], edge(x_, i)).hessian;
-      add(matrix_.block(band_[at(i)].own), h, 1.0);
-      add(matrix_.block(band_[at(i + 1)].own), h, 1.0);
-      add(matrix_.block(band_[at(i)].next), h, -1.0);
-      add(matrix_.block(band_[at(i)].next_back), h, -1.0);
-    }
-    if (curved_) return;
-    for (int i = 1; i + 1 < nodes_; ++i) {
-      const IsotropicBendingLocal bending =
-          isotropic_bending(material.bending_stiffness, rod_.voronoi_length[i], edge(x_, i - 1), edge(x_, i));
-      const Mat3 ef = bending.hessian_ef, fe = ef.transpose();
-      const BandIndex &before = band_[at(i - 1)], &here = band_[at(i)], &after = band_[at(i + 1)];
-      add(matrix_.block(before.own), bending.hessian_ee, 1.0);
-      add(matrix_.block(before.next), ef - bending.hessian_ee, 1.0);
-      add(matrix_.block(before.next_back), fe - bending.hessian_ee, 1.0);
-      add(matrix_.block(before.second), ef, -1.0);
-      add(matrix_.block(before.second_back), fe, -1.0);
-      add(matrix_.block(here.own), bending.hessian_ee - ef - fe + bending.hessian_ff, 1.0);
-      add(matrix_.block(here.next), ef - bending.hessian_ff, 1.0);
-      add(matrix_.block(here.next_back), fe - bending.hessian_ff, 1.0);
-      add(matrix_.block(after.own), bending.hessian_ff, 1.0);
-    }
+  /// -d(inertia and drag)/dx of every node [N/m].
+  const std::vector<double>& inertia_and_drag() {
+    const double mass_share = 1.0 / (dt_ * dt_), drag_share = (settings_.drag + boundary_->extra_drag) / dt_;
+    for (int i = 0; i < nodes_; ++i) diagonal_[at(i)] = mass_share * rod_.mass[i] + drag_share * rod_.voronoi_length[i];
+    return diagonal_;
   }
 
   void add_frame_stiffness() {
@@ -293,7 +191,7 @@ class ImplicitStep final : public TimeStep {
       const FrameTerms::NodeStiffness local = frames_.node_stiffness(i);
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l) {
-          Block<D>& block = matrix_.block(band_index(i - 1, k, l));
+          Block<D>& block = band(i - 1, k, l);
           for (int j = 0; j < D; ++j) {
             Lanes column;
             std::copy_n(&local(4 * k, 4 * l + j), 4, reinterpret_cast<double*>(&column));
@@ -303,11 +201,11 @@ class ImplicitStep final : public TimeStep {
     }
     for (int i = 0; i + 1 < nodes_; ++i) {
       const FrameTerms::EdgeStiffness local = frames_.edge_stiffness(i);
-      Block<D>&own = matrix_.block(band_[at(i)].own), &next = matrix_.block(band_[at(i)].next);
+      Block<D>&own = band(i, 0, 0), &next = band(i, 0, 1);
       add(own, local.sweep, 1.0);
-      add(matrix_.block(band_[at(i + 1)].own), local.sweep, 1.0);
+      add(band(i, 1, 1), local.sweep, 1.0);
       add(next, local.sweep, -1.0);
-      add(matrix_.block(band_[at(i)].next_back), local.sweep, -1.0);
+      add(band(i, 1, 0), local.sweep, -1.0);
       own.at(3, 3) += local.spin;
       add_to_row(3, local.spin * local.lean, own, next);
     }
@@ -327,15 +225,14 @@ class ImplicitStep final : public TimeStep {
       const double free = held_[at(node)] ? 0.0 : 1.0, turns = frames_.held(node) ? 0.0 : 1.0;
       if (free == 1.0 && turns == 1.0) return;
       const Lanes keep = {free, free, free, turns};
-      matrix_.set_identity_row(node, keep);
+      matrix_.values().set_identity_row(node, keep);
       change_[at(node)] *= keep;
       // A held angle is one of no change: the spin is what transport alone makes.
       if (turns == 0.0 && node + 1 < nodes_)
-        add_to_row(3, frames_.edge_stiffness(node).lean, matrix_.block(band_[at(node)].own),
-                   matrix_.block(band_[at(node)].next));
+        add_to_row(3, frames_.edge_stiffness(node).lean, band(node, 0, 0), band(node, 0, 1));
     } else {
       if (!held_[at(node)]) return;
-      matrix_.set_identity_row(node);
+      matrix_.values().set_identity_row(node);
       change_[at(node)] = Lanes{0.0, 0.0, 0.0, 0.0};
     }
   }
@@ -361,7 +258,7 @@ class ImplicitStep final : public TimeStep {
       for (int k = 0; k < 3; ++k) change_[at(contact.a0 + k)] += contact.c[k] * difference;
       if (!contact.on_roller())
         for (int k = 0; k < 3; ++k) change_[at(contact.b0 + k)] += contact.c[3 + k] * difference;
-      add_contact_stiffness(contact, model, contact.on_roller() ? nullptr : &contact_blocks_[block++]);
+      add_contact_stiffness(contact, model, contact.on_roller() ? nullptr : &matrix_.contact_blocks(block++));
     }
   }
 
@@ -381,57 +278,50 @@ class ImplicitStep final : public TimeStep {
   }
 
   void add_contact_stiffness(const ContactPoint& contact, const ContactModel& local, const ContactBlocks* blocks) {
-    Lanes cc[3], cb[3], bc[3], bb[3];
-    for (int j = 0; j < 3; ++j) {
-      std::copy_n(local.cc.data() + 4 * j, 4, reinterpret_cast<double*>(&cc[j]));
-      std::copy_n(local.cb.data() + 4 * j, 4, reinterpret_cast<double*>(&cb[j]));
-      std::copy_n(local.bc.data() + 4 * j, 4, reinterpret_cast<double*>(&bc[j]));
-      std::copy_n(local.bb.data() + 4 * j, 4, reinterpret_cast<double*>(&bb[j]));
-    }
+    Lanes still[3];
+    for (int j = 0; j < 3; ++j) std::copy_n(local.still.data() + 4 * j, 4, reinterpret_cast<double*>(&still[j]));
     const double* c = contact.c;
-    const double* beta = contact.beta;
+    if (contact.on_roller()) {
+      for (int k = 0; k < 3; ++k)
+        for (int l = 0; l < 3; ++l) {
+          Block<D>& aa = band(contact.a0, k, l);
+          for (int j = 0; j < 3; ++j) aa.column[j] += (c[k] * c[l]) * still[j];
+        }
+      return;
+    }
+    const Lanes force = to_lanes(local.force), slide = to_lanes(local.slide);
+    Lanes pushed[6];  // beta_k g - c_k gamma
+    Vec3 du[6];       // du/dq_l
+    for (int k = 0; k < 6; ++k) {
+      pushed[k] = contact.beta[k] * force - c[k] * slide;
+      du[k] = c[k] * local.du_s + contact.beta[k] * local.du_r;
+    }
+    const auto add_pair = [&](Block<D>& block, int k, int l) {
+      const double both = c[k] * c[l];
+      for (int j = 0; j < 3; ++j) block.column[j] += both * still[j] + pushed[k] * du[l][j];
+    };
     for (int k = 0; k < 3; ++k)
       for (int l = 0; l < 3; ++l) {
-        Block<D>& aa = matrix_.block(band_index(contact.a0, k, l));
-        for (int j = 0; j < 3; ++j) aa.column[j] += (c[k] * c[l]) * cc[j];
-        if (contact.on_roller()) continue;
-        const double ck = c[3 + k], cl = c[3 + l], bk = beta[3 + k], bl = beta[3 + l];
-        Block<D>& ab = matrix_.block((*blocks)[at(3 * k + l)].first);
-        for (int j = 0; j < 3; ++j) ab.column[j] += (c[k] * cl) * cc[j] + (c[k] * bl) * cb[j];
-        Block<D>& ba = matrix_.block((*blocks)[at(3 * l + k)].second);
-        for (int j = 0; j < 3; ++j) ba.column[j] += (ck * c[l]) * cc[j] + (bk * c[l]) * bc[j];
-        Block<D>& own = matrix_.block(band_index(contact.b0, k, l));
-        for (int j = 0; j < 3; ++j)
-          own.column[j] += (ck * cl) * cc[j] + (ck * bl) * cb[j] + (bk * cl) * bc[j] + (bk * bl) * bb[j];
+        const std::pair<int, int>& across = (*blocks)[at(3 * k + l)];
+        add_pair(band(contact.a0, k, l), k, l);
+        add_pair(matrix_.block(across.first), k, 3 + l);
+        add_pair(matrix_.block(across.second), 3 + l, k);
+        add_pair(band(contact.b0, k, l), 3 + k, 3 + l);
       }
   }
 
   void add_contact_stiffness(const ContactPoint& contact, const EdgeContactModel& local, const ContactBlocks* blocks) {
     for (int k = 0; k < 3; ++k)
       for (int l = 0; l < 3; ++l) {
-        add(matrix_.block(band_index(contact.a0, k, l)), local.stiffness(k, l), 1.0);
-        add(matrix_.block(band_index(contact.b0, k, l)), local.stiffness(3 + k, 3 + l), 1.0);
+        add(band(contact.a0, k, l), local.stiffness(k, l), 1.0);
+        add(band(contact.b0, k, l), local.stiffness(3 + k, 3 + l), 1.0);
         add(matrix_.block((*blocks)[at(3 * k + l)].first), local.stiffness(k, 3 + l), 1.0);
         add(matrix_.block((*blocks)[at(3 * k + l)].second), local.stiffness(3 + l, k), 1.0);
       }
   }
 
-  /// Stored index of block (first + k, first + l), k and l up to 2.
-  int band_index(int first, int k, int l) const {
-    const BandIndex& band = band_[at(first + std::min(k, l))];
-    switch (l - k) {
-      case 0:
-        return band.own;
-      case 1:
-        return band.next;
-      case -1:
-        return band.next_back;
-      case 2:
-        return band.second;
-      default:
-        return band.second_back;
-    }
-  }
+  /// Block (first + k, first + l), k and l up to 2.
+  Block<D>& band(int first, int k, int l) { return matrix_.block(matrix_.stencil(first)[at(3 * k + l)]); }
 
   void add_grips_and_forces() {
     for (const SlippingGrip& grip : boundary_->grips)
@@ -443,7 +333,7 @@ class ImplicitStep final : public TimeStep {
     for (const SlippingGrip& grip : boundary_->grips) {
       const double force = grip.force(x_.col(grip.node));
       if (force <= 0.0 || grip.slips(x_.col(grip.node))) continue;
-      add(matrix_.block(band_[at(grip.node)].own), grip.direction * grip.direction.transpose(), grip.stiffness);
+      add(band(grip.node, 0, 0), grip.direction * grip.direction.transpose(), grip.stiffness);
     }
   }
 
@@ -535,25 +425,21 @@ class ImplicitStep final : public TimeStep {
   StepSettings settings_;
   StrandContact contact_;
   RollerContact rollers_;
+  CentrelineTerms centreline_;
   std::conditional_t<D == 4, FrameTerms, NoFrames> frames_;
   int nodes_;
-  bool curved_;  // at rest: its bending needs the frames
+  StepMatrix<D> matrix_;
+  std::vector<double> diagonal_;
   const Boundary* boundary_ = nullptr;
   double dt_ = 0.0;
   Points x_;
   std::vector<Lanes> force_, change_, committed_force_;
   std::vector<char> held_;
-  double largest_tension_ = 0.0;
   ContactReading contact_reading_;
   StepWork work_;
   std::vector<Roller> committed_rollers_;
   std::vector<Vec3> roller_force_, roller_force_now_;  // on the rod, at the last accepted step
   std::vector<PressureTangent> tangents_;              // of the active contacts, in order
-  std::vector<std::pair<int, int>> pairs_;
-  std::vector<ContactBlocks> contact_blocks_;  // of the active contacts between strands, in order
-  BlockPattern pattern_;
-  BlockMatrix<D> matrix_;
-  std::vector<BandIndex> band_;
 };
 
 }  // namespace

@@ -71,6 +71,54 @@ TEST(RollerContact, FrictionIsAtMostItsShareAndAgainstTheSlip) {
     EXPECT_NEAR(point.force[1], -kMu * point.force.dot(point.n), 0.01 * kMu * point.force.norm());
 }
 
+/// Forces on the nodes, one column after the other.
+Eigen::VectorXd forces(const RollerContact& contact, Eigen::Index nodes) {
+  Points out = Points::Zero(3, nodes);
+  for (const ContactPoint& point : contact.contacts())
+    for (int k = 0; k < 3; ++k) out.col(point.a0 + k) += point.c[k] * point.force;
+  return Eigen::Map<const Eigen::VectorXd>(out.data(), out.size());
+}
+
+class RollerContactJacobian : public testing::TestWithParam<double> {};
+
+TEST_P(RollerContactJacobian, IsTheDerivativeOfTheForces) {
+  const Wound scene;
+  Friction friction;
+  friction.coefficient = 0.3;
+  friction.presliding = 1e-5;
+  Points end = scene.position;
+  // Across the roller, along it and away from it: every term of the slip turns.
+  end.row(0).array() += GetParam();
+  end.row(1).array() += 2.0 * GetParam();
+  end.row(2).array() += 1e-6;
+  RollerContact contact = scene.touch(friction, end);
+  for (ContactPoint& point : contact.contacts()) point.estimate = point.pressure;  // tangents at the present overlap
+  Eigen::MatrixXd analytic = Eigen::MatrixXd::Zero(end.size(), end.size());
+  for (const ContactPoint& point : contact.contacts()) {
+    ContactModel local;
+    contact.linearise_contact(point, 0.01, local);
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l)
+        analytic.block<3, 3>(3 * (point.a0 + k), 3 * (point.a0 + l)) +=
+            point.c[k] * point.c[l] * local.still.topRows<3>();
+  }
+  Eigen::MatrixXd numeric(end.size(), end.size());
+  const double step = 1e-7 * scene.rod.material.radius;
+  for (Eigen::Index j = 0; j < end.size(); ++j) {
+    Points x = end;
+    x.data()[j] += step;
+    const Eigen::VectorXd plus = forces(scene.touch(friction, x), end.cols());
+    x.data()[j] -= 2.0 * step;
+    numeric.col(j) = -(plus - forces(scene.touch(friction, x), end.cols())) / (2.0 * step);
+  }
+  // Central differences: rounding 1e-16 / 1e-7 relative, curvature of the laws over the step smaller still.
+  ASSERT_GT(analytic.norm(), 0.0);
+  EXPECT_LT((analytic - numeric).norm(), 2e-6 * numeric.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(Slips, RollerContactJacobian, testing::Values(1e-6, 1e-4),
+                         [](const auto& slip) { return slip.param < 1e-5 ? "sticking" : "slipping"; });
+
 TEST(RollerContact, ARodThatDoesNotReachItFeelsNothing) {
   const Wound scene;
   Points away = scene.position;

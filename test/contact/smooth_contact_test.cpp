@@ -63,9 +63,9 @@ struct TwoStrands {
       for (int k = 0; k < 6; ++k)
         for (int l = 0; l < 6; ++l)
           out.block<3, 3>(3 * node(k), 3 * node(l)) +=
-              (point.c[k] * point.c[l] * local.cc + point.c[k] * point.beta[l] * local.cb +
-               point.beta[k] * point.c[l] * local.bc + point.beta[k] * point.beta[l] * local.bb)
-                  .topRows<3>();
+              point.c[k] * point.c[l] * local.still.topRows<3>() +
+              (point.beta[k] * local.force - point.c[k] * local.slide) *
+                  (point.c[l] * local.du_s + point.beta[l] * local.du_r).transpose();
     }
     return out;
   }

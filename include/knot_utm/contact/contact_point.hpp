@@ -55,15 +55,20 @@ struct ContactPoint {
 /// where there is none. The law starts with p' = 0: tangents at the present overlap only halve the overlap of a strand
 /// that was pushed in too far, while the estimate has it nearly right at once. At the solution both are the same.
 ///
-///     -df_k/dq_l = c_k c_l M_cc + c_k beta_l M_cb + beta_k c_l M_bc + beta_k beta_l M_bb   [N/m]
+/// With g = g(S, u) it is the force's derivative where the foot stays, and where it slides on:
 ///
-/// Four rows a column: the last is zero, so that a column fills a vector register.
+///     dg = -M S + gamma du,      -df_k/dq_l = c_k c_l M + (beta_k g - c_k gamma) (c_l du_s + beta_l du_r)^T   [N/m]
+///
+/// M has four rows: the last is zero, so that a column fills a vector register.
 struct ContactModel {
   using Padded = Eigen::Matrix<double, 4, 3>;
   double pressure = 0.0;      ///< of the tangent at the present overlap [N/m]
   double slope = 0.0;         ///< p'(D^) [N/m^2]
   Vec3 force = Vec3::Zero();  ///< g with that pressure [N]
-  Padded cc, cb, bc, bb;
+  Padded still;               ///< M [N/m]
+  Vec3 slide = Vec3::Zero();  ///< gamma [N]
+  Vec3 du_s = Vec3::Zero();   ///< du = du_s.S + du_r.R [1/m]; zero against a roller
+  Vec3 du_r = Vec3::Zero();
 };
 
 /// Fills z and force from pressure, n, slip and weight.

@@ -29,10 +29,14 @@ struct Friction {
   double scale(double dt) const { return remembers() ? presliding : dt * slip_tolerance; }
 };
 
-/// z(y) and C = dz/dy.
+/// z(y) and C = dz/dy = across 1 + along u u^T, u = y/|y|.
 struct FrictionDirection {
   Vec3 z;
-  Mat3 slope;
+  Vec3 u;
+  double across, along;
+
+  Vec3 slope_times(const Vec3& v) const { return across * v + (along * u.dot(v)) * u; }
+  Mat3 slope() const { return across * Mat3::Identity() + along * u * u.transpose(); }
 };
 
 inline Vec3 friction_direction(FrictionLaw law, const Vec3& y) {
@@ -42,29 +46,16 @@ inline Vec3 friction_direction(FrictionLaw law, const Vec3& y) {
 }
 
 inline FrictionDirection friction_direction_and_slope(FrictionLaw law, const Vec3& y) {
-  FrictionDirection out;
   const double size = y.norm();
   if (law == FrictionLaw::kMemory) {
-    if (size < 1.0) {
-      out.z = y;
-      out.slope.setIdentity();
-      return out;
-    }
-    out.z = y / size;
-    out.slope = (Mat3::Identity() - out.z * out.z.transpose()) / size;
-    return out;
+    if (size < 1.0) return {y, Vec3::Zero(), 1.0, 0.0};
+    const Vec3 unit = y / size;
+    return {unit, unit, 1.0 / size, -1.0 / size};
   }
-  if (size <= 1e-12) {
-    out.z = 7.5 * y;
-    out.slope = 7.5 * Mat3::Identity();
-    return out;
-  }
+  if (size <= 1e-12) return {7.5 * y, Vec3::Zero(), 7.5, 0.0};
   const Vec3 unit = y / size;
   const double value = std::tanh(7.5 * size);
-  out.z = value * unit;
-  out.slope = (7.5 * (1.0 - value * value)) * unit * unit.transpose() +
-              (value / size) * (Mat3::Identity() - unit * unit.transpose());
-  return out;
+  return {value * unit, unit, value / size, 7.5 * (1.0 - value * value) - value / size};
 }
 
 }  // namespace knot_utm

@@ -85,6 +85,8 @@ class SmoothContact {
   std::vector<char> recalled_;  // of iterate_: given to a contact
   MemoryList iterate_;          // of the last evaluation; before the first of a step, the accepted ones
   Points edge_middle_, edge_;   // of the evaluated position
+  Eigen::MatrixX3d halfway_;    // of the evaluated position: c(1/2) of every segment, coordinate by coordinate
+  Eigen::VectorXd farthest2_;   // squared distance from there at which a point may still be in reach [m^2]
   double friction_scale_ = 0.0;
   bool first_evaluation_ = true;
 };

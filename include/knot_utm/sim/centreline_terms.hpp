@@ -1,0 +1,44 @@
+#pragma once
+
+#include <vector>
+
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/sim/step_matrix.hpp"
+
+namespace knot_utm {
+
+/// Stretching (stretching.hpp) of every edge and isotropic bending (isotropic_bending.hpp) of every inner node: forces
+/// and stiffness of a whole centreline, which share its tangents.
+class CentrelineTerms {
+ public:
+  /// Without `bends`, stretching only: bending about a curved rest shape needs frames. `rod` must outlive this.
+  CentrelineTerms(const RodProperties& rod, bool bends);
+
+  /// Adds the forces on every node [N]. The stiffness that is set later belongs to this position.
+  void add_forces(const Points& position, std::vector<Lanes>& force);
+
+  /// Largest |tension| of an edge at that position [N].
+  double largest_tension() const { return largest_tension_; }
+
+  /// Writes blocks (i, i) to (i, i+2) and their mirrors: the Hessian of both energies, and `diagonal` [N/m] of each
+  /// node on the diagonal of its three positions. What stood there before is gone.
+  template <int D>
+  void set_stiffness(const std::vector<double>& diagonal, StepMatrix<D>& matrix) const;
+
+ private:
+  /// d2E/(de df) of the bending at one inner node between edges e and f: columns, with H_fe = H_ef^T.
+  struct NodeHessian {
+    Lanes ee[3], ef[3], fe[3], ff[3];
+  };
+  NodeHessian bending_hessian(std::size_t node) const;
+
+  const RodProperties& rod_;
+  bool bends_;
+  double largest_tension_ = 0.0;
+  // As isotropic_bending.hpp names them.
+  std::vector<Lanes> tangent_;                    // t of every edge
+  std::vector<double> inverse_length_, tension_;  // 1/|e| [1/m], T [N]
+  std::vector<double> cosine_, inverse_1c_;       // c, 1/(1 + c) of every inner node
+};
+
+}  // namespace knot_utm

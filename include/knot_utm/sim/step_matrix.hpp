@@ -1,0 +1,60 @@
+#pragma once
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/solver/block_matrix.hpp"
+
+namespace knot_utm {
+
+/// The matrix of a time step's linear system, and where its blocks are stored: those of the rod, (i, i) to (i, i+2),
+/// and those between the strands in contact. Its pattern has room for every foot to slide on by a segment, and is
+/// rebuilt where a contact leaves it.
+template <int D>
+class StepMatrix {
+ public:
+  /// Stored indices of blocks (i + k, i + l), k, l < 3, as [3 k + l]; -1 beyond the rod's end.
+  using Stencil = std::array<int, 9>;
+  /// Stored indices of blocks (a0 + k, b0 + l) and their mirrors (b0 + l, a0 + k), as [3 k + l].
+  using ContactBlocks = std::array<std::pair<int, int>, 9>;
+
+  explicit StepMatrix(int nodes) : nodes_(nodes) {}
+
+  /// Finds the blocks of every active contact; `contacts` as ContactPoint says, ascending in a0. `values()` has them,
+  /// with whatever was in it before.
+  void locate(const std::vector<ContactPoint>& contacts) {
+    if (find(contacts)) return;
+    build(contacts);
+    find(contacts);
+  }
+
+  BlockMatrix<D>& values() { return matrix_; }
+  Block<D>& block(int stored_index) { return matrix_.block(stored_index); }
+  const Stencil& stencil(int node) const { return stencils_[static_cast<std::size_t>(node)]; }
+  /// Of the n-th active contact.
+  const ContactBlocks& contact_blocks(std::size_t n) const { return located_[n].blocks; }
+
+ private:
+  struct Located {
+    int a0, b0;
+    ContactBlocks blocks;
+  };
+
+  bool find(const std::vector<ContactPoint>& contacts);
+  bool look_up(Located& contact) const;
+  void build(const std::vector<ContactPoint>& contacts);
+
+  int nodes_;
+  BlockPattern pattern_;
+  BlockMatrix<D> matrix_;
+  std::vector<Stencil> stencils_;
+  std::vector<Located> located_, before_;  // ascending in a0; before_: what they were at the last look
+  std::vector<std::pair<int, int>> pairs_;
+};
+
+extern template class StepMatrix<3>;
+extern template class StepMatrix<4>;
+
+}  // namespace knot_utm

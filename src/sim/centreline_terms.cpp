@@ -1,0 +1,133 @@
+#include "knot_utm/sim/centreline_terms.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knot_utm {
+
+namespace {
+
+constexpr Lanes kZero = {0.0, 0.0, 0.0, 0.0};
+constexpr Lanes kAxis[3] = {{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}};
+
+double dot(const Lanes& a, const Lanes& b) {
+  const Lanes products = a * b;
+  return products[0] + products[1] + products[2];
+}
+
+}  // namespace
+
+CentrelineTerms::CentrelineTerms(const RodProperties& rod, bool bends)
+    : rod_(rod),
+      bends_(bends),
+      tangent_(static_cast<std::size_t>(rod.edges())),
+      inverse_length_(tangent_.size()),
+      tension_(tangent_.size()),
+      cosine_(static_cast<std::size_t>(rod.nodes())),
+      inverse_1c_(cosine_.size()) {}
+
+void CentrelineTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
+  const std::size_t edges = tangent_.size();
+  const double k_s = rod_.material.stretching_stiffness, k_b = rod_.material.bending_stiffness;
+  largest_tension_ = 0.0;
+  for (std::size_t j = 0; j < edges; ++j) {
+    const double* x = position.data() + 3 * j;
+    const Lanes e = {x[3] - x[0], x[4] - x[1], x[5] - x[2], 0.0};
+    const double length = std::sqrt(dot(e, e));
+    inverse_length_[j] = 1.0 / length;
+    tangent_[j] = inverse_length_[j] * e;
+    tension_[j] = k_s * (length / rod_.rest_length[static_cast<Eigen::Index>(j)] - 1.0);
+    largest_tension_ = std::max(largest_tension_, std::abs(tension_[j]));
+    const Lanes pull = tension_[j] * tangent_[j];
+    force[j] += pull;
+    force[j + 1] -= pull;
+  }
+  if (!bends_) return;
+  for (std::size_t i = 1; i < edges; ++i) {
+    const Lanes &t_e = tangent_[i - 1], &t_f = tangent_[i];
+    const double c = dot(t_e, t_f), inverse_1c = 1.0 / (1.0 + c);
+    cosine_[i] = c;
+    inverse_1c_[i] = inverse_1c;
+    const double slope = -4.0 * k_b / rod_.voronoi_length[static_cast<Eigen::Index>(i)] * inverse_1c * inverse_1c;
+    const Lanes gradient_e = (slope * inverse_length_[i - 1]) * (t_f - c * t_e);
+    const Lanes gradient_f = (slope * inverse_length_[i]) * (t_e - c * t_f);
+    force[i - 1] += gradient_e;
+    force[i] += gradient_f - gradient_e;
+    force[i + 1] -= gradient_f;
+  }
+}
+
+CentrelineTerms::NodeHessian CentrelineTerms::bending_hessian(std::size_t node) const {
+  const double stiffness = rod_.material.bending_stiffness / rod_.voronoi_length[static_cast<Eigen::Index>(node)];
+  const double c = cosine_[node], inverse_1c = inverse_1c_[node];
+  const double slope = -4.0 * stiffness * inverse_1c * inverse_1c;  // W'
+  const double curve = -2.0 * slope * inverse_1c;                   // W''
+  const double over_e = inverse_length_[node - 1], over_f = inverse_length_[node];
+  const Lanes &t_e = tangent_[node - 1], &t_f = tangent_[node];
+  const Lanes c_e = over_e * (t_f - c * t_e), c_f = over_f * (t_e - c * t_f);
+  const double diagonal_e = slope * c * over_e * over_e, diagonal_f = slope * c * over_f * over_f;
+  const double diagonal_ef = slope * over_e * over_f;
+  // The rank-one terms are gathered by their right factor.
+  const Lanes on_c_e = curve * c_e - (slope * over_e) * t_e, on_c_f = curve * c_f - (slope * over_f) * t_f;
+  const Lanes on_t_e = diagonal_e * t_e - (slope * over_e) * c_e, on_t_f = diagonal_f * t_f - (slope * over_f) * c_f;
+  const Lanes on_t_f_ef = -diagonal_ef * t_f;
+  NodeHessian h;
+  for (int k = 0; k < 3; ++k) {
+    const Lanes across = on_t_f_ef * t_f[k] + diagonal_ef * kAxis[k];
+    h.ee[k] = on_c_e * c_e[k] + on_t_e * t_e[k] - diagonal_e * kAxis[k];
+    h.ff[k] = on_c_f * c_f[k] + on_t_f * t_f[k] - diagonal_f * kAxis[k];
+    h.ef[k] = on_c_e * c_f[k] + across;
+    h.fe[k] = c_f * on_c_e[k] + across;
+  }
+  return h;
+}
+
+template <int D>
+void CentrelineTerms::set_stiffness(const std::vector<double>& diagonal, StepMatrix<D>& matrix) const {
+  const std::size_t nodes = diagonal.size(), edges = tangent_.size();
+  const double k_s = rod_.material.stretching_stiffness;
+  // With A_j = d2E/de_j^2 and B_i = d2E/(de_{i-1} de_i), the latter of bending at node i, the nodes have
+  //   (i,i)  A_{i-1} + A_i - B_i - B_i^T     (i,i+1)  B_i + B_{i+1} - A_i     (i,i+2)  -B_{i+1}
+  NodeHessian here = {}, after = {};
+  Lanes edge_before[3] = {kZero, kZero, kZero}, edge[3];
+  for (std::size_t i = 0; i < nodes; ++i, here = after) {
+    const auto& stencil = matrix.stencil(static_cast<int>(i));
+    const bool last = i == edges;
+    after = {};
+    if (bends_ && i + 1 < edges) after = bending_hessian(i + 1);
+    if (!last) {
+      const double across = tension_[i] * inverse_length_[i];
+      const double along = k_s / rod_.rest_length[static_cast<Eigen::Index>(i)] - across;
+      const Lanes t = along * tangent_[i];
+      for (int k = 0; k < 3; ++k) edge[k] = t * tangent_[i][k] + across * kAxis[k] + here.ff[k] + after.ee[k];
+    } else {
+      std::fill_n(edge, 3, kZero);
+    }
+    Block<D>& own = matrix.block(stencil[0]);
+    own.set_zero();
+    for (int k = 0; k < 3; ++k)
+      own.column[k] = edge_before[k] + edge[k] - here.ef[k] - here.fe[k] + diagonal[i] * kAxis[k];
+    if (last) return;
+    Block<D>&next = matrix.block(stencil[1]), &next_back = matrix.block(stencil[3]);
+    next.set_zero();
+    next_back.set_zero();
+    for (int k = 0; k < 3; ++k) {
+      next.column[k] = here.ef[k] + after.ef[k] - edge[k];
+      next_back.column[k] = here.fe[k] + after.fe[k] - edge[k];
+      edge_before[k] = edge[k];
+    }
+    if (i + 1 == edges) continue;
+    Block<D>&second = matrix.block(stencil[2]), &second_back = matrix.block(stencil[6]);
+    second.set_zero();
+    second_back.set_zero();
+    for (int k = 0; k < 3; ++k) {
+      second.column[k] = -after.ef[k];
+      second_back.column[k] = -after.fe[k];
+    }
+  }
+}
+
+template void CentrelineTerms::set_stiffness<3>(const std::vector<double>&, StepMatrix<3>&) const;
+template void CentrelineTerms::set_stiffness<4>(const std::vector<double>&, StepMatrix<4>&) const;
+
+}  // namespace knot_utm

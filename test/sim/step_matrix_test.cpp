@@ -1,0 +1,59 @@
+#include "knot_utm/sim/step_matrix.hpp"
+
+#include <gtest/gtest.h>
+
+namespace knot_utm {
+namespace {
+
+constexpr int kNodes = 30;
+
+/// A contact of point a on nodes a0.. with its foot on b0.., nearer to the end of its segment.
+ContactPoint pressed(int a0, int b0) {
+  ContactPoint contact;
+  contact.a0 = a0;
+  contact.b0 = b0;
+  contact.overlap = 1e-6;
+  contact.c[3] = -0.1;
+  contact.c[5] = -0.3;
+  return contact;
+}
+
+void expect_blocks_of(const std::vector<ContactPoint>& contacts, StepMatrix<3>& matrix) {
+  std::size_t n = 0;
+  for (const ContactPoint& contact : contacts) {
+    if (!contact.active()) continue;
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l)
+        EXPECT_EQ(matrix.contact_blocks(n)[static_cast<std::size_t>(3 * k + l)],
+                  matrix.values().pattern().indices(contact.a0 + k, contact.b0 + l));
+    ++n;
+  }
+}
+
+TEST(StepMatrix, FindsTheBlocksOfContactsThatComeSlideAndGo) {
+  StepMatrix<3> matrix(kNodes);
+  std::vector<ContactPoint> contacts = {pressed(2, 20), pressed(2, 21), pressed(5, 17), pressed(20, 2)};
+  matrix.locate(contacts);
+  expect_blocks_of(contacts, matrix);
+  contacts[1].overlap = -1e-6;                        // lets go
+  contacts[2] = pressed(5, 18);                       // slides on, within the room it was given
+  contacts.insert(contacts.begin(), pressed(1, 20));  // and a new one
+  matrix.locate(contacts);
+  expect_blocks_of(contacts, matrix);
+  contacts[0] = pressed(1, 9);  // far from anything the pattern had
+  matrix.locate(contacts);
+  expect_blocks_of(contacts, matrix);
+}
+
+TEST(StepMatrix, StencilsAreTheBlocksOfThreeNodesInARow) {
+  StepMatrix<4> matrix(kNodes);
+  matrix.locate({});
+  for (int i = 0; i < kNodes; ++i)
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l)
+        EXPECT_EQ(matrix.stencil(i)[static_cast<std::size_t>(3 * k + l)],
+                  std::max(k, l) + i < kNodes ? matrix.values().pattern().index(i + k, i + l) : -1);
+}
+
+}  // namespace
+}  // namespace knot_utm
