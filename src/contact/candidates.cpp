@@ -17,11 +17,8 @@ std::int64_t cell_key(std::int64_t i, std::int64_t j, std::int64_t k) {
 }  // namespace
 
 Candidates::Candidates(const RodProperties& rod, double reach, double margin, double exclusion)
-    : reach_(reach), margin_(margin), exclusion_(exclusion) {
+    : reach_(reach), margin_(margin), exclusion_(exclusion), arclength_(rod.arclength()) {
   const Eigen::Index nodes = rod.nodes();
-  arclength_.resize(nodes);
-  arclength_[0] = 0.0;
-  for (Eigen::Index i = 1; i < nodes; ++i) arclength_[i] = arclength_[i - 1] + rod.rest_length[i - 1];
   half_size_ = Eigen::VectorXd::Zero(nodes);
   for (Eigen::Index i = 1; i + 1 < nodes; ++i)
     half_size_[i] = 0.5 * std::max(rod.rest_length[i - 1], rod.rest_length[i]);

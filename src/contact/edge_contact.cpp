@@ -32,9 +32,7 @@ EdgeContact::EdgeContact(const RodProperties& rod, const NormalLaw& normal, cons
       // Candidates are segments around nodes. An edge is found by the node it ends at, all of it within reach and one
       // more edge of that node's segment. Strands closer than 5 h along the rod bend, they do not touch.
       candidates_(rod, reach_ + rod.rest_length.maxCoeff(), margin, 5.0 * rod.material.radius) {
-  arclength_.resize(rod.nodes());
-  arclength_[0] = 0.0;
-  for (Eigen::Index i = 1; i < rod.nodes(); ++i) arclength_[i] = arclength_[i - 1] + rod.rest_length[i - 1];
+  arclength_ = rod.arclength();
 }
 
 bool EdgeContact::refresh(const Points& position) {

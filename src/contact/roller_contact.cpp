@@ -6,8 +6,6 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kPoints[2] = {0.25, 0.75};  // midpoint rule, two points a segment
-
 std::size_t memory_index(Eigen::Index nodes, std::size_t roller, int segment, int point) {
   return 2 * (roller * static_cast<std::size_t>(nodes) + static_cast<std::size_t>(segment)) +
          static_cast<std::size_t>(point);
@@ -19,8 +17,7 @@ RollerContact::RollerContact(const RodProperties& rod, const NormalLaw& normal, 
     : normal_(normal), friction_(friction), radius_(rod.material.radius), voronoi_(rod.voronoi_length) {}
 
 std::size_t RollerContact::index_of(const ContactPoint& contact) const {
-  return memory_index(voronoi_.size(), static_cast<std::size_t>(contact.arclength_b), contact.a0 + 1,
-                      contact.c[0] > contact.c[2] ? 0 : 1);
+  return memory_index(voronoi_.size(), static_cast<std::size_t>(contact.roller), contact.a0 + 1, contact.point);
 }
 
 void RollerContact::begin_step() {
@@ -46,7 +43,7 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
       const double limit = roller.radius + radius_ + voronoi_[segment];
       if (away.squaredNorm() > limit * limit) continue;
       for (int point = 0; point < 2; ++point) {
-        const SegmentWeights w(kPoints[point]);
+        const SegmentWeights w(kIntegrationPoints[point]);
         ContactPoint contact;
         contact.x = combine(w.value, position, segment) - roller.centre;
         contact.x -= roller.axis * roller.axis.dot(contact.x);
@@ -55,7 +52,8 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
         contact.estimate = estimate_[memory_index(position.cols(), r, segment, point)];
         if (!contact.active()) continue;
         contact.a0 = segment - 1;
-        contact.arclength_b = static_cast<double>(r);
+        contact.point = point;
+        contact.roller = static_cast<int>(r);
         contact.axis = roller.axis;
         contact.n = contact.x / contact.d;
         contact.weight = 0.5 * voronoi_[segment];
@@ -76,7 +74,7 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
 Vec3 RollerContact::force_on(int roller) const {
   Vec3 sum = Vec3::Zero();
   for (const ContactPoint& contact : contacts_)
-    if (static_cast<int>(contact.arclength_b) == roller) sum -= contact.force;
+    if (contact.roller == roller) sum -= contact.force;
   return sum;
 }
 

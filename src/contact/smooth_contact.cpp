@@ -67,9 +67,9 @@ struct RisingRoots {
   }
 };
 
-/// Number of the point of integration that a contact stands on.
-std::size_t point_of(const ContactPoint& contact) {
-  return 2 * static_cast<std::size_t>(contact.a0 + 1) + (contact.c[0] > contact.c[2] ? 0u : 1u);
+/// Number of a point of integration along the rod.
+std::size_t number(int segment, int point) {
+  return 2 * static_cast<std::size_t>(segment) + static_cast<std::size_t>(point);
 }
 
 /// max(0, g) of x against the curve at parameter u of a segment: g = 1 - x.c''/|c'|^2 of the segment itself at its
@@ -91,13 +91,11 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
       diameter_(2.0 * rod.material.radius),
       window_(1.0 * rod.material.radius),
       reach_((2.0 + kReachMargin) * rod.material.radius),
+      arclength_(rod.arclength()),
       voronoi_(rod.voronoi_length),
       // Strands closer than a half turn around themselves (pi h) bend, they do not touch.
       candidates_(rod, reach_, margin, 5.0 * rod.material.radius) {
   const Eigen::Index nodes = rod.nodes();
-  arclength_.resize(nodes);
-  arclength_[0] = 0.0;
-  for (Eigen::Index i = 1; i < nodes; ++i) arclength_[i] = arclength_[i - 1] + rod.rest_length[i - 1];
   accepted_.begin.assign(2 * static_cast<std::size_t>(nodes) + 1, 0);
   iterate_ = accepted_;
   edge_middle_.resize(3, nodes - 1);
@@ -131,13 +129,13 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
       const std::size_t first = contacts_.size();
       for (const Candidates::Run* run = candidates_.begin(segment); run != candidates_.end(segment); ++run)
         find_feet(segment, point, *run, position);
-      recall(2 * static_cast<std::size_t>(segment) + static_cast<std::size_t>(point), first);
+      recall(number(segment, point), first);
       for (std::size_t c = first; c < contacts_.size(); ++c) complete(contacts_[c], position, start);
     }
 }
 
 void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run, const Points& position) {
-  const SegmentWeights w(kPoints[point]);
+  const SegmentWeights w(kIntegrationPoints[point]);
   const Vec3 a = combine(w.value, position, segment);
   for (int foot = run.first; foot <= run.last; ++foot) {
     const double dx = a[0] - halfway_(foot, 0), dy = a[1] - halfway_(foot, 1), dz = a[2] - halfway_(foot, 2);
@@ -151,11 +149,11 @@ void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run
 }
 
 void SmoothContact::add_contact(int segment, int point, int foot, double u, const Points& position) {
-  const SegmentWeights wa(kPoints[point]), wb(u);
+  const SegmentWeights wa(kIntegrationPoints[point]), wb(u);
   const Vec3 x = combine(wa.value, position, segment) - combine(wb.value, position, foot);
   const double d2 = x.squaredNorm();
   if (d2 >= reach_ * reach_) return;
-  const double arclength_a = arclength_at(arclength_, segment, kPoints[point]);
+  const double arclength_a = arclength_at(arclength_, segment, kIntegrationPoints[point]);
   const double arclength_b = arclength_at(arclength_, foot, u);
   if (std::abs(arclength_a - arclength_b) < candidates_.exclusion()) return;
   ContactPoint& contact = contacts_.emplace_back();
@@ -165,6 +163,7 @@ void SmoothContact::add_contact(int segment, int point, int foot, double u, cons
   contact.arclength_b = arclength_b;
   contact.share = kUnknown;
   contact.a0 = segment - 1;
+  contact.point = point;
   contact.b0 = foot - 1;
   for (int k = 0; k < 3; ++k) {
     contact.c[k] = wa.value[k];
@@ -223,7 +222,7 @@ void SmoothContact::complete(ContactPoint& contact, const Points& position, cons
 double SmoothContact::share(const ContactPoint& contact, const Points& position) const {
   const int segment = contact.a0 + 1, foot = contact.b0 + 1;
   // Of the weights' derivatives the last is the parameter itself.
-  const double ua = contact.c[0] > contact.c[2] ? kPoints[0] : kPoints[1];
+  const double ua = kIntegrationPoints[contact.point];
   const double ub = contact.beta[5];
   const Vec3 da = combine(SegmentWeights(ua).derivative, position, segment);
   const double g_b = least_curvature_share(position, foot, ub, contact.x, contact.db.squaredNorm());
@@ -238,7 +237,7 @@ void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
   list.entries.clear();
   std::size_t done = 0;
   for (const ContactPoint& contact : contacts_) {
-    const std::size_t q = point_of(contact);
+    const std::size_t q = number(contact.a0 + 1, contact.point);
     while (done <= q) list.begin[done++] = static_cast<int>(list.entries.size());
     if (accepted) {
       const bool sticks = friction_.on() && friction_.remembers() && contact.touches();

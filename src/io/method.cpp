@@ -315,8 +315,7 @@ Method load_method(const std::string& file, const std::vector<std::string>& over
 
     const Material& material = method.material;
     if (!method.specimen.preload && method.specimen.knot == KnotKind::kFisherman) {
-      method.specimen.preload =
-          material.tying_preload.value_or(4.0 * material.bending_stiffness / (material.radius * material.radius));
+      method.specimen.preload = material.tying_preload.value_or(default_preload(material));
     }
     if (method.specimen.knot == KnotKind::kFile && !method.specimen.file.empty()) {
       method.specimen.file = fs::absolute(folder / method.specimen.file).lexically_normal().string();

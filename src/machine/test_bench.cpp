@@ -47,17 +47,8 @@ constexpr double kTakeUpMotion = 0.3;        // ... or once the knots have moved
 constexpr double kSettlingTime = 1.0;   // [s]
 constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
 
-/// Default contact stiffness K. At k_b/h^2 of force on a radius of rod, the scale of a knot that holds itself by its
-/// own bending, strands overlap by 1.5 % of their radius.
-double contact_stiffness(const Material& material) {
-  constexpr double kContactStiffness = 300.0;  // [k_b/h^4]
-  const double h2 = material.radius * material.radius;
-  return material.contact_stiffness.value_or(kContactStiffness * material.bending_stiffness / (h2 * h2));
-}
-
 double preload(const SpecimenOptions& specimen, const Material& material) {
-  return specimen.preload.value_or(
-      material.tying_preload.value_or(4.0 * material.bending_stiffness / (material.radius * material.radius)));
+  return specimen.preload.value_or(material.tying_preload.value_or(default_preload(material)));
 }
 
 StepSettings step_settings(const Material& material, const MachineOptions& machine, const PhysicsOptions& physics) {
@@ -65,7 +56,8 @@ StepSettings step_settings(const Material& material, const MachineOptions& machi
   const double h = material.radius;
   StepSettings out;
   out.contact_law = physics.contact_law;
-  out.normal = {contact_stiffness(material), tolerance.contact_tolerance * h};
+  out.normal = {material.contact_stiffness.value_or(default_contact_stiffness(material)),
+                tolerance.contact_tolerance * h};
   out.friction = {physics.friction_law, material.friction_coefficient, tolerance.presliding * h,
                   physics.slip_tolerance};
   out.roller_friction = out.friction;
@@ -376,11 +368,9 @@ struct TestBench::Impl {
     s.load = cell.balanced(s.force_upper);
     s.balance_offset = cell.offset();
     if (rig) {
-      const RodProperties& rod = stepper->rod();
-      const RodState& state = stepper->state();
       for (int k = 0; k < 2; ++k) {
         s.tail_force[k] = rig->tail_force(k);
-        s.excess_length[k] = rig->excess_length(k, rod, state);
+        s.excess_length[k] = rig->excess_length(k, stepper->state());
       }
       s.knot_distance = knot_distance();
     }

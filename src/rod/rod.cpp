@@ -16,4 +16,11 @@ RodProperties make_rod(const Material& material, const Eigen::VectorXd& rest_len
   return rod;
 }
 
+Eigen::VectorXd RodProperties::arclength() const {
+  Eigen::VectorXd out(nodes());
+  out[0] = 0.0;
+  for (Eigen::Index i = 1; i < nodes(); ++i) out[i] = out[i - 1] + rest_length[i - 1];
+  return out;
+}
+
 }  // namespace knot_utm

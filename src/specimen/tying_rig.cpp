@@ -193,12 +193,11 @@ std::vector<int> TyingRig::standing_nodes() const {
   return nodes;
 }
 
-double TyingRig::excess_length(int knot, const RodProperties& rod, const RodState& state) const {
+double TyingRig::excess_length(int knot, const RodState& state) const {
   const Knot& k = knots_[static_cast<std::size_t>(knot)];
   const int first = std::min(k.tail_node, k.standing_node), last = std::max(k.tail_node, k.standing_node);
   double length = 0.0;
   for (int i = first; i < last; ++i) length += (state.position.col(i + 1) - state.position.col(i)).norm();
-  (void)rod;
   return length - (state.position.col(last) - state.position.col(first)).norm();
 }
 

@@ -16,6 +16,9 @@ struct SegmentWeights {
       : value{0.5 * (1.0 - u) * (1.0 - u), 0.5 + u * (1.0 - u), 0.5 * u * u}, derivative{u - 1.0, 1.0 - 2.0 * u, u} {}
 };
 
+/// Contact is integrated along every segment by the midpoint rule on its halves.
+constexpr double kIntegrationPoints[2] = {0.25, 0.75};
+
 inline Vec3 combine(const double* weights, const Points& nodes, int segment) {
   return weights[0] * nodes.col(segment - 1) + weights[1] * nodes.col(segment) + weights[2] * nodes.col(segment + 1);
 }

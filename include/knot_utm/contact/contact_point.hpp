@@ -18,11 +18,13 @@ namespace knot_utm {
 /// Force on a: g = w (p n - mu p z); on node k: c_k g. Against a roller there is no b: nodes a only, du = 0.
 struct ContactPoint {
   int a0 = 0;
-  int b0 = -1;                 ///< -1: a roller
+  int b0 = -1;                 ///< -1: none, on a roller
+  int point = 0;               ///< which one of its segment's points of integration a is
+  int roller = -1;             ///< number of the roller; -1: between strands
   double c[6] = {};            ///< [-]
   double beta[6] = {};         ///< [-], zero for a
   double arclength_a = 0.0;    ///< [m], at rest
-  double arclength_b = 0.0;    ///< [m], at rest; of a roller: its index
+  double arclength_b = 0.0;    ///< [m], at rest; of strands only
   Vec3 x = Vec3::Zero();       ///< a - b [m]
   Vec3 n = Vec3::Zero();       ///< x/d
   double d = 0.0;              ///< [m]
@@ -41,7 +43,7 @@ struct ContactPoint {
   Vec3 z = Vec3::Zero();       ///< friction direction
   Vec3 force = Vec3::Zero();   ///< g [N]
 
-  bool on_roller() const { return b0 < 0; }
+  bool on_roller() const { return roller >= 0; }
   bool touches() const { return overlap > begins; }
   /// Takes part in the next linear solve.
   bool active() const { return overlap > begins || estimate > 0.0; }

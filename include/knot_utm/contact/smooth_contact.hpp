@@ -61,7 +61,6 @@ class SmoothContact {
     std::vector<Memory> entries;
     std::vector<int> begin;
   };
-  static constexpr double kPoints[2] = {0.25, 0.75};
 
   void find_feet(int segment, int point, const Candidates::Run& run, const Points& position);
   void add_contact(int segment, int point, int foot, double u, const Points& position);

@@ -24,6 +24,8 @@ struct RodProperties {
   Eigen::Index nodes() const { return voronoi_length.size(); }
   Eigen::Index edges() const { return rest_length.size(); }
   double length() const { return rest_length.sum(); }
+  /// Arclength at rest of every node from the first [m], N
+  Eigen::VectorXd arclength() const;
 };
 
 /// Straight, untwisted rod of the given rest lengths: masses rho pi h^2 lbar_i.

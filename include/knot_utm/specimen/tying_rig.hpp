@@ -54,7 +54,7 @@ class TyingRig {
 
   /// Rod length hidden in a knot: that between the clamp of its standing part and its tail's end, less their
   /// distance [m].
-  double excess_length(int knot, const RodProperties& rod, const RodState& state) const;
+  double excess_length(int knot, const RodState& state) const;
   /// Middle of a knot: the centroid of the bending energy of its own strand, from standing part to tail.
   Vec3 knot_middle(int knot, const RodProperties& rod, const RodState& state) const;
 
