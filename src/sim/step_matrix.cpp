@@ -62,6 +62,54 @@ void StepMatrix<D>::build(const std::vector<ContactPoint>& contacts) {
             std::max(k, l) + i < nodes_ ? pattern_.index(i + k, i + l) : -1;
 }
 
+template <int D>
+void StepMatrix<D>::add(const ContactPoint& contact, const ContactModel& model, std::size_t n) {
+  Lanes still[3];
+  for (int j = 0; j < 3; ++j) std::copy_n(model.still.data() + 4 * j, 4, reinterpret_cast<double*>(&still[j]));
+  const double* c = contact.c;
+  if (contact.on_roller()) {
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l) {
+        Block<D>& aa = band(contact.a0, k, l);
+        for (int j = 0; j < 3; ++j) aa.column[j] += (c[k] * c[l]) * still[j];
+      }
+    return;
+  }
+  Lanes pushed[6];  // beta_k g - c_k gamma
+  Vec3 du[6];       // du/dq_l
+  for (int k = 0; k < 6; ++k) {
+    const Vec3 push = contact.beta[k] * model.force - c[k] * model.slide;
+    pushed[k] = Lanes{push[0], push[1], push[2], 0.0};
+    du[k] = c[k] * model.du_s + contact.beta[k] * model.du_r;
+  }
+  const auto add_pair = [&](Block<D>& block, int k, int l) {
+    const double both = c[k] * c[l];
+    for (int j = 0; j < 3; ++j) block.column[j] += both * still[j] + pushed[k] * du[l][j];
+  };
+  const ContactBlocks& blocks = contact_blocks(n);
+  for (int k = 0; k < 3; ++k)
+    for (int l = 0; l < 3; ++l) {
+      const std::pair<int, int>& across = blocks[static_cast<std::size_t>(3 * k + l)];
+      add_pair(band(contact.a0, k, l), k, l);
+      add_pair(block(across.first), k, 3 + l);
+      add_pair(block(across.second), 3 + l, k);
+      add_pair(band(contact.b0, k, l), 3 + k, 3 + l);
+    }
+}
+
+template <int D>
+void StepMatrix<D>::add(const ContactPoint& contact, const EdgeContactModel& model, std::size_t n) {
+  const ContactBlocks& blocks = contact_blocks(n);
+  for (int k = 0; k < 3; ++k)
+    for (int l = 0; l < 3; ++l) {
+      const std::pair<int, int>& across = blocks[static_cast<std::size_t>(3 * k + l)];
+      knot_utm::add(band(contact.a0, k, l), model.stiffness(k, l), 1.0);
+      knot_utm::add(band(contact.b0, k, l), model.stiffness(3 + k, 3 + l), 1.0);
+      knot_utm::add(block(across.first), model.stiffness(k, 3 + l), 1.0);
+      knot_utm::add(block(across.second), model.stiffness(3 + l, k), 1.0);
+    }
+}
+
 template class StepMatrix<3>;
 template class StepMatrix<4>;
 

@@ -22,11 +22,6 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 Lanes to_lanes(const Vec3& v) { return Lanes{v[0], v[1], v[2], 0.0}; }
 Vec3 to_vec3(const Lanes& v) { return {v[0], v[1], v[2]}; }
 
-template <int D>
-void add(Block<D>& block, const Mat3& m, double sign) {
-  for (int j = 0; j < 3; ++j) block.column[j] += Lanes{sign * m(0, j), sign * m(1, j), sign * m(2, j), 0.0};
-}
-
 /// Pressure of a contact's linear model at the present overlap, and its slope [N/m], [N/m^2].
 struct PressureTangent {
   double pressure, slope;
@@ -157,8 +152,6 @@ class ImplicitStep final : public TimeStep {
   StepWork work() const override { return work_; }
 
  private:
-  using ContactBlocks = typename StepMatrix<D>::ContactBlocks;
-
   /// Everything moves on as it did; held nodes stand where they must.
   void predict() {
     x_ = state_.position + dt_ * state_.velocity;
@@ -191,7 +184,7 @@ class ImplicitStep final : public TimeStep {
       const FrameTerms::NodeStiffness local = frames_.node_stiffness(i);
       for (int k = 0; k < 3; ++k)
         for (int l = 0; l < 3; ++l) {
-          Block<D>& block = band(i - 1, k, l);
+          Block<D>& block = matrix_.band(i - 1, k, l);
           for (int j = 0; j < D; ++j) {
             Lanes column;
             std::copy_n(&local(4 * k, 4 * l + j), 4, reinterpret_cast<double*>(&column));
@@ -201,11 +194,11 @@ class ImplicitStep final : public TimeStep {
     }
     for (int i = 0; i + 1 < nodes_; ++i) {
       const FrameTerms::EdgeStiffness local = frames_.edge_stiffness(i);
-      Block<D>&own = band(i, 0, 0), &next = band(i, 0, 1);
+      Block<D>&own = matrix_.band(i, 0, 0), &next = matrix_.band(i, 0, 1);
       add(own, local.sweep, 1.0);
-      add(band(i, 1, 1), local.sweep, 1.0);
+      add(matrix_.band(i, 1, 1), local.sweep, 1.0);
       add(next, local.sweep, -1.0);
-      add(band(i, 1, 0), local.sweep, -1.0);
+      add(matrix_.band(i, 1, 0), local.sweep, -1.0);
       own.at(3, 3) += local.spin;
       add_to_row(3, local.spin * local.lean, own, next);
     }
@@ -229,7 +222,7 @@ class ImplicitStep final : public TimeStep {
       change_[at(node)] *= keep;
       // A held angle is one of no change: the spin is what transport alone makes.
       if (turns == 0.0 && node + 1 < nodes_)
-        add_to_row(3, frames_.edge_stiffness(node).lean, band(node, 0, 0), band(node, 0, 1));
+        add_to_row(3, frames_.edge_stiffness(node).lean, matrix_.band(node, 0, 0), matrix_.band(node, 0, 1));
     } else {
       if (!held_[at(node)]) return;
       matrix_.values().set_identity_row(node);
@@ -258,7 +251,7 @@ class ImplicitStep final : public TimeStep {
       for (int k = 0; k < 3; ++k) change_[at(contact.a0 + k)] += contact.c[k] * difference;
       if (!contact.on_roller())
         for (int k = 0; k < 3; ++k) change_[at(contact.b0 + k)] += contact.c[3 + k] * difference;
-      add_contact_stiffness(contact, model, contact.on_roller() ? nullptr : &matrix_.contact_blocks(block++));
+      matrix_.add(contact, model, contact.on_roller() ? 0 : block++);
     }
   }
 
@@ -277,52 +270,6 @@ class ImplicitStep final : public TimeStep {
     }
   }
 
-  void add_contact_stiffness(const ContactPoint& contact, const ContactModel& local, const ContactBlocks* blocks) {
-    Lanes still[3];
-    for (int j = 0; j < 3; ++j) std::copy_n(local.still.data() + 4 * j, 4, reinterpret_cast<double*>(&still[j]));
-    const double* c = contact.c;
-    if (contact.on_roller()) {
-      for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < 3; ++l) {
-          Block<D>& aa = band(contact.a0, k, l);
-          for (int j = 0; j < 3; ++j) aa.column[j] += (c[k] * c[l]) * still[j];
-        }
-      return;
-    }
-    const Lanes force = to_lanes(local.force), slide = to_lanes(local.slide);
-    Lanes pushed[6];  // beta_k g - c_k gamma
-    Vec3 du[6];       // du/dq_l
-    for (int k = 0; k < 6; ++k) {
-      pushed[k] = contact.beta[k] * force - c[k] * slide;
-      du[k] = c[k] * local.du_s + contact.beta[k] * local.du_r;
-    }
-    const auto add_pair = [&](Block<D>& block, int k, int l) {
-      const double both = c[k] * c[l];
-      for (int j = 0; j < 3; ++j) block.column[j] += both * still[j] + pushed[k] * du[l][j];
-    };
-    for (int k = 0; k < 3; ++k)
-      for (int l = 0; l < 3; ++l) {
-        const std::pair<int, int>& across = (*blocks)[at(3 * k + l)];
-        add_pair(band(contact.a0, k, l), k, l);
-        add_pair(matrix_.block(across.first), k, 3 + l);
-        add_pair(matrix_.block(across.second), 3 + l, k);
-        add_pair(band(contact.b0, k, l), 3 + k, 3 + l);
-      }
-  }
-
-  void add_contact_stiffness(const ContactPoint& contact, const EdgeContactModel& local, const ContactBlocks* blocks) {
-    for (int k = 0; k < 3; ++k)
-      for (int l = 0; l < 3; ++l) {
-        add(band(contact.a0, k, l), local.stiffness(k, l), 1.0);
-        add(band(contact.b0, k, l), local.stiffness(3 + k, 3 + l), 1.0);
-        add(matrix_.block((*blocks)[at(3 * k + l)].first), local.stiffness(k, 3 + l), 1.0);
-        add(matrix_.block((*blocks)[at(3 * k + l)].second), local.stiffness(3 + l, k), 1.0);
-      }
-  }
-
-  /// Block (first + k, first + l), k and l up to 2.
-  Block<D>& band(int first, int k, int l) { return matrix_.block(matrix_.stencil(first)[at(3 * k + l)]); }
-
   void add_grips_and_forces() {
     for (const SlippingGrip& grip : boundary_->grips)
       force_[at(grip.node)] += to_lanes(grip.force(x_.col(grip.node)) * grip.direction);
@@ -333,7 +280,7 @@ class ImplicitStep final : public TimeStep {
     for (const SlippingGrip& grip : boundary_->grips) {
       const double force = grip.force(x_.col(grip.node));
       if (force <= 0.0 || grip.slips(x_.col(grip.node))) continue;
-      add(band(grip.node, 0, 0), grip.direction * grip.direction.transpose(), grip.stiffness);
+      add(matrix_.band(grip.node, 0, 0), grip.direction * grip.direction.transpose(), grip.stiffness);
     }
   }
 

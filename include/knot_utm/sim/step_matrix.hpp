@@ -5,9 +5,16 @@
 #include <vector>
 
 #include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/solver/block_matrix.hpp"
 
 namespace knot_utm {
+
+/// Adds a 3 x 3 matrix to the positions' part of a block.
+template <int D>
+inline void add(Block<D>& block, const Mat3& m, double times) {
+  for (int j = 0; j < 3; ++j) block.column[j] += times * Lanes{m(0, j), m(1, j), m(2, j), 0.0};
+}
 
 /// The matrix of a time step's linear system, and where its blocks are stored: those of the rod, (i, i) to (i, i+2),
 /// and those between the strands in contact. Its pattern has room for every foot to slide on by a segment, and is
@@ -32,9 +39,15 @@ class StepMatrix {
 
   BlockMatrix<D>& values() { return matrix_; }
   Block<D>& block(int stored_index) { return matrix_.block(stored_index); }
+  /// Block (first + k, first + l), k, l < 3.
+  Block<D>& band(int first, int k, int l) { return block(stencil(first)[static_cast<std::size_t>(3 * k + l)]); }
   const Stencil& stencil(int node) const { return stencils_[static_cast<std::size_t>(node)]; }
   /// Of the n-th active contact.
   const ContactBlocks& contact_blocks(std::size_t n) const { return located_[n].blocks; }
+
+  /// Adds the stiffness of a contact, between strands the n-th active one.
+  void add(const ContactPoint& contact, const ContactModel& model, std::size_t n);
+  void add(const ContactPoint& contact, const EdgeContactModel& model, std::size_t n);
 
  private:
   struct Located {
