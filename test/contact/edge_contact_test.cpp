@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <random>
 
+#include "contact/nodal_forces.hpp"
 #include "knot_utm/contact/closest_points.hpp"
+#include "rod/finite_difference.hpp"
 
 namespace knot_utm {
 namespace {
@@ -140,16 +142,10 @@ struct TwoEdges {
     for (Eigen::Index i = 0; i < position.size(); ++i) position.data()[i] += noise(random);
   }
 
-  Points forces(EdgeContact& contact, const Points& x, double dt) const {
+  Eigen::VectorXd forces(EdgeContact& contact, const Points& x, double dt) const {
     contact.begin_step();
     contact.evaluate(x, start, dt);
-    Points f = Points::Zero(3, x.cols());
-    for (const ContactPoint& point : contact.contacts())
-      for (int k = 0; k < 3; ++k) {
-        f.col(point.a0 + k) += point.c[k] * point.force;
-        f.col(point.b0 + k) += point.c[3 + k] * point.force;
-      }
-    return f;
+    return nodal_forces(contact.contacts(), x.cols());
   }
 
   Eigen::MatrixXd stiffness(EdgeContact& contact, const Points& x, double dt) const {
@@ -193,16 +189,8 @@ TEST_P(EdgeContactJacobian, IsTheDerivativeOfTheForces) {
 
   const Eigen::MatrixXd analytic = scene.stiffness(contact, scene.position, dt);
   ASSERT_GT(analytic.norm(), 0.0);
-  Eigen::MatrixXd numeric(analytic.rows(), analytic.cols());
-  const double step = 1e-7 * kRadius;
-  for (Eigen::Index j = 0; j < numeric.cols(); ++j) {
-    Points x = scene.position;
-    x.data()[j] += step;
-    const Points plus = scene.forces(contact, x, dt);
-    x.data()[j] -= 2.0 * step;
-    const Points difference = plus - scene.forces(contact, x, dt);
-    numeric.col(j) = -Eigen::Map<const Eigen::VectorXd>(difference.data(), difference.size()) / (2.0 * step);
-  }
+  const auto force = [&](const Eigen::VectorXd& x) { return scene.forces(contact, unflat(x), dt); };
+  const Eigen::MatrixXd numeric = -finite_difference(force, flat(scene.position), 1e-7 * kRadius);
   EXPECT_LT((analytic - numeric).norm(), 2e-6 * numeric.norm());
 }
 
@@ -242,7 +230,7 @@ TEST(EdgeContact, ForcesBalanceAndEdgesApartFeelNothing) {
   EdgeContact contact(scene.rod, {1e6, 0.05 * kRadius}, {FrictionLaw::kMemory, 0.4, 1e-4 * kRadius, 0.0},
                       0.5 * kRadius);
   contact.refresh(scene.start);
-  const Points force = scene.forces(contact, scene.position, 0.01);
+  const Points force = unflat(scene.forces(contact, scene.position, 0.01));
   ASSERT_GT(force.norm(), 1e-3);
   EXPECT_LT(force.rowwise().sum().norm(), 1e-12 * force.norm());
 

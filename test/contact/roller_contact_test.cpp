@@ -4,6 +4,8 @@
 
 #include <Eigen/Geometry>
 
+#include "contact/nodal_forces.hpp"
+#include "rod/finite_difference.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -33,12 +35,7 @@ struct Wound {
   }
 };
 
-Vec3 force_on_rod(const RollerContact& contact) {
-  Vec3 sum = Vec3::Zero();
-  for (const ContactPoint& point : contact.contacts())
-    for (int k = 0; k < 3; ++k) sum += point.c[k] * point.force;
-  return sum;
-}
+Vec3 force_on_rod(const RollerContact& contact) { return unflat(nodal_forces(contact.contacts(), 21)).rowwise().sum(); }
 
 TEST(RollerContact, WhatTheRodPushesTheRollerPushesBack) {
   const Wound scene;
@@ -71,14 +68,6 @@ TEST(RollerContact, FrictionIsAtMostItsShareAndAgainstTheSlip) {
     EXPECT_NEAR(point.force[1], -kMu * point.force.dot(point.n), 0.01 * kMu * point.force.norm());
 }
 
-/// Forces on the nodes, one column after the other.
-Eigen::VectorXd forces(const RollerContact& contact, Eigen::Index nodes) {
-  Points out = Points::Zero(3, nodes);
-  for (const ContactPoint& point : contact.contacts())
-    for (int k = 0; k < 3; ++k) out.col(point.a0 + k) += point.c[k] * point.force;
-  return Eigen::Map<const Eigen::VectorXd>(out.data(), out.size());
-}
-
 class RollerContactJacobian : public testing::TestWithParam<double> {};
 
 TEST_P(RollerContactJacobian, IsTheDerivativeOfTheForces) {
@@ -102,15 +91,10 @@ TEST_P(RollerContactJacobian, IsTheDerivativeOfTheForces) {
         analytic.block<3, 3>(3 * (point.a0 + k), 3 * (point.a0 + l)) +=
             point.c[k] * point.c[l] * local.still.topRows<3>();
   }
-  Eigen::MatrixXd numeric(end.size(), end.size());
-  const double step = 1e-7 * scene.rod.material.radius;
-  for (Eigen::Index j = 0; j < end.size(); ++j) {
-    Points x = end;
-    x.data()[j] += step;
-    const Eigen::VectorXd plus = forces(scene.touch(friction, x), end.cols());
-    x.data()[j] -= 2.0 * step;
-    numeric.col(j) = -(plus - forces(scene.touch(friction, x), end.cols())) / (2.0 * step);
-  }
+  const auto force = [&](const Eigen::VectorXd& x) {
+    return nodal_forces(scene.touch(friction, unflat(x)).contacts(), end.cols());
+  };
+  const Eigen::MatrixXd numeric = -finite_difference(force, flat(end), 1e-7 * scene.rod.material.radius);
   // Central differences: rounding 1e-16 / 1e-7 relative, curvature of the laws over the step smaller still.
   ASSERT_GT(analytic.norm(), 0.0);
   EXPECT_LT((analytic - numeric).norm(), 2e-6 * numeric.norm());

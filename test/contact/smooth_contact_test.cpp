@@ -5,6 +5,9 @@
 #include <Eigen/Geometry>
 #include <random>
 
+#include "contact/nodal_forces.hpp"
+#include "rod/finite_difference.hpp"
+
 namespace knot_utm {
 namespace {
 
@@ -38,16 +41,10 @@ struct TwoStrands {
     for (Eigen::Index i = 0; i < position.size(); ++i) position.data()[i] += noise(random);
   }
 
-  Eigen::VectorXd force(SmoothContact& contact, const Points& x, double dt) const {
+  Eigen::VectorXd forces(SmoothContact& contact, const Points& x, double dt) const {
     contact.begin_step();
     contact.evaluate(x, start, dt);
-    Points f = Points::Zero(3, x.cols());
-    for (const ContactPoint& point : contact.contacts())
-      for (int k = 0; k < 3; ++k) {
-        f.col(point.a0 + k) += point.c[k] * point.force;
-        f.col(point.b0 + k) += point.c[3 + k] * point.force;
-      }
-    return Eigen::Map<const Eigen::VectorXd>(f.data(), f.size());
+    return nodal_forces(contact.contacts(), x.cols());
   }
 
   Eigen::MatrixXd stiffness(SmoothContact& contact, const Points& x, double dt) const {
@@ -91,16 +88,8 @@ TEST_P(SmoothContactJacobian, IsTheDerivativeOfTheForces) {
 
   const Eigen::MatrixXd analytic = scene.stiffness(contact, scene.position, dt);
   ASSERT_GT(analytic.norm(), 0.0);
-  Eigen::MatrixXd numeric(analytic.rows(), analytic.cols());
-  const double step = 1e-7 * kRadius;
-  for (Eigen::Index j = 0; j < numeric.cols(); ++j) {
-    Points x = scene.position;
-    x.data()[j] += step;
-    const Eigen::VectorXd plus = scene.force(contact, x, dt);
-    x.data()[j] -= 2.0 * step;
-    const Eigen::VectorXd minus = scene.force(contact, x, dt);
-    numeric.col(j) = -(plus - minus) / (2.0 * step);
-  }
+  const auto force = [&](const Eigen::VectorXd& x) { return scene.forces(contact, unflat(x), dt); };
+  const Eigen::MatrixXd numeric = -finite_difference(force, flat(scene.position), 1e-7 * kRadius);
   // Central differences: rounding 1e-16 / 1e-7 relative, curvature of the laws over the step smaller still.
   EXPECT_LT((analytic - numeric).norm(), 2e-6 * numeric.norm());
 }
@@ -117,8 +106,7 @@ TEST(SmoothContact, ForcesAndMomentsBalance) {
   SmoothContact contact(scene.rod, {1e6, 0.05 * kRadius}, {FrictionLaw::kMemory, 0.4, 1e-3 * kRadius, 0.0},
                         0.5 * kRadius);
   contact.refresh(scene.start);
-  const Eigen::VectorXd flat = scene.force(contact, scene.position, 0.01);
-  const Eigen::Map<const Points> force(flat.data(), 3, scene.position.cols());
+  const Points force = unflat(scene.forces(contact, scene.position, 0.01));
   Vec3 moment = Vec3::Zero();
   for (Eigen::Index i = 0; i < force.cols(); ++i) moment += Vec3(scene.position.col(i)).cross(Vec3(force.col(i)));
   ASSERT_GT(force.norm(), 1e-3);
@@ -134,7 +122,7 @@ TEST(SmoothContact, StrandsApartFeelNothing) {
   SmoothContact contact(scene.rod, {1e6, 0.05 * kRadius}, {FrictionLaw::kMemory, 0.4, 1e-3 * kRadius, 0.0},
                         0.5 * kRadius);
   contact.refresh(scene.start);
-  EXPECT_EQ(scene.force(contact, scene.start, 0.01).norm(), 0.0);
+  EXPECT_EQ(scene.forces(contact, scene.start, 0.01).norm(), 0.0);
 }
 
 TEST(NormalLaw, SlopeAndEnergyAreThePressuresDerivativeAndIntegral) {

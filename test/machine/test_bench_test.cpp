@@ -7,20 +7,10 @@
 #include <fstream>
 
 #include "knot_utm/rod/invalid_input.hpp"
+#include "rod/materials.hpp"
 
 namespace knot_utm {
 namespace {
-
-Material nylon() {
-  Material out;
-  out.radius = 3.175e-3;
-  out.density = 1150.0;
-  out.stretching_stiffness = 7.34e4;
-  out.bending_stiffness = 4.31e-5;
-  out.twisting_stiffness = 4.31e-5;
-  out.friction_coefficient = 0.46;
-  return out;
-}
 
 SpecimenOptions straight_rod() {
   SpecimenOptions out;

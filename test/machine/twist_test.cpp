@@ -6,21 +6,10 @@
 #include <string>
 
 #include "knot_utm/machine/test_bench.hpp"
+#include "rod/materials.hpp"
 
 namespace knot_utm {
 namespace {
-
-Material pink_vps() {
-  Material material;
-  material.radius = 3.175e-3;
-  material.density = 1150.0;
-  material.stretching_stiffness = 1.70;
-  material.bending_stiffness = 4.34e-6;
-  material.twisting_stiffness = 2.893e-6;
-  material.friction_coefficient = 0.54;
-  material.tying_preload = 1.7;
-  return material;
-}
 
 TestBench bench(const SpecimenOptions& specimen, GripKind grips, TwistMode twist, double residual = 2e-5) {
   MachineOptions machine;

@@ -5,19 +5,18 @@
 #include <cmath>
 
 #include "knot_utm/sim/time_step.hpp"
+#include "rod/materials.hpp"
 
 namespace knot_utm {
 
-/// A rod of polypropylene (Table 1 of the source paper) and the settings that scenes of closed forms start from.
+/// Polypropylene on smooth ground: a scene adds the friction it needs.
 inline Material braided_rope() {
-  Material material;
-  material.radius = 3.175e-3;
-  material.density = 900.0;
-  material.stretching_stiffness = 3.9e4;
-  material.bending_stiffness = 1.18e-4;
+  Material material = polypropylene();
+  material.friction_coefficient = 0.0;
   return material;
 }
 
+/// The settings that scenes of closed forms start from.
 inline StepSettings closed_form_settings(const Material& material) {
   const double h = material.radius;
   StepSettings out;

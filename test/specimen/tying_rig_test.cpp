@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "knot_utm/sim/step_control.hpp"
+#include "rod/materials.hpp"
 
 namespace knot_utm {
 namespace {
@@ -14,12 +15,7 @@ namespace {
 constexpr double kPreload = 0.05;  // small: the grips slip soon [N]
 
 Material soft() {
-  Material out;
-  out.radius = 3.175e-3;
-  out.density = 1150.0;
-  out.stretching_stiffness = 1.70;
-  out.bending_stiffness = 4.34e-6;
-  out.twisting_stiffness = 2.893e-6;
+  Material out = pink_vps();
   out.friction_coefficient = 0.3;
   return out;
 }
