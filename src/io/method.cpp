@@ -98,7 +98,7 @@ YAML::Node named_map(const fs::path& file) {
 
 /// The cell's name behind `auto`, or behind no entry at all.
 std::string load_cell_name(const YAML::Node& node, const std::string& of_material) {
-  const std::string given = node.IsDefined() && node.IsScalar() ? node.Scalar() : "auto";
+  std::string given = node.IsDefined() && node.IsScalar() ? node.Scalar() : "auto";
   if (given != "auto") return given;
   return of_material.empty() ? kDefaultLoadCell : of_material;
 }
@@ -208,6 +208,7 @@ void put(YAML::Node parent, const Override& set, std::size_t depth) {
 
 void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides, const Library& library) {
   std::vector<Override> sets;
+  sets.reserve(overrides.size());
   for (const std::string& text : overrides) sets.push_back(parse_override(text));
   // A whole section is put in place before single keys inside it.
   std::stable_sort(sets.begin(), sets.end(),

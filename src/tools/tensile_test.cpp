@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -124,13 +125,10 @@ int run(const Arguments& arguments) {
   return gave_up ? kGaveUp : kEnded;
 }
 
-}  // namespace
-}  // namespace knot_utm
-
-int main(int argc, char** argv) {
-  knot_utm::Arguments arguments;
+/// Reads the command line; an exit code where that is all there is to do.
+std::optional<int> parse(int argc, char** argv, Arguments& arguments) {
   CLI::App app("Runs one whole test of a method, as fast as it goes.");
-  app.set_version_flag("--version", knot_utm::version());
+  app.set_version_flag("--version", version());
   app.add_option("METHOD", arguments.method, "the method, a YAML file")->required();
   // One value each, so that --set may stand before METHOD too.
   app.add_option("--set", arguments.overrides, "dotted.key=YAML, over what the method says; may be repeated")
@@ -142,11 +140,19 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     std::fprintf(stderr, "tensile_test: %s\n", error.what());
-    return knot_utm::kWrongInput;
+    return kWrongInput;
   }
+  return std::nullopt;
+}
 
-  knot_utm::listen_for_stop();
+}  // namespace
+}  // namespace knot_utm
+
+int main(int argc, char** argv) {
+  knot_utm::Arguments arguments;
   try {
+    if (const std::optional<int> code = knot_utm::parse(argc, argv, arguments)) return *code;
+    knot_utm::listen_for_stop();
     return knot_utm::run(arguments);
   } catch (const knot_utm::InvalidInput& invalid) {
     const bool of_method = invalid.key.rfind("--", 0) != 0;
