@@ -45,8 +45,8 @@ inline std::string allowed_numbers(const Range& range, const std::string& word =
 class Reader {
  public:
   /// `path`: dotted path of the map, empty for a file's top.
-  Reader(YAML::Node map, std::string file, std::string path)
-      : map_(std::move(map)), file_(std::move(file)), path_(std::move(path)) {
+  Reader(const YAML::Node& map, std::string file, std::string path)
+      : map_(map), file_(std::move(file)), path_(std::move(path)) {
     if (map_.IsDefined() && !map_.IsNull() && !map_.IsMap()) fail_here(map_, "a map of keys and values");
   }
 
