@@ -21,6 +21,11 @@ gtest_discover_tests(core_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 add_test(NAME bench_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/bench_test.py)
 add_test(NAME doc_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/doc_test.py)
 
+# In a workspace, installing is the workspace's own business.
+if(NOT catkin_FOUND OR KNOT_UTM_INSTALLS_SETUP)
+  add_test(NAME install_test COMMAND ${PROJECT_SOURCE_DIR}/test/install_test ${PROJECT_BINARY_DIR})
+endif()
+
 if(catkin_FOUND)
   # Conversions, markers and bags need no master.
   file(GLOB ros_test_sources CONFIGURE_DEPENDS test/ros/*_test.cpp)

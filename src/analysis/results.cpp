@@ -55,6 +55,15 @@ std::optional<double> locked_stiffness(const std::vector<Pull>& pull, double fro
   return sf / ss;
 }
 
+/// Of the pull until the knots lock; to its end where they never do [m/s].
+double fastest_node_while_sliding(const std::vector<Sample>& samples, std::optional<double> lock_extension) {
+  double fastest = 0.0;
+  for (const Sample& sample : samples)
+    if (sample.phase == Phase::kPull && !(lock_extension && sample.extension > *lock_extension))
+      fastest = std::max(fastest, sample.fastest_node);
+  return fastest;
+}
+
 double energy(const Sample& sample) {
   return sample.stretching_energy + sample.bending_energy + sample.twisting_energy + sample.contact_energy +
          sample.kinetic_energy;
@@ -88,12 +97,12 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
     if (!pull_begin) pull_begin = &sample;
     if (sample.status == BenchStatus::kBroken && !results.break_extension) results.break_extension = sample.extension;
     imbalance = std::max(imbalance, std::abs(sample.force_upper - sample.force_lower));
-    results.fastest_node = std::max(results.fastest_node, sample.fastest_node);
   }
   results.knot_type = samples.back().knot_type;
   results.motion_pattern = tracker.pattern();
   results.motion_pattern_confidence = tracker.confidence();
   results.lock_extension = tracker.lock_extension();
+  results.fastest_node = fastest_node_while_sliding(samples, results.lock_extension);
   results.untangled_at = tracker.untangled_at();
   if (energy_scale > 0.0) results.energy_balance_error = energy_error / energy_scale;
 

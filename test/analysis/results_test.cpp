@@ -53,6 +53,19 @@ struct Curve {
   }
 };
 
+TEST(Results, AKnotThatJumpsBeforeTheLockIsFastWhatSnapsBehindItIsNot) {
+  Curve curve;
+  curve.lock = 0.08;
+  std::vector<Sample> samples = curve.samples();
+  const auto at = [&](double extension) -> Sample& {
+    return samples[static_cast<std::size_t>(std::lround(extension / curve.step))];
+  };
+  at(0.1).fastest_node = 1.5;  // knots that are pressed together snap at kN loads
+  EXPECT_EQ(analyse(samples, EndedBy::kExtension).fastest_node, 0.0);
+  at(0.02).fastest_node = 0.3;
+  EXPECT_EQ(analyse(samples, EndedBy::kExtension).fastest_node, 0.3);
+}
+
 TEST(MotionPattern, SlidingThenStretching) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     Curve curve;
