@@ -37,6 +37,20 @@ def curves_together(file, curves, x_label, y_label, log=False):
     save(figure, file)
 
 
+def panels(file, curves, x_label, y_label):
+    """One panel a group of curves. `curves`: group -> name -> (x, y)."""
+    figure, all_axes = plt.subplots(1, len(curves), figsize=(4.6 * len(curves), 4.2), squeeze=False)
+    for axes, (group, lines) in zip(all_axes[0], curves.items()):
+        for name, (x, y) in lines.items():
+            axes.plot(x, y, label=name, linewidth=0.9)
+        logarithmic(axes, [value for _, y in lines.values() for value in y])
+        axes.set_title(group)
+        axes.set_xlabel(x_label)
+        axes.set_ylabel(y_label)
+        axes.legend(fontsize="x-small")
+    save(figure, file)
+
+
 def logarithmic(axes, values):
     """Logarithmic, and linear around zero: below a tenth of what is usual."""
     sizes = sorted(abs(value) for value in values)

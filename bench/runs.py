@@ -91,14 +91,12 @@ class Run:
         return {key: [column[i] for i in rows] for key, column in self.curve.items()}
 
     def slope_of_knot_distance(self):
-        """de/ds by least squares: over 0.3 to 0.8 of the lock extension (of the whole pull where it never locked) if
-        the knots slide, else over the whole pull."""
+        """de/ds: what result.yaml says of knots that slide, else by least squares over the whole pull."""
+        if self.value("motion_pattern") == "sliding":
+            return self.value("plateau_slope")
         pull = self.phase("pull")
-        points = [(s, e) for s, e in zip(pull.get("extension", []), pull.get("knot_distance", [])) if math.isfinite(e)]
-        if self.value("motion_pattern") == "sliding" and points:
-            end = self.value("lock_extension") or points[-1][0]
-            points = [(s, e) for s, e in points if 0.3 * end <= s <= 0.8 * end]
-        return least_squares_slope(points)
+        return least_squares_slope([(s, e) for s, e in zip(pull.get("extension", []), pull.get("knot_distance", []))
+                                    if math.isfinite(e)])
 
 
 def divide(value, by):

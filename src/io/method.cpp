@@ -316,7 +316,7 @@ Method load_method(const std::string& file, const std::vector<std::string>& over
 
     const Material& material = method.material;
     if (!method.specimen.preload && method.specimen.knot == KnotKind::kFisherman) {
-      method.specimen.preload = material.tying_preload.value_or(default_preload(material));
+      method.specimen.preload = default_preload(material);
     }
     if (method.specimen.knot == KnotKind::kFile && !method.specimen.file.empty()) {
       method.specimen.file = fs::absolute(folder / method.specimen.file).lexically_normal().string();
@@ -360,6 +360,13 @@ std::string method_yaml(const Method& method) {
   YAML::Emitter out;
   out << root;
   return std::string(out.c_str()) + "\n";
+}
+
+TestProgram make_program(const Method& method, double longest_step) {
+  TestProgram::Limits limits;
+  limits.load = method.machine.load_cell.capacity;
+  limits.travel = method.machine.travel;
+  return TestProgram(method.program, method.machine.load_cell.sampling_rate, longest_step, limits);
 }
 
 }  // namespace knot_utm

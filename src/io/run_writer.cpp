@@ -28,8 +28,6 @@ std::string make_folder(const std::string& folder, const Method& method) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (!fs::is_directory(folder, error)) throw InvalidInput("--out", folder, "a folder that can be made");
-  for (const char* old : {"result.yaml", "final_shape.csv", "test.bag"}) fs::remove(fs::path(folder) / old, error);
-
   Method own = method;
   if (own.specimen.knot == KnotKind::kFile) {
     const fs::path copy = fs::path(folder) / "specimen.csv";
@@ -40,6 +38,9 @@ std::string make_folder(const std::string& folder, const Method& method) {
     }
     own.specimen.file = "specimen.csv";
   }
+  // Not before the specimen has been read: it may be the shape that the last run left here.
+  for (const char* old : {"result.yaml", "final_shape.csv", "test.bag", "saved.bag"})
+    fs::remove(fs::path(folder) / old, error);
   try {
     write_text(fs::path(folder) / "method.yaml",
                "# Everything resolved: runs again to the same curve.\n" + method_yaml(own));
@@ -69,10 +70,6 @@ std::vector<std::string> warnings(const Results& results) {
     all.push_back("contacts were up to " + format_number(results.max_penetration) + " radii deep");
   }
   return all;
-}
-
-bool ties(const Program& program) {
-  return std::any_of(program.begin(), program.end(), [](const ProgramStep& s) { return s.phase == Phase::kTie; });
 }
 
 /// One "key: value" line after the other.
@@ -115,7 +112,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
     : folder_(make_folder(folder, method)),
       curve_((fs::path(folder) / "curve.csv").string()),
       full_curve_((fs::path(folder) / "curve_full.csv").string()) {
-  if (ties(method.program)) known_.preload = method.specimen.preload.value_or(Sample::kNone);
+  if (method.specimen.to_be_tied) known_.preload = method.specimen.preload.value_or(Sample::kNone);
   known_.seed = method.machine.load_cell.seed;
   known_.version = version();
 }

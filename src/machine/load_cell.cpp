@@ -23,8 +23,6 @@ double LoadCell::read(double true_force) {
   return reading;
 }
 
-bool LoadCell::overloaded(double true_force) const { return std::abs(true_force) > options_.capacity; }
-
 double LoadCell::normal() {
   // Box and Muller: std::normal_distribution differs between standard libraries.
   constexpr double kUnit = 0x1p-53;

@@ -11,8 +11,9 @@
 #include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
-#include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/centreline_file.hpp"
+#include "knot_utm/specimen/fisherman.hpp"
+#include "knot_utm/specimen/overhand.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
 
 namespace knot_utm {
@@ -48,7 +49,7 @@ constexpr double kSettlingTime = 1.0;   // [s]
 constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
 
 double preload(const SpecimenOptions& specimen, const Material& material) {
-  return specimen.preload.value_or(material.tying_preload.value_or(default_preload(material)));
+  return specimen.preload.value_or(default_preload(material));
 }
 
 StepSettings step_settings(const Material& material, const MachineOptions& machine, const PhysicsOptions& physics) {
@@ -56,8 +57,7 @@ StepSettings step_settings(const Material& material, const MachineOptions& machi
   const double h = material.radius;
   StepSettings out;
   out.contact_law = physics.contact_law;
-  out.normal = {material.contact_stiffness.value_or(default_contact_stiffness(material)),
-                tolerance.contact_tolerance * h};
+  out.normal = {default_contact_stiffness(material), tolerance.contact_tolerance * h};
   out.friction = {physics.friction_law, material.friction_coefficient, tolerance.presliding * h,
                   physics.slip_tolerance};
   out.roller_friction = out.friction;
@@ -452,7 +452,6 @@ Sample TestBench::respond(const Command& command) { return impl_->respond(comman
 const std::vector<Sample>& TestBench::substeps() const { return impl_->substeps; }
 const RodProperties& TestBench::rod() const { return impl_->stepper->rod(); }
 const RodState& TestBench::state() const { return impl_->stepper->state(); }
-bool TestBench::closed() const { return impl_->centreline.closed_by_tails; }
 Vec3 TestBench::lower_grip() const {
   return impl_->on_rollers() ? impl_->rollers[0].centre : impl_->lower_nodes.front().position;
 }

@@ -1,15 +1,13 @@
 #include "knot_utm/ros/conversions.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 
 #include "knot_utm/ros/names.hpp"
 
 namespace knot_utm {
 namespace {
-
-constexpr Phase kPhases[] = {Phase::kIdle,    Phase::kTie,  Phase::kRelease, Phase::kMount, Phase::kPreload,
-                             Phase::kBalance, Phase::kPull, Phase::kHold,    Phase::kDone};
 
 static_assert(static_cast<int>(KnotType::kKept) == KnotState::KNOT_KEPT);
 static_assert(static_cast<int>(KnotType::kChanged) == KnotState::KNOT_CHANGED);
@@ -25,10 +23,8 @@ static_assert(static_cast<int>(BenchStatus::kFailed) == KnotState::FAILED);
 ros::Time test_stamp(double start, double time) { return std::max(ros::Time(start + time), ros::TIME_MIN); }
 
 Phase phase_from_name(const std::string& name) {
-  const auto* found =
-      std::find_if(std::begin(kPhases), std::end(kPhases), [&](Phase phase) { return name == phase_name(phase); });
-  if (found == std::end(kPhases)) throw std::invalid_argument("\"" + name + "\" is not a phase");
-  return *found;
+  if (const std::optional<Phase> phase = phase_named(name)) return *phase;
+  throw std::invalid_argument("\"" + name + "\" is not a phase");
 }
 
 Crosshead to_message(const Command& command, std::uint32_t run, const ros::Time& stamp) {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <vector>
 
+#include "knot_utm/rod/frames.hpp"
 #include "knot_utm/ros/names.hpp"
 
 namespace knot_utm {
@@ -50,19 +51,6 @@ std_msgs::ColorRGBA lit(const std_msgs::ColorRGBA& c, const Vec3& normal) {
                std::min(1.0, light * static_cast<double>(c.b)));
 }
 
-Vec3 any_normal(const Vec3& t) {
-  const Vec3 axis = std::abs(t.x()) < 0.5 ? Vec3::UnitX() : Vec3::UnitY();
-  return t.cross(axis).normalized();
-}
-
-/// `v` turned by the smallest rotation that takes unit vector `from` to unit vector `to`.
-Vec3 carried(const Vec3& v, const Vec3& from, const Vec3& to) {
-  const Vec3 axis = from.cross(to);
-  const double cosine = from.dot(to);
-  if (cosine < -0.999999) return v;
-  return v * cosine + axis.cross(v) + axis * (axis.dot(v) / (1.0 + cosine));
-}
-
 /// One ring of the tube at a node.
 struct Ring {
   Vec3 center, normal, binormal;  ///< normal x binormal points along the rod
@@ -78,7 +66,7 @@ std::vector<Ring> rings_of(const Points& points) {
     const Vec3 chord = points.col(std::min(i + 1, n - 1)) - points.col(std::max<Eigen::Index>(i - 1, 0));
     const double length = chord.norm();
     const Vec3 tangent = length > 0.0 ? Vec3(chord / length) : last_tangent;
-    normal = i == 0 ? any_normal(tangent) : carried(normal, last_tangent, tangent);
+    normal = i == 0 ? any_normal(tangent) : parallel_transport(normal, last_tangent, tangent);
     normal = (normal - tangent * tangent.dot(normal)).normalized();
     rings.push_back({points.col(i), normal, tangent.cross(normal)});
     last_tangent = tangent;

@@ -9,7 +9,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// roslaunch makes numbers of texts that look like one.
+/// Set by hand, a text that looks like a number is one.
 std::string text_parameter(const ros::NodeHandle& node, const std::string& name) {
   XmlRpc::XmlRpcValue value;
   if (!node.getParam(name, value)) return "";
@@ -53,21 +53,10 @@ TestSetup read_test_setup(const ros::NodeHandle& node) {
   TestSetup setup;
   const std::string file =
       find_method(text_parameter(node, "test/method"), base, text_parameter(node, "test/shipped_methods"));
-  try {
-    setup.method = load_method(file, overrides);
-  } catch (const InvalidInput& error) {
-    throw error.in_file(file);
-  }
+  setup.method = load_method(file, overrides);
   const std::string out = text_parameter(node, "test/out");
   setup.out = (base / (out.empty() ? fs::path("out") / setup.method.name : fs::path(out))).lexically_normal().string();
   return setup;
-}
-
-TestProgram make_program(const Method& method, double longest_step) {
-  TestProgram::Limits limits;
-  limits.load = method.machine.load_cell.capacity;
-  limits.travel = method.machine.travel;
-  return TestProgram(method.program, method.machine.load_cell.sampling_rate, longest_step, limits);
 }
 
 int report_failure(const char* name, const char* what, int code) {

@@ -83,10 +83,7 @@ struct Arguments {
 int run(const Arguments& arguments) {
   const Method method = load_method(arguments.method, arguments.overrides);
   TestBench bench(method.specimen, method.material, method.machine, method.physics);
-  TestProgram::Limits limits;
-  limits.load = method.machine.load_cell.capacity;
-  limits.travel = method.machine.travel;
-  TestProgram program(method.program, method.machine.load_cell.sampling_rate, bench.longest_step(), limits);
+  TestProgram program = make_program(method, bench.longest_step());
 
   const std::string out = arguments.out.empty() ? "out/" + method.name : arguments.out;
   RunWriter writer(out, method);

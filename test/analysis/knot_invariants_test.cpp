@@ -8,7 +8,8 @@
 #include <cmath>
 #include <random>
 
-#include "knot_utm/specimen/centreline.hpp"
+#include "knot_utm/specimen/fisherman.hpp"
+#include "knot_utm/specimen/overhand.hpp"
 
 namespace knot_utm {
 namespace {

@@ -5,7 +5,8 @@
 #include <cmath>
 
 #include "knot_utm/machine/test_bench.hpp"
-#include "knot_utm/specimen/centreline.hpp"
+#include "knot_utm/specimen/fisherman.hpp"
+#include "knot_utm/specimen/overhand.hpp"
 
 namespace knot_utm {
 namespace {

@@ -136,6 +136,16 @@ TEST_F(RunFolder, AnUnfinishedRunHasNoResultOfAnEarlierOne) {
   EXPECT_FALSE(fs::exists(folder_ / "final_shape.csv"));
 }
 
+TEST_F(RunFolder, ARunMayTestTheShapeThatTheLastOneLeftThere) {
+  run(load_method(kConfig + "straight.yaml"));
+  const std::string shape = text_of(folder_ / "final_shape.csv");
+  Method method = load_method(kConfig + "from_file.yaml");
+  method.specimen.file = (folder_ / "final_shape.csv").string();
+  RunWriter writer(folder_.string(), method);
+  EXPECT_EQ(text_of(folder_ / "specimen.csv"), shape);
+  EXPECT_FALSE(fs::exists(folder_ / "final_shape.csv"));
+}
+
 TEST_F(RunFolder, AFileWhereTheFolderShouldBe) {
   std::ofstream(folder_.string()) << "x";
   EXPECT_THROW(RunWriter(folder_.string(), load_method(kConfig + "straight.yaml")), InvalidInput);

@@ -25,16 +25,6 @@ TEST(LoadCell, ResolutionRoundsToTheNearest) {
   EXPECT_EQ(cell.read(-1.2), -1.0);
 }
 
-TEST(LoadCell, OverloadCountsTheTrueForceInBothDirections) {
-  LoadCellOptions options;
-  options.capacity = 20.0;
-  LoadCell cell(options);
-  cell.balance(10.0);
-  EXPECT_FALSE(cell.overloaded(20.0));
-  EXPECT_TRUE(cell.overloaded(20.1));
-  EXPECT_TRUE(cell.overloaded(-20.1));
-}
-
 TEST(LoadCell, NoiseHasItsDeviationAndFollowsFromTheSeed) {
   LoadCellOptions options;
   options.noise = 0.1;

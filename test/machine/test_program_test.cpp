@@ -162,6 +162,19 @@ TEST(TestProgram, EndsByBreakOverloadTravelAndSolver) {
   EXPECT_THAT(by_solver.reason(), HasSubstr("converged"));
 }
 
+TEST(TestProgram, OverloadCountsTheTrueForceInBothDirections) {
+  TestProgram::Limits limits;
+  limits.load = 20.0;
+  for (const double force : {20.1, -20.1, 20.0, -20.0}) {
+    TestProgram program({pull(0.1)}, 3.0, 0.1, limits);
+    Sample sample;
+    sample.force_upper = force;
+    sample.load = force - 10.0 * (force > 0.0 ? 1.0 : -1.0);  // balanced at half of it
+    program.next(sample);
+    EXPECT_EQ(program.ended_by(), std::abs(force) > 20.0 ? EndedBy::kLoad : EndedBy::kNotYet) << force;
+  }
+}
+
 TEST(TestProgram, ATieThatDoesNotComeToRestIsNeverPassedOver) {
   FakeBench restless;
   restless.comes_to_rest = false;

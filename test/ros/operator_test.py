@@ -118,7 +118,7 @@ class OperatorTest(unittest.TestCase):
         self.assertEqual(recorder.recorded, status.sequence + 1)
         self.assertIn('ended_by: operator', open(OUT + '/result.yaml').read())
         self.assertIn('/knot/state', tool('rosbag', 'info', OUT + '/test.bag'))
-        tool('rosbag', 'check', OUT + '/test.bag')
+        self.assertEqual(subprocess.run(['rosbag', 'check', OUT + '/test.bag'], check=False).returncode, 0)
         text = tool('rostopic', 'echo', '-b', OUT + '/test.bag', '-p', '/knot/state')
         self.assertEqual(len(text.strip().splitlines()), status.sequence + 2)
 

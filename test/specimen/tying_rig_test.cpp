@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "knot_utm/sim/step_control.hpp"
+#include "knot_utm/specimen/fisherman.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {

@@ -5,6 +5,7 @@
 
 #include "knot_utm/machine/options.hpp"
 #include "knot_utm/machine/program.hpp"
+#include "knot_utm/machine/test_program.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/rod/material.hpp"
 #include "knot_utm/sim/options.hpp"
@@ -40,6 +41,9 @@ Method load_method(const std::string& file, const std::vector<std::string>& over
 /// The method as YAML that `load_method` reads back to the same: every value stands in it, no other file is needed
 /// but `specimen.file`.
 std::string method_yaml(const Method& method);
+
+/// Its program, for a physics whose longest step is `longest_step` [s].
+TestProgram make_program(const Method& method, double longest_step);
 
 /// The checks of values that must go together, as `load_method` makes them. Throws InvalidInput.
 void check_method(const Method& method);

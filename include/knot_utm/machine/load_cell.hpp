@@ -25,10 +25,6 @@ class LoadCell {
 
   double read(double true_force);  ///< one reading; the next one has other noise
 
-  bool overloaded(double true_force) const;  ///< beyond capacity, whatever the balance
-
-  const LoadCellOptions& options() const { return options_; }
-
  private:
   double normal();  ///< mean 0, standard deviation 1
 

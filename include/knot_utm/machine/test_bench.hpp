@@ -33,7 +33,6 @@ class TestBench {
 
   const RodProperties& rod() const;
   const RodState& state() const;
-  bool closed() const;          ///< the test's knot is that of the loop closed by joining the tails
   Vec3 lower_grip() const;      ///< centre of roller, node or clamp [m]
   Vec3 upper_grip() const;      ///< [m]
   double longest_step() const;  ///< longest time step of the chosen accuracy [s]: the longest command period

@@ -16,23 +16,23 @@ struct Material {
   double twisting_stiffness = 0.0;          ///< k_t [N m^2]
   double friction_coefficient = 0.0;        ///< mu [-]
   std::optional<double> contact_stiffness;  ///< K [N/m^2], that of the normal law; unset: default_contact_stiffness
-  std::optional<double> tying_preload;   ///< F_p [N] that `specimen.preload: auto` stands for; unset: default_preload
-  std::optional<double> breaking_force;  ///< [N]
-  std::string load_cell;                 ///< name of the load cell that suits it
+  std::optional<double> tying_preload;      ///< F_p [N]; unset: default_preload
+  std::optional<double> breaking_force;     ///< [N]
+  std::string load_cell;                    ///< name of the load cell that suits it
   std::string notes;
 };
 
-/// Pre-load F_p of a material that states none [N]: four times the scale k_b/h^2 of its bending, at which a knot holds
-/// together once the tails are let go.
+/// Pre-load F_p that `specimen.preload: auto` stands for [N]: the material's own, else four times the scale k_b/h^2 of
+/// its bending, at which a knot holds together once the tails are let go.
 inline double default_preload(const Material& material) {
-  return 4.0 * material.bending_stiffness / (material.radius * material.radius);
+  return material.tying_preload.value_or(4.0 * material.bending_stiffness / (material.radius * material.radius));
 }
 
-/// Contact stiffness K of a material that states none [N/m^2]: where strands are pressed together by k_b/h^2 on a
-/// radius of rod, they overlap by 1.5 % of it.
+/// Contact stiffness K that `auto` stands for [N/m^2]: the material's own, else 300 k_b/h^4: where strands are pressed
+/// together by k_b/h^2 on a radius of rod, they then overlap by 1.5 % of it.
 inline double default_contact_stiffness(const Material& material) {
   const double h2 = material.radius * material.radius;
-  return 300.0 * material.bending_stiffness / (h2 * h2);
+  return material.contact_stiffness.value_or(300.0 * material.bending_stiffness / (h2 * h2));
 }
 
 }  // namespace knot_utm

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Every name that the nodes share. All are relative: the launch file decides where they stand.
+/// Every name that the nodes share. All but /clock are relative: the launch file decides where they stand.
 namespace knot_utm::names {
 
 // Topics

@@ -14,7 +14,7 @@ namespace knot_utm {
 ///   test/shipped_methods    folder of the methods that come with the package
 ///   test/material           instead of the method's; empty: the method's
 ///   test/preload            specimen.preload [N]; empty: the method's
-///   test/overrides          list of "dotted.key=YAML", applied last
+///   test/overrides          list of "dotted.key=YAML", after these two among paths as long
 ///   test/working_directory  where relative paths begin; empty: the node's own
 ///   test/out                folder of the files [out/NAME of the method]
 struct TestSetup {
@@ -24,9 +24,6 @@ struct TestSetup {
 
 /// Throws InvalidInput.
 TestSetup read_test_setup(const ros::NodeHandle& node);
-
-/// The program of a method for a physics whose longest step is `longest_step` [s], as the headless tool makes it.
-TestProgram make_program(const Method& method, double longest_step);
 
 /// Runs `body` and says in one line what went wrong. Returns the exit code: 0, 1 failed, 2 wrong input.
 template <class Body>

@@ -1,0 +1,24 @@
+#pragma once
+
+#include "knot_utm/specimen/centreline.hpp"
+
+namespace knot_utm {
+
+/// An open overhand knot whose end goes `turns` times through the loop, in a rod along z, its ends at the origin and
+/// at (0, 0, end_to_end): the (2, 2 turns + 1) torus knot once its ends are joined outside.
+///
+/// Two strands wind around each other by (2 turns + 1) half turns over a braid of length 2 pi 12^(1/4) sqrt(h R) a
+/// full turn (Jawed, Dieleman, Audoly, Reis 2015), and a loop with two half circles of radius R joins its ends. R
+/// follows from the excess length, length - end_to_end: the larger, the looser.
+struct OverhandShape {
+  double radius = 3.175e-3;     ///< h [m]
+  int turns = 1;                ///< 1 to 4
+  double length = 1.0;          ///< of the rod [m]
+  double end_to_end = 0.7;      ///< distance of the rod's ends [m]
+  double edge_length = 0.0032;  ///< wanted [m]
+};
+
+/// Throws InvalidInput (specimen.*) where the excess length is too short for the knot or too long for the rod.
+Centreline overhand(const OverhandShape& shape);
+
+}  // namespace knot_utm

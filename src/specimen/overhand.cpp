@@ -1,0 +1,112 @@
+#include "knot_utm/specimen/overhand.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "knot_utm/rod/invalid_input.hpp"
+#include "path.hpp"
+#include "shape_checks.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+/// Length of the braid: the loose knot's own, but never so short that its strands would overlap.
+double braid_length(double radius, int turns, double loop_radius) {
+  const double full_turns = 0.5 * (2 * turns + 1);
+  const double turn = 2.0 * M_PI * std::pow(12.0, 0.25) * std::sqrt(radius * loop_radius);
+  return full_turns * std::max(turn, 4.0 * M_PI * radius);
+}
+
+/// The overhand with a loop of the given radius, before smoothing; straight tails reach the ends.
+Path draw_overhand(const OverhandShape& shape, double loop_radius, double spacing) {
+  const double half = 0.5 * braid_length(shape.radius, shape.turns, loop_radius);
+  const double angle = (2 * shape.turns + 1) * M_PI;
+  const double middle = 0.5 * shape.end_to_end;
+  const double helix = 2.0 * half / angle;  // advance a radian
+  const double r = 1.2 * shape.radius * std::exp(0.5 * std::pow(shape.radius / helix, 2));
+  // The tails lie on the z axis: the braid's own axis is at x = r.
+  const auto braid = [&](double t, double start) {
+    const double phi = start + angle * t;
+    return Vec3(r + r * std::cos(phi), r * std::sin(phi), middle + half * (2.0 * t - 1.0));
+  };
+  const double braid_arc = std::hypot(2.0 * half, angle * r);
+  const double top = 2.0 * r + 2.0 * loop_radius;
+  Path path(spacing);
+  path.add(Vec3::Zero());
+  path.add_curve(braid_arc, [&](double t) { return braid(t, M_PI); });
+  path.add_curve(M_PI * loop_radius, [&](double t) {
+    return Vec3(top - loop_radius * (1.0 + std::cos(M_PI * t)), 0.0, middle + half + loop_radius * std::sin(M_PI * t));
+  });
+  path.add_curve(M_PI * loop_radius, [&](double t) {
+    return Vec3(top - loop_radius * (1.0 - std::cos(M_PI * t)), 0.0, middle - half - loop_radius * std::sin(M_PI * t));
+  });
+  path.add_curve(braid_arc, [&](double t) { return braid(t, 0.0); });
+  path.add(Vec3(0.0, 0.0, shape.end_to_end));
+  return path;
+}
+
+}  // namespace
+
+Centreline overhand(const OverhandShape& shape) {
+  check_radius(shape.radius);
+  check_edge_length(shape.edge_length, shape.radius);
+  if (shape.turns < 1 || shape.turns > 4) throw InvalidInput("specimen.turns", std::to_string(shape.turns), "1 to 4");
+  if (!(shape.length > 0.0 && shape.length <= 100.0)) {
+    throw InvalidInput("specimen.length", text(shape.length), "above 0, up to 100 m");
+  }
+  if (!(shape.end_to_end > 0.0 && shape.end_to_end < shape.length)) {
+    throw InvalidInput("specimen.end_to_end", text(shape.end_to_end), "above 0, below specimen.length");
+  }
+  const double h = shape.radius;
+  const double spacing = drawing_spacing(h, shape.edge_length);
+  const auto rod_length = [&](double loop_radius) {
+    const Path path = draw_overhand(shape, loop_radius, spacing);
+    const Points smooth = smoothed(path, h, spacing);
+    return (smooth.rightCols(smooth.cols() - 1) - smooth.leftCols(smooth.cols() - 1)).colwise().norm().sum();
+  };
+  // The smallest loop, and the largest that leaves straight tails of 4 h at both ends.
+  const double smallest = 2.5 * h;
+  const auto room = [&](double loop_radius) {
+    return shape.end_to_end - braid_length(h, shape.turns, loop_radius) - 8.0 * h;
+  };
+  const double shortest = rod_length(smallest) - shape.end_to_end;
+  double high = smallest;
+  for (double step = shape.length; step > 1e-3 * h; step *= 0.5) {
+    if (room(high + step) > 0.0) high += step;
+  }
+  const double longest = rod_length(high) - shape.end_to_end;
+  if (!(room(smallest) > 0.0) || !(shape.length - shape.end_to_end >= shortest) ||
+      shape.length - shape.end_to_end > longest) {
+    throw InvalidInput("specimen.end_to_end", text(shape.end_to_end),
+                       "such that specimen.length exceeds it by " + text(shortest) + " to " + text(longest) +
+                           " m, and at least " + text(braid_length(h, shape.turns, smallest) + 8.0 * h) + " m");
+  }
+  // The rod's length grows smoothly with the loop's radius: false position with a bracket (Illinois).
+  double low = smallest;
+  double below = shortest + shape.end_to_end - shape.length;
+  double above = longest + shape.end_to_end - shape.length;
+  double loop_radius = high;
+  for (int i = 0; i < 60 && above > below; ++i) {
+    loop_radius = (low * above - high * below) / (above - below);
+    const double excess = rod_length(loop_radius) - shape.length;
+    if (std::abs(excess) < 1e-3 * spacing) break;
+    if (excess > 0.0) {
+      high = loop_radius;
+      above = excess;
+      below *= 0.5;
+    } else {
+      low = loop_radius;
+      below = excess;
+      above *= 0.5;
+    }
+  }
+  const Path path = draw_overhand(shape, loop_radius, spacing);
+  Centreline centreline;
+  centreline.points = Resampled(path, smoothed(path, h, spacing), shape.edge_length).points;
+  check_no_overlap(centreline, h, "specimen.end_to_end", text(shape.end_to_end));
+  return centreline;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,51 @@
+#include "path.hpp"
+
+#include "knot_utm/specimen/polyline.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+double interpolate(const std::vector<double>& values, double at) {
+  const double last = static_cast<double>(values.size() - 1);
+  const double x = std::clamp(at, 0.0, last);
+  const auto i = std::min(static_cast<std::size_t>(x), values.size() - 2);
+  return values[i] + (x - static_cast<double>(i)) * (values[i + 1] - values[i]);
+}
+
+}  // namespace
+
+Points smoothed(const Path& path, double deviation, double spacing) {
+  const auto pieces = static_cast<Eigen::Index>(std::ceil(path.length() / spacing));
+  const double step = path.length() / static_cast<double>(pieces);
+  const auto reach = static_cast<Eigen::Index>(std::ceil(5.0 * deviation / step));
+  Points raw(3, pieces + 1 + 2 * reach);
+  for (Eigen::Index i = 0; i < raw.cols(); ++i) raw.col(i) = path.at(static_cast<double>(i - reach) * step);
+  Eigen::VectorXd weight(2 * reach + 1);
+  for (Eigen::Index i = -reach; i <= reach; ++i) {
+    const double x = static_cast<double>(i) * step / deviation;
+    weight[i + reach] = std::exp(-0.5 * x * x);
+  }
+  weight /= weight.sum();
+  Points smooth(3, pieces + 1);
+  for (Eigen::Index i = 0; i <= pieces; ++i) smooth.col(i).noalias() = raw.middleCols(i, 2 * reach + 1) * weight;
+  return smooth;
+}
+
+Resampled::Resampled(const Path& path, const Points& smooth, double edge_length) : path_length_(path.length()) {
+  arclength_.push_back(0.0);
+  for (Eigen::Index i = 1; i < smooth.cols(); ++i) {
+    arclength_.push_back(arclength_.back() + (smooth.col(i) - smooth.col(i - 1)).norm());
+  }
+  points = resample_evenly(smooth, edge_length, &node_position_);
+}
+
+double Resampled::operator()(double s) const {
+  const double fine = interpolate(arclength_, s / path_length_ * static_cast<double>(arclength_.size() - 1));
+  const auto next = std::upper_bound(node_position_.begin() + 1, node_position_.end() - 1, fine);
+  const auto i = static_cast<std::size_t>(next - node_position_.begin());
+  const double t = (fine - node_position_[i - 1]) / (node_position_[i] - node_position_[i - 1]);
+  return (static_cast<double>(i - 1) + std::clamp(t, 0.0, 1.0)) * (points.col(1) - points.col(0)).norm();
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,112 @@
+#include "knot_utm/specimen/polyline.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "knot_utm/contact/closest_points.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+/// Lays equal chords along a polyline.
+class ChordWalk {
+ public:
+  explicit ChordWalk(const Points& points) : points_(points) {
+    arclength_.push_back(0.0);
+    for (Eigen::Index i = 1; i < points.cols(); ++i) {
+      arclength_.push_back(arclength_.back() + (points.col(i) - points.col(i - 1)).norm());
+    }
+  }
+
+  double length() const { return arclength_.back(); }
+
+  /// How many chords of this length fit, the rest of the last one as a fraction of it. `visit` gets every node that
+  /// the chords reach, and where it lies along the polyline.
+  template <typename Visit>
+  double walk(double chord, Visit visit) const {
+    Vec3 from = points_.col(0);
+    Eigen::Index segment = 0;
+    double along = 0.0;  // of `from` on the segment
+    double chords = 0.0;
+    const double chord2 = chord * chord;
+    while (true) {
+      while (segment + 1 < points_.cols() - 1 && (points_.col(segment + 1) - from).squaredNorm() < chord2) {
+        ++segment;
+        along = 0.0;
+      }
+      const Vec3 base = points_.col(segment);
+      const Vec3 edge = points_.col(segment + 1) - base;
+      if ((base + edge - from).squaredNorm() < chord2) return chords + (base + edge - from).norm() / chord;
+      // |base + t edge - from| = chord; the polyline leaves the ball in this segment, by the larger root.
+      const double a = edge.squaredNorm();
+      const double b = edge.dot(base - from);
+      const double c = (base - from).squaredNorm() - chord2;
+      along = std::clamp((-b + std::sqrt(std::max(0.0, b * b - a * c))) / a, along, 1.0);
+      from = base + along * edge;
+      chords += 1.0;
+      visit(from, arclength_[static_cast<std::size_t>(segment)] + along * std::sqrt(a));
+    }
+  }
+
+ private:
+  const Points& points_;
+  std::vector<double> arclength_;
+};
+
+}  // namespace
+
+Points resample_evenly(const Points& points, double edge_length, std::vector<double>* position) {
+  const ChordWalk walk(points);
+  const double count = std::max(1.0, std::round(walk.length() / edge_length));
+  // Chords are shorter than their arcs: the number that fits falls with their length, and is bisected for.
+  double low = 0.5 * (points.rightCols(1) - points.leftCols(1)).norm() / count;
+  double high = walk.length() / count * (1.0 + 1e-9);
+  const auto ignore = [](const Vec3&, double) {};
+  for (int i = 0; i < 100 && high - low > 1e-15 * high; ++i) {
+    const double middle = 0.5 * (low + high);
+    (walk.walk(middle, ignore) > count ? low : high) = middle;
+  }
+  const auto edges = static_cast<Eigen::Index>(count);
+  Points nodes(3, edges + 1);
+  std::vector<double> along(static_cast<std::size_t>(edges) + 1, walk.length());
+  nodes.col(0) = points.col(0);
+  along[0] = 0.0;
+  Eigen::Index next = 1;
+  walk.walk(high, [&](const Vec3& node, double s) {
+    if (next >= edges) return;
+    nodes.col(next) = node;
+    along[static_cast<std::size_t>(next)] = s;
+    ++next;
+  });
+  nodes.col(edges) = points.rightCols(1);
+  if (position) *position = std::move(along);
+  return nodes;
+}
+
+double smallest_distance(const Points& points, double exclusion, bool closed) {
+  const Eigen::Index edges = points.cols() - 1;
+  const Points edge = points.rightCols(edges) - points.leftCols(edges);
+  const Points middle = 0.5 * (points.rightCols(edges) + points.leftCols(edges));
+  const Eigen::VectorXd length = edge.colwise().norm();
+  Eigen::VectorXd begin(edges + 1);
+  begin[0] = 0.0;
+  for (Eigen::Index i = 0; i < edges; ++i) begin[i + 1] = begin[i] + length[i];
+  const double total = begin[edges];
+  double best = std::numeric_limits<double>::infinity();
+  for (Eigen::Index i = 0; i < edges; ++i) {
+    for (Eigen::Index j = i + 1; j < edges; ++j) {
+      if (begin[j] - begin[i + 1] < exclusion) continue;
+      if (closed && total - begin[j + 1] + begin[i] < exclusion) continue;
+      const double reach = best + 0.5 * (length[i] + length[j]);
+      if ((middle.col(i) - middle.col(j)).squaredNorm() >= reach * reach) continue;
+      const ClosestPoints at = closest_points(points.col(i), edge.col(i), points.col(j), edge.col(j), 0.0);
+      const Vec3 gap = points.col(i) + at.t * edge.col(i) - points.col(j) - at.u * edge.col(j);
+      best = std::min(best, gap.norm());
+    }
+  }
+  return best;
+}
+
+}  // namespace knot_utm
