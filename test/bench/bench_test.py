@@ -52,14 +52,18 @@ class Runs(unittest.TestCase):
             out.writelines(",".join(map(str, row)) + "\n" for row in rows)
         return runs.Run(folder.name, 2.0, 0, "")
 
-    def test_slope_is_that_of_the_sliding_part(self):
-        rows = [(0, 0, 0, 0.5, 0.25, 0, "tie")]
-        rows += [(1 + i, s, 1.0, 0.15 - 2.0 * min(max(s, 0.02), 0.09), 0.25 + s, 1.0, "pull")
-                 for i, s in enumerate(0.001 * k for k in range(121))]
-        run = self.run_of("motion_pattern: sliding\nlock_extension: 0.09\nsimulated_time: 60\n", rows)
-        self.assertAlmostEqual(run.slope_of_knot_distance(), -2.0, places=9)
+    def test_slope_of_sliding_knots_is_the_one_in_the_result(self):
+        rows = [(0, 0, 0, 0.5, 0.25, 0, "tie"), (1, 0.001, 1.0, 0.15, 0.251, 1.0, "pull")]
+        run = self.run_of("motion_pattern: sliding\nplateau_slope: -1.95\nsimulated_time: 60\n", rows)
+        self.assertEqual(run.slope_of_knot_distance(), -1.95)
         self.assertEqual(run.real_time_factor(), 30.0)
         self.assertEqual(len(run.phase("tie")["time"]), 1)
+
+    def test_slope_of_all_others_is_that_of_the_whole_pull(self):
+        rows = [(0, 0, 0, 0.5, 0.25, 0, "tie")]
+        rows += [(1 + i, s, 1.0, 0.15 + 0.3 * s, 0.25 + s, 1.0, "pull") for i, s in enumerate(0.001 * k for k in range(121))]
+        run = self.run_of("motion_pattern: stretching\nsimulated_time: 60\n", rows)
+        self.assertAlmostEqual(run.slope_of_knot_distance(), 0.3, places=9)
 
     def test_a_run_that_left_nothing(self):
         run = runs.Run("/nowhere", 1.0, 2, "wrong input")
