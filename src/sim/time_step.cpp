@@ -130,8 +130,9 @@ class ImplicitStep final : public TimeStep {
 
   Vec3 reaction(int node) const override { return -to_vec3(committed_force_[at(node)]); }
   double reaction_torque(int edge) const override { return D == 4 ? -committed_force_[at(edge)][3] : 0.0; }
-  Vec3 roller_force(int roller) const override { return rollers_.force_on(roller); }
-  const std::vector<ContactPoint>& contacts() const override { return contact_.contacts(); }
+  Vec3 roller_force(int roller) const override {
+    return at(roller) < roller_force_.size() ? Vec3(-roller_force_[at(roller)]) : Vec3::Zero();
+  }
 
   Energies energies() const override {
     const ElasticEnergy elastic = elastic_energy(rod_, state_);
@@ -139,10 +140,7 @@ class ImplicitStep final : public TimeStep {
     out.stretching = elastic.stretching;
     out.bending = elastic.bending;
     out.twisting = elastic.twisting;
-    for (const ContactPoint& contact : contact_.contacts())
-      out.contact += contact.weight * contact_.normal().energy(contact.overlap);
-    for (const ContactPoint& contact : rollers_.contacts())
-      out.contact += contact.weight * settings_.normal.energy(contact.overlap);
+    out.contact = contact_energy_;
     for (int i = 0; i < nodes_; ++i) out.kinetic += 0.5 * rod_.mass[i] * state_.velocity.col(i).squaredNorm();
     if constexpr (D == 4) out.kinetic += frames_.kinetic_energy(state_);
     return out;
@@ -314,7 +312,11 @@ class ImplicitStep final : public TimeStep {
 
   void commit() {
     contact_reading_ = ContactReading{};
+    contact_energy_ = 0.0;
+    for (const ContactPoint& contact : rollers_.contacts())
+      contact_energy_ += contact.weight * settings_.normal.energy(contact.overlap);
     for (const ContactPoint& contact : contact_.contacts()) {
+      contact_energy_ += contact.weight * contact_.normal().energy(contact.overlap);
       if (!contact.touches()) continue;
       ++contact_reading_.touching;
       contact_reading_.normal_force += contact.weight * contact.pressure;
@@ -383,6 +385,7 @@ class ImplicitStep final : public TimeStep {
   std::vector<Lanes> force_, change_, committed_force_;
   std::vector<char> held_;
   ContactReading contact_reading_;
+  double contact_energy_ = 0.0;
   StepWork work_;
   std::vector<Roller> committed_rollers_;
   std::vector<Vec3> roller_force_, roller_force_now_;  // on the rod, at the last accepted step

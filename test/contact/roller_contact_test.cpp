@@ -129,5 +129,28 @@ TEST(RollerContact, ARodPressedOnARollerRestsOnItWithItsWholeWeight) {
   EXPECT_LT(std::abs(stepper->roller_force(0)[0]), 1e-9);
 }
 
+TEST(RollerContact, AStepThatFailsLeavesTheReadingsOfTheLastOne) {
+  const Material material = braided_rope();
+  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(20, material.radius));
+  StepSettings settings = closed_form_settings(material);
+  settings.gravity = Vec3(0.0, 0.0, -9.81);
+  settings.drag = 1.0;
+  const std::unique_ptr<TimeStep> stepper = TimeStep::make(rod, straight_state(rod), settings);
+  Boundary boundary;
+  boundary.rollers = {plane_below(material.radius)};
+  for (int i = 0; i < 5; ++i) ASSERT_TRUE(stepper->step(boundary, 0.01).accepted());
+  const Vec3 force = stepper->roller_force(0);
+  const double contact_energy = stepper->energies().contact;
+  const Points position = stepper->state().position;
+  ASSERT_LT(force[2], 0.0);
+  ASSERT_GT(contact_energy, 0.0);
+
+  boundary.rollers[0].centre[2] += 10.0 * material.radius;  // into the rod, further than a step may move it
+  EXPECT_FALSE(stepper->step(boundary, 0.01).accepted());
+  EXPECT_EQ(stepper->roller_force(0), force);
+  EXPECT_EQ(stepper->energies().contact, contact_energy);
+  EXPECT_EQ(stepper->state().position, position);
+}
+
 }  // namespace
 }  // namespace knot_utm

@@ -30,15 +30,12 @@ class ScriptedStep : public TimeStep {
   Energies energies() const override { return {}; }
   ContactReading contact_reading() const override { return {}; }
   StepWork work() const override { return {}; }
-  const std::vector<ContactPoint>& contacts() const override { return contacts_; }
 
   double longest_good = 1.0;  // [s]
   double speed = 0.0;         // [m/s]
   int iterations = 3;
   std::vector<double> tried;
 
- private:
-  std::vector<ContactPoint> contacts_;
 };
 
 struct Outcome {

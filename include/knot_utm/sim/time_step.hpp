@@ -63,12 +63,11 @@ class TimeStep {
   virtual Vec3 reaction(int node) const = 0;
   /// Torque about an edge's tangent that the holder of its material frame exerts on the rod [N m].
   virtual double reaction_torque(int edge) const = 0;
-  /// Force of the rod on a roller [N].
+  /// Force of the rod on a roller [N]; zero before the first accepted step.
   virtual Vec3 roller_force(int roller) const = 0;
   virtual Energies energies() const = 0;
   virtual ContactReading contact_reading() const = 0;
   virtual StepWork work() const = 0;
-  virtual const std::vector<ContactPoint>& contacts() const = 0;
   /// Tension of each edge [N].
   Eigen::VectorXd tension() const;
 
