@@ -23,6 +23,8 @@ std::size_t RollerContact::index_of(const ContactPoint& contact) const {
 void RollerContact::begin_step() {
   contacts_.clear();
   estimate_ = committed_estimate_;
+  // Before the first accepted step there is nowhere to come from: what a rejected one took for that does not count.
+  if (committed_estimate_.empty()) start_.clear();
 }
 
 void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& position, const Points& start,

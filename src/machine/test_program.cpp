@@ -59,7 +59,6 @@ Command TestProgram::next(const Sample& sample) {
 
   const EndedBy by = last_.sequence == 0 ? EndedBy::kNotYet : step_end(sample);
   if (by != EndedBy::kNotYet) {
-    passed_.push_back(seconds(last_.sequence - step_begin_));
     step_begin_ = last_.sequence;
     step_begin_displacement_ = last_.displacement;
     if (step_ + 1 == program_.size()) {

@@ -142,7 +142,8 @@ double FrameTerms::largest_free_torque(const std::vector<Lanes>& force) const {
   for (std::size_t j = 0; j + 1 < held_.size(); ++j) {
     if (held_[j]) continue;
     const double size = std::abs(force[j][3]);
-    if (!(size <= largest)) largest = size;
+    if (!std::isfinite(size)) return size;
+    largest = std::max(largest, size);
   }
   return largest;
 }

@@ -83,7 +83,8 @@ class ImplicitStep final : public TimeStep {
     const double force = largest_free_force();
     if constexpr (D == 4) {
       const double torque = frames_.largest_free_torque(force_) / rod_.material.radius;
-      if (!(torque <= force)) return torque;
+      // std::max keeps its first argument where it is not a number, not its second.
+      return std::isfinite(torque) ? std::max(force, torque) : torque;
     }
     return force;
   }
@@ -288,7 +289,8 @@ class ImplicitStep final : public TimeStep {
       if (held_[at(i)]) continue;
       const Lanes& f = force_[at(i)];
       const double size2 = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
-      if (!(size2 <= largest2)) largest2 = size2;
+      if (!std::isfinite(size2)) return size2;
+      largest2 = std::max(largest2, size2);
     }
     return std::sqrt(largest2);
   }

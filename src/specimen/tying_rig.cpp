@@ -65,6 +65,8 @@ void TyingRig::enter(Stage stage, double time) {
 
 void TyingRig::tie(double speed, double time, const Points& position) {
   speed_ = speed;
+  reached_ = -1.0;
+  not_equilibrated_.clear();
   grips_.clear();
   for (const Knot& knot : knots_) {
     SlippingGrip grip;

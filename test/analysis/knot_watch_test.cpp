@@ -94,7 +94,7 @@ TEST(KnotWatch, StandsOnTheMachine) {
   material.friction_coefficient = 0.54;
   SpecimenOptions specimen;
   specimen.edge_length = 0.005;
-  for (const KnotKind knot : {KnotKind::kFisherman, KnotKind::kOverhand, KnotKind::kStraight}) {
+  for (const KnotKind knot : {KnotKind::kFisherman, KnotKind::kOverhand}) {
     specimen.knot = knot;
     specimen.end_to_end = knot == KnotKind::kFisherman ? 0.25 : 0.7;
     MachineOptions machine;
@@ -109,6 +109,7 @@ TEST(KnotWatch, StandsOnTheMachine) {
       command.time = 0.1 * k;
       command.displacement = 0.0033 * command.time;
       sample = bench.respond(command);
+      ASSERT_EQ(sample.status, BenchStatus::kRunning) << sample.message;
     }
     EXPECT_EQ(sample.knot_type, KnotType::kKept);
   }

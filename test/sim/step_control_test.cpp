@@ -35,7 +35,6 @@ class ScriptedStep : public TimeStep {
   double speed = 0.0;         // [m/s]
   int iterations = 3;
   std::vector<double> tried;
-
 };
 
 struct Outcome {

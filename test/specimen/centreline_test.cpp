@@ -225,7 +225,7 @@ TEST(SmallestDistance, SeesParallelCrossingAndEndOnSegments) {
   u.col(3) << 0.0, 0.3, 0.0;
   EXPECT_NEAR(smallest_distance(u, 0.1), 0.3, 1e-12);
   u.col(3) << 0.5, -0.2, 0.1;
-  EXPECT_NEAR(smallest_distance(u, 0.1), 0.3 * 0.1 / std::hypot(0.3, 0.1), 0.07);
+  EXPECT_NEAR(smallest_distance(u, 0.1), 0.3 * 0.1 / std::hypot(0.5, 0.1), 1e-12);
   EXPECT_EQ(smallest_distance(u, 10.0), std::numeric_limits<double>::infinity());
 }
 

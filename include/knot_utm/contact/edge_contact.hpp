@@ -64,7 +64,6 @@ class EdgeContact {
   void commit(const Points& position);
 
   const EdgeLaw& normal() const { return normal_; }
-  const Friction& friction() const { return friction_; }
 
  private:
   /// What a contact between edges knows beside its ContactPoint.

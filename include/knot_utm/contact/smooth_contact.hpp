@@ -11,7 +11,7 @@ namespace knot_utm {
 /// each of which presses on its feet, the nearest points of the other strands' curves. A pair of points is seen from
 /// both sides; the two sides share it by
 ///
-///     omega = g_b^4 / (g_a^4 + g_b^4),   g_b = 1 - x.b''/|b'|^2,   g_a = 1 + x.a''/|a'|^2,
+///     omega = g_b^4 / (g_a^4 + g_b^4 + 1e-4),   g_b = 1 - x.b''/|b'|^2,   g_a = 1 + x.a''/|a'|^2,
 ///
 /// so that the curved strand is integrated and the straighter one projected on: where a strand coils around another
 /// at the distance of contact, the other one stands in its centre of curvature and has no foot on it.
@@ -28,7 +28,6 @@ class SmoothContact {
 
   /// Rebuilds the candidates where something moved far enough; true if it did.
   bool refresh(const Points& position) { return candidates_.refresh(position); }
-  const Candidates& candidates() const { return candidates_; }
 
   /// Before the first evaluation of a step: estimates of the pressures are those of the last accepted step.
   void begin_step();
@@ -46,7 +45,6 @@ class SmoothContact {
   void commit(const Points& position);
 
   const NormalLaw& normal() const { return normal_; }
-  const Friction& friction() const { return friction_; }
 
  private:
   /// What a contact carries from iteration to iteration, and from step to step.

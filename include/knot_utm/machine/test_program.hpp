@@ -91,7 +91,6 @@ class TestProgram {
   double step_begin_displacement_ = 0.0;  ///< [m]
   Command last_;
   bool balance_next_ = false;
-  std::vector<double> passed_;  ///< what each ended step took [s]
   EndedBy ended_by_ = EndedBy::kNotYet;
   std::string reason_;
 };

@@ -22,7 +22,6 @@ struct StepSummary {
 /// What can be read off the last accepted step.
 struct Energies {
   double stretching = 0.0, bending = 0.0, twisting = 0.0, contact = 0.0, kinetic = 0.0;  ///< [J]
-  double total() const { return stretching + bending + twisting + contact + kinetic; }
 };
 
 struct ContactReading {

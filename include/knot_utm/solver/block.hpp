@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace knot_utm {
 
@@ -62,14 +63,14 @@ inline Lanes product(const Block<D>& a, const Lanes& x) {
   return sum;
 }
 
-/// Inverse; false where the block is singular.
+/// Inverse; false where the block is singular or not finite.
 inline bool invert(const Block<3>& a, Block<3>& inverse) {
   const double a00 = a(0, 0), a01 = a(0, 1), a02 = a(0, 2);
   const double a10 = a(1, 0), a11 = a(1, 1), a12 = a(1, 2);
   const double a20 = a(2, 0), a21 = a(2, 1), a22 = a(2, 2);
   const double c00 = a11 * a22 - a12 * a21, c10 = a12 * a20 - a10 * a22, c20 = a10 * a21 - a11 * a20;
   const double determinant = a00 * c00 + a01 * c10 + a02 * c20;
-  if (!(determinant != 0.0)) return false;
+  if (determinant == 0.0 || !std::isfinite(determinant)) return false;
   const double r = 1.0 / determinant;
   inverse.column[0] = Lanes{c00 * r, c10 * r, c20 * r, 0.0};
   inverse.column[1] = Lanes{(a02 * a21 - a01 * a22) * r, (a00 * a22 - a02 * a20) * r, (a01 * a20 - a00 * a21) * r, 0.0};
@@ -77,7 +78,7 @@ inline bool invert(const Block<3>& a, Block<3>& inverse) {
   return true;
 }
 
-/// Inverse of the 4 x 4 block [A b; c d] by its Schur complement on d; false where singular.
+/// Inverse of the 4 x 4 block [A b; c d] by its Schur complement on d; false where singular or not finite.
 inline bool invert(const Block<4>& a, Block<4>& inverse) {
   Block<3> corner;
   for (int j = 0; j < 3; ++j) corner.column[j] = Lanes{a(0, j), a(1, j), a(2, j), 0.0};
@@ -88,7 +89,7 @@ inline bool invert(const Block<4>& a, Block<4>& inverse) {
   Lanes c_ci = {0.0, 0.0, 0.0, 0.0};
   for (int j = 0; j < 3; ++j) c_ci[j] = a(3, 0) * ci(0, j) + a(3, 1) * ci(1, j) + a(3, 2) * ci(2, j);
   const double schur = a(3, 3) - (a(3, 0) * ci_b[0] + a(3, 1) * ci_b[1] + a(3, 2) * ci_b[2]);
-  if (!(schur != 0.0)) return false;
+  if (schur == 0.0 || !std::isfinite(schur)) return false;
   const double r = 1.0 / schur;
   for (int j = 0; j < 3; ++j) {
     inverse.column[j] = ci.column[j] + ci_b * (c_ci[j] * r);
