@@ -17,6 +17,14 @@ target_compile_definitions(core_tests PRIVATE KNOT_UTM_SOURCE_DIR="${PROJECT_SOU
 add_dependencies(core_tests tensile_test)
 gtest_discover_tests(core_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 
+# Physics that takes longer than a minute: scripts/validate runs it, ctest does not.
+file(GLOB validation_sources CONFIGURE_DEPENDS test/validation/*_test.cpp)
+if(validation_sources)
+  add_executable(validation_tests ${validation_sources})
+  target_include_directories(validation_tests PRIVATE test)
+  target_link_libraries(validation_tests PRIVATE knot_utm_core GTest::gtest_main)
+endif()
+
 # What scripts/bench makes of its runs; README and doc/ against the code.
 add_test(NAME bench_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/bench_test.py)
 add_test(NAME doc_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/doc_test.py)
