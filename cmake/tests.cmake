@@ -17,6 +17,14 @@ target_compile_definitions(core_tests PRIVATE KNOT_UTM_SOURCE_DIR="${PROJECT_SOU
 add_dependencies(core_tests tensile_test)
 gtest_discover_tests(core_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 
+# Counts what a step takes from the heap by a malloc of its own, where no sanitizer has one.
+if(NOT KNOT_UTM_SANITIZE)
+  add_executable(allocation_test test/allocation/allocation_test.cpp)
+  target_include_directories(allocation_test PRIVATE test)
+  target_link_libraries(allocation_test PRIVATE knot_utm_core GTest::gtest_main)
+  gtest_discover_tests(allocation_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+endif()
+
 # Physics that takes longer than a minute: scripts/validate runs it, ctest does not.
 file(GLOB validation_sources CONFIGURE_DEPENDS test/validation/*_test.cpp)
 if(validation_sources)

@@ -22,6 +22,10 @@ Candidates::Candidates(const RodProperties& rod, double reach, double margin, do
   half_size_ = Eigen::VectorXd::Zero(nodes);
   for (Eigen::Index i = 1; i + 1 < nodes; ++i)
     half_size_[i] = 0.5 * std::max(rod.rest_length[i - 1], rod.rest_length[i]);
+  // None of these can hold more: a build takes no memory for them.
+  entries_.reserve(static_cast<std::size_t>(nodes));
+  found_.reserve(static_cast<std::size_t>(nodes));
+  segments_.reserve(static_cast<std::size_t>(nodes));
 }
 
 bool Candidates::refresh(const Points& position) {
@@ -39,47 +43,41 @@ void Candidates::build(const Points& position) {
   const double cell = reach_ + margin_ + 2.0 * half_size_.maxCoeff();
   const Vec3 origin = position.rowwise().minCoeff().array() - cell;
 
-  struct Entry {
-    std::int64_t key;
-    int segment;
-  };
-  std::vector<Entry> entries;
-  entries.reserve(static_cast<std::size_t>(nodes));
+  entries_.clear();
   auto key_of = [&](int i, int di, int dj, int dk) {
     const Vec3 q = (position.col(i) - origin) / cell;
     return cell_key(static_cast<std::int64_t>(q[0]) + di, static_cast<std::int64_t>(q[1]) + dj,
                     static_cast<std::int64_t>(q[2]) + dk);
   };
-  for (int i = 1; i + 1 < nodes; ++i) entries.push_back({key_of(i, 0, 0, 0), i});
-  std::sort(entries.begin(), entries.end(),
+  for (int i = 1; i + 1 < nodes; ++i) entries_.push_back({key_of(i, 0, 0, 0), i});
+  std::sort(entries_.begin(), entries_.end(),
             [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.segment < b.segment; });
 
   pairs_.clear();
   segments_.clear();
   runs_.clear();
   begin_.assign(static_cast<std::size_t>(nodes) + 1, 0);
-  std::vector<int> found;
   for (int i = 1; i + 1 < nodes; ++i) {
     begin_[static_cast<std::size_t>(i)] = runs_.size();
-    found.clear();
+    found_.clear();
     for (int di = -1; di <= 1; ++di) {
       for (int dj = -1; dj <= 1; ++dj) {
         // The three cells along the last direction have consecutive keys.
         const std::int64_t low = key_of(i, di, dj, -1), high = low + 2;
-        auto entry = std::lower_bound(entries.begin(), entries.end(), low,
+        auto entry = std::lower_bound(entries_.begin(), entries_.end(), low,
                                       [](const Entry& e, std::int64_t key) { return e.key < key; });
-        for (; entry != entries.end() && entry->key <= high; ++entry) {
+        for (; entry != entries_.end() && entry->key <= high; ++entry) {
           const int j = entry->segment;
           if (std::abs(arclength_[i] - arclength_[j]) < exclusion_) continue;
           const double limit = reach_ + margin_ + half_size_[i] + half_size_[j];
-          if ((position.col(i) - position.col(j)).squaredNorm() < limit * limit) found.push_back(j);
+          if ((position.col(i) - position.col(j)).squaredNorm() < limit * limit) found_.push_back(j);
         }
       }
     }
-    if (found.empty()) continue;
-    std::sort(found.begin(), found.end());
+    if (found_.empty()) continue;
+    std::sort(found_.begin(), found_.end());
     segments_.push_back(i);
-    for (const int j : found) {
+    for (const int j : found_) {
       if (i < j) pairs_.push_back({i, j});
       if (runs_.size() > begin_[static_cast<std::size_t>(i)] && runs_.back().last + 1 == j)
         runs_.back().last = j;

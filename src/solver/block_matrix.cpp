@@ -10,11 +10,12 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Neighbours of every node, sorted, without repeats, as compressed rows.
-void neighbours(int nodes, const std::vector<std::pair<int, int>>& pairs, std::vector<int>& begin,
-                std::vector<int>& list) {
-  std::vector<std::int64_t> keys;
-  keys.reserve(2 * pairs.size());
+}  // namespace
+
+void BlockPattern::find_neighbours(int nodes, const std::vector<std::pair<int, int>>& pairs) {
+  std::vector<std::int64_t>& keys = work_.keys;
+  std::vector<int>&begin = work_.begin, &list = work_.list;
+  keys.clear();
   for (const auto& [i, j] : pairs) {
     keys.push_back(static_cast<std::int64_t>(i) * nodes + j);
     keys.push_back(static_cast<std::int64_t>(j) * nodes + i);
@@ -23,7 +24,6 @@ void neighbours(int nodes, const std::vector<std::pair<int, int>>& pairs, std::v
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   begin.assign(at(nodes) + 1, 0);
   list.clear();
-  list.reserve(keys.size());
   for (const std::int64_t key : keys) {
     ++begin[static_cast<std::size_t>(key / nodes) + 1];
     list.push_back(static_cast<int>(key % nodes));
@@ -31,22 +31,36 @@ void neighbours(int nodes, const std::vector<std::pair<int, int>>& pairs, std::v
   for (int i = 0; i < nodes; ++i) begin[at(i) + 1] += begin[at(i)];
 }
 
-}  // namespace
+void BlockPattern::order_nodes(int nodes) {
+  // amd_order would take its workspace from the heap at every call; this is what it makes of a symmetric pattern
+  // whose rows are sorted and hold no diagonal, with the room that it leaves for elements.
+  Workspace& w = work_;
+  const int entries = static_cast<int>(w.list.size()), room = entries + entries / 5 + nodes;
+  w.rows.resize(at(room));
+  std::copy(w.list.begin(), w.list.end(), w.rows.begin());
+  w.row_begin.assign(w.begin.begin(), w.begin.end() - 1);
+  w.row_length.resize(at(nodes));
+  for (int i = 0; i < nodes; ++i) w.row_length[at(i)] = w.begin[at(i) + 1] - w.begin[at(i)];
+  for (std::vector<int>* each : {&w.filled, &w.next, &w.order, &w.head, &w.element, &w.degree, &w.mark})
+    each->resize(at(nodes));
+  amd_2(nodes, w.row_begin.data(), w.rows.data(), w.row_length.data(), room, entries, w.filled.data(), w.next.data(),
+        w.order.data(), w.head.data(), w.element.data(), w.degree.data(), w.mark.data(), nullptr, nullptr);
+}
 
 void BlockPattern::build(int nodes, const std::vector<std::pair<int, int>>& pairs) {
-  std::vector<int> begin, list;
-  neighbours(nodes, pairs, begin, list);
-
-  std::vector<int> order(at(nodes));
-  amd_order(nodes, begin.data(), list.data(), order.data(), nullptr, nullptr);
+  find_neighbours(nodes, pairs);
+  order_nodes(nodes);
+  const std::vector<int>&begin = work_.begin, &list = work_.list, &order = work_.order;
   position_.assign(at(nodes), 0);
   for (int k = 0; k < nodes; ++k) position_[at(order[at(k)])] = k;
 
   // Rows below pivot k: its own later neighbours and what its children in the elimination tree pass on.
   row_begin_.assign(at(nodes) + 1, 0);
   rows_.clear();
-  std::vector<std::vector<int>> children(at(nodes));
-  std::vector<int> seen(at(nodes), -1);
+  std::vector<int>&first_child = work_.first_child, &next_sibling = work_.next_sibling, &seen = work_.seen;
+  first_child.assign(at(nodes), -1);
+  next_sibling.assign(at(nodes), -1);
+  seen.assign(at(nodes), -1);
   for (int k = 0; k < nodes; ++k) {
     const std::size_t first = rows_.size();
     seen[at(k)] = k;
@@ -58,7 +72,7 @@ void BlockPattern::build(int nodes, const std::vector<std::pair<int, int>>& pair
         rows_.push_back(row);
       }
     }
-    for (const int child : children[at(k)]) {
+    for (int child = first_child[at(k)]; child >= 0; child = next_sibling[at(child)]) {
       for (int a = row_begin_[at(child)]; a < row_begin_[at(child) + 1]; ++a) {
         const int row = rows_[at(a)];
         if (row > k && seen[at(row)] != k) {
@@ -69,7 +83,10 @@ void BlockPattern::build(int nodes, const std::vector<std::pair<int, int>>& pair
     }
     std::sort(rows_.begin() + static_cast<std::ptrdiff_t>(first), rows_.end());
     row_begin_[at(k) + 1] = static_cast<int>(rows_.size());
-    if (rows_.size() > first) children[at(rows_[first])].push_back(k);
+    if (rows_.size() == first) continue;
+    const std::size_t parent = at(rows_[first]);
+    next_sibling[at(k)] = first_child[parent];
+    first_child[parent] = k;
   }
 
   diagonal_.assign(at(nodes), 0);
@@ -80,7 +97,8 @@ void BlockPattern::build(int nodes, const std::vector<std::pair<int, int>>& pair
   for (const int row : rows_) ++lower_begin_[at(row) + 1];
   for (int k = 0; k < nodes; ++k) lower_begin_[at(k) + 1] += lower_begin_[at(k)];
   lower_.resize(rows_.size());
-  std::vector<int> filled(lower_begin_.begin(), lower_begin_.end() - 1);
+  std::vector<int>& filled = work_.filled;
+  filled.assign(lower_begin_.begin(), lower_begin_.end() - 1);
   for (int k = 0; k < nodes; ++k)
     for (int a = 0; a < below(k); ++a) lower_[at(filled[at(rows(k)[a])]++)] = diagonal(k) + 1 + 2 * a;
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -35,6 +36,11 @@ class Candidates {
   double exclusion() const { return exclusion_; }
 
  private:
+  struct Entry {
+    std::int64_t key;
+    int segment;
+  };
+
   void build(const Points& position);
 
   double reach_, margin_, exclusion_;
@@ -45,6 +51,8 @@ class Candidates {
   std::vector<Run> runs_;
   std::vector<int> segments_;
   std::vector<std::pair<int, int>> pairs_;
+  std::vector<Entry> entries_;  // segments by their cell; like found_ kept for its memory
+  std::vector<int> found_;
 };
 
 }  // namespace knot_utm

@@ -10,6 +10,7 @@ namespace knot_utm {
 
 /// The fill pattern of an LU factorisation without pivoting, for a matrix of blocks of symmetric structure:
 /// fill-reducing order (AMD), and for each pivot the later rows it touches. Numbers of blocks only, no values.
+/// Built again, it keeps its memory.
 class BlockPattern {
  public:
   /// `pairs` are the coupled nodes (i, j), i != j, in any order and number; the diagonal is always there.
@@ -37,6 +38,20 @@ class BlockPattern {
   const int* targets(int k) const { return targets_.data() + target_begin_[static_cast<std::size_t>(k)]; }
 
  private:
+  /// What a build works with; its contents mean nothing afterwards.
+  struct Workspace {
+    std::vector<std::int64_t> keys;
+    std::vector<int> begin, list;  // neighbours of every node, sorted, as compressed rows
+    std::vector<int> order;        // elimination position -> node
+    std::vector<int> first_child, next_sibling, seen;
+    std::vector<int> filled;
+    std::vector<int> rows, row_begin, row_length, next, head, element, degree, mark;  // as amd_2 takes them
+  };
+
+  void find_neighbours(int nodes, const std::vector<std::pair<int, int>>& pairs);
+  void order_nodes(int nodes);
+
+  Workspace work_;
   int blocks_ = 0;
   std::vector<int> position_;     // node -> elimination position
   std::vector<int> row_begin_;    // pivot -> first of rows_

@@ -1,0 +1,169 @@
+// A step that is warm takes nothing from the heap. An executable of its own: its malloc counts.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "knot_utm/rod/frames.hpp"
+#include "knot_utm/sim/step_control.hpp"
+#include "knot_utm/solver/block_matrix.hpp"
+#include "knot_utm/specimen/overhand.hpp"
+#include "sim/scenes.hpp"
+
+namespace {
+std::size_t allocations = 0;
+}
+
+// All ways to the heap, those of C++ and of Eigen among them, lead through these.
+extern "C" {
+void* __libc_malloc(std::size_t size);
+void* __libc_calloc(std::size_t count, std::size_t size);
+void* __libc_realloc(void* memory, std::size_t size);
+void* __libc_memalign(std::size_t alignment, std::size_t size);
+
+void* malloc(std::size_t size) {
+  ++allocations;
+  return __libc_malloc(size);
+}
+void* calloc(std::size_t count, std::size_t size) {
+  ++allocations;
+  return __libc_calloc(count, size);
+}
+void* realloc(void* memory, std::size_t size) {
+  ++allocations;
+  return __libc_realloc(memory, size);
+}
+void* aligned_alloc(std::size_t alignment, std::size_t size) {
+  ++allocations;
+  return __libc_memalign(alignment, size);
+}
+void* memalign(std::size_t alignment, std::size_t size) { return aligned_alloc(alignment, size); }
+int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
+  *memory = aligned_alloc(alignment, size);
+  return *memory == nullptr;
+}
+}
+
+namespace knot_utm {
+namespace {
+
+TEST(Allocation, IsCounted) {
+  const std::size_t before = allocations;
+  ::operator delete(::operator new(1000));  // a new expression may be left out by the compiler
+  const std::size_t one = allocations;
+  EXPECT_GT(one, before);
+  Eigen::VectorXd vector(1000);
+  vector.setZero();
+  EXPECT_GT(allocations, one);
+}
+
+TEST(WarmBlockPattern, IsBuiltWithoutTheHeap) {
+  constexpr int kNodes = 60;
+  const auto chain_with_contact = [](int a, int b) {
+    std::vector<std::pair<int, int>> pairs;
+    for (int i = 0; i + 1 < kNodes; ++i) pairs.push_back({i, i + 1});
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l) pairs.push_back({a + k, b + l});
+    return pairs;
+  };
+  const auto here = chain_with_contact(3, 40), there = chain_with_contact(12, 25);
+  BlockPattern pattern;
+  BlockMatrix<3> matrix;
+  const auto build = [&](const std::vector<std::pair<int, int>>& pairs) {
+    pattern.build(kNodes, pairs);
+    matrix.set_pattern(pattern);
+  };
+  build(here);
+  build(there);
+  const std::size_t before = allocations;
+  build(here);
+  build(there);
+  EXPECT_EQ(allocations, before);
+}
+
+/// An overhand in polypropylene with friction, one of whose ends is pulled out: strands slide, contacts come and go.
+struct SlidingOverhand {
+  std::unique_ptr<TimeStep> step;
+  Boundary boundary;
+  StepControl control{options()};
+  double time = 0.0;
+  double candidate_margin = 0.0;
+  std::size_t taken = 0;  // from the heap, in accepted steps: what a rejected one says of its reason is text
+  double way = 0.0;       // sum of the largest motions of accepted steps [m]
+
+  static StepControl::Options options() {
+    StepControl::Options out;
+    out.longest = 0.05;
+    out.motion = 1e-3;
+    return out;
+  }
+
+  explicit SlidingOverhand(bool twist) {
+    const Material material = polypropylene();
+    OverhandShape shape;
+    shape.radius = material.radius;
+    shape.length = 0.6;
+    shape.end_to_end = 0.35;
+    const Centreline line = overhand(shape);
+    const Eigen::Index nodes = line.points.cols();
+    const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(nodes - 1, line.edge_length()));
+    RodState state;
+    state.position = line.points;
+    state.velocity = Points::Zero(3, nodes);
+    if (twist) initialise_frames(&state);
+    StepSettings settings = closed_form_settings(material);
+    settings.friction.coefficient = material.friction_coefficient;
+    settings.normal = {300.0 * material.bending_stiffness / std::pow(material.radius, 4.0), 0.05 * material.radius};
+    settings.drag = 1.0;
+    settings.residual = 1e-4;
+    candidate_margin = settings.candidate_margin;
+    step = TimeStep::make(rod, state, settings);
+    for (const int node : {0, static_cast<int>(nodes) - 1})
+      boundary.fixed_nodes.push_back({node, state.position.col(node)});
+  }
+
+  void pull(double distance) {
+    constexpr double kSpeed = 0.01;
+    const Vec3 from = boundary.fixed_nodes[1].position;
+    const double begin = time, duration = distance / kSpeed;
+    std::size_t before = 0;
+    const std::string gave_up = control.advance(
+        *step, time, begin + duration,
+        [&](double, double to) -> const Boundary& {
+          boundary.fixed_nodes[1].position.z() = from.z() + kSpeed * (to - begin);
+          before = allocations;
+          return boundary;
+        },
+        [&](double, double, const StepSummary& summary) {
+          taken += allocations - before;
+          way += summary.largest_motion;
+        });
+    ASSERT_EQ(gave_up, "");
+  }
+};
+
+class WarmStep : public testing::TestWithParam<bool> {};
+
+TEST_P(WarmStep, TakesNothingFromTheHeap) {
+  SlidingOverhand scene(GetParam());
+  scene.pull(0.05);
+  EXPECT_GT(scene.taken, 0U) << "the first steps have to";
+  scene.taken = 0;
+  scene.way = 0.0;
+  const double force = scene.step->reaction(0).norm();
+  const int touching = scene.step->contact_reading().touching;
+  scene.pull(0.05);
+  EXPECT_GT(scene.way, 20.0 * scene.candidate_margin) << "candidates must have been searched again and again";
+  EXPECT_LT(scene.step->contact_reading().touching, touching) << "contacts must have parted";
+  EXPECT_GT(scene.step->reaction(0).norm(), 1.5 * force) << "the knot must have slid tighter";
+  EXPECT_EQ(scene.taken, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(Twist, WarmStep, testing::Bool(),
+                         [](const auto& twist) { return twist.param ? "On" : "Off"; });
+
+}  // namespace
+}  // namespace knot_utm
