@@ -10,6 +10,7 @@
 
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/overhand.hpp"
+#include "reference.hpp"
 
 namespace knot_utm {
 namespace {
@@ -119,12 +120,29 @@ TEST(K7_Overhand, IsATorusKnotOnceItsEndsAreJoinedOutside) {
       shape.end_to_end = shape.length - excess;
       KnotPolynomial expected;
       for (int i = 0; i <= 2 * turns; ++i) expected.push_back(i % 2 == 0 ? 1 : -1);
-      EXPECT_EQ(alexander_polynomial(closed_far_away(overhand(shape).points, Vec3::UnitZ())), expected);
+      const KnotPolynomial found = alexander_polynomial(closed_far_away(overhand(shape).points, Vec3::UnitZ()));
+      EXPECT_EQ(found, expected);
+      if (turns == 1) hold_against("K7 overhand: determinant", 3, static_cast<double>(knot_determinant(found)), 0.0);
     }
   }
 }
 
 class K7_Loop : public testing::TestWithParam<Handedness> {};
+
+TEST_P(K7_Loop, DeterminantAndLinkingOfTheDrawnKnot) {
+  FishermanShape shape;
+  shape.handedness = GetParam();
+  const Centreline line = fisherman_loop(shape);
+  const LoopTopology::Reading reading = topology_of(line, shape.radius).read(line.points, Vec3::UnitZ());
+  expect_fisherman(reading, GetParam());
+  const bool same = GetParam() == Handedness::kSame;
+  const std::string what = same ? "K7 same-handed loop: " : "K7 opposite-handed loop: ";
+  hold_against(what + "determinant", same ? 11 : 1, static_cast<double>(reading.determinant), 0.0);
+  hold_against(what + "size of the linking number of its halves", same ? 2 : 0, std::abs(reading.linking), 0.0);
+  for (int knot = 0; knot < 2; ++knot)
+    hold_against(what + "determinant of overhand " + std::to_string(knot + 1), 3,
+                 static_cast<double>(reading.overhand_determinant[static_cast<std::size_t>(knot)]), 0.0);
+}
 
 TEST_P(K7_Loop, HasItsKnotTypeAtAnyLoosenessAndMesh) {
   FishermanShape shape;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "reference.hpp"
 #include "rod/finite_difference.hpp"
 #include "rod/static_rod.hpp"
 
@@ -61,19 +62,21 @@ double critical_force(Eigen::Index n, Ends ends, StaticRod::Path path) {
   });
 }
 
+std::string with_or_without_frames(StaticRod::Path path) {
+  return path == StaticRod::Path::kFull ? ", with frames" : ", without frames";
+}
+
 TEST(R4_EulerBuckling, Hinged) {
   for (const auto path : {StaticRod::Path::kTwistFree, StaticRod::Path::kFull}) {
-    const double ratio = critical_force(40, Ends::kHinged, path) / (kPi * kPi);
-    RecordProperty("ratio", std::to_string(ratio));
-    EXPECT_NEAR(ratio, 1.0, 0.01);
+    hold_against("R4 Euler buckling, hinged" + with_or_without_frames(path) + ": P L^2/B", kPi * kPi,
+                 critical_force(40, Ends::kHinged, path), 0.01);
   }
 }
 
 TEST(R4_EulerBuckling, Clamped) {
   for (const auto path : {StaticRod::Path::kTwistFree, StaticRod::Path::kFull}) {
-    const double ratio = critical_force(40, Ends::kClamped, path) / (4.0 * kPi * kPi);
-    RecordProperty("ratio", std::to_string(ratio));
-    EXPECT_NEAR(ratio, 1.0, 0.01);
+    hold_against("R4 Euler buckling, clamped" + with_or_without_frames(path) + ": P L^2/B", 4.0 * kPi * kPi,
+                 critical_force(40, Ends::kClamped, path), 0.01);
   }
 }
 
@@ -138,9 +141,9 @@ TEST(R4_EulerBuckling, HingedUnderTwist) {
       }
       EXPECT_LT(distance_to_buckling(kEdges, force, moment, path), 0.02 * left);
       const double left_side = share * share + force / (kPi * kPi);
-      RecordProperty((path == StaticRod::Path::kFull ? "full_at_" : "isotropic_at_") + std::to_string(share),
-                     std::to_string(left_side));
-      EXPECT_NEAR(left_side, 1.0, 0.01) << "M/2B = " << share << " pi/L";
+      hold_against(formatted("R4 hinged under twist, M/2B = %.1f pi/L, %s: ((M/2B)^2 + P/B) L^2/pi^2", share,
+                             path == StaticRod::Path::kFull ? "material curvatures" : "isotropic"),
+                   1.0, left_side, 0.01);
     }
   }
 }
@@ -187,8 +190,9 @@ TEST(R5_MichellZajac, RingOfNEdges) {
     for (const double n : {16.0, 24.0, 48.0}) {
       const double ratio =
           critical_twist_ratio(static_cast<Eigen::Index>(n), twisting_stiffness, StaticRod::Path::kIsotropicTwist);
-      RecordProperty("ratio_of_" + std::to_string(n), std::to_string(ratio));
       EXPECT_NEAR(ratio, 1.0 + 31.0 / (n * n), 0.01) << "C/B = " << twisting_stiffness << ", N = " << n;
+      hold_against(formatted("R5 ring, C/B = %.1f, %.0f edges: twist over 2 pi sqrt(3) B/C", twisting_stiffness, n),
+                   1.0 + 31.0 / (n * n), ratio, 0.01);
     }
   }
 }
@@ -202,8 +206,8 @@ TEST(R5_MichellZajac, RingOfMaterialCurvatures) {
     const double n = 48.0;
     const double second_order = 31.0 + kPi * kPi * b_over_c * (1.0 - 3.0 * b_over_c);
     const double ratio = critical_twist_ratio(static_cast<Eigen::Index>(n), stiffness_ratio, StaticRod::Path::kFull);
-    RecordProperty("ratio_at_" + std::to_string(stiffness_ratio), std::to_string(ratio));
-    EXPECT_NEAR(ratio, 1.0 + second_order / (n * n), 1e-3);
+    hold_against(formatted("R5 ring, C/B = %.1f, material curvatures: twist over 2 pi sqrt(3) B/C", stiffness_ratio),
+                 1.0 + second_order / (n * n), ratio, 1e-3 / (1.0 + second_order / (n * n)));
   }
 }
 

@@ -1,4 +1,5 @@
 #include "knot_utm/sim/step_control.hpp"
+#include "reference.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -53,7 +54,7 @@ TEST(R9Incline, BelowTheFrictionAngleTheRodStays) {
   Incline scene(0.95 * std::atan(kMu), memory(1e-4 * braided_rope().radius));
   scene.run(60.0, 0.05);
   EXPECT_GT(scene.place(), 0.0);
-  EXPECT_LT(scene.place(), 1e-6);
+  hold_below("R9 incline of 0.95 atan mu: way in 60 s [m]", 1e-6, scene.place());
 }
 
 TEST(R9Incline, PreslidingSaturatesOnceAndDoesNotCreep) {
@@ -72,13 +73,15 @@ TEST(R9Incline, AboveTheFrictionAngleTheRodSlides) {
   const double from = scene.speed();
   scene.run(1.0, 0.01);
   const double acceleration = kGravity * (std::sin(angle) - kMu * std::cos(angle));
-  EXPECT_NEAR(scene.speed() - from, acceleration, 1e-5 * acceleration);
+  hold_against("R9 incline of 1.05 atan mu: acceleration [m/s^2]", acceleration, scene.speed() - from, 1e-5);
 }
 
 TEST(R11Creep, DirectionUnderALoadRatio) {
   for (const double ratio : {0.5, 0.9, 0.99}) {
     const double speed = std::log((1.0 + ratio) / (1.0 - ratio)) / 15.0;
-    EXPECT_NEAR(friction_direction(FrictionLaw::kSmoothed, Vec3(0.0, speed, 0.0))[1], ratio, 1e-14);
+    const double found = friction_direction(FrictionLaw::kSmoothed, Vec3(0.0, speed, 0.0))[1];
+    EXPECT_NEAR(found, ratio, 1e-14);
+    hold_against(formatted("R11 friction smoothed in velocity, v/v_s = %.3f: r", speed), ratio, found, 1e-14);
     // Eq. 12 as printed.
     EXPECT_NEAR(2.0 / (1.0 + std::exp(-15.0 * speed)) - 1.0, ratio, 1e-14);
   }
@@ -95,7 +98,8 @@ TEST(R11Creep, SmoothedFrictionCreepsOnAnInclineOfAnySlope) {
     const double from = scene.place();
     scene.run(10.0, 0.05);
     const double expected = tolerance * std::log((1.0 + ratio) / (1.0 - ratio)) / 15.0;
-    EXPECT_NEAR((scene.place() - from) / 10.0, expected, 1e-4 * expected) << "load ratio " << ratio;
+    hold_against(formatted("R11 creep on an incline, r = %.1f: v/v_s", ratio), expected / tolerance,
+                 (scene.place() - from) / 10.0 / tolerance, 1e-4);
   }
 }
 
@@ -104,7 +108,7 @@ TEST(R11Creep, MemoryFrictionDoesNot) {
   scene.run(1.0, 0.05);
   const double from = scene.place();
   scene.run(10.0, 0.05);
-  EXPECT_NEAR(scene.place(), from, kRestTolerance);
+  hold_below("R11 friction with memory at r = 0.5: way in 10 s [m]", kRestTolerance, std::abs(scene.place() - from));
 }
 
 }  // namespace

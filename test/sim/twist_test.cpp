@@ -12,6 +12,7 @@
 #include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
+#include "reference.hpp"
 
 namespace knot_utm {
 namespace {
@@ -127,8 +128,7 @@ TEST(R4_EulerBuckling, TorqueOnAHingedRodInTheTimeStep) {
   EXPECT_LT(low, 0.0);
   EXPECT_GT(high, 0.0);
   const double critical = 0.98 + 0.04 * low / (low - high);
-  RecordProperty("critical_torque_over_2_pi_B_per_L", std::to_string(critical));
-  EXPECT_NEAR(critical, 1.0, 0.01);
+  hold_against("R4 torque on a hinged rod, in the time step: M L/(2 pi B)", 1.0, critical, 0.01);
 }
 
 TEST(Twist, NewtonConvergesInFewIterationsFarBeyondBuckling) {
