@@ -41,8 +41,9 @@ class Runner:
 
     def command_line(self):
         """The command of this study, without folders of this machine."""
-        return " ".join(["scripts/bench"] + [os.path.basename(word) if os.path.isabs(word) else word
-                                             for word in sys.argv[1:]])
+        script = "scripts/" + os.path.basename(sys.argv[0])
+        return " ".join([script] + [os.path.basename(word) if os.path.isabs(word) else word
+                                    for word in sys.argv[1:]])
 
     def commit(self):
         try:

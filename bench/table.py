@@ -52,6 +52,8 @@ def is_missing(value):
 class Table:
     """One row a quantity, one column a run."""
 
+    CSV_HEADER = ["table", "quantity", "unit", "run", "value", "gate", "verdict"]
+
     def __init__(self, title, columns):
         self.title, self.columns, self.rows = title, columns, []
 
@@ -122,6 +124,6 @@ class Report:
             out.write("\n".join(head) + "\n" + self.text() + "\n".join(tail) + "\n")
         with open(os.path.join(folder, name + ".csv"), "w", encoding="utf-8", newline="") as out:
             writer = csv.writer(out)
-            writer.writerow(["table", "quantity", "unit", "run", "value", "gate", "verdict"])
+            writer.writerow(self.tables[0].CSV_HEADER)
             for table in self.tables:
                 writer.writerows(table.csv_rows())

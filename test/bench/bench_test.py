@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What scripts/bench makes of runs: gates, missing values, slopes."""
+"""What scripts/bench makes of runs and scripts/validate of test reports: gates, missing values, slopes."""
 import math
 import os
 import sys
@@ -9,6 +9,7 @@ import unittest
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../bench"))
 
+import references  # noqa: E402
 import runs  # noqa: E402
 from table import Table, at_least, at_most, is_, within  # noqa: E402
 
@@ -75,6 +76,49 @@ class Runs(unittest.TestCase):
         self.assertAlmostEqual(runs.relative_change(1.1, 1.0), 0.1)
         self.assertIsNone(runs.relative_change(None, 1.0))
         self.assertIsNone(runs.relative_change(1.0, None))
+
+
+class References(unittest.TestCase):
+    def rows_of(self, test, suite="Loads/R8Capstan"):
+        return references.rows_of({"testsuites": [{"name": suite, "testsuite": [{"name": "Slides/T2", **test}]}]})
+
+    def verdicts(self, test):
+        return [(row.what, row.passes()) for row in self.rows_of(test)]
+
+    def test_a_value_is_judged_at_its_gate(self):
+        for ours, passes in ((5.3, True), (5.26, False), (math.nan, False)):
+            self.assertEqual(self.verdicts({"reference: R8 capstan": f"5.319 {ours} 0.01"}), [("R8 capstan", passes)])
+
+    def test_a_value_is_judged_at_its_bound(self):
+        for ours, passes in ((0.0, True), (9e-7, True), (1e-6, False), (-1e-9, False), (math.nan, False)):
+            self.assertEqual(self.verdicts({"reference: R9 incline": f"< 1e-6 {ours}"}), [("R9 incline", passes)])
+        self.assertEqual(self.rows_of({"reference: R9 incline": "< 1e-6 3e-7"})[0].cells(),
+                         ["R9 incline", "< 1e-06", "3e-07", "", "", "pass"])
+
+    def test_a_reference_of_zero_is_exact(self):
+        self.assertEqual(self.verdicts({"reference: K7 linking": "0 0 0"}), [("K7 linking", True)])
+        self.assertEqual(self.verdicts({"reference: K7 linking": "0 1 0"}), [("K7 linking", False)])
+
+    def test_a_test_that_fails_without_a_failed_value_stands_in_the_table(self):
+        failures = {"failures": [{"failure": "something else"}]}
+        row, = self.rows_of(failures)
+        self.assertEqual((row.what, row.remark, row.passes()), ("R8Capstan.Slides/T2", "the test failed, no value", False))
+        passed, failed = self.verdicts({"reference: R8 capstan": "1 1 0", **failures})
+        self.assertEqual((passed[1], failed), (True, ("R8Capstan.Slides/T2", False)))
+        self.assertEqual(self.verdicts({"reference: R8 capstan": "1 2 0", **failures}), [("R8 capstan", False)])
+
+    def test_rows_are_sorted_by_number_and_what_is_missing_fails(self):
+        rows = [references.row_of(f"{number} test", "1 1 0") for number in ("R11", "R2", "K7", "R1", "K1")]
+        table = references.References(rows, {"R10"})
+        self.assertEqual([row.number for row in table.rows], ["K1", "K7", "R1", "R2", "R10", "R11"])
+        line, = table.failed()
+        self.assertIn("R10: no test left a value", line)
+        self.assertIn("no test left a value", table.text())
+        self.assertEqual(len(list(table.csv_rows())), len(table.rows))
+
+    def test_numbers_of_the_document(self):
+        document = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../doc/references.md")
+        self.assertGreaterEqual(references.numbers_in(document), {"K7"} | {f"R{n}" for n in range(1, 12)})
 
 
 if __name__ == "__main__":
