@@ -63,7 +63,8 @@ TEST_P(K1_OpenOverhand, ForceOfTheLawWithTheCurvaturesItsTermsStandFor) {
   }
   const double e = knot.eps(), one_radius = 0.5 * std::pow(e, 4) + mu * kSigma.at(1) * std::pow(e, 3);
   RecordProperty("ratio to the law with R = e/(2 pi)", text(knot.force() / one_radius));
-  hold_against("K1 open overhand, mu = " + text(mu) + ", eps = " + text(eps), law(knot, mu, 1), knot.force(), 0.05);
+  hold_against("K1 open overhand, mu = " + text(mu) + ", eps = " + text(eps) + ": law with the shape's own curvatures",
+               law(knot, mu, 1), knot.force(), 0.05);
 }
 
 INSTANTIATE_TEST_SUITE_P(Loose, K1_OpenOverhand,
@@ -118,11 +119,11 @@ TEST_P(K2_OverhandOfMoreTurns, NormalForceAndSlidingForceOfTheLaw) {
   const std::string name = "K2 overhand of " + std::to_string(turns) + " turns, eps = 0.025";
   LooseKnot knot(loose(kEps, turns));
   knot.settle();
-  hold_against(name + ", mu = 0: sigma", kSigma.at(turns), knot.normal_force() / std::pow(knot.curvatures().jump, 1.5),
-               0.07);
+  hold_against(name + ", mu = 0: sigma by the shape's own curvature", kSigma.at(turns),
+               knot.normal_force() / std::pow(knot.curvatures().jump, 1.5), 0.07);
   knot.set_friction(kMu);
   knot.pull(0.2 / (kEps * kEps));
-  hold_against(name + ", mu = 0.01: force", law(knot, kMu, turns), knot.force(), 0.07);
+  hold_against(name + ", mu = 0.01: law with the shape's own curvatures", law(knot, kMu, turns), knot.force(), 0.07);
 }
 
 INSTANTIATE_TEST_SUITE_P(Turns, K2_OverhandOfMoreTurns, testing::Values(2, 3));
@@ -193,7 +194,8 @@ TEST_P(K4_ReleasedTrefoil, StopsWhereTheLawHasNoForceAndStays) {
   const LooseKnot::Curvatures kappa = knot.curvatures();
   // B kappa_side^2/2 = mu sigma_3 B kappa_jump^(3/2)/h^(1/2)
   const double radius = 1.0 / std::sqrt(2.0 * mu * kSigma.at(1) * std::pow(kappa.jump, 1.5));
-  hold_against("K4 released trefoil, mu = " + text(mu) + ": R/h at rest", radius, 1.0 / kappa.side, 0.1);
+  hold_against("K4 released trefoil, mu = " + text(mu) + ": R/h at rest, law with the shape's own curvature", radius,
+               1.0 / kappa.side, 0.1);
   EXPECT_NEAR(knot.loop_length() / (2.0 * M_PI), loop, 1e-3 * loop);
   RecordProperty("R of the loop's length over h/(2 mu sigma_3)^2", text(loop / stopping_radius(mu)));
 }
