@@ -48,8 +48,8 @@ def report(runner, _):
     table.add("mean relative change of the load while pulled", "-", [pair.change() for pair in pairs], None, ".2g")
     table.add("change of the peak force", "-", [pair.peak_change() for pair in pairs], None, ".2g")
     return Report("What a scene does not need",
-                  "Each column is one scene twice: as shipped, where the thing is skipped, and with a setting that asks "
-                  f"for it although it does nothing ({TINY:g} of friction or gravity). CPU time is that of the whole "
+                  "Each column is one scene twice: as shipped, where the thing is skipped, and with a setting that "
+                  f"asks for it although it does nothing ({TINY:g} of friction or gravity). CPU time is that of the whole "
                   f"process, the least of {TIMES} runs. \"exact\": bit-identical curves. The parts of a step are timed "
                   "inside a process. A headless run has no markers or messages to skip.",
                   [table, parts(runner), straight_strands(runner)],
@@ -111,7 +111,8 @@ def straight_strands(runner):
     table.add("Newton iterations", "-", [run.value("newton_iterations") for run in each])
     cost = [runs.divide(1e3 * run.cpu_time, run.value("newton_iterations")) for run in each]
     table.add("CPU time an iteration", "ms", cost, None, ".3g")
-    table.add("over the shortest rod's", "-", [REFERENCE] + [runs.divide(one, cost[0]) for one in cost[1:]], None, ".3g")
+    table.add("over the shortest rod's", "-", [REFERENCE] + [runs.divide(one, cost[0]) for one in cost[1:]], None,
+              ".3g")
     table.add("nodes over the shortest rod's", "-",
               [REFERENCE] + [runs.divide(run.nodes(), each[0].nodes()) for run in each[1:]], None, ".3g")
     return table
