@@ -49,9 +49,9 @@ def report(runner, _):
     table.add("change of the peak force", "-", [pair.peak_change() for pair in pairs], None, ".2g")
     return Report("What a scene does not need",
                   "Each column is one scene twice: as shipped, where the thing is skipped, and with a setting that "
-                  f"asks for it although it does nothing ({TINY:g} of friction or gravity). CPU time is that of the whole "
-                  f"process, the least of {TIMES} runs. \"exact\": bit-identical curves. The parts of a step are timed "
-                  "inside a process. A headless run has no markers or messages to skip.",
+                  f"asks for it although it does nothing ({TINY:g} of friction or gravity). CPU time is that of the "
+                  f"whole process, the least of {TIMES} runs. \"exact\": bit-identical curves. The parts of a step "
+                  "are timed inside a process. A headless run has no markers or messages to skip.",
                   [table, parts(runner), straight_strands(runner)],
                   lambda file: plots.bars(file, {pair.name: pair.ratio() for pair in pairs},
                                           "CPU time, not skipped over skipped"))
