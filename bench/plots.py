@@ -51,6 +51,46 @@ def panels(file, curves, x_label, y_label):
     save(figure, file)
 
 
+def work_precision(file, scenes):
+    """Cost over error, one panel a scene. `scenes`: title -> {"points": {name: (error, cost)},
+    "others": the same, of other simulators, "costs": {name: cost} of those whose error is not known,
+    "target": cost or None}."""
+    figure, all_axes = plt.subplots(1, len(scenes), figsize=(5.6 * len(scenes), 6.8), squeeze=False)
+    for axes, (title, scene) in zip(all_axes[0], scenes.items()):
+        marked = [(name, point, "o") for name, point in scene["points"].items()]
+        marked += [(name, point, "s") for name, point in scene.get("others", {}).items()]
+        for i, (name, (error, cost), marker) in enumerate(marked):
+            if error and cost:  # none is known, or there is none to be seen
+                axes.plot([error], [cost], marker, color=plt.cm.tab20(i % 20), label=name)
+        for name, cost in scene.get("costs", {}).items():
+            axes.axhline(cost, color="tab:red", linewidth=0.8, linestyle="--")
+            axes.annotate(name, (0.02, cost), xycoords=("axes fraction", "data"), textcoords="offset points",
+                          xytext=(0, 2), fontsize="xx-small", color="tab:red")
+        if scene.get("target"):
+            axes.axhline(scene["target"], color="tab:green", linewidth=0.8)
+            axes.annotate("target", (0.02, scene["target"]), xycoords=("axes fraction", "data"),
+                          textcoords="offset points", xytext=(0, 2), fontsize="xx-small", color="tab:green")
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.margins(0.15)
+        axes.legend(fontsize="xx-small", ncol=2, loc="upper center", bbox_to_anchor=(0.5, -0.12))
+        axes.set_title(title, fontsize="small")
+        axes.set_xlabel("error")
+        axes.set_ylabel("CPU seconds a simulated second")
+    save(figure, file)
+
+
+def bars(file, values, label):
+    """`values`: name -> value; 1 is marked."""
+    figure, axes = plt.subplots(figsize=(7.0, 0.5 * len(values) + 1.0))
+    known = {name: value for name, value in values.items() if value is not None}
+    axes.barh(list(known), list(known.values()), color="tab:blue")
+    axes.axvline(1.0, color="black", linewidth=0.8)
+    axes.invert_yaxis()
+    axes.set_xlabel(label)
+    save(figure, file)
+
+
 def logarithmic(axes, values):
     """Logarithmic, and linear around zero: below a tenth of what is usual."""
     sizes = sorted(abs(value) for value in values)

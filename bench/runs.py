@@ -7,7 +7,11 @@ import shutil
 import subprocess
 import sys
 
+import numpy as np
 import yaml
+
+# A process counts the memory of the one it was forked from as its own: a shell is smaller than this.
+SHELLS_CHILD = ["/bin/sh", "-c", '"$@"; exit $?', "sh"]
 
 
 class Runner:
@@ -16,8 +20,13 @@ class Runner:
     def __init__(self, root, tool, core, folder, overrides):
         self.root, self.tool, self.core, self.folder, self.overrides = root, tool, core, folder, overrides
 
-    def run(self, name, settings, method="config/tighten.yaml"):
-        """`settings`: dotted key -> value, on top of which come those of the command line."""
+    def run(self, name, settings, method="config/tighten.yaml", times=1):
+        """`settings`: dotted key -> value, on top of which come those of the command line. Of several `times`, whose
+        readings are the same, the one of the least CPU time: what other work on the machine adds is no part of it."""
+        runs = [self.start(name, settings, method, self.core).wait() for _ in range(times)]
+        return min(runs, key=lambda run: run.cpu_time)
+
+    def start(self, name, settings, method, core):
         out = os.path.join(self.folder, name)
         shutil.rmtree(out, ignore_errors=True)
         os.makedirs(os.path.dirname(out), exist_ok=True)
@@ -29,15 +38,20 @@ class Runner:
             command += ["--set", entry]
         print(f"{name}: tensile_test {method} " + " ".join(f"--set {entry}" for entry in sets), file=sys.stderr,
               flush=True)
-        process = subprocess.Popen(command, cwd=self.root, stderr=subprocess.PIPE, text=True,
-                                   preexec_fn=lambda: os.sched_setaffinity(0, {self.core}))
-        said = process.stderr.read()
-        _, status, usage = os.wait4(process.pid, 0)
-        process.returncode = os.waitstatus_to_exitcode(status)
-        run = Run(out, usage.ru_utime + usage.ru_stime, process.returncode, said.strip())
-        print(f"{name}: exit {run.exit_code} after {run.cpu_time:.1f} s of CPU time" +
-              (f": {run.said}" if run.said else ""), file=sys.stderr, flush=True)
-        return run
+        process = subprocess.Popen(SHELLS_CHILD + command, cwd=self.root, stderr=subprocess.PIPE, text=True,
+                                   preexec_fn=lambda: os.sched_setaffinity(0, {core}))
+        return Started(name, out, process)
+
+    def bench_tool(self, tool, arguments):
+        """What a small executable beside tensile_test prints as YAML."""
+        path = os.path.join(os.path.dirname(os.path.abspath(self.tool)), tool)
+        if not os.access(path, os.X_OK):
+            sys.exit(f"scripts/bench: {tool} is not built; configure with -DKNOT_UTM_BENCH=ON")
+        command = [path] + [str(word) for word in arguments]
+        print(" ".join([tool] + command[1:]), file=sys.stderr, flush=True)
+        done = subprocess.run(SHELLS_CHILD + command, cwd=self.root, stdout=subprocess.PIPE, text=True, check=False,
+                              preexec_fn=lambda: os.sched_setaffinity(0, {self.core}))
+        return (yaml.safe_load(done.stdout) or {}) if done.returncode == 0 else {}
 
     def command_line(self):
         """The command of this study, without folders of this machine."""
@@ -65,6 +79,22 @@ class Runner:
                 f"load average when written {os.getloadavg()[0]:.1f}")
 
 
+class Started:
+    """A run under way."""
+
+    def __init__(self, name, out, process):
+        self.name, self.out, self.process = name, out, process
+
+    def wait(self):
+        said = self.process.stderr.read()
+        _, status, usage = os.wait4(self.process.pid, 0)
+        self.process.returncode = os.waitstatus_to_exitcode(status)
+        run = Run(self.out, usage.ru_utime + usage.ru_stime, self.process.returncode, said.strip())
+        print(f"{self.name}: exit {run.exit_code} after {run.cpu_time:.1f} s of CPU time" +
+              (f": {run.said}" if run.said else ""), file=sys.stderr, flush=True)
+        return run
+
+
 class Run:
     """One finished run. Everything that it did not leave is None."""
 
@@ -73,6 +103,7 @@ class Run:
         self.result = read_yaml(os.path.join(folder, "result.yaml"))
         self.method = read_yaml(os.path.join(folder, "method.yaml"))
         self.curve = read_curve(os.path.join(folder, "curve_full.csv"))
+        self.shape = read_curve(os.path.join(folder, "final_shape.csv"))
 
     def value(self, key):
         """A key of result.yaml."""
@@ -85,6 +116,13 @@ class Run:
     def real_time_factor(self):
         """Simulated over CPU time."""
         return divide(self.value("simulated_time"), self.cpu_time)
+
+    def cost(self):
+        """CPU time a simulated second."""
+        return divide(self.cpu_time, self.value("simulated_time"))
+
+    def nodes(self):
+        return len(self.shape["x"]) if self.shape else None
 
     def phase(self, name):
         """Rows of curve_full.csv in a phase, as columns."""
@@ -107,6 +145,24 @@ def divide(value, by):
 def relative_change(value, reference):
     """|value - reference|/|reference|"""
     return None if value is None or not reference else abs(value - reference) / abs(reference)
+
+
+def pulled(run):
+    """Extension and load while pulled."""
+    pull = run.phase("pull")
+    return pull.get("extension", []), pull.get("load", [])
+
+
+def mean_relative_difference(curve, reference, points=200):
+    """Mean of |y - y_ref|/|y_ref| over x, as far as both curves go. Curves: (x, y), x rising."""
+    if not curve[0] or not reference[0]:
+        return None
+    low, high = max(curve[0][0], reference[0][0]), min(curve[0][-1], reference[0][-1])
+    if low >= high:
+        return None
+    x = np.linspace(low, high, points)
+    expected = np.interp(x, *reference)
+    return float(np.mean(np.abs(np.interp(x, *curve) - expected) / np.abs(expected)))
 
 
 def least_squares_slope(points):

@@ -1,8 +1,16 @@
-# knot_utm_bench: the parts of a Newton iteration, timed. Built only where it is asked for and Google Benchmark is found.
-option(KNOT_UTM_BENCH "Build knot_utm_bench where Google Benchmark is found" OFF)
+# What scripts/bench runs beside tensile_test, and the parts of a Newton iteration, timed. Built only where asked for.
+option(KNOT_UTM_BENCH "Build the executables of scripts/bench, and knot_utm_bench where Google Benchmark is found" OFF)
 if(NOT KNOT_UTM_BENCH)
   return()
 endif()
+find_package(CLI11 REQUIRED)
+foreach(bench capstan_bench row_of_knots_bench step_parts_bench)
+  add_executable(${bench} bench/${bench}.cpp)
+  target_include_directories(${bench} PRIVATE test)
+  target_link_libraries(${bench} PRIVATE knot_utm_core CLI11::CLI11)
+  set_target_properties(${bench} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${KNOT_UTM_EXECUTABLE_DIR}")
+endforeach()
+
 find_package(benchmark QUIET)
 if(NOT benchmark_FOUND)
   message(STATUS "knot_utm_bench is not built: Google Benchmark was not found (libbenchmark-dev)")

@@ -2,6 +2,7 @@
 """What scripts/bench makes of runs and scripts/validate of test reports: gates, missing values, slopes."""
 import math
 import os
+import subprocess
 import sys
 import tempfile
 import unittest
@@ -9,8 +10,10 @@ import unittest
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../bench"))
 
+import front  # noqa: E402
 import references  # noqa: E402
 import runs  # noqa: E402
+import scaling  # noqa: E402
 from table import Table, at_least, at_most, is_, within  # noqa: E402
 
 
@@ -76,6 +79,53 @@ class Runs(unittest.TestCase):
         self.assertAlmostEqual(runs.relative_change(1.1, 1.0), 0.1)
         self.assertIsNone(runs.relative_change(None, 1.0))
         self.assertIsNone(runs.relative_change(1.0, None))
+
+    def test_mean_relative_difference(self):
+        reference = ([0.0, 1.0, 2.0], [1.0, 2.0, 3.0])
+        tenth_more = ([0.0, 2.0], [1.1, 3.3])
+        self.assertAlmostEqual(runs.mean_relative_difference(tenth_more, reference), 0.1)
+        self.assertEqual(runs.mean_relative_difference(reference, reference), 0.0)
+
+    def test_mean_relative_difference_is_over_what_both_have(self):
+        short, reference = ([0.0, 1.0], [2.0, 2.0]), ([0.5, 9.0], [1.0, 1.0])
+        self.assertAlmostEqual(runs.mean_relative_difference(short, reference), 1.0)
+        self.assertIsNone(runs.mean_relative_difference(short, ([2.0, 3.0], [1.0, 1.0])))
+        self.assertIsNone(runs.mean_relative_difference(([], []), reference))
+
+    def test_a_runs_memory_is_not_that_of_python(self):
+        ballast = bytearray(400_000_000)
+        ballast[::4096] = b"x" * len(ballast[::4096])
+        say = "import resource; print('memory:', resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
+        done = subprocess.run(runs.SHELLS_CHILD + [sys.executable, "-c", say], capture_output=True, text=True,
+                              check=True)
+        self.assertLess(int(done.stdout.split()[1]), 200_000)
+
+    def test_the_exit_code_is_that_of_the_run(self):
+        self.assertEqual(subprocess.run(runs.SHELLS_CHILD + ["/bin/sh", "-c", "exit 2"], check=False).returncode, 2)
+
+
+class Studies(unittest.TestCase):
+    def test_force_over_theory_is_one_where_it_holds(self):
+        h, bending, mu, length, eps = 0.0016, 9.265e-7, 0.3, 1.0, 0.15
+        run = runs.Run("/nowhere", 1.0, 0, "")
+        run.method = {"material": {"radius": h, "bending_stiffness": bending, "friction_coefficient": mu},
+                      "specimen": {"length": length}}
+        shortening = 2.0 * math.pi * h / eps ** 2
+        force = bending / h ** 2 * (0.5 * eps ** 4 + mu * 0.492 * eps ** 3)
+        run.curve = {"phase": ["hold", "pull", "pull"], "load_lower": [9.0, force, 9.0],
+                     "end_to_end": [length - shortening, length - shortening, length]}
+        self.assertAlmostEqual(front.over_theory(run, eps), 1.0)
+        self.assertIsNone(front.over_theory(run, 0.05))
+
+    def test_a_row_of_knots_is_one_line_without_a_gap(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        file = os.path.join(folder.name, "row.csv")
+        scaling.row_of_knots({"x": [0.0, 1.0, 0.0], "y": [0.0, 0.0, 0.0], "z": [0.5, 1.0, 1.5]}, 3, file)
+        with open(file, encoding="utf-8") as text:
+            rows = [[float(cell) for cell in line.split(",")] for line in text.read().split()[1:]]
+        self.assertEqual(len(rows), 7)
+        self.assertEqual({round(b[2] - a[2], 9) for a, b in zip(rows, rows[1:])}, {round(0.5 * scaling.ROOM, 9)})
 
 
 class References(unittest.TestCase):

@@ -1,3 +1,5 @@
+#include <gtest/gtest.h>
+
 #include "knot_utm/sim/step_control.hpp"
 #include "reference.hpp"
 #include "sim/scenes.hpp"

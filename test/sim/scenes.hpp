@@ -1,9 +1,5 @@
 #pragma once
 
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "knot_utm/sim/time_step.hpp"
 #include "rod/materials.hpp"
 
