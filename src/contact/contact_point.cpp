@@ -21,9 +21,9 @@ void evaluate_force(const NormalLaw& normal, const Friction& friction, double fr
 
 void linearise(const NormalLaw& normal, const Friction& friction, double friction_scale, const ContactPoint& contact,
                ContactModel& model) {
-  // A contact that is new and deep: half the tolerance is a better guess than a wall.
+  // A contact that is new and deep: the depth where the rod stiffens is a better guess than a wall.
   const double tangent_at =
-      contact.estimate > 0.0 ? normal.overlap_at(contact.estimate) : std::min(contact.overlap, 0.5 * normal.tolerance);
+      contact.estimate > 0.0 ? normal.overlap_at(contact.estimate) : std::min(contact.overlap, normal.stiffening);
   model.slope = normal.slope(tangent_at);
   model.pressure = normal.pressure(tangent_at) + model.slope * (contact.overlap - tangent_at);
   model.du_s = contact.inverse_g * contact.db;

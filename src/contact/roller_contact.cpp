@@ -45,12 +45,13 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
       const double limit = roller.radius + radius_ + voronoi_[segment];
       if (away.squaredNorm() > limit * limit) continue;
       for (int point = 0; point < 2; ++point) {
-        const SegmentWeights w(kIntegrationPoints[point]);
+        const PointWeights w(kIntegrationPoints[point], PointWeights::kWholeShare);
         ContactPoint contact;
         contact.x = combine(w.value, position, segment) - roller.centre;
         contact.x -= roller.axis * roller.axis.dot(contact.x);
         contact.d = contact.x.norm();
         contact.overlap = roller.radius + radius_ - contact.d;
+        contact.begins = normal_.begin();
         contact.estimate = estimate_[memory_index(position.cols(), r, segment, point)];
         if (!contact.active()) continue;
         contact.a0 = segment - 1;

@@ -10,6 +10,9 @@ namespace knot_utm {
 namespace {
 
 constexpr double kUnknown = -1.0;     // share of a contact that recalls none yet
+constexpr double kCatchUp = 0.05;     // time in which omega follows a change [s]
+constexpr double kSharpest = 1.0;     // turn of the centreline at a node that is no longer resolved [rad]
+constexpr double kTwoPoints = 0.6;    // segments longer than this have two points of integration, others one [h]
 constexpr double kReachMargin = 0.3;  // contacts are kept, forceless, up to this gap [fraction of radius]
 
 /// Arclength at rest of parameter u on a segment: from the middle of one edge to the middle of the next.
@@ -100,6 +103,8 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
   iterate_ = accepted_;
   edge_middle_.resize(3, nodes - 1);
   edge_.resize(3, nodes - 1);
+  for (Eigen::Index i = 0; i < nodes; ++i) points_.push_back(voronoi_[i] > kTwoPoints * rod.material.radius ? 2 : 1);
+  outwards_ = Eigen::VectorXd::Constant(nodes, PointWeights::kWholeShare);
   halfway_ = Eigen::MatrixX3d::Zero(nodes, 3);
   // No point of a segment stands further from its middle than half its length.
   farthest2_ = (reach_ + 0.5 * voronoi_.array()).square();
@@ -116,6 +121,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   contacts_.clear();
   recalled_.assign(iterate_.entries.size(), 0);
   friction_scale_ = friction_.scale(dt);
+  catch_up_ = dt / (dt + kCatchUp);
   const Eigen::Index edges = position.cols() - 1;
   edge_.noalias() = position.rightCols(edges) - position.leftCols(edges);
   edge_middle_.noalias() = 0.5 * (position.rightCols(edges) + position.leftCols(edges));
@@ -125,7 +131,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
        0.125 * (edge_.rightCols(edges - 1) - edge_.leftCols(edges - 1)))
           .transpose();
   for (const int segment : candidates_.segments())
-    for (int point = 0; point < 2; ++point) {
+    for (int point = 0; point < points_[static_cast<std::size_t>(segment)]; ++point) {
       const std::size_t first = contacts_.size();
       for (const Candidates::Run* run = candidates_.begin(segment); run != candidates_.end(segment); ++run)
         find_feet(segment, point, *run, position);
@@ -135,7 +141,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
 }
 
 void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run, const Points& position) {
-  const SegmentWeights w(kIntegrationPoints[point]);
+  const PointWeights w(place(segment, point), outwards_[segment]);
   const Vec3 a = combine(w.value, position, segment);
   for (int foot = run.first; foot <= run.last; ++foot) {
     const double dx = a[0] - halfway_(foot, 0), dy = a[1] - halfway_(foot, 1), dz = a[2] - halfway_(foot, 2);
@@ -149,11 +155,12 @@ void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run
 }
 
 void SmoothContact::add_contact(int segment, int point, int foot, double u, const Points& position) {
-  const SegmentWeights wa(kIntegrationPoints[point]), wb(u);
+  const PointWeights wa(place(segment, point), outwards_[segment]);
+  const SegmentWeights wb(u);
   const Vec3 x = combine(wa.value, position, segment) - combine(wb.value, position, foot);
   const double d2 = x.squaredNorm();
   if (d2 >= reach_ * reach_) return;
-  const double arclength_a = arclength_at(arclength_, segment, kIntegrationPoints[point]);
+  const double arclength_a = arclength_at(arclength_, segment, place(segment, point));
   const double arclength_b = arclength_at(arclength_, foot, u);
   if (std::abs(arclength_a - arclength_b) < candidates_.exclusion()) return;
   ContactPoint& contact = contacts_.emplace_back();
@@ -172,6 +179,7 @@ void SmoothContact::add_contact(int segment, int point, int foot, double u, cons
   }
   contact.n = contact.x / contact.d;
   contact.overlap = diameter_ - contact.d;
+  contact.begins = normal_.begin();
   contact.db = combine(wb.derivative, position, foot);
   const double length2 = contact.db.squaredNorm();
   // At a minimum G >= 0; it vanishes where the foot is about to jump, and there omega does too.
@@ -206,7 +214,7 @@ void SmoothContact::recall(std::size_t q, std::size_t first) {
 
 void SmoothContact::complete(ContactPoint& contact, const Points& position, const Points& start) {
   if (contact.share < 0.0) contact.share = share(contact, position);
-  contact.weight = 0.5 * voronoi_[contact.a0 + 1] * contact.share;
+  contact.weight = voronoi_[contact.a0 + 1] / points_[static_cast<std::size_t>(contact.a0 + 1)] * contact.share;
   if (friction_.on() && contact.active()) {
     contact.slip = contact.memory;
     for (int k = 0; k < 3; ++k) {
@@ -222,7 +230,7 @@ void SmoothContact::complete(ContactPoint& contact, const Points& position, cons
 double SmoothContact::share(const ContactPoint& contact, const Points& position) const {
   const int segment = contact.a0 + 1, foot = contact.b0 + 1;
   // Of the weights' derivatives the last is the parameter itself.
-  const double ua = kIntegrationPoints[contact.point];
+  const double ua = place(segment, contact.point);
   const double ub = contact.beta[5];
   const Vec3 da = combine(SegmentWeights(ua).derivative, position, segment);
   const double g_b = least_curvature_share(position, foot, ub, contact.x, contact.db.squaredNorm());
@@ -241,8 +249,9 @@ void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
     while (done <= q) list.begin[done++] = static_cast<int>(list.entries.size());
     if (accepted) {
       const bool sticks = friction_.on() && friction_.remembers() && contact.touches();
-      list.entries.push_back({contact.arclength_b, share(contact, *accepted), contact.pressure,
-                              sticks ? Vec3(friction_.presliding * contact.z) : Vec3::Zero()});
+      const double now = contact.share + catch_up_ * (share(contact, *accepted) - contact.share);
+      list.entries.push_back(
+          {contact.arclength_b, now, contact.pressure, sticks ? Vec3(friction_.presliding * contact.z) : Vec3::Zero()});
     } else {
       list.entries.push_back({contact.arclength_b, contact.share, contact.estimate, contact.memory});
     }
@@ -250,6 +259,17 @@ void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
   while (done < list.begin.size()) list.begin[done++] = static_cast<int>(list.entries.size());
 }
 
-void SmoothContact::commit(const Points& position) { remember(&position, accepted_); }
+void SmoothContact::put_outwards(const Points& position) {
+  for (int i = 1; i + 1 < static_cast<int>(position.cols()); ++i) {
+    const double turn2 = second_difference(position, i).squaredNorm() / (voronoi_[i] * voronoi_[i]);
+    const double left = std::max(0.0, 1.0 - turn2 / (kSharpest * kSharpest));
+    outwards_[i] = PointWeights::kWholeShare * left * left;
+  }
+}
+
+void SmoothContact::commit(const Points& position) {
+  put_outwards(position);
+  remember(&position, accepted_);
+}
 
 }  // namespace knot_utm

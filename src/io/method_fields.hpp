@@ -38,6 +38,7 @@ void specimen(Fields& f, SpecimenOptions& o) {
   f.number("tail", o.tail, Range{1e-3, 2.0, "m"});
   f.optional_number("preload", o.preload, Range{1e-4, 1e5, "N"}, "auto");
   f.number("edge_length", o.edge_length, Range{5e-5, 0.1, "m"});
+  f.optional_number("refinement", o.refinement, Range{1.0, 8.0, "-"}, "auto");
 }
 
 /// `name` comes from the file's name unless it is given.

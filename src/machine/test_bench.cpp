@@ -26,12 +26,13 @@ struct Tolerances {
   double residual;           // [k_b/h^2]
   double contact_tolerance;  // delta [h]
   double presliding;         // xi_s [h]
+  double refinement;         // of edges in knots
 };
 
 Tolerances tolerances(const PhysicsOptions& physics) {
-  Tolerances out = physics.accuracy == Accuracy::kDraft    ? Tolerances{0.34, 1e-4, 0.045, 4e-3}
-                   : physics.accuracy == Accuracy::kNormal ? Tolerances{0.17, 2e-5, 0.045, 2e-3}
-                                                           : Tolerances{0.05, 1e-5, 0.045, 1e-3};
+  Tolerances out = physics.accuracy == Accuracy::kDraft    ? Tolerances{0.34, 1e-4, 0.024, 4e-3, 1.5}
+                   : physics.accuracy == Accuracy::kNormal ? Tolerances{0.17, 2e-5, 0.012, 2e-3, 2.0}
+                                                           : Tolerances{0.05, 1e-5, 0.006, 1e-3, 3.0};
   out.longest_step = physics.max_step.value_or(out.longest_step);
   out.residual = physics.residual.value_or(out.residual);
   out.contact_tolerance = physics.contact_tolerance.value_or(out.contact_tolerance);
@@ -39,6 +40,8 @@ Tolerances tolerances(const PhysicsOptions& physics) {
   return out;
 }
 
+constexpr double kStiffeningDepth = 0.015;   // c of the normal law: at the kN of a locked knot a rod gives 5 % [h]
+constexpr double kCoarsening = 1.5;          // of edges on the far side of a loop, which touches nothing but rollers
 constexpr double kResidualOfTension = 2e-6;  // of the largest tension, so that kN loads do not ask for more than digits
 constexpr double kSlack = 0.002;             // by which the rollers stand closer than taut, until mounting [m]
 constexpr double kTakeUpLoad = 0.02;         // slack is taken up once the load has risen by this much [k_b/h^2] ...
@@ -47,6 +50,10 @@ constexpr double kTakeUpMotion = 0.3;        // ... or once the knots have moved
 // A shape that is pulled as it was drawn settles first, under a drag that fades as that of the tying rig does.
 constexpr double kSettlingTime = 1.0;   // [s]
 constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
+
+double refinement(const SpecimenOptions& specimen, const PhysicsOptions& physics) {
+  return specimen.refinement.value_or(tolerances(physics).refinement);
+}
 
 double preload(const SpecimenOptions& specimen, const Material& material) {
   return specimen.preload.value_or(default_preload(material));
@@ -57,7 +64,7 @@ StepSettings step_settings(const Material& material, const MachineOptions& machi
   const double h = material.radius;
   StepSettings out;
   out.contact_law = physics.contact_law;
-  out.normal = {default_contact_stiffness(material), tolerance.contact_tolerance * h};
+  out.normal = {default_contact_stiffness(material), tolerance.contact_tolerance * h, kStiffeningDepth * h};
   out.friction = {physics.friction_law, material.friction_coefficient, tolerance.presliding * h,
                   physics.slip_tolerance};
   out.roller_friction = out.friction;
@@ -97,13 +104,14 @@ Centreline centreline_from_file(const SpecimenOptions& specimen, const Material&
 Centreline straight_rod(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine) {
   Centreline out = straight(specimen.length, material.radius, specimen.edge_length);
   if (machine.grips == GripKind::kNodes) return out;
-  const double edge = out.edge_length();
+  const double edge = out.length() / static_cast<double>(out.points.cols() - 1);
   out = straight(specimen.length + 2.0 * edge, material.radius, edge);
   out.points.row(2).array() -= edge;
   return out;
 }
 
-Centreline build_centreline(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine) {
+Centreline build_centreline(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
+                            const PhysicsOptions& physics) {
   switch (specimen.knot) {
     case KnotKind::kFisherman: {
       FishermanShape shape;
@@ -114,6 +122,8 @@ Centreline build_centreline(const SpecimenOptions& specimen, const Material& mat
       shape.tail = specimen.tail;
       shape.handedness = specimen.handedness;
       shape.edge_length = specimen.edge_length;
+      shape.refinement = refinement(specimen, physics);
+      shape.coarsening = kCoarsening;
       return fisherman_loop(shape);
     }
     case KnotKind::kOverhand: {
@@ -123,6 +133,7 @@ Centreline build_centreline(const SpecimenOptions& specimen, const Material& mat
       shape.length = specimen.length;
       shape.end_to_end = specimen.end_to_end;
       shape.edge_length = specimen.edge_length;
+      shape.refinement = refinement(specimen, physics);
       return overhand(shape);
     }
     case KnotKind::kStraight:
@@ -168,7 +179,7 @@ struct TestBench::Impl {
         material(material_),
         machine(machine_),
         physics(physics_),
-        centreline(build_centreline(specimen_, material_, machine_)),
+        centreline(build_centreline(specimen_, material_, machine_, physics_)),
         cell(machine_.load_cell) {
     const Eigen::Index nodes = centreline.points.cols();
     Eigen::VectorXd rest(nodes - 1);
@@ -213,9 +224,8 @@ struct TestBench::Impl {
     }
     auto hold = [&](std::vector<FixedNode>& held, int node) { held.push_back({node, centreline.points.col(node)}); };
     if (specimen.knot == KnotKind::kFisherman) {
-      const double edge = centreline.edge_length();
-      const int lower = static_cast<int>(std::lround(centreline.lower_apex / edge));
-      const int upper = static_cast<int>(std::lround(centreline.upper_apex / edge));
+      const int lower = centreline.nearest_node(centreline.lower_apex);
+      const int upper = centreline.nearest_node(centreline.upper_apex);
       hold(lower_nodes, lower);
       hold(upper_nodes, upper);
       if (machine.grips == GripKind::kClamps) {

@@ -1,5 +1,6 @@
 #include "knot_utm/specimen/centreline.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -9,9 +10,14 @@
 
 namespace knot_utm {
 
-double Centreline::edge_length() const { return (points.col(1) - points.col(0)).norm(); }
+double Centreline::length() const { return arclengths(points).back(); }
 
-double Centreline::length() const { return static_cast<double>(points.cols() - 1) * edge_length(); }
+int Centreline::nearest_node(double arclength) const {
+  const std::vector<double> at = arclengths(points);
+  const auto next = std::lower_bound(at.begin() + 1, at.end() - 1, arclength);
+  const int node = static_cast<int>(next - at.begin());
+  return arclength - *(next - 1) < *next - arclength ? node - 1 : node;
+}
 
 void check_no_overlap(const Centreline& centreline, double radius, const char* key, const std::string& value) {
   const double distance = smallest_distance(centreline.points, 1.5 * M_PI * radius, centreline.closed);

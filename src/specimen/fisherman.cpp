@@ -144,13 +144,22 @@ Centreline fisherman_loop(const FishermanShape& shape) {
   path.add_curve(M_PI * rho, [&](double t) {
     return Vec3(-rho * std::cos(M_PI * t), lower_y * ease(t), -rho * std::sin(M_PI * t));
   });
-  const double lower_apex = 0.5 * (lower_begin + path.length());
+  const double lower_end = path.length();
+  const double lower_apex = 0.5 * (lower_begin + lower_end);
   path.add(lower.at(coil.strand, M_PI, c + past));
   path.add(lower.at(coil.strand, M_PI, 0.0));
   const double second_middle = path.length();
   draw_knot(upper, coil, c, h, shape.tail, path);
 
-  const Resampled rod(path, smoothed(path, h, spacing), shape.edge_length);
+  // Each knot's own strand, and between it and its roller the strand that the other knot holds.
+  const double fine = shape.edge_length / shape.refinement;
+  EdgeGrading grading;
+  grading.coarse = std::min(shape.coarsening * shape.edge_length, 2.0 * h);
+  grading.zones = {{first_middle - marks.tail_exit, first_middle - marks.standing_begin, fine},
+                   {second_middle + marks.standing_begin, second_middle + marks.tail_exit, fine},
+                   {0.0, upper_begin, shape.edge_length},
+                   {lower_end, path.length(), shape.edge_length}};
+  const Resampled rod(path, smoothed(path, h, spacing), grading);
   Centreline centreline;
   centreline.points = rod.points;
   centreline.upper_apex = rod(upper_apex);

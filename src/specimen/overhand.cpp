@@ -47,6 +47,13 @@ Path draw_overhand(const OverhandShape& shape, double loop_radius, double spacin
   return path;
 }
 
+/// A tight knot of one turn takes up 40 h of the rod, each turn more another 15 h: its middle.
+EdgeGrading grading(const OverhandShape& shape, double path_length) {
+  const double half = (20.0 + 7.5 * (shape.turns - 1)) * shape.radius;
+  const double middle = 0.5 * path_length;
+  return {shape.edge_length, {{middle - half, middle + half, shape.edge_length / shape.refinement}}};
+}
+
 }  // namespace
 
 Centreline overhand(const OverhandShape& shape) {
@@ -104,7 +111,7 @@ Centreline overhand(const OverhandShape& shape) {
   }
   const Path path = draw_overhand(shape, loop_radius, spacing);
   Centreline centreline;
-  centreline.points = Resampled(path, smoothed(path, h, spacing), shape.edge_length).points;
+  centreline.points = Resampled(path, smoothed(path, h, spacing), grading(shape, path.length())).points;
   check_no_overlap(centreline, h, "specimen.end_to_end", text(shape.end_to_end));
   return centreline;
 }

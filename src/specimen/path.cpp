@@ -32,20 +32,27 @@ Points smoothed(const Path& path, double deviation, double spacing) {
   return smooth;
 }
 
-Resampled::Resampled(const Path& path, const Points& smooth, double edge_length) : path_length_(path.length()) {
-  arclength_.push_back(0.0);
-  for (Eigen::Index i = 1; i < smooth.cols(); ++i) {
-    arclength_.push_back(arclength_.back() + (smooth.col(i) - smooth.col(i - 1)).norm());
+Resampled::Resampled(const Path& path, const Points& smooth, const EdgeGrading& wanted)
+    : path_length_(path.length()), arclength_(arclengths(smooth)) {
+  EdgeGrading on_the_smooth = wanted;
+  for (EdgeGrading::Zone& zone : on_the_smooth.zones) {
+    zone.begin = on_smooth(zone.begin);
+    zone.end = on_smooth(zone.end);
   }
-  points = resample_evenly(smooth, edge_length, &node_position_);
+  points = resample_graded(smooth, on_the_smooth, &node_position_);
+  node_arclength_ = arclengths(points);
+}
+
+double Resampled::on_smooth(double s) const {
+  return interpolate(arclength_, s / path_length_ * static_cast<double>(arclength_.size() - 1));
 }
 
 double Resampled::operator()(double s) const {
-  const double fine = interpolate(arclength_, s / path_length_ * static_cast<double>(arclength_.size() - 1));
+  const double fine = on_smooth(s);
   const auto next = std::upper_bound(node_position_.begin() + 1, node_position_.end() - 1, fine);
   const auto i = static_cast<std::size_t>(next - node_position_.begin());
-  const double t = (fine - node_position_[i - 1]) / (node_position_[i] - node_position_[i - 1]);
-  return (static_cast<double>(i - 1) + std::clamp(t, 0.0, 1.0)) * (points.col(1) - points.col(0)).norm();
+  const double t = std::clamp((fine - node_position_[i - 1]) / (node_position_[i] - node_position_[i - 1]), 0.0, 1.0);
+  return node_arclength_[i - 1] + t * (node_arclength_[i] - node_arclength_[i - 1]);
 }
 
 }  // namespace knot_utm

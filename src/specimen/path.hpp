@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/specimen/polyline.hpp"
 
 namespace knot_utm {
 
@@ -64,17 +65,21 @@ Points smoothed(const Path& path, double deviation, double spacing);
 /// Resamples a smoothed path and carries arclengths of the path over to the resampled rod.
 class Resampled {
  public:
-  Resampled(const Path& path, const Points& smooth, double edge_length);
+  /// `wanted` speaks of arclengths of the path.
+  Resampled(const Path& path, const Points& smooth, const EdgeGrading& wanted);
 
-  /// Arclength on the rod of the place that was at arclength s of the path.
+  /// Arclength on the rod, along its edges, of the place that was at arclength s of the path.
   double operator()(double s) const;
 
   Points points;
 
  private:
+  double on_smooth(double s) const;
+
   double path_length_;
-  std::vector<double> arclength_;
-  std::vector<double> node_position_;
+  std::vector<double> arclength_;       // of the smoothed path's points
+  std::vector<double> node_position_;   // of the nodes, on the smoothed path
+  std::vector<double> node_arclength_;  // of the nodes, along the edges
 };
 
 }  // namespace knot_utm

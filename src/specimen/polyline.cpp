@@ -13,12 +13,7 @@ namespace {
 /// Lays equal chords along a polyline.
 class ChordWalk {
  public:
-  explicit ChordWalk(const Points& points) : points_(points) {
-    arclength_.push_back(0.0);
-    for (Eigen::Index i = 1; i < points.cols(); ++i) {
-      arclength_.push_back(arclength_.back() + (points.col(i) - points.col(i - 1)).norm());
-    }
-  }
+  explicit ChordWalk(const Points& points) : points_(points), arclength_(arclengths(points)) {}
 
   double length() const { return arclength_.back(); }
 
@@ -57,6 +52,13 @@ class ChordWalk {
 
 }  // namespace
 
+std::vector<double> arclengths(const Points& points) {
+  std::vector<double> out{0.0};
+  for (Eigen::Index i = 1; i < points.cols(); ++i)
+    out.push_back(out.back() + (points.col(i) - points.col(i - 1)).norm());
+  return out;
+}
+
 Points resample_evenly(const Points& points, double edge_length, std::vector<double>* position) {
   const ChordWalk walk(points);
   const double count = std::max(1.0, std::round(walk.length() / edge_length));
@@ -82,6 +84,40 @@ Points resample_evenly(const Points& points, double edge_length, std::vector<dou
   });
   nodes.col(edges) = points.rightCols(1);
   if (position) *position = std::move(along);
+  return nodes;
+}
+
+double EdgeGrading::operator()(double s) const {
+  constexpr double kGrowth = 0.25;
+  double length = coarse;
+  for (const Zone& zone : zones) {
+    const double away = std::max({zone.begin - s, s - zone.end, 0.0});
+    length = std::min(length, zone.edge_length + kGrowth * away);
+  }
+  return length;
+}
+
+Points resample_graded(const Points& points, const EdgeGrading& wanted, std::vector<double>* position) {
+  // Edges laid up to each point of the polyline: the integral of ds over their wanted length.
+  const std::vector<double> arclength = arclengths(points);
+  std::vector<double> laid{0.0};
+  for (std::size_t i = 1; i < arclength.size(); ++i)
+    laid.push_back(laid.back() + (arclength[i] - arclength[i - 1]) / wanted(0.5 * (arclength[i] + arclength[i - 1])));
+  const double count = std::max(1.0, std::round(laid.back()));
+  const auto edges = static_cast<Eigen::Index>(count);
+  Points nodes(3, edges + 1);
+  if (position) position->assign(static_cast<std::size_t>(edges) + 1, arclength.back());
+  std::size_t next = 1;
+  for (Eigen::Index i = 0; i < edges; ++i) {
+    const double here = laid.back() * static_cast<double>(i) / count;
+    while (laid[next] < here) ++next;
+    const double t = (here - laid[next - 1]) / (laid[next] - laid[next - 1]);
+    const auto p = static_cast<Eigen::Index>(next);
+    nodes.col(i) = points.col(p - 1) + t * (points.col(p) - points.col(p - 1));
+    if (position)
+      (*position)[static_cast<std::size_t>(i)] = arclength[next - 1] + t * (arclength[next] - arclength[next - 1]);
+  }
+  nodes.col(edges) = points.rightCols(1);
   return nodes;
 }
 

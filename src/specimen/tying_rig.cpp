@@ -17,37 +17,33 @@ constexpr double kSettlingTime = 0.3;  // [s]
 constexpr double kSettlingWave = 40.0;
 constexpr double kThreadedBeyondKnot = 18.0;  // beyond the middle of the loose knot: it ends 8 further out
 
-int nearest_node(double arclength, double edge_length, int nodes) {
-  return std::clamp(static_cast<int>(std::lround(arclength / edge_length)), 0, nodes - 1);
-}
-
 }  // namespace
 
 TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const Options& options) : options_(options) {
-  const double h = rod.material.radius, edge = centreline.edge_length();
+  const double h = rod.material.radius;
   const int nodes = static_cast<int>(rod.nodes());
   const Points& x = centreline.points;
   const std::size_t count = centreline.knots.size();
   settling_drag_ = 0.1 * kSettlingTime * rod.material.bending_stiffness * std::pow(2.0 * M_PI / (kSettlingWave * h), 4);
   double middle = 0.0;
   for (const KnotLandmarks& knot : centreline.knots)
-    middle += x(2, nearest_node(knot.coil_middle, edge, nodes)) / static_cast<double>(count);
+    middle += x(2, centreline.nearest_node(knot.coil_middle)) / static_cast<double>(count);
 
   for (const KnotLandmarks& marks : centreline.knots) {
     Knot knot;
-    const int coil = nearest_node(marks.coil_middle, edge, nodes);
+    const int coil = centreline.nearest_node(marks.coil_middle);
     const double up = x(2, coil) > middle ? 1.0 : -1.0;
     knot.outwards = up * Vec3::UnitZ();
     knot.tail_node = marks.tail_end < marks.coil_middle ? 0 : nodes - 1;
 
     const int inward = knot.tail_node == 0 ? 1 : -1;
-    int standing = nearest_node(marks.standing_begin, edge, nodes);
+    int standing = centreline.nearest_node(marks.standing_begin);
     while (up * (x(2, standing) - middle) > kStandingFromMiddle * h) standing += inward;
     knot.standing_node = standing;
     clamps_.push_back({standing, x.col(standing), Vec3::Zero()});
 
     // The threaded strand is the other end's; away from its own tail it runs on outwards.
-    int threaded = nearest_node(marks.threaded, edge, nodes);
+    int threaded = centreline.nearest_node(marks.threaded);
     const double knot_z = x(2, threaded);
     while (up * (x(2, threaded) - knot_z) < kThreadedBeyondKnot * h) threaded -= inward;
     clamps_.push_back({threaded, x.col(threaded), Vec3::Zero()});

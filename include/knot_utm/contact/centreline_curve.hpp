@@ -19,6 +19,22 @@ struct SegmentWeights {
 /// Contact is integrated along every segment by the midpoint rule on its halves.
 constexpr double kIntegrationPoints[2] = {0.25, 0.75};
 
+/// Weights of a point of integration. The spline of a rod of edges l that is bent by kappa runs l^2 kappa/12 inside of
+/// the arc that has the rod's own length. The point is put back outwards by a share of x_{i-1} - 2 x_i + x_{i+1}: with
+/// the whole share, 1/12, a strand that is wound around something presses on it by just the force that its tension asks
+/// for, to fourth order in l, and stands at just its own distance.
+struct PointWeights {
+  double value[3];
+
+  PointWeights(double u, double share) : value{0.0, 0.0, 0.0} {
+    const SegmentWeights w(u);
+    for (int k = 0; k < 3; ++k) value[k] = w.value[k] - share * kSecondDifference[k];
+  }
+
+  static constexpr double kWholeShare = 1.0 / 12.0;
+  static constexpr double kSecondDifference[3] = {1.0, -2.0, 1.0};
+};
+
 inline Vec3 combine(const double* weights, const Points& nodes, int segment) {
   return weights[0] * nodes.col(segment - 1) + weights[1] * nodes.col(segment) + weights[2] * nodes.col(segment + 1);
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 namespace knot_utm {
@@ -7,51 +8,63 @@ namespace knot_utm {
 /// Normal contact between two strands of radius h, per length of rod: the line pressure p [N/m] as a function of
 /// the overlap D = 2h - d [m] of two centrelines at distance d,
 ///
-///     p(D) = K D^2 / (2 delta (1 - D/delta)),   0 < D < delta,
+///     p = K s (1 + (s/c)^4),      s = (D + delta/2)^2 / (2 delta)  for |D| < delta/2,   s = D beyond, 0 before,
 ///
-/// once continuously differentiable, soft where strands just touch, and without bound as D nears delta: however hard
-/// a knot is pulled, its strands overlap by less than delta. Energy per length, with t = D/delta:
-/// (K delta^2 / 2) (-ln(1 - t) - t - t^2/2).
-///
-/// K [N/m^2] belongs to the material and does not change with the mesh or the run; delta [m] is the contact tolerance.
-/// Beyond 0.999 delta, where only iterates come, the law goes on along its tangent.
+/// once continuously differentiable. K [N/m^2] and the depth c [m] from which the rod stiffens as it is squeezed belong
+/// to the material and do not change with the mesh, the step or the run. The contact tolerance delta only rounds the
+/// corner where strands just touch: it stands symmetrically about D = 0, so that a contact pressed by more than
+/// K delta/2 does not know of it.
 struct NormalLaw {
-  double stiffness = 0.0;  ///< K [N/m^2]
-  double tolerance = 0.0;  ///< delta [m]
+  double stiffness = 0.0;   ///< K [N/m^2]
+  double tolerance = 0.0;   ///< delta [m]
+  double stiffening = 0.0;  ///< c [m]
+
+  /// Overlap at which strands begin to feel each other, below zero [m].
+  double begin() const { return -0.5 * tolerance; }
 
   double pressure(double overlap) const {
-    const double t = overlap / tolerance;
-    if (t <= 0.0) return 0.0;
-    if (t <= kEnd) return 0.5 * stiffness * tolerance * t * t / (1.0 - t);
-    return 0.5 * stiffness * tolerance * (kEnd * kEnd / (1.0 - kEnd) + end_slope() * (t - kEnd));
+    if (overlap <= begin()) return 0.0;
+    const double s = squeeze(overlap);
+    return stiffness * s * (1.0 + fourth(s / stiffening));
   }
   /// dp/dD [N/m^2]
   double slope(double overlap) const {
-    const double t = overlap / tolerance;
-    if (t <= 0.0) return 0.0;
-    if (t > kEnd) return 0.5 * stiffness * end_slope();
-    return 0.5 * stiffness * t * (2.0 - t) / ((1.0 - t) * (1.0 - t));
+    if (overlap <= begin()) return 0.0;
+    const double ds = std::min((overlap - begin()) / tolerance, 1.0);
+    return stiffness * ds * (1.0 + 5.0 * fourth(squeeze(overlap) / stiffening));
   }
-  /// The overlap at which the law gives this pressure, p >= 0 [m]: the root of D^2 + (2p/K) D - 2 delta p/K
+  /// The overlap at which the law gives this pressure, p >= 0 [m]
   double overlap_at(double line_pressure) const {
-    const double q = line_pressure / stiffness;
-    return 2.0 * tolerance * q / (q + std::sqrt(q * (q + 2.0 * tolerance)));
+    // Newton's method on t + t^5 = q, t = s/c, which is convex: from above it falls to the root.
+    const double q = line_pressure / (stiffness * stiffening);
+    double t = q < 1.0 ? q : std::sqrt(std::sqrt(q));
+    for (int i = 0; i < 6; ++i) {
+      const double t4 = fourth(t), excess = t * (1.0 + t4) - q;
+      t -= excess / (1.0 + 5.0 * t4);
+      if (excess <= 1e-9 * q) break;
+    }
+    const double s = t * stiffening;
+    return s >= 0.5 * tolerance ? s : std::sqrt(2.0 * tolerance * s) + begin();
   }
   /// Energy per length, its derivative is p [N]
   double energy(double overlap) const {
-    const double t = overlap / tolerance, scale = 0.5 * stiffness * tolerance * tolerance;
-    if (t <= 0.0) return 0.0;
-    // The series where the three terms of the closed form cancel.
-    if (t < 1e-3) return scale * t * t * t * (1.0 / 3.0 + t * (0.25 + t * 0.2));
-    if (t <= kEnd) return scale * (-std::log1p(-t) - t - 0.5 * t * t);
-    const double beyond = t - kEnd;
-    return scale * (-std::log1p(-kEnd) - kEnd - 0.5 * kEnd * kEnd +
-                    beyond * (kEnd * kEnd / (1.0 - kEnd) + 0.5 * end_slope() * beyond));
+    const double w = overlap - begin();
+    if (w <= 0.0) return 0.0;
+    // In the corner s = w^2/(2 delta), the integrals of s and s^5 over w are w s/3 and w s^5/11.
+    auto corner = [&](double depth) {
+      const double s = 0.5 * depth * depth / tolerance;
+      return stiffness * depth * s * (1.0 / 3.0 + fourth(s / stiffening) / 11.0);
+    };
+    auto beyond = [&](double s) { return stiffness * s * s * (0.5 + fourth(s / stiffening) / 6.0); };
+    return w <= tolerance ? corner(w) : corner(tolerance) + beyond(overlap) - beyond(0.5 * tolerance);
   }
 
  private:
-  static constexpr double kEnd = 0.999;
-  static constexpr double end_slope() { return kEnd * (2.0 - kEnd) / ((1.0 - kEnd) * (1.0 - kEnd)); }
+  static double fourth(double x) { return x * x * x * x; }
+  double squeeze(double overlap) const {
+    const double w = overlap - begin();
+    return w < tolerance ? 0.5 * w * w / tolerance : overlap;
+  }
 };
 
 }  // namespace knot_utm

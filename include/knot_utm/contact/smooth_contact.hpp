@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "knot_utm/contact/candidates.hpp"
+#include "knot_utm/contact/centreline_curve.hpp"
 #include "knot_utm/contact/contact_point.hpp"
 
 namespace knot_utm {
@@ -17,6 +18,8 @@ namespace knot_utm {
 /// at the distance of contact, the other one stands in its centre of curvature and has no foot on it.
 /// g is linear between the middle of a segment, where it is its own, and its ends, where it is the smaller one of the
 /// two segments that meet: a foot that is about to vanish has lost its share by then.
+/// omega follows the shape within 0.05 s: were it to follow at once, two places of a tight knot could throw a contact
+/// to and fro in steps however short, a flutter that no step resolves.
 /// omega and the friction's memory belong to the last accepted step and are constant within a step: they are carried
 /// by the point of integration and found again by the nearest arclength of the foot, iterate by iterate, each by one
 /// foot only: a foot that is new starts without memory, with the share its place gives it.
@@ -60,6 +63,9 @@ class SmoothContact {
     std::vector<int> begin;
   };
 
+  double place(int segment, int point) const {
+    return points_[static_cast<std::size_t>(segment)] == 1 ? 0.5 : kIntegrationPoints[point];
+  }
   void find_feet(int segment, int point, const Candidates::Run& run, const Points& position);
   void add_contact(int segment, int point, int foot, double u, const Points& position);
   /// Gives the contacts of point q, from `first` on, what the last iterate remembers of them.
@@ -67,6 +73,8 @@ class SmoothContact {
   /// Share, slip and force of a contact whose place is known.
   void complete(ContactPoint& contact, const Points& position, const Points& start);
   void remember(const Points* position, MemoryList& list) const;
+  /// Of the accepted position; where the rod is bent more sharply than its edges resolve, less and less.
+  void put_outwards(const Points& position);
   double share(const ContactPoint& contact, const Points& position) const;
 
   NormalLaw normal_;
@@ -76,6 +84,8 @@ class SmoothContact {
   double reach_;               // of centrelines within which contacts are kept [m]
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd voronoi_;
+  std::vector<int> points_;  // of integration, of every segment
+  Eigen::VectorXd outwards_;  // share of the second difference by which points of a segment stand outwards
   Candidates candidates_;
   std::vector<ContactPoint> contacts_;
   MemoryList accepted_;         // of the last accepted step
@@ -85,6 +95,7 @@ class SmoothContact {
   Eigen::MatrixX3d halfway_;    // of the evaluated position: c(1/2) of every segment, coordinate by coordinate
   Eigen::VectorXd farthest2_;   // squared distance from there at which a point may still be in reach [m^2]
   double friction_scale_ = 0.0;
+  double catch_up_ = 1.0;  // by which the shares follow in this step
   bool first_evaluation_ = true;
 };
 

@@ -40,6 +40,8 @@ struct NewtonSummary {
 ///   double tolerance()    what that may be
 ///   bool solve()          assembles and factors the Jacobian, solves for the change; false where singular
 ///   void move(share)      takes that share of the change, capped as the system sees fit
+/// A prediction that happens to lie within the tolerance is solved once all the same: what the tolerance leaves would
+/// otherwise drift on, step after step, and never come to rest. Only far below it is nothing left to do.
 /// There is no line search: along stiff, nearly inextensible rods the energy is no guide. Whoever calls guards the
 /// step by its size and halves it where this does not converge. Where
 /// the residual has not halved over two iterations after the first few, the iterates run in a cycle between two sides
@@ -47,6 +49,7 @@ struct NewtonSummary {
 template <typename System>
 NewtonSummary newton(System& system, const NewtonOptions& options) {
   constexpr int kUndamped = 5;
+  constexpr double kUnsolved = 1e-3;
   NewtonSummary summary;
   double last = 0.0, before = 0.0, share = 1.0;
   for (;;) {
@@ -56,7 +59,7 @@ NewtonSummary newton(System& system, const NewtonOptions& options) {
       summary.end = NewtonSummary::End::kNotFinite;
       return summary;
     }
-    if (summary.residual <= summary.tolerance) {
+    if (summary.residual <= (summary.iterations > 0 ? 1.0 : kUnsolved) * summary.tolerance) {
       summary.end = NewtonSummary::End::kConverged;
       return summary;
     }

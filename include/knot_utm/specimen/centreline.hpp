@@ -16,17 +16,17 @@ struct KnotLandmarks {
   double threaded;        ///< the other strand, where it passes the middle of the coil
 };
 
-/// A specimen's centreline at rest: an open polyline of equal edges, and where its parts lie.
+/// A specimen's centreline at rest: an open polyline, and where its parts lie. Edges may be shorter in its knots.
 /// Frame: z up and along the load axis. Arclengths are those of the polyline.
 struct Centreline {
-  Points points;                     ///< nodes in order along the rod, all edges of equal length [m]
+  Points points;                     ///< nodes in order along the rod [m]
   bool closed = false;               ///< the last node lies on the first
   std::vector<KnotLandmarks> knots;  ///< fisherman: [0] lower knot at the rod's first end, [1] upper at its last
   double upper_apex = 0.0;           ///< fisherman: arclength of the top of the loop, on the upper roller [m]
   double lower_apex = 0.0;           ///< fisherman: arclength of the bottom of the loop [m]
 
-  double edge_length() const;  ///< of every edge [m]
-  double length() const;       ///< [m]
+  double length() const;                     ///< [m]
+  int nearest_node(double arclength) const;  ///< to an arclength [m]
 };
 
 /// A straight rod along z from the origin.

@@ -16,6 +16,7 @@ struct OverhandShape {
   double length = 1.0;          ///< of the rod [m]
   double end_to_end = 0.7;      ///< distance of the rod's ends [m]
   double edge_length = 0.0032;  ///< wanted [m]
+  double refinement = 1.0;  ///< edges in the middle, of which the tight knot is made, are shorter by this factor [-]
 };
 
 /// Throws InvalidInput (specimen.*) where the excess length is too short for the knot or too long for the rod.

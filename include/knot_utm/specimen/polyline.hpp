@@ -6,9 +6,29 @@
 
 namespace knot_utm {
 
+/// Arclength of every point along the polyline [m].
+std::vector<double> arclengths(const Points& points);
+
 /// Resamples a polyline into the whole number of equal chords nearest to `edge_length`; first and last point stay.
 /// `position` (optional) gets the arclength on `points` of every node.
 Points resample_evenly(const Points& points, double edge_length, std::vector<double>* position = nullptr);
+
+/// Lengths that edges should have along a line: `coarse` at most, and shorter in and near zones.
+struct EdgeGrading {
+  struct Zone {
+    double begin, end;   ///< arclength [m]
+    double edge_length;  ///< within [m]
+  };
+  double coarse = 0.0;  ///< far from every zone [m]
+  std::vector<Zone> zones;
+
+  /// Wanted length of an edge at arclength s: it grows by a quarter of the distance to a zone [m].
+  double operator()(double s) const;
+};
+
+/// Resamples a polyline so that its edges have the lengths wanted, all scaled by the one factor that makes their
+/// number whole; first and last point stay. `position` (optional) gets the arclength on `points` of every node.
+Points resample_graded(const Points& points, const EdgeGrading& wanted, std::vector<double>* position = nullptr);
 
 /// Smallest distance between any two places of a polyline that lie at least `exclusion` apart along it [m]; infinity
 /// where there are none. Closed: its last point lies on its first, and "along it" is the shorter way round.

@@ -25,7 +25,7 @@ class TyingRig {
     double grip_stiffness = 2e4;  ///< [N/m]
     double rest_speed = 2e-5;     ///< every node slower than this ... [m/s]
     double rest_time = 0.3;       ///< ... for this long: at rest [s]
-    double patience = 20.0;       ///< without rest for so long: not equilibrated [s]
+    double patience = 60.0;       ///< without rest for so long: not equilibrated [s]
     double pull_patience = 90.0;  ///< grips that have not reached the pre-load by then: not equilibrated [s]
   };
   enum class Stage { kIdle, kSettling, kPulling, kTied, kTailsRamp, kTailsRest, kClampsRamp, kClampsRest, kReleased };
