@@ -194,7 +194,7 @@ struct TestBench::Impl {
     stepper = TimeStep::make(rod, state, step_settings(material, machine, physics));
     StepControl::Options options;
     options.longest = tolerances(physics).longest_step;
-    options.motion = 0.2 * material.radius;
+    options.motion = 0.3 * material.radius;
     control = StepControl(options);
     if (!centreline.knots.empty()) {
       TyingRig::Options tying;

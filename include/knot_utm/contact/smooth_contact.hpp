@@ -84,7 +84,7 @@ class SmoothContact {
   double reach_;               // of centrelines within which contacts are kept [m]
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd voronoi_;
-  std::vector<int> points_;  // of integration, of every segment
+  std::vector<int> points_;   // of integration, of every segment
   Eigen::VectorXd outwards_;  // share of the second difference by which points of a segment stand outwards
   Candidates candidates_;
   std::vector<ContactPoint> contacts_;
