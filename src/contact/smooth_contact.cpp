@@ -12,7 +12,6 @@ namespace {
 constexpr double kUnknown = -1.0;     // share of a contact that recalls none yet
 constexpr double kCatchUp = 0.05;     // time in which omega follows a change [s]
 constexpr double kSharpest = 1.0;     // turn of the centreline at a node that is no longer resolved [rad]
-constexpr double kTwoPoints = 0.6;    // segments longer than this have two points of integration, others one [h]
 constexpr double kReachMargin = 0.3;  // contacts are kept, forceless, up to this gap [fraction of radius]
 
 /// Arclength at rest of parameter u on a segment: from the middle of one edge to the middle of the next.
@@ -103,7 +102,6 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
   iterate_ = accepted_;
   edge_middle_.resize(3, nodes - 1);
   edge_.resize(3, nodes - 1);
-  for (Eigen::Index i = 0; i < nodes; ++i) points_.push_back(voronoi_[i] > kTwoPoints * rod.material.radius ? 2 : 1);
   outwards_ = Eigen::VectorXd::Constant(nodes, PointWeights::kWholeShare);
   halfway_ = Eigen::MatrixX3d::Zero(nodes, 3);
   // No point of a segment stands further from its middle than half its length.
@@ -131,7 +129,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
        0.125 * (edge_.rightCols(edges - 1) - edge_.leftCols(edges - 1)))
           .transpose();
   for (const int segment : candidates_.segments())
-    for (int point = 0; point < points_[static_cast<std::size_t>(segment)]; ++point) {
+    for (int point = 0; point < 2; ++point) {
       const std::size_t first = contacts_.size();
       for (const Candidates::Run* run = candidates_.begin(segment); run != candidates_.end(segment); ++run)
         find_feet(segment, point, *run, position);
@@ -141,7 +139,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
 }
 
 void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run, const Points& position) {
-  const PointWeights w(place(segment, point), outwards_[segment]);
+  const PointWeights w(kIntegrationPoints[point], outwards_[segment]);
   const Vec3 a = combine(w.value, position, segment);
   for (int foot = run.first; foot <= run.last; ++foot) {
     const double dx = a[0] - halfway_(foot, 0), dy = a[1] - halfway_(foot, 1), dz = a[2] - halfway_(foot, 2);
@@ -155,12 +153,12 @@ void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run
 }
 
 void SmoothContact::add_contact(int segment, int point, int foot, double u, const Points& position) {
-  const PointWeights wa(place(segment, point), outwards_[segment]);
+  const PointWeights wa(kIntegrationPoints[point], outwards_[segment]);
   const SegmentWeights wb(u);
   const Vec3 x = combine(wa.value, position, segment) - combine(wb.value, position, foot);
   const double d2 = x.squaredNorm();
   if (d2 >= reach_ * reach_) return;
-  const double arclength_a = arclength_at(arclength_, segment, place(segment, point));
+  const double arclength_a = arclength_at(arclength_, segment, kIntegrationPoints[point]);
   const double arclength_b = arclength_at(arclength_, foot, u);
   if (std::abs(arclength_a - arclength_b) < candidates_.exclusion()) return;
   ContactPoint& contact = contacts_.emplace_back();
@@ -214,7 +212,7 @@ void SmoothContact::recall(std::size_t q, std::size_t first) {
 
 void SmoothContact::complete(ContactPoint& contact, const Points& position, const Points& start) {
   if (contact.share < 0.0) contact.share = share(contact, position);
-  contact.weight = voronoi_[contact.a0 + 1] / points_[static_cast<std::size_t>(contact.a0 + 1)] * contact.share;
+  contact.weight = 0.5 * voronoi_[contact.a0 + 1] * contact.share;
   if (friction_.on() && contact.active()) {
     contact.slip = contact.memory;
     for (int k = 0; k < 3; ++k) {
@@ -230,7 +228,7 @@ void SmoothContact::complete(ContactPoint& contact, const Points& position, cons
 double SmoothContact::share(const ContactPoint& contact, const Points& position) const {
   const int segment = contact.a0 + 1, foot = contact.b0 + 1;
   // Of the weights' derivatives the last is the parameter itself.
-  const double ua = place(segment, contact.point);
+  const double ua = kIntegrationPoints[contact.point];
   const double ub = contact.beta[5];
   const Vec3 da = combine(SegmentWeights(ua).derivative, position, segment);
   const double g_b = least_curvature_share(position, foot, ub, contact.x, contact.db.squaredNorm());

@@ -72,6 +72,10 @@ std::vector<std::string> warnings(const Results& results) {
   return all;
 }
 
+std::optional<double> share_of(const std::optional<double>& reading, const std::optional<double>& share) {
+  return reading && share ? std::optional<double>(std::abs(*reading) * *share) : std::nullopt;
+}
+
 /// One "key: value" line after the other.
 class Lines {
  public:
@@ -108,10 +112,18 @@ class Lines {
 
 }  // namespace
 
+std::string accuracy_warning(const Results& results, const ReadingErrors& errors) {
+  constexpr double kUnsure = 0.1;
+  if (!results.plateau_force || errors.plateau_force.value_or(0.0) <= kUnsure) return {};
+  return "the plateau force may be off by " + format_number(std::round(100.0 * *errors.plateau_force)) +
+         " %: for less a finer accuracy, a higher specimen.refinement or a lower pre-load";
+}
+
 RunWriter::RunWriter(const std::string& folder, const Method& method)
     : folder_(make_folder(folder, method)),
       curve_((fs::path(folder) / "curve.csv").string()),
       full_curve_((fs::path(folder) / "curve_full.csv").string()) {
+  known_.errors = reading_errors(method.specimen, method.material, method.physics);
   if (method.specimen.to_be_tied) known_.preload = method.specimen.preload.value_or(Sample::kNone);
   known_.seed = method.machine.load_cell.seed;
   known_.version = version();
@@ -154,6 +166,8 @@ std::string result_yaml(const Results& r, const RunFacts& f) {
   lines.text("reason", f.reason);
   std::vector<std::string> all_warnings = warnings(r);
   all_warnings.insert(all_warnings.end(), f.warnings.begin(), f.warnings.end());
+  const std::string unsure = accuracy_warning(r, f.errors);
+  if (!unsure.empty()) all_warnings.push_back(unsure);
   lines.list("warnings", all_warnings);
   lines.flag("not_equilibrated", !r.equilibrated);
   lines.number("preload", f.preload);
@@ -162,10 +176,13 @@ std::string result_yaml(const Results& r, const RunFacts& f) {
   lines.pair("final_excess_length", r.final_excess_length);
   lines.number("plateau_force", r.plateau_force);
   lines.number("plateau_force_sd", r.plateau_force_sd);
+  lines.number("plateau_force_error", share_of(r.plateau_force, f.errors.plateau_force));
   lines.number("plateau_slope", r.plateau_slope);
   lines.number("breakaway_force", r.breakaway_force);
   lines.number("lock_extension", r.lock_extension);
+  lines.number("lock_extension_error", share_of(r.lock_extension, f.errors.lock_extension));
   lines.number("locked_stiffness", r.locked_stiffness);
+  lines.number("locked_stiffness_error", share_of(r.locked_stiffness, f.errors.locked_stiffness));
   lines.number("peak_force", r.peak_force);
   lines.number("balance_offset", r.balance_offset);
   lines.number("break_extension", r.break_extension);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "knot_utm/analysis/knot_watch.hpp"
+#include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
@@ -20,26 +21,6 @@ namespace knot_utm {
 
 namespace {
 
-/// What an accuracy stands for.
-struct Tolerances {
-  double longest_step;       // [s]
-  double residual;           // [k_b/h^2]
-  double contact_tolerance;  // delta [h]
-  double presliding;         // xi_s [h]
-  double refinement;         // of edges in knots
-};
-
-Tolerances tolerances(const PhysicsOptions& physics) {
-  Tolerances out = physics.accuracy == Accuracy::kDraft    ? Tolerances{0.34, 1e-4, 0.024, 4e-3, 1.5}
-                   : physics.accuracy == Accuracy::kNormal ? Tolerances{0.17, 2e-5, 0.012, 2e-3, 2.0}
-                                                           : Tolerances{0.05, 1e-5, 0.006, 1e-3, 3.0};
-  out.longest_step = physics.max_step.value_or(out.longest_step);
-  out.residual = physics.residual.value_or(out.residual);
-  out.contact_tolerance = physics.contact_tolerance.value_or(out.contact_tolerance);
-  out.presliding = physics.presliding.value_or(out.presliding);
-  return out;
-}
-
 constexpr double kStiffeningDepth = 0.015;   // c of the normal law: at the kN of a locked knot a rod gives 5 % [h]
 constexpr double kCoarsening = 1.5;          // of edges on the far side of a loop, which touches nothing but rollers
 constexpr double kResidualOfTension = 2e-6;  // of the largest tension, so that kN loads do not ask for more than digits
@@ -51,16 +32,13 @@ constexpr double kTakeUpMotion = 0.3;        // ... or once the knots have moved
 constexpr double kSettlingTime = 1.0;   // [s]
 constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
 
-double refinement(const SpecimenOptions& specimen, const PhysicsOptions& physics) {
-  return specimen.refinement.value_or(tolerances(physics).refinement);
-}
-
 double preload(const SpecimenOptions& specimen, const Material& material) {
   return specimen.preload.value_or(default_preload(material));
 }
 
-StepSettings step_settings(const Material& material, const MachineOptions& machine, const PhysicsOptions& physics) {
-  const Tolerances tolerance = tolerances(physics);
+StepSettings step_settings(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
+                           const PhysicsOptions& physics) {
+  const Tolerances tolerance = tolerances(physics, specimen);
   const double h = material.radius;
   StepSettings out;
   out.contact_law = physics.contact_law;
@@ -122,7 +100,7 @@ Centreline build_centreline(const SpecimenOptions& specimen, const Material& mat
       shape.tail = specimen.tail;
       shape.handedness = specimen.handedness;
       shape.edge_length = specimen.edge_length;
-      shape.refinement = refinement(specimen, physics);
+      shape.refinement = tolerances(physics, specimen).refinement;
       shape.coarsening = kCoarsening;
       return fisherman_loop(shape);
     }
@@ -133,7 +111,7 @@ Centreline build_centreline(const SpecimenOptions& specimen, const Material& mat
       shape.length = specimen.length;
       shape.end_to_end = specimen.end_to_end;
       shape.edge_length = specimen.edge_length;
-      shape.refinement = refinement(specimen, physics);
+      shape.refinement = tolerances(physics, specimen).refinement;
       return overhand(shape);
     }
     case KnotKind::kStraight:
@@ -191,9 +169,9 @@ struct TestBench::Impl {
     const RodProperties rod = make_rod(material, rest);
     place_grips();
     if (solves_for_twist(rod)) initialise_frames(&state);
-    stepper = TimeStep::make(rod, state, step_settings(material, machine, physics));
+    stepper = TimeStep::make(rod, state, step_settings(specimen, material, machine, physics));
     StepControl::Options options;
-    options.longest = tolerances(physics).longest_step;
+    options.longest = tolerances(physics, specimen).longest_step;
     options.motion = 0.3 * material.radius;
     control = StepControl(options);
     if (!centreline.knots.empty()) {
@@ -469,7 +447,7 @@ Vec3 TestBench::upper_grip() const {
   const Vec3 start = impl_->on_rollers() ? impl_->rollers[1].centre : impl_->upper_nodes.front().position;
   return start + Vec3(0.0, 0.0, impl_->displacement);
 }
-double TestBench::longest_step() const { return tolerances(impl_->physics).longest_step; }
+double TestBench::longest_step() const { return tolerances(impl_->physics, impl_->specimen).longest_step; }
 Eigen::VectorXd TestBench::tension() const { return impl_->stepper->tension(); }
 
 }  // namespace knot_utm

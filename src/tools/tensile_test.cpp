@@ -111,6 +111,8 @@ int run(const Arguments& arguments) {
   const Results results = writer.results(program.ended_by());
   writer.finish(results, facts, bench.state().position);
 
+  const std::string unsure = accuracy_warning(results, facts.errors);
+  if (!unsure.empty()) std::fprintf(stderr, "tensile_test: %s\n", unsure.c_str());
   const bool gave_up = program.ended_by() == EndedBy::kSolver;
   if (gave_up) {
     std::fprintf(stderr, "tensile_test: the physics gave up: %s; what was measured is in %s\n",

@@ -18,9 +18,7 @@ namespace {
 const KnotPolynomial kSamePolynomial{1, -1, -1, 4, -5, 4, -1, -1, 1};
 const KnotPolynomial kOppositePolynomial{1, -1, -1, 3, -1, -1, 1};
 
-Eigen::Index node_at(const Centreline& line, double arclength) {
-  return static_cast<Eigen::Index>(std::lround(arclength / line.edge_length()));
-}
+Eigen::Index node_at(const Centreline& line, double arclength) { return line.nearest_node(arclength); }
 
 LoopTopology topology_of(const Centreline& line, double radius) {
   return {node_at(line, line.knots[0].standing_begin), node_at(line, line.knots[1].standing_begin), radius};
@@ -185,8 +183,8 @@ Points with_bent_tail(const Centreline& line, double bend, double heading) {
   const Eigen::Index tail = points.cols() - exit;
   for (Eigen::Index i = exit; i < points.cols(); ++i) {
     const double angle = bend * std::min(1.0, 2.0 * static_cast<double>(i - exit) / static_cast<double>(tail));
-    points.col(i) =
-        points.col(i - 1) + line.edge_length() * (std::cos(angle) * Vec3::UnitZ() + std::sin(angle) * towards);
+    points.col(i) = points.col(i - 1) + (line.points.col(1) - line.points.col(0)).norm() *
+                                            (std::cos(angle) * Vec3::UnitZ() + std::sin(angle) * towards);
   }
   return points;
 }
@@ -258,7 +256,7 @@ TEST_P(K7_Loop, LosesItWhenATailLeavesItsCoil) {
   const Eigen::Index middle = node_at(line, line.knots[1].coil_middle);
   const Vec3 from = points.col(middle);
   for (Eigen::Index i = middle + 1; i < points.cols(); ++i) {
-    const double along = static_cast<double>(i - middle) * line.edge_length();
+    const double along = static_cast<double>(i - middle) * (line.points.col(1) - line.points.col(0)).norm();
     points.col(i) = from + along * (from - points.col(node_at(line, line.knots[1].threaded))).normalized();
   }
   const LoopTopology::Reading lost = topology.read(points, Vec3::UnitZ());

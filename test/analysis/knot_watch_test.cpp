@@ -69,9 +69,9 @@ TEST(KnotWatch, AClosedRodIsJoinedWhereItsEndsMeet) {
 
 TEST(KnotWatch, ATailThatSlipsOutOfItsCoilUnties) {
   const Centreline line = fisherman_loop({});
-  const auto node = [&](double arclength) { return static_cast<int>(std::lround(arclength / line.edge_length())); };
-  const int lower = node(line.knots[0].standing_begin);
-  const int upper = node(line.knots[1].standing_begin);
+  const int lower = line.nearest_node(line.knots[0].standing_begin);
+  const int upper = line.nearest_node(line.knots[1].standing_begin);
+  const double edge = (line.points.col(1) - line.points.col(0)).norm();
   KnotWatch watch({lower, upper}, false, kRadius, line.points);
   Points points = line.points;
   points.row(0).array() += kRadius;
@@ -79,7 +79,7 @@ TEST(KnotWatch, ATailThatSlipsOutOfItsCoilUnties) {
   // The upper knot's own strand drawn straight down through its coil.
   const Eigen::Index last = points.cols() - 1;
   for (Eigen::Index i = upper; i <= last; ++i) {
-    points.col(i) = points.col(upper) + static_cast<double>(i - upper) * line.edge_length() * Vec3::UnitZ();
+    points.col(i) = points.col(upper) + static_cast<double>(i - upper) * edge * Vec3::UnitZ();
   }
   EXPECT_EQ(watch.follow(points), KnotType::kChanged);
 }

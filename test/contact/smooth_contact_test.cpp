@@ -126,14 +126,17 @@ TEST(SmoothContact, StrandsApartFeelNothing) {
 }
 
 TEST(NormalLaw, SlopeAndEnergyAreThePressuresDerivativeAndIntegral) {
-  const NormalLaw law{3e6, 1e-4};
-  for (const double overlap : {-1e-5, 2e-5, 9e-5, 1.3e-4, 4e-4}) {
+  const NormalLaw law{3e6, 1e-4, 2e-4};
+  for (const double overlap : {-6e-5, -4e-5, 1e-5, 4e-5, 6e-5, 1.3e-4, 4e-4}) {
     const double step = 1e-9;
     const double p = law.pressure(overlap);
     // Curvature over the step, and rounding of two pressures divided by it.
     EXPECT_NEAR(law.slope(overlap), (law.pressure(overlap + step) - law.pressure(overlap - step)) / (2 * step),
                 1e-5 * law.stiffness + 4e-16 * p / step);
     EXPECT_NEAR(p, (law.energy(overlap + step) - law.energy(overlap - step)) / (2 * step), 1e-5 * (p + 1.0));
+    if (p > 0.0) {
+      EXPECT_NEAR(law.overlap_at(p), overlap, 1e-9 * law.tolerance);
+    }
   }
 }
 

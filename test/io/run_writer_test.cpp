@@ -60,6 +60,9 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
                           "ended_by",
                           "plateau_force",
                           "plateau_force_sd",
+                          "plateau_force_error",
+                          "lock_extension_error",
+                          "locked_stiffness_error",
                           "lock_extension",
                           "locked_stiffness",
                           "peak_force",
@@ -92,7 +95,7 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
     EXPECT_TRUE(result[key].IsDefined()) << key;
   }
   EXPECT_EQ(result["ended_by"].as<std::string>(), "extension");
-  EXPECT_EQ(result["preload"].as<double>(), 500.0);
+  EXPECT_EQ(result["preload"].as<double>(), 150.0);
   EXPECT_TRUE(result["lock_extension"].IsNull());
   EXPECT_GT(result["peak_memory"].as<double>(), 1e5);
   EXPECT_DOUBLE_EQ(result["real_time_factor"].as<double>(), result["simulated_time"].as<double>() / 0.5);

@@ -37,12 +37,15 @@ struct Loop {
     FishermanShape shape;
     shape.edge_length = 0.006;
     centreline = fisherman_loop(shape);
-    rod = make_rod(material, Eigen::VectorXd::Constant(centreline.points.cols() - 1, centreline.edge_length()));
+    rod = make_rod(material, (centreline.points.rightCols(centreline.points.cols() - 1) -
+                              centreline.points.leftCols(centreline.points.cols() - 1))
+                                 .colwise()
+                                 .norm());
     RodState state;
     state.position = centreline.points;
     state.velocity = Points::Zero(3, state.position.cols());
     StepSettings settings;
-    settings.normal = {300.0 * bend / (h * h), 0.1 * h};
+    settings.normal = {300.0 * bend / (h * h), 0.1 * h, 0.02 * h};
     settings.friction = {FrictionLaw::kMemory, material.friction_coefficient, 4e-3 * h, 0.0};
     settings.drag = 0.1;
     settings.residual = 1e-4 * bend;

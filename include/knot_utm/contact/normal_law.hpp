@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace knot_utm {
 
@@ -15,9 +16,9 @@ namespace knot_utm {
 /// corner where strands just touch: it stands symmetrically about D = 0, so that a contact pressed by more than
 /// K delta/2 does not know of it.
 struct NormalLaw {
-  double stiffness = 0.0;   ///< K [N/m^2]
-  double tolerance = 0.0;   ///< delta [m]
-  double stiffening = 0.0;  ///< c [m]
+  double stiffness = 0.0;                                       ///< K [N/m^2]
+  double tolerance = 0.0;                                       ///< delta [m]
+  double stiffening = std::numeric_limits<double>::infinity();  ///< c [m]
 
   /// Overlap at which strands begin to feel each other, below zero [m].
   double begin() const { return -0.5 * tolerance; }
@@ -35,15 +36,14 @@ struct NormalLaw {
   }
   /// The overlap at which the law gives this pressure, p >= 0 [m]
   double overlap_at(double line_pressure) const {
-    // Newton's method on t + t^5 = q, t = s/c, which is convex: from above it falls to the root.
-    const double q = line_pressure / (stiffness * stiffening);
-    double t = q < 1.0 ? q : std::sqrt(std::sqrt(q));
+    // Newton's method on s (1 + (s/c)^4) = p/K, which is convex: from above it falls to the root.
+    const double q = line_pressure / stiffness;
+    double s = q < stiffening ? q : stiffening * std::sqrt(std::sqrt(q / stiffening));
     for (int i = 0; i < 6; ++i) {
-      const double t4 = fourth(t), excess = t * (1.0 + t4) - q;
-      t -= excess / (1.0 + 5.0 * t4);
+      const double t4 = fourth(s / stiffening), excess = s * (1.0 + t4) - q;
+      s -= excess / (1.0 + 5.0 * t4);
       if (excess <= 1e-9 * q) break;
     }
-    const double s = t * stiffening;
     return s >= 0.5 * tolerance ? s : std::sqrt(2.0 * tolerance * s) + begin();
   }
   /// Energy per length, its derivative is p [N]

@@ -63,9 +63,6 @@ class SmoothContact {
     std::vector<int> begin;
   };
 
-  double place(int segment, int point) const {
-    return points_[static_cast<std::size_t>(segment)] == 1 ? 0.5 : kIntegrationPoints[point];
-  }
   void find_feet(int segment, int point, const Candidates::Run& run, const Points& position);
   void add_contact(int segment, int point, int foot, double u, const Points& position);
   /// Gives the contacts of point q, from `first` on, what the last iterate remembers of them.
@@ -84,7 +81,6 @@ class SmoothContact {
   double reach_;               // of centrelines within which contacts are kept [m]
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd voronoi_;
-  std::vector<int> points_;   // of integration, of every segment
   Eigen::VectorXd outwards_;  // share of the second difference by which points of a segment stand outwards
   Candidates candidates_;
   std::vector<ContactPoint> contacts_;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/machine/sample.hpp"
 
 namespace knot_utm {
@@ -13,6 +14,7 @@ struct RunFacts {
   std::string reason;                 ///< one line; empty: as programmed
   std::vector<std::string> warnings;  ///< one line each, beside those that follow from the results
   double preload = Sample::kNone;     ///< F_p [N]; NaN: nothing was tied
+  ReadingErrors errors;               ///< of the readings, as fractions of them
   double wall_time = 0.0;             ///< [s]
   std::uint64_t peak_memory = 0;      ///< of the process [bytes]
   unsigned seed = 0;                  ///< of the load cell's noise

@@ -48,6 +48,9 @@ class RunWriter {
   CurveWriter full_curve_;
 };
 
+/// One line where the plateau force may be off by more than a tenth; else empty.
+std::string accuracy_warning(const Results& results, const ReadingErrors& errors);
+
 /// result.yaml: the keys in a fixed order, SI units, null for what is not there; warnings of the results first.
 std::string result_yaml(const Results& results, const RunFacts& facts);
 

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <optional>
+
+#include "knot_utm/rod/material.hpp"
+#include "knot_utm/sim/options.hpp"
+#include "knot_utm/specimen/options.hpp"
+
+namespace knot_utm {
+
+/// What an accuracy stands for, with every tolerance that the method sets beside it.
+struct Tolerances {
+  double longest_step;       ///< [s]
+  double residual;           ///< [k_b/h^2]
+  double contact_tolerance;  ///< delta [h]
+  double presliding;         ///< xi_s [h]
+  double refinement;         ///< edges in knots are shorter by this factor [-]
+};
+
+Tolerances tolerances(const PhysicsOptions& physics, const SpecimenOptions& specimen);
+
+/// How far readings may lie from those of ever finer tolerances, as fractions of the readings. Empty: no study says.
+struct ReadingErrors {
+  std::optional<double> plateau_force;
+  std::optional<double> lock_extension;
+  std::optional<double> locked_stiffness;
+};
+
+/// With edges of l in the knots, contact tolerance delta, presliding xi_s, longest step dt, and the pre-load in units
+/// of bending, P = F_p h^2/k_b:
+///
+///     plateau    (0.01 + 0.0025 P) (2 l/h)^2 + (0.01 + 0.0035 P) delta/0.02h + 0.01 xi_s/0.002h + 0.005 dt/0.17s
+///     lock       0.004 + 0.006 (2 l/h)^2 + 0.002 dt/0.17s
+///     stiffness  0.01 + 0.015 (2 l/h)^2
+///
+/// The powers are the orders of the method; the factors bound what `scripts/bench convergence` measured when each
+/// tolerance was halved, for fisherman's knots of pre-loads of 4 to 120 k_b/h^2, with contact `smooth` and friction
+/// `memory`. A straight rod's stiffness is exact but for the residual.
+ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const PhysicsOptions& physics);
+
+}  // namespace knot_utm

@@ -1,0 +1,44 @@
+#include "knot_utm/machine/accuracy.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr Tolerances kDraft{0.34, 1e-4, 0.04, 4e-3, 1.5};
+constexpr Tolerances kNormal{0.17, 2e-5, 0.02, 2e-3, 2.0};
+constexpr Tolerances kFine{0.05, 1e-5, 0.01, 1e-3, 3.0};
+
+}  // namespace
+
+Tolerances tolerances(const PhysicsOptions& physics, const SpecimenOptions& specimen) {
+  Tolerances out = physics.accuracy == Accuracy::kDraft    ? kDraft
+                   : physics.accuracy == Accuracy::kNormal ? kNormal
+                                                           : kFine;
+  out.longest_step = physics.max_step.value_or(out.longest_step);
+  out.residual = physics.residual.value_or(out.residual);
+  out.contact_tolerance = physics.contact_tolerance.value_or(out.contact_tolerance);
+  out.presliding = physics.presliding.value_or(out.presliding);
+  out.refinement = specimen.refinement.value_or(out.refinement);
+  return out;
+}
+
+ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const PhysicsOptions& physics) {
+  ReadingErrors out;
+  if (specimen.knot == KnotKind::kStraight) out.locked_stiffness = 1e-3;
+  const bool studied = specimen.knot == KnotKind::kFisherman && specimen.to_be_tied &&
+                       physics.contact_law == ContactLaw::kSmooth && physics.friction_law == FrictionLaw::kMemory;
+  if (!studied) return out;
+  const Tolerances tolerance = tolerances(physics, specimen);
+  const double h = material.radius;
+  const double edges = 2.0 * specimen.edge_length / (tolerance.refinement * h);
+  const double preload = specimen.preload.value_or(default_preload(material)) * h * h / material.bending_stiffness;
+  const double step = tolerance.longest_step / kNormal.longest_step;
+  out.plateau_force = (0.01 + 0.0025 * preload) * edges * edges +
+                      (0.01 + 0.0035 * preload) * tolerance.contact_tolerance / kNormal.contact_tolerance +
+                      0.01 * tolerance.presliding / kNormal.presliding + 0.005 * step;
+  out.lock_extension = 0.004 + 0.006 * edges * edges + 0.002 * step;
+  out.locked_stiffness = 0.01 + 0.015 * edges * edges;
+  return out;
+}
+
+}  // namespace knot_utm
