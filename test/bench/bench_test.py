@@ -10,6 +10,7 @@ import unittest
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../bench"))
 
+import convergence  # noqa: E402
 import front  # noqa: E402
 import references  # noqa: E402
 import runs  # noqa: E402
@@ -126,6 +127,106 @@ class Studies(unittest.TestCase):
             rows = [[float(cell) for cell in line.split(",")] for line in text.read().split()[1:]]
         self.assertEqual(len(rows), 7)
         self.assertEqual({round(b[2] - a[2], 9) for a, b in zip(rows, rows[1:])}, {round(0.5 * scaling.ROOM, 9)})
+
+
+class FakeRunner:
+    """Runs that read the same wherever they start, but for what `change` does to them: (name, result) -> exit code."""
+
+    def __init__(self, change=lambda name, result: 0):
+        self.change = change
+
+    def run(self, name, settings):
+        run = runs.Run("/nowhere", 2.0, 0, "")
+        run.method = {"material": {"radius": 0.003, "bending_stiffness": 1e-4}}
+        run.result = {"motion_pattern": "sliding", "simulated_time": 60.0, "preload": 50.0, "plateau_force": 6.0,
+                      "plateau_force_sd": 0.3, "lock_extension": 0.08, "locked_stiffness": 2e5, "peak_force": 7e3,
+                      "plateau_force_error": 0.1, "lock_extension_error": 1e-3, "locked_stiffness_error": 1e3}
+        run.settings = settings
+        run.exit_code = self.change(name, run.result)
+        return run
+
+
+class Convergence(unittest.TestCase):
+    def report(self, change=lambda name, result: 0, material="polypropylene", seeds=10):
+        return convergence.report(FakeRunner(change), [material], seeds)
+
+    def test_what_nothing_moves_passes(self):
+        self.assertEqual(self.report().failed(), [])
+
+    def test_a_halving_that_moves_the_mean_fails_and_no_other_material_is_gated(self):
+        def change(name, result):
+            result["plateau_force"] *= 1.04 if "/edges_x1_2/" in name else 1.0
+            return 0
+        line, = self.report(change).failed()
+        self.assertIn("edges x1/2: relative change of the plateau force is 0.04", line)
+        self.assertEqual(self.report(change, "nylon").failed(), [])
+
+    def test_what_is_no_halving_is_reported_only(self):
+        def change(name, result):
+            result["lock_extension"] *= 1.5 if "/edges_x3_4/" in name else 1.0
+            return 0
+        self.assertEqual(self.report(change).failed(), [])
+
+    def test_the_ripple_of_the_worst_start_counts(self):
+        def change(name, result):
+            result["plateau_force_sd"] = 0.7 if name.endswith("as_shipped/2") else 0.3
+            return 0
+        self.assertIn("as shipped: ripple", self.report(change).failed()[0])
+
+    def test_a_run_that_failed_is_missing_listed_and_fails_its_cells(self):
+        def change(name, result):
+            result["reason"] = "no more steps"
+            return 1 if name.endswith("presliding_halved/1") else 0
+        report = self.report(change, seeds=3)
+        failed = report.failed()
+        self.assertEqual(len(failed), 4)
+        self.assertTrue(all("presliding halved" in line and "of every start" in line for line in failed))
+        self.assertEqual([row[0] for row in report.tables[-1].rows], ["polypropylene, presliding halved, start 1"])
+        self.assertEqual(report.tables[-1].rows[0][2], [1, "no more steps"])
+
+    def test_a_change_is_over_the_starts_that_both_have(self):
+        self.assertAlmostEqual(convergence.change_of_means([1.1, None, 3.3], [1.0, 9.0, 3.0]), 0.1)
+        self.assertIsNone(convergence.change_of_means([None], [1.0]))
+
+    def test_scatter(self):
+        self.assertAlmostEqual(convergence.scatter([1.0, 2.0, None, 3.0]), 0.5)
+        self.assertIsNone(convergence.scatter([1.0]))
+
+    def test_errors_that_hold_nine_of_ten_differences_pass_and_fewer_fail(self):
+        for outside, passes in ((4, True), (5, False)):  # of 40: four cases of ten starts
+            def change(name, result, outside=outside):
+                if "/draft/" in name and int(name.rsplit("/", 1)[1]) < outside:
+                    result["lock_extension"] += 0.0011
+                return 0
+            failed = self.report(change).failed()
+            self.assertEqual(["lock extension: share within" in line for line in failed], [] if passes else [True])
+
+    def test_a_missing_error_is_not_within(self):
+        def change(name, result):
+            del result["plateau_force_error"]
+            return 0
+        failed = self.report(change).failed()
+        self.assertEqual(len(failed), 2)
+        self.assertIn("plateau force: share within is 0.00", failed[0])
+
+    def test_a_fine_run_has_the_start_and_preload_of_what_it_judges(self):
+        _, cases = convergence.run_all(FakeRunner(), "nylon", 2)
+        self.assertEqual([case.name for case in cases], ["draft", "as shipped", "pre-load x0.7", "pre-load x1.5"])
+        for case in cases:
+            for run, fine in zip(case.starts, case.fine):
+                for key in ("specimen.knot_distance", "specimen.preload"):
+                    self.assertEqual(run.settings.get(key), fine.settings.get(key))
+                self.assertEqual(fine.settings["specimen.refinement"], 4)
+
+    def test_knots_that_do_not_slide_are_judged_by_their_peak(self):
+        def change(name, result):
+            for key in ("plateau_force", "plateau_force_sd", "lock_extension"):
+                result[key] = None
+            return 0
+        report = self.report(change, "pink_vps")
+        self.assertEqual(report.failed(), [])
+        self.assertIn("scatter of the peak force", report.text())
+        self.assertNotIn("lack a reading", report.text())
 
 
 class References(unittest.TestCase):
