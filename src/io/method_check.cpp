@@ -40,6 +40,8 @@ void check_effects(const Method& m) {
   has_effect(loop, "specimen.knot_distance", s.knot_distance, unset.knot_distance, "for knot: fisherman");
   has_effect(loop || overhand, "specimen.end_to_end", s.end_to_end, unset.end_to_end,
              "for knot: fisherman or overhand");
+  has_effect(loop || overhand, "specimen.refinement", s.refinement.value_or(0.0), 0.0,
+             "for knot: fisherman or overhand");
   has_effect(straight || overhand, "specimen.length", s.length, unset.length, "for knot: straight or overhand");
   has_effect(loop, "specimen.tail", s.tail, unset.tail, "for knot: fisherman");
   has_effect(loop, "specimen.preload", s.preload.value_or(0.0), 0.0, "for knot: fisherman, which is tied");

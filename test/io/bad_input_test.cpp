@@ -70,6 +70,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"specimen.preload=-1", "specimen.preload", "-1", "auto, or a number from"},
       {"specimen.preload=much", "specimen.preload", "much", "auto, or a number from"},
       {"specimen.edge_length=0", "specimen.edge_length", "0", "m"},
+      {"specimen.refinement=9", "specimen.refinement", "9", "1 to 8"},
       {"material=rubber", "material", "rubber", "green_vps, nylon, pink_vps, polypropylene"},
       {"material.radius=3.175", "material.radius", "3.175", "0.05 m"},
       {"material.density=-1", "material.density", "-1", "kg/m3"},
