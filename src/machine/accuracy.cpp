@@ -37,7 +37,7 @@ ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& ma
                       (0.01 + 0.0035 * preload) * tolerance.contact_tolerance / kNormal.contact_tolerance +
                       0.01 * tolerance.presliding / kNormal.presliding + 0.005 * step;
   out.lock_extension = 0.004 + 0.006 * edges * edges + 0.002 * step;
-  out.locked_stiffness = 0.01 + 0.015 * edges * edges;
+  out.locked_stiffness = 0.02 + 0.025 * edges * edges;
   return out;
 }
 

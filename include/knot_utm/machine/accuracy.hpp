@@ -31,7 +31,7 @@ struct ReadingErrors {
 ///
 ///     plateau    (0.01 + 0.0025 P) (2 l/h)^2 + (0.01 + 0.0035 P) delta/0.02h + 0.01 xi_s/0.002h + 0.005 dt/0.17s
 ///     lock       0.004 + 0.006 (2 l/h)^2 + 0.002 dt/0.17s
-///     stiffness  0.01 + 0.015 (2 l/h)^2
+///     stiffness  0.02 + 0.025 (2 l/h)^2
 ///
 /// The powers are the orders of the method; the factors bound what `scripts/bench convergence` measured when each
 /// tolerance was halved, for fisherman's knots of pre-loads of 4 to 120 k_b/h^2, with contact `smooth` and friction
