@@ -33,9 +33,10 @@ struct ReadingErrors {
 ///     lock       0.004 + 0.006 (2 l/h)^2 + 0.002 dt/0.17s
 ///     stiffness  0.02 + 0.025 (2 l/h)^2
 ///
-/// The powers are the orders of the method; the factors bound what `scripts/bench convergence` measured when each
-/// tolerance was halved, for fisherman's knots of pre-loads of 4 to 120 k_b/h^2, with contact `smooth` and friction
-/// `memory`. A straight rod's stiffness is exact but for the residual.
+/// The powers are the orders of the method; the factors were chosen after `scripts/bench convergence` for polypropylene
+/// and nylon, P of 3 to 53, contact `smooth` and friction `memory`. Other knots, materials and pre-loads have not been
+/// checked. The 0.1 % for a straight rod, whose stiffness is exact but for the residual, is an upper bound by
+/// judgement.
 ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const PhysicsOptions& physics);
 
 }  // namespace knot_utm

@@ -29,7 +29,7 @@ inline double default_preload(const Material& material) {
 }
 
 /// Contact stiffness K that `auto` stands for [N/m^2]: the material's own, else 300 k_b/h^4: where strands are pressed
-/// together by k_b/h^2 on a radius of rod, they then overlap by 1.5 % of it.
+/// together by k_b/h^2 on a radius of rod, they then overlap by 0.3 % of it.
 inline double default_contact_stiffness(const Material& material) {
   const double h2 = material.radius * material.radius;
   return material.contact_stiffness.value_or(300.0 * material.bending_stiffness / (h2 * h2));

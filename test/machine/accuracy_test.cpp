@@ -1,0 +1,60 @@
+#include "knot_utm/machine/accuracy.hpp"
+
+#include <gtest/gtest.h>
+
+namespace knot_utm {
+namespace {
+
+struct Loop {
+  SpecimenOptions specimen;
+  Material material;
+  PhysicsOptions physics;
+
+  Loop() {
+    specimen.to_be_tied = true;
+    material.radius = 3e-3;
+    material.bending_stiffness = 1e-4;
+  }
+  ReadingErrors errors() const { return reading_errors(specimen, material, physics); }
+};
+
+TEST(ReadingErrors, FallWithTheAccuracy) {
+  Loop loop;
+  loop.physics.accuracy = Accuracy::kDraft;
+  const ReadingErrors draft = loop.errors();
+  loop.physics.accuracy = Accuracy::kNormal;
+  const ReadingErrors normal = loop.errors();
+  loop.physics.accuracy = Accuracy::kFine;
+  const ReadingErrors fine = loop.errors();
+  for (const auto reading :
+       {&ReadingErrors::plateau_force, &ReadingErrors::lock_extension, &ReadingErrors::locked_stiffness}) {
+    EXPECT_GT((draft.*reading).value(), (normal.*reading).value());
+    EXPECT_GT((normal.*reading).value(), (fine.*reading).value());
+    EXPECT_GT((fine.*reading).value(), 0.0);
+  }
+}
+
+TEST(ReadingErrors, GrowWithEdgesToleranceAndPreload) {
+  const double plain = Loop().errors().plateau_force.value();
+  Loop coarse, soft, hard;
+  coarse.specimen.edge_length *= 1.5;
+  soft.physics.contact_tolerance = 0.1;
+  hard.specimen.preload = 10.0 * default_preload(hard.material);
+  for (const Loop& loop : {coarse, soft, hard}) EXPECT_GT(loop.errors().plateau_force.value(), plain);
+}
+
+TEST(ReadingErrors, AreNotGivenWhereNoStudySays) {
+  Loop edge, smoothed, untied, overhand;
+  edge.physics.contact_law = ContactLaw::kEdge;
+  smoothed.physics.friction_law = FrictionLaw::kSmoothed;
+  untied.specimen.to_be_tied = false;
+  overhand.specimen.knot = KnotKind::kOverhand;
+  for (const Loop& loop : {edge, smoothed, untied, overhand}) {
+    EXPECT_FALSE(loop.errors().plateau_force);
+    EXPECT_FALSE(loop.errors().lock_extension);
+    EXPECT_FALSE(loop.errors().locked_stiffness);
+  }
+}
+
+}  // namespace
+}  // namespace knot_utm
