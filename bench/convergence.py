@@ -11,14 +11,15 @@ MATERIALS = ["nylon", "polypropylene", "pink_vps", "green_vps"]
 KNOT_DISTANCE, SHIFT = 0.15, 0.00037  # [m] of the first start, and from one start to the next
 CONTACT_STIFFNESS = 300.0             # [k_b/h^4] what `material.contact_stiffness: auto` stands for
 SHIPPED, DRAFT = "as shipped", "draft"
+EDGE, STEP, CONTACT_TOLERANCE, PRESLIDING = 0.0032, 0.17, 0.02, 2e-3  # as shipped and of `normal` [m, s, h, h]
 HALVINGS = {
-    "edges x1/2": {"specimen.edge_length": 0.0016},
-    "longest step halved": {"physics.max_step": 0.085},
-    "contact tolerance halved": {"physics.contact.tolerance": 0.006},
-    "presliding halved": {"physics.friction.presliding": 1e-3},
+    "edges x1/2": {"specimen.edge_length": EDGE / 2},
+    "longest step halved": {"physics.max_step": STEP / 2},
+    "contact tolerance halved": {"physics.contact.tolerance": CONTACT_TOLERANCE / 2},
+    "presliding halved": {"physics.friction.presliding": PRESLIDING / 2},
 }
 VARIANTS = {
-    "edges x3/4": {"specimen.edge_length": 0.0024},
+    "edges x3/4": {"specimen.edge_length": 0.75 * EDGE},
     **HALVINGS,
     "residual /10": {"physics.residual": 2e-6},
     DRAFT: {"physics.accuracy": "draft"},

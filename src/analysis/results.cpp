@@ -1,6 +1,7 @@
 #include "knot_utm/analysis/results.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace knot_utm {
@@ -32,6 +33,33 @@ Plateau plateau_between(const std::vector<Pull>& pull, double low, double high) 
   return plateau;
 }
 
+/// Least-squares slope of F over s between two extensions, F being straight from sample to sample.
+double slope_between(const std::vector<Pull>& pull, double low, double high) {
+  const double length = high - low, middle = 0.5 * (low + high);
+  double moment = 0.0;  // integral of F (s - middle) ds
+  for (std::size_t i = 1; i < pull.size(); ++i) {
+    const Pull &a = pull[i - 1], &b = pull[i];
+    const double from = std::max(a.extension, low), width = std::min(b.extension, high) - from;
+    if (!(width > 0.0)) continue;
+    const double slope = (b.force - a.force) / (b.extension - a.extension);
+    const double arm = from - middle, force = a.force + slope * (from - a.extension);
+    moment += width * (force * (arm + width / 2.0) + slope * width * (arm / 2.0 + width / 3.0));
+  }
+  return 12.0 * moment / (length * length * length);
+}
+
+/// The middle one of the slopes in three parts of equal length. Strands that slip inside a locked knot let the force
+/// fall at one place; that is no slope of the rod.
+double middle_slope(const std::vector<Pull>& pull, double low, double high) {
+  std::array<double, 3> slope;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const double part = (high - low) / 3.0, from = low + static_cast<double>(k) * part;
+    slope[k] = slope_between(pull, from, from + part);
+  }
+  std::sort(slope.begin(), slope.end());
+  return slope[1];
+}
+
 std::optional<double> locked_stiffness(const std::vector<Pull>& pull, double from, double peak) {
   std::size_t end = 0;
   while (end < pull.size() && pull[end].force < peak) ++end;
@@ -41,18 +69,7 @@ std::optional<double> locked_stiffness(const std::vector<Pull>& pull, double fro
     --begin;
   }
   if (end < begin + 3) return {};
-  double count = 0.0, s = 0.0, f = 0.0;
-  for (std::size_t i = begin; i < end; ++i) {
-    count += 1.0;
-    s += pull[i].extension;
-    f += pull[i].force;
-  }
-  double ss = 0.0, sf = 0.0;
-  for (std::size_t i = begin; i < end; ++i) {
-    ss += std::pow(pull[i].extension - s / count, 2);
-    sf += (pull[i].extension - s / count) * (pull[i].force - f / count);
-  }
-  return sf / ss;
+  return middle_slope(pull, pull[begin].extension, pull[end - 1].extension);
 }
 
 /// Of the pull until the knots lock; to its end where they never do [m/s].

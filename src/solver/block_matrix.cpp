@@ -10,6 +10,45 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
+/// Two lower blocks of a pivot, kept in registers while they meet all of its upper blocks: each entry of those is then
+/// read once for both.
+template <int D>
+class RowPair {
+ public:
+  RowPair(const Block<D>& a, const Block<D>& b)
+      : a0_(a.column[0]),
+        a1_(a.column[1]),
+        a2_(a.column[2]),
+        a3_(a.column[D - 1]),
+        b0_(b.column[0]),
+        b1_(b.column[1]),
+        b2_(b.column[2]),
+        b3_(b.column[D - 1]) {}
+
+  /// c_a -= a u, c_b -= b u
+  void subtract_products(Block<D>& c_a, Block<D>& c_b, const Block<D>& u) const {
+    for (int j = 0; j < D; ++j) {
+      const double* entry = reinterpret_cast<const double*>(&u.column[j]);
+      Lanes sum_a = c_a.column[j], sum_b = c_b.column[j];
+      sum_a -= a0_ * entry[0];
+      sum_b -= b0_ * entry[0];
+      sum_a -= a1_ * entry[1];
+      sum_b -= b1_ * entry[1];
+      sum_a -= a2_ * entry[2];
+      sum_b -= b2_ * entry[2];
+      if constexpr (D == 4) {
+        sum_a -= a3_ * entry[3];
+        sum_b -= b3_ * entry[3];
+      }
+      c_a.column[j] = sum_a;
+      c_b.column[j] = sum_b;
+    }
+  }
+
+ private:
+  Lanes a0_, a1_, a2_, a3_, b0_, b1_, b2_, b3_;
+};
+
 }  // namespace
 
 void BlockPattern::find_neighbours(int nodes, const std::vector<std::pair<int, int>>& pairs) {
@@ -196,11 +235,15 @@ bool BlockMatrix<D>::factor() {
     own[0] = inverse;
     const int count = pattern_->below(k);
     const int* target = pattern_->targets(k);
-    for (int a = 0; a < count; ++a) {
-      Block<D>& lower = own[1 + 2 * a];
-      lower = product(lower, inverse);
-      for (int b = 0; b < count; ++b) subtract_product(values_[at(*target++)], lower, own[2 + 2 * b]);
+    for (int a = 0; a < count; ++a) own[1 + 2 * a] = product(own[1 + 2 * a], inverse);
+    int a = 0;
+    for (; a + 1 < count; a += 2, target += 2 * count) {
+      const RowPair<D> lower(own[1 + 2 * a], own[3 + 2 * a]);
+      for (int b = 0; b < count; ++b)
+        lower.subtract_products(values_[at(target[b])], values_[at(target[count + b])], own[2 + 2 * b]);
     }
+    if (a == count) continue;
+    for (int b = 0; b < count; ++b) subtract_product(values_[at(target[b])], own[1 + 2 * a], own[2 + 2 * b]);
   }
   return true;
 }

@@ -122,6 +122,33 @@ TEST(MotionPattern, StretchingFromTheStart) {
   }
 }
 
+TEST(LockedStiffness, DoesNotSeeASlipInsideTheLock) {
+  Curve curve;
+  curve.step = 1e-4;
+  std::vector<Sample> samples = curve.samples();
+  double peak = 0.0;
+  for (const Sample& sample : samples) peak = std::max(peak, sample.force_upper);
+  const double whole = *analyse(samples, EndedBy::kExtension).locked_stiffness;
+  for (Sample& sample : samples) {
+    if (sample.force_upper < 0.75 * peak) continue;
+    sample.force_upper -= 0.03 * peak;
+    sample.force_lower -= 0.03 * peak;
+  }
+  // One part in three holds the slip, and is left out.
+  EXPECT_NEAR(*analyse(samples, EndedBy::kExtension).locked_stiffness, whole, 2e-3 * whole);
+}
+
+TEST(LockedStiffness, DoesNotDependOnWhereTheStepsAreShort) {
+  Curve curve;
+  curve.step = 1e-4;
+  const std::vector<Sample> fine = curve.samples();
+  std::vector<Sample> sparse;  // ten times as long beyond three quarters of the extension
+  for (std::size_t i = 0; i < fine.size(); ++i)
+    if (4 * i < 3 * fine.size() || i % 10 == 0 || i + 1 == fine.size()) sparse.push_back(fine[i]);
+  const double whole = *analyse(fine, EndedBy::kExtension).locked_stiffness;
+  EXPECT_NEAR(*analyse(sparse, EndedBy::kExtension).locked_stiffness, whole, 2e-3 * whole);
+}
+
 TEST(MotionPattern, UntanglingWhenKnotsOpenAfterBreakaway) {
   Curve curve;
   curve.lock = 0.2;

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numeric>
 #include <vector>
 
@@ -67,6 +68,18 @@ TEST(StepControl, EndsExactlyAtTheEndWithoutASliver) {
   EXPECT_EQ(run.time, 0.25);
   ASSERT_EQ(run.taken.size(), 3u);
   for (const double dt : run.taken) EXPECT_NEAR(dt, 0.25 / 3.0, 1e-15);
+}
+
+TEST(StepControl, BeginsWithTheFirstStepAndGrowsFromIt) {
+  StepControl::Options from = options();
+  from.first = 0.001;
+  StepControl control(from);
+  ScriptedStep step;
+  const Outcome run = advance(control, step, 1.0);
+  EXPECT_NEAR(run.taken.front(), 0.001, 1e-6);
+  EXPECT_GT(run.taken[1], run.taken[0]);
+  EXPECT_NEAR(*std::max_element(run.taken.begin(), run.taken.end()), 0.1, 0.01);
+  EXPECT_EQ(control.counters().rejected, 0u);
 }
 
 TEST(StepControl, HalvesAStepThatWasNotAccepted) {

@@ -30,8 +30,9 @@ struct Results {
   std::optional<double> breakaway_force;  ///< sliding only: largest F up to 0.3 of s_l [N]
   std::optional<double> lock_extension;   ///< s_l, where sliding turned into stretching [m]
 
-  /// Least-squares slope of F(s) where the rod carries the load: over the samples after s_l (stretching: all), up to
-  /// the peak, whose F lies between half the peak and the peak; at least the last three. [N/m]
+  /// Slope of F(s) where the rod carries the load: over the samples after s_l (stretching: all), up to the peak, whose
+  /// F lies between half the peak and the peak, at least the last three. The middle one of the least-squares slopes in
+  /// three parts of equal extension: strands that slip inside a locked knot let F fall at one place. [N/m]
   std::optional<double> locked_stiffness;
   std::optional<double> peak_force;       ///< largest F of the pull [N]
   std::optional<double> balance_offset;   ///< F that the cell reads as zero, once the pull begins [N]

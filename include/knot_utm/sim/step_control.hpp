@@ -14,6 +14,7 @@ class StepControl {
  public:
   struct Options {
     double longest = 0.1;      ///< [s]
+    double first = 0.1;        ///< what is tried first [s]
     double shortest = 1e-7;    ///< below it the run gives up [s]
     double motion = 0.0;       ///< movement of the fastest node in a step that is aimed at [m]
     int easy_iterations = 6;   ///< up to here the next step may be longer
@@ -23,7 +24,7 @@ class StepControl {
     std::uint64_t steps = 0, rejected = 0, iterations = 0;
   };
 
-  explicit StepControl(const Options& options) : options_(options), next_(options.longest) {}
+  explicit StepControl(const Options& options) : options_(options), next_(options.first) {}
 
   /// Boundary as it stands at the end of a step from the first time to the second.
   using BoundaryAt = std::function<const Boundary&(double from, double to)>;
