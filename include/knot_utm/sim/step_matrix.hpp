@@ -58,6 +58,7 @@ class StepMatrix {
   bool find(const std::vector<ContactPoint>& contacts);
   bool look_up(Located& contact) const;
   void build(const std::vector<ContactPoint>& contacts);
+  void find_stencils();
 
   int nodes_;
   BlockPattern pattern_;

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -40,16 +39,22 @@ class BlockPattern {
  private:
   /// What a build works with; its contents mean nothing afterwards.
   struct Workspace {
-    std::vector<std::int64_t> keys;
     std::vector<int> begin, list;  // neighbours of every node, sorted, as compressed rows
-    std::vector<int> order;        // elimination position -> node
-    std::vector<int> first_child, next_sibling, seen;
+    std::vector<int> sorted;
+    std::vector<int> order;  // elimination position -> node
+    std::vector<int> parent, seen;
     std::vector<int> filled;
     std::vector<int> rows, row_begin, row_length, next, head, element, degree, mark;  // as amd_2 takes them
   };
 
   void find_neighbours(int nodes, const std::vector<std::pair<int, int>>& pairs);
   void order_nodes(int nodes);
+  /// Calls visit(k) for every pivot k that touches `row`: the earlier neighbours of the row and all that follows from
+  /// them up the elimination tree, which grows on the way (Liu 1990).
+  template <typename Visit>
+  void climb(int row, Visit visit);
+  void find_rows(int nodes);
+  void find_targets(int nodes);
 
   Workspace work_;
   int blocks_ = 0;
