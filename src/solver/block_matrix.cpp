@@ -44,20 +44,36 @@ void BlockPattern::find_neighbours(int nodes, const std::vector<std::pair<int, i
   }
 }
 
-void BlockPattern::order_nodes(int nodes) {
+void BlockPattern::order_set(int set) {
   // amd_order would take its workspace from the heap at every call; this is what it makes of a symmetric pattern
   // whose rows are sorted and hold no diagonal, with the room that it leaves for elements.
   Workspace& w = work_;
-  const int entries = static_cast<int>(w.list.size()), room = entries + entries / 5 + nodes;
+  const int* node = sets_.begin(set);
+  const int nodes = static_cast<int>(sets_.end(set) - node);
+  for (int i = 0; i < nodes; ++i) w.filled[at(node[i])] = i;  // the number of a node within its set
+  w.rows.clear();
+  w.row_begin.clear();
+  w.row_length.clear();
+  for (int i = 0; i < nodes; ++i) {
+    w.row_begin.push_back(static_cast<int>(w.rows.size()));
+    for (int a = w.begin[at(node[i])]; a < w.begin[at(node[i]) + 1]; ++a)
+      if (sets_.of(w.list[at(a)]) == set) w.rows.push_back(w.filled[at(w.list[at(a)])]);
+    w.row_length.push_back(static_cast<int>(w.rows.size()) - w.row_begin.back());
+  }
+  const int entries = static_cast<int>(w.rows.size()), room = entries + entries / 5 + nodes;
   w.rows.resize(at(room));
-  std::copy(w.list.begin(), w.list.end(), w.rows.begin());
-  w.row_begin.assign(w.begin.begin(), w.begin.end() - 1);
-  w.row_length.resize(at(nodes));
-  for (int i = 0; i < nodes; ++i) w.row_length[at(i)] = w.begin[at(i) + 1] - w.begin[at(i)];
-  for (std::vector<int>* each : {&w.filled, &w.next, &w.order, &w.head, &w.element, &w.degree, &w.mark})
+  for (std::vector<int>* each : {&w.size, &w.next, &w.last, &w.head, &w.element, &w.degree, &w.mark})
     each->resize(at(nodes));
-  amd_2(nodes, w.row_begin.data(), w.rows.data(), w.row_length.data(), room, entries, w.filled.data(), w.next.data(),
-        w.order.data(), w.head.data(), w.element.data(), w.degree.data(), w.mark.data(), nullptr, nullptr);
+  amd_2(nodes, w.row_begin.data(), w.rows.data(), w.row_length.data(), room, entries, w.size.data(), w.next.data(),
+        w.last.data(), w.head.data(), w.element.data(), w.degree.data(), w.mark.data(), nullptr, nullptr);
+  for (const int i : w.last) w.order.push_back(node[i]);
+}
+
+void BlockPattern::order_nodes(int nodes) {
+  sets_.build(work_.begin, work_.list);
+  work_.filled.resize(at(nodes));
+  work_.order.clear();
+  for (int set = 0; set < sets_.count(); ++set) order_set(set);
 }
 
 template <typename Visit>
