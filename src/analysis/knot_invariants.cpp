@@ -5,95 +5,11 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "knot_utm/analysis/crossings.hpp"
+#include "knot_utm/analysis/modular.hpp"
+
 namespace knot_utm {
 namespace {
-
-/// Integers modulo the Mersenne prime 2^61 - 1.
-namespace modular {
-
-constexpr std::uint64_t kPrime = (std::uint64_t{1} << 61) - 1;
-__extension__ using Wide = unsigned __int128;
-
-std::uint64_t add(std::uint64_t a, std::uint64_t b) {
-  const std::uint64_t sum = a + b;
-  return sum >= kPrime ? sum - kPrime : sum;
-}
-
-std::uint64_t subtract(std::uint64_t a, std::uint64_t b) { return a >= b ? a - b : a + kPrime - b; }
-
-std::uint64_t multiply(std::uint64_t a, std::uint64_t b) {
-  const Wide product = static_cast<Wide>(a) * b;
-  return add(static_cast<std::uint64_t>(product & kPrime), static_cast<std::uint64_t>(product >> 61));
-}
-
-std::uint64_t inverse(std::uint64_t a) {
-  std::uint64_t result = 1;
-  for (std::uint64_t exponent = kPrime - 2; exponent > 0; exponent >>= 1) {
-    if (exponent & 1) result = multiply(result, a);
-    a = multiply(a, a);
-  }
-  return result;
-}
-
-/// Determinant of a square matrix given by rows, which it destroys.
-std::uint64_t determinant(std::vector<std::vector<std::uint64_t>>& rows) {
-  std::uint64_t result = 1;
-  const std::size_t n = rows.size();
-  for (std::size_t column = 0; column < n; ++column) {
-    std::size_t pivot = column;
-    while (pivot < n && rows[pivot][column] == 0) ++pivot;
-    if (pivot == n) return 0;
-    if (pivot != column) {
-      std::swap(rows[pivot], rows[column]);
-      result = subtract(0, result);
-    }
-    result = multiply(result, rows[column][column]);
-    const std::uint64_t scale = inverse(rows[column][column]);
-    for (std::size_t row = column + 1; row < n; ++row) {
-      if (rows[row][column] == 0) continue;
-      const std::uint64_t factor = multiply(rows[row][column], scale);
-      for (std::size_t k = column; k < n; ++k) {
-        if (rows[column][k] != 0) rows[row][k] = subtract(rows[row][k], multiply(factor, rows[column][k]));
-      }
-    }
-  }
-  return result;
-}
-
-/// Coefficients of the polynomial of degree below values.size() with value values[i] at t = i + 1.
-std::vector<std::uint64_t> interpolate(std::vector<std::uint64_t> values) {
-  const std::size_t n = values.size();
-  for (std::size_t order = 1; order < n; ++order) {
-    const std::uint64_t scale = inverse(order);  // the places are `order` apart
-    for (std::size_t i = n - 1; i >= order; --i) values[i] = multiply(subtract(values[i], values[i - 1]), scale);
-  }
-  std::vector<std::uint64_t> result(n, 0);
-  for (std::size_t i = n; i-- > 0;) {
-    // result = result * (t - (i + 1)) + values[i]
-    for (std::size_t k = n - 1; k > 0; --k) {
-      result[k] = subtract(result[k - 1], multiply(result[k], static_cast<std::uint64_t>(i + 1)));
-    }
-    result[0] = subtract(values[i], multiply(result[0], static_cast<std::uint64_t>(i + 1)));
-  }
-  return result;
-}
-
-}  // namespace modular
-
-using Vec2 = Eigen::Vector2d;
-
-/// Whether c lies to the left of the line from a to b, or on it. Each pair of segments that shares a point asks the
-/// same about it, so that a crossing at a node is seen once and not twice or never.
-bool left_of(const Vec2& a, const Vec2& b, const Vec2& c) {
-  return (b.x() - a.x()) * (c.y() - a.y()) - (b.y() - a.y()) * (c.x() - a.x()) >= 0.0;
-}
-
-/// A place where two segments cross in projection.
-struct Crossing {
-  Eigen::Index over, under;              ///< segments
-  double over_fraction, under_fraction;  ///< places on them
-  bool positive;
-};
 
 /// A rotation whose third row is the viewing direction; the nth of a fixed, generic set.
 Mat3 generic_view(int n) {
@@ -110,63 +26,22 @@ Mat3 generic_view(int n) {
   return rotation;
 }
 
-/// Segments of a closed polygon as seen from a viewing direction, with their bounds.
-struct View {
-  View(const Points& polygon, const Mat3& rotation) : points(rotation * polygon), n(polygon.cols()) {
-    low.resize(2, n);
-    high.resize(2, n);
-    for (Eigen::Index i = 0; i < n; ++i) {
-      low.col(i) = at(i).cwiseMin(at(i + 1));
-      high.col(i) = at(i).cwiseMax(at(i + 1));
-    }
+/// What the relation of a crossing holds at t, except in the last column.
+modular::Row relation(const Crossing& crossing, std::size_t k, std::size_t over_arc, std::size_t n, std::uint64_t t) {
+  const std::size_t in = crossing.positive ? k : k + 1, out = crossing.positive ? k + 1 : k;
+  modular::Row terms = {{over_arc, modular::subtract(1, t)}, {in, t}, {out, modular::subtract(0, 1)}};
+  std::sort(terms.begin(), terms.end(), [](const auto& a, const auto& b) { return a.column < b.column; });
+  modular::Row row;
+  for (const modular::Entry& term : terms) {
+    if (term.column + 1 == n) continue;
+    if (!row.empty() && row.back().column == term.column)
+      row.back().value = modular::add(row.back().value, term.value);
+    else
+      row.push_back(term);
   }
-  Vec2 at(Eigen::Index i) const { return points.col(i == n ? 0 : i).head<2>(); }
-  double depth(Eigen::Index segment, double fraction) const {
-    const double a = points(2, segment);
-    const double b = points(2, segment + 1 == n ? 0 : segment + 1);
-    return a + fraction * (b - a);
-  }
-
-  Points points;
-  Eigen::Index n;
-  Eigen::Matrix2Xd low, high;
-};
-
-/// Calls visit(crossing, first is over) where segment i of one view crosses segment j of another.
-template <typename Visit>
-void cross(const View& first, Eigen::Index i, const View& second, Eigen::Index j, Visit visit) {
-  if (first.low(0, i) > second.high(0, j) || second.low(0, j) > first.high(0, i) ||
-      first.low(1, i) > second.high(1, j) || second.low(1, j) > first.high(1, i)) {
-    return;
-  }
-  const Vec2 a = first.at(i);
-  const Vec2 b = first.at(i + 1);
-  const Vec2 c = second.at(j);
-  const Vec2 d = second.at(j + 1);
-  const bool to_left = left_of(a, b, d);
-  if (left_of(a, b, c) == to_left || left_of(c, d, a) == left_of(c, d, b)) return;
-  const Vec2 u = b - a;
-  const Vec2 v = d - c;
-  const Vec2 w = c - a;
-  const double area = u.x() * v.y() - u.y() * v.x();
-  const double s = std::clamp((w.x() * v.y() - w.y() * v.x()) / area, 0.0, 1.0);
-  const double t = std::clamp((w.x() * u.y() - w.y() * u.x()) / area, 0.0, 1.0);
-  const bool first_over = first.depth(i, s) > second.depth(j, t);
-  // Positive: turning the upper strand to the left brings it onto the lower one.
-  const bool positive = to_left == first_over;
-  visit(first_over ? Crossing{i, j, s, t, positive} : Crossing{j, i, t, s, positive}, first_over);
-}
-
-std::vector<Crossing> crossings_of(const Points& polygon, const Mat3& rotation) {
-  const View view(polygon, rotation);
-  std::vector<Crossing> crossings;
-  for (Eigen::Index i = 0; i < view.n; ++i) {
-    const Eigen::Index last = i == 0 ? view.n - 1 : view.n;
-    for (Eigen::Index j = i + 2; j < last; ++j) {
-      cross(view, i, view, j, [&](const Crossing& crossing, bool) { crossings.push_back(crossing); });
-    }
-  }
-  return crossings;
+  row.erase(std::remove_if(row.begin(), row.end(), [](const modular::Entry& entry) { return entry.value == 0; }),
+            row.end());
+  return row;
 }
 
 /// Empty where the crossings are not those of a knot.
@@ -187,17 +62,9 @@ KnotPolynomial polynomial_of(std::vector<Crossing> crossings) {
   }
   std::vector<std::uint64_t> values;
   for (std::uint64_t t = 1; t <= n; ++t) {
-    std::vector<std::vector<std::uint64_t>> rows(n - 1, std::vector<std::uint64_t>(n, 0));
-    for (std::size_t k = 0; k + 1 < n; ++k) {
-      std::vector<std::uint64_t>& row = rows[k];
-      const std::size_t in = crossings[k].positive ? k : k + 1;
-      const std::size_t out = crossings[k].positive ? k + 1 : k;
-      row[over_arc[k]] = modular::add(row[over_arc[k]], modular::subtract(1, t));
-      row[in] = modular::add(row[in], t);
-      row[out] = modular::subtract(row[out], 1);
-    }
-    for (auto& row : rows) row.pop_back();
-    values.push_back(modular::determinant(rows));
+    std::vector<modular::Row> rows;
+    for (std::size_t k = 0; k + 1 < n; ++k) rows.push_back(relation(crossings[k], k, over_arc[k], n, t));
+    values.push_back(modular::determinant(std::move(rows)));
   }
   KnotPolynomial coefficients;
   std::int64_t sum = 0;
@@ -251,17 +118,9 @@ std::int64_t knot_determinant(const KnotPolynomial& polynomial) {
 }
 
 int linking_number(const Points& first, const Points& second) {
-  const Mat3 rotation = generic_view(0);
-  const View a(first, rotation);
-  const View b(second, rotation);
   int over = 0;  // the crossings where the first lies over the second already count the linking number
-  for (Eigen::Index i = 0; i < a.n; ++i) {
-    for (Eigen::Index j = 0; j < b.n; ++j) {
-      cross(a, i, b, j, [&](const Crossing& crossing, bool first_over) {
-        if (first_over) over += crossing.positive ? 1 : -1;
-      });
-    }
-  }
+  for (const Crossing& crossing : crossings_between(first, second, generic_view(0)))
+    if (crossing.first_over) over += crossing.positive ? 1 : -1;
   return over;
 }
 

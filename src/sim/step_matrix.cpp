@@ -1,6 +1,7 @@
 #include "knot_utm/sim/step_matrix.hpp"
 
 #include <algorithm>
+#include <tuple>
 
 namespace knot_utm {
 
@@ -44,6 +45,7 @@ void StepMatrix<D>::build(const std::vector<ContactPoint>& contacts) {
   for (int i = 0; i + 1 < nodes_; ++i) pairs_.push_back({i, i + 1});
   for (int i = 0; i + 2 < nodes_; ++i) pairs_.push_back({i, i + 2});
   for (const ContactPoint& contact : contacts) {
+    if (!contact.active() && contact.overlap < 2.0 * contact.begins) continue;
     // A foot slides on to the segment that it is nearer to.
     const bool backwards = contact.c[3] < contact.c[5];
     const int first = std::max(contact.b0 - (backwards ? 1 : 0), 0);
@@ -54,12 +56,27 @@ void StepMatrix<D>::build(const std::vector<ContactPoint>& contacts) {
   }
   pattern_.build(nodes_, pairs_);
   matrix_.set_pattern(pattern_);
+  find_stencils();
+}
+
+template <int D>
+void StepMatrix<D>::find_stencils() {
   stencils_.resize(static_cast<std::size_t>(nodes_));
-  for (int i = 0; i < nodes_; ++i)
-    for (int k = 0; k < 3; ++k)
-      for (int l = 0; l < 3; ++l)
-        stencils_[static_cast<std::size_t>(i)][static_cast<std::size_t>(3 * k + l)] =
-            std::max(k, l) + i < nodes_ ? pattern_.index(i + k, i + l) : -1;
+  // What node i shares with the next one stands in both stencils.
+  for (int i = nodes_ - 1; i >= 0; --i) {
+    Stencil& here = stencils_[static_cast<std::size_t>(i)];
+    here.fill(-1);
+    here[0] = pattern_.diagonal(pattern_.position(i));
+    if (i + 1 == nodes_) continue;
+    const Stencil& next = stencils_[static_cast<std::size_t>(i) + 1];
+    std::tie(here[1], here[3]) = pattern_.indices(i, i + 1);
+    here[4] = next[0];
+    if (i + 2 == nodes_) continue;
+    std::tie(here[2], here[6]) = pattern_.indices(i, i + 2);
+    here[5] = next[1];
+    here[7] = next[3];
+    here[8] = next[4];
+  }
 }
 
 template <int D>

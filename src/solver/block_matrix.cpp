@@ -3,6 +3,8 @@
 #include <suitesparse/amd.h>
 
 #include <algorithm>
+#include <cstring>
+#include <type_traits>
 
 namespace knot_utm {
 
@@ -52,114 +54,144 @@ class RowPair {
 }  // namespace
 
 void BlockPattern::find_neighbours(int nodes, const std::vector<std::pair<int, int>>& pairs) {
-  std::vector<std::int64_t>& keys = work_.keys;
-  std::vector<int>&begin = work_.begin, &list = work_.list;
-  keys.clear();
+  Workspace& w = work_;
+  w.row_begin.assign(at(nodes) + 1, 0);
   for (const auto& [i, j] : pairs) {
-    keys.push_back(static_cast<std::int64_t>(i) * nodes + j);
-    keys.push_back(static_cast<std::int64_t>(j) * nodes + i);
+    ++w.row_begin[at(i) + 1];
+    ++w.row_begin[at(j) + 1];
   }
-  std::sort(keys.begin(), keys.end());
-  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
-  begin.assign(at(nodes) + 1, 0);
-  list.clear();
-  for (const std::int64_t key : keys) {
-    ++begin[static_cast<std::size_t>(key / nodes) + 1];
-    list.push_back(static_cast<int>(key % nodes));
+  for (int i = 0; i < nodes; ++i) w.row_begin[at(i) + 1] += w.row_begin[at(i)];
+  w.rows.resize(2 * pairs.size());
+  w.filled.assign(w.row_begin.begin(), w.row_begin.end() - 1);
+  for (const auto& [i, j] : pairs) {
+    w.rows[at(w.filled[at(i)]++)] = j;
+    w.rows[at(w.filled[at(j)]++)] = i;
   }
-  for (int i = 0; i < nodes; ++i) begin[at(i) + 1] += begin[at(i)];
+  // Transposed, a symmetric pattern is the same again, but now every row is sorted: it was appended to in ascending
+  // order, and what it has twice comes twice in a row.
+  w.sorted.resize(w.rows.size());
+  w.filled.assign(w.row_begin.begin(), w.row_begin.end() - 1);
+  for (int i = 0; i < nodes; ++i)
+    for (int a = w.row_begin[at(i)]; a < w.row_begin[at(i) + 1]; ++a) {
+      const std::size_t j = at(w.rows[at(a)]);
+      int& end = w.filled[j];
+      if (end == w.row_begin[j] || w.sorted[at(end) - 1] != i) w.sorted[at(end++)] = i;
+    }
+  w.begin.assign(1, 0);
+  w.list.clear();
+  for (int i = 0; i < nodes; ++i) {
+    w.list.insert(w.list.end(), w.sorted.begin() + w.row_begin[at(i)], w.sorted.begin() + w.filled[at(i)]);
+    w.begin.push_back(static_cast<int>(w.list.size()));
+  }
 }
 
-void BlockPattern::order_nodes(int nodes) {
+void BlockPattern::order_set(int set) {
   // amd_order would take its workspace from the heap at every call; this is what it makes of a symmetric pattern
   // whose rows are sorted and hold no diagonal, with the room that it leaves for elements.
   Workspace& w = work_;
-  const int entries = static_cast<int>(w.list.size()), room = entries + entries / 5 + nodes;
+  const int* node = sets_.begin(set);
+  const int nodes = static_cast<int>(sets_.end(set) - node);
+  for (int i = 0; i < nodes; ++i) w.filled[at(node[i])] = i;  // the number of a node within its set
+  w.rows.clear();
+  w.row_begin.clear();
+  w.row_length.clear();
+  for (int i = 0; i < nodes; ++i) {
+    w.row_begin.push_back(static_cast<int>(w.rows.size()));
+    for (int a = w.begin[at(node[i])]; a < w.begin[at(node[i]) + 1]; ++a)
+      if (sets_.of(w.list[at(a)]) == set) w.rows.push_back(w.filled[at(w.list[at(a)])]);
+    w.row_length.push_back(static_cast<int>(w.rows.size()) - w.row_begin.back());
+  }
+  const int entries = static_cast<int>(w.rows.size()), room = entries + entries / 5 + nodes;
   w.rows.resize(at(room));
-  std::copy(w.list.begin(), w.list.end(), w.rows.begin());
-  w.row_begin.assign(w.begin.begin(), w.begin.end() - 1);
-  w.row_length.resize(at(nodes));
-  for (int i = 0; i < nodes; ++i) w.row_length[at(i)] = w.begin[at(i) + 1] - w.begin[at(i)];
-  for (std::vector<int>* each : {&w.filled, &w.next, &w.order, &w.head, &w.element, &w.degree, &w.mark})
+  for (std::vector<int>* each : {&w.size, &w.next, &w.last, &w.head, &w.element, &w.degree, &w.mark})
     each->resize(at(nodes));
-  amd_2(nodes, w.row_begin.data(), w.rows.data(), w.row_length.data(), room, entries, w.filled.data(), w.next.data(),
-        w.order.data(), w.head.data(), w.element.data(), w.degree.data(), w.mark.data(), nullptr, nullptr);
+  amd_2(nodes, w.row_begin.data(), w.rows.data(), w.row_length.data(), room, entries, w.size.data(), w.next.data(),
+        w.last.data(), w.head.data(), w.element.data(), w.degree.data(), w.mark.data(), nullptr, nullptr);
+  for (const int i : w.last) w.order.push_back(node[i]);
+}
+
+void BlockPattern::order_nodes(int nodes) {
+  sets_.build(work_.begin, work_.list);
+  work_.filled.resize(at(nodes));
+  work_.order.clear();
+  for (int set = 0; set < sets_.count(); ++set) order_set(set);
+}
+
+template <typename Visit>
+void BlockPattern::climb(int row, Visit visit) {
+  std::vector<int>&seen = work_.seen, &parent = work_.parent;
+  const std::size_t node = at(work_.order[at(row)]);
+  seen[at(row)] = row;
+  for (int a = work_.begin[node]; a < work_.begin[node + 1]; ++a) {
+    const int neighbour = position_[at(work_.list[at(a)])];
+    if (neighbour > row) continue;
+    for (int k = neighbour; seen[at(k)] != row; k = parent[at(k)]) {
+      if (parent[at(k)] < 0) parent[at(k)] = row;
+      seen[at(k)] = row;
+      visit(k);
+    }
+  }
+}
+
+void BlockPattern::find_rows(int nodes) {
+  work_.parent.assign(at(nodes), -1);
+  work_.seen.assign(at(nodes), -1);
+  row_begin_.assign(at(nodes) + 1, 0);
+  for (int row = 0; row < nodes; ++row) climb(row, [&](int k) { ++row_begin_[at(k) + 1]; });
+  for (int k = 0; k < nodes; ++k) row_begin_[at(k) + 1] += row_begin_[at(k)];
+
+  // Rows come in ascending order, and so does what each pivot gets of them.
+  work_.seen.assign(at(nodes), -1);
+  work_.filled.assign(row_begin_.begin(), row_begin_.end() - 1);
+  rows_.resize(at(row_begin_.back()));
+  lower_begin_.assign(1, 0);
+  lower_.clear();
+  for (int row = 0; row < nodes; ++row) {
+    climb(row, [&](int k) {
+      const int place = work_.filled[at(k)]++;
+      rows_[at(place)] = row;
+      lower_.push_back(k + 1 + 2 * place);
+    });
+    lower_begin_.push_back(static_cast<int>(lower_.size()));
+  }
+}
+
+void BlockPattern::find_targets(int nodes) {
+  target_begin_.clear();
+  std::size_t size = 0;
+  for (int k = 0; k < nodes; ++k) {
+    target_begin_.push_back(size);
+    size += at(below(k)) * at(below(k));
+  }
+  targets_.resize(size);
+  for (int k = 0; k < nodes; ++k) {
+    const int count = below(k);
+    int* target = targets_.data() + target_begin_[at(k)];
+    for (int a = 0; a < count; ++a) {
+      const int pivot = rows(k)[a];
+      target[a * count + a] = diagonal(pivot);
+      // Whatever a pivot touches beyond its first row, that row's pivot touches too: both lists ascend.
+      const int* stored = rows(pivot);
+      for (int b = a + 1; b < count; ++b) {
+        while (*stored != rows(k)[b]) ++stored;
+        const int lower = diagonal(pivot) + 1 + 2 * static_cast<int>(stored - rows(pivot));
+        target[b * count + a] = lower;
+        target[a * count + b] = lower + 1;
+      }
+    }
+  }
 }
 
 void BlockPattern::build(int nodes, const std::vector<std::pair<int, int>>& pairs) {
   find_neighbours(nodes, pairs);
   order_nodes(nodes);
-  const std::vector<int>&begin = work_.begin, &list = work_.list, &order = work_.order;
-  position_.assign(at(nodes), 0);
-  for (int k = 0; k < nodes; ++k) position_[at(order[at(k)])] = k;
-
-  // Rows below pivot k: its own later neighbours and what its children in the elimination tree pass on.
-  row_begin_.assign(at(nodes) + 1, 0);
-  rows_.clear();
-  std::vector<int>&first_child = work_.first_child, &next_sibling = work_.next_sibling, &seen = work_.seen;
-  first_child.assign(at(nodes), -1);
-  next_sibling.assign(at(nodes), -1);
-  seen.assign(at(nodes), -1);
-  for (int k = 0; k < nodes; ++k) {
-    const std::size_t first = rows_.size();
-    seen[at(k)] = k;
-    const int node = order[at(k)];
-    for (int a = begin[at(node)]; a < begin[at(node) + 1]; ++a) {
-      const int row = position_[at(list[at(a)])];
-      if (row > k && seen[at(row)] != k) {
-        seen[at(row)] = k;
-        rows_.push_back(row);
-      }
-    }
-    for (int child = first_child[at(k)]; child >= 0; child = next_sibling[at(child)]) {
-      for (int a = row_begin_[at(child)]; a < row_begin_[at(child) + 1]; ++a) {
-        const int row = rows_[at(a)];
-        if (row > k && seen[at(row)] != k) {
-          seen[at(row)] = k;
-          rows_.push_back(row);
-        }
-      }
-    }
-    std::sort(rows_.begin() + static_cast<std::ptrdiff_t>(first), rows_.end());
-    row_begin_[at(k) + 1] = static_cast<int>(rows_.size());
-    if (rows_.size() == first) continue;
-    const std::size_t parent = at(rows_[first]);
-    next_sibling[at(k)] = first_child[parent];
-    first_child[parent] = k;
-  }
-
-  diagonal_.assign(at(nodes), 0);
+  position_.resize(at(nodes));
+  for (int k = 0; k < nodes; ++k) position_[at(work_.order[at(k)])] = k;
+  find_rows(nodes);
+  diagonal_.resize(at(nodes));
   for (int k = 0; k < nodes; ++k) diagonal_[at(k)] = k + 2 * row_begin_[at(k)];
   blocks_ = nodes + 2 * static_cast<int>(rows_.size());
-
-  lower_begin_.assign(at(nodes) + 1, 0);
-  for (const int row : rows_) ++lower_begin_[at(row) + 1];
-  for (int k = 0; k < nodes; ++k) lower_begin_[at(k) + 1] += lower_begin_[at(k)];
-  lower_.resize(rows_.size());
-  std::vector<int>& filled = work_.filled;
-  filled.assign(lower_begin_.begin(), lower_begin_.end() - 1);
-  for (int k = 0; k < nodes; ++k)
-    for (int a = 0; a < below(k); ++a) lower_[at(filled[at(rows(k)[a])]++)] = diagonal(k) + 1 + 2 * a;
-
-  target_begin_.assign(at(nodes), 0);
-  targets_.clear();
-  for (int k = 0; k < nodes; ++k) {
-    target_begin_[at(k)] = targets_.size();
-    const int count = below(k);
-    for (int a = 0; a < count; ++a) {
-      for (int b = 0; b < count; ++b) {
-        const int row = rows(k)[a], column = rows(k)[b];
-        if (row == column) {
-          targets_.push_back(diagonal(row));
-        } else {
-          const int pivot = std::min(row, column), other = std::max(row, column);
-          const int* found = std::lower_bound(rows(pivot), rows(pivot) + below(pivot), other);
-          const int stored = diagonal(pivot) + 1 + 2 * static_cast<int>(found - rows(pivot));
-          targets_.push_back(row > column ? stored : stored + 1);
-        }
-      }
-    }
-  }
+  find_targets(nodes);
 }
 
 std::pair<int, int> BlockPattern::indices(int row, int column) const {
@@ -183,7 +215,9 @@ void BlockMatrix<D>::set_pattern(const BlockPattern& pattern) {
 
 template <int D>
 void BlockMatrix<D>::set_zero() {
-  for (Block<D>& block : values_) block.set_zero();
+  static_assert(std::is_trivially_copyable_v<Block<D>>);
+  // Faster than a loop of stores where the matrix is larger than the nearer caches.
+  std::memset(static_cast<void*>(values_.data()), 0, values_.size() * sizeof(Block<D>));
 }
 
 template <int D>

@@ -45,6 +45,20 @@ TEST(StepMatrix, FindsTheBlocksOfContactsThatComeSlideAndGo) {
   expect_blocks_of(contacts, matrix);
 }
 
+TEST(StepMatrix, HasRoomForContactsAboutToComeAndNotForThoseFarAway) {
+  StepMatrix<3> matrix(kNodes);
+  ContactPoint near = pressed(2, 20), far = pressed(5, 14);
+  for (ContactPoint* contact : {&near, &far}) contact->begins = -1e-4;
+  near.overlap = -1.9e-4;
+  far.overlap = -2.1e-4;
+  matrix.locate({near, far});
+  EXPECT_GE(matrix.values().pattern().index(near.a0, near.b0), 0);
+  EXPECT_EQ(matrix.values().pattern().index(far.a0, far.b0), -1);
+  near.overlap = far.overlap = 0.0;
+  matrix.locate({near, far});
+  expect_blocks_of({near, far}, matrix);
+}
+
 TEST(StepMatrix, StencilsAreTheBlocksOfThreeNodesInARow) {
   StepMatrix<4> matrix(kNodes);
   matrix.locate({});

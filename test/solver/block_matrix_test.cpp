@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <random>
 
 namespace knot_utm {
@@ -61,6 +62,81 @@ struct Example {
     return out;
   }
 };
+
+/// The pattern of L + U in elimination order by eliminating a full matrix of flags.
+std::vector<std::vector<bool>> eliminated(const BlockPattern& pattern, const std::vector<std::pair<int, int>>& pairs) {
+  const std::size_t nodes = static_cast<std::size_t>(pattern.nodes());
+  std::vector<std::vector<bool>> filled(nodes, std::vector<bool>(nodes, false));
+  for (const auto& [i, j] : pairs) {
+    const auto p = static_cast<std::size_t>(pattern.position(i)), q = static_cast<std::size_t>(pattern.position(j));
+    filled[p][q] = filled[q][p] = true;
+  }
+  for (std::size_t k = 0; k < nodes; ++k)
+    for (std::size_t i = k + 1; i < nodes; ++i)
+      for (std::size_t j = k + 1; j < nodes; ++j)
+        if (i != j && filled[i][k] && filled[k][j]) filled[i][j] = true;
+  return filled;
+}
+
+/// Every list of the pattern against flags of what elimination fills. Stored indices run along the pivots: the diagonal
+/// block, then the lower and upper one of every row.
+void expect_pattern_of(const std::vector<std::vector<bool>>& filled, const BlockPattern& pattern) {
+  const int nodes = pattern.nodes();
+  std::vector<std::vector<int>> stored(filled.size(), std::vector<int>(filled.size(), -1));
+  std::vector<std::vector<int>> rows(filled.size()), lower(filled.size());
+  int blocks = 0;
+  for (std::size_t k = 0; k < filled.size(); ++k) {
+    stored[k][k] = blocks++;
+    for (std::size_t row = k + 1; row < filled.size(); ++row) {
+      if (!filled[row][k]) continue;
+      rows[k].push_back(static_cast<int>(row));
+      lower[row].push_back(blocks);
+      stored[row][k] = blocks++;
+      stored[k][row] = blocks++;
+    }
+  }
+  EXPECT_EQ(pattern.blocks(), blocks);
+  for (int k = 0; k < nodes; ++k) {
+    const std::vector<int>& expected = rows[static_cast<std::size_t>(k)];
+    ASSERT_EQ(std::vector<int>(pattern.rows(k), pattern.rows(k) + pattern.below(k)), expected);
+    std::vector<int> found(pattern.lower_begin(k), pattern.lower_end(k));
+    std::sort(found.begin(), found.end());
+    EXPECT_EQ(found, lower[static_cast<std::size_t>(k)]);
+    const int* target = pattern.targets(k);
+    for (const int row : expected)
+      for (const int column : expected)
+        EXPECT_EQ(*target++, stored[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)]);
+  }
+  for (int i = 0; i < nodes; ++i)
+    for (int j = 0; j < nodes; ++j) {
+      const auto p = static_cast<std::size_t>(pattern.position(i)), q = static_cast<std::size_t>(pattern.position(j));
+      EXPECT_EQ(pattern.indices(i, j), std::make_pair(stored[p][q], stored[q][p]));
+    }
+}
+
+TEST(BlockPattern, IsThatOfEliminatingAFullMatrix) {
+  std::mt19937 random(3);
+  BlockPattern pattern;
+  for (const int nodes : {1, 2, 3, 17, 60, 35}) {
+    for (const int couplings : {0, 5, 40}) {
+      std::vector<std::pair<int, int>> pairs;
+      for (int i = 0; i < nodes; ++i)
+        for (int j = i + 1; j < std::min(i + 3, nodes); ++j) pairs.push_back({i, j});
+      // Contacts come as patches, and with them many pairs more than once.
+      for (int n = 0; n < couplings; ++n) {
+        const int i = static_cast<int>(random() % 1000) % nodes, j = static_cast<int>(random() % 1000) % nodes;
+        for (int k = 0; k < 3; ++k)
+          for (int l = 0; l < 3; ++l) {
+            const int a = (i + k) % nodes, b = (j + l) % nodes;
+            if (a != b) pairs.push_back({a, b});
+          }
+      }
+      std::shuffle(pairs.begin(), pairs.end(), random);
+      pattern.build(nodes, pairs);
+      expect_pattern_of(eliminated(pattern, pairs), pattern);
+    }
+  }
+}
 
 TYPED_TEST(BlockMatrixTest, SolvesAsDenseLuDoes) {
   constexpr int D = TypeParam::value;

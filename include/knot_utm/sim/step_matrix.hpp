@@ -17,8 +17,9 @@ inline void add(Block<D>& block, const Mat3& m, double times) {
 }
 
 /// The matrix of a time step's linear system, and where its blocks are stored: those of the rod, (i, i) to (i, i+2),
-/// and those between the strands in contact. Its pattern has room for every foot to slide on by a segment, and is
-/// rebuilt where a contact leaves it.
+/// and those between the strands in contact. Its pattern has room for contacts about to come, those of strands at most
+/// twice as far apart as where the normal law begins, and for every foot to slide on by a segment; it is rebuilt where
+/// a contact leaves it. More room would be rebuilt less often, but filled at every factorisation.
 template <int D>
 class StepMatrix {
  public:
@@ -58,6 +59,7 @@ class StepMatrix {
   bool find(const std::vector<ContactPoint>& contacts);
   bool look_up(Located& contact) const;
   void build(const std::vector<ContactPoint>& contacts);
+  void find_stencils();
 
   int nodes_;
   BlockPattern pattern_;

@@ -1,16 +1,16 @@
 #pragma once
 
-#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "knot_utm/solver/block.hpp"
+#include "knot_utm/solver/elimination_sets.hpp"
 
 namespace knot_utm {
 
 /// The fill pattern of an LU factorisation without pivoting, for a matrix of blocks of symmetric structure:
-/// fill-reducing order (AMD), and for each pivot the later rows it touches. Numbers of blocks only, no values.
-/// Built again, it keeps its memory.
+/// fill-reducing order (AMD, within EliminationSets), and for each pivot the later rows it touches. Numbers of blocks
+/// only, no values. Built again, it keeps its memory.
 class BlockPattern {
  public:
   /// `pairs` are the coupled nodes (i, j), i != j, in any order and number; the diagonal is always there.
@@ -40,18 +40,26 @@ class BlockPattern {
  private:
   /// What a build works with; its contents mean nothing afterwards.
   struct Workspace {
-    std::vector<std::int64_t> keys;
     std::vector<int> begin, list;  // neighbours of every node, sorted, as compressed rows
-    std::vector<int> order;        // elimination position -> node
-    std::vector<int> first_child, next_sibling, seen;
+    std::vector<int> sorted;
+    std::vector<int> order;  // elimination position -> node
+    std::vector<int> parent, seen;
     std::vector<int> filled;
-    std::vector<int> rows, row_begin, row_length, next, head, element, degree, mark;  // as amd_2 takes them
+    std::vector<int> rows, row_begin, row_length, size, next, last, head, element, degree, mark;  // as amd_2 takes them
   };
 
   void find_neighbours(int nodes, const std::vector<std::pair<int, int>>& pairs);
   void order_nodes(int nodes);
+  void order_set(int set);
+  /// Calls visit(k) for every pivot k that touches `row`: the earlier neighbours of the row and all that follows from
+  /// them up the elimination tree, which grows on the way (Liu 1990).
+  template <typename Visit>
+  void climb(int row, Visit visit);
+  void find_rows(int nodes);
+  void find_targets(int nodes);
 
   Workspace work_;
+  EliminationSets sets_;
   int blocks_ = 0;
   std::vector<int> position_;     // node -> elimination position
   std::vector<int> row_begin_;    // pivot -> first of rows_

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <vector>
+
+#include "knot_utm/rod/rod.hpp"
+
+namespace knot_utm {
+
+/// A place where segments of closed polygons cross in projection. Segment i runs from point i to the next one.
+struct Crossing {
+  Eigen::Index over, under;              ///< segments
+  double over_fraction, under_fraction;  ///< places on them
+  bool positive;                         ///< turning the upper strand to the left brings it onto the lower one
+  bool first_over;                       ///< the upper segment is the first polygon's
+};
+
+/// Crossings of a closed polygon with itself and of two with each other, in any order. The third row of `rotation` is
+/// the viewing direction. Found by boxes around ever longer pieces, so that only pieces that meet are looked at.
+std::vector<Crossing> crossings_of(const Points& polygon, const Mat3& rotation);
+std::vector<Crossing> crossings_between(const Points& first, const Points& second, const Mat3& rotation);
+
+}  // namespace knot_utm

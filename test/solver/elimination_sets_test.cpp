@@ -1,0 +1,103 @@
+#include "knot_utm/solver/elimination_sets.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "knot_utm/solver/block_matrix.hpp"
+
+namespace knot_utm {
+namespace {
+
+using Pairs = std::vector<std::pair<int, int>>;
+
+/// A rod of `nodes`, with each of the `contacts` a patch of three by three nodes.
+Pairs rod(int nodes, const Pairs& contacts) {
+  Pairs pairs;
+  for (int i = 0; i < nodes; ++i)
+    for (int j = i + 1; j < std::min(i + 3, nodes); ++j) pairs.push_back({i, j});
+  for (const auto& [a, b] : contacts)
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l) pairs.push_back({a + k, b + l});
+  return pairs;
+}
+
+/// The set of every node.
+std::vector<int> sets_of(int nodes, const Pairs& pairs) {
+  std::vector<std::vector<bool>> coupled(static_cast<std::size_t>(nodes),
+                                         std::vector<bool>(static_cast<std::size_t>(nodes), false));
+  for (const auto& [i, j] : pairs)
+    coupled[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] =
+        coupled[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)] = true;
+  std::vector<int> begin = {0}, list;
+  for (const std::vector<bool>& row : coupled) {
+    for (int j = 0; j < nodes; ++j)
+      if (row[static_cast<std::size_t>(j)]) list.push_back(j);
+    begin.push_back(static_cast<int>(list.size()));
+  }
+  EliminationSets sets;
+  sets.build(begin, list);
+  std::vector<int> found(static_cast<std::size_t>(nodes), -1);
+  for (int set = 0; set < sets.count(); ++set) {
+    EXPECT_LT(sets.begin(set), sets.end(set));
+    for (const int* node = sets.begin(set); node != sets.end(set); ++node) {
+      EXPECT_EQ(sets.of(*node), set);
+      EXPECT_EQ(found[static_cast<std::size_t>(*node)], -1);
+      found[static_cast<std::size_t>(*node)] = set;
+    }
+  }
+  return found;
+}
+
+/// `runs` of the same number, one after the other: (how many, which).
+std::vector<int> numbers(const Pairs& runs) {
+  std::vector<int> out;
+  for (const auto& [count, number] : runs) out.insert(out.end(), static_cast<std::size_t>(count), number);
+  return out;
+}
+
+TEST(EliminationSets, ARodWithOneKnotOrNoneIsOneSet) {
+  EXPECT_EQ(sets_of(1, {}), numbers({{1, 0}}));
+  EXPECT_EQ(sets_of(50, rod(50, {})), numbers({{50, 0}}));
+  EXPECT_EQ(sets_of(50, rod(50, {{10, 30}, {15, 27}})), numbers({{50, 0}}));
+  EXPECT_EQ(sets_of(50, rod(50, {{0, 47}})), numbers({{50, 0}}));
+}
+
+TEST(EliminationSets, KnotsInARowComeOneAfterTheOtherWithTheStraightsThatLeadToThem) {
+  // Knots of nodes 10 to 22, 40 to 52 and 70 to 82.
+  const Pairs pairs = rod(100, {{10, 20}, {40, 50}, {70, 80}});
+  EXPECT_EQ(sets_of(100, pairs), numbers({{23, 0}, {30, 1}, {47, 2}}));
+}
+
+TEST(EliminationSets, OneFreeNodePartsNothingTwoDo) {
+  EXPECT_EQ(sets_of(40, rod(40, {{5, 12}, {16, 25}})), numbers({{40, 0}}));
+  EXPECT_EQ(sets_of(40, rod(40, {{5, 12}, {17, 25}})), numbers({{15, 0}, {25, 1}}));
+}
+
+TEST(EliminationSets, WhatHangsTogetherInARingIsTheLastSet) {
+  // Two knots, 30 to 42 and 70 to 82, that touch each other are one; a third hangs on them.
+  EXPECT_EQ(sets_of(120, rod(120, {{5, 12}, {30, 40}, {70, 80}, {35, 75}})), numbers({{15, 0}, {105, 1}}));
+  // Two straights lead from the knot of 30 to 42 with 100 to 102 to that of 60 to 72.
+  EXPECT_EQ(sets_of(120, rod(120, {{5, 12}, {30, 40}, {35, 100}, {60, 70}})), numbers({{15, 0}, {105, 1}}));
+}
+
+/// Blocks of the pattern of overhands in a row.
+int blocks_of_row(int knots) {
+  Pairs contacts;
+  for (int knot = 0; knot < knots; ++knot) {
+    contacts.push_back({100 * knot + 40, 100 * knot + 60});
+    contacts.push_back({100 * knot + 43, 100 * knot + 55});
+  }
+  BlockPattern pattern;
+  pattern.build(100 * knots, rod(100 * knots, contacts));
+  return pattern.blocks();
+}
+
+TEST(EliminationSets, FillGrowsAsTheKnotsInARowDo) {
+  // Every knot passes two blocks more through itself than it does alone; straights cost what they do at the ends.
+  EXPECT_LT(blocks_of_row(16), 1.1 * 16 * blocks_of_row(1));
+}
+
+}  // namespace
+}  // namespace knot_utm
