@@ -222,7 +222,8 @@ void SmoothContact::recall(std::size_t q, std::size_t first) {
 void SmoothContact::complete(ContactPoint& contact, const Points& position, const Points& start) {
   if (contact.share < 0.0) contact.share = share(contact, position);
   contact.weight = 0.5 * voronoi_[contact.a0 + 1] * contact.share;
-  if (friction_.on() && contact.active()) {
+  if (!contact.active()) return;
+  if (friction_.on()) {
     contact.slip = contact.memory;
     for (int k = 0; k < 3; ++k) {
       contact.slip += contact.c[k] * (position.col(contact.a0 + k) - start.col(contact.a0 + k));

@@ -70,7 +70,7 @@ class SmoothContact {
   void add_contact(const StrandPoint& point, int foot, double u, const Points& position);
   /// Gives the contacts of point q, from `first` on, what the last iterate remembers of them.
   void recall(std::size_t q, std::size_t first);
-  /// Share, slip and force of a contact whose place is known.
+  /// Share, slip and force of a contact whose place is known; one that is not active has but a share.
   void complete(ContactPoint& contact, const Points& position, const Points& start);
   void remember(const Points* position, MemoryList& list) const;
   /// Of the accepted position; where the rod is bent more sharply than its edges resolve, less and less.
