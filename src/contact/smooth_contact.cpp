@@ -69,6 +69,14 @@ struct RisingRoots {
   }
 };
 
+/// Is all of m + t u + k u^2/2, 0 <= u <= 1, further than `reach` from m + r? The curve keeps within |k|/8 of its
+/// chord.
+bool beyond(double reach, const Vec3& r, const Vec3& t, const Vec3& k) {
+  const Vec3 chord = t + 0.5 * k;
+  const double chord2 = chord.squaredNorm(), along = r.dot(chord), farthest = reach + 0.125 * k.norm();
+  return (r.squaredNorm() - farthest * farthest) * chord2 >= along * along;
+}
+
 /// Number of a point of integration along the rod.
 std::size_t number(int segment, int point) {
   return 2 * static_cast<std::size_t>(segment) + static_cast<std::size_t>(point);
@@ -117,8 +125,6 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
   edge_middle_.resize(3, nodes - 1);
   edge_.resize(3, nodes - 1);
   outwards_ = Eigen::VectorXd::Constant(nodes, PointWeights::kWholeShare);
-  // No point of a segment stands further from its middle than half its length.
-  farthest2_ = (reach_ + 0.5 * voronoi_.array()).square();
 }
 
 void SmoothContact::begin_step() {
@@ -155,8 +161,7 @@ void SmoothContact::find_feet(const StrandPoint& point, const Points& position) 
     // On the segment c(u) = m + t u + k u^2/2, so F'(u) = -(a - c).c' is a cubic.
     const Vec3 t = edge_.col(*foot - 1), k = edge_.col(*foot) - edge_.col(*foot - 1);
     const Vec3 r = point.a - edge_middle_.col(*foot - 1);
-    const Vec3 from_halfway = r - 0.5 * t - 0.125 * k;
-    if (from_halfway.squaredNorm() >= farthest2_[*foot]) continue;
+    if (beyond(reach_, r, t, k)) continue;
     const RisingRoots feet({-r.dot(t), t.squaredNorm() - r.dot(k), 1.5 * t.dot(k), 0.5 * k.squaredNorm()});
     for (int i = 0; i < feet.count; ++i) add_contact(point, *foot, feet.root[i], position);
   }

@@ -92,7 +92,6 @@ class SmoothContact {
   std::vector<char> recalled_;  // of iterate_: given to a contact
   MemoryList iterate_;          // of the last evaluation; before the first of a step, the accepted ones
   Points edge_middle_, edge_;   // of the evaluated position
-  Eigen::VectorXd farthest2_;   // squared distance from c(1/2) at which a point may still be in reach [m^2]
   double friction_scale_ = 0.0;
   double catch_up_ = 1.0;  // by which the shares follow in this step
   bool first_evaluation_ = true;
