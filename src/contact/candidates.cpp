@@ -8,7 +8,8 @@ namespace knot_utm {
 
 namespace {
 
-/// Cells of a uniform grid as one number each; 21 bits a direction. Neighbours along k have neighbouring numbers.
+/// Cells of a uniform grid as one number each; 21 bits a direction. Neighbours along k have neighbouring numbers, and
+/// numbers add up as cells do.
 std::int64_t cell_key(std::int64_t i, std::int64_t j, std::int64_t k) {
   constexpr std::int64_t kRow = std::int64_t{1} << 21;
   return (i * kRow + j) * kRow + k;
@@ -44,12 +45,11 @@ void Candidates::build(const Points& position) {
   const Vec3 origin = position.rowwise().minCoeff().array() - cell;
 
   entries_.clear();
-  auto key_of = [&](int i, int di, int dj, int dk) {
+  auto key_of = [&](int i) {
     const Vec3 q = (position.col(i) - origin) / cell;
-    return cell_key(static_cast<std::int64_t>(q[0]) + di, static_cast<std::int64_t>(q[1]) + dj,
-                    static_cast<std::int64_t>(q[2]) + dk);
+    return cell_key(static_cast<std::int64_t>(q[0]), static_cast<std::int64_t>(q[1]), static_cast<std::int64_t>(q[2]));
   };
-  for (int i = 1; i + 1 < nodes; ++i) entries_.push_back({key_of(i, 0, 0, 0), i});
+  for (int i = 1; i + 1 < nodes; ++i) entries_.push_back({key_of(i), i});
   std::sort(entries_.begin(), entries_.end(),
             [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.segment < b.segment; });
 
@@ -60,10 +60,11 @@ void Candidates::build(const Points& position) {
   for (int i = 1; i + 1 < nodes; ++i) {
     begin_[static_cast<std::size_t>(i)] = runs_.size();
     found_.clear();
+    const std::int64_t own = key_of(i);
     for (int di = -1; di <= 1; ++di) {
       for (int dj = -1; dj <= 1; ++dj) {
         // The three cells along the last direction have consecutive keys.
-        const std::int64_t low = key_of(i, di, dj, -1), high = low + 2;
+        const std::int64_t low = own + cell_key(di, dj, -1), high = low + 2;
         auto entry = std::lower_bound(entries_.begin(), entries_.end(), low,
                                       [](const Entry& e, std::int64_t key) { return e.key < key; });
         for (; entry != entries_.end() && entry->key <= high; ++entry) {

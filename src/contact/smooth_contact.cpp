@@ -69,6 +69,14 @@ struct RisingRoots {
   }
 };
 
+/// Is all of m + t u + k u^2/2, 0 <= u <= 1, further than `reach` from m + r? The curve keeps within |k|/8 of its
+/// chord.
+bool beyond(double reach, const Vec3& r, const Vec3& t, const Vec3& k) {
+  const Vec3 chord = t + 0.5 * k;
+  const double chord2 = chord.squaredNorm(), along = r.dot(chord), farthest = reach + 0.125 * k.norm();
+  return (r.squaredNorm() - farthest * farthest) * chord2 >= along * along;
+}
+
 /// Number of a point of integration along the rod.
 std::size_t number(int segment, int point) {
   return 2 * static_cast<std::size_t>(segment) + static_cast<std::size_t>(point);
@@ -87,6 +95,19 @@ double least_curvature_share(const Points& nodes, int segment, double u, const V
 
 }  // namespace
 
+/// A point of integration where it stands now.
+struct SmoothContact::StrandPoint {
+  int segment, point;
+  PointWeights weights;
+  Vec3 a;
+
+  StrandPoint(int segment_, int point_, double outwards, const Points& position)
+      : segment(segment_),
+        point(point_),
+        weights(kIntegrationPoints[point_], outwards),
+        a(combine(weights.value, position, segment_)) {}
+};
+
 SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin)
     : normal_(normal),
       friction_(friction),
@@ -96,16 +117,14 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
       arclength_(rod.arclength()),
       voronoi_(rod.voronoi_length),
       // Strands closer than a half turn around themselves (pi h) bend, they do not touch.
-      candidates_(rod, reach_, margin, 5.0 * rod.material.radius) {
+      candidates_(rod, reach_, margin, 5.0 * rod.material.radius),
+      sieve_(rod.nodes()) {
   const Eigen::Index nodes = rod.nodes();
   accepted_.begin.assign(2 * static_cast<std::size_t>(nodes) + 1, 0);
   iterate_ = accepted_;
   edge_middle_.resize(3, nodes - 1);
   edge_.resize(3, nodes - 1);
   outwards_ = Eigen::VectorXd::Constant(nodes, PointWeights::kWholeShare);
-  halfway_ = Eigen::MatrixX3d::Zero(nodes, 3);
-  // No point of a segment stands further from its middle than half its length.
-  farthest2_ = (reach_ + 0.5 * voronoi_.array()).square();
 }
 
 void SmoothContact::begin_step() {
@@ -123,42 +142,37 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   const Eigen::Index edges = position.cols() - 1;
   edge_.noalias() = position.rightCols(edges) - position.leftCols(edges);
   edge_middle_.noalias() = 0.5 * (position.rightCols(edges) + position.leftCols(edges));
-  // c(1/2) of segment i is (x_{i-1} + 6 x_i + x_{i+1})/8, halfway between the middles of its edges but for its bend.
-  halfway_.middleRows(1, edges - 1).noalias() =
-      (0.5 * (edge_middle_.leftCols(edges - 1) + edge_middle_.rightCols(edges - 1)) -
-       0.125 * (edge_.rightCols(edges - 1) - edge_.leftCols(edges - 1)))
-          .transpose();
-  for (const int segment : candidates_.segments())
-    for (int point = 0; point < 2; ++point) {
+  sieve_.set_centreline(edge_middle_, edge_);
+  for (const int segment : candidates_.segments()) {
+    const StrandPoint points[2] = {{segment, 0, outwards_[segment], position},
+                                   {segment, 1, outwards_[segment], position}};
+    sieve_.sieve(points[0].a, points[1].a, candidates_.begin(segment), candidates_.end(segment));
+    for (const StrandPoint& point : points) {
       const std::size_t first = contacts_.size();
-      for (const Candidates::Run* run = candidates_.begin(segment); run != candidates_.end(segment); ++run)
-        find_feet(segment, point, *run, position);
-      recall(number(segment, point), first);
+      find_feet(point, position);
+      recall(number(segment, point.point), first);
       for (std::size_t c = first; c < contacts_.size(); ++c) complete(contacts_[c], position, start);
     }
-}
-
-void SmoothContact::find_feet(int segment, int point, const Candidates::Run& run, const Points& position) {
-  const PointWeights w(kIntegrationPoints[point], outwards_[segment]);
-  const Vec3 a = combine(w.value, position, segment);
-  for (int foot = run.first; foot <= run.last; ++foot) {
-    const double dx = a[0] - halfway_(foot, 0), dy = a[1] - halfway_(foot, 1), dz = a[2] - halfway_(foot, 2);
-    if (dx * dx + dy * dy + dz * dz >= farthest2_[foot]) continue;
-    // On the segment c(u) = m + t u + k u^2/2, so F'(u) = -(a - c).c' is a cubic.
-    const Vec3 t = edge_.col(foot - 1), k = edge_.col(foot) - edge_.col(foot - 1);
-    const Vec3 r = a - edge_middle_.col(foot - 1);
-    const RisingRoots feet({-r.dot(t), t.squaredNorm() - r.dot(k), 1.5 * t.dot(k), 0.5 * k.squaredNorm()});
-    for (int i = 0; i < feet.count; ++i) add_contact(segment, point, foot, feet.root[i], position);
   }
 }
 
-void SmoothContact::add_contact(int segment, int point, int foot, double u, const Points& position) {
-  const PointWeights wa(kIntegrationPoints[point], outwards_[segment]);
+void SmoothContact::find_feet(const StrandPoint& point, const Points& position) {
+  for (const int* foot = sieve_.begin(point.point); foot != sieve_.end(point.point); ++foot) {
+    // On the segment c(u) = m + t u + k u^2/2, so F'(u) = -(a - c).c' is a cubic.
+    const Vec3 t = edge_.col(*foot - 1), k = edge_.col(*foot) - edge_.col(*foot - 1);
+    const Vec3 r = point.a - edge_middle_.col(*foot - 1);
+    if (beyond(reach_, r, t, k)) continue;
+    const RisingRoots feet({-r.dot(t), t.squaredNorm() - r.dot(k), 1.5 * t.dot(k), 0.5 * k.squaredNorm()});
+    for (int i = 0; i < feet.count; ++i) add_contact(point, *foot, feet.root[i], position);
+  }
+}
+
+void SmoothContact::add_contact(const StrandPoint& point, int foot, double u, const Points& position) {
   const SegmentWeights wb(u);
-  const Vec3 x = combine(wa.value, position, segment) - combine(wb.value, position, foot);
+  const Vec3 x = point.a - combine(wb.value, position, foot);
   const double d2 = x.squaredNorm();
   if (d2 >= reach_ * reach_) return;
-  const double arclength_a = arclength_at(arclength_, segment, kIntegrationPoints[point]);
+  const double arclength_a = arclength_at(arclength_, point.segment, kIntegrationPoints[point.point]);
   const double arclength_b = arclength_at(arclength_, foot, u);
   if (std::abs(arclength_a - arclength_b) < candidates_.exclusion()) return;
   ContactPoint& contact = contacts_.emplace_back();
@@ -167,11 +181,11 @@ void SmoothContact::add_contact(int segment, int point, int foot, double u, cons
   contact.arclength_a = arclength_a;
   contact.arclength_b = arclength_b;
   contact.share = kUnknown;
-  contact.a0 = segment - 1;
-  contact.point = point;
+  contact.a0 = point.segment - 1;
+  contact.point = point.point;
   contact.b0 = foot - 1;
   for (int k = 0; k < 3; ++k) {
-    contact.c[k] = wa.value[k];
+    contact.c[k] = point.weights.value[k];
     contact.c[3 + k] = -wb.value[k];
     contact.beta[3 + k] = wb.derivative[k];
   }
@@ -213,7 +227,8 @@ void SmoothContact::recall(std::size_t q, std::size_t first) {
 void SmoothContact::complete(ContactPoint& contact, const Points& position, const Points& start) {
   if (contact.share < 0.0) contact.share = share(contact, position);
   contact.weight = 0.5 * voronoi_[contact.a0 + 1] * contact.share;
-  if (friction_.on() && contact.active()) {
+  if (!contact.active()) return;
+  if (friction_.on()) {
     contact.slip = contact.memory;
     for (int k = 0; k < 3; ++k) {
       contact.slip += contact.c[k] * (position.col(contact.a0 + k) - start.col(contact.a0 + k));

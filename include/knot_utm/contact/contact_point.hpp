@@ -43,6 +43,9 @@ struct ContactPoint {
   Vec3 z = Vec3::Zero();       ///< friction direction
   Vec3 force = Vec3::Zero();   ///< g [N]
 
+  /// Not defaulted: else `emplace_back()` sets all of it to zero before the members' own values do.
+  ContactPoint() {}
+
   bool on_roller() const { return roller >= 0; }
   bool touches() const { return overlap > begins; }
   /// Takes part in the next linear solve.

@@ -5,6 +5,7 @@
 #include "knot_utm/contact/candidates.hpp"
 #include "knot_utm/contact/centreline_curve.hpp"
 #include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/contact/foot_sieve.hpp"
 
 namespace knot_utm {
 
@@ -63,11 +64,13 @@ class SmoothContact {
     std::vector<int> begin;
   };
 
-  void find_feet(int segment, int point, const Candidates::Run& run, const Points& position);
-  void add_contact(int segment, int point, int foot, double u, const Points& position);
+  struct StrandPoint;
+
+  void find_feet(const StrandPoint& point, const Points& position);
+  void add_contact(const StrandPoint& point, int foot, double u, const Points& position);
   /// Gives the contacts of point q, from `first` on, what the last iterate remembers of them.
   void recall(std::size_t q, std::size_t first);
-  /// Share, slip and force of a contact whose place is known.
+  /// Share, slip and force of a contact whose place is known; one that is not active has but a share.
   void complete(ContactPoint& contact, const Points& position, const Points& start);
   void remember(const Points* position, MemoryList& list) const;
   /// Of the accepted position; where the rod is bent more sharply than its edges resolve, less and less.
@@ -83,13 +86,12 @@ class SmoothContact {
   Eigen::VectorXd voronoi_;
   Eigen::VectorXd outwards_;  // share of the second difference by which points of a segment stand outwards
   Candidates candidates_;
+  FootSieve sieve_;
   std::vector<ContactPoint> contacts_;
   MemoryList accepted_;         // of the last accepted step
   std::vector<char> recalled_;  // of iterate_: given to a contact
   MemoryList iterate_;          // of the last evaluation; before the first of a step, the accepted ones
   Points edge_middle_, edge_;   // of the evaluated position
-  Eigen::MatrixX3d halfway_;    // of the evaluated position: c(1/2) of every segment, coordinate by coordinate
-  Eigen::VectorXd farthest2_;   // squared distance from there at which a point may still be in reach [m^2]
   double friction_scale_ = 0.0;
   double catch_up_ = 1.0;  // by which the shares follow in this step
   bool first_evaluation_ = true;
