@@ -5,7 +5,7 @@ namespace knot_utm {
 namespace {
 
 constexpr Tolerances kDraft{0.34, 1e-4, 0.04, 4e-3, 1.5};
-constexpr Tolerances kNormal{0.17, 2e-5, 0.02, 2e-3, 2.0};
+constexpr Tolerances kNormal{0.17, 1e-4, 0.02, 2e-3, 2.0};
 constexpr Tolerances kFine{0.05, 1e-5, 0.01, 1e-3, 3.0};
 
 }  // namespace
