@@ -4,11 +4,11 @@ import statistics
 
 import plots
 import runs
+import starts
 from table import REFERENCE, Gate, Report, Table, at_least, at_most, is_missing
 from tighten import SLIDES
 
 MATERIALS = ["nylon", "polypropylene", "pink_vps", "green_vps"]
-KNOT_DISTANCE, SHIFT = 0.15, 0.00037  # [m] of the first start, and from one start to the next
 CONTACT_STIFFNESS = 300.0             # [k_b/h^4] what `material.contact_stiffness: auto` stands for
 SHIPPED, DRAFT = "as shipped", "draft"
 # As shipped and of `normal` [m, s, h, h, k_b/h^2].
@@ -59,7 +59,7 @@ def report(runner, materials, seeds=3):
         tables.append(table_of_failures(failures))
     return Report("Convergence of the readings",
                   f"`config/tighten.yaml` from tying to the end of the pull, {seeds} starts of each variant: the knots "
-                  f"{1e3 * SHIFT:g} mm further apart from one start to the next. Each run ties its own knot. Means and "
+                  f"{1e3 * starts.SHIFT:g} mm further apart from one start to the next. Each run ties its own knot. Means and "
                   "changes of means are over the starts whose runs went to their end, changes over those that both "
                   "variants have; a gate also fails where a start is missing. Ripple, CPU time and real-time factor "
                   "are the worst of the starts. Errors: the reading's true difference to a fine run "
@@ -75,21 +75,20 @@ def keys_with_error(material):
 
 def run_all(runner, material, seeds):
     """The variants, name -> one run a start; and the cases in which errors are judged."""
-    def starts(name, settings):
+    def from_starts(name, settings):
         folder = f"{material}/{name.replace(' ', '_').replace('/', '_')}"
-        return [runner.run(f"{folder}/{k}", {"material": material,
-                                             "specimen.knot_distance": round(KNOT_DISTANCE + SHIFT * k, 9), **settings})
+        return [runner.run(f"{folder}/{k}", {"material": material, **starts.start(k), **settings})
                 for k in range(seeds)]
 
-    variants = {SHIPPED: starts(SHIPPED, {})}
+    variants = {SHIPPED: from_starts(SHIPPED, {})}
     first = variants[SHIPPED][0]
     for name, settings in {**VARIANTS, **stiffer(first)}.items():
-        variants[name] = starts(name, settings)
-    fine = starts("fine run", FINE_RUN)
+        variants[name] = from_starts(name, settings)
+    fine = from_starts("fine run", FINE_RUN)
     cases = [Case(material, name, variants[name], fine) for name in (DRAFT, SHIPPED)]
     for name, settings in other_preloads(first).items():
-        fine = starts("fine run, " + name, {**FINE_RUN, **settings})
-        cases.append(Case(material, name, starts(name, settings), fine))
+        fine = from_starts("fine run, " + name, {**FINE_RUN, **settings})
+        cases.append(Case(material, name, from_starts(name, settings), fine))
     return variants, cases
 
 

@@ -142,6 +142,14 @@ def divide(value, by):
     return None if value is None or by is None or by == 0 else value / by
 
 
+def least(values):
+    return min((value for value in values if value is not None), default=None)
+
+
+def largest(values):
+    return max((value for value in values if value is not None), default=None)
+
+
 def relative_change(value, reference):
     """|value - reference|/|reference|"""
     return None if value is None or not reference else abs(value - reference) / abs(reference)

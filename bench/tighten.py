@@ -1,6 +1,7 @@
 """The shipped test, config/tighten.yaml, on the four materials of the source paper."""
 import plots
-from runs import divide
+import starts
+from runs import divide, largest, least
 from table import Report, Table, above, at_least, at_most, is_, within
 
 MATERIALS = ["nylon", "polypropylene", "pink_vps", "green_vps"]
@@ -8,6 +9,7 @@ MATERIALS = ["nylon", "polypropylene", "pink_vps", "green_vps"]
 # What the source paper saw, and what this package promises for it.
 SLIDES = {"nylon": True, "polypropylene": True, "pink_vps": False, "green_vps": False}
 SPEED = {True: at_least(15.0), False: at_least(40.0)}          # simulated time over CPU time
+SPEED_WANTED = {True: 60.0, False: 200.0}                      # at `normal`; at `draft` twice that. Not reached yet
 PATTERN = {True: is_("sliding"), False: is_("stretching")}
 SLOPE = {True: within(-2.1, -1.9), False: above(0.0)}          # de/ds; e grows where the knots hold
 LOCK = {True: within(0.05, 0.12), False: None}                 # [m]
@@ -18,7 +20,7 @@ def gates(kind, materials):
     return [kind[SLIDES[material]] if material in SLIDES else None for material in materials]
 
 
-def report(runner, materials):
+def report(runner, materials, seeds=5):
     runs = {material: runner.run(material, {"material": material}) for material in materials}
     each = list(runs.values())
 
@@ -54,13 +56,35 @@ def report(runner, materials):
                 [run.value("force_balance_error") for run in each], at_most(0.01), ".2g")
     physics.add("knot type kept", "-", [run.value("knot_type_preserved") for run in each], is_(True))
 
-    tables = [speed, physics]
+    tables = [speed, over_starts(runner, materials, seeds), physics]
     if "nylon" in runs and "polypropylene" in runs:
         tables.append(stiffness_ratio(runs["nylon"], runs["polypropylene"]))
     return Report("The shipped test on four materials",
                   "`config/tighten.yaml` as shipped: tie, release, mount, balance, pull. One run a material, one after "
-                  "the other on one core.", tables,
+                  f"the other on one core; the worst over {seeds} starts are over runs whose knots are tied "
+                  f"{1e3 * starts.SHIFT:g} mm further apart from one to the next.", tables,
                   lambda file: plots.force_and_knot_distance(file, runs))
+
+
+def over_starts(runner, materials, seeds):
+    """The slowest of the starts, with the forces that it was as slow for."""
+    table = Table(f"Speed, the worst over {seeds} starts", materials)
+    for accuracy, times in (("normal", 1.0), ("draft", 2.0)):
+        each = [[runner.run(f"{material}_{accuracy}/{k}",
+                            {"material": material, "physics.accuracy": accuracy, **starts.start(k)})
+                 for k in range(seeds)] for material in materials]
+        wanted = [times * SPEED_WANTED[SLIDES.get(material, True)] for material in materials]
+        slowest = [least([run.real_time_factor() for run in group]) for group in each]
+        table.add(f"`{accuracy}`: runs that passed", "-", [sum(run.exit_code == 0 for run in group) for group in each],
+                  is_(seeds))
+        table.add(f"`{accuracy}`: real-time factor", "-", slowest, None, ".1f")
+        table.add(f"`{accuracy}`: over the {times * SPEED_WANTED[True]:g} and {times * SPEED_WANTED[False]:g} wanted", "-",
+                  [divide(factor, goal) for factor, goal in zip(slowest, wanted)], None, ".2f")
+        for reading in ("plateau_force", "peak_force"):
+            for name, pick in (("least", least), ("largest", largest)):
+                table.add(f"`{accuracy}`: {name} {reading.replace('_', ' ')}", "N",
+                          [pick([run.value(reading) for run in group]) for group in each], None, ".4g")
+    return table
 
 
 def stiffness_ratio(nylon, polypropylene):

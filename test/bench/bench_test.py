@@ -15,6 +15,7 @@ import front  # noqa: E402
 import references  # noqa: E402
 import runs  # noqa: E402
 import scaling  # noqa: E402
+import tighten  # noqa: E402
 from table import Table, at_least, at_most, is_, within  # noqa: E402
 
 
@@ -144,6 +145,25 @@ class FakeRunner:
         run.settings = settings
         run.exit_code = self.change(name, run.result)
         return run
+
+
+class SpeedOverStarts(unittest.TestCase):
+    def table(self, change=lambda name, result: 0):
+        return tighten.over_starts(FakeRunner(change), ["polypropylene", "green_vps"], 5)
+
+    def test_the_slowest_start_counts_against_what_is_wanted_of_its_kind(self):
+        def change(name, result):
+            result["simulated_time"] = 24.0 if name == "green_vps_draft/3" else 60.0
+            return 0
+        rows = {row[0]: row[2] for row in self.table(change).rows}
+        self.assertEqual(rows["`normal`: real-time factor"], [30.0, 30.0])
+        self.assertEqual(rows["`draft`: real-time factor"], [30.0, 12.0])
+        self.assertEqual(rows["`draft`: over the 120 and 400 wanted"], [0.25, 0.03])
+
+    def test_a_start_that_fails_fails_the_row(self):
+        failed = self.table(lambda name, result: 1 if name == "polypropylene_normal/4" else 0).failed()
+        self.assertEqual(len(failed), 1)
+        self.assertIn("polypropylene: `normal`: runs that passed is 4", failed[0])
 
 
 class Convergence(unittest.TestCase):
