@@ -38,8 +38,26 @@ bool Candidates::refresh(const Points& position) {
   return true;
 }
 
+bool Candidates::is_taut(const Points& position) const {
+  // Two places lie no nearer to each other than the rod between them is long, less all of its slack: what its length
+  // exceeds the distance of its ends by.
+  double length = 0.0, least_stretch = 1.0;
+  for (Eigen::Index i = 0; i + 1 < position.cols(); ++i) {
+    const double edge = (position.col(i + 1) - position.col(i)).norm();
+    length += edge;
+    least_stretch = std::min(least_stretch, edge / (arclength_[i + 1] - arclength_[i]));
+  }
+  const double slack = length - (position.rightCols(1) - position.leftCols(1)).norm();
+  return least_stretch * exclusion_ - slack >= reach_ + margin_ + 2.0 * half_size_.maxCoeff();
+}
+
 void Candidates::build(const Points& position) {
   built_at_ = position;
+  pairs_.clear();
+  segments_.clear();
+  runs_.clear();
+  begin_.assign(static_cast<std::size_t>(position.cols()) + 1, 0);
+  if (is_taut(position)) return;
   const int nodes = static_cast<int>(position.cols());
   const double cell = reach_ + margin_ + 2.0 * half_size_.maxCoeff();
   const Vec3 origin = position.rowwise().minCoeff().array() - cell;
@@ -53,10 +71,6 @@ void Candidates::build(const Points& position) {
   std::sort(entries_.begin(), entries_.end(),
             [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.segment < b.segment; });
 
-  pairs_.clear();
-  segments_.clear();
-  runs_.clear();
-  begin_.assign(static_cast<std::size_t>(nodes) + 1, 0);
   for (int i = 1; i + 1 < nodes; ++i) {
     begin_[static_cast<std::size_t>(i)] = runs_.size();
     found_.clear();

@@ -45,6 +45,7 @@ void StepMatrix<D>::build(const std::vector<ContactPoint>& contacts) {
   for (int i = 0; i + 1 < nodes_; ++i) pairs_.push_back({i, i + 1});
   for (int i = 0; i + 2 < nodes_; ++i) pairs_.push_back({i, i + 2});
   for (const ContactPoint& contact : contacts) {
+    // Those that stay apart need no room; those about to touch soon would.
     if (!contact.active() && contact.overlap < 2.0 * contact.begins) continue;
     // A foot slides on to the segment that it is nearer to.
     const bool backwards = contact.c[3] < contact.c[5];

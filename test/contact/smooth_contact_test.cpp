@@ -140,6 +140,16 @@ TEST(NormalLaw, SlopeAndEnergyAreThePressuresDerivativeAndIntegral) {
   }
 }
 
+/// All pairs of segments of a rod of even edges that are apart by the exclusion along it and near enough in space.
+std::vector<std::pair<int, int>> near_pairs(const Points& x, double edge, double exclusion, double near) {
+  std::vector<std::pair<int, int>> pairs;
+  const int nodes = static_cast<int>(x.cols());
+  for (int i = 1; i + 1 < nodes; ++i)
+    for (int j = i + 1; j + 1 < nodes; ++j)
+      if (edge * (j - i) >= exclusion && (x.col(i) - x.col(j)).norm() < near) pairs.push_back({i, j});
+  return pairs;
+}
+
 TEST(Candidates, FindEveryPairThatBruteForceFinds) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> place(0.0, 0.05);
@@ -153,13 +163,33 @@ TEST(Candidates, FindEveryPairThatBruteForceFinds) {
   Candidates candidates(rod, reach, margin, exclusion);
   EXPECT_TRUE(candidates.refresh(x));
   EXPECT_FALSE(candidates.refresh(x.array() + 0.2 * margin));
-  std::vector<std::pair<int, int>> expected;
-  for (int i = 1; i + 1 < nodes; ++i)
-    for (int j = i + 1; j + 1 < nodes; ++j)
-      if (2e-3 * (j - i) >= exclusion && (x.col(i) - x.col(j)).norm() < reach + margin + 2e-3)
-        expected.push_back({i, j});
-  EXPECT_EQ(candidates.pairs(), expected);
+  EXPECT_EQ(candidates.pairs(), near_pairs(x, 2e-3, exclusion, reach + margin + 2e-3));
   EXPECT_TRUE(candidates.refresh(x.array() + 0.6 * margin));
+}
+
+TEST(Candidates, OfARodThatIsFoldedMoreAndMoreAreThoseOfBruteForce) {
+  Material material;
+  material.radius = kRadius;
+  const int nodes = 60;
+  const double edge = 2e-3, reach = 6e-3, margin = 1e-3, exclusion = 2e-2;
+  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(nodes - 1, edge));
+  int found_nothing = 0, found_some = 0;
+  for (int fold = 0; fold <= 48; ++fold)
+    for (const double stretch : {0.6, 1.0, 1.3}) {
+      // A hairpin of six edges in the middle, whose ends go apart as it opens.
+      Points x = Points::Zero(3, nodes);
+      double angle = 0.0;
+      for (int i = 1; i < nodes; ++i) {
+        if (i > 25 && i <= 31) angle += M_PI / 40.0 * fold / 6.0;
+        x.col(i) = x.col(i - 1) + stretch * edge * Vec3(std::cos(angle), std::sin(angle), 0.0);
+      }
+      Candidates candidates(rod, reach, margin, exclusion);
+      candidates.refresh(x);
+      EXPECT_EQ(candidates.pairs(), near_pairs(x, edge, exclusion, reach + margin + edge)) << fold << ' ' << stretch;
+      ++(candidates.pairs().empty() ? found_nothing : found_some);
+    }
+  EXPECT_GT(found_nothing, 20);
+  EXPECT_GT(found_some, 20);
 }
 
 }  // namespace

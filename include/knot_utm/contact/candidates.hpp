@@ -42,6 +42,8 @@ class Candidates {
   };
 
   void build(const Points& position);
+  /// Whether the rod is drawn out so far that it cannot come back to itself.
+  bool is_taut(const Points& position) const;
 
   double reach_, margin_, exclusion_;
   Eigen::VectorXd arclength_;  // of the nodes
