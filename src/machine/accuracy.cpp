@@ -33,11 +33,12 @@ ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& ma
   const double edges = 2.0 * specimen.edge_length / (tolerance.refinement * h);
   const double preload = specimen.preload.value_or(default_preload(material)) * h * h / material.bending_stiffness;
   const double step = tolerance.longest_step / kNormal.longest_step;
-  out.plateau_force = (0.01 + 0.0025 * preload) * edges * edges +
-                      (0.01 + 0.0035 * preload) * tolerance.contact_tolerance / kNormal.contact_tolerance +
-                      0.01 * tolerance.presliding / kNormal.presliding + 0.005 * step;
+  out.plateau_force = (0.005 + 0.00125 * preload) * edges * edges +
+                      (0.005 + 0.00175 * preload) * tolerance.contact_tolerance / kNormal.contact_tolerance +
+                      0.01 * tolerance.presliding / kNormal.presliding + 0.005 * step +
+                      0.003 * tolerance.residual / kNormal.residual;
   out.lock_extension = 0.004 + 0.006 * edges * edges + 0.002 * step;
-  out.locked_stiffness = 0.02 + 0.025 * edges * edges;
+  out.locked_stiffness = 0.005 + 0.006 * edges * edges;
   return out;
 }
 
