@@ -58,6 +58,7 @@ void StepMatrix<D>::build(const std::vector<ContactPoint>& contacts) {
   pattern_.build(nodes_, pairs_);
   matrix_.set_pattern(pattern_);
   find_stencils();
+  find_blocks_beyond_band();
 }
 
 template <int D>
@@ -78,6 +79,22 @@ void StepMatrix<D>::find_stencils() {
     here[7] = next[3];
     here[8] = next[4];
   }
+}
+
+template <int D>
+void StepMatrix<D>::find_blocks_beyond_band() {
+  in_band_.assign(static_cast<std::size_t>(pattern_.blocks()), 0);
+  for (const Stencil& stencil : stencils_)
+    for (const int block : stencil)
+      if (block >= 0) in_band_[static_cast<std::size_t>(block)] = 1;
+  beyond_band_.clear();
+  for (int block = 0; block < pattern_.blocks(); ++block)
+    if (!in_band_[static_cast<std::size_t>(block)]) beyond_band_.push_back(block);
+}
+
+template <int D>
+void StepMatrix<D>::set_zero_beyond_band() {
+  for (const int index : beyond_band_) block(index).set_zero();
 }
 
 template <int D>

@@ -95,7 +95,7 @@ class ImplicitStep final : public TimeStep {
 
   bool solve() {
     matrix_.locate(contact_.contacts());
-    matrix_.values().set_zero();
+    matrix_.set_zero_beyond_band();
     tangents_.clear();
     centreline_.set_stiffness(inertia_and_drag(), matrix_);
     if constexpr (D == 4) add_frame_stiffness();
@@ -104,9 +104,7 @@ class ImplicitStep final : public TimeStep {
     linearise_contacts(rollers_);
     add_grip_stiffness();
     for (int node = 0; node < nodes_; ++node) hold(node);
-    if (!matrix_.values().factor()) return false;
-    matrix_.values().solve(change_);
-    return true;
+    return matrix_.values().solve(change_);
   }
 
   void move(double wanted_share) {

@@ -260,46 +260,51 @@ void BlockMatrix<D>::multiply(const Vector& x, Vector& y) const {
 }
 
 template <int D>
-bool BlockMatrix<D>::factor() {
+bool BlockMatrix<D>::solve(Vector& b) {
   const int nodes = pattern_->nodes();
-  for (int k = 0; k < nodes; ++k) {
+  for (int i = 0; i < nodes; ++i) work_[at(pattern_->position(i))] = b[at(i)];
+  if (!eliminate()) return false;
+  substitute_back();
+  for (int i = 0; i < nodes; ++i) b[at(i)] = work_[at(pattern_->position(i))];
+  return true;
+}
+
+template <int D>
+bool BlockMatrix<D>::eliminate() {
+  for (int k = 0; k < pattern_->nodes(); ++k) {
     Block<D>* own = &values_[at(pattern_->diagonal(k))];
     Block<D> inverse;
     if (!invert(own[0], inverse)) return false;
     own[0] = inverse;
+    const Lanes x = work_[at(k)];
     const int count = pattern_->below(k);
-    const int* target = pattern_->targets(k);
-    for (int a = 0; a < count; ++a) own[1 + 2 * a] = product(own[1 + 2 * a], inverse);
+    const int *row = pattern_->rows(k), *target = pattern_->targets(k);
     int a = 0;
     for (; a + 1 < count; a += 2, target += 2 * count) {
-      const RowPair<D> lower(own[1 + 2 * a], own[3 + 2 * a]);
-      for (int b = 0; b < count; ++b)
-        lower.subtract_products(values_[at(target[b])], values_[at(target[count + b])], own[2 + 2 * b]);
+      const Block<D> lower1 = product(own[1 + 2 * a], inverse), lower2 = product(own[3 + 2 * a], inverse);
+      subtract_product(work_[at(row[a])], lower1, x);
+      subtract_product(work_[at(row[a + 1])], lower2, x);
+      const RowPair<D> lower(lower1, lower2);
+      for (int c = 0; c < count; ++c)
+        lower.subtract_products(values_[at(target[c])], values_[at(target[count + c])], own[2 + 2 * c]);
     }
     if (a == count) continue;
-    for (int b = 0; b < count; ++b) subtract_product(values_[at(target[b])], own[1 + 2 * a], own[2 + 2 * b]);
+    const Block<D> lower = product(own[1 + 2 * a], inverse);
+    subtract_product(work_[at(row[a])], lower, x);
+    for (int c = 0; c < count; ++c) subtract_product(values_[at(target[c])], lower, own[2 + 2 * c]);
   }
   return true;
 }
 
 template <int D>
-void BlockMatrix<D>::solve(Vector& b) {
-  const int nodes = pattern_->nodes();
-  for (int i = 0; i < nodes; ++i) work_[at(pattern_->position(i))] = b[at(i)];
-  for (int k = 0; k < nodes; ++k) {
-    const Block<D>* own = &values_[at(pattern_->diagonal(k))];
-    const int* row = pattern_->rows(k);
-    const Lanes x = work_[at(k)];
-    for (int a = 0; a < pattern_->below(k); ++a) subtract_product(work_[at(row[a])], own[1 + 2 * a], x);
-  }
-  for (int k = nodes - 1; k >= 0; --k) {
+void BlockMatrix<D>::substitute_back() {
+  for (int k = pattern_->nodes() - 1; k >= 0; --k) {
     const Block<D>* own = &values_[at(pattern_->diagonal(k))];
     const int* row = pattern_->rows(k);
     Lanes x = work_[at(k)];
     for (int a = 0; a < pattern_->below(k); ++a) subtract_product(x, own[2 + 2 * a], work_[at(row[a])]);
     work_[at(k)] = product(own[0], x);
   }
-  for (int i = 0; i < nodes; ++i) b[at(i)] = work_[at(pattern_->position(i))];
 }
 
 template class BlockMatrix<3>;

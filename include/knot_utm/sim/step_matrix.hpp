@@ -38,6 +38,9 @@ class StepMatrix {
     find(contacts);
   }
 
+  /// All blocks but those of the stencils, which CentrelineTerms::set_stiffness overwrites.
+  void set_zero_beyond_band();
+
   BlockMatrix<D>& values() { return matrix_; }
   Block<D>& block(int stored_index) { return matrix_.block(stored_index); }
   /// Block (first + k, first + l), k, l < 3.
@@ -60,11 +63,14 @@ class StepMatrix {
   bool look_up(Located& contact) const;
   void build(const std::vector<ContactPoint>& contacts);
   void find_stencils();
+  void find_blocks_beyond_band();
 
   int nodes_;
   BlockPattern pattern_;
   BlockMatrix<D> matrix_;
   std::vector<Stencil> stencils_;
+  std::vector<char> in_band_;              // of every stored block
+  std::vector<int> beyond_band_;           // stored indices of blocks that are in no stencil
   std::vector<Located> located_, before_;  // ascending in a0; before_: what they were at the last look
   std::vector<std::pair<int, int>> pairs_;
 };

@@ -71,7 +71,7 @@ class BlockPattern {
   std::vector<int> targets_;  // pivot, row a, column b -> stored index of the block that L_a U_b updates
 };
 
-/// Square matrix of D x D blocks on a fixed pattern, factored in place: A = L U, blocks of L with unit diagonal.
+/// Square matrix of D x D blocks on a fixed pattern, solved in place by A = L U, blocks of L with unit diagonal.
 /// Unsymmetric in value. No pivoting: the caller's matrix is an implicit step's Jacobian, whose diagonal dominates
 /// where the step is short enough; a pivot that vanishes is reported.
 template <int D>
@@ -92,16 +92,17 @@ class BlockMatrix {
   /// As set_identity_row, in those rows of the block whose lane of `keep` is 0; the others, of lane 1, stay.
   void set_identity_row(int node, const Lanes& keep);
 
-  /// y = A x, before factorising.
+  /// y = A x, before solving.
   void multiply(const Vector& x, Vector& y) const;
 
-  /// LU in place; false where a pivot block is singular.
-  bool factor();
-
-  /// Solves A x = b after `factor`; b becomes x.
-  void solve(Vector& b);
+  /// Solves A x = b; b becomes x. False where a pivot block is singular. The matrix is used up: of its factors U and
+  /// the inverse pivots are left, while L b is taken along as L comes about and L itself is not kept.
+  bool solve(Vector& b);
 
  private:
+  bool eliminate();
+  void substitute_back();
+
   const BlockPattern* pattern_ = nullptr;
   std::vector<Block<D>> values_;
   Vector work_;
