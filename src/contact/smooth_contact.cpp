@@ -139,6 +139,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   recalled_.assign(iterate_.entries.size(), 0);
   friction_scale_ = friction_.scale(dt);
   catch_up_ = dt / (dt + kCatchUp);
+  if (candidates_.segments().empty()) return;
   const Eigen::Index edges = position.cols() - 1;
   edge_.noalias() = position.rightCols(edges) - position.leftCols(edges);
   edge_middle_.noalias() = 0.5 * (position.rightCols(edges) + position.leftCols(edges));
