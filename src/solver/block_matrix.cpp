@@ -3,8 +3,6 @@
 #include <suitesparse/amd.h>
 
 #include <algorithm>
-#include <cstring>
-#include <type_traits>
 
 namespace knot_utm {
 
@@ -215,9 +213,7 @@ void BlockMatrix<D>::set_pattern(const BlockPattern& pattern) {
 
 template <int D>
 void BlockMatrix<D>::set_zero() {
-  static_assert(std::is_trivially_copyable_v<Block<D>>);
-  // Faster than a loop of stores where the matrix is larger than the nearer caches.
-  std::memset(static_cast<void*>(values_.data()), 0, values_.size() * sizeof(Block<D>));
+  for (Block<D>& block : values_) block.set_zero();
 }
 
 template <int D>
