@@ -103,7 +103,7 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
   for (const Sample& sample : samples) {
     tracker.add(sample);
     results.max_penetration = std::max(results.max_penetration, sample.max_penetration);
-    if (sample.status == BenchStatus::kNotEquilibrated) results.equilibrated = false;
+    if (sample.status == BenchStatus::kNotEquilibrated) results.not_equilibrated = sample.message;
     const double stored = energy(sample) - energy(first);
     const double lost = sample.dissipation - first.dissipation;
     const double work = sample.grip_work - first.grip_work;

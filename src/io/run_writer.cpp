@@ -57,7 +57,6 @@ constexpr double kDeep = 0.05;
 
 std::vector<std::string> warnings(const Results& results) {
   std::vector<std::string> all;
-  if (!results.equilibrated) all.emplace_back("tying did not come to rest in time");
   if (results.knot_type == KnotType::kCrossed) {
     all.push_back("the rod ran through itself at " + format_number(results.untangled_at.value_or(Sample::kNone)) +
                   " s");
@@ -70,6 +69,11 @@ std::vector<std::string> warnings(const Results& results) {
     all.push_back("contacts were up to " + format_number(results.max_penetration) + " radii deep");
   }
   return all;
+}
+
+/// Of readings whose specimen had not come to rest no study says how far off they are.
+ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
+  return results.not_equilibrated.empty() ? facts.errors : ReadingErrors{};
 }
 
 std::optional<double> share_of(const std::optional<double>& reading, const std::optional<double>& share) {
@@ -113,6 +117,7 @@ class Lines {
 }  // namespace
 
 std::string accuracy_warning(const Results& results, const ReadingErrors& errors) {
+  if (!results.not_equilibrated.empty()) return results.not_equilibrated;
   constexpr double kUnsure = 0.1;
   if (!results.plateau_force || errors.plateau_force.value_or(0.0) <= kUnsure) return {};
   return "the plateau force may be off by " + format_number(std::round(100.0 * *errors.plateau_force)) +
@@ -159,6 +164,7 @@ void RunWriter::finish(const Results& results, const RunFacts& facts, const Poin
 }
 
 std::string result_yaml(const Results& r, const RunFacts& f) {
+  const ReadingErrors errors = known_errors(r, f);
   Lines lines;
   lines.word("motion_pattern", motion_pattern_name(r.motion_pattern));
   lines.number("motion_pattern_confidence", r.motion_pattern_confidence);
@@ -169,20 +175,20 @@ std::string result_yaml(const Results& r, const RunFacts& f) {
   const std::string unsure = accuracy_warning(r, f.errors);
   if (!unsure.empty()) all_warnings.push_back(unsure);
   lines.list("warnings", all_warnings);
-  lines.flag("not_equilibrated", !r.equilibrated);
+  lines.flag("not_equilibrated", !r.not_equilibrated.empty());
   lines.number("preload", f.preload);
   lines.number("tied_knot_distance", r.tied_knot_distance);
   lines.pair("excess_length", r.tied_excess_length);
   lines.pair("final_excess_length", r.final_excess_length);
   lines.number("plateau_force", r.plateau_force);
   lines.number("plateau_force_sd", r.plateau_force_sd);
-  lines.number("plateau_force_error", share_of(r.plateau_force, f.errors.plateau_force));
+  lines.number("plateau_force_error", share_of(r.plateau_force, errors.plateau_force));
   lines.number("plateau_slope", r.plateau_slope);
   lines.number("breakaway_force", r.breakaway_force);
   lines.number("lock_extension", r.lock_extension);
-  lines.number("lock_extension_error", share_of(r.lock_extension, f.errors.lock_extension));
+  lines.number("lock_extension_error", share_of(r.lock_extension, errors.lock_extension));
   lines.number("locked_stiffness", r.locked_stiffness);
-  lines.number("locked_stiffness_error", share_of(r.locked_stiffness, f.errors.locked_stiffness));
+  lines.number("locked_stiffness_error", share_of(r.locked_stiffness, errors.locked_stiffness));
   lines.number("peak_force", r.peak_force);
   lines.number("balance_offset", r.balance_offset);
   lines.number("break_extension", r.break_extension);

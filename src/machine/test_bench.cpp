@@ -343,9 +343,12 @@ struct TestBench::Impl {
       default:
         break;
     }
-    if (done) {
+    if (rig && !rig->not_tied().empty()) {
+      status = BenchStatus::kFailed;
+      message = rig->not_tied();
+    } else if (done) {
       status = BenchStatus::kPhaseDone;
-    } else if (rig && (phase == Phase::kTie || phase == Phase::kRelease) && !rig->not_equilibrated().empty()) {
+      if (phase == Phase::kMount || !rig || rig->not_equilibrated().empty()) return;
       status = BenchStatus::kNotEquilibrated;
       message = rig->not_equilibrated();
     }

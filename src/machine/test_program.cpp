@@ -66,9 +66,6 @@ Command TestProgram::next(const Sample& sample) {
       return command(last_.sequence);
     }
     ++step_;
-  } else {
-    check_timeout();
-    if (ended()) return command(last_.sequence);
   }
   last_ = command(last_.sequence + 1);
   balance_next_ = false;
@@ -129,8 +126,6 @@ bool TestProgram::end_by_alarm(const Sample& sample) {
   const std::string phase = phase_name(last_.phase);
   if (sample.status == BenchStatus::kFailed) {
     end(EndedBy::kSolver, sample.message.empty() ? phase + ": the physics gave up" : sample.message);
-  } else if (sample.status == BenchStatus::kNotEquilibrated) {
-    end(EndedBy::kSolver, sample.message.empty() ? phase + ": not equilibrated in time" : sample.message);
   } else if (sample.status == BenchStatus::kBroken) {
     end(EndedBy::kBreak, sample.message);
   } else if (std::abs(sample.load) > limits_.load || std::abs(sample.force_upper) > limits_.load) {
@@ -150,7 +145,9 @@ EndedBy TestProgram::step_end(const Sample& sample) const {
     case Phase::kTie:
     case Phase::kRelease:
     case Phase::kMount:
-      return sample.status == BenchStatus::kPhaseDone ? EndedBy::kProgram : EndedBy::kNotYet;
+      return sample.status == BenchStatus::kPhaseDone || sample.status == BenchStatus::kNotEquilibrated
+                 ? EndedBy::kProgram
+                 : EndedBy::kNotYet;
     case Phase::kPreload:
       return sample.load >= s.load ? EndedBy::kLoad : EndedBy::kNotYet;
     case Phase::kPull:
@@ -165,15 +162,6 @@ EndedBy TestProgram::step_end(const Sample& sample) const {
       break;
   }
   return EndedBy::kProgram;
-}
-
-void TestProgram::check_timeout() {
-  const double time = seconds(last_.sequence - step_begin_);
-  if (step().phase == Phase::kTie && time > limits_.tie_timeout) {
-    end(EndedBy::kSolver, "tie: not equilibrated in time");
-  } else if (step().phase == Phase::kRelease && time > step().duration + limits_.release_timeout) {
-    end(EndedBy::kSolver, "release: not equilibrated in time");
-  }
 }
 
 Command TestProgram::command(std::uint64_t sequence) const {

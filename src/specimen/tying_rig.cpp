@@ -17,6 +17,10 @@ constexpr double kSettlingTime = 0.3;  // [s]
 constexpr double kSettlingWave = 40.0;
 constexpr double kThreadedBeyondKnot = 18.0;  // beyond the middle of the loose knot: it ends 8 further out
 
+double fastest_node(const TimeStep& stepper) {
+  return std::sqrt(stepper.state().velocity.colwise().squaredNorm().maxCoeff());
+}
+
 }  // namespace
 
 TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const Options& options) : options_(options) {
@@ -63,6 +67,7 @@ void TyingRig::tie(double speed, double time, const Points& position) {
   speed_ = speed;
   reached_ = -1.0;
   not_equilibrated_.clear();
+  not_tied_.clear();
   grips_.clear();
   for (const Knot& knot : knots_) {
     SlippingGrip grip;
@@ -107,12 +112,6 @@ void TyingRig::hold(Boundary& boundary, double from, double to) const {
   }
 }
 
-bool TyingRig::at_rest(const TimeStep& stepper, double dt) {
-  const double fastest = std::sqrt(stepper.state().velocity.colwise().squaredNorm().maxCoeff());
-  rested_ = fastest > options_.rest_speed ? 0.0 : rested_ + dt;
-  return rested_ >= options_.rest_time;
-}
-
 void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
   const Points& x = stepper.state().position;
   bool all_slip = true;
@@ -127,7 +126,8 @@ void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
     if (tail_force_[k] < 0.999 * grip.slip_force) all_slip = false;
   }
   const double elapsed = time - stage_begin_;
-  const bool rest = at_rest(stepper, dt);
+  rested_ = fastest_node(stepper) > options_.rest_speed ? 0.0 : rested_ + dt;
+  if (stage_ == Stage::kPulling && all_slip && reached_ < 0.0) reached_ = time;
   switch (stage_) {
     case Stage::kSettling:
       if (elapsed >= kSettlingTime) {
@@ -136,13 +136,17 @@ void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
       }
       break;
     case Stage::kPulling:
-      if (all_slip && rest) enter(Stage::kTied, time);
+      // A grip that stuck again since it reached the pre-load is waited for no longer than for rest.
+      if (reached_ >= 0.0 && (all_slip || time - reached_ > options_.patience) &&
+          waited_for_rest(stepper, time, reached_, "the tail grips reached the pre-load")) {
+        enter(Stage::kTied, time);
+      }
       break;
     case Stage::kTailsRamp:
       if (elapsed >= ramp_time_) enter(Stage::kTailsRest, time);
       break;
     case Stage::kTailsRest:
-      if (rest) {
+      if (waited_for_rest(stepper, time, stage_begin_, "the tails were released")) {
         for (Clamp& clamp : clamps_) clamp.reaction = stepper.reaction(clamp.node);
         enter(Stage::kClampsRamp, time);
       }
@@ -151,38 +155,35 @@ void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
       if (elapsed >= ramp_time_) enter(Stage::kClampsRest, time);
       break;
     case Stage::kClampsRest:
-      if (rest && elapsed >= ramp_time_) enter(Stage::kReleased, time);
+      if (elapsed >= ramp_time_ && waited_for_rest(stepper, time, stage_begin_, "the clamps were released")) {
+        enter(Stage::kReleased, time);
+      }
       break;
     case Stage::kIdle:
     case Stage::kTied:
     case Stage::kReleased:
       break;
   }
-  if (stage_ == Stage::kPulling && all_slip && reached_ < 0.0) reached_ = time;
-  judge_patience(stepper, time);
+  judge_pull(time);
 }
 
-void TyingRig::judge_patience(const TimeStep& stepper, double time) {
+bool TyingRig::waited_for_rest(const TimeStep& stepper, double time, double begin, const char* since) {
+  if (rested_ >= options_.rest_time) return true;
+  if (time - begin <= options_.patience) return false;
   std::ostringstream message;
-  if (stage_ == Stage::kPulling && reached_ < 0.0) {
-    if (time - stage_begin_ <= options_.pull_patience) return;
-    message << "not equilibrated: after " << options_.pull_patience << " s of tying the tail grips hold";
-    for (const double force : tail_force_) message << ' ' << force;
-    message << " N and have not reached the pre-load, " << options_.preload << " N";
-  } else if (stage_ == Stage::kPulling || stage_ == Stage::kTailsRest || stage_ == Stage::kClampsRest) {
-    const double since = stage_ == Stage::kPulling ? reached_ : stage_begin_;
-    if (time - since <= options_.patience) return;
-    message << "not equilibrated: " << options_.patience << " s after "
-            << (stage_ == Stage::kPulling     ? "the tail grips reached the pre-load"
-                : stage_ == Stage::kTailsRest ? "the tails were released"
-                                              : "the clamps were released")
-            << " the fastest node still moves at "
-            << std::sqrt(stepper.state().velocity.colwise().squaredNorm().maxCoeff()) << " m/s (rest is "
-            << options_.rest_speed << " m/s)";
-  } else {
-    return;
-  }
+  message << "not equilibrated: " << options_.patience << " s after " << since << " the fastest node still moved at "
+          << fastest_node(stepper) << " m/s (rest is " << options_.rest_speed << " m/s)";
   not_equilibrated_ = message.str();
+  return true;
+}
+
+void TyingRig::judge_pull(double time) {
+  if (stage_ != Stage::kPulling || reached_ >= 0.0 || time - stage_begin_ <= options_.pull_patience) return;
+  std::ostringstream message;
+  message << "not tied: after " << options_.pull_patience << " s the tail grips hold";
+  for (const double force : tail_force_) message << ' ' << force;
+  message << " N and have not reached the pre-load, " << options_.preload << " N";
+  not_tied_ = message.str();
 }
 
 std::vector<int> TyingRig::standing_nodes() const {

@@ -175,22 +175,13 @@ TEST(TestProgram, OverloadCountsTheTrueForceInBothDirections) {
   }
 }
 
-TEST(TestProgram, ATieThatDoesNotComeToRestIsNeverPassedOver) {
-  FakeBench restless;
+TEST(TestProgram, GoesOnWithWhatDoesNotComeToRestAsWithWhatDoes) {
+  FakeBench calm, restless;
   restless.comes_to_rest = false;
-  TestProgram answered(paper_program(), 3.0, 0.1, {});
-  const Record result = run(restless, answered);
-  EXPECT_EQ(answered.ended_by(), EndedBy::kSolver);
-  EXPECT_THAT(answered.reason(), HasSubstr("tie: not equilibrated"));
-  EXPECT_EQ(result.commands.back().phase, Phase::kTie);
-
-  FakeBench silent;
-  silent.tie_time = 1e9;
-  TestProgram::Limits limits;
-  limits.tie_timeout = 5.0;
-  TestProgram unanswered(paper_program(), 3.0, 0.1, limits);
-  run(silent, unanswered);
-  EXPECT_EQ(unanswered.ended_by(), EndedBy::kSolver);
+  TestProgram rested(paper_program(), 3.0, 0.1, {}), moving(paper_program(), 3.0, 0.1, {});
+  const Record with_rest = run(calm, rested), without = run(restless, moving);
+  EXPECT_EQ(moving.ended_by(), EndedBy::kExtension);
+  EXPECT_EQ(without.commands.size(), with_rest.commands.size());
 }
 
 TEST(TestProgram, OperatorStopsAndBalances) {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "knot_utm/analysis/motion_pattern.hpp"
@@ -39,7 +40,7 @@ struct Results {
   std::optional<double> break_extension;  ///< s where the rod broke [m]
   std::optional<double> untangled_at;     ///< time [s], see MotionPatternTracker
   KnotType knot_type = KnotType::kKept;   ///< at the end, see KnotWatch
-  bool equilibrated = true;               ///< tying and release ended at rest
+  std::string not_equilibrated;           ///< empty: tying and release ended at rest; else what still moved
 
   double max_penetration = 0.0;               ///< [fraction of radius], over the whole test
   std::optional<double> force_balance_error;  ///< largest |upper - lower| of the pull / peak force

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "knot_utm/rod/rod.hpp"
@@ -25,8 +26,13 @@ struct Friction {
   bool on() const { return coefficient > 0.0; }
   bool remembers() const { return law == FrictionLaw::kMemory; }
 
-  /// The slip that saturates (memory) or scales (smoothed) the law in a step of length dt [m].
-  double scale(double dt) const { return remembers() ? presliding : dt * slip_tolerance; }
+  /// The slip that saturates (memory) or scales (smoothed) the law in a step of length dt [m]. In the shortest steps
+  /// dt v_s would be lost in rounding, and no shorter step would be an easier one.
+  double scale(double dt) const {
+    return remembers() ? presliding : std::max(dt * slip_tolerance, kLeastSlip * presliding);
+  }
+
+  static constexpr double kLeastSlip = 1e-2;  ///< of xi_s, smoothed
 };
 
 /// z(y) and C = dz/dy = across 1 + along u u^T, u = y/|y|.

@@ -48,7 +48,7 @@ class RunWriter {
   CurveWriter full_curve_;
 };
 
-/// One line where the plateau force may be off by more than a tenth; else empty.
+/// One line where the specimen had not come to rest, or the plateau force may be off by more than a tenth; else empty.
 std::string accuracy_warning(const Results& results, const ReadingErrors& errors);
 
 /// result.yaml: the keys in a fixed order, SI units, null for what is not there; warnings of the results first.

@@ -26,7 +26,7 @@ struct Command {
 enum class BenchStatus {
   kRunning,          ///< the phase goes on
   kPhaseDone,        ///< tie, release, mount: its end condition is met
-  kNotEquilibrated,  ///< tie, release: its end condition was not met in time
+  kNotEquilibrated,  ///< tie, release: goes on as if at rest, which did not come in time; `message` says what moves
   kBroken,           ///< the rod's tension passed the material's breaking force
   kFailed            ///< the physics gave up; `message` says why
 };

@@ -31,22 +31,20 @@ const char* ended_by_name(EndedBy end);  ///< "not yet", "break", "extension", "
 /// reading before anything moves. The first step begins with command 1.
 ///
 /// What the crosshead does in each step, and what ends it:
-///   tie, release  stands still, until the bench answers kPhaseDone
+///   tie, release  stands still, until the bench answers kPhaseDone, or kNotEquilibrated: the results say so
 ///   mount         moves outwards at `speed` until the bench answers kPhaseDone
 ///   preload       moves outwards at `speed` until the sample's load is at least `load`
 ///   balance       stands still for one command, which has `balance` set
 ///   pull          moves outwards at `speed` until the first sample that meets one of `until`: extension and load are
 ///                 at least, so they may be passed by what one period moves
 ///   hold          stands still for `duration`, rounded up to whole periods
-/// The whole test ends when the last step has ended, or at once by a broken rod, a bench that failed or did not come
-/// to rest in time, a true force or a reading beyond Limits::load, the end of the crosshead's way, or the operator.
+/// The whole test ends when the last step has ended, or at once by a broken rod, a bench that failed, a true force or a
+/// reading beyond Limits::load, the end of the crosshead's way, or the operator.
 class TestProgram {
  public:
   struct Limits {
-    double load = 50e3;             ///< ends the test: the cell's capacity [N]
-    double travel = 1.0;            ///< ends the test: |displacement| [m]
-    double tie_timeout = 600.0;     ///< tie without an answer of the bench ends the test [s]
-    double release_timeout = 60.0;  ///< the same for release, beyond its duration [s]
+    double load = 50e3;   ///< ends the test: the cell's capacity [N]
+    double travel = 1.0;  ///< ends the test: |displacement| [m]
   };
 
   /// Sampling rate [Hz], longest period [s]. Throws std::invalid_argument for an empty program, or for a rate or period
@@ -78,7 +76,6 @@ class TestProgram {
   void end(EndedBy by, std::string reason);
   bool end_by_alarm(const Sample& sample);
   EndedBy step_end(const Sample& sample) const;  ///< kNotYet: the step goes on
-  void check_timeout();
   Command command(std::uint64_t sequence) const;
 
   Program program_;

@@ -17,7 +17,8 @@ namespace knot_utm {
 /// drawing, and would otherwise throw the strands about.
 ///
 /// Release: the tails' pull goes to zero linearly, everything comes to rest; then each clamp is replaced by its
-/// reaction, which goes to zero linearly, and everything comes to rest again.
+/// reaction, which goes to zero linearly, and everything comes to rest again. What does not come to rest in time, as a
+/// knot that creeps open does, is not kept from going on; `not_equilibrated` says so.
 class TyingRig {
  public:
   struct Options {
@@ -25,8 +26,8 @@ class TyingRig {
     double grip_stiffness = 2e4;  ///< [N/m]
     double rest_speed = 2e-5;     ///< every node slower than this ... [m/s]
     double rest_time = 0.3;       ///< ... for this long: at rest [s]
-    double patience = 60.0;       ///< without rest for so long: not equilibrated [s]
-    double pull_patience = 90.0;  ///< grips that have not reached the pre-load by then: not equilibrated [s]
+    double patience = 60.0;       ///< without rest for so long: goes on all the same, not equilibrated [s]
+    double pull_patience = 90.0;  ///< grips that have not reached the pre-load by then: not to be tied [s]
   };
   enum class Stage { kIdle, kSettling, kPulling, kTied, kTailsRamp, kTailsRest, kClampsRamp, kClampsRest, kReleased };
 
@@ -44,8 +45,10 @@ class TyingRig {
   Stage stage() const { return stage_; }
   bool tied() const { return stage_ == Stage::kTied; }
   bool released() const { return stage_ == Stage::kReleased; }
-  /// Empty, or why it waited in vain.
+  /// Empty, or what had not come to rest when it went on.
   const std::string& not_equilibrated() const { return not_equilibrated_; }
+  /// Empty, or why the knots cannot be tied.
+  const std::string& not_tied() const { return not_tied_; }
 
   /// Node in the standing part of each knot, in the order of the centreline's knots.
   std::vector<int> standing_nodes() const;
@@ -70,8 +73,9 @@ class TyingRig {
     int standing_node;
   };
   void enter(Stage stage, double time);
-  void judge_patience(const TimeStep& stepper, double time);
-  bool at_rest(const TimeStep& stepper, double dt);
+  /// At rest, or no longer waited for since `begin`.
+  bool waited_for_rest(const TimeStep& stepper, double time, double begin, const char* since);
+  void judge_pull(double time);
 
   Options options_;
   double settling_drag_;  // [N s/m^2]
@@ -83,7 +87,7 @@ class TyingRig {
   Stage stage_ = Stage::kIdle;
   double speed_ = 0.0, ramp_time_ = 1.0, stage_begin_ = 0.0, rested_ = 0.0;
   double reached_ = -1.0;  // when both tail grips had first reached the pre-load; < 0: not yet
-  std::string not_equilibrated_;
+  std::string not_equilibrated_, not_tied_;
 };
 
 }  // namespace knot_utm
