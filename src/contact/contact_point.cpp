@@ -49,7 +49,8 @@ void linearise(const NormalLaw& normal, const Friction& friction, double frictio
     const Vec3& r = contact.slip;
     const double away = n.dot(r), left = 1.0 - away / contact.d;
     const Vec3 tangential = r - away * n;
-    const FrictionDirection direction = friction_direction_and_slope(friction.law, tangential / friction_scale);
+    const FrictionDirection direction =
+        linearised_direction(friction.law, friction.secant, tangential / friction_scale);
     const double s = friction.coefficient * p / friction_scale;
     pressing -= (friction.coefficient * slope) * direction.z;
     on_identity -= s * direction.across * left;

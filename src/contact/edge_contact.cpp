@@ -177,7 +177,7 @@ void EdgeContact::linearise_contact(const ContactPoint& contact, double dt, Edge
     const double scale = friction_.scale(dt);
     const Vec3& r = contact.slip;
     const double along = n.dot(r);
-    const FrictionDirection friction = friction_direction_and_slope(friction_.law, (r - along * n) / scale);
+    const FrictionDirection friction = linearised_direction(friction_.law, friction_.secant, (r - along * n) / scale);
     direction -= friction_.coefficient * friction.z;
     // d(P r) = -(n.r) dn - n (r.dn) + P dr
     const Mat39 dr = moved + feet.turn_a * t - contact.turn * u;

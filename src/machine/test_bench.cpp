@@ -24,9 +24,12 @@ namespace {
 constexpr double kStiffeningDepth = 0.015;   // c of the normal law: at the kN of a locked knot a rod gives 5 % [h]
 constexpr double kCoarsening = 1.5;          // of edges on the far side of a loop, which touches nothing but rollers
 constexpr double kResidualOfTension = 2e-6;  // of the largest tension, so that kN loads do not ask for more than digits
-constexpr double kSlack = 0.002;             // by which the rollers stand closer than taut, until mounting [m]
+constexpr double kSlack = 0.6;               // by which the rollers stand closer than taut, until mounting [h]
+constexpr double kGripStretch = 2.4;         // of a tail's grip when it slips [h]
 constexpr double kTakeUpLoad = 0.02;         // slack is taken up once the load has risen by this much [k_b/h^2] ...
 constexpr double kTakeUpMotion = 0.3;        // ... or once the knots have moved by this much [h]
+
+constexpr double kShortestStep = 0.01;  // below it the run gives up, where that is less than usual [bending time]
 
 // A shape that is pulled as it was drawn settles first, under a drag that fades as that of the tying rig does.
 constexpr double kSettlingTime = 1.0;   // [s]
@@ -181,10 +184,12 @@ struct TestBench::Impl {
     // A drawn shape springs apart at once.
     if (specimen.knot != KnotKind::kStraight) options.first = std::min(bending_time(material), options.longest);
     options.motion = 0.3 * material.radius;
+    options.shortest = std::min(options.shortest, kShortestStep * bending_time(material));
     control = StepControl(options);
     if (!centreline.knots.empty()) {
       TyingRig::Options tying;
       tying.preload = preload(specimen, material);
+      tying.grip_stiffness = tying.preload / (kGripStretch * material.radius);
       rig.emplace(centreline, rod, tying);
     }
     if (specimen.knot != KnotKind::kStraight) {
@@ -204,7 +209,7 @@ struct TestBench::Impl {
       roller.radius = 0.5 * machine.roller_diameter;
       roller.centre = Vec3::Zero();
       rollers.push_back(roller);
-      roller.centre = Vec3(0.0, 0.0, specimen.end_to_end - kSlack);
+      roller.centre = Vec3(0.0, 0.0, specimen.end_to_end - kSlack * material.radius);
       rollers.push_back(roller);
       return;
     }

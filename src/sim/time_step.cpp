@@ -27,6 +27,8 @@ struct PressureTangent {
   double pressure, slope;
 };
 
+constexpr int kPatience = 5;  // times as many iterations with secants
+
 /// Stands for FrameTerms where the scene does not solve for twist.
 struct NoFrames {
   NoFrames(const RodProperties&, const StepSettings&) {}
@@ -53,7 +55,7 @@ class ImplicitStep final : public TimeStep {
         committed_force_(at(nodes_)),
         held_(at(nodes_), 0) {}
 
-  StepSummary step(const Boundary& boundary, double dt) override {
+  StepSummary step(const Boundary& boundary, double dt, Solution solution) override {
     boundary_ = &boundary;
     dt_ = dt;
     StepSummary summary;
@@ -62,9 +64,16 @@ class ImplicitStep final : public TimeStep {
     contact_.begin_step();
     rollers_.begin_step();
     if constexpr (D == 4) frames_.begin_step(state_, boundary.fixed_twists, dt);
-    summary.newton = newton(*this, NewtonOptions{settings_.max_iterations});
+    const bool secants = solution == Solution::kSecants;
+    contact_.use_secants(secants);
+    rollers_.use_secants(secants);
+    summary.newton = newton(*this, secants ? NewtonOptions{kPatience * settings_.max_iterations, 0.5}
+                                           : NewtonOptions{settings_.max_iterations});
     examine(summary);
-    if (summary.accepted()) commit();
+    if (summary.accepted())
+      commit();
+    else
+      summary.diagnosis = diagnose(summary.newton.converged());
     return summary;
   }
 
@@ -308,6 +317,42 @@ class ImplicitStep final : public TimeStep {
       summary.reason = "a node moved further than a step may";
     else if (summary.largest_overlap > settings_.overlap_limit)
       summary.reason = "strands overlap more than a step may leave";
+  }
+
+  /// Of the unknowns as Newton's method left them.
+  StepDiagnosis diagnose(bool converged) const {
+    StepDiagnosis out;
+    double worst = -1.0;
+    for (int i = 0; i < nodes_; ++i) {
+      const double residual = held_[at(i)] ? 0.0 : to_vec3(force_[at(i)]).norm();
+      const double motion = (x_.col(i) - state_.position.col(i)).norm();
+      const double here = converged ? motion : residual;
+      if (std::isfinite(here) && here <= worst) continue;
+      worst = here;
+      out.node = i;
+      out.residual = residual;
+      out.motion = motion;
+      if (!std::isfinite(here)) break;
+    }
+    out.arclength = rod_.rest_length.head(out.node).sum();
+    diagnose_contacts(contact_.contacts(), out);
+    diagnose_contacts(rollers_.contacts(), out);
+    return out;
+  }
+
+  template <typename Contacts>
+  static void diagnose_contacts(const Contacts& contacts, StepDiagnosis& out) {
+    for (const ContactPoint& contact : contacts) {
+      const auto stands_on = [&](int first) { return out.node >= first && out.node < first + 3; };
+      const bool part = stands_on(contact.a0) || (!contact.on_roller() && stands_on(contact.b0));
+      if (!part || !contact.touches() || (out.in_contact && contact.overlap <= out.overlap)) continue;
+      out.in_contact = true;
+      out.roller = contact.roller;
+      out.contact_arclengths[0] = contact.arclength_a;
+      out.contact_arclengths[1] = contact.arclength_b;
+      out.overlap = contact.overlap;
+      out.slides = contact.z.squaredNorm() > 0.99;
+    }
   }
 
   void commit() {

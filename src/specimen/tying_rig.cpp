@@ -23,7 +23,8 @@ double fastest_node(const TimeStep& stepper) {
 
 }  // namespace
 
-TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const Options& options) : options_(options) {
+TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const Options& options)
+    : options_(options), radius_(rod.material.radius) {
   const double h = rod.material.radius;
   const int nodes = static_cast<int>(rod.nodes());
   const Points& x = centreline.points;
@@ -178,9 +179,11 @@ bool TyingRig::waited_for_rest(const TimeStep& stepper, double time, double begi
 }
 
 void TyingRig::judge_pull(double time) {
-  if (stage_ != Stage::kPulling || reached_ >= 0.0 || time - stage_begin_ <= options_.pull_patience) return;
+  const double elapsed = time - stage_begin_;
+  if (stage_ != Stage::kPulling || reached_ >= 0.0 || elapsed <= options_.pull_patience) return;
+  if (speed_ * elapsed <= options_.pull_way * radius_) return;
   std::ostringstream message;
-  message << "not tied: after " << options_.pull_patience << " s the tail grips hold";
+  message << "not tied: after " << elapsed << " s the tail grips hold";
   for (const double force : tail_force_) message << ' ' << force;
   message << " N and have not reached the pre-load, " << options_.preload << " N";
   not_tied_ = message.str();

@@ -17,7 +17,7 @@ class ScriptedStep : public TimeStep {
  public:
   ScriptedStep() : TimeStep(make_rod(braided_rope(), Eigen::VectorXd::Constant(4, 0.01)), RodState{}) {}
 
-  StepSummary step(const Boundary& /*boundary*/, double dt) override {
+  StepSummary step(const Boundary& /*boundary*/, double dt, Solution /*solution*/) override {
     StepSummary out;
     out.newton.iterations = iterations;
     out.largest_motion = speed * dt;

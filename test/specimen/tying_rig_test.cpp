@@ -111,6 +111,7 @@ TEST(TyingRig, SettlesUnderADragThatFades) {
 TEST(TyingRig, SaysWhenThePreloadWasNotReachedInTime) {
   TyingRig::Options options;
   options.pull_patience = 0.01;
+  options.pull_way = 0.0;
   Loop loop(options);
   loop.rig->tie(1e-6, 0.0, loop.stepper->state().position);
   loop.run(0.5);

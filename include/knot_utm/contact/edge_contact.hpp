@@ -64,6 +64,8 @@ class EdgeContact {
   void commit(const Points& position);
 
   const EdgeLaw& normal() const { return normal_; }
+  /// Of friction, in place of tangents.
+  void use_secants(bool secants) { friction_.secant = secants; }
 
  private:
   /// What a contact between edges knows beside its ContactPoint.

@@ -22,6 +22,7 @@ struct Friction {
   double coefficient = 0.0;     ///< mu [-]
   double presliding = 0.0;      ///< xi_s [m], memory
   double slip_tolerance = 0.0;  ///< v_s [m/s], smoothed
+  bool secant = false;          ///< linearised by secants, not by tangents
 
   bool on() const { return coefficient > 0.0; }
   bool remembers() const { return law == FrictionLaw::kMemory; }
@@ -51,8 +52,15 @@ inline Vec3 friction_direction(FrictionLaw law, const Vec3& y) {
   return size > 1e-12 ? Vec3(y * (std::tanh(7.5 * size) / size)) : Vec3(7.5 * y);
 }
 
-inline FrictionDirection friction_direction_and_slope(FrictionLaw law, const Vec3& y) {
+/// z(y) with dz/dy, or in its place the secant |z|/|y| in every direction. Where a slip is beyond saturation the
+/// tangent along it vanishes, and Newton's method may leap from one saturated side to the other for ever; the secant
+/// bounds the law from above (Kacanov's method): slow, but it falls from anywhere.
+inline FrictionDirection linearised_direction(FrictionLaw law, bool secant, const Vec3& y) {
   const double size = y.norm();
+  if (secant && size > 1e-12) {
+    const Vec3 z = friction_direction(law, y);
+    return {z, y / size, z.norm() / size, 0.0};
+  }
   if (law == FrictionLaw::kMemory) {
     if (size < 1.0) return {y, Vec3::Zero(), 1.0, 0.0};
     const Vec3 unit = y / size;

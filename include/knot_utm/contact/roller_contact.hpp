@@ -40,6 +40,8 @@ class RollerContact {
   void commit(const std::vector<Roller>& rollers);
 
   const NormalLaw& normal() const { return normal_; }
+  /// Of friction, in place of tangents.
+  void use_secants(bool secants) { friction_.secant = secants; }
 
  private:
   NormalLaw normal_;

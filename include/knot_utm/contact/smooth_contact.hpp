@@ -49,6 +49,8 @@ class SmoothContact {
   void commit(const Points& position);
 
   const NormalLaw& normal() const { return normal_; }
+  /// Of friction, in place of tangents.
+  void use_secants(bool secants) { friction_.secant = secants; }
 
  private:
   /// What a contact carries from iteration to iteration, and from step to step.

@@ -9,7 +9,8 @@
 namespace knot_utm {
 
 /// Chooses the length of time steps: longer where Newton's method converges in few iterations and nodes move little,
-/// shorter where not; a step that was not accepted is tried again at half its length.
+/// shorter where not; a step that was not accepted is tried again at half its length. What Newton's method still does
+/// not solve after some of these is first tried once more with secants (Solution).
 class StepControl {
  public:
   struct Options {

@@ -5,9 +5,14 @@
 
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/sim/scene.hpp"
+#include "knot_utm/sim/step_diagnosis.hpp"
 #include "knot_utm/solver/newton.hpp"
 
 namespace knot_utm {
+
+/// How a time step is solved: by Newton's method as it stands, or, where that runs in circles, with friction
+/// linearised by secants, shorter moves and more patience. The equations and their tolerance are the same.
+enum class Solution { kTangents, kSecants };
 
 /// How one time step went.
 struct StepSummary {
@@ -15,6 +20,7 @@ struct StepSummary {
   double largest_motion = 0.0;   ///< of a node [m]
   double largest_overlap = 0.0;  ///< of two strands, or of strand and roller [m]
   std::string reason;            ///< why it was not accepted; empty: it was
+  StepDiagnosis diagnosis;       ///< of one that was not
 
   bool accepted() const { return reason.empty(); }
 };
@@ -53,7 +59,8 @@ class TimeStep {
   /// the state (initialise_frames). Throws InvalidInput where rod and state do not fit together.
   static std::unique_ptr<TimeStep> make(const RodProperties& rod, const RodState& state, const StepSettings& settings);
 
-  virtual StepSummary step(const Boundary& boundary, double dt) = 0;
+  StepSummary step(const Boundary& boundary, double dt) { return step(boundary, dt, Solution::kTangents); }
+  virtual StepSummary step(const Boundary& boundary, double dt, Solution solution) = 0;
 
   const RodProperties& rod() const { return rod_; }
   const RodState& state() const { return state_; }

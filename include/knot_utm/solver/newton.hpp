@@ -7,6 +7,7 @@ namespace knot_utm {
 
 struct NewtonOptions {
   int max_iterations = 20;
+  double largest_share = 1.0;  ///< of a change that is taken
 };
 
 /// How a Newton solve went. Starts as a failure; only a residual within tolerance makes it a success.
@@ -51,7 +52,7 @@ NewtonSummary newton(System& system, const NewtonOptions& options) {
   constexpr int kUndamped = 5;
   constexpr double kUnsolved = 1e-3;
   NewtonSummary summary;
-  double last = 0.0, before = 0.0, share = 1.0;
+  double last = 0.0, before = 0.0, share = options.largest_share;
   for (;;) {
     summary.residual = system.residual();
     summary.tolerance = system.tolerance();
@@ -72,7 +73,7 @@ NewtonSummary newton(System& system, const NewtonOptions& options) {
       return summary;
     }
     const bool cycles = summary.iterations >= kUndamped && summary.residual > 0.5 * before;
-    share = cycles ? std::max(0.5 * share, 1.0 / 16.0) : std::min(2.0 * share, 1.0);
+    share = cycles ? std::max(0.5 * share, 1.0 / 16.0) : std::min(2.0 * share, options.largest_share);
     system.move(share);
     before = last;
     last = summary.residual;

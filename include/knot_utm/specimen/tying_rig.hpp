@@ -27,7 +27,8 @@ class TyingRig {
     double rest_speed = 2e-5;     ///< every node slower than this ... [m/s]
     double rest_time = 0.3;       ///< ... for this long: at rest [s]
     double patience = 60.0;       ///< without rest for so long: goes on all the same, not equilibrated [s]
-    double pull_patience = 90.0;  ///< grips that have not reached the pre-load by then: not to be tied [s]
+    double pull_patience = 90.0;  ///< grips that have not reached the pre-load by then: not to be tied [s] ...
+    double pull_way = 300.0;      ///< ... and have gone this far [h]
   };
   enum class Stage { kIdle, kSettling, kPulling, kTied, kTailsRamp, kTailsRest, kClampsRamp, kClampsRest, kReleased };
 
@@ -78,6 +79,7 @@ class TyingRig {
   void judge_pull(double time);
 
   Options options_;
+  double radius_;         // h [m]
   double settling_drag_;  // [N s/m^2]
   std::vector<Knot> knots_;
   std::vector<Clamp> clamps_;
