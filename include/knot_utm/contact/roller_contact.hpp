@@ -11,6 +11,8 @@ struct Roller {
   Vec3 centre = Vec3::Zero();  ///< a point of its axis [m]
   Vec3 axis = Vec3::UnitY();   ///< unit
   double radius = 0.0;         ///< [m]
+
+  void state(Archive& archive) { archive(centre, axis, radius); }
 };
 
 /// Contact of the rod's smooth centreline with rollers that move without turning: the normal law of the rod with
@@ -40,6 +42,9 @@ class RollerContact {
   void commit(const std::vector<Roller>& rollers);
 
   const NormalLaw& normal() const { return normal_; }
+
+  /// Of the last accepted step.
+  void state(Archive& archive);
 
  private:
   NormalLaw normal_;
