@@ -21,6 +21,13 @@ KnotType KnotWatch::follow(const Points& points) {
   return type_;
 }
 
+void KnotWatch::state(Archive& archive) {
+  archive.section("KNOT");
+  archive.choice("knot type", type_, KnotType::kCrossed);
+  archive(last_, readings_);
+  if (loop_) archive(*loop_);
+}
+
 LoopTopology::Reading KnotWatch::read(const Points& points) {
   last_ = points;
   ++readings_;

@@ -51,6 +51,14 @@ bool Candidates::is_taut(const Points& position) const {
   return least_stretch * exclusion_ - slack >= reach_ + margin_ + 2.0 * half_size_.maxCoeff();
 }
 
+void Candidates::state(Archive& archive) {
+  bool built = built_at_.cols() > 0;
+  archive(built);
+  if (archive.loads()) built_at_.resize(3, built ? arclength_.size() : 0);
+  archive(built_at_);
+  if (archive.loads() && built) build(built_at_);
+}
+
 void Candidates::build(const Points& position) {
   built_at_ = position;
   pairs_.clear();

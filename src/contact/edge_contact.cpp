@@ -37,7 +37,12 @@ EdgeContact::EdgeContact(const RodProperties& rod, const NormalLaw& normal, cons
 
 bool EdgeContact::refresh(const Points& position) {
   if (!candidates_.refresh(position)) return false;
-  const int last_node = static_cast<int>(position.cols()) - 2;
+  find_pairs();
+  return true;
+}
+
+void EdgeContact::find_pairs() {
+  const int last_node = static_cast<int>(arclength_.size()) - 2;
   pairs_.clear();
   auto add = [this](int a, int b) {
     if (arclength_[b] - arclength_[a + 1] >= candidates_.exclusion()) pairs_.push_back({a, b});
@@ -46,7 +51,6 @@ bool EdgeContact::refresh(const Points& position) {
     add(i - 1, j - 1);
     if (j == last_node) add(i - 1, j);  // the last edge ends at no inner node
   }
-  return true;
 }
 
 void EdgeContact::begin_step() {
@@ -209,6 +213,15 @@ void EdgeContact::commit(const Points&) {
   }
   std::stable_sort(memory_.begin(), memory_.end(),
                    [](const Memory& l, const Memory& r) { return l.arclength_a < r.arclength_a; });
+}
+
+void EdgeContact::Memory::state(Archive& archive) { archive(edges, arclength_a, arclength_b, slip, pressure); }
+
+void EdgeContact::state(Archive& archive) {
+  archive.section("EDGE");
+  archive(candidates_);
+  archive.list(memory_);
+  if (archive.loads()) find_pairs();
 }
 
 }  // namespace knot_utm

@@ -91,4 +91,19 @@ void RollerContact::commit(const std::vector<Roller>& rollers) {
   for (const ContactPoint& contact : contacts_) memory_[index_of(contact)] = friction_.presliding * contact.z;
 }
 
+void RollerContact::state(Archive& archive) {
+  archive.section("ROLL");
+  bool committed = !committed_estimate_.empty();
+  archive(committed);
+  // Before, what stands here is what a rejected step took for it.
+  if (!committed) start_.clear();
+  archive.list(start_);
+  if (archive.loads()) {
+    const std::size_t places = memory_index(voronoi_.size(), start_.size(), 0, 0);
+    committed_estimate_.resize(places);
+    memory_.resize(places);
+  }
+  if (committed) archive(committed_estimate_, memory_);
+}
+
 }  // namespace knot_utm

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
 #include "knot_utm/contact/centreline_curve.hpp"
 
@@ -284,6 +285,21 @@ void SmoothContact::put_outwards(const Points& position) {
 void SmoothContact::commit(const Points& position) {
   put_outwards(position);
   remember(&position, accepted_);
+}
+
+void SmoothContact::Memory::state(Archive& archive) { archive(arclength_b, share, pressure, slip); }
+
+void SmoothContact::MemoryList::state(Archive& archive) {
+  archive.list(entries);
+  archive(begin);
+  const bool rows = begin.front() == 0 && begin.back() == static_cast<int>(entries.size()) &&
+                    std::is_sorted(begin.begin(), begin.end());
+  archive.require(rows, "rows of contacts", std::to_string(entries.size()) + " entries");
+}
+
+void SmoothContact::state(Archive& archive) {
+  archive.section("SMTH");
+  archive(outwards_, candidates_, accepted_);
 }
 
 }  // namespace knot_utm

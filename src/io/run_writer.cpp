@@ -3,50 +3,18 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <stdexcept>
-#include <system_error>
 
 #include "knot_utm/io/number.hpp"
+#include "knot_utm/io/run_folder.hpp"
 
 namespace knot_utm {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Whole or not at all, so that a file that is there can be trusted.
-void write_text(const fs::path& file, const std::string& text) {
-  const fs::path part = file.string() + ".part";
-  std::ofstream out(part, std::ios::binary | std::ios::trunc);
-  out << text;
-  out.close();
-  std::error_code error;
-  if (out) fs::rename(part, file, error);
-  if (!out || error) throw std::runtime_error(file.string() + ": cannot be written");
-}
-
-std::string make_folder(const std::string& folder, const Method& method) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (!fs::is_directory(folder, error)) throw InvalidInput("--out", folder, "a folder that can be made");
-  Method own = method;
-  if (own.specimen.knot == KnotKind::kFile) {
-    const fs::path copy = fs::path(folder) / "specimen.csv";
-    // A run repeated from its own folder reads this very file.
-    if (!fs::equivalent(own.specimen.file, copy, error)) {
-      fs::copy_file(own.specimen.file, copy, fs::copy_options::overwrite_existing, error);
-      if (error) throw std::runtime_error(copy.string() + ": cannot be written");
-    }
-    own.specimen.file = "specimen.csv";
-  }
-  // Not before the specimen has been read: it may be the shape that the last run left here.
-  for (const char* old : {"result.yaml", "final_shape.csv", "test.bag", "saved.bag"})
-    fs::remove(fs::path(folder) / old, error);
-  try {
-    write_text(fs::path(folder) / "method.yaml",
-               "# Everything resolved: runs again to the same curve.\n" + method_yaml(own));
-  } catch (const std::runtime_error&) {
-    throw InvalidInput("--out", folder, "a folder that can be written to");
-  }
+std::string begin(const std::string& folder, const Method& method) {
+  make_run_folder(folder);
+  begin_run_folder(folder, method);
   return folder;
 }
 
@@ -125,7 +93,7 @@ std::string accuracy_warning(const Results& results, const ReadingErrors& errors
 }
 
 RunWriter::RunWriter(const std::string& folder, const Method& method)
-    : folder_(make_folder(folder, method)),
+    : folder_(begin(folder, method)),
       curve_((fs::path(folder) / "curve.csv").string()),
       full_curve_((fs::path(folder) / "curve_full.csv").string()) {
   known_.errors = reading_errors(method.specimen, method.material, method.physics);
@@ -134,15 +102,16 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
   known_.version = version();
 }
 
-void RunWriter::add(const Sample& sample, bool read_cell, const std::vector<Sample>& substeps) {
-  for (const Sample& substep : substeps) {
+void RunWriter::add(const Record& record) {
+  const Sample& sample = record.answer;
+  for (const Sample& step : record.steps) {
     // A bench that has failed answers with the last good step again.
-    if (!samples_.empty() && substep.time <= samples_.back().time) continue;
-    full_curve_.write(substep);
-    samples_.push_back(substep);
+    if (!samples_.empty() && step.time <= samples_.back().time) continue;
+    full_curve_.write(step);
+    samples_.push_back(step);
   }
   if (sample.status == BenchStatus::kFailed) return;
-  if (read_cell) curve_.write(sample);
+  if (record.command.read_cell) curve_.write(sample);
   if (samples_.empty() || sample.time > samples_.back().time) {
     samples_.push_back(sample);
   } else {
@@ -160,7 +129,7 @@ RunFacts RunWriter::facts() const {
 
 void RunWriter::finish(const Results& results, const RunFacts& facts, const Points& final_shape) {
   if (final_shape.cols() > 0) write_centreline((fs::path(folder_) / "final_shape.csv").string(), final_shape);
-  write_text(fs::path(folder_) / "result.yaml", result_yaml(results, facts));
+  write_whole((fs::path(folder_) / "result.yaml").string(), result_yaml(results, facts));
 }
 
 std::string result_yaml(const Results& r, const RunFacts& f) {

@@ -1,6 +1,8 @@
 #include "knot_utm/machine/load_cell.hpp"
 
 #include <cmath>
+#include <locale>
+#include <sstream>
 
 #include "knot_utm/rod/invalid_input.hpp"
 
@@ -21,6 +23,19 @@ double LoadCell::read(double true_force) {
   if (options_.noise > 0.0) reading += options_.noise * normal();
   if (options_.resolution > 0.0) reading = std::round(reading / options_.resolution) * options_.resolution;
   return reading;
+}
+
+void LoadCell::state(Archive& archive) {
+  archive.section("CELL");
+  std::stringstream random;
+  random.imbue(std::locale::classic());
+  random << random_;
+  std::string text = random.str();
+  archive(balanced_, text);
+  if (!archive.loads()) return;
+  random.str(text);
+  random >> random_;
+  archive.require(!random.fail(), "state of the random numbers", std::to_string(text.size()) + " letters");
 }
 
 double LoadCell::normal() {

@@ -400,6 +400,20 @@ struct TestBench::Impl {
     return s;
   }
 
+  void state(Archive& archive) {
+    archive.section("BNCH");
+    archive(time, displacement, extension_zero, mount_load, mount_distance, step_index, work, dissipation, message);
+    archive.choice("phase", phase, Phase::kDone);
+    archive.choice("status", status, BenchStatus::kFailed);
+    archive(control, cell, *stepper);
+    bool ties = rig.has_value(), watches = watch.has_value();
+    archive.same("tying rig", ties ? 1 : 0);
+    archive.same("knot", watches ? 1 : 0);
+    if (ties) archive(*rig);
+    if (watches) archive(*watch);
+    if (archive.loads()) substeps.clear();
+  }
+
   Sample respond(const Command& command) {
     substeps.clear();
     if (status == BenchStatus::kFailed) {
@@ -465,5 +479,6 @@ Vec3 TestBench::upper_grip() const {
 }
 double TestBench::longest_step() const { return tolerances(impl_->physics, impl_->specimen).longest_step; }
 Eigen::VectorXd TestBench::tension() const { return impl_->stepper->tension(); }
+void TestBench::state(Archive& archive) { impl_->state(archive); }
 
 }  // namespace knot_utm

@@ -47,8 +47,6 @@ TestProgram::TestProgram(Program program, double sampling_rate, double longest_p
   last_ = command(0);
 }
 
-Command TestProgram::first() const { return command(0); }
-
 Command TestProgram::next(const Sample& sample) {
   if (ended()) return command(last_.sequence);
   if (sample.sequence != last_.sequence) {
@@ -91,6 +89,21 @@ double TestProgram::time_left() const {
   double left = std::max(0.0, estimated_duration(step()) - seconds(last_.sequence - step_begin_));
   for (std::size_t i = step_ + 1; i < program_.size(); ++i) left += estimated_duration(program_[i]);
   return left;
+}
+
+void Command::state(Archive& archive) {
+  archive(sequence, time, displacement, velocity, step, speed, duration, balance, read_cell);
+  archive.choice("phase", phase, Phase::kDone);
+}
+
+void TestProgram::state(Archive& archive) {
+  archive.section("PROG");
+  archive.same("steps of the program", static_cast<std::int64_t>(program_.size()));
+  int step = static_cast<int>(step_);
+  archive.number("step of the program", step, 0, static_cast<int>(program_.size()) - 1);
+  step_ = static_cast<std::size_t>(step);
+  archive(step_begin_, step_begin_displacement_, last_, balance_next_, reason_);
+  archive.choice("end of the test", ended_by_, EndedBy::kProgram);
 }
 
 double TestProgram::seconds(std::uint64_t commands) const { return static_cast<double>(commands) / command_rate_; }

@@ -23,4 +23,9 @@ Eigen::VectorXd RodProperties::arclength() const {
   return out;
 }
 
+void RodState::state(Archive& archive) {
+  archive.section("RODS");
+  archive(position, velocity, twist, twist_rate, reference_director, reference_twist);
+}
+
 }  // namespace knot_utm

@@ -159,6 +159,18 @@ Points points_from_message(const KnotShape& message) {
   return points;
 }
 
+Record from_message(const KnotRecord& message) {
+  Record record;
+  record.command = from_message(message.command);
+  record.answer = from_message(message.answer);
+  record.steps.reserve(message.steps.size());
+  for (const KnotState& step : message.steps) record.steps.push_back(from_message(step));
+  record.shape = points_from_message(message.shape);
+  const std::vector<double>& tension = message.shape.tension;
+  record.tension = Eigen::Map<const Eigen::VectorXd>(tension.data(), static_cast<Eigen::Index>(tension.size()));
+  return record;
+}
+
 geometry_msgs::WrenchStamped to_wrench(const Sample& sample, const ros::Time& stamp) {
   geometry_msgs::WrenchStamped m;
   m.header.stamp = stamp;
@@ -176,7 +188,5 @@ sensor_msgs::JointState to_joint_state(const Command& command, const Sample& sam
   m.effort = {sample.load};
   return m;
 }
-
-bool shape_is_due(const Command& command) { return command.read_cell; }
 
 }  // namespace knot_utm

@@ -34,7 +34,10 @@ EndedBy ended_by_from_name(const std::string& name) {
 }  // namespace
 
 RecorderNode::Run::Run(const std::string& folder_, const Method& method)
-    : folder(folder_), writer(folder_, method), bag((std::filesystem::path(folder_) / "test.bag").string(), method) {}
+    : folder(folder_),
+      journal(folder_, journal_header(method)),
+      writer(folder_, method),
+      bag((std::filesystem::path(folder_) / "test.bag").string(), method) {}
 
 RecorderNode::RecorderNode(const ros::NodeHandle& node, TestSetup setup) : node_(node), setup_(std::move(setup)) {
   status_ = node_.advertise<RecorderStatus>(names::kRecorderStatus, 100, true);
@@ -101,20 +104,15 @@ void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
 }
 
 void RecorderNode::write(const KnotRecord& record) {
-  const Command command = from_message(record.command);
-  const Sample sample = from_message(record.answer);
-  std::vector<Sample> steps;
-  steps.reserve(record.steps.size());
-  for (const KnotState& step : record.steps) steps.push_back(from_message(step));
-  run_->writer.add(sample, command.read_cell, steps);
-
-  const std::vector<double>& tension = record.shape.tension;
-  run_->bag.add(command, sample, points_from_message(record.shape),
-                Eigen::Map<const Eigen::VectorXd>(tension.data(), static_cast<Eigen::Index>(tension.size())));
-  run_->failed = sample.status == BenchStatus::kFailed;
+  Record kept = from_message(record);
+  kept.wall_time = seconds_since(run_->begin);
+  run_->journal.append(kept);
+  run_->writer.add(kept);
+  run_->bag.add(kept);
+  run_->failed = kept.answer.status == BenchStatus::kFailed;
   run_->stamp = record.command.header.stamp;
   ++run_->recorded;
-  run_->next = command.sequence + 1;
+  run_->next = kept.command.sequence + 1;
 }
 
 void RecorderNode::write_early() {
@@ -165,6 +163,7 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
     if (!warning.empty()) facts.warnings.push_back(warning);
     if (run.dropped > 0) facts.warnings.push_back(std::to_string(run.dropped) + " commands were not recorded");
     run.writer.finish(run.writer.results(ended_by), facts, run.shape);
+    run.journal.remove();
     run.complete = true;
     ROS_INFO("written to %s: %zu rows, %llu commands dropped", run.folder.c_str(), run.writer.rows(),
              static_cast<unsigned long long>(run.dropped));

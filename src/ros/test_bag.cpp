@@ -21,15 +21,9 @@ TestBag::TestBag(const std::string& file, const Method& method) : file_(file), r
   bag_.setChunkThreshold(kChunk);
 }
 
-void TestBag::add(const Command& command, const Sample& sample, const TestBench& bench) {
-  if (shape_is_due(command)) {
-    add(command, sample, bench.state().position, bench.tension());
-  } else {
-    add(command, sample, Points(), Eigen::VectorXd());
-  }
-}
-
-void TestBag::add(const Command& command, const Sample& sample, const Points& shape, const Eigen::VectorXd& tension) {
+void TestBag::add(const Record& record) {
+  const Command& command = record.command;
+  const Sample& sample = record.answer;
   const ros::Time stamp = test_stamp(0.0, command.time);
   write(names::kCrosshead, stamp, to_message(command, kRun, stamp));
   write(names::kJointStates, stamp, to_joint_state(command, sample, stamp));
@@ -38,8 +32,8 @@ void TestBag::add(const Command& command, const Sample& sample, const Points& sh
   state.motion_pattern = motion_pattern_name(motion_.pattern());
   write(names::kKnotState, stamp, state);
   if (command.read_cell) write(names::kLoadCell, stamp, to_wrench(sample, stamp));
-  if (shape_is_due(command) && shape.cols() > 0) {
-    KnotShape message = to_message(shape, tension, radius_);
+  if (shape_is_due(command) && record.shape.cols() > 0) {
+    KnotShape message = to_message(record.shape, record.tension, radius_);
     message.header.stamp = stamp;
     message.run = kRun;
     message.sequence = command.sequence;

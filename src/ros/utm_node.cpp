@@ -142,7 +142,7 @@ void UtmNode::start() {
   due_ = steady_clock::now();
   factor_measured_ = due_;
   factor_time_ = 0.0;
-  send(program_->first());
+  send(program_->last());
   publish_status();
 }
 

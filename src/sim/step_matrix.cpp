@@ -1,13 +1,13 @@
 #include "knot_utm/sim/step_matrix.hpp"
 
 #include <algorithm>
+#include <string>
 #include <tuple>
 
 namespace knot_utm {
 
 template <int D>
 bool StepMatrix<D>::find(const std::vector<ContactPoint>& contacts) {
-  if (pattern_.nodes() != nodes_) return false;
   located_.swap(before_);
   located_.clear();
   // Most contacts stand where they stood at the last look: both lists ascend, so one walk meets them.
@@ -39,11 +39,9 @@ bool StepMatrix<D>::look_up(Located& contact) const {
 }
 
 template <int D>
-void StepMatrix<D>::build(const std::vector<ContactPoint>& contacts) {
-  located_.clear();
-  pairs_.clear();
-  for (int i = 0; i + 1 < nodes_; ++i) pairs_.push_back({i, i + 1});
-  for (int i = 0; i + 2 < nodes_; ++i) pairs_.push_back({i, i + 2});
+void StepMatrix<D>::find_rooms(const std::vector<ContactPoint>& contacts) {
+  rebuilt_ = true;
+  rooms_.clear();
   for (const ContactPoint& contact : contacts) {
     // Those that stay apart need no room; those about to touch soon would.
     if (!contact.active() && contact.overlap < 2.0 * contact.begins) continue;
@@ -51,14 +49,53 @@ void StepMatrix<D>::build(const std::vector<ContactPoint>& contacts) {
     const bool backwards = contact.c[3] < contact.c[5];
     const int first = std::max(contact.b0 - (backwards ? 1 : 0), 0);
     const int last = std::min(contact.b0 + (backwards ? 2 : 3), nodes_ - 1);
-    for (int a = contact.a0; a <= contact.a0 + 2; ++a)
-      for (int b = first; b <= last; ++b)
-        if (a != b) pairs_.push_back({a, b});
+    rooms_.push_back({contact.a0, first, last});
   }
+}
+
+template <int D>
+void StepMatrix<D>::build() {
+  located_.clear();
+  before_.clear();
+  pairs_.clear();
+  for (int i = 0; i + 1 < nodes_; ++i) pairs_.push_back({i, i + 1});
+  for (int i = 0; i + 2 < nodes_; ++i) pairs_.push_back({i, i + 2});
+  for (const Room& room : rooms_)
+    for (int a = room.a; a <= room.a + 2; ++a)
+      for (int b = room.first; b <= room.last; ++b)
+        if (a != b) pairs_.push_back({a, b});
   pattern_.build(nodes_, pairs_);
   matrix_.set_pattern(pattern_);
   find_stencils();
   find_blocks_beyond_band();
+}
+
+template <int D>
+void StepMatrix<D>::begin_step() {
+  if (!rebuilt_) return;
+  rebuilt_ = false;
+  rooms_ = accepted_rooms_;
+  build();
+}
+
+template <int D>
+void StepMatrix<D>::commit() {
+  if (!rebuilt_) return;
+  rebuilt_ = false;
+  accepted_rooms_ = rooms_;
+}
+
+template <int D>
+void StepMatrix<D>::state(Archive& archive) {
+  archive.section("ROOM");
+  archive.list(accepted_rooms_);
+  if (!archive.loads()) return;
+  for (const Room& room : accepted_rooms_) {
+    const bool there = room.a >= 0 && room.a < nodes_ - 2 && room.first >= 0 && room.last < nodes_;
+    archive.require(there, "room for a contact at node", std::to_string(room.a));
+  }
+  rebuilt_ = true;
+  begin_step();
 }
 
 template <int D>

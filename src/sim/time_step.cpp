@@ -67,6 +67,7 @@ class ImplicitStep final : public TimeStep {
     const bool secants = solution == Solution::kSecants;
     contact_.use_secants(secants);
     rollers_.use_secants(secants);
+    matrix_.begin_step();
     summary.newton = newton(*this, secants ? NewtonOptions{kPatience * settings_.max_iterations, 0.5}
                                            : NewtonOptions{settings_.max_iterations});
     examine(summary);
@@ -156,6 +157,19 @@ class ImplicitStep final : public TimeStep {
 
   ContactReading contact_reading() const override { return contact_reading_; }
   StepWork work() const override { return work_; }
+
+  void state(Archive& archive) override {
+    archive.section("STEP");
+    archive.same("nodes", nodes_);
+    TimeStep::state(archive);
+    archive(contact_, rollers_, matrix_);
+    archive.section("READ");
+    for (Lanes& force : committed_force_)
+      for (int i = 0; i < 4; ++i) archive(reinterpret_cast<double*>(&force)[i]);
+    archive(contact_reading_, contact_energy_, work_);
+    archive.list(committed_rollers_);
+    archive.list(roller_force_);
+  }
 
  private:
   /// Everything moves on as it did; held nodes stand where they must.
@@ -370,6 +384,7 @@ class ImplicitStep final : public TimeStep {
     add_up_work();
     contact_.commit(x_);
     rollers_.commit(boundary_->rollers);
+    matrix_.commit();
     state_.velocity = (x_ - state_.position) / dt_;
     if constexpr (D == 4) frames_.commit(state_);
     state_.position = x_;
@@ -446,6 +461,8 @@ Eigen::VectorXd TimeStep::tension() const {
                                 state_.position.col(i + 1) - state_.position.col(i));
   return out;
 }
+
+void TimeStep::state(Archive& archive) { archive(state_); }
 
 std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodState& state,
                                          const StepSettings& settings) {

@@ -69,17 +69,21 @@ void TyingRig::tie(double speed, double time, const Points& position) {
   reached_ = -1.0;
   not_equilibrated_.clear();
   not_tied_.clear();
+  attach_grips();
+  for (SlippingGrip& grip : grips_) grip.place = grip.direction.dot(position.col(grip.node));
+  enter(Stage::kSettling, time);
+}
+
+void TyingRig::attach_grips() {
   grips_.clear();
   for (const Knot& knot : knots_) {
     SlippingGrip grip;
     grip.node = knot.tail_node;
     grip.direction = knot.outwards;
-    grip.place = knot.outwards.dot(position.col(knot.tail_node));
     grip.stiffness = options_.grip_stiffness;
     grip.slip_force = options_.preload;
     grips_.push_back(grip);
   }
-  enter(Stage::kSettling, time);
 }
 
 void TyingRig::release(double duration, double time) {
@@ -187,6 +191,17 @@ void TyingRig::judge_pull(double time) {
   for (const double force : tail_force_) message << ' ' << force;
   message << " N and have not reached the pre-load, " << options_.preload << " N";
   not_tied_ = message.str();
+}
+
+void TyingRig::state(Archive& archive) {
+  archive.section("TIES");
+  archive.choice("stage of tying", stage_, Stage::kReleased);
+  archive(speed_, ramp_time_, stage_begin_, rested_, reached_, not_equilibrated_, tail_force_, ramp_from_);
+  for (Clamp& clamp : clamps_) archive(clamp.reaction);
+  bool pulls = !grips_.empty();
+  archive(pulls);
+  if (archive.loads() && pulls) attach_grips();
+  for (SlippingGrip& grip : grips_) archive(grip.place);
 }
 
 std::vector<int> TyingRig::standing_nodes() const {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/machine/run_test.hpp"
@@ -29,12 +30,14 @@ volatile std::sig_atomic_t stop_asked = 0;
 void ask_to_stop(int /*signal*/) { stop_asked = 1; }
 
 /// The first Ctrl-C stops the test as the operator does, the second one the program.
-void listen_for_stop() {
+void set_signals() {
   struct sigaction action {};
   action.sa_handler = ask_to_stop;
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  // A file as large as is allowed is an error like a full disk, which says what was being written.
+  std::signal(SIGXFSZ, SIG_IGN);
 }
 
 class WallClock {
@@ -80,12 +83,24 @@ struct Arguments {
   bool quiet = false;
 };
 
+/// All that is kept of the bench's last answer.
+void take(const Command& command, const Sample& answer, const TestBench& bench, double wall_time, Record& record) {
+  const bool shape = shape_is_due(command);
+  record.command = command;
+  record.answer = answer;
+  record.steps = bench.substeps();
+  record.shape = shape ? bench.state().position : Points();
+  record.tension = shape ? bench.tension() : Eigen::VectorXd();
+  record.wall_time = wall_time;
+}
+
 int run(const Arguments& arguments) {
   const Method method = load_method(arguments.method, arguments.overrides);
   TestBench bench(method.specimen, method.material, method.machine, method.physics);
   TestProgram program = make_program(method, bench.longest_step());
 
   const std::string out = arguments.out.empty() ? "out/" + method.name : arguments.out;
+  JournalWriter journal(out, journal_header(method));
   RunWriter writer(out, method);
 #ifdef KNOT_UTM_HAS_ROS
   TestBag bag(out + "/test.bag", method);
@@ -93,10 +108,13 @@ int run(const Arguments& arguments) {
   const WallClock clock;
   {
     ProgressLine progress(arguments.quiet);
+    Record record;
     run_test(bench, program, [&](const Command& command, const Sample& sample) {
-      writer.add(sample, command.read_cell, bench.substeps());
+      take(command, sample, bench, clock.seconds(), record);
+      journal.append(record);
+      writer.add(record);
 #ifdef KNOT_UTM_HAS_ROS
-      bag.add(command, sample, bench);
+      bag.add(record);
 #endif
       if (stop_asked != 0) program.stop();
       progress.show(sample, program, clock.seconds());
@@ -110,6 +128,7 @@ int run(const Arguments& arguments) {
   facts.wall_time = clock.seconds();
   const Results results = writer.results(program.ended_by());
   writer.finish(results, facts, bench.state().position);
+  journal.remove();
 
   const std::string unsure = accuracy_warning(results, facts.errors);
   if (!unsure.empty()) std::fprintf(stderr, "tensile_test: %s\n", unsure.c_str());
@@ -151,7 +170,7 @@ int main(int argc, char** argv) {
   knot_utm::Arguments arguments;
   try {
     if (const std::optional<int> code = knot_utm::parse(argc, argv, arguments)) return *code;
-    knot_utm::listen_for_stop();
+    knot_utm::set_signals();
     return knot_utm::run(arguments);
   } catch (const knot_utm::InvalidInput& invalid) {
     const bool of_method = invalid.key.rfind("--", 0) != 0;

@@ -36,7 +36,11 @@ class RunFolder : public ::testing::Test {
     TestProgram program(method.program, method.machine.load_cell.sampling_rate, 0.1, {});
     RunWriter writer(folder_.string(), method);
     run_test(bench, program, [&](const Command& command, const Sample& sample) {
-      writer.add(sample, command.read_cell, bench.substeps);
+      Record record;
+      record.command = command;
+      record.answer = sample;
+      record.steps = bench.substeps;
+      writer.add(record);
     });
     RunFacts facts = writer.facts();
     facts.reason = program.reason();

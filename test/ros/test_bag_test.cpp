@@ -25,14 +25,13 @@ class TestBagTest : public testing::Test {
 };
 
 void add(TestBag& bag, std::uint64_t sequence) {
-  Command command;
-  command.sequence = sequence;
-  command.time = 0.1 * static_cast<double>(sequence);
-  command.read_cell = sequence % 2 == 0;
-  Sample sample;
-  sample.sequence = sequence;
-  sample.time = command.time;
-  bag.add(command, sample, Points::Zero(3, 4), Eigen::VectorXd::Zero(3));
+  Record record;
+  record.command.sequence = record.answer.sequence = sequence;
+  record.command.time = record.answer.time = 0.1 * static_cast<double>(sequence);
+  record.command.read_cell = sequence % 2 == 0;
+  record.shape = Points::Zero(3, 4);
+  record.tension = Eigen::VectorXd::Zero(3);
+  bag.add(record);
 }
 
 std::size_t count(const std::string& file, const std::string& topic) {

@@ -64,6 +64,9 @@ class LoopTopology {
   /// Reads the rod as it is now. `load_axis`: from the lower grip to the upper one, of any length.
   Reading read(const Points& points, const Vec3& load_axis);
 
+  /// How often the tails have gone around.
+  void state(Archive& archive) { archive(angle_[0], angle_[1]); }
+
  private:
   struct Tail;
   std::array<Eigen::Index, 2> standing_;

@@ -29,6 +29,9 @@ class KnotWatch {
   KnotType type() const { return type_; }
   int readings() const { return readings_; }
 
+  /// All but the knot that it began as.
+  void state(Archive& archive);
+
  private:
   LoopTopology::Reading read(const Points& points);
 

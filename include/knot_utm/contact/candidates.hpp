@@ -35,6 +35,9 @@ class Candidates {
 
   double exclusion() const { return exclusion_; }
 
+  /// Where the list was built: the list follows from it.
+  void state(Archive& archive);
+
  private:
   struct Entry {
     std::int64_t key;

@@ -67,6 +67,9 @@ class EdgeContact {
   /// Of friction, in place of tangents.
   void use_secants(bool secants) { friction_.secant = secants; }
 
+  /// Of the last accepted step.
+  void state(Archive& archive);
+
  private:
   /// What a contact between edges knows beside its ContactPoint.
   struct Feet {
@@ -80,7 +83,11 @@ class EdgeContact {
     double arclength_a, arclength_b;
     Vec3 slip;  // xi [m]
     double pressure;
+
+    void state(Archive& archive);
   };
+
+  void find_pairs();
 
   void add_contact(int pair, const Points& position, const Points& start, double friction_scale);
   /// What is remembered of these edges' contact, or else of the nearest one; null where there was none near.

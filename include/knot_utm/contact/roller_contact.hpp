@@ -11,6 +11,8 @@ struct Roller {
   Vec3 centre = Vec3::Zero();  ///< a point of its axis [m]
   Vec3 axis = Vec3::UnitY();   ///< unit
   double radius = 0.0;         ///< [m]
+
+  void state(Archive& archive) { archive(centre, axis, radius); }
 };
 
 /// Contact of the rod's smooth centreline with rollers that move without turning: the normal law of the rod with
@@ -42,6 +44,9 @@ class RollerContact {
   const NormalLaw& normal() const { return normal_; }
   /// Of friction, in place of tangents.
   void use_secants(bool secants) { friction_.secant = secants; }
+
+  /// Of the last accepted step.
+  void state(Archive& archive);
 
  private:
   NormalLaw normal_;

@@ -52,6 +52,9 @@ class SmoothContact {
   /// Of friction, in place of tangents.
   void use_secants(bool secants) { friction_.secant = secants; }
 
+  /// Of the last accepted step.
+  void state(Archive& archive);
+
  private:
   /// What a contact carries from iteration to iteration, and from step to step.
   struct Memory {
@@ -59,11 +62,15 @@ class SmoothContact {
     double share;     // omega
     double pressure;  // estimate of it; < 0: none
     Vec3 slip;        // xi [m]
+
+    void state(Archive& archive);
   };
   /// Contacts of every point of integration 2 segment + point, as compressed rows.
   struct MemoryList {
     std::vector<Memory> entries;
     std::vector<int> begin;
+
+    void state(Archive& archive);
   };
 
   struct StrandPoint;

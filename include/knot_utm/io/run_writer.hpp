@@ -6,6 +6,7 @@
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/io/csv.hpp"
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/io/record.hpp"
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/machine/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
@@ -25,10 +26,8 @@ class RunWriter {
   /// Makes the folder. Throws InvalidInput (key "--out") where that cannot be done.
   RunWriter(const std::string& folder, const Method& method);
 
-  /// One answer of the bench. `read_cell`: it stands at a sampling instant; `substeps`: the accepted time steps since
-  /// the answer before, this one included. An answer of a bench that failed adds the steps
-  /// that it still made only.
-  void add(const Sample& sample, bool read_cell, const std::vector<Sample>& substeps);
+  /// One answer of the bench. That of a bench that failed adds the steps that it still made only.
+  void add(const Record& record);
 
   /// Writes result.yaml and, unless there are no points, final_shape.csv. `facts` as `facts()` with what only the
   /// caller knows.

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "knot_utm/machine/options.hpp"
+#include "knot_utm/rod/archive.hpp"
 
 namespace knot_utm {
 
@@ -24,6 +25,8 @@ class LoadCell {
   double balanced(double true_force) const { return true_force - balanced_; }  ///< without noise and resolution
 
   double read(double true_force);  ///< one reading; the next one has other noise
+
+  void state(Archive& archive);
 
  private:
   double normal();  ///< mean 0, standard deviation 1

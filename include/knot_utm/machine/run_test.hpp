@@ -5,12 +5,12 @@
 
 namespace knot_utm {
 
-/// A whole test: the program's commands to the bench and its samples back, until the program has ended.
+/// A whole test, or what is left of it: the program's commands to the bench and its samples back, until it has ended.
 /// `observe(command, sample)` sees each answer before the program does; it may call `program.stop()`.
 /// A Bench has `Sample respond(const Command&)`.
 template <class Bench, class Observer>
 void run_test(Bench& bench, TestProgram& program, Observer observe) {
-  Command command = program.first();
+  Command command = program.last();
   while (!program.ended()) {
     const Sample sample = bench.respond(command);
     observe(command, sample);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "knot_utm/machine/program.hpp"
+#include "knot_utm/rod/archive.hpp"
 
 namespace knot_utm {
 
@@ -20,6 +21,8 @@ struct Command {
   double duration = 0.0;   ///< of the step: release [s]
   bool balance = false;    ///< zero the load cell and the extension before moving on
   bool read_cell = false;  ///< `time` is a sampling instant of the load cell: `load` is its reading
+
+  void state(Archive& archive);
 };
 
 /// How the physics stands after a command.

@@ -40,6 +40,10 @@ class TestBench {
   /// Force in the rod at each edge, tension positive [N], as the last accepted step left it.
   Eigen::VectorXd tension() const;
 
+  /// That after the last command. Loaded into a bench made in the same way it answers all further commands to the same
+  /// bits; `substeps` are not part of it.
+  void state(Archive& archive);
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

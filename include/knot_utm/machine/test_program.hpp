@@ -51,7 +51,7 @@ class TestProgram {
   /// that is not positive.
   TestProgram(Program program, double sampling_rate, double longest_period, Limits limits);
 
-  Command first() const;  ///< command 0
+  Command last() const { return last_; }  ///< the command that waits for its answer; to begin with command 0
 
   /// The next command after `sample`, the answer to the last command. Once the test has ended, the last command again
   /// with phase done. Throws std::invalid_argument for the answer to another command.
@@ -68,6 +68,8 @@ class TestProgram {
   double period() const;     ///< of commands [s]
   double progress() const;   ///< 0..1, share of the programmed time that has passed, estimated
   double time_left() const;  ///< programmed time that is left [s], estimated
+
+  void state(Archive& archive);
 
  private:
   const ProgramStep& step() const { return program_[step_]; }

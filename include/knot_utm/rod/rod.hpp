@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 
+#include "knot_utm/rod/archive.hpp"
 #include "knot_utm/rod/material.hpp"
 
 namespace knot_utm {
@@ -39,6 +40,8 @@ struct RodState {
   Eigen::VectorXd twist_rate;       ///< [rad/s], N-1
   Points reference_director;        ///< d1_j, unit, normal to edge j, 3 x (N-1)
   Eigen::VectorXd reference_twist;  ///< m_ref of inner node i+1 [rad], N-2
+
+  void state(Archive& archive);
 };
 
 }  // namespace knot_utm

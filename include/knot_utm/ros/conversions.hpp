@@ -2,6 +2,7 @@
 
 #include <geometry_msgs/WrenchStamped.h>
 #include <knot_utm/Crosshead.h>
+#include <knot_utm/KnotRecord.h>
 #include <knot_utm/KnotShape.h>
 #include <knot_utm/KnotState.h>
 #include <ros/time.h>
@@ -10,6 +11,7 @@
 #include <cstdint>
 #include <string>
 
+#include "knot_utm/io/record.hpp"
 #include "knot_utm/machine/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
 
@@ -28,14 +30,12 @@ KnotState to_message(const Sample& sample, std::uint32_t run, const ros::Time& s
 Sample from_message(const KnotState& message);
 KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, double radius);
 Points points_from_message(const KnotShape& message);
+Record from_message(const KnotRecord& message);
 
 /// The load cell's reading as force along z of the cell's frame, tension positive.
 geometry_msgs::WrenchStamped to_wrench(const Sample& sample, const ros::Time& stamp);
 
 /// The crosshead as a prismatic joint: displacement [m], velocity [m/s], load [N].
 sensor_msgs::JointState to_joint_state(const Command& command, const Sample& sample, const ros::Time& stamp);
-
-/// Whether the rod's shape belongs into the record of a command: at every reading of the load cell.
-bool shape_is_due(const Command& command);
 
 }  // namespace knot_utm

@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+#include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/ros/test_bag.hpp"
 #include "knot_utm/ros/test_setup.hpp"
@@ -36,6 +37,7 @@ class RecorderNode {
   struct Run {
     Run(const std::string& folder_, const Method& method);
     std::string folder;
+    JournalWriter journal;
     RunWriter writer;
     TestBag bag;
     std::uint64_t next = 0;      ///< sequence of the record that comes next

@@ -7,9 +7,7 @@
 
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/io/method.hpp"
-#include "knot_utm/machine/sample.hpp"
-#include "knot_utm/machine/test_bench.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/io/record.hpp"
 
 namespace knot_utm {
 
@@ -20,8 +18,7 @@ class TestBag {
   /// Throws std::runtime_error where the file cannot be written, as all of it does.
   TestBag(const std::string& file, const Method& method);
 
-  void add(const Command& command, const Sample& sample, const TestBench& bench);
-  void add(const Command& command, const Sample& sample, const Points& shape, const Eigen::VectorXd& tension);
+  void add(const Record& record);
 
   /// Copies what there is so far to `file`, which can be read at once, and goes on.
   void save(const std::string& file);

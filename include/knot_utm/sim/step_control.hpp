@@ -38,6 +38,8 @@ class StepControl {
 
   const Counters& counters() const { return counters_; }
 
+  void state(Archive& archive) { archive(next_, counters_.steps, counters_.rejected, counters_.iterations); }
+
  private:
   Options options_;
   double next_;

@@ -20,6 +20,8 @@ inline void add(Block<D>& block, const Mat3& m, double times) {
 /// and those between the strands in contact. Its pattern has room for contacts about to come, those of strands at most
 /// twice as far apart as where the normal law begins, and for every foot to slide on by a segment; it is rebuilt where
 /// a contact leaves it. More room would be rebuilt less often, but filled at every factorisation.
+/// The order of elimination, and so the rounding, follows from the pattern: what a step that was not accepted made of
+/// it does not count.
 template <int D>
 class StepMatrix {
  public:
@@ -28,13 +30,22 @@ class StepMatrix {
   /// Stored indices of blocks (a0 + k, b0 + l) and their mirrors (b0 + l, a0 + k), as [3 k + l].
   using ContactBlocks = std::array<std::pair<int, int>, 9>;
 
-  explicit StepMatrix(int nodes) : nodes_(nodes) {}
+  explicit StepMatrix(int nodes) : nodes_(nodes) { build(); }
+
+  /// Before a step: the pattern is that of the last accepted one.
+  void begin_step();
+  /// The step was accepted.
+  void commit();
+
+  /// Of the last accepted step: what the pattern has room for.
+  void state(Archive& archive);
 
   /// Finds the blocks of every active contact; `contacts` as ContactPoint says, ascending in a0. `values()` has them,
   /// with whatever was in it before.
   void locate(const std::vector<ContactPoint>& contacts) {
     if (find(contacts)) return;
-    build(contacts);
+    find_rooms(contacts);
+    build();
     find(contacts);
   }
 
@@ -58,10 +69,16 @@ class StepMatrix {
     int a0, b0;
     ContactBlocks blocks;
   };
+  /// For a contact of nodes a to a + 2 with any of `first` to `last`.
+  struct Room {
+    int a, first, last;
+    void state(Archive& archive) { archive(a, first, last); }
+  };
 
   bool find(const std::vector<ContactPoint>& contacts);
   bool look_up(Located& contact) const;
-  void build(const std::vector<ContactPoint>& contacts);
+  void find_rooms(const std::vector<ContactPoint>& contacts);
+  void build();
   void find_stencils();
   void find_blocks_beyond_band();
 
@@ -73,6 +90,8 @@ class StepMatrix {
   std::vector<int> beyond_band_;           // stored indices of blocks that are in no stencil
   std::vector<Located> located_, before_;  // ascending in a0; before_: what they were at the last look
   std::vector<std::pair<int, int>> pairs_;
+  std::vector<Room> rooms_, accepted_rooms_;
+  bool rebuilt_ = false;  // since the last accepted step
 };
 
 extern template class StepMatrix<3>;

@@ -34,6 +34,8 @@ struct ContactReading {
   int touching = 0;              ///< points of integration that carry force
   double normal_force = 0.0;     ///< sum of their normal forces [N]
   double largest_overlap = 0.0;  ///< between strands [m]
+
+  void state(Archive& archive) { archive(touching, normal_force, largest_overlap); }
 };
 
 /// Work done in the last accepted step [J]. That of the boundary is the mean of the forces at both ends of the step
@@ -42,6 +44,8 @@ struct StepWork {
   double boundary = 0.0;  ///< by grips, held nodes, rollers, forces and gravity on the rod
   double friction = 0.0;  ///< lost to friction between strands and on rollers
   double drag = 0.0;      ///< lost to drag
+
+  void state(Archive& archive) { archive(boundary, friction, drag); }
 };
 
 /// One implicit Euler step of a rod with contact and friction: find x at t + dt with
@@ -76,6 +80,9 @@ class TimeStep {
   virtual StepWork work() const = 0;
   /// Tension of each edge [N].
   Eigen::VectorXd tension() const;
+
+  /// That of the last accepted step, on which the next one depends.
+  virtual void state(Archive& archive);
 
  protected:
   TimeStep(const RodProperties& rod, const RodState& state) : rod_(rod), state_(state) {}

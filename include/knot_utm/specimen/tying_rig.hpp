@@ -62,6 +62,8 @@ class TyingRig {
   /// Middle of a knot: the centroid of the bending energy of its own strand, from standing part to tail.
   Vec3 knot_middle(int knot, const RodProperties& rod, const RodState& state) const;
 
+  void state(Archive& archive);
+
  private:
   struct Clamp {
     int node;
@@ -73,6 +75,7 @@ class TyingRig {
     int tail_node;
     int standing_node;
   };
+  void attach_grips();
   void enter(Stage stage, double time);
   /// At rest, or no longer waited for since `begin`.
   bool waited_for_rest(const TimeStep& stepper, double time, double begin, const char* since);

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <vector>
+
+#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/rod/rod.hpp"
+
+namespace knot_utm {
+
+/// All that is kept of one command: enough to write everything that a run leaves.
+struct Record {
+  Command command;
+  Sample answer;
+  std::vector<Sample> steps;  ///< one a time step accepted for this command, in order
+  Points shape;               ///< nodes after the command [m]; without columns where none was due
+  Eigen::VectorXd tension;    ///< of each edge, tension positive [N]; empty where no shape is
+  double wall_time = 0.0;     ///< since the test began [s]
+};
+
+/// Whether the rod's shape belongs into the record of a command: at every reading of the load cell.
+inline bool shape_is_due(const Command& command) { return command.read_cell; }
+
+}  // namespace knot_utm

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+
+#include "knot_utm/io/method.hpp"
+
+namespace knot_utm {
+
+/// Makes the folder of a run. Throws InvalidInput (key "--out") where that cannot be done.
+void make_run_folder(const std::string& folder);
+
+/// The text of a run's method.yaml: a specimen from a file is the copy beside it, specimen.csv.
+std::string method_file_text(const Method& method);
+
+/// Puts method.yaml and, where the specimen is a file, specimen.csv there, and takes away the results of an earlier
+/// run. Throws InvalidInput (key "--out") where the folder cannot be written to, std::runtime_error where the copy
+/// cannot.
+void begin_run_folder(const std::string& folder, const Method& method);
+
+/// Whether the folder has the result of a test that ran to its end.
+bool has_complete_result(const std::string& folder);
+
+/// A file that is there whole or not at all, so that it can be trusted. Throws std::runtime_error.
+void write_whole(const std::string& file, const std::string& text);
+
+/// Throws std::runtime_error where the file cannot be read.
+std::string read_whole(const std::string& file);
+
+}  // namespace knot_utm

@@ -1,0 +1,82 @@
+#include "knot_utm/io/run_folder.hpp"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "knot_utm/io/cannot_write.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+
+}  // namespace
+
+void make_run_folder(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder, error)) throw InvalidInput("--out", folder, "a folder that can be made");
+}
+
+std::string method_file_text(const Method& method) {
+  Method own = method;
+  if (own.specimen.knot == KnotKind::kFile) own.specimen.file = "specimen.csv";
+  return "# Everything resolved: runs again to the same curve.\n" + method_yaml(own);
+}
+
+void begin_run_folder(const std::string& folder, const Method& method) {
+  std::error_code error;
+  if (method.specimen.knot == KnotKind::kFile) {
+    const fs::path copy = fs::path(folder) / "specimen.csv";
+    // A run repeated from its own folder reads this very file.
+    if (!fs::equivalent(method.specimen.file, copy, error)) {
+      fs::copy_file(method.specimen.file, copy, fs::copy_options::overwrite_existing, error);
+      if (error) throw cannot_write(copy.string(), error.value());
+    }
+  }
+  // Not before the specimen has been read: it may be the shape that the last run left here.
+  for (const char* old : {"result.yaml", "final_shape.csv", "test.bag", "saved.bag"})
+    fs::remove(fs::path(folder) / old, error);
+  try {
+    write_whole((fs::path(folder) / "method.yaml").string(), method_file_text(method));
+  } catch (const std::runtime_error&) {
+    throw InvalidInput("--out", folder, "a folder that can be written to");
+  }
+}
+
+bool has_complete_result(const std::string& folder) {
+  std::ifstream result(fs::path(folder) / "result.yaml");
+  const std::string key = "ended_by: ";
+  for (std::string line; std::getline(result, line);) {
+    if (line.rfind(key, 0) == 0) return line.substr(key.size()) != ended_by_name(EndedBy::kNotYet);
+  }
+  return false;
+}
+
+void write_whole(const std::string& file, const std::string& text) {
+  const std::string part = file + ".part";
+  std::ofstream out(part, std::ios::binary | std::ios::trunc);
+  out << text;
+  out.close();
+  std::error_code error;
+  if (!out) {
+    const std::runtime_error why = cannot_write(file);
+    fs::remove(part, error);
+    throw why;
+  }
+  fs::rename(part, file, error);
+  if (error) throw cannot_write(file, error.value());
+}
+
+std::string read_whole(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream all;
+  if (in.peek() != std::ifstream::traits_type::eof()) all << in.rdbuf();
+  if (!in) throw std::runtime_error(file + ": cannot be read");
+  return all.str();
+}
+
+}  // namespace knot_utm

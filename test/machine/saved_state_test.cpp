@@ -1,0 +1,255 @@
+// A test that is saved and goes on elsewhere is the same test, to the bit.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "knot_utm/machine/run_test.hpp"
+#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
+#include "rod/materials.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr std::size_t kToTheEnd = std::numeric_limits<std::size_t>::max();
+
+/// What is compared: a number by its bits, as not-a-number is none of its equals.
+struct Bits {
+  double value;
+  bool operator==(const Bits& other) const { return std::memcmp(&value, &other.value, sizeof value) == 0; }
+};
+void PrintTo(const Bits& bits, std::ostream* out) { *out << testing::PrintToString(bits.value); }
+
+std::vector<Bits> numbers(const Sample& s) {
+  return {{static_cast<double>(s.sequence)},
+          {s.time},
+          {static_cast<double>(s.phase)},
+          {s.displacement},
+          {s.extension},
+          {s.end_to_end},
+          {s.knot_distance},
+          {s.load},
+          {s.balance_offset},
+          {s.force_upper},
+          {s.force_lower},
+          {s.tail_force[0]},
+          {s.tail_force[1]},
+          {s.excess_length[0]},
+          {s.excess_length[1]},
+          {s.max_penetration},
+          {s.normal_force},
+          {static_cast<double>(s.contacts)},
+          {s.fastest_node},
+          {s.stretching_energy},
+          {s.bending_energy},
+          {s.twisting_energy},
+          {s.contact_energy},
+          {s.kinetic_energy},
+          {s.grip_work},
+          {s.dissipation},
+          {static_cast<double>(s.steps)},
+          {static_cast<double>(s.rejected_steps)},
+          {static_cast<double>(s.newton_iterations)},
+          {static_cast<double>(s.knot_type)},
+          {static_cast<double>(s.status)}};
+}
+
+/// A bench and its program; both are saved, and what the bench answered since.
+struct WholeTest {
+  TestBench bench;
+  TestProgram program;
+  std::vector<Sample> substeps;
+  std::vector<double> tension;
+
+  void state(Archive& archive) { archive(bench, program); }
+
+  std::string saved() {
+    Archive archive("test");
+    archive(*this);
+    return archive.bytes();
+  }
+  void load(const std::string& bytes) {
+    Archive archive("test", bytes, "here");
+    archive(*this);
+    archive.end();
+  }
+  /// Calls `before(n)` before each command.
+  template <typename Before>
+  void go_on(std::size_t commands, Before before) {
+    for (std::size_t n = 0; n < commands && !program.ended(); ++n) {
+      before(n);
+      const Sample sample = bench.respond(program.last());
+      substeps.insert(substeps.end(), bench.substeps().begin(), bench.substeps().end());
+      program.next(sample);
+    }
+    const Eigen::VectorXd now = bench.tension();
+    tension.assign(now.data(), now.data() + now.size());
+  }
+};
+
+ProgramStep step(Phase phase, double duration = 0.0) {
+  ProgramStep out;
+  out.phase = phase;
+  out.duration = duration;
+  return out;
+}
+
+ProgramStep pull(double extension) {
+  ProgramStep out;
+  out.phase = Phase::kPull;
+  out.until.extension = extension;
+  return out;
+}
+
+/// A whole test, and how many commands lie between two moments at which it is saved.
+struct Scene {
+  std::string name;
+  SpecimenOptions specimen;
+  Material material;
+  MachineOptions machine;
+  PhysicsOptions physics;
+  Program program;
+  std::size_t every;
+
+  WholeTest begin() const {
+    TestBench bench(specimen, material, machine, physics);
+    const double period = bench.longest_step();
+    return {std::move(bench), TestProgram(program, machine.load_cell.sampling_rate, period, {}), {}, {}};
+  }
+};
+void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
+
+Scene straight() {
+  Scene out{"straight", {}, nylon(), {}, {}, {step(Phase::kBalance), pull(0.01)}, 2};
+  out.specimen.knot = KnotKind::kStraight;
+  out.specimen.length = 0.25;
+  out.specimen.edge_length = 0.005;
+  out.machine.grips = GripKind::kClamps;
+  out.machine.load_cell.noise = 3.0;
+  out.physics.accuracy = Accuracy::kDraft;
+  return out;
+}
+
+Scene overhand(const std::string& name, FrictionLaw friction, ContactLaw contact) {
+  Scene out{name, {}, pink_vps(), {}, {}, {step(Phase::kHold, 1.0), step(Phase::kBalance), pull(0.05)}, 11};
+  out.specimen.knot = KnotKind::kOverhand;
+  out.specimen.length = 0.4;
+  out.specimen.end_to_end = 0.15;
+  out.specimen.edge_length = 0.006;
+  out.machine.grips = GripKind::kClamps;
+  out.machine.load_cell.noise = 0.01;
+  out.physics.accuracy = Accuracy::kDraft;
+  out.physics.twist = TwistMode::kOn;
+  out.physics.friction_law = friction;
+  out.physics.contact_law = contact;
+  return out;
+}
+
+Scene loop(const std::string& name, const Material& material, double preload, double extension) {
+  Scene out{
+      name,
+      {},
+      material,
+      {},
+      {},
+      {step(Phase::kTie), step(Phase::kRelease, 1.0), step(Phase::kMount), step(Phase::kBalance), pull(extension)},
+      7};
+  out.program[0].speed = 0.01;
+  out.specimen.preload = preload;
+  out.specimen.to_be_tied = true;
+  out.specimen.edge_length = 0.005;
+  out.machine.roller_friction = 0.1;
+  out.physics.accuracy = Accuracy::kDraft;
+  return out;
+}
+
+Scene twisted_loop() {
+  Scene out = loop("twistedLoop", polypropylene(), 20.0, 0.002);
+  out.physics.twist = TwistMode::kOn;
+  out.every = 9;
+  return out;
+}
+
+class SavedState : public testing::TestWithParam<Scene> {};
+
+TEST_P(SavedState, GoesOnToTheSameBits) {
+  WholeTest unbroken = GetParam().begin();
+  unbroken.go_on(kToTheEnd, [](std::size_t) {});
+  ASSERT_NE(unbroken.program.ended_by(), EndedBy::kSolver) << unbroken.program.reason();
+
+  // Saving leaves a run as it was.
+  WholeTest saved = GetParam().begin();
+  std::vector<std::string> states;
+  std::vector<std::size_t> answered;  // substeps before each
+  saved.go_on(kToTheEnd, [&](std::size_t n) {
+    if (n % GetParam().every != 0) return;
+    states.push_back(saved.saved());
+    answered.push_back(saved.substeps.size());
+  });
+  ASSERT_GT(states.size(), 3U);
+  const auto is_as_unbroken = [&](const WholeTest& run, std::size_t from) {
+    ASSERT_EQ(run.substeps.size(), unbroken.substeps.size() - from);
+    for (std::size_t i = 0; i < run.substeps.size(); ++i) {
+      const Sample &expected = unbroken.substeps[from + i], &found = run.substeps[i];
+      ASSERT_EQ(numbers(found), numbers(expected)) << "at t = " << expected.time << " s, saved after " << from;
+      ASSERT_EQ(found.message, expected.message);
+    }
+    EXPECT_EQ(run.bench.state().position, unbroken.bench.state().position);
+    EXPECT_EQ(run.bench.state().velocity, unbroken.bench.state().velocity);
+    EXPECT_EQ(run.bench.state().twist, unbroken.bench.state().twist);
+    EXPECT_EQ(run.tension, unbroken.tension);
+    EXPECT_EQ(run.program.ended_by(), unbroken.program.ended_by());
+  };
+  is_as_unbroken(saved, 0);
+
+  std::vector<std::unique_ptr<char[]>> shifted;  // what is new must not depend on where it lies in memory
+  for (std::size_t i = 0; i < states.size(); ++i) {
+    WholeTest resumed = GetParam().begin();
+    shifted.push_back(std::make_unique<char[]>(16 * (i % 5) + 8));
+    resumed.load(states[i]);
+    EXPECT_EQ(resumed.saved(), states[i]);
+    resumed.go_on(kToTheEnd, [](std::size_t) {});
+    is_as_unbroken(resumed, answered[i]);
+    if (HasFailure()) return;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, SavedState,
+                         testing::Values(straight(),
+                                         overhand("overhandWithTwist", FrictionLaw::kMemory, ContactLaw::kSmooth),
+                                         overhand("smoothedFriction", FrictionLaw::kSmoothed, ContactLaw::kSmooth),
+                                         overhand("edgeContact", FrictionLaw::kMemory, ContactLaw::kEdge),
+                                         loop("loop", polypropylene(), 20.0, 0.01), twisted_loop()),
+                         [](const auto& scene) { return scene.param.name; });
+
+std::string complaint(const Scene& scene, const std::string& bytes) {
+  WholeTest run = scene.begin();
+  try {
+    run.load(bytes);
+  } catch (const InvalidInput& invalid) {
+    return invalid.what();
+  }
+  return "";
+}
+
+TEST(SavedBench, OfAnotherSpecimenIsRefused) {
+  Scene coarse = straight();
+  coarse.specimen.edge_length = 0.0063;
+  EXPECT_THAT(complaint(straight(), coarse.begin().saved()), testing::HasSubstr("here: nodes: 43 is not allowed: 53"));
+  const Scene twisted = overhand("", FrictionLaw::kMemory, ContactLaw::kSmooth);
+  Scene without = twisted, edge = twisted;
+  without.physics.twist = TwistMode::kOff;
+  edge.physics.contact_law = ContactLaw::kEdge;
+  EXPECT_NE(complaint(twisted, without.begin().saved()), "");
+  EXPECT_NE(complaint(twisted, edge.begin().saved()), "");
+  EXPECT_EQ(complaint(twisted, twisted.begin().saved()), "");
+}
+
+}  // namespace
+}  // namespace knot_utm
