@@ -13,3 +13,11 @@ foreach(source ${nodes})
   knot_utm_executable(${name} ${source})
   target_link_libraries(${name} PRIVATE knot_utm_ros)
 endforeach()
+
+# Listening on loopback only: for the nodes by the library above, for the programs of others that they are launched with
+# (rosout, rviz) preloaded, and for the ROS master by the environment.
+add_library(knot_utm_loopback SHARED src/ros/loopback_bind.cpp)
+target_link_libraries(knot_utm_loopback PRIVATE knot_utm_compiler)
+add_dependencies(programs knot_utm_loopback)
+install(TARGETS knot_utm_loopback LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+catkin_add_env_hooks(60.knot_utm_loopback SHELLS sh DIRECTORY ${PROJECT_SOURCE_DIR}/cmake)

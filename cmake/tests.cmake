@@ -55,6 +55,17 @@ if(catkin_FOUND)
   target_compile_definitions(ros_tests PRIVATE KNOT_UTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   gtest_discover_tests(ros_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 120)
 
+  # The whole system, launched as a user does it: with the scripts, which take what stands in build/.
+  set(launched_tests)
+  if(CATKIN_DEVEL_PREFIX STREQUAL "${PROJECT_SOURCE_DIR}/build/devel")
+    file(GLOB launched_tests CONFIGURE_DEPENDS test/ros/launched/*_test.py)
+  endif()
+  foreach(test ${launched_tests})
+    get_filename_component(name ${test} NAME_WE)
+    add_test(NAME ${name} COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh ${PYTHON_EXECUTABLE} -B ${test})
+    set_tests_properties(${name} PROPERTIES TIMEOUT 240 RUN_SERIAL TRUE)
+  endforeach()
+
   if(CATKIN_ENABLE_TESTING)
     find_package(rostest REQUIRED)
     file(GLOB launched_tests CONFIGURE_DEPENDS RELATIVE ${PROJECT_SOURCE_DIR} test/ros/*.test)

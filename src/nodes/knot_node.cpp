@@ -4,9 +4,8 @@
 #include "knot_utm/ros/test_setup.hpp"
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "knot_node");
-  return knot_utm::run_node("knot_node", [] {
-    const ros::NodeHandle node;
+  return knot_utm::run_node("knot_node", [&] {
+    const ros::NodeHandle node = knot_utm::join_ros(argc, argv, "knot_node");
     const knot_utm::KnotNode knot(node, knot_utm::read_test_setup(node).method);
     ros::spin();
     return 0;

@@ -4,15 +4,14 @@
 #include "knot_utm/ros/test_setup.hpp"
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "utm_node");
-  return knot_utm::run_node("utm_node", [] {
-    const ros::NodeHandle node;
+  return knot_utm::run_node("utm_node", [&] {
+    const ros::NodeHandle node = knot_utm::join_ros(argc, argv, "utm_node");
     const ros::NodeHandle own("~");
     knot_utm::UtmOptions options;
-    own.getParam("real_time_factor", options.real_time_factor);
-    own.getParam("autostart", options.autostart);
-    own.getParam("record", options.record);
-    own.getParam("exit_at_end", options.exit_at_end);
+    knot_utm::read_parameter(own, "real_time_factor", &options.real_time_factor, "a number, 0 or more");
+    knot_utm::read_parameter(own, "autostart", &options.autostart, "true or false");
+    knot_utm::read_parameter(own, "record", &options.record, "true or false");
+    knot_utm::read_parameter(own, "exit_at_end", &options.exit_at_end, "true or false");
     if (!(options.real_time_factor >= 0.0)) {
       throw knot_utm::InvalidInput("real_time_factor", std::to_string(options.real_time_factor), "0 or more");
     }

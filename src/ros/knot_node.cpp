@@ -7,6 +7,7 @@
 #include <boost/make_shared.hpp>
 
 #include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/names.hpp"
 
@@ -16,6 +17,7 @@ namespace {
 constexpr double kViewPeriod = 0.04;        // wall time between pictures [s]
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
 constexpr std::uint32_t kQueue = 2 * KnotNode::kKeptAnswers;
+constexpr std::uint32_t kLargest = 16 * 1024;  // message to this node [bytes]
 
 TestBench make_bench(const Method& method) {
   return TestBench(method.specimen, method.material, method.machine, method.physics);
@@ -45,8 +47,8 @@ KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
   specimen_ = node_.advertise<SpecimenInfo>(names::kSpecimen, 1, true);
   markers_ = node_.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 1);
   commands_ =
-      node_.subscribe(names::kCrosshead, kQueue, &KnotNode::on_command, this, ros::TransportHints().tcpNoDelay());
-  status_ = node_.subscribe(names::kTestStatus, 10, &KnotNode::on_status, this);
+      subscribe_gated(node_, {names::kCrosshead, names::kUtmNode, kQueue, kLargest}, &KnotNode::on_command, this);
+  status_ = subscribe_gated(node_, {names::kTestStatus, names::kUtmNode, 10, kLargest}, &KnotNode::on_status, this);
   reset_ = node_.advertiseService(names::kReset, &KnotNode::on_reset, this);
 
   static_transforms_.sendTransform(std::vector<geometry_msgs::TransformStamped>{
@@ -55,9 +57,9 @@ KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
       transform(names::kUpperGripFrame, names::kLoadCellFrame, Vec3::Zero(), ros::TIME_MIN)});
   diagnostics_.setHardwareID(method_.material.name);
   diagnostics_.add("physics", this, &KnotNode::diagnose);
-  diagnostics_timer_ = node_.createWallTimer(ros::WallDuration(kDiagnosticsPeriod),
-                                             [this](const ros::WallTimerEvent&) { diagnostics_.force_update(); });
-  view_timer_ = node_.createWallTimer(ros::WallDuration(kViewPeriod), &KnotNode::on_view_timer, this);
+  diagnostics_timer_ = node_.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
+                                               [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
+  view_timer_ = node_.createSteadyTimer(ros::WallDuration(kViewPeriod), &KnotNode::on_view_timer, this);
   new_specimen();
 }
 
@@ -79,8 +81,11 @@ void KnotNode::new_specimen() {
   specimen_.publish(info);
 }
 
-void KnotNode::on_command(const Crosshead& message) {
+void KnotNode::on_command(const Crosshead::ConstPtr& command) {
+  const Crosshead& message = *command;
   if (message.run < run_) return;  // left over from a test that has ended
+  const std::string fault = fault_of(message, limits());
+  if (!fault.empty()) return refuse(message, std::string(names::kCrosshead) + ": " + fault);
   if (message.run != run_) {
     if (message.sequence != 0) return refuse(message, "the specimen was reset during the test");
     if (next_ != 0) {
@@ -98,7 +103,11 @@ void KnotNode::on_command(const Crosshead& message) {
          "command " + std::to_string(message.sequence) + " came where " + std::to_string(next_) + " was expected");
 }
 
+CrossheadLimits KnotNode::limits() const { return {method_.machine.travel, bench_.longest_step()}; }
+
 void KnotNode::answer(const Crosshead& message) {
+  const std::string fault = kept_.empty() ? "" : fault_after(kept_.back()->command, message, limits());
+  if (!fault.empty()) return refuse(message, std::string(names::kCrosshead) + ": " + fault);
   const Command command = from_message(message);
   stamp_ = message.header.stamp;
   sample_ = bench_.respond(command);
@@ -124,7 +133,6 @@ void KnotNode::answer(const Crosshead& message) {
 void KnotNode::refuse(const Crosshead& message, const std::string& why) {
   Sample failed = sample_;
   failed.sequence = message.sequence;
-  failed.time = message.time;
   failed.status = BenchStatus::kFailed;
   failed.message = why;
   KnotRecord record;
@@ -150,7 +158,8 @@ void KnotNode::publish(const KnotRecord& record) {
   if (!record.shape.points.empty() && shape_.getNumSubscribers() > 0) shape_.publish(record.shape);
 }
 
-void KnotNode::on_status(const TestStatus& status) {
+void KnotNode::on_status(const TestStatus::ConstPtr& ended) {
+  const TestStatus& status = *ended;
   // The recorder wants the shape at the very end, which nobody could foresee. The status is repeated until it has it.
   if (status.state != TestStatus::ENDED || status.run != run_ || kept_.empty()) return;
   KnotRecord& last = *kept_.back();
@@ -167,7 +176,7 @@ bool KnotNode::on_reset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigg
   return true;
 }
 
-void KnotNode::on_view_timer(const ros::WallTimerEvent& /*event*/) {
+void KnotNode::on_view_timer(const ros::SteadyTimerEvent& /*event*/) {
   const std::uint32_t viewers = markers_.getNumSubscribers();
   const bool somebody_is_new = viewers > viewers_;
   viewers_ = viewers;

@@ -8,16 +8,19 @@
 
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/knot_node.hpp"
-#include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/loopback.hpp"
+#include "knot_utm/ros/validate.hpp"
 
 namespace knot_utm {
 namespace {
 
 constexpr std::uint32_t kQueue = 4 * KnotNode::kKeptAnswers;
-constexpr double kPatience = 2.0;                // wall time to wait for a record that is missing [s]
-constexpr double kPatienceAtEnd = 10.0;          // the same for the final shape [s]
-constexpr double kAcknowledgePeriod = 0.005;     // wall time between acknowledgements [s]
-constexpr std::uint64_t kAcknowledgeAfter = 16;  // records, where they come faster
+constexpr std::uint32_t kLargest = 256 * 1024 * 1024;  // message to this node [bytes]
+constexpr double kLastRecords = 1.0;                   // wall time for what is under way once the machine died [s]
+constexpr double kPatience = 2.0;                      // wall time to wait for a record that is missing [s]
+constexpr double kPatienceAtEnd = 10.0;                // the same for the final shape [s]
+constexpr double kAcknowledgePeriod = 0.005;           // wall time between acknowledgements [s]
+constexpr std::uint64_t kAcknowledgeAfter = 16;        // records, where they come faster
 
 double seconds_since(std::chrono::steady_clock::time_point then) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
@@ -40,11 +43,14 @@ RecorderNode::Run::Run(const std::string& folder_, const Method& method)
       bag((std::filesystem::path(folder_) / "test.bag").string(), method) {}
 
 RecorderNode::RecorderNode(const ros::NodeHandle& node, TestSetup setup) : node_(node), setup_(std::move(setup)) {
-  status_ = node_.advertise<RecorderStatus>(names::kRecorderStatus, 100, true);
+  const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
+  status_ = node_.advertise<RecorderStatus>(names::kRecorderStatus, 100, ros::SubscriberStatusCallback(), gone,
+                                            ros::VoidConstPtr(), true);
   save_ = node_.advertiseService(names::kSave, &RecorderNode::on_save, this);
-  const ros::TransportHints at_once = ros::TransportHints().tcpNoDelay();
-  records_ = node_.subscribe(names::kKnotRecord, kQueue, &RecorderNode::on_record, this, at_once);
-  test_status_ = node_.subscribe(names::kTestStatus, 10, &RecorderNode::on_status, this, at_once);
+  records_ =
+      subscribe_gated(node_, {names::kKnotRecord, names::kKnotNode, kQueue, kLargest}, &RecorderNode::on_record, this);
+  test_status_ =
+      subscribe_gated(node_, {names::kTestStatus, names::kUtmNode, 10, kLargest}, &RecorderNode::on_status, this);
   publish_status();
 }
 
@@ -54,6 +60,7 @@ int RecorderNode::spin() {
     if (run_ && !run_->complete && error_.empty()) {
       give_up_gap();
       finish_when_ready();
+      if (machine_died_ && seconds_since(*machine_died_) > kLastRecords && !run_->complete) finish_early();
     }
     const bool complete = run_ && run_->complete;
     const std::uint64_t next = run_ ? run_->next : 0;
@@ -61,10 +68,12 @@ int RecorderNode::spin() {
                       complete != (published_.complete != 0) || error_ != published_.error;
     if (news && (seconds_since(published_at_) > kAcknowledgePeriod)) publish_status();
   }
-  if (run_ && !run_->complete && error_.empty()) {
-    finish(EndedBy::kOperator, "the recorder was stopped before the test had ended", "");
-  }
+  if (run_ && !run_->complete && error_.empty()) finish_early();
   return error_.empty() ? 0 : 1;
+}
+
+void RecorderNode::on_gone(const ros::SingleSubscriberPublisher& subscriber) {
+  if (subscriber.getSubscriberName() == node_.resolveName(names::kUtmNode)) machine_died_ = Clock::now();
 }
 
 void RecorderNode::begin_run(std::uint32_t run) {
@@ -79,6 +88,8 @@ void RecorderNode::begin_run(std::uint32_t run) {
 
 void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
   if (!error_.empty()) return;
+  const std::string fault = fault_of(*record);
+  if (!fault.empty()) return odd_record_.say(names::kKnotNode, fault);
   try {
     const Crosshead& command = record->command;
     if (command.run < run_number_) return;
@@ -138,7 +149,11 @@ void RecorderNode::give_up_gap() {
   }
 }
 
-void RecorderNode::on_status(const TestStatus& status) { test_ = status; }
+void RecorderNode::on_status(const TestStatus::ConstPtr& status) {
+  const std::string fault = fault_of(*status);
+  if (!fault.empty()) return odd_status_.say(names::kUtmNode, fault);
+  test_ = *status;
+}
 
 void RecorderNode::finish_when_ready() {
   if (test_.state != TestStatus::ENDED || test_.run != run_number_) return;
@@ -150,6 +165,18 @@ void RecorderNode::finish_when_ready() {
   } else if (seconds_since(run_->progress) > kPatienceAtEnd) {
     if (!all) run_->dropped += test_.sequence + 1 - run_->next;
     finish(ended_by_from_name(test_.ended_by), test_.reason, "the physics did not answer at the end of the test");
+  }
+}
+
+void RecorderNode::finish_early() {
+  if (test_.state == TestStatus::ENDED && test_.run == run_number_) {
+    finish(ended_by_from_name(test_.ended_by), test_.reason, "");
+  } else if (machine_died_) {
+    finish(EndedBy::kOperator, "utm_node died before the test had ended", "");
+  } else if (!master_answers()) {
+    finish(EndedBy::kOperator, "the ROS master died before the test had ended", "");
+  } else {
+    finish(EndedBy::kOperator, "ROS was shut down before the test had ended", "");
   }
 }
 

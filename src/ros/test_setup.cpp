@@ -1,8 +1,14 @@
 #include "knot_utm/ros/test_setup.hpp"
 
+#include <ros/console.h>
+#include <ros/init.h>
+
 #include <cstdio>
 #include <filesystem>
 #include <vector>
+
+#include "knot_utm/ros/loopback.hpp"
+#include "knot_utm/ros/names.hpp"
 
 namespace knot_utm {
 namespace {
@@ -47,16 +53,34 @@ TestSetup read_test_setup(const ros::NodeHandle& node) {
   if (!material.empty()) overrides.push_back("material=" + material);
   if (!preload.empty()) overrides.push_back("specimen.preload=" + preload);
   std::vector<std::string> more;
-  node.getParam("test/overrides", more);
+  read_parameter(node, "test/overrides", &more, "a list of texts");
   overrides.insert(overrides.end(), more.begin(), more.end());
 
   TestSetup setup;
   const std::string file =
       find_method(text_parameter(node, "test/method"), base, text_parameter(node, "test/shipped_methods"));
   setup.method = load_method(file, overrides);
+  // The folder's name below out/.
+  if (setup.method.name == "." || setup.method.name == "..") {
+    throw InvalidInput("test/method", file, "a file whose name without ending is a name for a folder");
+  }
   const std::string out = text_parameter(node, "test/out");
   setup.out = (base / (out.empty() ? fs::path("out") / setup.method.name : fs::path(out))).lexically_normal().string();
   return setup;
+}
+
+ros::NodeHandle join_ros(int argc, char** argv, const char* name) {
+  prefer_loopback();
+  ros::init(argc, argv, name);
+  ros::NodeHandle node;
+  bool network = false;
+  read_parameter(node, "test/network", &network, "true or false");
+  if (!network) {
+    require_loopback();
+  } else if (name == std::string(names::kUtmNode)) {  // one of all that say it
+    ROS_WARN("network:=true: ROS 1 has no authentication, anyone who reaches this machine can command the test");
+  }
+  return node;
 }
 
 int report_failure(const char* name, const char* what, int code) {

@@ -9,8 +9,7 @@
 #include <limits>
 
 #include "knot_utm/ros/conversions.hpp"
-#include "knot_utm/ros/names.hpp"
-#include "knot_utm/ros/test_setup.hpp"
+#include "knot_utm/ros/validate.hpp"
 
 namespace knot_utm {
 namespace {
@@ -25,6 +24,7 @@ constexpr double kCatchUp = 0.1;          // wall time that is made up for after
 constexpr double kGapBetweenTests = 1.0;  // on /clock [s]
 constexpr double kGoodbye = 0.3;          // wall time for the last messages to leave before the node ends [s]
 constexpr std::uint32_t kQueue = 1000;
+constexpr std::uint32_t kLargest = 64 * 1024;  // message to this node [bytes]
 
 double seconds_since(steady_clock::time_point then) { return Seconds(steady_clock::now() - then).count(); }
 
@@ -48,14 +48,17 @@ bool accept(std_srvs::Trigger::Response& response, const std::string& what) {
 
 UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOptions& options)
     : node_(node), method_(method), options_(options), factor_(std::numeric_limits<double>::quiet_NaN()) {
-  crosshead_ = node_.advertise<Crosshead>(names::kCrosshead, kQueue);
+  const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
+  crosshead_ = node_.advertise<Crosshead>(names::kCrosshead, kQueue, ros::SubscriberStatusCallback(), gone);
   joint_states_ = node_.advertise<sensor_msgs::JointState>(names::kJointStates, kQueue);
   status_ = node_.advertise<TestStatus>(names::kTestStatus, 10, true);
   clock_ = node_.advertise<rosgraph_msgs::Clock>(names::kClock, 10);
-  const ros::TransportHints at_once = ros::TransportHints().tcpNoDelay();
-  states_ = node_.subscribe(names::kKnotState, kQueue, &UtmNode::on_state, this, at_once);
-  specimens_ = node_.subscribe(names::kSpecimen, 1, &UtmNode::on_specimen, this, at_once);
-  if (options_.record) recorder_ = node_.subscribe(names::kRecorderStatus, 10, &UtmNode::on_recorder, this, at_once);
+  states_ = subscribe_gated(node_, {names::kKnotState, names::kKnotNode, kQueue, kLargest}, &UtmNode::on_state, this);
+  specimens_ = subscribe_gated(node_, {names::kSpecimen, names::kKnotNode, 1, kLargest}, &UtmNode::on_specimen, this);
+  if (options_.record) {
+    recorder_ = subscribe_gated(node_, {names::kRecorderStatus, names::kRecorderNode, 10, kLargest},
+                                &UtmNode::on_recorder, this);
+  }
   start_ = node_.advertiseService(names::kStartTest, &UtmNode::on_start, this);
   stop_ = node_.advertiseService(names::kStopTest, &UtmNode::on_stop, this);
   balance_ = node_.advertiseService(names::kBalance, &UtmNode::on_balance, this);
@@ -87,10 +90,34 @@ double UtmNode::wait_time() const {
   return std::clamp(until_due, 0.0, 0.02);
 }
 
-void UtmNode::on_specimen(const SpecimenInfo& specimen) { longest_step_ = specimen.longest_step; }
+void UtmNode::on_specimen(const SpecimenInfo::ConstPtr& specimen) {
+  const std::string fault = fault_of(*specimen);
+  if (!fault.empty()) return odd_specimen_.say(names::kKnotNode, fault);
+  longest_step_ = specimen->longest_step;
+}
 
-void UtmNode::on_state(const KnotState& state) {
+void UtmNode::on_gone(const ros::SingleSubscriberPublisher& subscriber) {
+  if (active() && subscriber.getSubscriberName() == node_.resolveName(names::kKnotNode)) {
+    physics_failed("knot_node died during the test");
+  }
+}
+
+void UtmNode::physics_failed(const std::string& why) {
+  sample_.sequence = command_.sequence;
+  sample_.status = BenchStatus::kFailed;
+  sample_.message = why;
+  program_->next(sample_);
+  // The last command that there will ever be an answer to.
+  if (waiting_ && command_.sequence > 0) --command_.sequence;
+  waiting_ = false;
+  end();
+}
+
+void UtmNode::on_state(const KnotState::ConstPtr& answer) {
+  const KnotState& state = *answer;
   if (!waiting_ || state.run != run_ || state.sequence != command_.sequence) return;  // an answer given twice
+  const std::string fault = fault_of(state);
+  if (!fault.empty()) return physics_failed(std::string(names::kKnotState) + ": " + fault);
   sample_ = from_message(state);
   waiting_ = false;
   now_ = state.header.stamp;
@@ -98,7 +125,8 @@ void UtmNode::on_state(const KnotState& state) {
   if (joint_states_.getNumSubscribers() > 0) joint_states_.publish(to_joint_state(command_, sample_, now_));
 }
 
-void UtmNode::on_recorder(const RecorderStatus& status) {
+void UtmNode::on_recorder(const RecorderStatus::ConstPtr& recorded) {
+  const RecorderStatus& status = *recorded;
   if (status.run != run_) return;
   if (status.next_sequence > recorded_) sent_ = steady_clock::now();
   recorded_ = std::max(recorded_, status.next_sequence);
@@ -107,7 +135,7 @@ void UtmNode::on_recorder(const RecorderStatus& status) {
   if (!status.error.empty()) {
     recorder_failed_ = true;
     if (active()) {
-      ROS_ERROR("the recorder failed: %s", status.error.c_str());
+      ROS_ERROR("the recorder failed: %s", one_line(status.error).c_str());
       program_->stop();
     }
   }

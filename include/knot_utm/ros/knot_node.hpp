@@ -16,13 +16,14 @@
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/ros/validate.hpp"
 
 namespace knot_utm {
 
 /// The physics as a node. It answers each command with the state of the same sequence and stamp, and a command that
 /// it has answered already with the same answer again, so that a lost message never makes a step twice. Command 0 of
-/// a new test begins with a new specimen. A command out of turn (the specimen was reset in the middle of a test) is
-/// answered with a failure.
+/// a new test begins with a new specimen. A command out of turn (the specimen was reset in the middle of a test), or
+/// one that no program can mean, is answered with a failure. Commands of anybody but the machine are ignored.
 class KnotNode {
  public:
   /// Answers kept for asking again. The recorder may fall behind by so many commands.
@@ -31,13 +32,14 @@ class KnotNode {
   KnotNode(const ros::NodeHandle& node, const Method& method);
 
  private:
-  void on_command(const Crosshead& message);
-  void on_status(const TestStatus& status);
+  void on_command(const Crosshead::ConstPtr& command);
+  void on_status(const TestStatus::ConstPtr& ended);
   bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  void on_view_timer(const ros::WallTimerEvent& event);
+  void on_view_timer(const ros::SteadyTimerEvent& event);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   void new_specimen();
+  CrossheadLimits limits() const;
   void answer(const Crosshead& message);
   void refuse(const Crosshead& message, const std::string& why);
   void publish(const KnotRecord& record);
@@ -62,7 +64,7 @@ class KnotNode {
   ros::Publisher state_, record_, load_cell_, shape_, specimen_, markers_;
   ros::Subscriber commands_, status_;
   ros::ServiceServer reset_;
-  ros::WallTimer view_timer_, diagnostics_timer_;
+  ros::SteadyTimer view_timer_, diagnostics_timer_;
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   diagnostic_updater::Updater diagnostics_;

@@ -3,6 +3,11 @@
 /// Every name that the nodes share. All but /clock are relative: the launch file decides where they stand.
 namespace knot_utm::names {
 
+// Nodes, as each takes the others' messages
+inline constexpr char kUtmNode[] = "utm_node";
+inline constexpr char kKnotNode[] = "knot_node";
+inline constexpr char kRecorderNode[] = "recorder_node";
+
 // Topics
 inline constexpr char kCrosshead[] = "utm/crosshead";         ///< Crosshead, a command for the physics
 inline constexpr char kJointStates[] = "utm/joint_states";    ///< sensor_msgs/JointState of the crosshead

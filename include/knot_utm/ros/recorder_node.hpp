@@ -9,10 +9,13 @@
 #include <chrono>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/run_writer.hpp"
+#include "knot_utm/ros/gate.hpp"
+#include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/test_bag.hpp"
 #include "knot_utm/ros/test_setup.hpp"
 
@@ -26,8 +29,8 @@ class RecorderNode {
  public:
   RecorderNode(const ros::NodeHandle& node, TestSetup setup);
 
-  /// Runs until ROS is shut down; a test that has not ended then is closed as stopped by the operator. Returns the exit
-  /// code: 1 where something could not be written.
+  /// Runs until ROS is shut down; a test that has not ended then, or whose machine died, is closed with the reason.
+  /// Returns the exit code: 1 where something could not be written.
   int spin();
 
  private:
@@ -54,7 +57,8 @@ class RecorderNode {
   };
 
   void on_record(const KnotRecord::ConstPtr& record);
-  void on_status(const TestStatus& status);
+  void on_status(const TestStatus::ConstPtr& status);
+  void on_gone(const ros::SingleSubscriberPublisher& subscriber);
   bool on_save(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   void begin_run(std::uint32_t run);
@@ -62,6 +66,7 @@ class RecorderNode {
   void write_early();
   void give_up_gap();
   void finish_when_ready();
+  void finish_early();
   void finish(EndedBy ended_by, const std::string& reason, const std::string& warning);
   void fail(const std::string& why);
   void publish_status();
@@ -71,6 +76,8 @@ class RecorderNode {
   std::uint32_t run_number_ = 0;
   std::unique_ptr<Run> run_;  ///< none before the first record
   TestStatus test_;           ///< the latest
+  std::optional<Clock::time_point> machine_died_;
+  TopicWarning odd_record_{names::kKnotRecord}, odd_status_{names::kTestStatus};
   std::string error_;
   RecorderStatus published_;
   Clock::time_point published_at_;

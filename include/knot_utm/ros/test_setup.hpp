@@ -17,6 +17,7 @@ namespace knot_utm {
 ///   test/overrides          list of "dotted.key=YAML", after these two among paths as long
 ///   test/working_directory  where relative paths begin; empty: the node's own
 ///   test/out                folder of the files [out/NAME of the method]
+///   test/network            true: other machines may reach the nodes
 struct TestSetup {
   Method method;
   std::string out;  ///< absolute
@@ -24,6 +25,18 @@ struct TestSetup {
 
 /// Throws InvalidInput.
 TestSetup read_test_setup(const ros::NodeHandle& node);
+
+/// A parameter where it is set; else `value` stays. Throws InvalidInput where it is not what `allowed` says.
+template <class Value>
+void read_parameter(const ros::NodeHandle& node, const std::string& name, Value* value, const char* allowed) {
+  if (node.hasParam(name) && !node.getParam(name, *value)) {
+    throw InvalidInput(node.resolveName(name), "what it is set to", allowed);
+  }
+}
+
+/// Starts ROS as the node `name` of a test, on loopback unless the environment says otherwise. Throws InvalidInput
+/// where other machines reach this node or the master and test/network is not true.
+ros::NodeHandle join_ros(int argc, char** argv, const char* name);
 
 /// Runs `body` and says in one line what went wrong. Returns the exit code: 0, 1 failed, 2 wrong input.
 template <class Body>

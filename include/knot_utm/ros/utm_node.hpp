@@ -13,6 +13,8 @@
 
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/test_program.hpp"
+#include "knot_utm/ros/gate.hpp"
+#include "knot_utm/ros/names.hpp"
 
 namespace knot_utm {
 
@@ -27,7 +29,8 @@ struct UtmOptions {
 
 /// The machine as a node: gives the test program's commands and takes the answers, one at a time. A command for time t
 /// has stamp t; the next one is given when the answer of the same sequence has come. Whatever is not answered (or, with
-/// `record`, not recorded) is asked for again, so that nodes may join late and messages may be lost.
+/// `record`, not recorded) is asked for again, so that nodes may join late and messages may be lost. A physics whose
+/// connection breaks has died: that ends the test, as one that gave up does. One that is only slow is waited for.
 class UtmNode {
  public:
   /// Commands that may be ahead of the recorder. Half of what the physics keeps for asking again.
@@ -43,9 +46,10 @@ class UtmNode {
   using Clock = std::chrono::steady_clock;
   enum class State { kIdle, kRunning, kPaused, kEnded };  ///< as numbered in TestStatus
 
-  void on_specimen(const SpecimenInfo& specimen);
-  void on_state(const KnotState& state);
-  void on_recorder(const RecorderStatus& status);
+  void on_specimen(const SpecimenInfo::ConstPtr& specimen);
+  void on_state(const KnotState::ConstPtr& answer);
+  void on_recorder(const RecorderStatus::ConstPtr& recorded);
+  void on_gone(const ros::SingleSubscriberPublisher& subscriber);
   bool on_start(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_stop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_balance(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -60,6 +64,7 @@ class UtmNode {
   void advance();
   void send(const Command& command);
   void resend();
+  void physics_failed(const std::string& why);  ///< ends the test
   void end();
   void publish_clock(bool at_once);
   void publish_status();
@@ -82,6 +87,7 @@ class UtmNode {
   bool recorder_complete_ = false;
   bool recorder_failed_ = false;
   ros::Time now_;  ///< what /clock says
+  TopicWarning odd_specimen_{names::kSpecimen};
 
   Clock::time_point due_;   ///< when the next command may go
   Clock::time_point sent_;  ///< when something was last asked for, or asked again

@@ -1,0 +1,148 @@
+#include "knot_utm/ros/loopback.hpp"
+
+#include <arpa/inet.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <ros/master.h>
+#include <ros/network.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "knot_utm/rod/invalid_input.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kAllowed = "loopback only: ROS_HOSTNAME=localhost, or network:=true";
+
+bool is_loopback(const sockaddr_storage& address) {
+  if (address.ss_family == AF_INET) {
+    return (ntohl(reinterpret_cast<const sockaddr_in&>(address).sin_addr.s_addr) >> 24) == 127;
+  }
+  const in6_addr& v6 = reinterpret_cast<const sockaddr_in6&>(address).sin6_addr;
+  return IN6_IS_ADDR_LOOPBACK(&v6) || (IN6_IS_ADDR_V4MAPPED(&v6) && v6.s6_addr[12] == 127);
+}
+
+std::string text_of(const sockaddr_storage& address) {
+  char text[NI_MAXHOST] = "";
+  char port[NI_MAXSERV] = "";
+  getnameinfo(reinterpret_cast<const sockaddr*>(&address), sizeof address, text, sizeof text, port, sizeof port,
+              NI_NUMERICHOST | NI_NUMERICSERV);
+  return std::string(text) + ":" + port;
+}
+
+/// The addresses that a name stands for are all loopback.
+bool names_loopback(const std::string& host) {
+  addrinfo* found = nullptr;
+  if (getaddrinfo(host.c_str(), nullptr, nullptr, &found) != 0) return false;
+  bool all = true;
+  for (const addrinfo* a = found; a != nullptr; a = a->ai_next) {
+    sockaddr_storage address{};
+    std::memcpy(&address, a->ai_addr, a->ai_addrlen);
+    all = all && is_loopback(address);
+  }
+  freeaddrinfo(found);
+  return all;
+}
+
+/// Of the sockets that this process listens on, one that others reach; empty: none.
+std::string open_socket() {
+  for (const fs::directory_entry& entry : fs::directory_iterator("/proc/self/fd")) {
+    const int fd = std::atoi(entry.path().filename().c_str());
+    int listens = 0;
+    socklen_t length = sizeof listens;
+    if (getsockopt(fd, SOL_SOCKET, SO_ACCEPTCONN, &listens, &length) != 0 || listens == 0) continue;
+    sockaddr_storage address{};
+    length = sizeof address;
+    if (getsockname(fd, reinterpret_cast<sockaddr*>(&address), &length) != 0) continue;
+    if ((address.ss_family == AF_INET || address.ss_family == AF_INET6) && !is_loopback(address)) {
+      return text_of(address);
+    }
+  }
+  return "";
+}
+
+/// An address of /proc/net/tcp or tcp6: words of 32 bits, each as this machine writes the number it makes.
+bool is_loopback_in_table(const std::string& text) {
+  sockaddr_storage address{};
+  const bool v4 = text.size() == 8;
+  address.ss_family = v4 ? AF_INET : AF_INET6;
+  for (std::size_t word = 0; 8 * word + 8 <= text.size() && word < 4; ++word) {
+    const auto bits = static_cast<std::uint32_t>(std::stoul(text.substr(8 * word, 8), nullptr, 16));
+    if (v4) {
+      reinterpret_cast<sockaddr_in&>(address).sin_addr.s_addr = bits;
+    } else {
+      std::memcpy(reinterpret_cast<sockaddr_in6&>(address).sin6_addr.s6_addr + 4 * word, &bits, sizeof bits);
+    }
+  }
+  return is_loopback(address);
+}
+
+/// Whether somebody on this machine listens on the port on an address that others reach. A line of the tables is
+/// "0: ADDRESS:PORT PEER:PORT STATE ...", 0A: listens.
+bool is_open_port(unsigned port) {
+  for (const char* table : {"/proc/net/tcp", "/proc/net/tcp6"}) {
+    std::ifstream in(table);
+    std::string line;
+    std::getline(in, line);
+    while (std::getline(in, line)) {
+      std::istringstream words(line);
+      std::string number, local, peer, state;
+      words >> number >> local >> peer >> state;
+      const std::size_t colon = local.find(':');
+      if (state != "0A" || colon == std::string::npos || std::stoul(local.substr(colon + 1), nullptr, 16) != port) {
+        continue;
+      }
+      if (!is_loopback_in_table(local.substr(0, colon))) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+void prefer_loopback() {
+  if (std::getenv("ROS_HOSTNAME") == nullptr && std::getenv("ROS_IP") == nullptr)
+    setenv("ROS_HOSTNAME", "localhost", 1);
+}
+
+void require_loopback() {
+  const std::string host = ros::network::getHost();
+  if (!names_loopback(host)) throw InvalidInput("this node's address", host, kAllowed);
+  const std::string open = open_socket();
+  if (!open.empty()) throw InvalidInput("a socket of this node", open, kAllowed);
+  if (!names_loopback(ros::master::getHost())) throw InvalidInput("ROS_MASTER_URI", ros::master::getURI(), kAllowed);
+  if (is_open_port(ros::master::getPort())) {
+    throw InvalidInput("the ROS master's address", "every address of this machine",
+                       "loopback only: start it with ROS_HOSTNAME=localhost, or network:=true");
+  }
+}
+
+bool master_answers() {
+  addrinfo* found = nullptr;
+  addrinfo hints{};
+  hints.ai_socktype = SOCK_STREAM;
+  const std::string port = std::to_string(ros::master::getPort());
+  if (getaddrinfo(ros::master::getHost().c_str(), port.c_str(), &hints, &found) != 0) return false;
+  bool answers = false;
+  for (const addrinfo* a = found; a != nullptr && !answers; a = a->ai_next) {
+    const int fd = socket(a->ai_family, a->ai_socktype | SOCK_CLOEXEC, 0);
+    if (fd < 0) continue;
+    answers = connect(fd, a->ai_addr, a->ai_addrlen) == 0;
+    close(fd);
+  }
+  freeaddrinfo(found);
+  return answers;
+}
+
+}  // namespace knot_utm

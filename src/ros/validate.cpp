@@ -1,0 +1,215 @@
+#include "knot_utm/ros/validate.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "knot_utm/io/number.hpp"
+#include "knot_utm/machine/program.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kFastest = 0.5;          // crosshead or tail grip of any method [m/s]
+constexpr double kLongestStep = 0.5;      // of any physics [s]
+constexpr double kLongestDuration = 1e6;  // of any step of a program [s]
+constexpr double kSlack = 1e-9;           // relative, for what was rounded
+constexpr std::size_t kLongestText = 8192;
+constexpr std::size_t kMostSteps = 1000000;  // of the physics in one command: the longest step over the shortest
+constexpr std::size_t kMostNodes = 1000000;
+
+bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
+
+/// Asks one thing after the other and keeps the first answer that is wrong.
+class Check {
+ public:
+  explicit Check(std::string prefix = "") : prefix_(std::move(prefix)) {}
+
+  Check& number(const char* field, double value, double low = -kInfinity, double high = kInfinity) {
+    const bool right = std::isfinite(value) && value >= low && value <= high;
+    std::string allowed = "a finite number";
+    if (std::isfinite(low) && std::isfinite(high)) {
+      allowed = format_number(low) + " to " + format_number(high);
+    } else if (std::isfinite(low)) {
+      allowed = format_number(low) + " or more, finite";
+    }
+    return right ? *this : wrong(field, format_number(value), allowed);
+  }
+  /// As `number`, or not-a-number for what is not there.
+  Check& number_or_none(const char* field, double value, double low = -kInfinity) {
+    return std::isnan(value) ? *this : number(field, value, low);
+  }
+  Check& count(const char* field, std::uint64_t value, std::uint64_t low, std::uint64_t high) {
+    const bool right = value >= low && value <= high;
+    return right ? *this : wrong(field, std::to_string(value), std::to_string(low) + " to " + std::to_string(high));
+  }
+  Check& phase(const std::string& value) {
+    return phase_named(value) ? *this : wrong("phase", "\"" + one_line(value) + "\"", "a phase of a test");
+  }
+  Check& text(const char* field, const std::string& value) {
+    if (value.size() > kLongestText) {
+      return wrong(field, std::to_string(value.size()) + " characters", "at most " + std::to_string(kLongestText));
+    }
+    const bool plain = std::none_of(value.begin(), value.end(), is_control);
+    return plain ? *this : wrong(field, "\"" + one_line(value) + "\"", "one line of text");
+  }
+  Check& that(bool right, const char* field, const std::string& value, const std::string& allowed) {
+    return right ? *this : wrong(field, value, allowed);
+  }
+  /// Of a message inside this one.
+  Check& part(const std::string& fault) {
+    if (fault_.empty()) fault_ = fault;
+    return *this;
+  }
+  const std::string& fault() const { return fault_; }
+
+ private:
+  Check& wrong(const char* field, const std::string& value, const std::string& allowed) {
+    if (fault_.empty()) fault_ = prefix_ + field + ": " + value + ", allowed: " + allowed;
+    return *this;
+  }
+
+  std::string prefix_;
+  std::string fault_;
+};
+
+std::string fault_of_state(const KnotState& m, const std::string& prefix) {
+  return Check(prefix)
+      .text("header.frame_id", m.header.frame_id)
+      .number("time", m.time, 0.0)
+      .phase(m.phase)
+      .number("displacement", m.displacement)
+      .number("extension", m.extension)
+      .number("end_to_end", m.end_to_end)
+      .number_or_none("knot_distance", m.knot_distance, 0.0)
+      .number("load", m.load)
+      .number("balance_offset", m.balance_offset)
+      .number("force_upper", m.force_upper)
+      .number("force_lower", m.force_lower)
+      .number_or_none("tail_force[0]", m.tail_force[0])
+      .number_or_none("tail_force[1]", m.tail_force[1])
+      .number_or_none("excess_length[0]", m.excess_length[0])
+      .number_or_none("excess_length[1]", m.excess_length[1])
+      .number("max_penetration", m.max_penetration)
+      .number("normal_force", m.normal_force)
+      .number("contacts", m.contacts, 0.0)
+      .number("fastest_node", m.fastest_node, 0.0)
+      .number("stretching_energy", m.stretching_energy)
+      .number("bending_energy", m.bending_energy)
+      .number("twisting_energy", m.twisting_energy)
+      .number("contact_energy", m.contact_energy)
+      .number("kinetic_energy", m.kinetic_energy)
+      .number("grip_work", m.grip_work)
+      .number("dissipation", m.dissipation)
+      .count("knot_type", m.knot_type, KnotState::KNOT_KEPT, KnotState::KNOT_CROSSED)
+      .count("status", m.status, KnotState::RUNNING, KnotState::FAILED)
+      .text("message", m.message)
+      .text("motion_pattern", m.motion_pattern)
+      .fault();
+}
+
+std::string fault_of_shape(const KnotShape& m) {
+  const auto finite = [](const geometry_msgs::Point& p) {
+    return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
+  };
+  const std::size_t edges = m.points.empty() ? 0 : m.points.size() - 1;
+  const auto lost = std::find_if_not(m.points.begin(), m.points.end(), finite);
+  const auto torn = std::find_if_not(m.tension.begin(), m.tension.end(), [](double t) { return std::isfinite(t); });
+  return Check("shape.")
+      .text("header.frame_id", m.header.frame_id)
+      .count("points", m.points.size(), 0, kMostNodes)
+      .that(m.tension.size() == edges, "tension", std::to_string(m.tension.size()) + " edges", std::to_string(edges))
+      .that(lost == m.points.end(), "points", "point " + std::to_string(lost - m.points.begin()) + " not finite",
+            "finite numbers")
+      .that(torn == m.tension.end(), "tension", "edge " + std::to_string(torn - m.tension.begin()) + " not finite",
+            "finite numbers")
+      .fault();
+}
+
+std::string fault_of_command(const Crosshead& m, const CrossheadLimits& limits, const std::string& prefix) {
+  const double reach = limits.travel + kFastest * limits.longest_step;
+  return Check(prefix)
+      .text("header.frame_id", m.header.frame_id)
+      .count("run", m.run, 1, std::numeric_limits<std::uint32_t>::max())
+      .number("time", m.time, 0.0)
+      .that(m.sequence > 0 || m.time == 0.0, "time", format_number(m.time), "0 where the sequence is 0")
+      // No test begins before the clock does.
+      .number("header.stamp", m.header.stamp.toSec(), m.time * (1.0 - kSlack) - 1e-6)
+      .number("displacement", m.displacement, -reach, reach)
+      .number("velocity", m.velocity, -kFastest, kFastest)
+      .that(m.step >= -1, "step", std::to_string(m.step), "-1 or more")
+      .phase(m.phase)
+      .number("speed", m.speed, 0.0, kFastest)
+      .number("duration", m.duration, 0.0, kLongestDuration)
+      .fault();
+}
+
+}  // namespace
+
+std::string fault_of(const Crosshead& message, const CrossheadLimits& limits) {
+  return fault_of_command(message, limits, "");
+}
+
+std::string fault_after(const Crosshead& last, const Crosshead& message, const CrossheadLimits& limits) {
+  const double passed = message.time - last.time;
+  const double way = message.displacement - last.displacement;
+  const double farthest = kFastest * passed + kSlack;
+  return Check()
+      .that(passed > 0.0 && passed <= limits.longest_step * (1.0 + kSlack) + kSlack, "time",
+            format_number(message.time),
+            "after " + format_number(last.time) + " by at most " + format_number(limits.longest_step))
+      .that(std::abs(way) <= farthest, "displacement", format_number(message.displacement),
+            "within " + format_number(farthest) + " of " + format_number(last.displacement))
+      .fault();
+}
+
+std::string fault_of(const KnotState& message) { return fault_of_state(message, ""); }
+
+std::string fault_of(const KnotRecord& m) {
+  // The machine's limits are between machine and physics; here only what no machine has.
+  CrossheadLimits any;
+  any.travel = kInfinity;
+  Check check;
+  check.part(fault_of_command(m.command, any, "command."))
+      .part(fault_of_state(m.answer, "answer."))
+      .that(m.answer.run == m.command.run && m.answer.sequence == m.command.sequence, "answer.sequence",
+            std::to_string(m.answer.sequence), "that of the command, " + std::to_string(m.command.sequence))
+      .count("steps", m.steps.size(), 0, kMostSteps)
+      .part(fault_of_shape(m.shape));
+  for (std::size_t i = 0; i < m.steps.size() && check.fault().empty(); ++i) {
+    check.part(fault_of_state(m.steps[i], "steps[" + std::to_string(i) + "]."));
+  }
+  return check.fault();
+}
+
+std::string fault_of(const SpecimenInfo& m) {
+  return Check()
+      .text("header.frame_id", m.header.frame_id)
+      .number("longest_step", m.longest_step, 1e-6, kLongestStep)
+      .number("radius", m.radius, 0.0)
+      .number("length", m.length, 0.0)
+      .fault();
+}
+
+std::string fault_of(const TestStatus& m) {
+  return Check()
+      .text("header.frame_id", m.header.frame_id)
+      .count("state", m.state, TestStatus::IDLE, TestStatus::ENDED)
+      .phase(m.phase)
+      .text("ended_by", m.ended_by)
+      .text("reason", m.reason)
+      .number("progress", m.progress, 0.0, 1.0)
+      .number("time", m.time, 0.0)
+      .fault();
+}
+
+std::string one_line(const std::string& text) {
+  constexpr std::size_t kLine = 200;
+  std::string line = text.substr(0, kLine);
+  std::replace_if(line.begin(), line.end(), is_control, ' ');
+  return text.size() > kLine ? line + "..." : line;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,165 @@
+"""What the tests share that launch the whole system as a user does, each with a master of its own."""
+import filecmp
+import os
+import re
+import shutil
+import signal
+import socket
+import subprocess
+import tempfile
+import time
+
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../..'))
+METHOD = os.path.join(ROOT, 'test/ros/pull_and_hold.yaml')
+TOOL = os.path.join(ROOT, 'build/devel/lib/knot_utm/tensile_test')
+FILES = ['curve.csv', 'curve_full.csv', 'final_shape.csv', 'method.yaml', 'test.bag']
+
+
+def free_port():
+    with socket.socket() as probe:
+        probe.bind(('127.0.0.1', 0))
+        return probe.getsockname()[1]
+
+
+def wait_for(what, condition, timeout=30.0):
+    """The first true value of condition()."""
+    end = time.monotonic() + timeout
+    while True:
+        value = condition()
+        if value:
+            return value
+        if time.monotonic() > end:
+            raise AssertionError('timed out: ' + what)
+        time.sleep(0.05)
+
+
+def words(pid):
+    """The command line of a process."""
+    try:
+        with open('/proc/%d/cmdline' % pid, encoding='utf-8') as file:
+            return file.read().split('\0')
+    except OSError:
+        return []
+
+
+def children(pid):
+    found = []
+    for entry in filter(str.isdigit, os.listdir('/proc')):
+        try:
+            with open('/proc/%s/stat' % entry, encoding='utf-8') as file:
+                if int(file.read().rsplit(')', 1)[1].split()[1]) == pid:
+                    found.append(int(entry))
+        except OSError:
+            pass
+    return found
+
+
+def memory(pid):
+    """What a process holds now [bytes]."""
+    with open('/proc/%d/status' % pid, encoding='utf-8') as file:
+        return 1024 * int(re.search(r'VmRSS:\s+(\d+)', file.read())[1])
+
+
+class Launch:
+    """tighten.launch under way, in a folder of its own; `with` ends it."""
+
+    def __init__(self, *arguments, command=None, environment=None):
+        self.folder = tempfile.mkdtemp(prefix='knot_utm_')
+        self.out = os.path.join(self.folder, 'out')
+        self.port = free_port()
+        self.uri = 'http://localhost:%d' % self.port
+        self.environment = dict(os.environ, ROS_MASTER_URI=self.uri, ROS_LOG_DIR=os.path.join(self.folder, 'log'),
+                                KNOT_UTM_SKIP_BUILD='1', **(environment or {}))
+        command = command or ['roslaunch', 'knot_utm', 'tighten.launch']
+        with open(os.path.join(self.folder, 'console'), 'wb') as console:
+            self.process = subprocess.Popen(
+                command + ['-p', str(self.port), 'working_directory:=' + self.folder, 'out:=out'] + list(arguments),
+                stdout=console, stderr=subprocess.STDOUT, env=self.environment, start_new_session=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        if self.process.poll() is None:
+            for pid in self.processes().values():
+                os.kill(pid, signal.SIGCONT)
+            # roslaunch itself, not the script that started it.
+            os.kill(self.roslaunch() or self.process.pid, signal.SIGINT)
+            try:
+                self.process.wait(30.0)
+            except subprocess.TimeoutExpired:
+                os.killpg(self.process.pid, signal.SIGKILL)
+                self.process.wait()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def roslaunch(self):
+        """Its process: the one started, or one that a script started."""
+        for pid in [self.process.pid] + children(self.process.pid):
+            if any(word.endswith('/roslaunch') for word in words(pid)):
+                return pid
+        return None
+
+    def processes(self):
+        """Node (or master) -> process."""
+        parent = self.roslaunch()
+        found = {}
+        for pid in children(parent) if parent else []:
+            for word in words(pid):
+                if word.startswith('__name:='):
+                    found[word[len('__name:='):]] = pid
+                elif word.endswith('/rosmaster'):
+                    found['master'] = pid
+        return found
+
+    def pid(self, node):
+        return wait_for(node, lambda: self.processes().get(node))
+
+    def rows(self):
+        """Complete rows of the curve so far."""
+        try:
+            with open(os.path.join(self.out, 'curve.csv'), encoding='utf-8') as file:
+                return max(0, file.read().count('\n') - 2)
+        except OSError:
+            return 0
+
+    def wait_for_rows(self, rows):
+        wait_for('%d rows; the console: %s' % (rows, self.console()), lambda: self.rows() >= rows, 60.0)
+
+    def end(self, timeout):
+        """Waits for it to end by itself. Returns its exit code."""
+        try:
+            return self.process.wait(timeout)
+        except subprocess.TimeoutExpired:
+            raise AssertionError('goes on after %g s; the console: %s' % (timeout, self.console())) from None
+
+    def console(self):
+        with open(os.path.join(self.folder, 'console'), encoding='utf-8', errors='replace') as file:
+            return file.read()
+
+    def text(self, name):
+        with open(os.path.join(self.out, name), encoding='utf-8') as file:
+            return file.read()
+
+    def result(self, key):
+        return re.search('^%s: (.*)$' % key, self.text('result.yaml'), re.MULTILINE)[1].strip('"')
+
+
+class Headless:
+    """The files that the same test leaves without ROS."""
+
+    def __init__(self, method, *overrides):
+        self.folder = tempfile.mkdtemp(prefix='knot_utm_')
+        command = [TOOL, method, '--quiet', '--out', self.folder]
+        for override in overrides:
+            command += ['--set', override]
+        subprocess.run(command, check=True)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        shutil.rmtree(self.folder)
+
+    def different(self, folder):
+        """Files that are not the same, byte for byte."""
+        return filecmp.cmpfiles(self.folder, folder, FILES, shallow=False)[1:]
