@@ -7,11 +7,13 @@
 #include <cstdio>
 #include <exception>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/io/recovery.hpp"
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/test_bench.hpp"
@@ -94,20 +96,15 @@ void take(const Command& command, const Sample& answer, const TestBench& bench, 
   record.wall_time = wall_time;
 }
 
-int run(const Arguments& arguments) {
-  const Method method = load_method(arguments.method, arguments.overrides);
-  TestBench bench(method.specimen, method.material, method.machine, method.physics);
+int run_in(const std::string& out, const Method& method, TestBench& bench, JournalWriter& journal, bool quiet) {
   TestProgram program = make_program(method, bench.longest_step());
-
-  const std::string out = arguments.out.empty() ? "out/" + method.name : arguments.out;
-  JournalWriter journal(out, journal_header(method));
   RunWriter writer(out, method);
 #ifdef KNOT_UTM_HAS_ROS
   TestBag bag(out + "/test.bag", method);
 #endif
   const WallClock clock;
   {
-    ProgressLine progress(arguments.quiet);
+    ProgressLine progress(quiet);
     Record record;
     run_test(bench, program, [&](const Command& command, const Sample& sample) {
       take(command, sample, bench, clock.seconds(), record);
@@ -136,11 +133,25 @@ int run(const Arguments& arguments) {
   if (gave_up) {
     std::fprintf(stderr, "tensile_test: the physics gave up: %s; what was measured is in %s\n",
                  program.reason().c_str(), out.c_str());
-  } else if (!arguments.quiet) {
+  } else if (!quiet) {
     std::printf("ended by %s after %.1f s, %.1f times real time; written to %s\n", ended_by_name(program.ended_by()),
                 results.simulated_time, results.simulated_time / facts.wall_time, out.c_str());
   }
   return gave_up ? kGaveUp : kEnded;
+}
+
+int run(const Arguments& arguments) {
+  const Method method = load_method(arguments.method, arguments.overrides);
+  TestBench bench(method.specimen, method.material, method.machine, method.physics);
+  const std::string out = arguments.out.empty() ? "out/" + method.name : arguments.out;
+  JournalWriter journal(out, journal_header(method));
+  try {
+    return run_in(out, method, bench, journal, arguments.quiet);
+  } catch (const InvalidInput&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(error.what() + how_to_recover(out));
+  }
 }
 
 /// Reads the command line; an exit code where that is all there is to do.

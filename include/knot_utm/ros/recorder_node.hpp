@@ -15,6 +15,7 @@
 #include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/ros/gate.hpp"
+#include "knot_utm/ros/keeper.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/test_bag.hpp"
 #include "knot_utm/ros/test_setup.hpp"
@@ -24,10 +25,13 @@ namespace knot_utm {
 /// Writes every command and its answer in order, by the code that writes them headless. What is missing it waits for,
 /// as the machine asks for it again; what does not come it counts as dropped. The first test of a launch goes to the
 /// folder given, the second one to the folder beside it with "-2", and so on. The service recorder/save leaves
-/// result.yaml as of now and saved.bag, a copy of the bag so far.
+/// result.yaml as of now and saved.bag, the bag so far.
+///
+/// A record is acknowledged once the journal has it. Started anew in the midst of a test it goes on from the journal of
+/// that test, as the machine and the physics hold what is not acknowledged; the files are those of one recorder.
 class RecorderNode {
  public:
-  RecorderNode(const ros::NodeHandle& node, TestSetup setup);
+  RecorderNode(const ros::NodeHandle& node, TestSetup setup, Keeper& keeper);
 
   /// Runs until ROS is shut down; a test that has not ended then, or whose machine died, is closed with the reason.
   /// Returns the exit code: 1 where something could not be written.
@@ -38,7 +42,7 @@ class RecorderNode {
 
   /// The test being written.
   struct Run {
-    Run(const std::string& folder_, const Method& method);
+    Run(const std::string& folder_, const Method& method, JournalWriter journal_);
     std::string folder;
     JournalWriter journal;
     RunWriter writer;
@@ -62,20 +66,27 @@ class RecorderNode {
   bool on_save(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   void begin_run(std::uint32_t run);
+  bool go_on(const std::string& folder);
+  void watch(const std::string& folder);
   void write(const KnotRecord& record);
+  void keep(const Record& record);
   void write_early();
   void give_up_gap();
   void finish_when_ready();
   void finish_early();
   void finish(EndedBy ended_by, const std::string& reason, const std::string& warning);
   void fail(const std::string& why);
+  bool is_complete() const { return run_ ? run_->complete : completed_before_; }
   void publish_status();
 
   ros::NodeHandle node_;
   TestSetup setup_;
+  Keeper& keeper_;
   std::uint32_t run_number_ = 0;
-  std::unique_ptr<Run> run_;  ///< none before the first record
-  TestStatus test_;           ///< the latest
+  std::string test_id_;            ///< of the test being written, as no other test has it; empty: not known
+  std::unique_ptr<Run> run_;       ///< none before the first record
+  bool completed_before_ = false;  ///< a recorder before this one has completed the test
+  TestStatus test_;                ///< the latest
   std::optional<Clock::time_point> machine_died_;
   TopicWarning odd_record_{names::kKnotRecord}, odd_status_{names::kTestStatus};
   std::string error_;
