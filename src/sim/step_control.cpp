@@ -24,6 +24,7 @@ std::string StepControl::advance(TimeStep& stepper, double& time, double end, co
     const bool last = pieces <= 1.0;
     const double dt = last ? remaining : remaining / pieces;
     const double to = last ? end : time + dt;
+    last_tried_ = dt;
 
     const StepSummary summary = stepper.step(boundary(time, to), dt);
     counters_.iterations += static_cast<std::uint64_t>(summary.newton.iterations);

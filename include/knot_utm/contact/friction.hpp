@@ -22,6 +22,11 @@ struct Friction {
   double presliding = 0.0;      ///< xi_s [m], memory
   double slip_tolerance = 0.0;  ///< v_s [m/s], smoothed
 
+  void state(Archive& archive) {
+    archive.choice("friction law", law, FrictionLaw::kSmoothed);
+    archive(coefficient, presliding, slip_tolerance);
+  }
+
   bool on() const { return coefficient > 0.0; }
   bool remembers() const { return law == FrictionLaw::kMemory; }
 
