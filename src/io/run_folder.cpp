@@ -38,7 +38,7 @@ void begin_run_folder(const std::string& folder, const Method& method) {
     }
   }
   // Not before the specimen has been read: it may be the shape that the last run left here.
-  for (const char* old : {"result.yaml", "final_shape.csv", "test.bag", "saved.bag"})
+  for (const char* old : {"result.yaml", "final_shape.csv", "test.bag", "saved.bag", "failed_step.bin"})
     fs::remove(fs::path(folder) / old, error);
   try {
     write_whole((fs::path(folder) / "method.yaml").string(), method_file_text(method));

@@ -10,6 +10,7 @@
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/sim/saved_step.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/centreline_file.hpp"
@@ -159,6 +160,7 @@ struct TestBench::Impl {
   std::vector<Sample> substeps;
   BenchStatus status = BenchStatus::kRunning;
   std::string message;
+  std::string failed_step;
 
   Impl(const SpecimenOptions& specimen_, const Material& material_, const MachineOptions& machine_,
        const PhysicsOptions& physics_)
@@ -444,6 +446,7 @@ struct TestBench::Impl {
     if (!gave_up.empty()) {
       status = BenchStatus::kFailed;
       message = gave_up;
+      failed_step = save_step(*stepper, boundary, time, control.last_tried());
     } else {
       displacement = command.displacement;
       judge_phase();
@@ -468,6 +471,7 @@ TestBench& TestBench::operator=(TestBench&&) noexcept = default;
 
 Sample TestBench::respond(const Command& command) { return impl_->respond(command); }
 const std::vector<Sample>& TestBench::substeps() const { return impl_->substeps; }
+const std::string& TestBench::failed_step() const { return impl_->failed_step; }
 const RodProperties& TestBench::rod() const { return impl_->stepper->rod(); }
 const RodState& TestBench::state() const { return impl_->stepper->state(); }
 Vec3 TestBench::lower_grip() const {

@@ -1,6 +1,7 @@
 #include "knot_utm/rod/rod.hpp"
 
 #include <cmath>
+#include <string>
 
 namespace knot_utm {
 
@@ -21,6 +22,22 @@ Eigen::VectorXd RodProperties::arclength() const {
   out[0] = 0.0;
   for (Eigen::Index i = 1; i < nodes(); ++i) out[i] = out[i - 1] + rest_length[i - 1];
   return out;
+}
+
+void Material::state(Archive& archive) {
+  archive(name, radius, density, stretching_stiffness, bending_stiffness, twisting_stiffness, friction_coefficient,
+          contact_stiffness, tying_preload, breaking_force, load_cell, notes);
+}
+
+void RodProperties::state(Archive& archive) {
+  archive.section("PROP");
+  archive(material);
+  for (Eigen::VectorXd* each : {&rest_length, &voronoi_length, &mass, &natural_twist}) archive.list(*each);
+  archive.list(natural_curvature);
+  const Eigen::Index inner = nodes() - 2, curved = natural_curvature.cols(), twisted = natural_twist.size();
+  const bool fits = inner >= 1 && edges() == inner + 1 && mass.size() == nodes() && (curved == 0 || curved == inner) &&
+                    (twisted == 0 || twisted == inner);
+  archive.require(fits, "nodes", std::to_string(nodes()));
 }
 
 void RodState::state(Archive& archive) {

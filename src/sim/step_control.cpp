@@ -29,6 +29,7 @@ std::string StepControl::advance(TimeStep& stepper, double& time, double end, co
     const bool last = pieces <= 1.0;
     const double dt = last ? remaining : remaining / pieces;
     const double to = last ? end : time + dt;
+    last_tried_ = dt;
 
     const Boundary& there = boundary(time, to);
     StepSummary summary = stepper.step(there, dt);

@@ -41,8 +41,7 @@ template <int D, typename StrandContact>
 class ImplicitStep final : public TimeStep {
  public:
   ImplicitStep(const RodProperties& rod, const RodState& state, const StepSettings& settings)
-      : TimeStep(rod, state),
-        settings_(settings),
+      : TimeStep(rod, state, settings),
         contact_(rod, settings.normal, settings.friction, settings.candidate_margin),
         rollers_(rod, settings.normal, settings.roller_friction),
         centreline_(rod_, rod.natural_curvature.cols() == 0),
@@ -58,6 +57,7 @@ class ImplicitStep final : public TimeStep {
   StepSummary step(const Boundary& boundary, double dt, Solution solution) override {
     boundary_ = &boundary;
     dt_ = dt;
+    share_ = motion_ = 0.0;
     StepSummary summary;
     contact_.refresh(state_.position);
     predict();
@@ -90,13 +90,9 @@ class ImplicitStep final : public TimeStep {
     for (const ContactPoint& contact : contact_.contacts()) add_contact_force(contact);
     for (const ContactPoint& contact : rollers_.contacts()) add_contact_force(contact);
     add_grips_and_forces();
-    const double force = largest_free_force();
-    if constexpr (D == 4) {
-      const double torque = frames_.largest_free_torque(force_) / rod_.material.radius;
-      // std::max keeps its first argument where it is not a number, not its second.
-      return std::isfinite(torque) ? std::max(force, torque) : torque;
-    }
-    return force;
+    const double largest = largest_residual();
+    if (watcher_) report(largest);
+    return largest;
   }
 
   double tolerance() const {
@@ -130,6 +126,8 @@ class ImplicitStep final : public TimeStep {
       frames_.move(change_, share);
     }
     for (int i = 0; i < nodes_; ++i) x_.col(i) += share * to_vec3(change_[at(i)]);
+    share_ = share;
+    motion_ = share * longest;
     std::size_t m = 0;
     estimate_pressures(contact_, share, m);
     estimate_pressures(rollers_, share, m);
@@ -304,6 +302,54 @@ class ImplicitStep final : public TimeStep {
     }
   }
 
+  double largest_residual() const {
+    const double force = largest_free_force();
+    if constexpr (D == 4) {
+      const double torque = frames_.largest_free_torque(force_) / rod_.material.radius;
+      // std::max keeps its first argument where it is not a number, not its second.
+      return std::isfinite(torque) ? std::max(force, torque) : torque;
+    }
+    return force;
+  }
+
+  void report(double largest) const {
+    Iterate out;
+    out.residual = largest;
+    out.tolerance = tolerance();
+    out.share = share_;
+    out.motion = motion_;
+    double worst = -1.0;
+    const auto find_worst = [&](int node, bool spin, double size) {
+      // Once it is not a number it stays so.
+      if (std::isnan(worst) || size <= worst) return;
+      worst = size;
+      out.node = node;
+      out.spin = spin;
+    };
+    for (int i = 0; i < nodes_; ++i) {
+      if (!held_[at(i)]) find_worst(i, false, to_vec3(force_[at(i)]).norm());
+      if constexpr (D == 4)
+        if (!frames_.held(i)) find_worst(i, true, std::abs(force_[at(i)][3]) / rod_.material.radius);
+    }
+    report_contacts(contact_.contacts(), out);
+    report_contacts(rollers_.contacts(), out);
+    watcher_(out);
+  }
+
+  void report_contacts(const std::vector<ContactPoint>& contacts, Iterate& out) const {
+    for (const ContactPoint& contact : contacts) {
+      out.active += contact.active() ? 1 : 0;
+      if (!contact.touches()) continue;
+      ++out.touching;
+      if (out.in_contact && contact.overlap <= out.overlap) continue;
+      out.in_contact = true;
+      out.overlap = contact.overlap;
+      out.roller = contact.roller;
+      out.arclengths[0] = contact.on_roller() ? rod_.arclength()[contact.a0 + 1] : contact.arclength_a;
+      out.arclengths[1] = contact.arclength_b;
+    }
+  }
+
   double largest_free_force() const {
     double largest2 = 0.0;
     for (int i = 0; i < nodes_; ++i) {
@@ -431,7 +477,6 @@ class ImplicitStep final : public TimeStep {
     return friction.coefficient * contact.weight * contact.pressure * contact.z.dot(contact.slip - contact.memory);
   }
 
-  StepSettings settings_;
   StrandContact contact_;
   RollerContact rollers_;
   CentrelineTerms centreline_;
@@ -441,6 +486,7 @@ class ImplicitStep final : public TimeStep {
   std::vector<double> diagonal_;
   const Boundary* boundary_ = nullptr;
   double dt_ = 0.0;
+  double share_ = 0.0, motion_ = 0.0;  // of the last change; its largest movement [m]
   Points x_;
   std::vector<Lanes> force_, change_, committed_force_;
   std::vector<char> held_;

@@ -7,13 +7,14 @@
 #include <cstdio>
 #include <exception>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "knot_utm/io/checkpoint.hpp"
 #include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/recovery.hpp"
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/test_bench.hpp"
@@ -44,9 +45,13 @@ void set_signals() {
 
 class WallClock {
  public:
-  double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+  explicit WallClock(double passed) : passed_(passed) {}  ///< before [s]
+  double seconds() const {
+    return passed_ + std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+  }
 
  private:
+  double passed_;
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
@@ -82,7 +87,102 @@ struct Arguments {
   std::string method;
   std::vector<std::string> overrides;
   std::string out;
+  std::string resume;       // a folder; empty: a new test
+  double checkpoint = 5.0;  // wall time between two [s]; 0: none
   bool quiet = false;
+};
+
+/// What a run leaves in its folder, written as it goes.
+class Writers {
+ public:
+  Writers(const std::string& out, const Method& method)
+      : run(out, method)
+#ifdef KNOT_UTM_HAS_ROS
+        ,
+        bag_(out + "/test.bag", method)
+#endif
+  {
+  }
+
+  void add(const Record& record) {
+    run.add(record);
+#ifdef KNOT_UTM_HAS_ROS
+    bag_.add(record);
+#endif
+  }
+  void close() {
+#ifdef KNOT_UTM_HAS_ROS
+    bag_.close();
+#endif
+  }
+
+  RunWriter run;
+
+ private:
+#ifdef KNOT_UTM_HAS_ROS
+  TestBag bag_;
+#endif
+};
+
+/// The records of a run that is taken up again, as far as its checkpoint goes.
+class Past {
+ public:
+  /// Loads bench and program as the checkpoint has them; without one they stay at the beginning.
+  Past(const std::string& folder, const Method& method, const Checkpoint& checkpoint, TestBench& bench,
+       TestProgram& program)
+      : folder_(folder) {
+    JournalReader journal = reader();
+    if (!(journal.header() == journal_header(method)))
+      throw InvalidInput(journal_file(folder), "method", "that of another run", "that of method.yaml");
+    bytes_ = journal.good_bytes();
+    if (!checkpoint.is_there()) return;
+    bytes_ = checkpoint.load(bench, program);
+    Record record;
+    while (journal.good_bytes() < bytes_ && journal.next(record)) continue;
+    if (journal.good_bytes() != bytes_ || journal.records() != program.last().sequence)
+      throw InvalidInput(checkpoint.file(), "journal", std::to_string(journal.good_bytes()) + " whole bytes",
+                         "at least the " + std::to_string(bytes_) + " of this checkpoint");
+  }
+
+  /// Writes everything anew; the wall time that had passed [s].
+  double write(Writers& writers, JournalWriter& journal) const {
+    JournalReader records = reader();
+    Record record;
+    while (records.good_bytes() < bytes_ && records.next(record)) writers.add(record);
+    journal.truncate_to(bytes_);
+    return record.wall_time;
+  }
+
+ private:
+  JournalReader reader() const {
+    try {
+      return JournalReader(folder_);
+    } catch (const InvalidInput& invalid) {
+      throw invalid.in_file(journal_file(folder_));
+    }
+  }
+
+  std::string folder_;
+  std::uint64_t bytes_ = 0;
+};
+
+/// The bench, and a checkpoint before a command where it is time for one.
+struct CheckedBench {
+  TestBench& bench;
+  TestProgram& program;
+  const JournalWriter& journal;
+  const Checkpoint& checkpoint;
+  const WallClock& clock;
+  double period;                           // [s]
+  double next = clock.seconds() + period;  // [s]
+
+  Sample respond(const Command& command) {
+    if (period > 0.0 && clock.seconds() >= next) {
+      checkpoint.write(bench, program, journal.bytes());
+      next = clock.seconds() + period;
+    }
+    return bench.respond(command);
+  }
 };
 
 /// All that is kept of the bench's last answer.
@@ -96,35 +196,33 @@ void take(const Command& command, const Sample& answer, const TestBench& bench, 
   record.wall_time = wall_time;
 }
 
-int run_in(const std::string& out, const Method& method, TestBench& bench, JournalWriter& journal, bool quiet) {
-  TestProgram program = make_program(method, bench.longest_step());
-  RunWriter writer(out, method);
-#ifdef KNOT_UTM_HAS_ROS
-  TestBag bag(out + "/test.bag", method);
-#endif
-  const WallClock clock;
+/// From a journal that is open to the result.
+int run_in(const std::string& out, const Method& method, TestBench& bench, TestProgram& program,
+           const Checkpoint& checkpoint, const std::optional<Past>& past, JournalWriter& journal,
+           const Arguments& arguments) {
+  Writers writers(out, method);
+  const WallClock clock(past ? past->write(writers, journal) : 0.0);
   {
-    ProgressLine progress(quiet);
+    ProgressLine progress(arguments.quiet);
     Record record;
-    run_test(bench, program, [&](const Command& command, const Sample& sample) {
+    CheckedBench checked{bench, program, journal, checkpoint, clock, arguments.checkpoint};
+    run_test(checked, program, [&](const Command& command, const Sample& sample) {
       take(command, sample, bench, clock.seconds(), record);
       journal.append(record);
-      writer.add(record);
-#ifdef KNOT_UTM_HAS_ROS
-      bag.add(record);
-#endif
+      writers.add(record);
       if (stop_asked != 0) program.stop();
       progress.show(sample, program, clock.seconds());
     });
   }
-#ifdef KNOT_UTM_HAS_ROS
-  bag.close();
-#endif
-  RunFacts facts = writer.facts();
+  writers.close();
+  const std::string failed_step = out + "/failed_step.bin";
+  if (!bench.failed_step().empty()) write_whole(failed_step, bench.failed_step());
+  RunFacts facts = writers.run.facts();
   facts.reason = program.reason();
   facts.wall_time = clock.seconds();
-  const Results results = writer.results(program.ended_by());
-  writer.finish(results, facts, bench.state().position);
+  const Results results = writers.run.results(program.ended_by());
+  writers.run.finish(results, facts, bench.state().position);
+  checkpoint.remove();
   journal.remove();
 
   const std::string unsure = accuracy_warning(results, facts.errors);
@@ -133,7 +231,10 @@ int run_in(const std::string& out, const Method& method, TestBench& bench, Journ
   if (gave_up) {
     std::fprintf(stderr, "tensile_test: the physics gave up: %s; what was measured is in %s\n",
                  program.reason().c_str(), out.c_str());
-  } else if (!quiet) {
+    if (!bench.failed_step().empty())
+      std::fprintf(stderr, "tensile_test: the step that could not be made: scripts/replay-step %s\n",
+                   failed_step.c_str());
+  } else if (!arguments.quiet) {
     std::printf("ended by %s after %.1f s, %.1f times real time; written to %s\n", ended_by_name(program.ended_by()),
                 results.simulated_time, results.simulated_time / facts.wall_time, out.c_str());
   }
@@ -141,12 +242,20 @@ int run_in(const std::string& out, const Method& method, TestBench& bench, Journ
 }
 
 int run(const Arguments& arguments) {
+  if (!arguments.resume.empty() && has_complete_result(arguments.resume))
+    throw InvalidInput("--resume", arguments.resume, "a test that was cut off; this one has ended");
   const Method method = load_method(arguments.method, arguments.overrides);
   TestBench bench(method.specimen, method.material, method.machine, method.physics);
+  TestProgram program = make_program(method, bench.longest_step());
+
   const std::string out = arguments.out.empty() ? "out/" + method.name : arguments.out;
-  JournalWriter journal(out, journal_header(method));
+  const Checkpoint checkpoint(out, method_file_text(method));
+  std::optional<Past> past;
+  if (!arguments.resume.empty()) past.emplace(out, method, checkpoint, bench, program);
+  JournalWriter journal = past ? JournalWriter::go_on(out, 0.0) : JournalWriter(out, journal_header(method));
+  if (!past) checkpoint.remove();
   try {
-    return run_in(out, method, bench, journal, arguments.quiet);
+    return run_in(out, method, bench, program, checkpoint, past, journal, arguments);
   } catch (const InvalidInput&) {
     throw;
   } catch (const std::runtime_error& error) {
@@ -158,19 +267,30 @@ int run(const Arguments& arguments) {
 std::optional<int> parse(int argc, char** argv, Arguments& arguments) {
   CLI::App app("Runs one whole test of a method, as fast as it goes.");
   app.set_version_flag("--version", version());
-  app.add_option("METHOD", arguments.method, "the method, a YAML file")->required();
+  CLI::Option* method = app.add_option("METHOD", arguments.method, "the method, a YAML file");
   // One value each, so that --set may stand before METHOD too.
-  app.add_option("--set", arguments.overrides, "dotted.key=YAML, over what the method says; may be repeated")
-      ->allow_extra_args(false);
-  app.add_option("--out", arguments.out, "the folder to write to; out/ and the method's name unless given");
+  CLI::Option* set =
+      app.add_option("--set", arguments.overrides, "dotted.key=YAML, over what the method says; may be repeated")
+          ->allow_extra_args(false);
+  CLI::Option* out =
+      app.add_option("--out", arguments.out, "the folder to write to; out/ and the method's name unless given");
+  CLI::Option* resume = app.add_option("--resume", arguments.resume, "the folder of a test that was cut off: goes on");
+  resume->excludes(method)->excludes(set)->excludes(out);
+  app.add_option("--checkpoint", arguments.checkpoint, "wall time between two checkpoints [s]; 0: none")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
   app.add_flag("--quiet", arguments.quiet, "say nothing but what went wrong");
   try {
     app.parse(argc, argv);
+    if (method->empty() && resume->empty()) throw CLI::RequiredError("METHOD");
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     std::fprintf(stderr, "tensile_test: %s\n", error.what());
     return kWrongInput;
   }
+  if (resume->empty()) return std::nullopt;
+  arguments.method = arguments.resume + "/method.yaml";
+  arguments.out = arguments.resume;
   return std::nullopt;
 }
 

@@ -24,6 +24,11 @@ struct Friction {
   double slip_tolerance = 0.0;  ///< v_s [m/s], smoothed
   bool secant = false;          ///< linearised by secants, not by tangents
 
+  void state(Archive& archive) {
+    archive.choice("friction law", law, FrictionLaw::kSmoothed);
+    archive(coefficient, presliding, slip_tolerance);
+  }
+
   bool on() const { return coefficient > 0.0; }
   bool remembers() const { return law == FrictionLaw::kMemory; }
 

@@ -20,6 +20,8 @@ struct NormalLaw {
   double tolerance = 0.0;                                       ///< delta [m]
   double stiffening = std::numeric_limits<double>::infinity();  ///< c [m]
 
+  void state(Archive& archive) { archive(stiffness, tolerance, stiffening); }
+
   /// Overlap at which strands begin to feel each other, below zero [m].
   double begin() const { return -0.5 * tolerance; }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "knot_utm/machine/options.hpp"
@@ -27,6 +28,9 @@ class TestBench {
   /// Steps the physics to `command.time` and reads everything there. A sample of status kFailed leaves the bench
   /// at the last good step, and every later command gets the same answer.
   Sample respond(const Command& command);
+
+  /// Once it has failed: the time step that could not be made, a file of saved_step.hpp; else empty.
+  const std::string& failed_step() const;
 
   /// One sample for every accepted time step of the last command, the last of them what `respond` returned.
   const std::vector<Sample>& substeps() const;

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +54,21 @@ class Archive {
     for (T& value : values) visit(value);
   }
 
+  /// So may a matrix have any number of columns, or a vector of rows.
+  template <int Rows, int Columns>
+  void list(Eigen::Matrix<double, Rows, Columns>& matrix) {
+    std::uint64_t length = static_cast<std::uint64_t>(matrix.size());
+    visit(length);
+    constexpr std::uint64_t kRows = Columns == Eigen::Dynamic ? static_cast<std::uint64_t>(Rows) : 1;
+    if (loads_) {
+      require(length <= (body_.size() - next_) / sizeof(double) && length % kRows == 0, "length of a list",
+              std::to_string(length));
+      matrix.resize(Columns == Eigen::Dynamic ? Rows : static_cast<Eigen::Index>(length),
+                    Columns == Eigen::Dynamic ? static_cast<Eigen::Index>(length / kRows) : Columns);
+    }
+    for (Eigen::Index i = 0; i < matrix.size(); ++i) visit(matrix.data()[i]);
+  }
+
   /// A number within bounds, such as that of a node.
   void number(const char* what, int& value, int low, int high);
 
@@ -85,6 +101,13 @@ class Archive {
   void visit(std::pair<A, B>& value) {
     visit(value.first);
     visit(value.second);
+  }
+  template <typename T>
+  void visit(std::optional<T>& value) {
+    bool there = value.has_value();
+    visit(there);
+    if (loads_) value = there ? std::optional<T>(T{}) : std::nullopt;
+    if (there) visit(*value);
   }
   template <typename T, std::size_t N>
   void visit(T (&values)[N]) {

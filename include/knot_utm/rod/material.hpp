@@ -3,6 +3,8 @@
 #include <optional>
 #include <string>
 
+#include "knot_utm/rod/archive.hpp"
+
 namespace knot_utm {
 
 /// What a rod of circular cross-section is made of. The three stiffnesses are independent: a braided rope
@@ -20,6 +22,8 @@ struct Material {
   std::optional<double> breaking_force;     ///< [N]
   std::string load_cell;                    ///< name of the load cell that suits it
   std::string notes;
+
+  void state(Archive& archive);
 };
 
 /// Pre-load F_p that `specimen.preload: auto` stands for [N]: the material's own, else four times the scale k_b/h^2 of

@@ -27,6 +27,9 @@ struct RodProperties {
   double length() const { return rest_length.sum(); }
   /// Arclength at rest of every node from the first [m], N
   Eigen::VectorXd arclength() const;
+
+  /// All of it: loaded, it is another rod.
+  void state(Archive& archive);
 };
 
 /// Straight, untwisted rod of the given rest lengths: masses rho pi h^2 lbar_i.

@@ -12,17 +12,23 @@ namespace knot_utm {
 struct FixedNode {
   int node = 0;
   Vec3 position = Vec3::Zero();  ///< at the end of the step [m]
+
+  void state(Archive& archive) { archive(node, position); }
 };
 
 /// An edge whose material frame is held (only where the scene solves for twist).
 struct FixedTwist {
   int edge = 0;
   double angle = 0.0;  ///< theta at the end of the step [rad]
+
+  void state(Archive& archive) { archive(edge, angle); }
 };
 
 struct NodeForce {
   int node = 0;
   Vec3 force = Vec3::Zero();  ///< [N]
+
+  void state(Archive& archive) { archive(node, force); }
 };
 
 /// A grip that pulls a node along a fixed direction by a spring, only ever pulls, and slips at a set force:
@@ -39,6 +45,8 @@ struct SlippingGrip {
     const double stretched = stiffness * (place - direction.dot(node_position));
     return stretched < 0.0 ? 0.0 : (stretched > slip_force ? slip_force : stretched);
   }
+  void state(Archive& archive) { archive(node, direction, place, stiffness, slip_force); }
+
   bool slips(const Vec3& node_position) const {
     return stiffness * (place - direction.dot(node_position)) >= slip_force;
   }
@@ -52,6 +60,9 @@ struct Boundary {
   std::vector<NodeForce> forces;
   std::vector<SlippingGrip> grips;
   double extra_drag = 0.0;  ///< beside the scene's own [N s/m^2]
+
+  /// For a rod of that many nodes.
+  void state(Archive& archive, int nodes);
 };
 
 /// What a time step needs to know besides rod and boundary; constant during a run.
@@ -70,6 +81,8 @@ struct StepSettings {
   double overlap_limit = 0.0;        ///< deepest overlap of a step that may be accepted [m]
   double candidate_margin = 0.0;     ///< of the contact search [m]
   int max_iterations = 20;
+
+  void state(Archive& archive);
 };
 
 }  // namespace knot_utm

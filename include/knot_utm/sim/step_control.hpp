@@ -37,12 +37,13 @@ class StepControl {
                       const Accepted& accepted);
 
   const Counters& counters() const { return counters_; }
+  double last_tried() const { return last_tried_; }  ///< length of the last step, accepted or not [s]
 
   void state(Archive& archive) { archive(next_, counters_.steps, counters_.rejected, counters_.iterations); }
 
  private:
   Options options_;
-  double next_;
+  double next_, last_tried_ = 0.0;
   Counters counters_;
 };
 

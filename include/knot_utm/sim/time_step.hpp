@@ -1,7 +1,9 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/sim/scene.hpp"
@@ -23,6 +25,22 @@ struct StepSummary {
   StepDiagnosis diagnosis;       ///< of one that was not
 
   bool accepted() const { return reason.empty(); }
+};
+
+/// Where the solution of a step stands, for those who watch it.
+struct Iterate {
+  double residual = 0.0;      ///< the largest [N]
+  double tolerance = 0.0;     ///< what it may be [N]
+  int node = -1;              ///< whose it is; -1: of none, all are held
+  bool spin = false;          ///< it is the torque on the edge behind the node, over the radius
+  double share = 0.0;         ///< of the change that led here; 0: the prediction [-]
+  double motion = 0.0;        ///< of the node that this moved the furthest [m]
+  int active = 0;             ///< contacts in the next linear system
+  int touching = 0;           ///< contacts that carry force
+  bool in_contact = false;    ///< what follows means something: the deepest contact
+  double overlap = 0.0;       ///< [m]
+  double arclengths[2] = {};  ///< of its two strands at rest; on a roller the first only [m]
+  int roller = -1;            ///< that it is on; -1: between strands
 };
 
 /// What can be read off the last accepted step.
@@ -68,6 +86,10 @@ class TimeStep {
 
   const RodProperties& rod() const { return rod_; }
   const RodState& state() const { return state_; }
+  const StepSettings& settings() const { return settings_; }
+
+  /// From now on `watcher` is told of every iterate; none: nobody is.
+  void watch(std::function<void(const Iterate&)> watcher) { watcher_ = std::move(watcher); }
 
   /// Force that the step's own equations need at a fixed node: what its holder exerts on the rod [N].
   virtual Vec3 reaction(int node) const = 0;
@@ -85,10 +107,13 @@ class TimeStep {
   virtual void state(Archive& archive);
 
  protected:
-  TimeStep(const RodProperties& rod, const RodState& state) : rod_(rod), state_(state) {}
+  TimeStep(const RodProperties& rod, const RodState& state, const StepSettings& settings = {})
+      : rod_(rod), state_(state), settings_(settings) {}
 
   RodProperties rod_;
   RodState state_;
+  StepSettings settings_;
+  std::function<void(const Iterate&)> watcher_;
 };
 
 }  // namespace knot_utm

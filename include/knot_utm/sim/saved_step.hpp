@@ -1,0 +1,27 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "knot_utm/sim/time_step.hpp"
+
+namespace knot_utm {
+
+/// One time step, whole in itself: rod, settings, state, boundary and length. It can be tried again anywhere, and comes
+/// to the same bits.
+struct SavedStep {
+  std::unique_ptr<TimeStep> stepper;  ///< as it stood before the step
+  Boundary boundary;                  ///< at the end of the step
+  double time = 0.0;                  ///< at which it begins [s]
+  double dt = 0.0;                    ///< its length [s]
+
+  StepSummary try_again() { return stepper->step(boundary, dt); }
+};
+
+/// A file's content. What `stepper` has tried since its last accepted step does not count.
+std::string save_step(TimeStep& stepper, const Boundary& boundary, double time, double dt);
+
+/// Throws InvalidInput, one line that names `file`, where the content is not that of a whole file of a time step.
+SavedStep load_step(const std::string& content, const std::string& file);
+
+}  // namespace knot_utm

@@ -1,0 +1,54 @@
+#include "knot_utm/io/checkpoint.hpp"
+
+#include <zlib.h>
+
+#include <filesystem>
+
+#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/rod/archive.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kKind = "checkpoint";
+
+}  // namespace
+
+Checkpoint::Checkpoint(const std::string& folder, const std::string& method)
+    : file_((fs::path(folder) / "checkpoint").string()),
+      method_(static_cast<std::int64_t>(crc32_z(0, reinterpret_cast<const Bytef*>(method.data()), method.size()))) {}
+
+void Checkpoint::visit(Archive& archive, TestBench& bench, TestProgram& program, std::uint64_t& journal_bytes) const {
+  archive.same("checksum of method.yaml", method_);
+  archive(journal_bytes, program, bench);
+}
+
+void Checkpoint::write(TestBench& bench, TestProgram& program, std::uint64_t journal_bytes) const {
+  Archive archive(kKind);
+  visit(archive, bench, program, journal_bytes);
+  write_whole(file_, archive.bytes());
+}
+
+bool Checkpoint::is_there() const {
+  std::error_code error;
+  return fs::exists(file_, error);
+}
+
+std::uint64_t Checkpoint::load(TestBench& bench, TestProgram& program) const {
+  Archive archive(kKind, read_whole(file_), file_);
+  std::uint64_t journal_bytes = 0;
+  visit(archive, bench, program, journal_bytes);
+  archive.end();
+  return journal_bytes;
+}
+
+void Checkpoint::remove() const {
+  std::error_code error;
+  fs::remove(file_, error);
+  fs::remove(file_ + ".part", error);
+}
+
+}  // namespace knot_utm

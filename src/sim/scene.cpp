@@ -1,0 +1,31 @@
+#include "knot_utm/sim/scene.hpp"
+
+#include <string>
+
+namespace knot_utm {
+
+void Boundary::state(Archive& archive, int nodes) {
+  archive.section("BNDY");
+  archive.list(rollers);
+  archive.list(fixed_nodes);
+  archive.list(fixed_twists);
+  archive.list(forces);
+  archive.list(grips);
+  archive(extra_drag);
+  const auto require_below = [&](int count, const char* what, int number) {
+    archive.require(number >= 0 && number < count, what, std::to_string(number));
+  };
+  for (const FixedNode& fixed : fixed_nodes) require_below(nodes, "held node", fixed.node);
+  for (const FixedTwist& fixed : fixed_twists) require_below(nodes - 1, "held edge", fixed.edge);
+  for (const NodeForce& force : forces) require_below(nodes, "node that is pulled", force.node);
+  for (const SlippingGrip& grip : grips) require_below(nodes, "node in a grip", grip.node);
+}
+
+void StepSettings::state(Archive& archive) {
+  archive.section("SETT");
+  archive.choice("contact law", contact_law, ContactLaw::kEdge);
+  archive(normal, friction, roller_friction, gravity, drag, spin_inertia, residual, residual_of_tension, newton_cap,
+          motion_limit, overlap_limit, candidate_margin, max_iterations);
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,92 @@
+// Tries a saved time step again, and tells what happens.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <string>
+
+#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/sim/saved_step.hpp"
+
+namespace knot_utm {
+namespace {
+
+enum ExitCode { kAccepted = 0, kNotAccepted = 1, kWrongInput = 2 };
+
+void print_scene(const SavedStep& step) {
+  const RodProperties& rod = step.stepper->rod();
+  const StepSettings& settings = step.stepper->settings();
+  const Boundary& boundary = step.boundary;
+  std::printf("rod of %td nodes, %g m, radius %g m%s\n", rod.nodes(), rod.length(), rod.material.radius,
+              step.stepper->state().twist.size() > 0 ? ", with twist" : "");
+  std::printf("contact %s, friction %s, %g\n", settings.contact_law == ContactLaw::kEdge ? "edge" : "smooth",
+              settings.friction.remembers() ? "memory" : "smoothed", settings.friction.coefficient);
+  std::printf("%zu held nodes, %zu held edges, %zu rollers, %zu grips, %zu forces\n", boundary.fixed_nodes.size(),
+              boundary.fixed_twists.size(), boundary.rollers.size(), boundary.grips.size(), boundary.forces.size());
+  std::printf("step of %g s from t = %.9g s, at most %d iterations\n\n", step.dt, step.time, settings.max_iterations);
+}
+
+/// A row an iterate: the contact that is named is the deepest one, by its arclengths or by its roller.
+class Table {
+ public:
+  Table() {
+    std::printf("%4s %12s %12s %9s %6s %12s %6s %8s %12s  %s\n", "", "residual [N]", "tolerance", "at node", "share",
+                "moved [m]", "active", "touching", "overlap [m]", "of [m], [m]");
+  }
+  void add(const Iterate& i) {
+    std::printf("%4d %12.5e %12.5e %8d%s %6.3f %12.5e %6d %8d ", row_++, i.residual, i.tolerance, i.node,
+                i.spin ? "t" : " ", i.share, i.motion, i.active, i.touching);
+    if (!i.in_contact)
+      std::printf("%12s\n", "-");
+    else if (i.roller >= 0)
+      std::printf("%12.5e  %.5f, roller %d\n", i.overlap, i.arclengths[0], i.roller);
+    else
+      std::printf("%12.5e  %.5f, %.5f\n", i.overlap, i.arclengths[0], i.arclengths[1]);
+  }
+
+ private:
+  int row_ = 0;
+};
+
+int run(const std::string& file) {
+  SavedStep step = load_step(read_whole(file), file);
+  print_scene(step);
+  Table table;
+  step.stepper->watch([&](const Iterate& iterate) { table.add(iterate); });
+  const StepSummary summary = step.try_again();
+  std::printf("\n%d iterations, residual %g N, tolerance %g N", summary.newton.iterations, summary.newton.residual,
+              summary.newton.tolerance);
+  if (summary.newton.converged())
+    std::printf("; largest motion %g m, largest overlap %g m", summary.largest_motion, summary.largest_overlap);
+  std::printf("\n%s%s\n", summary.accepted() ? "accepted" : "not accepted: ", summary.reason.c_str());
+  return summary.accepted() ? kAccepted : kNotAccepted;
+}
+
+/// Reads the command line; an exit code where that is all there is to do.
+std::optional<int> parse(int argc, char** argv, std::string& file) {
+  CLI::App app("Tries a saved time step again. Exit code 0: it was accepted; 1: it was not; 2: the file is wrong.");
+  app.add_option("FILE", file, "a time step as tensile_test leaves it, failed_step.bin")->required();
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "replay_step: %s\n", error.what());
+    return kWrongInput;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+}  // namespace knot_utm
+
+int main(int argc, char** argv) {
+  std::string file;
+  try {
+    if (const std::optional<int> code = knot_utm::parse(argc, argv, file)) return *code;
+    return knot_utm::run(file);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "replay_step: %s\n", error.what());
+    return knot_utm::kWrongInput;
+  }
+}

@@ -1,0 +1,205 @@
+// A test that is cut off and taken up again leaves what one leaves that was not.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "io/command.hpp"
+#include "io/own_folder.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+/// A loop that is tied, released, mounted and pulled a little, read by a cell that has noise.
+const std::vector<std::string> kTest = {std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml",
+                                        "--set",
+                                        "material=polypropylene",
+                                        "--set",
+                                        "specimen.preload=20",
+                                        "--set",
+                                        "specimen.edge_length=0.005",
+                                        "--set",
+                                        "machine.load_cell={capacity: 5e4, noise: 2, sampling_rate: 5}",
+                                        "--set",
+                                        "program.release.duration=1",
+                                        "--set",
+                                        "program.pull.until={extension: 0.003}",
+                                        "--set",
+                                        "physics.accuracy=draft",
+                                        "--quiet"};
+
+std::string text_of(const fs::path& file) {
+  std::ostringstream all;
+  all << std::ifstream(file, std::ios::binary).rdbuf();
+  return all.str();
+}
+
+std::set<std::string> files_of(const fs::path& folder) {
+  std::set<std::string> out;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) out.insert(entry.path().filename());
+  return out;
+}
+
+/// tensile_test in a process of its own.
+pid_t launch(const std::vector<std::string>& arguments) {
+  const std::string command = std::string(KNOT_UTM_TOOLS_DIR) + "/tensile_test";
+  std::vector<char*> raw;
+  raw.push_back(const_cast<char*>(command.c_str()));
+  for (const std::string& argument : arguments) raw.push_back(const_cast<char*>(argument.c_str()));
+  raw.push_back(nullptr);
+  const pid_t process = fork();
+  if (process == 0) {
+    execv(command.c_str(), raw.data());
+    _exit(127);
+  }
+  return process;
+}
+
+/// The exit code; -1: it was killed.
+int wait_for(pid_t process) {
+  int status = 0;
+  waitpid(process, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+class Resume : public OwnFolder {
+ protected:
+  std::string unbroken() const { return folder() + "/unbroken"; }
+  std::string cut() const { return folder() + "/cut"; }
+
+  static int run(std::vector<std::string> arguments, const std::string& out) {
+    arguments.insert(arguments.end(), {"--out", out});
+    return wait_for(launch(arguments));
+  }
+
+  /// Kills a run once its journal has grown by so many bytes; false: it ended before.
+  bool kill_after(const std::vector<std::string>& arguments, std::uintmax_t bytes) const {
+    const fs::path journal = cut() + "/journal";
+    std::error_code error;
+    const auto size = [&] {
+      const std::uintmax_t now = fs::file_size(journal, error);
+      return error ? std::uintmax_t{0} : now;
+    };
+    // A run that is taken up cuts the journal back first: it has grown where it has grown from its least.
+    std::uintmax_t least = size();
+    const pid_t process = launch(arguments);
+    for (;;) {
+      int status = 0;
+      if (waitpid(process, &status, WNOHANG) == process) return false;
+      const std::uintmax_t now = size();
+      least = std::min(least, now);
+      if (now >= least + bytes) break;
+      usleep(500);
+    }
+    kill(process, SIGKILL);
+    return wait_for(process) == -1;
+  }
+
+  void expect_same_files() const {
+    EXPECT_EQ(files_of(cut()), files_of(unbroken()));
+    for (const std::string& name : files_of(unbroken())) {
+      if (name == "result.yaml") continue;
+      EXPECT_TRUE(text_of(cut() + "/" + name) == text_of(unbroken() + "/" + name)) << name;
+    }
+    const std::regex of_this_run("(wall_time|real_time_factor|peak_memory): [^\n]*\n");
+    const auto result = [&](const std::string& run) {
+      return std::regex_replace(text_of(run + "/result.yaml"), of_this_run, "");
+    };
+    EXPECT_EQ(result(cut()), result(unbroken()));
+  }
+
+  std::vector<std::string> in_cut(std::vector<std::string> more) const {
+    std::vector<std::string> out = kTest;
+    out.insert(out.end(), {"--out", cut()});
+    out.insert(out.end(), more.begin(), more.end());
+    return out;
+  }
+  std::vector<std::string> resumed(const std::string& checkpoint) const {
+    return {"--resume", cut(), "--quiet", "--checkpoint", checkpoint};
+  }
+};
+
+TEST_F(Resume, KilledAgainAndAgainItLeavesTheSameFiles) {
+  ASSERT_EQ(run(kTest, unbroken()), 0);
+  constexpr std::uintmax_t kFewRecords = 4000;
+  std::mt19937 random(7);
+  std::uniform_int_distribution<std::uintmax_t> bytes(1, 60000);
+  ASSERT_TRUE(kill_after(in_cut({"--checkpoint", "1e-6"}), kFewRecords));
+  int killed = 1;
+  while (killed < 8 && kill_after(resumed("1e-6"), bytes(random))) {
+    ++killed;
+    EXPECT_TRUE(fs::exists(cut() + "/checkpoint"));
+    EXPECT_FALSE(fs::exists(cut() + "/result.yaml"));
+  }
+  EXPECT_GE(killed, 4);
+  ASSERT_EQ(wait_for(launch(resumed("1e-6"))), 0);
+  expect_same_files();
+}
+
+TEST_F(Resume, WithoutACheckpointItBeginsAnew) {
+  ASSERT_EQ(run(kTest, unbroken()), 0);
+  ASSERT_TRUE(kill_after(in_cut({"--checkpoint", "0"}), 20000));
+  EXPECT_FALSE(fs::exists(cut() + "/checkpoint"));
+  EXPECT_TRUE(fs::exists(cut() + "/journal"));
+  ASSERT_EQ(wait_for(launch(resumed("0"))), 0);
+  expect_same_files();
+}
+
+TEST_F(Resume, RefusesInOneLineWhatCannotBeTakenUp) {
+  const auto complaint = [](const std::string& arguments) {
+    const Answer answer = answer_of(tool("tensile_test", arguments));
+    EXPECT_EQ(answer.code, 2) << arguments;
+    EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << arguments << "\n" << answer.text;
+    return answer.text;
+  };
+  ASSERT_TRUE(kill_after(in_cut({"--checkpoint", "1e-6"}), 20000));
+  const std::string resume = "--resume '" + cut() + "'";
+  EXPECT_THAT(complaint(resume + " " + kTest[0]), HasSubstr("excludes"));
+  EXPECT_THAT(complaint(resume + " --checkpoint -1"), HasSubstr("--checkpoint"));
+
+  const auto changed = [&](const std::string& name, auto change) {
+    const std::string file = cut() + "/" + name, whole = text_of(file);
+    std::string bytes = whole;
+    change(bytes);
+    std::ofstream(file, std::ios::binary) << bytes;
+    const std::string said = complaint(resume);
+    std::ofstream(file, std::ios::binary) << whole;
+    return said;
+  };
+  const auto cut_off = [](std::string& bytes) { bytes.resize(bytes.size() - 1); };
+  EXPECT_THAT(changed("checkpoint", cut_off), HasSubstr("checkpoint: length: "));
+  EXPECT_THAT(changed("checkpoint", [](std::string& bytes) { bytes[bytes.size() / 2] ^= 1; }),
+              HasSubstr("checkpoint: checksum: "));
+  EXPECT_THAT(changed("checkpoint", [](std::string& bytes) { bytes = "x,y,z\n"; }),
+              HasSubstr("checkpoint: first line: that of a foreign file"));
+  EXPECT_THAT(changed("method.yaml",
+                      [](std::string& text) {
+                        text = std::regex_replace(text, std::regex("capacity: 50000"), "capacity: 40000");
+                      }),
+              HasSubstr("journal: method: that of another run"));
+  EXPECT_THAT(changed("journal", [](std::string& bytes) { bytes.resize(bytes.size() / 4); }),
+              HasSubstr("checkpoint: journal: "));
+  EXPECT_THAT(changed("journal", [](std::string& bytes) { bytes = "x,y,z\n"; }), HasSubstr("journal: "));
+
+  ASSERT_EQ(wait_for(launch(resumed("0"))), 0);
+  EXPECT_THAT(complaint(resume), HasSubstr("has ended"));
+  EXPECT_THAT(complaint("--resume '" + folder() + "/nowhere'"), HasSubstr("nowhere/method.yaml"));
+}
+
+}  // namespace
+}  // namespace knot_utm
