@@ -31,7 +31,8 @@ class StrandPassage {
  public:
   explicit StrandPassage(Eigen::Index nodes);
 
-  /// Columns are nodes, all of them finite. A first and a last one that lie on each other, at the start and at the end, are one node.
+  /// Columns are nodes, all of them finite. A first and a last one that lie on each other, at the start and at the end,
+  /// are one node.
   std::optional<Passage> find(const Points& start, const Points& end);
 
  private:
