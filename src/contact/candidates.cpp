@@ -17,12 +17,14 @@ std::int64_t cell_key(std::int64_t i, std::int64_t j, std::int64_t k) {
 
 }  // namespace
 
-Candidates::Candidates(const RodProperties& rod, double reach, double margin, double exclusion)
-    : reach_(reach), margin_(margin), exclusion_(exclusion), arclength_(rod.arclength()) {
+Candidates::Candidates(const RodProperties& rod, double reach, double margin, double exclusion, double extent)
+    : reach_(reach),
+      margin_(margin),
+      exclusion_(exclusion),
+      extent_(extent),
+      arclength_(rod.arclength()),
+      size_(Eigen::VectorXd::Zero(rod.nodes())) {
   const Eigen::Index nodes = rod.nodes();
-  half_size_ = Eigen::VectorXd::Zero(nodes);
-  for (Eigen::Index i = 1; i + 1 < nodes; ++i)
-    half_size_[i] = 0.5 * std::max(rod.rest_length[i - 1], rod.rest_length[i]);
   // None of these can hold more: a build takes no memory for them.
   entries_.reserve(static_cast<std::size_t>(nodes));
   found_.reserve(static_cast<std::size_t>(nodes));
@@ -38,6 +40,15 @@ bool Candidates::refresh(const Points& position) {
   return true;
 }
 
+void Candidates::measure(const Points& position) {
+  double before = (position.col(1) - position.col(0)).norm();
+  for (Eigen::Index i = 1; i + 1 < position.cols(); ++i) {
+    const double after = (position.col(i + 1) - position.col(i)).norm();
+    size_[i] = extent_ * std::max(before, after);
+    before = after;
+  }
+}
+
 bool Candidates::is_taut(const Points& position) const {
   // Two places lie no nearer to each other than the rod between them is long, less all of its slack: what its length
   // exceeds the distance of its ends by.
@@ -48,7 +59,7 @@ bool Candidates::is_taut(const Points& position) const {
     least_stretch = std::min(least_stretch, edge / (arclength_[i + 1] - arclength_[i]));
   }
   const double slack = length - (position.rightCols(1) - position.leftCols(1)).norm();
-  return least_stretch * exclusion_ - slack >= reach_ + margin_ + 2.0 * half_size_.maxCoeff();
+  return least_stretch * exclusion_ - slack >= reach_ + margin_ + 2.0 * size_.maxCoeff();
 }
 
 void Candidates::state(Archive& archive) {
@@ -65,9 +76,10 @@ void Candidates::build(const Points& position) {
   segments_.clear();
   runs_.clear();
   begin_.assign(static_cast<std::size_t>(position.cols()) + 1, 0);
+  measure(position);
   if (is_taut(position)) return;
   const int nodes = static_cast<int>(position.cols());
-  const double cell = reach_ + margin_ + 2.0 * half_size_.maxCoeff();
+  const double cell = reach_ + margin_ + 2.0 * size_.maxCoeff();
   const Vec3 origin = position.rowwise().minCoeff().array() - cell;
 
   entries_.clear();
@@ -92,7 +104,7 @@ void Candidates::build(const Points& position) {
         for (; entry != entries_.end() && entry->key <= high; ++entry) {
           const int j = entry->segment;
           if (std::abs(arclength_[i] - arclength_[j]) < exclusion_) continue;
-          const double limit = reach_ + margin_ + half_size_[i] + half_size_[j];
+          const double limit = reach_ + margin_ + size_[i] + size_[j];
           if ((position.col(i) - position.col(j)).squaredNorm() < limit * limit) found_.push_back(j);
         }
       }

@@ -29,9 +29,10 @@ EdgeContact::EdgeContact(const RodProperties& rod, const NormalLaw& normal, cons
       reach_((2.0 + kReachMargin) * rod.material.radius),
       least_estimate_(kLeastEstimate * normal.stiffness * normal.tolerance),
       rest_length_(rod.rest_length),
-      // Candidates are segments around nodes. An edge is found by the node it ends at, all of it within reach and one
-      // more edge of that node's segment. Strands closer than 5 h along the rod bend, they do not touch.
-      candidates_(rod, reach_ + rod.rest_length.maxCoeff(), margin, 5.0 * rod.material.radius) {
+      length_(rod.rest_length),
+      // Candidates are segments around nodes; an edge is found by the node it ends at, and is the whole of its extent.
+      // Strands closer than 5 h along the rod bend, they do not touch.
+      candidates_(rod, reach_, margin, 5.0 * rod.material.radius, 1.0) {
   arclength_ = rod.arclength();
 }
 
@@ -67,10 +68,11 @@ void EdgeContact::evaluate(const Points& position, const Points& start, double d
   contacts_.clear();
   feet_.clear();
   const double friction_scale = friction_.scale(dt);
+  length_ = (position.rightCols(length_.size()) - position.leftCols(length_.size())).colwise().norm();
   for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
     const auto [a, b] = pairs_[pair];
     const Vec3 apart = position.col(a) + position.col(a + 1) - position.col(b) - position.col(b + 1);
-    const double limit = 2.0 * reach_ + 1.2 * (rest_length_[a] + rest_length_[b]);
+    const double limit = 2.0 * reach_ + length_[a] + length_[b];
     if (apart.squaredNorm() < limit * limit) add_contact(static_cast<int>(pair), position, start, friction_scale);
   }
   first_evaluation_ = false;

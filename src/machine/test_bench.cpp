@@ -81,7 +81,7 @@ double outward_shift(const SpecimenOptions& specimen, const Material& material) 
 Centreline centreline_from_file(const SpecimenOptions& specimen, const Material& material) {
   if (specimen.closed) throw InvalidInput("specimen.closed", "true", "false: the grips hold the rod's two ends");
   const Points points = read_centreline(specimen.file);
-  Centreline out = from_points(points, false, material.radius, specimen.edge_length);
+  Centreline out = from_points(points, false, material.radius, specimen.edge_length, specimen.file);
   if (!(out.points.rightCols(1)(2) > out.points.leftCols(1)(2))) {
     throw InvalidInput("specimen.file", specimen.file, "a line whose last point is above its first, along z");
   }

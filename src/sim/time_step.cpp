@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <sstream>
 #include <type_traits>
 
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/contact/strand_passage.hpp"
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/stretching.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
@@ -44,6 +47,7 @@ class ImplicitStep final : public TimeStep {
       : TimeStep(rod, state, settings),
         contact_(rod, settings.normal, settings.friction, settings.candidate_margin),
         rollers_(rod, settings.normal, settings.roller_friction),
+        passage_(rod.nodes()),
         centreline_(rod_, rod.natural_curvature.cols() == 0),
         frames_(rod_, settings_),
         nodes_(static_cast<int>(rod.nodes())),
@@ -362,7 +366,7 @@ class ImplicitStep final : public TimeStep {
     return std::sqrt(largest2);
   }
 
-  void examine(StepSummary& summary) const {
+  void examine(StepSummary& summary) {
     if (!summary.newton.converged()) {
       summary.reason = summary.newton.reason();
       return;
@@ -377,6 +381,18 @@ class ImplicitStep final : public TimeStep {
       summary.reason = "a node moved further than a step may";
     else if (summary.largest_overlap > settings_.overlap_limit)
       summary.reason = "strands overlap more than a step may leave";
+    else if (const std::optional<Passage> passage = passage_.find(state_.position, x_))
+      summary.reason = reason(*passage);
+  }
+
+  std::string reason(const Passage& passage) const {
+    auto arclength = [&](int edge, double share) {
+      return rod_.rest_length.head(edge).sum() + share * rod_.rest_length[edge];
+    };
+    std::ostringstream out;
+    out << "strands would pass through each other at " << arclength(passage.edge_a, passage.on_a) << " m and "
+        << arclength(passage.edge_b, passage.on_b) << " m along the rod";
+    return out.str();
   }
 
   /// Of the unknowns as Newton's method left them.
@@ -479,6 +495,7 @@ class ImplicitStep final : public TimeStep {
 
   StrandContact contact_;
   RollerContact rollers_;
+  StrandPassage passage_;
   CentrelineTerms centreline_;
   std::conditional_t<D == 4, FrameTerms, NoFrames> frames_;
   int nodes_;

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
+#include "knot_utm/contact/strand_passage.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/specimen/polyline.hpp"
 #include "shape_checks.hpp"
@@ -20,11 +22,24 @@ int Centreline::nearest_node(double arclength) const {
 }
 
 void check_no_overlap(const Centreline& centreline, double radius, const char* key, const std::string& value) {
-  const double distance = smallest_distance(centreline.points, 1.5 * M_PI * radius, centreline.closed);
-  if (distance < 2.0 * radius) {
-    throw InvalidInput(
-        key, value,
-        "a shape whose strands keep a diameter apart (" + text(2.0 * radius) + " m); here " + text(distance) + " m");
+  const Points& points = centreline.points;
+  const NearestPlaces nearest = nearest_places(points, 1.5 * M_PI * radius, centreline.closed);
+  if (nearest.distance < 2.0 * radius) {
+    throw InvalidInput(key, value,
+                       "a shape whose strands keep a diameter apart (" + text(2.0 * radius) + " m); here " +
+                           text(nearest.distance) + " m, at " + text(nearest.first) + " m and " + text(nearest.second) +
+                           " m along it");
+  }
+  if (const std::optional<Passage> passage = StrandPassage(points.cols()).find(points, points)) {
+    const std::vector<double> at = arclengths(points);
+    auto place = [&](int edge, double share) {
+      const auto i = static_cast<std::size_t>(edge);
+      return text(at[i] + share * (at[i + 1] - at[i]));
+    };
+    throw InvalidInput(key, value,
+                       "a shape that does not run through itself; here it does, at " +
+                           place(passage->edge_a, passage->on_a) + " m and " + place(passage->edge_b, passage->on_b) +
+                           " m along it");
   }
 }
 
@@ -41,7 +56,7 @@ Centreline straight(double length, double radius, double edge_length) {
   return centreline;
 }
 
-Centreline from_points(const Points& points, bool closed, double radius, double edge_length) {
+Centreline from_points(const Points& points, bool closed, double radius, double edge_length, const std::string& name) {
   check_radius(radius);
   check_edge_length(edge_length, radius);
   if (!points.allFinite()) throw InvalidInput("specimen.file", "a point that is not finite", "finite numbers [m]");
@@ -67,7 +82,7 @@ Centreline from_points(const Points& points, bool closed, double radius, double 
   Centreline centreline;
   centreline.closed = closed;
   centreline.points = resample_evenly(way, edge_length);
-  check_no_overlap(centreline, radius, "specimen.file", "the centreline");
+  check_no_overlap(centreline, radius, "specimen.file", name);
   return centreline;
 }
 

@@ -121,7 +121,7 @@ Points resample_graded(const Points& points, const EdgeGrading& wanted, std::vec
   return nodes;
 }
 
-double smallest_distance(const Points& points, double exclusion, bool closed) {
+NearestPlaces nearest_places(const Points& points, double exclusion, bool closed) {
   const Eigen::Index edges = points.cols() - 1;
   const Points edge = points.rightCols(edges) - points.leftCols(edges);
   const Points middle = 0.5 * (points.rightCols(edges) + points.leftCols(edges));
@@ -130,16 +130,17 @@ double smallest_distance(const Points& points, double exclusion, bool closed) {
   begin[0] = 0.0;
   for (Eigen::Index i = 0; i < edges; ++i) begin[i + 1] = begin[i] + length[i];
   const double total = begin[edges];
-  double best = std::numeric_limits<double>::infinity();
+  NearestPlaces best{std::numeric_limits<double>::infinity(), 0.0, 0.0};
   for (Eigen::Index i = 0; i < edges; ++i) {
     for (Eigen::Index j = i + 1; j < edges; ++j) {
       if (begin[j] - begin[i + 1] < exclusion) continue;
       if (closed && total - begin[j + 1] + begin[i] < exclusion) continue;
-      const double reach = best + 0.5 * (length[i] + length[j]);
+      const double reach = best.distance + 0.5 * (length[i] + length[j]);
       if ((middle.col(i) - middle.col(j)).squaredNorm() >= reach * reach) continue;
       const ClosestPoints at = closest_points(points.col(i), edge.col(i), points.col(j), edge.col(j), 0.0);
       const Vec3 gap = points.col(i) + at.t * edge.col(i) - points.col(j) - at.u * edge.col(j);
-      best = std::min(best, gap.norm());
+      const double distance = gap.norm();
+      if (distance < best.distance) best = {distance, begin[i] + at.t * length[i], begin[j] + at.u * length[j]};
     }
   }
   return best;

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
+#include <limits>
 #include <random>
 
 #include "contact/nodal_forces.hpp"
+#include "knot_utm/contact/centreline_curve.hpp"
 #include "rod/finite_difference.hpp"
 
 namespace knot_utm {
@@ -140,13 +143,16 @@ TEST(NormalLaw, SlopeAndEnergyAreThePressuresDerivativeAndIntegral) {
   }
 }
 
-/// All pairs of segments of a rod of even edges that are apart by the exclusion along it and near enough in space.
+/// All pairs of segments of a rod of even edges that are apart by the exclusion along it, and whose nodes are nearer
+/// to each other than `near` and half of the longer edge at each.
 std::vector<std::pair<int, int>> near_pairs(const Points& x, double edge, double exclusion, double near) {
   std::vector<std::pair<int, int>> pairs;
   const int nodes = static_cast<int>(x.cols());
+  auto half = [&](int i) { return 0.5 * std::max((x.col(i) - x.col(i - 1)).norm(), (x.col(i + 1) - x.col(i)).norm()); };
   for (int i = 1; i + 1 < nodes; ++i)
     for (int j = i + 1; j + 1 < nodes; ++j)
-      if (edge * (j - i) >= exclusion && (x.col(i) - x.col(j)).norm() < near) pairs.push_back({i, j});
+      if (edge * (j - i) >= exclusion && (x.col(i) - x.col(j)).norm() < near + half(i) + half(j))
+        pairs.push_back({i, j});
   return pairs;
 }
 
@@ -163,7 +169,7 @@ TEST(Candidates, FindEveryPairThatBruteForceFinds) {
   Candidates candidates(rod, reach, margin, exclusion);
   EXPECT_TRUE(candidates.refresh(x));
   EXPECT_FALSE(candidates.refresh(x.array() + 0.2 * margin));
-  EXPECT_EQ(candidates.pairs(), near_pairs(x, 2e-3, exclusion, reach + margin + 2e-3));
+  EXPECT_EQ(candidates.pairs(), near_pairs(x, 2e-3, exclusion, reach + margin));
   EXPECT_TRUE(candidates.refresh(x.array() + 0.6 * margin));
 }
 
@@ -185,11 +191,66 @@ TEST(Candidates, OfARodThatIsFoldedMoreAndMoreAreThoseOfBruteForce) {
       }
       Candidates candidates(rod, reach, margin, exclusion);
       candidates.refresh(x);
-      EXPECT_EQ(candidates.pairs(), near_pairs(x, edge, exclusion, reach + margin + edge)) << fold << ' ' << stretch;
+      EXPECT_EQ(candidates.pairs(), near_pairs(x, edge, exclusion, reach + margin)) << fold << ' ' << stretch;
       ++(candidates.pairs().empty() ? found_nothing : found_some);
     }
   EXPECT_GT(found_nothing, 20);
   EXPECT_GT(found_some, 20);
+}
+
+/// Segments of the smooth centreline that come within `reach` of each other, as seen at places along them.
+std::vector<std::pair<int, int>> segments_within(double reach, const Points& x, double edge, double exclusion) {
+  constexpr int kPlaces = 21;
+  const int nodes = static_cast<int>(x.cols());
+  auto place = [&](int segment, int k) {
+    return combine(SegmentWeights(static_cast<double>(k) / (kPlaces - 1)).value, x, segment);
+  };
+  std::vector<std::pair<int, int>> pairs;
+  for (int i = 1; i + 1 < nodes; ++i)
+    for (int j = i + 1; j + 1 < nodes; ++j) {
+      if (edge * (j - i) < exclusion) continue;
+      double nearest = std::numeric_limits<double>::infinity();
+      for (int k = 0; k < kPlaces; ++k)
+        for (int l = 0; l < kPlaces; ++l) nearest = std::min(nearest, (place(i, k) - place(j, l)).norm());
+      if (nearest < reach) pairs.push_back({i, j});
+    }
+  return pairs;
+}
+
+TEST(Candidates, OfARodStretchedToTwiceItsLengthLackNone) {
+  Material material;
+  material.radius = kRadius;
+  const int nodes = 40, half = nodes / 2;
+  const double edge = 2.0 * kRadius, reach = 2.3 * kRadius, margin = kRadius, exclusion = 5.0 * kRadius;
+  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(nodes - 1, edge));
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> share(-1.0, 1.0);
+  int seen = 0, beyond_rest_length = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    // A strand along x, and the rod's end that comes down on it, with the last of its smooth centreline within reach.
+    Points x(3, nodes);
+    const double shift = share(random), tilt = 0.5 * share(random);
+    for (int i = 0; i < half; ++i) x.col(i) << 1.9 * edge * (i - half / 2 + shift), 0.0, 0.0;
+    for (int i = 0; i < half; ++i)
+      x.col(nodes - 1 - i) =
+          Vec3(0.0, 0.0, 0.99 * reach) + 1.9 * edge * (i - 0.5) * Vec3(std::sin(tilt), 0.0, std::cos(tilt));
+    // The list is made where they are further apart, as far as it is good for.
+    const Vec3 up(0.0, 0.0, 0.499 * margin);
+    Points before = x;
+    before.leftCols(half).colwise() -= up;
+    before.rightCols(half).colwise() += up;
+    Candidates candidates(rod, reach, margin, exclusion);
+    candidates.refresh(before);
+    ASSERT_FALSE(candidates.refresh(x));
+    const auto near = segments_within(reach, x, edge, exclusion);
+    const auto& found = candidates.pairs();
+    EXPECT_TRUE(std::includes(found.begin(), found.end(), near.begin(), near.end()));
+    seen += static_cast<int>(near.size());
+    for (const auto& [i, j] : near)
+      if ((before.col(i) - before.col(j)).norm() > reach + margin + edge) ++beyond_rest_length;
+  }
+  EXPECT_GT(seen, 100);
+  EXPECT_GT(beyond_rest_length, 5) << "which lengths at rest would not have found";
 }
 
 }  // namespace

@@ -4,7 +4,9 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <cstdio>
 #include <limits>
+#include <string>
 
 #include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
@@ -90,7 +92,7 @@ TEST(FishermanLoop, KeepsItsStrandsApartInEqualEdges) {
         shape.edge_length = edge;
         const Centreline line = fisherman_loop(shape);
         expect_equal_edges(line.points, edge);
-        const double gap = smallest_distance(line.points, 1.5 * M_PI * h) / (2.0 * h);
+        const double gap = nearest_places(line.points, 1.5 * M_PI * h).distance / (2.0 * h);
         EXPECT_GT(gap, 1.05) << "looseness " << looseness << " edge " << edge / h;
         EXPECT_LT(largest_turn(line.points), edge / (0.8 * h));
         RecordProperty("gap", std::to_string(gap));
@@ -211,7 +213,7 @@ TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
       EXPECT_NEAR(line.length(), shape.length, 0.01 * excess);
       EXPECT_LT(line.points.leftCols(1).norm(), 1e-9);
       EXPECT_LT((line.points.rightCols(1) - Vec3(0.0, 0.0, shape.end_to_end)).norm(), 1e-9);
-      EXPECT_GT(smallest_distance(line.points, 1.5 * M_PI * shape.radius), 2.1 * shape.radius);
+      EXPECT_GT(nearest_places(line.points, 1.5 * M_PI * shape.radius).distance, 2.1 * shape.radius);
     }
   }
 }
@@ -259,16 +261,66 @@ TEST(FromPoints, RefusesOverlapAndNonsense) {
   EXPECT_THROW(from_points(Points(3, 0), false, 3e-3, 3e-3), InvalidInput);
 }
 
-TEST(SmallestDistance, SeesParallelCrossingAndEndOnSegments) {
+/// What is said of points that are refused; empty: they are not.
+std::string refusal(const Points& points, double radius, double edge_length, bool closed = false) {
+  try {
+    from_points(points, closed, radius, edge_length, "shape.csv");
+  } catch (const InvalidInput& bad) {
+    return bad.what();
+  }
+  return {};
+}
+
+TEST(FromPoints, SaysWhereStrandsLieThroughEachOther) {
+  Points crossing(3, 4);
+  crossing.col(0) << 0.0, 0.0, 0.0;
+  crossing.col(1) << 0.2, 0.0, 0.0;
+  crossing.col(2) << 0.2, 0.1, 0.0;
+  crossing.col(3) << 0.1, -0.1, 0.0;
+  EXPECT_EQ(refusal(crossing, 3e-3, 3e-3).rfind("specimen.file: shape.csv is not allowed", 0), 0U);
+  double apart = 1.0, first = 0.0, second = 0.0;
+  const std::string said = refusal(crossing, 3e-3, 3e-3);
+  const std::size_t here = said.find("here ");
+  ASSERT_NE(here, std::string::npos) << said;
+  ASSERT_EQ(std::sscanf(said.c_str() + here, "here %lf m, at %lf m and %lf m along it", &apart, &first, &second), 3);
+  EXPECT_LT(apart, 1e-9);
+  // Edges cut the corners.
+  EXPECT_NEAR(first, 0.15, 3e-3);
+  EXPECT_NEAR(second, 0.3 + std::hypot(0.05, 0.1), 1e-2);
+}
+
+TEST(FromPoints, RefusesALoopSoSmallThatItsStrandsAreNeighbours) {
+  // Of 6.3 mm, where strands up to 14 mm apart along the rod may lie nearer than a diameter.
+  const double radius = 3e-3, loop = 1e-3;
+  auto small_loop = [&](double rise) {
+    Points x(3, 60);
+    for (int i = 0; i < 20; ++i) x.col(i) << -1e-3 * (20 - i), 0.0, 0.0;
+    for (int i = 0; i < 20; ++i) {
+      const double angle = 2.0 * M_PI * i / 20.0;
+      x.col(20 + i) << loop * std::sin(angle), loop * (1.0 - std::cos(angle)), rise * i / 20.0;
+    }
+    for (int i = 0; i < 20; ++i) x.col(40 + i) << 1e-3 * i, -3e-4, rise;
+    return x;
+  };
+  EXPECT_EQ(refusal(small_loop(1e-3), radius, 2.5e-4), "");
+  const std::string said = refusal(small_loop(0.0), radius, 2.5e-4);
+  EXPECT_NE(said.find("a shape that does not run through itself; here it does, at 0.0"), std::string::npos) << said;
+}
+
+TEST(NearestPlaces, SeesParallelCrossingAndEndOnSegments) {
   Points u(3, 4);
   u.col(0) << 0.0, 0.0, 0.0;
   u.col(1) << 1.0, 0.0, 0.0;
   u.col(2) << 1.0, 0.3, 0.0;
   u.col(3) << 0.0, 0.3, 0.0;
-  EXPECT_NEAR(smallest_distance(u, 0.1), 0.3, 1e-12);
+  EXPECT_NEAR(nearest_places(u, 0.1).distance, 0.3, 1e-12);
   u.col(3) << 0.5, -0.2, 0.1;
-  EXPECT_NEAR(smallest_distance(u, 0.1), 0.3 * 0.1 / std::hypot(0.5, 0.1), 1e-12);
-  EXPECT_EQ(smallest_distance(u, 10.0), std::numeric_limits<double>::infinity());
+  EXPECT_NEAR(nearest_places(u, 0.1).distance, 0.3 * 0.1 / std::hypot(0.5, 0.1), 1e-12);
+  // Where it is nearest to the first edge's line: 0.3 - 0.5 u and 0.1 u off it.
+  const double u_nearest = 0.3 * 0.5 / (0.5 * 0.5 + 0.1 * 0.1);
+  EXPECT_NEAR(nearest_places(u, 0.1).first, 1.0 - 0.5 * u_nearest, 1e-12);
+  EXPECT_NEAR(nearest_places(u, 0.1).second, 1.3 + u_nearest * std::sqrt(0.51), 1e-12);
+  EXPECT_EQ(nearest_places(u, 10.0).distance, std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

@@ -8,8 +8,10 @@
 
 namespace knot_utm {
 
-/// Which segments of the rod may touch which. Segment i, 1 <= i <= N-2, is the piece of centreline around node i.
-/// The list holds every pair closer than `reach` with a margin, and stays valid until a node has moved half of it.
+/// Which segments of the rod may touch which. Segment i, 1 <= i <= N-2, is the piece of centreline around node i, out
+/// to the middles of the edges that meet there, as long as they now are. The list holds every pair closer than `reach`
+/// with a margin, and stays valid until a node has moved half of it. A step may take nodes further: that no strand then
+/// slips through unseen is StrandPassage's to say.
 class Candidates {
  public:
   struct Run {
@@ -18,8 +20,9 @@ class Candidates {
   };
 
   /// `reach` is the distance of centrelines that must be found [m]; pairs closer than `exclusion` along the rod
-  /// never count [m].
-  Candidates(const RodProperties& rod, double reach, double margin, double exclusion);
+  /// never count [m]. `extent` is how far a segment reaches out along the edges at its node: a half as a rule, 1 where
+  /// it stands for the whole of them [-].
+  Candidates(const RodProperties& rod, double reach, double margin, double exclusion, double extent = 0.5);
 
   /// Rebuilds the list where something moved far enough; true if it did.
   bool refresh(const Points& position);
@@ -45,12 +48,13 @@ class Candidates {
   };
 
   void build(const Points& position);
+  void measure(const Points& position);
   /// Whether the rod is drawn out so far that it cannot come back to itself.
   bool is_taut(const Points& position) const;
 
-  double reach_, margin_, exclusion_;
+  double reach_, margin_, exclusion_, extent_;
   Eigen::VectorXd arclength_;  // of the nodes
-  Eigen::VectorXd half_size_;  // of segment i about its node
+  Eigen::VectorXd size_;       // of segment i about its node [m]
   Points built_at_;
   std::vector<std::size_t> begin_;
   std::vector<Run> runs_;

@@ -100,6 +100,7 @@ class EdgeContact {
   double reach_;           // of centrelines within which contacts are kept [m]
   double least_estimate_;  // pressures below are no guide to the next [N/m]
   Eigen::VectorXd rest_length_;
+  Eigen::VectorXd length_;     // of the edges at the evaluated position [m]
   Eigen::VectorXd arclength_;  // of the nodes
   Candidates candidates_;
   std::vector<std::pair<int, int>> pairs_;

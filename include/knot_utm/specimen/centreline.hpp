@@ -32,13 +32,15 @@ struct Centreline {
 /// A straight rod along z from the origin.
 Centreline straight(double length, double radius, double edge_length);
 
-/// Any polyline [m], resampled. Closed: the last point joins the first, and the last node lies on the first.
+/// Any polyline [m], resampled. Closed: the last point joins the first, and the last node lies on the first. A shape
+/// that overlaps is called by `name` in the message.
 /// Throws InvalidInput (specimen.file, specimen.edge_length).
-Centreline from_points(const Points& points, bool closed, double radius, double edge_length);
+Centreline from_points(const Points& points, bool closed, double radius, double edge_length,
+                       const std::string& name = "the centreline");
 
 /// Throws InvalidInput for `key` where strands of a rod of the given radius overlap: two places further apart along
 /// the rod than 3 pi/2 radii (any nearer ones cannot touch unless the rod is bent more sharply than its own radius)
-/// nearer to each other than a diameter.
+/// nearer to each other than a diameter; or where it runs through itself anywhere. The message names both places.
 void check_no_overlap(const Centreline& centreline, double radius, const char* key, const std::string& value);
 
 }  // namespace knot_utm

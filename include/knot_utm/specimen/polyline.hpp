@@ -30,8 +30,14 @@ struct EdgeGrading {
 /// number whole; first and last point stay. `position` (optional) gets the arclength on `points` of every node.
 Points resample_graded(const Points& points, const EdgeGrading& wanted, std::vector<double>* position = nullptr);
 
-/// Smallest distance between any two places of a polyline that lie at least `exclusion` apart along it [m]; infinity
-/// where there are none. Closed: its last point lies on its first, and "along it" is the shorter way round.
-double smallest_distance(const Points& points, double exclusion, bool closed = false);
+/// Two places of a polyline, and how far apart they are [m].
+struct NearestPlaces {
+  double distance = 0.0;
+  double first = 0.0, second = 0.0;  ///< arclengths [m]
+};
+
+/// Of all places of a polyline that lie at least `exclusion` [m] apart along it the two that are nearest to each other;
+/// at infinity where there are none. Closed: its last point lies on its first, and "along it" is the shorter way round.
+NearestPlaces nearest_places(const Points& points, double exclusion, bool closed = false);
 
 }  // namespace knot_utm

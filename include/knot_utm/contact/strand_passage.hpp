@@ -1,0 +1,66 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/solver/block.hpp"
+
+namespace knot_utm {
+
+/// Two places of the rod that meet: edges a < b, and the share of the way along each, 0 to 1.
+struct Passage {
+  int edge_a = 0, edge_b = 0;
+  double on_a = 0.0, on_b = 0.0;
+};
+
+/// Whether a rod passes through itself while every node goes straight, and at constant speed, from where it starts to
+/// where it ends: continuous collision detection of the polygon of nodes, every two edges that share no node. It asks
+/// nothing of how the rod lies, how far it moves, how its edges stretch or what contact knows. No passage is missed.
+///
+/// Nearly every pair is settled by one of two bounds on pieces of 1, 2, 4, ... edges:
+///
+/// - Boxes around two pieces, at their start and end and so at all times between, that do not meet.
+/// - A piece all of whose edges have a positive part along one direction, e.d > 0, at its start and end: as each edge
+///   is linear in time, it has so at all times between. The piece advances along d and cannot come back to itself. It
+///   settles edges that are near only because they are neighbours along the rod. Of the edges a box is kept as well,
+///   and d is its middle.
+///
+/// The few pairs of edges that are left are asked one by one (moving_edges.hpp).
+class StrandPassage {
+ public:
+  explicit StrandPassage(Eigen::Index nodes);
+
+  /// Columns are nodes, all of them finite. A first and a last one that lie on each other, at the start and at the end,
+  /// are one node.
+  std::optional<Passage> find(const Points& start, const Points& end);
+
+ private:
+  struct Box {
+    Lanes low, high;
+  };
+  /// Of a piece of the rod, over the whole motion.
+  struct Piece {
+    Box place;    // of its points [m]
+    Box advance;  // of its edges, as vectors [m]
+  };
+
+  /// Fills the edges' boxes; false where the whole rod advances along one direction.
+  bool set_advances(const Points& start, const Points& end);
+  void set_places(const Points& start, const Points& end);
+  void join_pieces();
+  /// Looks for a passage between pieces i <= j of a level, or within one.
+  std::optional<Passage> search(std::size_t level, int i, int j) const;
+  std::optional<Passage> edges_meet(int a, int b) const;
+
+  static Box join(const Box& a, const Box& b);
+  static bool apart(const Box& a, const Box& b);
+  static bool advances(const Box& edges);
+
+  std::vector<std::vector<Piece>> pieces_;  // [level][i]: edges i 2^level to (i + 1) 2^level - 1
+  const Points* start_ = nullptr;
+  const Points* end_ = nullptr;
+  bool closed_ = false;
+};
+
+}  // namespace knot_utm

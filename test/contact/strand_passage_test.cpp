@@ -1,0 +1,151 @@
+#include "knot_utm/contact/strand_passage.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "knot_utm/contact/moving_edges.hpp"
+
+namespace knot_utm {
+namespace {
+
+std::vector<std::pair<int, int>> all_that_meet(const Points& start, const Points& end) {
+  std::vector<std::pair<int, int>> out;
+  const int edges = static_cast<int>(start.cols()) - 1;
+  auto pair = [](const Points& x, int a, int b) -> EdgePair {
+    return {x.col(a), x.col(a + 1), x.col(b), x.col(b + 1)};
+  };
+  for (int a = 0; a < edges; ++a)
+    for (int b = a + 2; b < edges; ++b)
+      if (meeting(pair(start, a, b), pair(end, a, b))) out.push_back({a, b});
+  return out;
+}
+
+std::optional<Passage> passage(const Points& start, const Points& end) {
+  return StrandPassage(start.cols()).find(start, end);
+}
+
+class Rods {
+ public:
+  /// Edges of length one; each turns from the one before by `sharpness` or so [rad].
+  Points any(int nodes, double sharpness) {
+    Points x = Points::Zero(3, nodes);
+    Vec3 edge = direction();
+    for (int i = 1; i < nodes; ++i) {
+      edge = (edge + sharpness * direction()).normalized();
+      x.col(i) = Vec3(x.col(i - 1)) + edge;
+    }
+    return x;
+  }
+  /// Every node by `far` or so on its own, and by as much all together.
+  Points moved(const Points& x, double far) {
+    Points out = x;
+    const Vec3 together = direction();
+    for (Eigen::Index i = 0; i < x.cols(); ++i) out.col(i) += far * (direction() + together);
+    return out;
+  }
+
+ private:
+  Vec3 direction() {
+    const double x = normal_(random_), y = normal_(random_);
+    return Vec3(x, y, normal_(random_)).normalized();
+  }
+  std::mt19937 random_{11};
+  std::normal_distribution<double> normal_;
+};
+
+TEST(StrandPassage, IsFoundWhereAllPairsOfEdgesHaveOne) {
+  Rods rods;
+  int passed = 0, kept = 0;
+  for (const int nodes : {3, 4, 5, 8, 17, 40, 65})
+    for (const double sharpness : {0.1, 0.4, 1.0, 3.0})
+      for (const double far : {0.0, 0.02, 0.1, 0.3, 1.0, 5.0})
+        for (int trial = 0; trial < 10; ++trial) {
+          const Points start = rods.any(nodes, sharpness), end = rods.moved(start, far);
+          const auto expected = all_that_meet(start, end);
+          const auto found = passage(start, end);
+          ASSERT_EQ(found.has_value(), !expected.empty()) << nodes << ' ' << sharpness << ' ' << far;
+          ++(found ? passed : kept);
+          if (found) {
+            EXPECT_EQ(std::count(expected.begin(), expected.end(), std::pair{found->edge_a, found->edge_b}), 1);
+          }
+        }
+  EXPECT_GT(passed, 200);
+  EXPECT_GT(kept, 500);
+}
+
+/// A ring of radius 10 in the plane z = 0, open at x = 10; its end lies on its beginning.
+Points ring(int edges) {
+  Points x(3, edges + 1);
+  for (int i = 0; i <= edges; ++i) {
+    const double angle = 2.0 * M_PI * i / edges;
+    x.col(i) << 10.0 * std::cos(angle), 10.0 * std::sin(angle), 0.0;
+  }
+  x.col(edges) = x.col(0);
+  return x;
+}
+
+TEST(StrandPassage, AClosedRodSharesANodeWithItself) {
+  const Points start = ring(40), end = 1.1 * start;
+  EXPECT_FALSE(passage(start, end));
+  Points open = end;
+  open.col(40) += Vec3(0.0, 0.0, 0.1);
+  EXPECT_TRUE(passage(start, open)) << "ends that touched and part are two nodes that were in one place";
+}
+
+TEST(StrandPassage, SeesAStrandPushedThroughARing) {
+  // A rod whose second half is a ring; its first half, a straight strand beyond the ring's plane, is thrown past it.
+  const int strand = 20, around = 40;
+  Points start(3, strand + around);
+  for (int i = 0; i < strand; ++i) start.col(i) << -15.0 + i, 3.0, -1.0;
+  start.rightCols(around) = ring(around).leftCols(around);
+  Points end = start;
+  end.leftCols(strand).row(2).setConstant(-0.1);
+  EXPECT_FALSE(passage(start, end)) << "it comes near";
+  end.leftCols(strand).row(2).setConstant(50.0);
+  const auto found = passage(start, end);
+  ASSERT_TRUE(found) << "it goes through where it lies over the ring";
+  EXPECT_LT(found->edge_a, strand);
+  EXPECT_GE(found->edge_b, strand);
+}
+
+TEST(StrandPassage, IsNotSeenWhereARodOnlyBendsStretchesAndTurns) {
+  // A coil as tight as a strand around another, wound up by a quarter turn, stretched and carried away in one motion.
+  const int nodes = 200;
+  Points start(3, nodes), end(3, nodes);
+  for (int i = 0; i < nodes; ++i) {
+    const double angle = 0.25 * i;
+    start.col(i) << 2.0 * std::cos(angle), 2.0 * std::sin(angle), 2.2 * angle / (2.0 * M_PI);
+    end.col(i) << 1.9 * std::cos(1.01 * angle) + 0.5, 1.9 * std::sin(1.01 * angle), 2.1 * angle / (2.0 * M_PI) - 3.0;
+  }
+  EXPECT_TRUE(all_that_meet(start, end).empty());
+  EXPECT_FALSE(passage(start, end));
+  EXPECT_FALSE(passage(start, start));
+}
+
+TEST(StrandPassage, EndsThatSlipOverAStrandPassNothing) {
+  // A hook: a strand along x, and the rod's tail across it at height one, which is drawn back along y over the strand.
+  auto hook = [](double tail) {
+    Points x(3, 8);
+    for (int i = 0; i < 5; ++i) x.col(i) << 2.0 * i, 0.0, 0.0;
+    x.col(5) << 10.0, 4.0, 1.0;
+    x.col(6) << 4.3, 5.0 + tail, 1.0;
+    x.col(7) << 4.3, tail, 1.0;
+    return x;
+  };
+  EXPECT_FALSE(passage(hook(-1.0), hook(3.0)));
+  Points dropped = hook(3.0);
+  dropped.col(7).z() = -1.0;
+  EXPECT_FALSE(passage(hook(3.0), dropped)) << "beside the strand";
+  EXPECT_FALSE(passage(hook(-1.0), dropped)) << "off the strand before it is down";
+  Points through = hook(-1.0);
+  through.col(7).z() = -1.0;
+  EXPECT_TRUE(passage(hook(-1.0), through));
+}
+
+}  // namespace
+}  // namespace knot_utm
