@@ -200,8 +200,8 @@ FrameTerms::Energy FrameTerms::energy(const Points& way, const std::vector<Lanes
     out.drag += drag_[j] * rate * turned;
     out.rest += rest_[j] * turned * turned;
     out.inertia += 0.5 * inertia_[j] * change * change;
+    out.kinetic += 0.5 * inertia_[j] * rate * rate;
   }
-  out.kinetic = kinetic_energy((angle_ - start_->twist) / dt_);
   return out;
 }
 
