@@ -81,12 +81,23 @@ double fastest_node_while_sliding(const std::vector<Sample>& samples, std::optio
   return fastest;
 }
 
-double energy(const Sample& sample) {
-  return sample.stretching_energy + sample.bending_energy + sample.twisting_energy + sample.contact_energy +
-         sample.kinetic_energy;
+double stored_energy(const Sample& sample) {
+  return sample.stretching_energy + sample.bending_energy + sample.twisting_energy + sample.contact_energy;
 }
 
 }  // namespace
+
+EnergyParts energy_between(const Sample& from, const Sample& to) {
+  EnergyParts parts;
+  parts.work = to.grip_work - from.grip_work;
+  parts.stored = stored_energy(to) - stored_energy(from);
+  parts.kinetic = to.kinetic_energy - from.kinetic_energy;
+  parts.friction = to.friction_loss - from.friction_loss;
+  parts.drag = to.dissipation - from.dissipation - parts.friction;
+  parts.numerical = to.numerical_dissipation - from.numerical_dissipation;
+  parts.reweighting = to.reweighting_loss - from.reweighting_loss;
+  return parts;
+}
 
 Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
   Results results;
@@ -95,25 +106,33 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
 
   MotionPatternTracker tracker;
   double imbalance = 0.0;
+  double moment_imbalance = 0.0;  // over L [N]
   double energy_error = 0.0;
   double energy_scale = 0.0;
   const Sample& first = samples.front();
+  const Sample* before_pull = nullptr;
   const Sample* pull_begin = nullptr;
   const Sample* tied = nullptr;
   for (const Sample& sample : samples) {
     tracker.add(sample);
     results.max_penetration = std::max(results.max_penetration, sample.max_penetration);
     if (sample.status == BenchStatus::kNotEquilibrated) results.not_equilibrated = sample.message;
-    const double stored = energy(sample) - energy(first);
-    const double lost = sample.dissipation - first.dissipation;
-    const double work = sample.grip_work - first.grip_work;
-    energy_error = std::max(energy_error, std::abs(stored + lost - work));
-    energy_scale = std::max({energy_scale, std::abs(stored), std::abs(lost), std::abs(work)});
+    const EnergyParts parts = energy_between(first, sample);
+    energy_error = std::max(energy_error, std::abs(parts.gap()));
+    energy_scale = std::max(
+        {energy_scale, std::abs(parts.stored + parts.kinetic), std::abs(parts.losses()), std::abs(parts.work)});
     if (sample.phase == Phase::kTie || sample.phase == Phase::kRelease) tied = &sample;
-    if (sample.phase != Phase::kPull) continue;
-    if (!pull_begin) pull_begin = &sample;
+    if (sample.phase != Phase::kPull) {
+      if (!pull_begin) before_pull = &sample;
+      continue;
+    }
+    if (!pull_begin) {
+      pull_begin = &sample;
+      results.energy = energy_between(before_pull ? *before_pull : sample, samples.back());
+    }
     if (sample.status == BenchStatus::kBroken && !results.break_extension) results.break_extension = sample.extension;
     imbalance = std::max(imbalance, std::abs(sample.force_upper - sample.force_lower));
+    moment_imbalance = std::max(moment_imbalance, sample.moment_imbalance / sample.end_to_end);
   }
   results.knot_type = samples.back().knot_type;
   results.motion_pattern = tracker.pattern();
@@ -141,7 +160,10 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
   double peak = pull.front().force;
   for (const Pull& p : pull) peak = std::max(peak, p.force);
   results.peak_force = peak;
-  if (peak > 0.0) results.force_balance_error = imbalance / peak;
+  if (peak > 0.0) {
+    results.force_balance_error = imbalance / peak;
+    results.moment_balance_error = moment_imbalance / peak;
+  }
 
   const double start = pull.front().extension;
   if (results.motion_pattern == MotionPattern::kSliding) {

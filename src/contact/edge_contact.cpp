@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/contact/closest_points.hpp"
-
 namespace knot_utm {
 
 namespace {
@@ -82,7 +80,7 @@ void EdgeContact::add_contact(int pair, const Points& position, const Points& st
   const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
   const Vec3 da = position.col(a + 1) - position.col(a), db = position.col(b + 1) - position.col(b);
   const double r = kRegularisation * rest_length_[a] * rest_length_[b];
-  const ClosestPoints at = closest_points(position.col(a), da, position.col(b), db, r);
+  const ClosestPoints at = closest(a, b, position);
 
   ContactPoint contact;
   contact.x = position.col(a) + at.t * da - position.col(b) - at.u * db;
@@ -202,6 +200,26 @@ void EdgeContact::linearise_contact(const ContactPoint& contact, double dt, Edge
     model.t_by[k] = (c * t.leftCols<3>() + beta * t.middleCols<3>(turning)).transpose();
     model.u_by[k] = (c * u.leftCols<3>() + beta * u.middleCols<3>(turning)).transpose();
   }
+}
+
+ContactMotion EdgeContact::motion(const ContactPoint& contact, const Points& position, const Points& start) const {
+  ContactMotion out;
+  for (int k = 0; k < 6; ++k) {
+    const int node = k < 3 ? contact.a0 + k : contact.b0 + k - 3;
+    out.slip += contact.c[k] * (position.col(node) - start.col(node));
+  }
+  const Feet& feet = feet_[static_cast<std::size_t>(&contact - contacts_.data())];
+  const auto [a, b] = pairs_[static_cast<std::size_t>(feet.pair)];
+  const ClosestPoints at = closest(a, b, start);
+  const Vec3 x =
+      start.col(a) + at.t * (start.col(a + 1) - start.col(a)) - start.col(b) - at.u * (start.col(b + 1) - start.col(b));
+  out.overlap_before = diameter_ - x.norm();
+  return out;
+}
+
+ClosestPoints EdgeContact::closest(int a, int b, const Points& position) const {
+  return closest_points(position.col(a), position.col(a + 1) - position.col(a), position.col(b),
+                        position.col(b + 1) - position.col(b), kRegularisation * rest_length_[a] * rest_length_[b]);
 }
 
 void EdgeContact::commit(const Points&) {

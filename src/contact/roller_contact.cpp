@@ -1,5 +1,7 @@
 #include "knot_utm/contact/roller_contact.hpp"
 
+#include <Eigen/Geometry>
+
 #include "knot_utm/contact/centreline_curve.hpp"
 
 namespace knot_utm {
@@ -79,6 +81,23 @@ Vec3 RollerContact::force_on(int roller) const {
   for (const ContactPoint& contact : contacts_)
     if (contact.roller == roller) sum -= contact.force;
   return sum;
+}
+
+Vec3 RollerContact::moment_on(const Roller& roller, int number, const Points& position) const {
+  Vec3 sum = Vec3::Zero();
+  for (const ContactPoint& contact : contacts_)
+    if (contact.roller == number)
+      sum -= Vec3(combine(contact.c, position, contact.a0 + 1) - roller.centre).cross(contact.force);
+  return sum;
+}
+
+ContactMotion RollerContact::motion(const ContactPoint& contact, const Points&, const Points&) const {
+  ContactMotion out;
+  out.slip = contact.slip - contact.memory;
+  Vec3 x = contact.x - out.slip;
+  x -= contact.axis * contact.axis.dot(x);
+  out.overlap_before = contact.overlap + contact.d - x.norm();
+  return out;
 }
 
 void RollerContact::commit(const std::vector<Roller>& rollers) {

@@ -242,6 +242,23 @@ void SmoothContact::complete(ContactPoint& contact, const Points& position, cons
   evaluate_force(normal_, friction_, friction_scale_, contact);
 }
 
+ContactMotion SmoothContact::motion(const ContactPoint& contact, const Points& position, const Points& start) const {
+  ContactMotion out;
+  Vec3 turn = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) {
+    out.slip += contact.c[k] * (position.col(contact.a0 + k) - start.col(contact.a0 + k));
+    const Vec3 moved = position.col(contact.b0 + k) - start.col(contact.b0 + k);
+    out.slip += contact.c[3 + k] * moved;
+    turn += contact.beta[3 + k] * moved;
+  }
+  // From today's foot, which was near the nearest place then.
+  const Vec3 x = contact.x - out.slip;
+  const double uphill = x.dot(contact.db - turn);
+  const double d2 = x.squaredNorm() - uphill * uphill * contact.inverse_g;
+  out.overlap_before = diameter_ - std::sqrt(std::max(d2, 0.0));
+  return out;
+}
+
 double SmoothContact::share(const ContactPoint& contact, const Points& position) const {
   const int segment = contact.a0 + 1, foot = contact.b0 + 1;
   // Of the weights' derivatives the last is the parameter itself.

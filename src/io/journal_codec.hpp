@@ -155,6 +155,10 @@ void fields(Codec& codec, Of<Codec, Sample>& s) {
   codec(s.kinetic_energy);
   codec(s.grip_work);
   codec(s.dissipation);
+  codec(s.friction_loss);
+  codec(s.numerical_dissipation);
+  codec(s.reweighting_loss);
+  codec(s.moment_imbalance);
   codec(s.steps);
   codec(s.rejected_steps);
   codec(s.newton_iterations);

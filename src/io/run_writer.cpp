@@ -166,6 +166,15 @@ std::string result_yaml(const Results& r, const RunFacts& f) {
   lines.number("max_penetration", r.max_penetration);
   lines.number("fastest_node", r.fastest_node);
   lines.number("force_balance_error", r.force_balance_error);
+  lines.number("moment_balance_error", r.moment_balance_error);
+  const auto part = [&](double EnergyParts::*of) { return r.energy ? (*r.energy).*of : Sample::kNone; };
+  lines.number("work", part(&EnergyParts::work));
+  lines.number("stored_energy", part(&EnergyParts::stored));
+  lines.number("kinetic_energy", part(&EnergyParts::kinetic));
+  lines.number("friction_loss", part(&EnergyParts::friction));
+  lines.number("drag_loss", part(&EnergyParts::drag));
+  lines.number("numerical_dissipation", part(&EnergyParts::numerical));
+  lines.number("reweighting_loss", part(&EnergyParts::reweighting));
   lines.number("energy_balance_error", r.energy_balance_error);
   lines.count("steps", r.steps);
   lines.count("rejected_steps", r.rejected_steps);

@@ -1,5 +1,6 @@
 #include "knot_utm/machine/test_bench.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -156,7 +157,7 @@ struct TestBench::Impl {
   double mount_distance = 0.0;  // of the knots when mounting began [m]
   int step_index = -1;
   Phase phase = Phase::kIdle;
-  double work = 0.0, dissipation = 0.0;
+  StepWork work;  // of all accepted steps
   std::vector<Sample> substeps;
   BenchStatus status = BenchStatus::kRunning;
   std::string message;
@@ -305,6 +306,22 @@ struct TestBench::Impl {
     return sum;
   }
 
+  /// Size of the sum of all moments that the grips exert on the rod about the lower one [N m].
+  double moment_imbalance() const {
+    const Points& x = stepper->state().position;
+    Vec3 sum = Vec3::Zero();
+    if (on_rollers()) {
+      const Vec3 apart = rollers[1].centre + Vec3(0.0, 0.0, displacement) - rollers[0].centre;
+      sum -= stepper->roller_moment(0) + stepper->roller_moment(1) + apart.cross(stepper->roller_force(1));
+    }
+    for (const std::vector<FixedNode>* grip : {&lower_nodes, &upper_nodes})
+      for (const FixedNode& held : *grip)
+        sum += (x.col(held.node) - lower_nodes.front().position).cross(stepper->reaction(held.node));
+    for (const FixedTwist& held : held_frames)
+      sum += stepper->reaction_torque(held.edge) * (x.col(held.edge + 1) - x.col(held.edge)).normalized();
+    return sum.norm();
+  }
+
   void enter_step(const Command& command) {
     step_index = command.step;
     phase = command.phase;
@@ -391,8 +408,12 @@ struct TestBench::Impl {
     s.twisting_energy = energies.twisting;
     s.contact_energy = energies.contact;
     s.kinetic_energy = energies.kinetic;
-    s.grip_work = work;
-    s.dissipation = dissipation;
+    s.grip_work = work.boundary;
+    s.dissipation = work.friction + work.drag;
+    s.friction_loss = work.friction;
+    s.numerical_dissipation = work.numerical;
+    s.reweighting_loss = work.reweighting;
+    s.moment_imbalance = moment_imbalance();
     s.steps = control.counters().steps;
     s.rejected_steps = control.counters().rejected;
     s.newton_iterations = control.counters().iterations;
@@ -404,7 +425,7 @@ struct TestBench::Impl {
 
   void state(Archive& archive) {
     archive.section("BNCH");
-    archive(time, displacement, extension_zero, mount_load, mount_distance, step_index, work, dissipation, message);
+    archive(time, displacement, extension_zero, mount_load, mount_distance, step_index, work, message);
     archive.choice("phase", phase, Phase::kDone);
     archive.choice("status", status, BenchStatus::kFailed);
     archive(control, cell, *stepper);
@@ -437,9 +458,7 @@ struct TestBench::Impl {
         },
         [&](double to, double dt, const StepSummary&) {
           displacement = to < command.time ? start_displacement + speed * (to - start_time) : command.displacement;
-          const StepWork done = stepper->work();
-          work += done.boundary;
-          dissipation += done.friction + done.drag;
+          work += stepper->work();
           if (rig) rig->follow(*stepper, to, dt);
           substeps.push_back(read(command, to));
         });

@@ -89,6 +89,10 @@ KnotState to_message(const Sample& sample, std::uint32_t run, const ros::Time& s
   m.kinetic_energy = sample.kinetic_energy;
   m.grip_work = sample.grip_work;
   m.dissipation = sample.dissipation;
+  m.friction_loss = sample.friction_loss;
+  m.numerical_dissipation = sample.numerical_dissipation;
+  m.reweighting_loss = sample.reweighting_loss;
+  m.moment_imbalance = sample.moment_imbalance;
   m.steps = sample.steps;
   m.rejected_steps = sample.rejected_steps;
   m.newton_iterations = sample.newton_iterations;
@@ -128,6 +132,10 @@ Sample from_message(const KnotState& m) {
   sample.kinetic_energy = m.kinetic_energy;
   sample.grip_work = m.grip_work;
   sample.dissipation = m.dissipation;
+  sample.friction_loss = m.friction_loss;
+  sample.numerical_dissipation = m.numerical_dissipation;
+  sample.reweighting_loss = m.reweighting_loss;
+  sample.moment_imbalance = m.moment_imbalance;
   sample.steps = m.steps;
   sample.rejected_steps = m.rejected_steps;
   sample.newton_iterations = m.newton_iterations;

@@ -57,6 +57,30 @@ void CentrelineTerms::add_forces(const Points& position, std::vector<Lanes>& for
   }
 }
 
+CentrelineTerms::Energy CentrelineTerms::energy(const Points& way) const {
+  const double k_s = rod_.material.stretching_stiffness, k_b = rod_.material.bending_stiffness;
+  Energy out;
+  Lanes before = kZero;  // of the edge before: its change over its length
+  for (std::size_t j = 0; j < tangent_.size(); ++j) {
+    const double* w = way.data() + 3 * j;
+    const Lanes change = {w[3] - w[0], w[4] - w[1], w[5] - w[2], 0.0};
+    out.stretching += 0.5 * tension_[j] * tension_[j] * rod_.rest_length[static_cast<Eigen::Index>(j)] / k_s;
+    out.along += tension_[j] * dot(tangent_[j], change);
+    const Lanes turned = inverse_length_[j] * change;
+    if (bends_ && j > 0) {
+      const Lanes &t_e = tangent_[j - 1], &t_f = tangent_[j];
+      const Lanes apart = t_f - t_e;
+      const double stiffness = k_b / rod_.voronoi_length[static_cast<Eigen::Index>(j)];
+      const double c = cosine_[j], inverse_1c = inverse_1c_[j];
+      out.bending += stiffness * inverse_1c * dot(apart, apart);
+      out.along -=
+          4.0 * stiffness * inverse_1c * inverse_1c * (dot(t_f - c * t_e, before) + dot(t_e - c * t_f, turned));
+    }
+    before = turned;
+  }
+  return out;
+}
+
 CentrelineTerms::NodeHessian CentrelineTerms::bending_hessian(std::size_t node) const {
   const double stiffness = rod_.material.bending_stiffness / rod_.voronoi_length[static_cast<Eigen::Index>(node)];
   const double c = cosine_[node], inverse_1c = inverse_1c_[node];

@@ -90,14 +90,8 @@ void FrameTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
     reference_twist_[e] = nearest_turn(
         reference_twist(column(director_, e), column(tangent_, e), column(director_, f), column(tangent_, f)),
         start_->reference_twist[e]);
-    const double twist = angle_[f] - angle_[e] + reference_twist_[e];
-    StencilVector gradient =
-        twisting_gradient(twisting_input(rod_, i), column(edge_, e), column(edge_, f), twist).gradient;
-    if (curved_)
-      gradient += bending_gradient(bending_input(rod_, i), column(edge_, e), column(edge_, f),
-                                   material_directors(column(tangent_, e), column(director_, e), angle_[e]),
-                                   material_directors(column(tangent_, f), column(director_, f), angle_[f]))
-                      .gradient;
+    StencilVector gradient = node_twisting(i).gradient;
+    if (curved_) gradient += node_bending(i).gradient;
     torque_[e] += gradient[3];
     torque_[f] += gradient[7];
     subtract(gradient, i, force);
@@ -106,6 +100,18 @@ void FrameTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
     const double turned = angle_[j] - start_->twist[j], rate = turned / dt_;
     force[at(j)][3] -= inertia_[j] * (rate - start_->twist_rate[j]) / dt_ + drag_[j] * rate + rest_[j] * turned;
   }
+}
+
+StencilGradient FrameTerms::node_twisting(int i) const {
+  const double twist = angle_[i] - angle_[i - 1] + reference_twist_[i - 1];
+  return twisting_gradient(twisting_input(rod_, i), column(edge_, i - 1), column(edge_, i), twist);
+}
+
+StencilGradient FrameTerms::node_bending(int i) const {
+  const int e = i - 1, f = i;
+  return bending_gradient(bending_input(rod_, i), column(edge_, e), column(edge_, f),
+                          material_directors(column(tangent_, e), column(director_, e), angle_[e]),
+                          material_directors(column(tangent_, f), column(director_, f), angle_[f]));
 }
 
 FrameTerms::NodeStiffness FrameTerms::node_stiffness(int i) const {
@@ -170,8 +176,33 @@ void FrameTerms::commit(RodState& state) const {
   state.reference_twist = reference_twist_;
 }
 
-double FrameTerms::kinetic_energy(const RodState& state) const {
-  return 0.5 * inertia_.dot(state.twist_rate.cwiseAbs2());
+FrameTerms::Energy FrameTerms::energy(const Points& way, const std::vector<Lanes>& force) const {
+  Energy out;
+  const int edges = static_cast<int>(rod_.edges());
+  const auto turn = [&](int j) { return angle_[j] - start_->twist[j]; };
+  for (int i = 1; i < edges; ++i) {
+    const int e = i - 1, f = i;
+    const StencilGradient twist = node_twisting(i);
+    out.twisting += twist.energy;
+    StencilVector gradient = twist.gradient;
+    if (curved_) {
+      const StencilGradient bend = node_bending(i);
+      out.bending += bend.energy;
+      gradient += bend.gradient;
+    }
+    StencilVector moved;
+    moved << way.col(e), turn(e), way.col(i), turn(f), way.col(i + 1);
+    out.along += gradient.dot(moved);
+  }
+  for (int j = 0; j < edges; ++j) {
+    const double turned = turn(j), rate = turned / dt_, change = rate - start_->twist_rate[j];
+    if (!held(j)) out.residual += force[at(j)][3] * turned;
+    out.drag += drag_[j] * rate * turned;
+    out.rest += rest_[j] * turned * turned;
+    out.inertia += 0.5 * inertia_[j] * change * change;
+    out.kinetic += 0.5 * inertia_[j] * rate * rate;
+  }
+  return out;
 }
 
 }  // namespace knot_utm

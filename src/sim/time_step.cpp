@@ -1,5 +1,6 @@
 #include "knot_utm/sim/time_step.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -56,7 +57,15 @@ class ImplicitStep final : public TimeStep {
         force_(at(nodes_)),
         change_(at(nodes_)),
         committed_force_(at(nodes_)),
-        held_(at(nodes_), 0) {}
+        held_(at(nodes_), 0),
+        way_(3, nodes_) {
+    const ElasticEnergy elastic = elastic_energy(rod_, state_);
+    energies_.stretching = elastic.stretching;
+    energies_.bending = elastic.bending;
+    energies_.twisting = elastic.twisting;
+    for (int i = 0; i < nodes_; ++i) energies_.kinetic += 0.5 * rod_.mass[i] * state_.velocity.col(i).squaredNorm();
+    if constexpr (D == 4) energies_.kinetic += frames_.kinetic_energy(state_.twist_rate);
+  }
 
   StepSummary step(const Boundary& boundary, double dt, Solution solution) override {
     boundary_ = &boundary;
@@ -141,22 +150,9 @@ class ImplicitStep final : public TimeStep {
 
   Vec3 reaction(int node) const override { return -to_vec3(committed_force_[at(node)]); }
   double reaction_torque(int edge) const override { return D == 4 ? -committed_force_[at(edge)][3] : 0.0; }
-  Vec3 roller_force(int roller) const override {
-    return at(roller) < roller_force_.size() ? Vec3(-roller_force_[at(roller)]) : Vec3::Zero();
-  }
-
-  Energies energies() const override {
-    const ElasticEnergy elastic = elastic_energy(rod_, state_);
-    Energies out;
-    out.stretching = elastic.stretching;
-    out.bending = elastic.bending;
-    out.twisting = elastic.twisting;
-    out.contact = contact_energy_;
-    for (int i = 0; i < nodes_; ++i) out.kinetic += 0.5 * rod_.mass[i] * state_.velocity.col(i).squaredNorm();
-    if constexpr (D == 4) out.kinetic += frames_.kinetic_energy(state_);
-    return out;
-  }
-
+  Vec3 roller_force(int roller) const override { return load_on(roller).force; }
+  Vec3 roller_moment(int roller) const override { return load_on(roller).moment; }
+  Energies energies() const override { return energies_; }
   ContactReading contact_reading() const override { return contact_reading_; }
   StepWork work() const override { return work_; }
 
@@ -168,12 +164,22 @@ class ImplicitStep final : public TimeStep {
     archive.section("READ");
     for (Lanes& force : committed_force_)
       for (int i = 0; i < 4; ++i) archive(reinterpret_cast<double*>(&force)[i]);
-    archive(contact_reading_, contact_energy_, work_);
+    archive(contact_reading_, energies_, work_, first_step_);
     archive.list(committed_rollers_);
-    archive.list(roller_force_);
+    archive.list(roller_load_);
   }
 
  private:
+  /// What the rod does to a roller.
+  struct RollerLoad {
+    Vec3 force = Vec3::Zero();   // [N]
+    Vec3 moment = Vec3::Zero();  // about its centre [N m]
+    void state(Archive& archive) { archive(force, moment); }
+  };
+  RollerLoad load_on(int roller) const {
+    return at(roller) < roller_load_.size() ? roller_load_[at(roller)] : RollerLoad{};
+  }
+
   /// Everything moves on as it did; held nodes stand where they must.
   void predict() {
     x_ = state_.position + dt_ * state_.velocity;
@@ -432,65 +438,113 @@ class ImplicitStep final : public TimeStep {
   }
 
   void commit() {
+    way_.noalias() = x_ - state_.position;
+    const Energies before = energies_;
+    energies_ = Energies{};
+    work_ = StepWork{};
     contact_reading_ = ContactReading{};
-    contact_energy_ = 0.0;
-    for (const ContactPoint& contact : rollers_.contacts())
-      contact_energy_ += contact.weight * settings_.normal.energy(contact.overlap);
-    for (const ContactPoint& contact : contact_.contacts()) {
-      contact_energy_ += contact.weight * contact_.normal().energy(contact.overlap);
-      if (!contact.touches()) continue;
-      ++contact_reading_.touching;
-      contact_reading_.normal_force += contact.weight * contact.pressure;
-      contact_reading_.largest_overlap = std::max(contact_reading_.largest_overlap, contact.overlap);
-    }
-    add_up_work();
+    add_work_of_boundary();
+    add_motion();
+    add_elastic(before);
+    work_.reweighting = before.contact;
+    add_contacts(contact_, settings_.friction);
+    add_contacts(rollers_, settings_.roller_friction);
     contact_.commit(x_);
     rollers_.commit(boundary_->rollers);
     matrix_.commit();
-    state_.velocity = (x_ - state_.position) / dt_;
+    state_.velocity = way_ / dt_;
     if constexpr (D == 4) frames_.commit(state_);
     state_.position = x_;
     committed_force_ = force_;
     committed_rollers_ = boundary_->rollers;
+    first_step_ = false;
   }
 
-  /// Before the state moves on.
-  void add_up_work() {
-    work_ = StepWork{};
-    auto way = [&](int node) -> Vec3 { return x_.col(node) - state_.position.col(node); };
+  // ---- work of a step, before the state moves on (StepWork)
+  // -----------------------------------------------------------
+
+  /// Of a force, by its mean over the step; the step itself took it as it is at the end.
+  void add_work_of_boundary(double at_end, double at_begin) {
+    const double mean = first_step_ ? at_end : 0.5 * (at_begin + at_end);
+    work_.boundary += mean;
+    work_.numerical -= at_end - mean;
+  }
+
+  void add_work_of_boundary() {
     for (const FixedNode& fixed : boundary_->fixed_nodes) {
-      const Vec3 now = -to_vec3(force_[at(fixed.node)]);
-      const Vec3 before = committed_force_.empty() ? now : -to_vec3(committed_force_[at(fixed.node)]);
-      work_.boundary += 0.5 * (now + before).dot(way(fixed.node));
+      const Vec3 way = way_.col(fixed.node);
+      add_work_of_boundary(-to_vec3(force_[at(fixed.node)]).dot(way),
+                           -to_vec3(committed_force_[at(fixed.node)]).dot(way));
     }
-    std::vector<Vec3>& roller_force = roller_force_now_;
-    roller_force.clear();
+    if constexpr (D == 4)
+      for (const FixedTwist& fixed : boundary_->fixed_twists) {
+        const double turn = fixed.angle - state_.twist[fixed.edge];
+        add_work_of_boundary(-force_[at(fixed.edge)][3] * turn, -committed_force_[at(fixed.edge)][3] * turn);
+      }
+    roller_load_before_.swap(roller_load_);
+    roller_load_.clear();
     for (std::size_t r = 0; r < boundary_->rollers.size(); ++r) {
-      roller_force.push_back(-rollers_.force_on(static_cast<int>(r)));
+      const Roller& roller = boundary_->rollers[r];
+      const int number = static_cast<int>(r);
+      roller_load_.push_back({rollers_.force_on(number), rollers_.moment_on(roller, number, x_)});
       if (r >= committed_rollers_.size()) continue;
-      const Vec3 before = r < roller_force_.size() ? roller_force_[r] : roller_force[r];
-      work_.boundary +=
-          0.5 * (roller_force[r] + before).dot(boundary_->rollers[r].centre - committed_rollers_[r].centre);
+      const Vec3 way = roller.centre - committed_rollers_[r].centre;
+      add_work_of_boundary(-roller_load_[r].force.dot(way), -roller_load_before_[r].force.dot(way));
     }
-    roller_force_.swap(roller_force);
     for (const SlippingGrip& grip : boundary_->grips)
-      work_.boundary += grip.force(x_.col(grip.node)) * grip.direction.dot(way(grip.node));
-    for (const NodeForce& force : boundary_->forces) work_.boundary += force.force.dot(way(force.node));
-    const double drag = settings_.drag + boundary_->extra_drag;
-    for (int i = 0; i < nodes_; ++i) {
-      const Vec3 moved = way(i);
-      work_.boundary += rod_.mass[i] * settings_.gravity.dot(moved);
-      work_.drag += drag * rod_.voronoi_length[i] * moved.squaredNorm() / dt_;
-    }
-    for (const ContactPoint& contact : contact_.contacts())
-      work_.friction += friction_work(settings_.friction, contact);
-    for (const ContactPoint& contact : rollers_.contacts())
-      work_.friction += friction_work(settings_.roller_friction, contact);
+      work_.boundary += grip.force(x_.col(grip.node)) * grip.direction.dot(way_.col(grip.node));
+    for (const NodeForce& force : boundary_->forces) work_.boundary += force.force.dot(way_.col(force.node));
   }
 
-  static double friction_work(const Friction& friction, const ContactPoint& contact) {
-    if (!friction.on() || !contact.touches()) return 0.0;
-    return friction.coefficient * contact.weight * contact.pressure * contact.z.dot(contact.slip - contact.memory);
+  /// Inertia, gravity, drag, and what Newton's method left unbalanced.
+  void add_motion() {
+    const double drag = (settings_.drag + boundary_->extra_drag) / dt_;
+    for (int i = 0; i < nodes_; ++i) {
+      const Vec3 way = way_.col(i), velocity = way / dt_;
+      energies_.kinetic += 0.5 * rod_.mass[i] * velocity.squaredNorm();
+      work_.numerical += 0.5 * rod_.mass[i] * (velocity - state_.velocity.col(i)).squaredNorm();
+      work_.boundary += rod_.mass[i] * settings_.gravity.dot(way);
+      work_.drag += drag * rod_.voronoi_length[i] * way.squaredNorm();
+      if (!held_[at(i)]) work_.residual += to_vec3(force_[at(i)]).dot(way);
+    }
+  }
+
+  void add_elastic(const Energies& before) {
+    const CentrelineTerms::Energy centreline = centreline_.energy(way_);
+    energies_.stretching = centreline.stretching;
+    energies_.bending = centreline.bending;
+    work_.numerical += centreline.along;
+    if constexpr (D == 4) {
+      const FrameTerms::Energy frames = frames_.energy(way_, force_);
+      energies_.twisting = frames.twisting;
+      energies_.bending += frames.bending;
+      energies_.kinetic += frames.kinetic;
+      work_.numerical += frames.along + frames.inertia + frames.rest;
+      work_.drag += frames.drag;
+      work_.residual += frames.residual;
+    }
+    work_.numerical += before.elastic() - energies_.elastic();
+  }
+
+  template <typename Contacts>
+  void add_contacts(const Contacts& contacts, const Friction& friction) {
+    for (const ContactPoint& contact : contacts.contacts()) {
+      const ContactMotion motion = contacts.motion(contact, x_, state_.position);
+      const double now = contact.weight * contacts.normal().energy(contact.overlap);
+      const double before = contact.weight * contacts.normal().energy(motion.overlap_before);
+      energies_.contact += now;
+      work_.reweighting -= before;
+      work_.numerical += before - now;
+      if (!contact.touches()) continue;
+      const double force = contact.weight * contact.pressure;
+      work_.numerical -= force * contact.n.dot(motion.slip);
+      work_.friction += friction.coefficient * force * contact.z.dot(motion.slip);
+      if (contact.on_roller()) continue;
+      ++contact_reading_.touching;
+      contact_reading_.normal_force += force;
+      contact_reading_.largest_overlap = std::max(contact_reading_.largest_overlap, contact.overlap);
+      contact_reading_.couple += contact.x.cross(contact.force);
+    }
   }
 
   StrandContact contact_;
@@ -508,11 +562,13 @@ class ImplicitStep final : public TimeStep {
   std::vector<Lanes> force_, change_, committed_force_;
   std::vector<char> held_;
   ContactReading contact_reading_;
-  double contact_energy_ = 0.0;
+  Energies energies_;
   StepWork work_;
+  Points way_;
+  bool first_step_ = true;
   std::vector<Roller> committed_rollers_;
-  std::vector<Vec3> roller_force_, roller_force_now_;  // on the rod, at the last accepted step
-  std::vector<PressureTangent> tangents_;              // of the active contacts, in order
+  std::vector<RollerLoad> roller_load_, roller_load_before_;  // of the last accepted step and the one before
+  std::vector<PressureTangent> tangents_;                     // of the active contacts, in order
 };
 
 }  // namespace

@@ -243,6 +243,47 @@ TEST(Results, EnergyBalanceIsThatOfWorkStorageAndLoss) {
   EXPECT_NEAR(*analyse(samples, EndedBy::kExtension).energy_balance_error, 0.01, 1e-9);
 }
 
+TEST(Results, EnergyPartsAreThoseOfThePullAndWhatFollows) {
+  std::vector<Sample> samples = Curve().samples();
+  samples.front().phase = Phase::kHold;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double x = static_cast<double>(i);
+    samples[i].grip_work = 5.0 + 1.0 * x;
+    samples[i].stretching_energy = 0.3 * x;
+    samples[i].contact_energy = 0.1 * x;
+    samples[i].kinetic_energy = 0.05 * x;
+    samples[i].dissipation = 0.4 * x;
+    samples[i].friction_loss = 0.3 * x;
+    samples[i].numerical_dissipation = 0.2 * x;
+    samples[i].reweighting_loss = -0.05 * x;
+  }
+  const Results results = analyse(samples, EndedBy::kExtension);
+  const double last = static_cast<double>(samples.size() - 1);
+  ASSERT_TRUE(results.energy);
+  EXPECT_NEAR(results.energy->work, 1.0 * last, 1e-9);
+  EXPECT_NEAR(results.energy->stored, 0.4 * last, 1e-9);
+  EXPECT_NEAR(results.energy->kinetic, 0.05 * last, 1e-9);
+  EXPECT_NEAR(results.energy->friction, 0.3 * last, 1e-9);
+  EXPECT_NEAR(results.energy->drag, 0.1 * last, 1e-9);
+  EXPECT_NEAR(results.energy->numerical, 0.2 * last, 1e-9);
+  EXPECT_NEAR(results.energy->reweighting, -0.05 * last, 1e-9);
+  EXPECT_NEAR(results.energy->gap(), 0.0, 1e-9);
+  EXPECT_NEAR(*results.energy_balance_error, 0.0, 1e-12);
+}
+
+TEST(Results, MomentBalanceIsThatOfThePull) {
+  std::vector<Sample> samples = Curve().samples();
+  Sample tie;
+  tie.phase = Phase::kTie;
+  tie.moment_imbalance = 1e3;
+  samples.insert(samples.begin(), tie);
+  for (Sample& sample : samples) sample.end_to_end = 0.25 + sample.extension;
+  Sample& worst = samples[samples.size() / 2];
+  worst.moment_imbalance = 0.02;
+  const Results results = analyse(samples, EndedBy::kExtension);
+  EXPECT_NEAR(*results.moment_balance_error, 0.02 / worst.end_to_end / *results.peak_force, 1e-12);
+}
+
 TEST(Results, CountsAndNotEquilibratedAreCarriedOver) {
   std::vector<Sample> samples = Curve().samples();
   Sample tie;
@@ -296,7 +337,9 @@ TEST(Results, WhatATestDoesNotHaveIsEmpty) {
   EXPECT_FALSE(results.peak_force);
   EXPECT_FALSE(results.balance_offset);
   EXPECT_FALSE(results.force_balance_error);
+  EXPECT_FALSE(results.moment_balance_error);
   EXPECT_FALSE(results.energy_balance_error);
+  EXPECT_FALSE(results.energy);
   EXPECT_FALSE(results.tied_knot_distance);
 }
 

@@ -44,6 +44,10 @@ Sample sample(std::uint64_t sequence) {
   s.kinetic_energy = 5.0;
   s.grip_work = 6.0;
   s.dissipation = 7.0;
+  s.friction_loss = 4.0;
+  s.numerical_dissipation = 0.25;
+  s.reweighting_loss = -0.125;
+  s.moment_imbalance = 1e-3;
   s.steps = 1u << 31u;
   s.rejected_steps = 3;
   s.newton_iterations = std::numeric_limits<std::uint64_t>::max();
@@ -88,12 +92,29 @@ void expect_same(const Sample& a, const Sample& b) {
   EXPECT_EQ(a.knot_type, b.knot_type);
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(a.message, b.message);
-  for (const auto member :
-       {&Sample::time, &Sample::displacement, &Sample::extension, &Sample::end_to_end, &Sample::knot_distance,
-        &Sample::load, &Sample::balance_offset, &Sample::force_upper, &Sample::force_lower, &Sample::max_penetration,
-        &Sample::normal_force, &Sample::fastest_node, &Sample::stretching_energy, &Sample::bending_energy,
-        &Sample::twisting_energy, &Sample::contact_energy, &Sample::kinetic_energy, &Sample::grip_work,
-        &Sample::dissipation}) {
+  for (const auto member : {&Sample::time,
+                            &Sample::displacement,
+                            &Sample::extension,
+                            &Sample::end_to_end,
+                            &Sample::knot_distance,
+                            &Sample::load,
+                            &Sample::balance_offset,
+                            &Sample::force_upper,
+                            &Sample::force_lower,
+                            &Sample::max_penetration,
+                            &Sample::normal_force,
+                            &Sample::fastest_node,
+                            &Sample::stretching_energy,
+                            &Sample::bending_energy,
+                            &Sample::twisting_energy,
+                            &Sample::contact_energy,
+                            &Sample::kinetic_energy,
+                            &Sample::grip_work,
+                            &Sample::dissipation,
+                            &Sample::friction_loss,
+                            &Sample::numerical_dissipation,
+                            &Sample::reweighting_loss,
+                            &Sample::moment_imbalance}) {
     EXPECT_TRUE(same(a.*member, b.*member)) << a.*member << " " << b.*member;
   }
   for (int i : {0, 1}) {

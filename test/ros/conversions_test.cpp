@@ -18,11 +18,12 @@ Sample full_sample() {
   s.time = odd_number(0);
   s.phase = Phase::kRelease;
   double* const fields[] = {
-      &s.displacement,     &s.extension,       &s.end_to_end,     &s.knot_distance,  &s.load,
-      &s.force_upper,      &s.force_lower,     &s.tail_force[0],  &s.tail_force[1],  &s.excess_length[0],
-      &s.excess_length[1], &s.max_penetration, &s.normal_force,   &s.fastest_node,   &s.stretching_energy,
-      &s.bending_energy,   &s.twisting_energy, &s.contact_energy, &s.kinetic_energy, &s.grip_work,
-      &s.dissipation,      &s.balance_offset};
+      &s.displacement,     &s.extension,       &s.end_to_end,     &s.knot_distance,         &s.load,
+      &s.force_upper,      &s.force_lower,     &s.tail_force[0],  &s.tail_force[1],         &s.excess_length[0],
+      &s.excess_length[1], &s.max_penetration, &s.normal_force,   &s.fastest_node,          &s.stretching_energy,
+      &s.bending_energy,   &s.twisting_energy, &s.contact_energy, &s.kinetic_energy,        &s.grip_work,
+      &s.dissipation,      &s.balance_offset,  &s.friction_loss,  &s.numerical_dissipation, &s.reweighting_loss,
+      &s.moment_imbalance};
   int i = 1;
   for (double* field : fields) *field = odd_number(i++);
   s.contacts = 31;
@@ -64,6 +65,10 @@ TEST(Conversions, SampleSurvivesBitForBit) {
   EXPECT_EQ(out.kinetic_energy, in.kinetic_energy);
   EXPECT_EQ(out.grip_work, in.grip_work);
   EXPECT_EQ(out.dissipation, in.dissipation);
+  EXPECT_EQ(out.friction_loss, in.friction_loss);
+  EXPECT_EQ(out.numerical_dissipation, in.numerical_dissipation);
+  EXPECT_EQ(out.reweighting_loss, in.reweighting_loss);
+  EXPECT_EQ(out.moment_imbalance, in.moment_imbalance);
   EXPECT_EQ(out.steps, in.steps);
   EXPECT_EQ(out.rejected_steps, in.rejected_steps);
   EXPECT_EQ(out.newton_iterations, in.newton_iterations);

@@ -12,6 +12,23 @@
 
 namespace knot_utm {
 
+/// Where the work of the grips went [J] (StepWork).
+struct EnergyParts {
+  double work = 0.0;
+  double stored = 0.0;  ///< change of stretching, bending, twisting and contact energy
+  double kinetic = 0.0;
+  double friction = 0.0;
+  double drag = 0.0;
+  double numerical = 0.0;
+  double reweighting = 0.0;
+
+  double losses() const { return friction + drag + numerical + reweighting; }
+  double gap() const { return work - stored - kinetic - losses(); }
+};
+
+/// What happened between two samples.
+EnergyParts energy_between(const Sample& from, const Sample& to);
+
 /// What a test says: every measured key of result.yaml. A value that the test does not have is empty.
 ///
 /// Symbols: s extension, F true force on the upper grip, s_l lock extension. F is not what the cell reads: balancing it
@@ -45,9 +62,15 @@ struct Results {
   double max_penetration = 0.0;               ///< [fraction of radius], over the whole test
   std::optional<double> force_balance_error;  ///< largest |upper - lower| of the pull / peak force
 
-  /// Largest |change of stored and kinetic energy + dissipation - work of the grips| since the first sample, over the
-  /// largest of these three.
+  /// Largest size of the sum of all moments at the grips, of the pull / (peak force L). Inertia, drag and gravity leave
+  /// some, and friction, which acts on the strands' centrelines (ContactReading::couple).
+  std::optional<double> moment_balance_error;
+
+  /// Largest |work of the grips - change of stored and kinetic energy - losses| since the first sample, over the
+  /// largest of these three. Losses are those by friction, drag, time steps and changed weights, each by its own
+  /// formula.
   std::optional<double> energy_balance_error;
+  std::optional<EnergyParts> energy;  ///< from the beginning of the pull to the end of the test
 
   // Once tied and released; where nothing is tied: when the pull begins.
   std::optional<double> tied_knot_distance;                  ///< e [m]

@@ -52,6 +52,12 @@ struct ContactPoint {
   bool active() const { return overlap > begins || estimate > 0.0; }
 };
 
+/// How a contact came to be where it is in a step.
+struct ContactMotion {
+  Vec3 slip = Vec3::Zero();     ///< of the material points a and b against each other, across and along n [m]
+  double overlap_before = 0.0;  ///< D of point a at the step's beginning [m]
+};
+
 /// The linear model of a contact that Newton's method solves with. Its pressure is the tangent of the normal law,
 ///
 ///     p(D) ~ p(D^) + p'(D^) (D - D^),

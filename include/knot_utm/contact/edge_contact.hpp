@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "knot_utm/contact/candidates.hpp"
+#include "knot_utm/contact/closest_points.hpp"
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/contact/edge_law.hpp"
 
@@ -60,6 +61,9 @@ class EdgeContact {
   /// The consistent linearisation of one of `contacts()`.
   void linearise_contact(const ContactPoint& contact, double dt, EdgeContactModel& model) const;
 
+  /// Of one of `contacts()`.
+  ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;
+
   /// The evaluated state becomes the one that the next step remembers.
   void commit(const Points& position);
 
@@ -88,7 +92,8 @@ class EdgeContact {
   };
 
   void find_pairs();
-
+  /// Between two edges, drawn a trifle to their middles.
+  ClosestPoints closest(int a, int b, const Points& position) const;
   void add_contact(int pair, const Points& position, const Points& start, double friction_scale);
   /// What is remembered of these edges' contact, or else of the nearest one; null where there was none near.
   const Memory* recall(std::pair<int, int> edges, double arclength_a, double arclength_b) const;

@@ -36,8 +36,12 @@ class RollerContact {
     linearise(normal_, friction_, friction_.scale(dt), contact, model);
   }
 
-  /// Force of the rod on a roller [N], as last evaluated.
+  /// Of one of `contacts()`.
+  ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;
+
+  /// What the rod does to a roller, as last evaluated: force [N], and moment about the roller's centre [N m].
   Vec3 force_on(int roller) const;
+  Vec3 moment_on(const Roller& roller, int number, const Points& position) const;
 
   void commit(const std::vector<Roller>& rollers);
 

@@ -45,6 +45,9 @@ class SmoothContact {
     linearise(normal_, friction_, friction_.scale(dt), contact, model);
   }
 
+  /// Of one of `contacts()`; the overlap but for the third order of the way of its foot.
+  ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;
+
   /// The evaluated state becomes the one that the next step remembers. `position` is what was last evaluated.
   void commit(const Points& position);
 

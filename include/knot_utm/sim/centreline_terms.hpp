@@ -20,6 +20,13 @@ class CentrelineTerms {
   /// Largest |tension| of an edge at that position [N].
   double largest_tension() const { return largest_tension_; }
 
+  /// Both energies at that position, and how they would change along `way` [m] by their gradient there.
+  struct Energy {
+    double stretching = 0.0, bending = 0.0;  ///< [J]
+    double along = 0.0;                      ///< dE/dx . way [J]
+  };
+  Energy energy(const Points& way) const;
+
   /// Writes blocks (i, i) to (i, i+2) and their mirrors: the Hessian of both energies, and `diagonal` [N/m] of each
   /// node on the diagonal of its three positions. What stood there before is gone.
   template <int D>

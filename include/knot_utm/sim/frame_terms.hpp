@@ -78,13 +78,26 @@ class FrameTerms {
   double longest_share(const std::vector<Lanes>& change) const;
   void move(const std::vector<Lanes>& change, double share);
 
+  /// Of the trial evaluated last, `way` [m] being that of its nodes since the step's beginning.
+  struct Energy {
+    double twisting = 0.0, bending = 0.0;  ///< bending where the rod has a natural curvature [J]
+    double along = 0.0;                    ///< dE/d(x, s) . (way, turn) [J]
+    double residual = 0.0;                 ///< torques on free edges times their turn [J]
+    double drag = 0.0;                     ///< c h^2 l_j omega_j^2 dt [J]
+    double rest = 0.0;                     ///< r_j turn^2 [J]
+    double inertia = 0.0;                  ///< 1/2 I_j (omega_j - omega_j^n)^2 [J]
+    double kinetic = 0.0;                  ///< [J]
+  };
+  Energy energy(const Points& way, const std::vector<Lanes>& force) const;
+  /// Of spinning at these rates [rad/s]; [J].
+  double kinetic_energy(const Eigen::VectorXd& rate) const { return 0.5 * inertia_.dot(rate.cwiseAbs2()); }
+
   /// Writes angles, rates and frames into the state whose positions were evaluated last.
   void commit(RodState& state) const;
 
-  /// Kinetic energy of spinning [J].
-  double kinetic_energy(const RodState& state) const;
-
  private:
+  StencilGradient node_twisting(int i) const;
+  StencilGradient node_bending(int i) const;
   double angle_change(const std::vector<Lanes>& change, int edge) const;
   Vec3 lean(int edge) const;
 

@@ -1,0 +1,241 @@
+// Where the work of a step goes, and that forces and moments sum to nothing.
+
+#include "sim/balance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "knot_utm/rod/energy.hpp"
+#include "knot_utm/rod/frames.hpp"
+#include "knot_utm/specimen/overhand.hpp"
+#include "sim/scenes.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+/// A free rod in its first mode of stretching: a linear system, whose energy implicit Euler divides by 1 + (omega
+/// dt)^2.
+TEST(EnergyBalance, AVibratingRodLosesWhatImplicitEulerTakes) {
+  const int edges = 20;
+  const Material material = braided_rope();
+  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(edges, material.radius));
+  StepSettings settings = closed_form_settings(material);
+  settings.residual_of_tension = 0.0;
+  RodState state = straight_state(rod);
+  for (int i = 0; i <= edges; ++i) state.velocity(0, i) = std::cos(M_PI * i / edges);
+  const double spring = material.stretching_stiffness / material.radius;
+  const double omega = 2.0 * std::sqrt(spring / rod.mass[1]) * std::sin(0.5 * M_PI / edges);
+  for (const double dt : {0.2 / omega, 0.02 / omega}) {
+    settings.motion_limit = settings.newton_cap = 1.0;
+    Balance balance(TimeStep::make(rod, state, settings), settings, dt);
+    const Boundary free;
+    const double begin = balance.stepper().energies().total();
+    const int steps = 40;
+    balance.run(steps * dt, [&](double) -> const Boundary& { return free; });
+    const double left = begin * std::pow(1.0 + omega * omega * dt * dt, -steps);
+    EXPECT_NEAR(balance.stepper().energies().total(), left, balance.residual_bound() + 1e-9 * begin);
+    EXPECT_NEAR(balance.sum().numerical, begin - left, balance.residual_bound() + 1e-9 * begin);
+    EXPECT_LT(std::abs(balance.sum().residual), balance.residual_bound());
+    EXPECT_LT(std::abs(balance.gap()), balance.rounding());
+  }
+}
+
+/// A rod lies on a plane that falls towards +x by `angle`, pressed in by its weight.
+struct Incline {
+  StepSettings settings;
+  Boundary boundary;
+  double normal_force = 0.0;
+  std::unique_ptr<Balance> balance;
+
+  Incline(double angle, double mu) {
+    const Material material = braided_rope();
+    const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(24, material.radius));
+    settings = closed_form_settings(material);
+    settings.gravity = kGravity * Vec3(std::sin(angle), 0.0, -std::cos(angle));
+    settings.roller_friction = {FrictionLaw::kMemory, mu, 1e-3 * material.radius, 0.0};
+    settings.motion_limit = settings.newton_cap = 10.0;
+    normal_force = rod.mass.sum() * kGravity * std::cos(angle);
+    RodState state = straight_state(rod);
+    state.position.row(2).setConstant(-settings.normal.overlap_at(normal_force / rod.length()));
+    boundary.rollers = {plane_below(material.radius)};
+    balance = std::make_unique<Balance>(TimeStep::make(rod, state, settings), settings, 0.01);
+  }
+  void run(double duration) {
+    balance->run(duration, [this](double) -> const Boundary& { return boundary; });
+  }
+  double place() const { return balance->stepper().state().position.row(0).mean(); }
+};
+
+TEST(EnergyBalance, ASlidingRodLosesFrictionTimesWay) {
+  const double mu = 0.46;
+  Incline scene(1.3 * std::atan(mu), mu);
+  scene.run(0.1);
+  const double from = scene.place(), lost = scene.balance->sum().friction;
+  scene.run(0.5);
+  const double expected = mu * scene.normal_force * (scene.place() - from);
+  EXPECT_GT(scene.place() - from, 0.1);
+  EXPECT_NEAR(scene.balance->sum().friction - lost, expected, 1e-6 * expected);
+  EXPECT_LT(std::abs(scene.balance->gap()), scene.balance->rounding());
+}
+
+TEST(EnergyBalance, AStickingRodLosesNothingAtRest) {
+  const double mu = 0.46;
+  Incline scene(0.8 * std::atan(mu), mu);
+  scene.run(2.0);
+  const StepWork before = scene.balance->sum();
+  scene.run(4.0);
+  const StepWork after = scene.balance->sum();
+  // Newton's tolerance, 1e-8 N a node, leaves movements of the presliding spring of less than 2e-10 m.
+  const double way = 2e-10;
+  EXPECT_LT(std::abs(after.friction - before.friction), mu * scene.normal_force * way);
+  EXPECT_LT(std::abs(after.numerical - before.numerical), mu * scene.normal_force * way);
+  EXPECT_LT(std::abs(after.reweighting - before.reweighting), scene.normal_force * way);
+  EXPECT_GT(after.friction, 0.0) << "it slid into its hold";
+}
+
+enum class Kind { kStraight, kOverhand, kFallsOnARoller, kCurved };
+
+struct Scene {
+  Kind kind;
+  bool twist;
+  ContactLaw law;
+  double friction;
+
+  std::string name() const {
+    static const char* const kinds[] = {"Straight", "Overhand", "FallsOnARoller", "Curved"};
+    return std::string(kinds[static_cast<int>(kind)]) + (twist ? "WithTwist" : "") +
+           (law == ContactLaw::kEdge ? "BetweenEdges" : "") + (friction > 0.0 ? "AndFriction" : "");
+  }
+};
+
+/// The scene, its boundary and how that moves: the far end or the roller at `velocity`, the last frame at `spin`.
+struct Running {
+  static constexpr double kStep = 2e-3;
+  Boundary begin, boundary;
+  std::unique_ptr<Balance> balance;
+  Vec3 velocity = Vec3::Zero();
+  double spin = 0.0;
+
+  explicit Running(const Scene& scene) {
+    Material material = braided_rope();
+    if (scene.kind == Kind::kCurved) material.stretching_stiffness = 1e3;
+    material.twisting_stiffness = material.bending_stiffness;
+    StepSettings settings = closed_form_settings(material);
+    settings.contact_law = scene.law;
+    settings.gravity = Vec3(0.5, 0.0, -kGravity);
+    settings.drag = 1.0;
+    settings.friction.coefficient = settings.roller_friction.coefficient = scene.friction;
+    settings.normal = {300.0 * material.bending_stiffness / std::pow(material.radius, 4.0), 0.05 * material.radius};
+    // A spin without inertia is in equilibrium, and so is the sum of all moments.
+    settings.spin_inertia = scene.kind == Kind::kCurved;
+
+    RodState state;
+    RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(40, material.radius));
+    if (scene.kind == Kind::kOverhand) {
+      OverhandShape shape;
+      shape.radius = material.radius;
+      shape.length = 0.6;
+      shape.end_to_end = 0.35;
+      state.position = overhand(shape).points;
+      const Eigen::Index edges = state.position.cols() - 1;
+      rod = make_rod(material, (state.position.rightCols(edges) - state.position.leftCols(edges)).colwise().norm());
+      state.velocity = Points::Zero(3, rod.nodes());
+      settings.drag = 20.0;
+    } else {
+      state = straight_state(rod);
+    }
+    if (scene.kind == Kind::kCurved)
+      rod.natural_curvature = Eigen::Matrix<double, 2, Eigen::Dynamic>::Constant(2, rod.nodes() - 2, 0.02);
+    if (scene.twist) initialise_frames(&state);
+
+    const int last = static_cast<int>(rod.nodes()) - 1;
+    Vec3 way;  // in a step
+    if (scene.kind == Kind::kFallsOnARoller) {
+      boundary.rollers = {plane_below(material.radius)};
+      boundary.rollers[0].axis = Vec3::UnitY();
+      boundary.rollers[0].radius = 6.0 * material.radius;
+      boundary.rollers[0].centre = Vec3(0.0, 0.0, -7.0 * material.radius);
+      way = 2e-3 * material.radius * Vec3(0.3, 0.2, 1.0);
+    } else {
+      for (const int node : {0, 1, last - 1, last}) boundary.fixed_nodes.push_back({node, state.position.col(node)});
+      way = 2e-2 * material.radius * (state.position.col(last) - state.position.col(0)).normalized();
+      if (scene.kind == Kind::kStraight) way = 1e-4 * material.radius * Vec3(1.0, 0.5, 2.0);
+      if (scene.kind == Kind::kCurved) way = 1e-3 * material.radius * Vec3(-5.0, 2.0, 0.0);
+      if (scene.twist) {
+        boundary.fixed_twists = {{0, 0.0}, {last - 1, 0.0}};
+        spin = 10.0;
+      }
+    }
+    velocity = way / kStep;
+    begin = boundary;
+    balance = std::make_unique<Balance>(TimeStep::make(rod, state, settings), settings, kStep);
+  }
+
+  const Boundary& at(double time) {
+    for (std::size_t k = 0; k < boundary.rollers.size(); ++k)
+      boundary.rollers[k].centre = begin.rollers[k].centre + time * velocity;
+    for (std::size_t k = 2; k < boundary.fixed_nodes.size(); ++k)
+      boundary.fixed_nodes[k].position = begin.fixed_nodes[k].position + time * velocity;
+    if (!boundary.fixed_twists.empty()) boundary.fixed_twists[1].angle = time * spin;
+    return boundary;
+  }
+  void run(const std::function<void()>& each) {
+    balance->run(
+        120 * kStep, [this](double to) -> const Boundary& { return at(to); }, each);
+  }
+};
+
+class EveryScene : public testing::TestWithParam<Scene> {};
+
+TEST_P(EveryScene, ClosesItsEnergyStepByStep) {
+  Running scene(GetParam());
+  double gap = 0.0;
+  scene.run([&] {
+    EXPECT_LT(std::abs(scene.balance->gap() - gap), scene.balance->rounding());
+    gap = scene.balance->gap();
+  });
+  if (HasFatalFailure()) return;
+  EXPECT_LT(std::abs(scene.balance->sum().residual), scene.balance->residual_bound());
+  EXPECT_GT(scene.balance->sum().drag, 0.0);
+  EXPECT_EQ(scene.balance->sum().friction > 0.0, GetParam().friction > 0.0);
+  // The energies that the balance goes by are those of the state.
+  const Energies energies = scene.balance->stepper().energies();
+  const ElasticEnergy elastic = elastic_energy(scene.balance->stepper().rod(), scene.balance->stepper().state());
+  EXPECT_NEAR(energies.stretching, elastic.stretching, 1e-9 * energies.total());
+  EXPECT_NEAR(energies.bending, elastic.bending, 1e-9 * energies.total());
+  EXPECT_NEAR(energies.twisting, elastic.twisting, 1e-9 * energies.total());
+}
+
+TEST_P(EveryScene, ForcesAndMomentsSumToNothing) {
+  // What spins has a moment of inertia that the sum does not know.
+  if (GetParam().kind == Kind::kCurved) GTEST_SKIP();
+  Running scene(GetParam());
+  scene.run([&] {
+    EXPECT_LT(scene.balance->force().norm(), scene.balance->force_bound());
+    EXPECT_LT(scene.balance->moment().norm(), scene.balance->moment_bound());
+  });
+  if (HasFatalFailure()) return;
+  EXPECT_GT(scene.balance->largest_load(), 100.0 * scene.balance->force_bound()) << "nothing to balance";
+  EXPECT_GT(scene.balance->largest_moment(), 100.0 * scene.balance->moment_bound()) << "nothing to balance";
+}
+
+INSTANTIATE_TEST_SUITE_P(Balance, EveryScene,
+                         testing::Values(Scene{Kind::kStraight, false, ContactLaw::kSmooth, 0.0},
+                                         Scene{Kind::kStraight, true, ContactLaw::kSmooth, 0.0},
+                                         Scene{Kind::kOverhand, false, ContactLaw::kSmooth, 0.0},
+                                         Scene{Kind::kOverhand, false, ContactLaw::kSmooth, 0.3},
+                                         Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3},
+                                         Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3},
+                                         Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4},
+                                         Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.0},
+                                         Scene{Kind::kCurved, true, ContactLaw::kSmooth, 0.0}),
+                         [](const auto& scene) { return scene.param.name(); });
+
+}  // namespace
+}  // namespace knot_utm
