@@ -29,8 +29,10 @@ target_compile_options(knot_utm_compiler INTERFACE "$<BUILD_INTERFACE:${warnings
 
 if(KNOT_UTM_SANITIZE)
   target_compile_options(knot_utm_compiler INTERFACE -fsanitize=${KNOT_UTM_SANITIZE} -fno-omit-frame-pointer
-                                                     -fno-sanitize-recover=all
-                                                     -Wno-maybe-uninitialized) # false alarms of GCC 12 here
+                                                     -fno-sanitize-recover=all)
+  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+    target_compile_options(knot_utm_compiler INTERFACE -Wno-maybe-uninitialized) # false alarms of GCC 12 here
+  endif()
   target_link_options(knot_utm_compiler INTERFACE -fsanitize=${KNOT_UTM_SANITIZE})
 endif()
 

@@ -8,6 +8,7 @@
 #include "knot_utm/io/cannot_write.hpp"
 #include "knot_utm/io/number.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/rod/text_rows.hpp"
 
 namespace knot_utm {
 namespace {
@@ -89,13 +90,18 @@ void CurveWriter::write(const CurveRow& row) {
 
 std::vector<CurveRow> read_curve(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
-  std::string name_line;
-  std::string unit_line;
-  if (!in || !std::getline(in, name_line) || !std::getline(in, unit_line)) {
-    throw InvalidInput("file", file, "a curve.csv that can be read");
+  return read_curve(in, file);
+}
+
+std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
+  TextRows text(in);
+  std::array<std::string, 2> head;  // names and units
+  for (std::string& row : head) {
+    if (!text.next()) throw InvalidInput("file", file, "a curve.csv that can be read");
+    row = text.text();
   }
-  const std::vector<std::string_view> names = cells(name_line);
-  const std::vector<std::string_view> units = cells(unit_line);
+  const std::vector<std::string_view> names = cells(head[0]);
+  const std::vector<std::string_view> units = cells(head[1]);
   std::array<std::size_t, kColumns.size()> places{};
   for (std::size_t i = 0; i < kColumns.size(); ++i) {
     places[i] = place(file, names, units, kColumns[i].name, kColumns[i].unit);
@@ -103,10 +109,9 @@ std::vector<CurveRow> read_curve(const std::string& file) {
   const std::size_t phase_place = place(file, names, units, kPhase, "-");
 
   std::vector<CurveRow> rows;
-  std::string line;
-  for (int number = 3; std::getline(in, line); ++number) {
-    const std::string key = "row " + std::to_string(number);
-    const std::vector<std::string_view> values = cells(line);
+  while (text.next()) {
+    const std::string key = "row " + std::to_string(text.number());
+    const std::vector<std::string_view> values = cells(text.text());
     if (values.size() != names.size()) {
       throw InvalidInput(file, key, std::to_string(values.size()) + " columns",
                          std::to_string(names.size()) + " columns");
@@ -123,6 +128,7 @@ std::vector<CurveRow> read_curve(const std::string& file) {
     row.phase = *known;
     rows.push_back(row);
   }
+  if (!text.fault().empty()) throw InvalidInput(file, "row " + std::to_string(text.number()), "more", text.fault());
   return rows;
 }
 

@@ -1,9 +1,11 @@
 #include "knot_utm/io/method.hpp"
 
+#include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -24,22 +26,35 @@ using fields::Writer;
 /// The paper's machine has this cell for all but the softest material.
 constexpr const char* kDefaultLoadCell = "50kN";
 
-YAML::Node read_yaml(const fs::path& file) {
-  std::error_code error;
-  if (!fs::is_regular_file(file, error)) {
-    throw InvalidInput("file", file.string(), "a YAML file that can be read");
+/// Methods, materials and load cells are a few thousand characters long.
+constexpr std::size_t kLongestText = 65536;
+
+YAML::Node parse_yaml(const std::string& text, const std::string& file) {
+  if (text.size() > kLongestText) {
+    throw InvalidInput("file", file, "a YAML file of at most " + std::to_string(kLongestText) + " characters");
   }
   try {
-    return YAML::LoadFile(file.string());
+    return YAML::Load(text);
   } catch (const YAML::ParserException& parser) {
+    const bool deep = dynamic_cast<const YAML::DeepRecursion*>(&parser) != nullptr;
     throw InvalidInput(
-        file.string(),
-        "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1),
-        parser.msg, "well-formed YAML");
-  } catch (const YAML::Exception&) {
-    throw InvalidInput("file", file.string(), "a YAML file that can be read");
+        file, "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1),
+        deep ? "maps and lists nested too deeply" : parser.msg, "well-formed YAML");
   }
 }
+
+std::string read_text(const fs::path& file) {
+  std::error_code error;
+  std::ifstream in;
+  if (fs::is_regular_file(file, error)) in.open(file, std::ios::binary);
+  if (!in.is_open()) throw InvalidInput("file", file.string(), "a YAML file that can be read");
+  std::string text(kLongestText + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
+}
+
+YAML::Node read_yaml(const fs::path& file) { return parse_yaml(read_text(file), file.string()); }
 
 /// Materials and load cells as files: where they are looked for, in order.
 class Library {
@@ -115,6 +130,9 @@ std::vector<std::string> split(const std::string& path) {
   return parts;
 }
 
+/// No key of a method has more parts.
+constexpr std::size_t kLongestPath = 8;
+
 /// One `--set`.
 struct Override {
   std::string key;
@@ -134,6 +152,9 @@ Override parse_override(const std::string& text) {
   set.key = text.substr(0, equals);
   set.path = split(set.key);
   set.text = text.substr(equals + 1);
+  if (set.path.size() > kLongestPath) {
+    throw InvalidInput("--set", text, "a key of at most " + std::to_string(kLongestPath) + " parts");
+  }
   try {
     set.value();
   } catch (const YAML::Exception&) {
@@ -290,9 +311,13 @@ Program read_program(const YAML::Node& node, const std::string& file) {
 }  // namespace
 
 Method load_method(const std::string& file, const std::vector<std::string>& overrides) {
+  return parse_method(read_text(file), file, overrides);
+}
+
+Method parse_method(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
   const fs::path path(file);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
-  YAML::Node root = read_yaml(path);
+  YAML::Node root = parse_yaml(text, file);
   try {
     const Library library(folder);
     if (!root.IsMap())

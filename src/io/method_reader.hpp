@@ -15,24 +15,36 @@
 
 namespace knot_utm::fields {
 
+/// Adds a YAML value to a line. Aliases may make it endless: as much of it as a message shows is enough.
+inline void add_one_line(const YAML::Node& node, std::string& line) {
+  constexpr std::size_t kEnough = 600;
+  if (line.size() > kEnough) return;
+  if (!node.IsDefined() || node.IsNull()) {
+    line += "nothing";
+  } else if (node.IsScalar()) {
+    line += node.Scalar().empty() ? "\"\"" : shown(node.Scalar());
+  } else {
+    line += node.IsMap() ? "{" : "[";
+    const char* comma = "";
+    for (const auto& item : node) {
+      if (line.size() > kEnough) return;
+      line += comma;
+      if (node.IsMap()) {
+        add_one_line(item.first, line);
+        line += ": ";
+      }
+      add_one_line(node.IsMap() ? item.second : item, line);
+      comma = ", ";
+    }
+    line += node.IsMap() ? "}" : "]";
+  }
+}
+
 /// A YAML value on one line, as an error message shows it.
 inline std::string one_line(const YAML::Node& node) {
-  if (!node.IsDefined() || node.IsNull()) return "nothing";
-  if (node.IsScalar()) {
-    std::string text = node.Scalar();
-    for (char& c : text) {
-      if (c == '\n' || c == '\r') c = ' ';
-    }
-    return text.empty() ? "\"\"" : text;
-  }
-  std::string text = node.IsMap() ? "{" : "[";
-  const char* comma = "";
-  for (const auto& item : node) {
-    text += comma;
-    text += node.IsMap() ? one_line(item.first) + ": " + one_line(item.second) : one_line(item);
-    comma = ", ";
-  }
-  return text + (node.IsMap() ? "}" : "]");
+  std::string line;
+  add_one_line(node, line);
+  return line;
 }
 
 inline std::string allowed_numbers(const Range& range, const std::string& word = "") {

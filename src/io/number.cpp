@@ -29,7 +29,7 @@ std::optional<double> parse_number(std::string_view text) {
   if (text == ".inf" || text == ".Inf" || text == "+.inf" || text == "inf") return kInfinity;
   if (text == "-.inf" || text == "-.Inf" || text == "-inf") return -kInfinity;
   if (text == "nan" || text == ".nan" || text == ".NaN") return std::numeric_limits<double>::quiet_NaN();
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  if (text.substr(0, 1) == "+" && text.substr(1, 1) != "-") text.remove_prefix(1);
   // from_chars would also take "infinity" and "nan(...)", which nobody means.
   if (text.find_first_not_of("0123456789+-.eE") != std::string_view::npos) return std::nullopt;
   double value = 0.0;

@@ -12,6 +12,12 @@
 
 namespace knot_utm {
 
+namespace {
+
+constexpr double kMostEdges = 2e4;  // of a shape from a file: each is held against each other one
+
+}  // namespace
+
 double Centreline::length() const { return arclengths(points).back(); }
 
 int Centreline::nearest_node(double arclength) const {
@@ -78,6 +84,10 @@ Centreline from_points(const Points& points, bool closed, double radius, double 
   if (!(length >= 4.0 * edge_length)) {
     throw InvalidInput("specimen.file", "a line of " + text(length) + " m",
                        "at least four edges (" + text(4.0 * edge_length) + " m)");
+  }
+  if (!(length <= kMostEdges * edge_length)) {
+    throw InvalidInput("specimen.file", "a line of " + text(length) + " m",
+                       "at most " + text(kMostEdges) + " edges (" + text(kMostEdges * edge_length) + " m)");
   }
   Centreline centreline;
   centreline.closed = closed;

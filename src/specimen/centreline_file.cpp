@@ -9,19 +9,26 @@
 #include <vector>
 
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/rod/text_rows.hpp"
 
 namespace knot_utm {
 namespace {
+
+constexpr const char* kKey = "specimen.file";
+constexpr double kFarthest = 1000.0;      // coordinate of a point [m]
+constexpr double kLeastDistance = 1e-12;  // of neighbours: below it the way between them has no direction [m]
 
 std::optional<double> to_number(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r";
   const std::size_t first = text.find_first_not_of(kBlank);
   if (first == std::string_view::npos) return std::nullopt;
   text = text.substr(first, text.find_last_not_of(kBlank) - first + 1);
-  if (text.front() == '+') text.remove_prefix(1);
+  if (text.front() == '+' && text.substr(1, 1) != "-") text.remove_prefix(1);
   double value = 0.0;
   const std::from_chars_result end = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end.ec != std::errc() || end.ptr != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  if (end.ec != std::errc() || end.ptr != text.data() + text.size()) return std::nullopt;
+  // Written so that not-a-number fails.
+  if (!(std::abs(value) <= kFarthest)) return std::nullopt;
   return value;
 }
 
@@ -41,15 +48,18 @@ std::optional<Vec3> to_point(std::string_view line) {
 }  // namespace
 
 Points read_centreline(const std::string& file) {
-  constexpr const char* kKey = "specimen.file";
-  std::ifstream in(file);
+  std::ifstream in(file, std::ios::binary);
   if (!in) throw InvalidInput(kKey, file, "a CSV file of x,y,z in m that can be read");
+  return read_centreline(in, file);
+}
+
+Points read_centreline(std::istream& in, const std::string& file) {
   std::vector<Vec3> points;
-  std::string line;
-  int row = 0;
+  TextRows rows(in);
+  const auto place = [&] { return file + " row " + std::to_string(rows.number()); };
   int headings = 0;
-  while (std::getline(in, line)) {
-    ++row;
+  while (rows.next()) {
+    const std::string& line = rows.text();
     const std::size_t first = line.find_first_not_of(" \t\r");
     if (first == std::string::npos || line[first] == '#') continue;
     const std::optional<Vec3> point = to_point(line);
@@ -57,13 +67,13 @@ Points read_centreline(const std::string& file) {
       ++headings;
       continue;
     }
-    const std::string place = file + " row " + std::to_string(row);
-    if (!point) throw InvalidInput(kKey, place, "three finite numbers x,y,z in m");
-    if (!points.empty() && points.back() == *point) {
-      throw InvalidInput(kKey, place, "another point than the one before it");
+    if (!point) throw InvalidInput(kKey, place(), "three numbers x,y,z from -1000 to 1000 m");
+    if (!points.empty() && !((points.back() - *point).norm() >= kLeastDistance)) {
+      throw InvalidInput(kKey, place(), "another point than the one before it");
     }
     points.push_back(*point);
   }
+  if (!rows.fault().empty()) throw InvalidInput(kKey, place(), rows.fault());
   if (points.size() < 4) {
     throw InvalidInput(kKey, file + " with " + std::to_string(points.size()) + " points", "four points or more");
   }

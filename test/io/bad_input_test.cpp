@@ -151,6 +151,7 @@ class BadFile : public ::testing::Test {
 TEST_F(BadFile, MissingEmptyBrokenOrNoMap) {
   EXPECT_THAT(complaint("/nowhere/method.yaml"), HasSubstr("/nowhere/method.yaml is not allowed: a YAML file"));
   EXPECT_THAT(complaint(folder_.string()), HasSubstr("a YAML file that can be read"));
+  EXPECT_THAT(complaint(write("long.yaml", std::string(70000, '#'))), HasSubstr("at most 65536 characters"));
   EXPECT_THAT(complaint(write("empty.yaml", "")), HasSubstr("empty.yaml: the file: nothing"));
   EXPECT_THAT(complaint(write("list.yaml", "[1, 2]")), HasSubstr("list.yaml: the file: [1, 2]"));
   EXPECT_THAT(complaint(write("broken.yaml", "specimen:\n  knot: [\nmaterial: x")),
@@ -162,6 +163,45 @@ TEST_F(BadFile, AWrongMaterialFileIsNamedItself) {
   write("materials/odd.yaml", "radius: 3.175");
   const std::string text = complaint(write("method.yaml", "material: odd\nprogram: [{hold: {duration: 1}}]"));
   EXPECT_THAT(text, AllOf(HasSubstr("odd.yaml: radius: 3.175"), HasSubstr("0.05 m")));
+}
+
+/// Each of these once ended the process, or would take its memory.
+TEST(BadInput, WhatHasNoEndIsRefused) {
+  const auto complaint_of = [](const std::string& text, const std::vector<std::string>& overrides = {}) {
+    try {
+      parse_method(text, "endless.yaml", overrides);
+    } catch (const InvalidInput& invalid) {
+      return std::string(invalid.what());
+    }
+    return std::string("nothing was wrong");
+  };
+  const std::string rest = "\nmaterial: nylon\nprogram: [{hold: {duration: 1}}]\n";
+  const std::string itself = complaint_of("specimen: &a {knot: *a}" + rest);
+  EXPECT_THAT(itself, AllOf(HasSubstr("endless.yaml: specimen.knot: {knot: {knot:"), HasSubstr("fisherman")));
+  std::string bomb = "a0: &a0 [x, x, x, x, x, x, x, x]\n";
+  for (int i = 1; i < 15; ++i) {
+    const std::string name = "a" + std::to_string(i), list = "*a" + std::to_string(i - 1);
+    bomb += name + ": &" + name + " [" + list + "," + list + "," + list + "," + list + "," + list + "]\n";
+  }
+  EXPECT_THAT(complaint_of(bomb + "specimen: {knot: *a14}" + rest), HasSubstr("specimen.knot: [["));
+  EXPECT_THAT(complaint_of("specimen: " + std::string(1000, '[')), HasSubstr("nested too deeply"));
+  EXPECT_THAT(complaint_of("specimen: {}" + rest, {"specimen.turns=" + std::string(1000, '[')}),
+              HasSubstr("a YAML value"));
+  std::string key;
+  for (int i = 0; i < 30000; ++i) key += "a.";
+  EXPECT_THAT(complaint_of("specimen: {}" + rest, {key + "b=1"}), HasSubstr("a key of at most 8 parts"));
+  EXPECT_THAT(complaint_of("# " + std::string(70000, 'x') + rest), HasSubstr("at most 65536 characters"));
+  for (const std::string& line : {itself, complaint_of("specimen: {knot: " + std::string(5000, 'x') + "}" + rest)}) {
+    EXPECT_LT(line.size(), 1000u);
+  }
+}
+
+TEST(BadInput, ForeignTextLeavesTheLineWhole) {
+  EXPECT_EQ(shown("two\r\nlines\x1b[2J"), "two  lines [2J");
+  EXPECT_EQ(shown(std::string("a\0b", 3)), "a b");
+  EXPECT_EQ(shown(std::string(501, 'x')), std::string(500, 'x') + "...");
+  EXPECT_EQ(InvalidInput("file\n", "key\n", "value\n", "more").what(),
+            std::string("file : key : value  is not allowed: more"));
 }
 
 /// Keys that tell nothing about a specimen that is pulled as it is drawn.

@@ -83,6 +83,8 @@ TEST_F(Csv, WrongCurvesAreNamed) {
   EXPECT_THAT(complaint(head + "0,0,0,0,0,0,pull\n0,0,0\n"), HasSubstr("row 4: 3 columns"));
   EXPECT_THAT(complaint(head + "0,0,x,0,0,0,pull\n"), HasSubstr("row 3: load: x"));
   EXPECT_THAT(complaint(head + "0,0,0,0,0,0,push\n"), HasSubstr("row 3: phase: push"));
+  EXPECT_THAT(complaint(head + std::string(5000, '0') + "\n"),
+              HasSubstr("row 3: more is not allowed: rows of at most"));
 }
 
 TEST_F(Csv, FinalShapeIsACentrelineFile) {

@@ -27,7 +27,7 @@ TEST(Number, WhatIsNoOrdinaryNumber) {
   EXPECT_EQ(format_yaml_number(-kInfinity), "-.inf");
   EXPECT_EQ(parse_number(".inf"), kInfinity);
   EXPECT_TRUE(std::isnan(parse_number("nan").value()));
-  for (const char* text : {"", "1 N", "0,1", "0x10", "1e", "infinity", "--1", "1.2.3"}) {
+  for (const char* text : {"", "1 N", "0,1", "0x10", "1e", "infinity", "--1", "+-1", "++1", "1.2.3"}) {
     EXPECT_FALSE(parse_number(text)) << text;
   }
 }

@@ -45,6 +45,10 @@ TEST_F(CentrelineFile, WrongRowsAreNamed) {
   EXPECT_THAT(complaint("0,0,0\n0,0,0\n"), HasSubstr("another point"));
   EXPECT_THAT(complaint("0,0,0\n0,0,1\n0,0,2\n"), HasSubstr("four points or more"));
   EXPECT_THAT(complaint("a\nb\nc\n0,0,0\n"), HasSubstr("row 3"));
+  EXPECT_THAT(complaint("0,0,0\n0,0,+-1\n"), HasSubstr("row 2"));
+  EXPECT_THAT(complaint("0,0,0\n0,0,1001\n"), HasSubstr("row 2 is not allowed: three numbers x,y,z from -1000"));
+  EXPECT_THAT(complaint("0,0,0\n0,0,1e-200\n"), HasSubstr("another point"));
+  EXPECT_THAT(complaint("0,0,0\n" + std::string(5000, '0') + ",0,0\n"), HasSubstr("rows of at most 4096"));
 }
 
 TEST_F(CentrelineFile, MissingFile) { EXPECT_THROW(read_centreline("/nowhere/shape.csv"), InvalidInput); }

@@ -259,6 +259,8 @@ TEST(FromPoints, RefusesOverlapAndNonsense) {
   crossing(0, 0) = std::numeric_limits<double>::infinity();
   EXPECT_THROW(from_points(crossing, false, 3e-3, 3e-3), InvalidInput);
   EXPECT_THROW(from_points(Points(3, 0), false, 3e-3, 3e-3), InvalidInput);
+  const Points line = Points::Ones(3, 1) * Eigen::RowVector4d(0.0, 10.0, 20.0, 40.0);
+  EXPECT_THROW(from_points(line, false, 3e-3, 3e-3), InvalidInput) << "more than 20000 edges";
 }
 
 /// What is said of points that are refused; empty: they are not.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <fstream>
+#include <istream>
 #include <string>
 #include <vector>
 
@@ -42,8 +43,11 @@ class CurveWriter {
 };
 
 /// Reads what CurveWriter wrote. Columns are found by name, in any order; others are passed over. Throws InvalidInput
-/// where the file cannot be read, a column is missing, a unit differs or a row is not as it should be.
+/// where the file cannot be read, a column is missing, a unit differs, a row is not as it should be, or there are more
+/// than TextRows allows.
 std::vector<CurveRow> read_curve(const std::string& file);
+/// The same from a stream; `file` is its name in messages.
+std::vector<CurveRow> read_curve(std::istream& in, const std::string& file);
 
 /// final_shape.csv: x,y,z [m], one row a point. Throws std::runtime_error where the file cannot be written.
 void write_centreline(const std::string& file, const Points& points);

@@ -34,9 +34,12 @@ struct Method {
 /// step's name ("program.pull.speed"). A key inside a material or load cell given by name changes a copy of it. Short
 /// paths are applied before long ones, else in the order given.
 ///
-/// Throws InvalidInput, one line that names file, key, value and what is allowed: file missing or not YAML, unknown or
-/// repeated key, wrong type, value out of range, or values that do not go together.
+/// Throws InvalidInput, one line that names file, key, value and what is allowed: file missing, longer than 64 KiB or
+/// not YAML, unknown or repeated key, wrong type, value out of range, or values that do not go together.
 Method load_method(const std::string& file, const std::vector<std::string>& overrides = {});
+
+/// The same of a method's text; `file` is where it stands, or would.
+Method parse_method(const std::string& text, const std::string& file, const std::vector<std::string>& overrides = {});
 
 /// The method as YAML that `load_method` reads back to the same: every value stands in it, no other file is needed
 /// but `specimen.file`.

@@ -2,22 +2,27 @@
 
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace knot_utm {
 
-/// Input outside what is allowed. `what()` is one line: "file: key: value is not allowed: allowed", the file left
-/// out where it is not known. Whoever read the input from a file adds its name with `in_file`.
-struct InvalidInput : std::runtime_error {
-  InvalidInput(std::string key_, std::string value_, std::string allowed_)
-      : InvalidInput(std::string(), std::move(key_), std::move(value_), std::move(allowed_)) {}
+/// Foreign text as a message shows it: on one line, without control characters, its end left out where it is longer
+/// than a line can say.
+std::string shown(const std::string& text);
 
-  InvalidInput(std::string file_, std::string key_, std::string value_, std::string allowed_)
-      : std::runtime_error((file_.empty() ? "" : file_ + ": ") + key_ + ": " + value_ + " is not allowed: " + allowed_),
-        file(std::move(file_)),
-        key(std::move(key_)),
-        value(std::move(value_)),
-        allowed(std::move(allowed_)) {}
+/// Input outside what is allowed. `what()` is one line: "file: key: value is not allowed: allowed", the file left
+/// out where it is not known, each part as `shown`. Whoever read the input from a file adds its name with `in_file`.
+struct InvalidInput : std::runtime_error {
+  InvalidInput(const std::string& key_, const std::string& value_, const std::string& allowed_)
+      : InvalidInput(std::string(), key_, value_, allowed_) {}
+
+  InvalidInput(const std::string& file_, const std::string& key_, const std::string& value_,
+               const std::string& allowed_)
+      : std::runtime_error((file_.empty() ? "" : shown(file_) + ": ") + shown(key_) + ": " + shown(value_) +
+                           " is not allowed: " + allowed_),
+        file(file_),
+        key(key_),
+        value(value_),
+        allowed(allowed_) {}
 
   /// The same with a file's name, unless it has one already.
   InvalidInput in_file(const std::string& name) const {

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstddef>
+#include <istream>
+#include <string>
+
+namespace knot_utm {
+
+/// Rows of a table that somebody else wrote, one after the other. A row has at most 4096 characters and a table at
+/// most two million rows: whatever the file, reading it ends, and takes no more memory than that many rows do.
+class TextRows {
+ public:
+  explicit TextRows(std::istream& in) : in_(in) {}
+
+  /// Goes on to the next row; false at the end, and where a bound is passed (`fault`).
+  bool next();
+
+  const std::string& text() const { return text_; }  ///< of the row, without the end of the line
+  std::size_t number() const { return number_; }     ///< of the row, from 1
+  /// Empty, or what is allowed where a bound was passed, in row `number()`.
+  const std::string& fault() const { return fault_; }
+
+ private:
+  std::istream& in_;
+  std::string text_, fault_;
+  std::size_t number_ = 0;
+};
+
+}  // namespace knot_utm
