@@ -79,7 +79,8 @@ class Readme(unittest.TestCase):
 
 class Documents(unittest.TestCase):
     def test_links_and_files_are_there(self):
-        for document in ("README.md", "doc/model.md", "doc/performance.md", "doc/references.md", "doc/terminology.md"):
+        for document in ("README.md", "doc/model.md", "doc/performance.md", "doc/references.md", "doc/reliability.md",
+                         "doc/terminology.md"):
             folder = os.path.dirname(document)
             for target in re.findall(r"\]\(([^)#]+)\)", text(document)):
                 self.assertTrue(os.path.exists(os.path.join(ROOT, folder, target)), f"{document}: {target}")
@@ -96,6 +97,11 @@ class Documents(unittest.TestCase):
         for name in re.findall(r"`((?:R\d+|K\d+)\w+|StencilAt|StretchingOf|IsotropicBendingBy|SmoothContactJacobian)",
                                text("doc/references.md")):
             self.assertTrue(name in suites, name)
+
+    def test_tests_of_promises_are_there(self):
+        tests = [os.path.basename(file) for file in files("test", "")]
+        for name in re.findall(r"`(\w+_test|\w+\.test)`", text("doc/reliability.md")):
+            self.assertTrue(any(file in (name, name + ".py", name + ".cpp") for file in tests), name)
 
 
 if __name__ == "__main__":
