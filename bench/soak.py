@@ -96,7 +96,8 @@ class Machine:
         return self.rospy.ServiceProxy(service, self.trigger)()
 
     def run(self, number, look):
-        """A test on a new specimen to its end; `look(samples so far)` now and then. Returns the recorder's last word."""
+        """A test on a new specimen to its end; `look(samples so far)` now and then. Returns the recorder's last status
+        and the machine's."""
         self.call("knot/reset")
         launched.wait_for("start", lambda: self.call("utm/start_test").success)
         while True:
@@ -226,8 +227,8 @@ class Soak:
         return Report("Soak of the launched system", " ".join([
             f"{self.tests} tests of {self.wishes.samples_a_test} samples through `utm_node`, `knot_node` and",
             f"`recorder_node` at full speed, {self.wishes.busy} loops beside them that take what they get of the",
-            "processors. One sample is one command, one answer: the machine waits for each, so that the pace is that of",
-            "the way from node to node and back."]), [counts, memory, pace])
+            "processors. One sample is one command, one answer: the machine waits for each, so that the pace is that",
+            "of the way from node to node and back."]), [counts, memory, pace])
 
 
 class Everywhere(runs.Runner):

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A process of the system is killed in the middle of a test: the launch names it and ends, what was measured is on disk."""
+"""A process is killed in the middle of a test: the launch names it and ends, what was measured is on disk."""
 import os
 import signal
 import sys

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Ten tests one after the other, each on a new specimen: the same files each time, /clock goes on, memory does not grow.
-The soak itself says so, of as many samples as it is asked for."""
+"""Ten tests one after the other, each on a new specimen: the same files each time, /clock goes on, memory does not
+grow. The soak itself says so, of as many samples as it is asked for."""
 import csv
 import os
 import subprocess

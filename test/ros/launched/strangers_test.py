@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""While a test runs, others publish nonsense on its topics, set the clock, and subscribe without ever reading. The files
-are those of the headless tool, and no node hoards what is not read."""
+"""While a test runs, others publish nonsense on its topics, set the clock, and subscribe without ever reading. The
+files are those of the headless tool, and no node hoards what is not read."""
 import copy
 import math
 import os
