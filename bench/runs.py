@@ -66,6 +66,9 @@ class Runner:
         except (OSError, subprocess.CalledProcessError):
             return "missing (no git here)"
 
+    def where(self):
+        return f"run on core {self.core}"
+
     def machine(self):
         """CPU model, cores and how busy they were."""
         facts = {}
@@ -75,7 +78,7 @@ class Runner:
                 facts[field["field"].rstrip(":")] = field["data"]
         except (OSError, ValueError, KeyError, subprocess.CalledProcessError):
             pass
-        return (f"{facts.get('Model name', 'CPU model missing')}, {os.cpu_count()} cores, run on core {self.core}; "
+        return (f"{facts.get('Model name', 'CPU model missing')}, {os.cpu_count()} cores, {self.where()}; "
                 f"load average when written {os.getloadavg()[0]:.1f}")
 
 

@@ -117,7 +117,7 @@ void prefer_loopback() {
 }
 
 void require_loopback() {
-  const std::string host = ros::network::getHost();
+  const std::string& host = ros::network::getHost();
   if (!names_loopback(host)) throw InvalidInput("this node's address", host, kAllowed);
   const std::string open = open_socket();
   if (!open.empty()) throw InvalidInput("a socket of this node", open, kAllowed);

@@ -32,18 +32,6 @@ steady_clock::duration to_duration(double seconds) {
   return std::chrono::duration_cast<steady_clock::duration>(Seconds(seconds));
 }
 
-bool refuse(std_srvs::Trigger::Response& response, const char* why) {
-  response.success = 0;
-  response.message = why;
-  return true;
-}
-
-bool accept(std_srvs::Trigger::Response& response, const std::string& what) {
-  response.success = 1;
-  response.message = what;
-  return true;
-}
-
 }  // namespace
 
 UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOptions& options)
@@ -250,42 +238,6 @@ void UtmNode::publish_status() {
   }
   status.real_time_factor = factor_;
   status_.publish(status);
-}
-
-bool UtmNode::on_start(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  if (active()) return refuse(response, "a test is running");
-  if (longest_step_ <= 0.0) return refuse(response, "there is no specimen yet");
-  if (run_ > 0 && !all_is_recorded()) return refuse(response, "the last test is still being recorded");
-  start();
-  return accept(response, "test " + std::to_string(run_) + " runs");
-}
-
-bool UtmNode::on_stop(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  if (!active()) return refuse(response, "no test is running");
-  program_->stop();
-  return accept(response, "the test ends");
-}
-
-bool UtmNode::on_balance(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  if (!active()) return refuse(response, "no test is running");
-  program_->balance();
-  return accept(response, "the next command balances");
-}
-
-bool UtmNode::on_pause(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  if (!active()) return refuse(response, "no test is running");
-  const bool goes_on = state_ == State::kPaused;
-  state_ = goes_on ? State::kRunning : State::kPaused;
-  single_steps_ = 0;
-  due_ = steady_clock::now();
-  publish_status();
-  return accept(response, goes_on ? "the test goes on" : "the test is paused");
-}
-
-bool UtmNode::on_step(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  if (state_ != State::kPaused) return refuse(response, "the test is not paused");
-  ++single_steps_;
-  return accept(response, "one command");
 }
 
 }  // namespace knot_utm

@@ -29,13 +29,7 @@ class Check {
 
   Check& number(const char* field, double value, double low = -kInfinity, double high = kInfinity) {
     const bool right = std::isfinite(value) && value >= low && value <= high;
-    std::string allowed = "a finite number";
-    if (std::isfinite(low) && std::isfinite(high)) {
-      allowed = format_number(low) + " to " + format_number(high);
-    } else if (std::isfinite(low)) {
-      allowed = format_number(low) + " or more, finite";
-    }
-    return right ? *this : wrong(field, format_number(value), allowed);
+    return right ? *this : wrong(field, format_number(value), range(low, high));
   }
   /// As `number`, or not-a-number for what is not there.
   Check& number_or_none(const char* field, double value, double low = -kInfinity) {
@@ -55,8 +49,10 @@ class Check {
     const bool plain = std::none_of(value.begin(), value.end(), is_control);
     return plain ? *this : wrong(field, "\"" + one_line(value) + "\"", "one line of text");
   }
-  Check& that(bool right, const char* field, const std::string& value, const std::string& allowed) {
-    return right ? *this : wrong(field, value, allowed);
+  /// `value` and `allowed` give texts, which cost something and are seldom wanted.
+  template <class Value, class Allowed>
+  Check& that(bool right, const char* field, Value value, Allowed allowed) {
+    return right ? *this : wrong(field, value(), allowed());
   }
   /// Of a message inside this one.
   Check& part(const std::string& fault) {
@@ -66,6 +62,10 @@ class Check {
   const std::string& fault() const { return fault_; }
 
  private:
+  static std::string range(double low, double high) {
+    if (std::isfinite(low) && std::isfinite(high)) return format_number(low) + " to " + format_number(high);
+    return std::isfinite(low) ? format_number(low) + " or more, finite" : "a finite number";
+  }
   Check& wrong(const char* field, const std::string& value, const std::string& allowed) {
     if (fault_.empty()) fault_ = prefix_ + field + ": " + value + ", allowed: " + allowed;
     return *this;
@@ -121,14 +121,19 @@ std::string fault_of_shape(const KnotShape& m) {
   const std::size_t edges = m.points.empty() ? 0 : m.points.size() - 1;
   const auto lost = std::find_if_not(m.points.begin(), m.points.end(), finite);
   const auto torn = std::find_if_not(m.tension.begin(), m.tension.end(), [](double t) { return std::isfinite(t); });
+  const auto finite_numbers = [] { return "finite numbers"; };
   return Check("shape.")
       .text("header.frame_id", m.header.frame_id)
       .count("points", m.points.size(), 0, kMostNodes)
-      .that(m.tension.size() == edges, "tension", std::to_string(m.tension.size()) + " edges", std::to_string(edges))
-      .that(lost == m.points.end(), "points", "point " + std::to_string(lost - m.points.begin()) + " not finite",
-            "finite numbers")
-      .that(torn == m.tension.end(), "tension", "edge " + std::to_string(torn - m.tension.begin()) + " not finite",
-            "finite numbers")
+      .that(
+          m.tension.size() == edges, "tension", [&] { return std::to_string(m.tension.size()) + " edges"; },
+          [&] { return std::to_string(edges); })
+      .that(
+          lost == m.points.end(), "points",
+          [&] { return "point " + std::to_string(lost - m.points.begin()) + " not finite"; }, finite_numbers)
+      .that(
+          torn == m.tension.end(), "tension",
+          [&] { return "edge " + std::to_string(torn - m.tension.begin()) + " not finite"; }, finite_numbers)
       .fault();
 }
 
@@ -138,12 +143,15 @@ std::string fault_of_command(const Crosshead& m, const CrossheadLimits& limits, 
       .text("header.frame_id", m.header.frame_id)
       .count("run", m.run, 1, std::numeric_limits<std::uint32_t>::max())
       .number("time", m.time, 0.0)
-      .that(m.sequence > 0 || m.time == 0.0, "time", format_number(m.time), "0 where the sequence is 0")
+      .that(
+          m.sequence > 0 || m.time == 0.0, "time", [&] { return format_number(m.time); },
+          [] { return "0 where the sequence is 0"; })
       // No test begins before the clock does.
       .number("header.stamp", m.header.stamp.toSec(), m.time * (1.0 - kSlack) - 1e-6)
       .number("displacement", m.displacement, -reach, reach)
       .number("velocity", m.velocity, -kFastest, kFastest)
-      .that(m.step >= -1, "step", std::to_string(m.step), "-1 or more")
+      .that(
+          m.step >= -1, "step", [&] { return std::to_string(m.step); }, [] { return "-1 or more"; })
       .phase(m.phase)
       .number("speed", m.speed, 0.0, kFastest)
       .number("duration", m.duration, 0.0, kLongestDuration)
@@ -161,11 +169,13 @@ std::string fault_after(const Crosshead& last, const Crosshead& message, const C
   const double way = message.displacement - last.displacement;
   const double farthest = kFastest * passed + kSlack;
   return Check()
-      .that(passed > 0.0 && passed <= limits.longest_step * (1.0 + kSlack) + kSlack, "time",
-            format_number(message.time),
-            "after " + format_number(last.time) + " by at most " + format_number(limits.longest_step))
-      .that(std::abs(way) <= farthest, "displacement", format_number(message.displacement),
-            "within " + format_number(farthest) + " of " + format_number(last.displacement))
+      .that(
+          passed > 0.0 && passed <= limits.longest_step * (1.0 + kSlack) + kSlack, "time",
+          [&] { return format_number(message.time); },
+          [&] { return "after " + format_number(last.time) + " by at most " + format_number(limits.longest_step); })
+      .that(
+          std::abs(way) <= farthest, "displacement", [&] { return format_number(message.displacement); },
+          [&] { return "within " + format_number(farthest) + " of " + format_number(last.displacement); })
       .fault();
 }
 
@@ -178,8 +188,10 @@ std::string fault_of(const KnotRecord& m) {
   Check check;
   check.part(fault_of_command(m.command, any, "command."))
       .part(fault_of_state(m.answer, "answer."))
-      .that(m.answer.run == m.command.run && m.answer.sequence == m.command.sequence, "answer.sequence",
-            std::to_string(m.answer.sequence), "that of the command, " + std::to_string(m.command.sequence))
+      .that(
+          m.answer.run == m.command.run && m.answer.sequence == m.command.sequence, "answer.sequence",
+          [&] { return std::to_string(m.answer.sequence); },
+          [&] { return "that of the command, " + std::to_string(m.command.sequence); })
       .count("steps", m.steps.size(), 0, kMostSteps)
       .part(fault_of_shape(m.shape));
   for (std::size_t i = 0; i < m.steps.size() && check.fault().empty(); ++i) {

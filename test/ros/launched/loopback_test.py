@@ -3,8 +3,11 @@
 import os
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
 from launched import METHOD, ROOT, Launch, free_port, wait_for
 

@@ -1,4 +1,4 @@
-"""What the tests share that launch the whole system as a user does, each with a master of its own."""
+"""The whole system launched as a user does it, each time with a master and a folder of its own."""
 import filecmp
 import os
 import re
@@ -9,7 +9,7 @@ import subprocess
 import tempfile
 import time
 
-ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), '../../..'))
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), '..'))
 METHOD = os.path.join(ROOT, 'test/ros/pull_and_hold.yaml')
 TOOL = os.path.join(ROOT, 'build/devel/lib/knot_utm/tensile_test')
 FILES = ['curve.csv', 'curve_full.csv', 'final_shape.csv', 'method.yaml', 'test.bag']
@@ -54,6 +54,13 @@ def children(pid):
     return found
 
 
+def cpu_time(pid):
+    """Of a process so far [s]."""
+    with open('/proc/%d/stat' % pid, encoding='utf-8') as file:
+        fields = file.read().rsplit(')', 1)[1].split()
+    return (int(fields[11]) + int(fields[12])) / os.sysconf('SC_CLK_TCK')
+
+
 def memory(pid):
     """What a process holds now [bytes]."""
     with open('/proc/%d/status' % pid, encoding='utf-8') as file:
@@ -63,18 +70,21 @@ def memory(pid):
 class Launch:
     """tighten.launch under way, in a folder of its own; `with` ends it."""
 
-    def __init__(self, *arguments, command=None, environment=None):
+    def __init__(self, *arguments, command=None, environment=None, prepare=None, port=None):
         self.folder = tempfile.mkdtemp(prefix='knot_utm_')
+        if prepare:
+            prepare(self.folder)
         self.out = os.path.join(self.folder, 'out')
-        self.port = free_port()
+        self.port = port or free_port()
         self.uri = 'http://localhost:%d' % self.port
-        self.environment = dict(os.environ, ROS_MASTER_URI=self.uri, ROS_LOG_DIR=os.path.join(self.folder, 'log'),
+        self.environment = dict(os.environ, ROS_MASTER_URI=self.uri, ROS_HOME=os.path.join(self.folder, 'log'),
+                                ROS_LOG_DIR=os.path.join(self.folder, 'log'),
                                 KNOT_UTM_SKIP_BUILD='1', **(environment or {}))
         command = command or ['roslaunch', 'knot_utm', 'tighten.launch']
         with open(os.path.join(self.folder, 'console'), 'wb') as console:
             self.process = subprocess.Popen(
                 command + ['-p', str(self.port), 'working_directory:=' + self.folder, 'out:=out'] + list(arguments),
-                stdout=console, stderr=subprocess.STDOUT, env=self.environment, start_new_session=True)
+                stdout=console, stderr=subprocess.STDOUT, env=self.environment, cwd=self.folder, start_new_session=True)
 
     def __enter__(self):
         return self

@@ -1,0 +1,268 @@
+#!/usr/bin/python3
+"""Soak of the launched system at full speed, on a machine that is kept busy: scripts/soak [KEY=VALUE]...
+
+    samples=N   in all [10000000, or as many as resets and minutes say]
+    resets=N    tests that they are spread over, each on a new specimen [one for 100000 samples]
+    minutes=N   no further test begins after so many [no limit]
+    busy=N      loops that take the processors from it [2]
+    results=DIR where soak.md and soak.csv go [bench/results]
+
+Every sample is counted: those that the machine published by their sequence numbers, those that the recorder wrote, the
+rows on disk. Every curve is held against the first one and that against the headless tool, byte for byte. Exit code 1:
+a gate failed.
+"""
+import filecmp
+import math
+import os
+import shutil
+import subprocess
+import sys
+import time
+
+import launched
+import runs
+from table import Report, Table, at_most, is_
+
+METHOD = """# A short rod, pulled slowly, read at every command.
+specimen: {{knot: straight, length: 0.03, edge_length: 0.006}}
+material: nylon
+machine: {{grips: clamps, load_cell: {{capacity: 50e3, sampling_rate: 1000}}}}
+program:
+  - balance: {{}}
+  - pull: {{speed: 1.0e-6, until: {{time: {0}}}}}
+"""
+NODES = ["utm_node", "knot_node", "recorder_node"]
+SAMPLES_A_TEST = 100000
+BESIDE = 2  # samples of a test that are not of its pull: the first, and balance
+WARM_UP = 0.5  # share of the tests after which memory is to be flat
+
+
+def refuse(why):
+    print("scripts/soak: " + why, file=sys.stderr)
+    sys.exit(2)
+
+
+class Wishes:
+    """What the command line asks for."""
+
+    def __init__(self, words):
+        self.samples = self.resets = self.minutes = None
+        self.busy, self.results = 2, os.path.join(launched.ROOT, "bench/results")
+        for word in words:
+            key, _, value = word.partition("=")
+            if key == "results":
+                self.results = value
+            elif key in ("samples", "resets", "minutes", "busy") and value.isdigit():
+                setattr(self, key, int(value))
+            else:
+                refuse(f"{word} is not allowed: samples=N, resets=N, minutes=N, busy=N or results=DIR")
+        if self.samples is None and self.resets is None:
+            self.samples = 10**7 if self.minutes is None else 10**9
+        if self.samples is None:
+            self.samples = 1000 * self.resets
+        if self.resets is None:
+            self.resets = math.ceil(self.samples / SAMPLES_A_TEST)
+        if min(self.samples, self.resets) < 1 or self.samples < 10 * self.resets:
+            refuse("samples must be at least 10 for each of resets, and that at least 1")
+        self.samples_a_test = math.ceil(self.samples / self.resets)
+
+
+class Machine:
+    """The operator's side of a launched system."""
+
+    def __init__(self, launch):
+        os.environ.update(launch.environment)
+        # They take the master's address when they are loaded.
+        import rospy
+        from knot_utm.msg import Crosshead, RecorderStatus, TestStatus
+        from rosgraph_msgs.msg import Clock
+        from std_srvs.srv import Trigger
+        self.rospy, self.trigger = rospy, Trigger
+        rospy.init_node("soak", disable_signals=True)
+        self.recorder, self.test, self.clock, self.clock_went_back = None, None, None, 0
+        rospy.Subscriber("recorder/status", RecorderStatus, lambda m: setattr(self, "recorder", m), queue_size=1)
+        rospy.Subscriber("utm/status", TestStatus, lambda m: setattr(self, "test", m), queue_size=1)
+        rospy.Subscriber("/clock", Clock, self.on_clock)
+        self.pids = {node: launch.pid(node) for node in NODES}
+        self.alive = lambda: launch.process.poll() is None
+
+    def on_clock(self, message):
+        if self.clock is not None and message.clock < self.clock:
+            self.clock_went_back += 1
+        self.clock = message.clock
+
+    def call(self, service):
+        self.rospy.wait_for_service(service, timeout=60.0)
+        return self.rospy.ServiceProxy(service, self.trigger)()
+
+    def run(self, number, look):
+        """A test on a new specimen to its end; `look(samples so far)` now and then. Returns the recorder's last status
+        and the machine's."""
+        self.call("knot/reset")
+        launched.wait_for("start", lambda: self.call("utm/start_test").success)
+        while True:
+            said, ended = self.recorder, self.test
+            if said is not None and said.run == number:
+                look(said.recorded)
+                if said.complete and ended.run == number and ended.sequence + 1 >= said.recorded and ended.ended_by:
+                    return said, ended
+                if said.error:
+                    sys.exit("scripts/soak: " + said.error)
+            if not self.alive():
+                sys.exit("scripts/soak: the launch ended")
+            time.sleep(0.1)
+
+
+class Timeline:
+    """How many samples there were, when, and what it had cost."""
+
+    def __init__(self, pids):
+        self.pids, self.begin, self.points = pids, time.monotonic(), []
+
+    def look(self, samples):
+        cost = [launched.cpu_time(pid) for pid in self.pids.values()]
+        self.points.append((samples, time.monotonic() - self.begin, *cost))
+
+    def a_sample(self, low, high):
+        """What one sample took between two shares of all: wall time, and CPU time of each node [s]."""
+        total = self.points[-1][0]
+        first = min(self.points, key=lambda point: abs(point[0] - low * total))
+        last = min(self.points, key=lambda point: abs(point[0] - high * total))
+        return [(b - a) / max(1, last[0] - first[0]) for a, b in zip(first[1:], last[1:])]
+
+
+def rows(file):
+    with open(file, "rb") as data:
+        return sum(block.count(b"\n") for block in iter(lambda: data.read(1 << 20), b"")) - 2
+
+
+class Soak:
+    """All tests of a run, and what was counted."""
+
+    def __init__(self, wishes):
+        self.wishes = wishes
+        self.tests = self.published = self.recorded = self.dropped = self.on_disk = self.different = 0
+        self.clock_went_back = 0
+        self.memory, self.timeline, self.peak_of_recorder = [], None, 0
+
+    def run(self):
+        begin = time.monotonic()
+        with launched.Launch("autostart:=false", "exit_at_end:=false", "real_time_factor:=0",
+                             "method:=soak.yaml", prepare=self.write_method) as launch:
+            machine = Machine(launch)
+            self.timeline = Timeline(machine.pids)
+            limit = self.wishes.minutes
+            while self.tests < self.wishes.resets and (limit is None or time.monotonic() - begin < 60 * limit):
+                self.one_test(launch, machine)
+            self.clock_went_back = machine.clock_went_back
+            self.different += self.headless_differs(launch)
+
+    def write_method(self, folder):
+        with open(os.path.join(folder, "soak.yaml"), "w", encoding="utf-8") as file:
+            file.write(METHOD.format((self.wishes.samples_a_test - BESIDE) / 1000))
+
+    def one_test(self, launch, machine):
+        before = self.recorded
+
+        def look(samples):
+            self.timeline.look(before + samples)
+            self.peak_of_recorder = max(self.peak_of_recorder, launched.memory(machine.pids["recorder_node"]))
+
+        said, ended = machine.run(self.tests + 1, look)
+        self.tests += 1
+        self.published += ended.sequence + 1
+        self.recorded += said.recorded
+        self.dropped += said.dropped
+        self.on_disk += rows(os.path.join(said.directory, "curve.csv"))
+        self.memory.append([launched.memory(pid) for pid in machine.pids.values()])
+        if self.tests == 1:
+            self.first = said.directory
+        else:
+            self.different += not self.same(self.first, said.directory)
+            shutil.rmtree(said.directory)
+        print(f"test {self.tests}: {self.recorded} samples in {self.timeline.points[-1][1]:.0f} s, "
+              + ", ".join(f"{node} {bytes_ / 1e6:.1f} MB" for node, bytes_ in zip(NODES, self.memory[-1])),
+              file=sys.stderr, flush=True)
+
+    @staticmethod
+    def same(one, other):
+        return not any(filecmp.cmpfiles(one, other, launched.FILES, shallow=False)[1:])
+
+    def headless_differs(self, launch):
+        with launched.Headless(os.path.join(launch.folder, "soak.yaml")) as headless:
+            return int(not self.same(headless.folder, self.first))
+
+    def growth(self, node):
+        """Memory at the end over that after the warm-up."""
+        after = self.memory[min(len(self.memory) - 1, math.ceil(WARM_UP * len(self.memory)))]
+        return self.memory[-1][node] / after[node] - 1
+
+    def report(self):
+        counts = Table("Samples", ["all tests"])
+        counts.add("tests, each on a new specimen", "-", [self.tests])
+        counts.add("published by the machine (sequence numbers)", "-", [self.published])
+        counts.add("recorded", "-", [self.recorded], is_(self.published))
+        counts.add("rows of curve.csv on disk", "-", [self.on_disk], is_(self.published))
+        counts.add("dropped", "-", [self.dropped], is_(0))
+        counts.add("tests whose files differ from the first, or that from the headless tool", "-", [self.different],
+                   is_(0))
+        counts.add("times that /clock went back", "-", [self.clock_went_back], is_(0))
+        wall = self.timeline.points[-1][1]
+        counts.add("samples a second", "1/s", [self.recorded / wall])
+
+        memory = Table("Memory", NODES)
+        memory.add("resident after the first test", "MB", [m / 1e6 for m in self.memory[0]])
+        memory.add("resident after the last test", "MB", [m / 1e6 for m in self.memory[-1]])
+        memory.add("growth over the second half of the tests", "-", [self.growth(i) for i in range(len(NODES))],
+                   at_most(0.01))
+        memory.add("largest within a test, which the recorder keeps to analyse", "MB",
+                   [None, None, self.peak_of_recorder / 1e6])
+
+        whole, first, last = (self.timeline.a_sample(*part) for part in ((0, 1), (0, 0.1), (0.9, 1)))
+        pace = Table("Time a sample", ["wall time"] + ["CPU time of " + node for node in NODES])
+        pace.add("all", "us", [1e6 * t for t in whole])
+        pace.add("first tenth", "us", [1e6 * t for t in first])
+        pace.add("last tenth", "us", [1e6 * t for t in last])
+        pace.add("last over first", "-", [runs.divide(b, a) for a, b in zip(first, last)])
+        return Report("Soak of the launched system", " ".join([
+            f"{self.tests} tests of {self.wishes.samples_a_test} samples through `utm_node`, `knot_node` and",
+            f"`recorder_node` at full speed, {self.wishes.busy} loops beside them that take what they get of the",
+            "processors. One sample is one command, one answer: the machine waits for each, so that the pace is that",
+            "of the way from node to node and back."]), [counts, memory, pace])
+
+
+class Everywhere(runs.Runner):
+    """For the words above the tables."""
+
+    def __init__(self, words):
+        super().__init__(launched.ROOT, launched.TOOL, None, "", [])
+        self.words = [word for word in words if not word.startswith("results=")]
+
+    def command_line(self):
+        return " ".join(["scripts/soak"] + self.words)
+
+    def where(self):
+        return "run on any"
+
+
+def main():
+    wishes = Wishes(sys.argv[1:])
+    busy = [subprocess.Popen([sys.executable, "-c", "while True: pass"]) for _ in range(wishes.busy)]
+    soak = Soak(wishes)
+    try:
+        soak.run()
+    finally:
+        for loop in busy:
+            loop.kill()
+            loop.wait()
+    report = soak.report()
+    report.write(wishes.results, "soak", Everywhere(sys.argv[1:]))
+    print(report.text())
+    failed = report.failed()
+    for line in failed:
+        print("FAILED: " + line)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

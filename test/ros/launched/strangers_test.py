@@ -1,0 +1,142 @@
+#!/usr/bin/python3
+"""While a test runs, others publish nonsense on its topics, set the clock, and subscribe without ever reading. The
+files are those of the headless tool, and no node hoards what is not read."""
+import copy
+import math
+import os
+import socket
+import struct
+import sys
+import time
+import unittest
+import xmlrpc.client
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
+
+from launched import ROOT, Headless, Launch, memory
+
+METHOD = os.path.join(ROOT, 'test/ros/many_samples.yaml')
+HOARD = 3e6  # less than what is published between the two looks [bytes]
+
+
+class Bomb:
+    """Bytes that no message has: every length in them is four thousand million."""
+
+    def serialize(self, buffer):
+        buffer.write(b'\xff' * 4096)
+
+
+def bomb_of(kind):
+    return type('Bomb', (Bomb, kind), {})()
+
+
+def subscribe(uri, topic, read=0):
+    """A connection to a publisher of the topic that reads so many bytes of it and then never again."""
+    master = xmlrpc.client.ServerProxy(uri)
+    publisher = next(p for t, nodes in master.getSystemState('/deaf')[2][0] if t == topic for p in nodes)
+    node = xmlrpc.client.ServerProxy(master.lookupNode('/deaf', publisher)[2])
+    _, host, port = node.requestTopic('/deaf', topic, [['TCPROS']])[2]
+    connection = socket.create_connection((host, port))
+    fields = ['callerid=/deaf', 'topic=' + topic, 'md5sum=*', 'type=*']
+    header = b''.join(struct.pack('<I', len(field)) + field.encode() for field in fields)
+    connection.sendall(struct.pack('<I', len(header)) + header)
+    while read > 0:
+        read -= len(connection.recv(min(read, 65536)))
+    return connection
+
+
+class Stranger:
+    """Publishes what could do harm, in the shape of what was last published rightfully."""
+
+    def __init__(self, uri):
+        os.environ['ROS_MASTER_URI'] = uri
+        # Not before: they take the master's address when they are loaded.
+        import rospy
+        from knot_utm.msg import Crosshead, KnotRecord, KnotState, RecorderStatus, SpecimenInfo, TestStatus
+        from rosgraph_msgs.msg import Clock
+        rospy.init_node('stranger', disable_signals=True)
+        self.latest = {}
+        self.publishers = {}
+        topics = {'utm/crosshead': Crosshead, 'knot/state': KnotState, 'knot/record': KnotRecord,
+                  'knot/specimen': SpecimenInfo, 'utm/status': TestStatus, 'recorder/status': RecorderStatus,
+                  '/clock': Clock}
+        for topic, kind in topics.items():
+            rospy.Subscriber(topic, kind, self.take, callback_args=topic, queue_size=1)
+            self.publishers[topic] = rospy.Publisher(topic, kind, queue_size=10)
+        self.kinds = topics
+        self.spin = rospy
+
+    def take(self, message, topic):
+        if message._connection_header['callerid'] != '/stranger':
+            self.latest[topic] = message
+
+    def say(self, topic, **changes):
+        latest = self.latest.get(topic)
+        if latest is None:
+            return
+        message = copy.deepcopy(latest)
+        for field, value in changes.items():
+            setattr(message, field, value)
+        self.publishers[topic].publish(message)
+
+    def talk(self):
+        command = self.latest.get('utm/crosshead')
+        state = self.latest.get('knot/state')
+        if command is None or state is None:
+            return
+        self.say('utm/crosshead', sequence=command.sequence + 1, displacement=0.5)
+        self.say('utm/crosshead', run=command.run + 7, sequence=0, time=0.0)
+        self.say('utm/crosshead', sequence=command.sequence + 1, time=math.nan, velocity=math.inf)
+        self.say('utm/crosshead', phase='p' * 1000000, step=-7)
+        self.say('knot/state', sequence=command.sequence, load=math.nan)
+        self.say('knot/state', sequence=command.sequence, status=4, message='no\nended_by: break')
+        self.say('knot/record', steps=[state] * 1000, answer=state)
+        self.say('knot/specimen', longest_step=math.nan)
+        self.say('utm/status', state=3, ended_by='break', reason='forged\nended_by: break')
+        self.say('recorder/status', complete=True, next_sequence=2 ** 60, error='full\ndisk')
+        for topic, kind in self.kinds.items():
+            if topic != '/clock':
+                self.publishers[topic].publish(bomb_of(kind))
+        clock = self.kinds['/clock']
+        for seconds in (1000000, 0, 3):
+            self.publishers['/clock'].publish(clock(clock=self.spin.Time(seconds)))
+
+
+class StrangersTest(unittest.TestCase):
+
+    def test_same_files_as_headless(self):
+        with Launch('method:=' + METHOD, 'real_time_factor:=0') as launch:
+            launch.wait_for_rows(100)
+            deaf = [subscribe(launch.uri, topic, read)
+                    for topic in ('/knot/state', '/knot/record', '/utm/crosshead') for read in (0, 100000)]
+            deaf.append(subscribe(launch.uri, '/knot/markers'))
+            stranger = Stranger(launch.uri)
+            pids = {node: launch.pid(node) for node in ('utm_node', 'knot_node')}
+            before = {}
+            while launch.process.poll() is None:
+                stranger.talk()
+                rows = launch.rows()
+                if not before and rows > 2000:
+                    before = {node: memory(pid) for node, pid in pids.items()}
+                try:
+                    after = {node: memory(pid) for node, pid in pids.items()}
+                except (OSError, TypeError):
+                    break  # the test has ended
+                time.sleep(0.02)
+            self.assertTrue(before, launch.console())
+            for node in pids:
+                self.assertLess(after[node] - before[node], HOARD, node)
+            launch.end(30.0)
+            for connection in deaf:
+                connection.close()
+            console = launch.console()
+            self.assertEqual(launch.result('ended_by'), 'program', console)
+            for topic in ('utm/crosshead', 'knot/state', 'knot/record', 'utm/status', 'recorder/status'):
+                self.assertIn(topic + ' from /stranger ignored: publisher: /stranger, allowed: /', console)
+            self.assertNotIn('Exception', console)
+            with Headless(METHOD) as headless:
+                self.assertEqual(headless.different(launch.out), ([], []))
+
+
+if __name__ == '__main__':
+    unittest.main()
