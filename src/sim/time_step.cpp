@@ -27,6 +27,14 @@ struct PressureTangent {
   double pressure, slope;
 };
 
+template <typename StrandContact>
+StrandContact strand_contact(const RodProperties& rod, const StepSettings& settings) {
+  if constexpr (std::is_same_v<StrandContact, SmoothContact>)
+    return SmoothContact(rod, settings.normal, settings.friction, settings.candidate_margin, settings.share_time);
+  else
+    return StrandContact(rod, settings.normal, settings.friction, settings.candidate_margin);
+}
+
 /// Stands for FrameTerms where the scene does not solve for twist.
 struct NoFrames {
   NoFrames(const RodProperties&, const StepSettings&) {}
@@ -41,7 +49,7 @@ class ImplicitStep final : public TimeStep {
   ImplicitStep(const RodProperties& rod, const RodState& state, const StepSettings& settings)
       : TimeStep(rod, state),
         settings_(settings),
-        contact_(rod, settings.normal, settings.friction, settings.candidate_margin),
+        contact_(strand_contact<StrandContact>(rod, settings)),
         rollers_(rod, settings.normal, settings.roller_friction),
         centreline_(rod_, rod.natural_curvature.cols() == 0),
         frames_(rod_, settings_),
