@@ -29,6 +29,18 @@ if(NOT KNOT_UTM_SANITIZE)
   gtest_discover_tests(allocation_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endif()
 
+# Symmetries on random scenes. The seed is fixed: the same scenes every time. For others, and more of them, run
+# property_tests itself with RC_PARAMS="max_success=1000".
+find_package(rapidcheck REQUIRED)
+file(GLOB property_sources CONFIGURE_DEPENDS test/properties/*_test.cpp)
+add_executable(property_tests ${property_sources})
+# Their physics is in the library; optimised themselves, they take minutes to compile.
+set_source_files_properties(${property_sources} PROPERTIES COMPILE_OPTIONS -O1)
+target_include_directories(property_tests PRIVATE test)
+target_link_libraries(property_tests PRIVATE knot_utm_core rapidcheck GTest::gtest_main)
+gtest_discover_tests(property_tests DISCOVERY_TIMEOUT 60
+                     PROPERTIES TIMEOUT 300 ENVIRONMENT "RC_PARAMS=seed=1 max_success=25")
+
 # Physics that takes long. Label `long`: not under sanitizers.
 file(GLOB validation_sources CONFIGURE_DEPENDS test/validation/*_test.cpp)
 if(validation_sources)

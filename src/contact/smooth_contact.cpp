@@ -11,7 +11,6 @@ namespace knot_utm {
 namespace {
 
 constexpr double kUnknown = -1.0;     // share of a contact that recalls none yet
-constexpr double kCatchUp = 0.05;     // time in which omega follows a change [s]
 constexpr double kSharpest = 1.0;     // turn of the centreline at a node that is no longer resolved [rad]
 constexpr double kReachMargin = 0.3;  // contacts are kept, forceless, up to this gap [fraction of radius]
 
@@ -109,7 +108,8 @@ struct SmoothContact::StrandPoint {
         a(combine(weights.value, position, segment_)) {}
 };
 
-SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin)
+SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,
+                             double catch_up)
     : normal_(normal),
       friction_(friction),
       diameter_(2.0 * rod.material.radius),
@@ -119,7 +119,8 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
       voronoi_(rod.voronoi_length),
       // Strands closer than a half turn around themselves (pi h) bend, they do not touch.
       candidates_(rod, reach_, margin, 5.0 * rod.material.radius),
-      sieve_(rod.nodes()) {
+      sieve_(rod.nodes()),
+      catch_up_time_(catch_up) {
   const Eigen::Index nodes = rod.nodes();
   accepted_.begin.assign(2 * static_cast<std::size_t>(nodes) + 1, 0);
   iterate_ = accepted_;
@@ -139,7 +140,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   contacts_.clear();
   recalled_.assign(iterate_.entries.size(), 0);
   friction_scale_ = friction_.scale(dt);
-  catch_up_ = dt / (dt + kCatchUp);
+  catch_up_ = dt / (dt + catch_up_time_);
   if (candidates_.segments().empty()) return;
   const Eigen::Index edges = position.cols() - 1;
   edge_.noalias() = position.rightCols(edges) - position.leftCols(edges);

@@ -33,6 +33,14 @@ struct PressureTangent {
 
 constexpr int kPatience = 5;  // times as many iterations with secants
 
+template <typename StrandContact>
+StrandContact strand_contact(const RodProperties& rod, const StepSettings& settings) {
+  if constexpr (std::is_same_v<StrandContact, SmoothContact>)
+    return SmoothContact(rod, settings.normal, settings.friction, settings.candidate_margin, settings.share_time);
+  else
+    return StrandContact(rod, settings.normal, settings.friction, settings.candidate_margin);
+}
+
 /// Stands for FrameTerms where the scene does not solve for twist.
 struct NoFrames {
   NoFrames(const RodProperties&, const StepSettings&) {}
@@ -46,7 +54,7 @@ class ImplicitStep final : public TimeStep {
  public:
   ImplicitStep(const RodProperties& rod, const RodState& state, const StepSettings& settings)
       : TimeStep(rod, state, settings),
-        contact_(rod, settings.normal, settings.friction, settings.candidate_margin),
+        contact_(strand_contact<StrandContact>(rod, settings)),
         rollers_(rod, settings.normal, settings.roller_friction),
         passage_(rod.nodes()),
         centreline_(rod_, rod.natural_curvature.cols() == 0),

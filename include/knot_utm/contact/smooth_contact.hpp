@@ -19,7 +19,7 @@ namespace knot_utm {
 /// at the distance of contact, the other one stands in its centre of curvature and has no foot on it.
 /// g is linear between the middle of a segment, where it is its own, and its ends, where it is the smaller one of the
 /// two segments that meet: a foot that is about to vanish has lost its share by then.
-/// omega follows the shape within 0.05 s: were it to follow at once, two places of a tight knot could throw a contact
+/// omega follows the shape within a set time: were it to follow at once, two places of a tight knot could throw a contact
 /// to and fro in steps however short, a flutter that no step resolves.
 /// omega and the friction's memory belong to the last accepted step and are constant within a step: they are carried
 /// by the point of integration and found again by the nearest arclength of the foot, iterate by iterate, each by one
@@ -28,7 +28,9 @@ class SmoothContact {
  public:
   using Model = ContactModel;
 
-  SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin);
+  /// `catch_up`: time within which omega follows the shape [s].
+  SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,
+                double catch_up = 0.05);
 
   /// Rebuilds the candidates where something moved far enough; true if it did.
   bool refresh(const Points& position) { return candidates_.refresh(position); }
@@ -105,6 +107,7 @@ class SmoothContact {
   MemoryList iterate_;          // of the last evaluation; before the first of a step, the accepted ones
   Points edge_middle_, edge_;   // of the evaluated position
   double friction_scale_ = 0.0;
+  double catch_up_time_;
   double catch_up_ = 1.0;  // by which the shares follow in this step
   bool first_evaluation_ = true;
 };
