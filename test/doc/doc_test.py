@@ -100,7 +100,7 @@ class Documents(unittest.TestCase):
 
     def test_promises_have_their_tests(self):
         tests = {f"{suite}.{name}" for file in files("test", "_test.cpp")
-                 for suite, name in re.findall(r"^(?:TEST(?:_F|_P)?|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP)\((\w+),\s*(\w+)", text(file), re.MULTILINE)}
+                 for suite, name in re.findall(r"^(?:(?:TYPED_)?TEST(?:_F|_P)?|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP)\((\w+),\s*(\w+)", text(file), re.MULTILINE)}
         launched = {name for file in files("test/ros", "_test.py") for name in re.findall(r"def (test_\w+)", text(file))}
         named = re.findall(r"`(\w+)(\.\w+)?`", text("doc/reliability.md"))
         for suite, name in named:
