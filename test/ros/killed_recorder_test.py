@@ -3,6 +3,7 @@
 import filecmp
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -95,6 +96,15 @@ class KilledRecorderTest(unittest.TestCase):
         self.assertEqual(said.count('goes on with'), 3)
         self.assert_same_as_headless()
         self.assertIn(b'ended_by: program\n', content(self.out, 'result.yaml'))
+
+    def test_stopped_in_the_midst_of_a_test_its_result_stays(self):
+        launch = self.launch('stopped', respawn='true')
+        wait_until('the test runs', lambda: self.rows() >= 100)
+        launch.kill('recorder_node', signal.SIGINT)
+        self.assertIn('holds a result, which the rest of a test would write over', launch.end())
+        self.assertIn(b'ended_by: operator\n', content(self.out, 'result.yaml'))
+        self.assertGreaterEqual(self.rows(), 100)
+        self.assert_beginning_of_headless()
 
     def test_without_room_it_says_so_and_the_journal_has_what_was_measured(self):
         launch = self.launch('full', real_time_factor='0', recorder_prefix='prlimit --fsize=60000')

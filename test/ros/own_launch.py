@@ -32,10 +32,10 @@ class OwnLaunch:
         except (OSError, xmlrpc.client.Error):
             return None
 
-    def kill(self, node):
-        """Kills a node at once; the process it was."""
+    def kill(self, node, by=signal.SIGKILL):
+        """The process that the node was."""
         process = self.pid(node)
-        os.kill(process, signal.SIGKILL)
+        os.kill(process, by)
         return process
 
     def end(self, timeout=60.0):
