@@ -97,6 +97,20 @@ class KilledRecorderTest(unittest.TestCase):
         self.assert_same_as_headless()
         self.assertIn(b'ended_by: program\n', content(self.out, 'result.yaml'))
 
+    def test_started_anew_after_the_end_it_leaves_the_files_alone(self):
+        launch = self.launch('after', respawn='true', real_time_factor='0', exit_at_end='false')
+        wait_until('all is written', lambda: self.has('result.yaml') and not self.has('journal'))
+        result = content(self.out, 'result.yaml')
+        before = launch.kill('recorder_node')
+        wait_until('another recorder', lambda: launch.pid('recorder_node') not in (None, before))
+        # The machine repeats this as long as it has not heard that all is recorded, and the physics its last answer.
+        launch.tool('rostopic', 'pub', '-1', '/utm/status', 'knot_utm/TestStatus',
+                    '{state: 3, run: 1, sequence: %d}' % (self.rows() - 1))
+        said = launch.tool('rostopic', 'echo', '-n', '1', '--filter', 'm.run == 1', '/recorder/status')
+        self.assertIn('complete: True', said)
+        self.assertEqual(content(self.out, 'result.yaml'), result)
+        self.assert_same_as_headless()
+
     def test_stopped_in_the_midst_of_a_test_its_result_stays(self):
         launch = self.launch('stopped', respawn='true')
         wait_until('the test runs', lambda: self.rows() >= 100)
