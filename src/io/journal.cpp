@@ -88,9 +88,11 @@ JournalWriter::JournalWriter(const std::string& folder, int flags, double patien
 JournalWriter::JournalWriter(const std::string& folder, const JournalHeader& header)
     : JournalWriter((make_run_folder(folder), folder), O_CREAT, 0.0) {
   if (!file_.is_open()) {
+    const CannotWrite why(path_);
+    if (why.out_of_room()) throw why;
     throw InvalidInput(
         "--out", folder,
-        errno == EWOULDBLOCK ? "a folder that no other run is writing to" : "a folder that can be written to");
+        why.error == EWOULDBLOCK ? "a folder that no other run is writing to" : "a folder that can be written to");
   }
   truncate_to(0);
   try {
@@ -105,7 +107,7 @@ JournalWriter JournalWriter::go_on(const std::string& folder, double patience) {
   JournalWriter writer(folder, 0, patience);
   if (!writer.file_.is_open()) {
     if (errno == EWOULDBLOCK) throw std::runtime_error(writer.path_ + ": another run is writing it");
-    throw cannot_write(writer.path_);
+    throw CannotWrite(writer.path_);
   }
   writer.bytes_ = fs::file_size(writer.path_);
   return writer;
@@ -125,7 +127,7 @@ void JournalWriter::write(const std::string& bytes) {
     const ssize_t more = ::write(file_.descriptor(), bytes.data() + written, bytes.size() - written);
     if (more < 0 && errno == EINTR) continue;
     if (more < 0) {
-      const std::runtime_error why = cannot_write(path_);
+      const CannotWrite why(path_);
       // Where even this fails a reader stops at the piece all the same.
       static_cast<void>(ftruncate(file_.descriptor(), static_cast<off_t>(bytes_)) == 0);
       throw why;
@@ -136,7 +138,7 @@ void JournalWriter::write(const std::string& bytes) {
 }
 
 void JournalWriter::truncate_to(std::uint64_t bytes) {
-  if (ftruncate(file_.descriptor(), static_cast<off_t>(bytes)) != 0) throw cannot_write(path_);
+  if (ftruncate(file_.descriptor(), static_cast<off_t>(bytes)) != 0) throw CannotWrite(path_);
   bytes_ = bytes;
 }
 

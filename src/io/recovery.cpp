@@ -23,18 +23,6 @@ LockedFile lock(const std::string& folder) {
   throw InvalidInput("file", file, "a journal that can be read");
 }
 
-/// Where the files are made: not over those that are there, which may be all that a full disk has room for.
-std::string make_place(const std::string& folder, const std::string& out) {
-  std::error_code error;
-  if (fs::equivalent(folder, out, error)) {
-    const fs::path place = fs::path(folder) / "recovering";
-    fs::remove_all(place, error);
-    return place.string();
-  }
-  if (fs::exists(journal_file(out), error)) throw InvalidInput("--out", out, "a folder without a journal of its own");
-  return out;
-}
-
 }  // namespace
 
 Method journalled_method(const std::string& folder, const JournalHeader& header) {
@@ -62,16 +50,32 @@ bool is_settled(const std::string& folder) {
   return true;
 }
 
-Recovery::Recovery(const std::string& folder, const std::string& out)
-    : folder_(folder), out_(out), lock_(lock(folder)), journal_(folder) {
-  method_ = journalled_method(folder, journal_.header());
-  place_ = make_place(folder, out);
-  writer_ = std::make_unique<RunWriter>(place_, method_);
+Recovery::Place::~Place() {
+  std::error_code error;
+  if (is_scratch) fs::remove_all(folder, error);
 }
 
-Recovery::~Recovery() {
+Recovery::Recovery(const std::string& folder, const std::string& out)
+    : folder_(folder),
+      out_(out),
+      lock_(lock(folder)),
+      journal_(folder),
+      method_(journalled_method(folder, journal_.header())),
+      place_(out) {
+  make_place();
+  writer_ = std::make_unique<RunWriter>(place(), method_);
+}
+
+/// Not over the files that are there, which may be all that a full disk has room for.
+void Recovery::make_place() {
   std::error_code error;
-  if (place_ != out_) fs::remove_all(place_, error);
+  if (fs::equivalent(folder_, out_, error)) {
+    place_.folder = (fs::path(folder_) / "recovering").string();
+    place_.is_scratch = true;
+    fs::remove_all(place_.folder, error);
+  } else if (fs::exists(journal_file(out_), error)) {
+    throw InvalidInput("--out", out_, "a folder without a journal of its own");
+  }
 }
 
 bool Recovery::next(Record& record) {
@@ -92,18 +96,18 @@ void Recovery::finish() {
   const std::uint64_t dropped = next_ - journal_.records();
   if (dropped > 0) facts.warnings.push_back(std::to_string(dropped) + " commands were not recorded");
   writer_->finish(writer_->results(EndedBy::kNotYet), facts, shape_);
-  if (place_ != out_) move_into_place();
+  if (place_.is_scratch) move_into_place();
 }
 
 /// The result last: where it is, all is.
 void Recovery::move_into_place() const {
   for (const char* name : {"curve.csv", "curve_full.csv", "test.bag", "final_shape.csv", "result.yaml"}) {
-    const fs::path made = fs::path(place_) / name;
+    const fs::path made = fs::path(place_.folder) / name;
     std::error_code error;
     if (!fs::exists(made, error)) continue;
     const fs::path there = fs::path(out_) / name;
     fs::rename(made, there, error);
-    if (error) throw cannot_write(there.string(), error.value());
+    if (error) throw CannotWrite(there.string(), error.value());
   }
 }
 

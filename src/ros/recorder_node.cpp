@@ -3,9 +3,11 @@
 #include <ros/callback_queue.h>
 
 #include <filesystem>
+#include <stdexcept>
 #include <utility>
 
 #include "knot_utm/io/recovery.hpp"
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/journal_bag.hpp"
 #include "knot_utm/ros/knot_node.hpp"
@@ -88,11 +90,12 @@ void RecorderNode::on_gone(const ros::SingleSubscriberPublisher& subscriber) {
   if (subscriber.getSubscriberName() == node_.resolveName(names::kUtmNode)) machine_died_ = Clock::now();
 }
 
-void RecorderNode::begin_run(std::uint32_t run) {
+void RecorderNode::begin_run(const Crosshead& first) {
   if (run_ && !run_->complete) {
     finish(EndedBy::kOperator, "another test was started", "");
   }
   run_.reset();
+  const std::uint32_t run = first.run;
   run_number_ = run;
   const std::string folder = run == 1 ? setup_.out : setup_.out + "-" + std::to_string(run);
   test_id_.clear();
@@ -101,6 +104,10 @@ void RecorderNode::begin_run(std::uint32_t run) {
   node_.getParam(names::kRecordedTest, recorded);
   completed_before_ = !test_id_.empty() && recorded == test_id_;
   if (completed_before_ || go_on(folder)) return;
+  if (first.sequence > 0 && has_complete_result(folder)) {
+    throw std::runtime_error(folder +
+                             ": holds a result, which the rest of a test would write over: its recorder was stopped");
+  }
   run_ = std::make_unique<Run>(folder, setup_.method, JournalWriter(folder, journal_header(setup_.method, test_id_)));
   watch(folder);
 }
@@ -133,7 +140,7 @@ void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
   try {
     const Crosshead& command = record->command;
     if (command.run < run_number_) return;
-    if (command.run > run_number_) begin_run(command.run);
+    if (command.run > run_number_) begin_run(command);
     if (is_complete()) return;
     Run& run = *run_;
     run.progress = Clock::now();

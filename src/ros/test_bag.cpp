@@ -21,7 +21,7 @@ TestBag::TestBag(const std::string& file, const Method& method) : file_(file), r
   try {
     bag_ = std::make_unique<rosbag::Bag>(file_, rosbag::bagmode::Write);
   } catch (const rosbag::BagException&) {
-    throw cannot_write(file_);
+    throw CannotWrite(file_);
   }
   bag_->setChunkThreshold(kChunk);
 }
@@ -62,7 +62,7 @@ void TestBag::close() {
   } catch (const rosbag::BagException&) {
     // Its destructor would try once more, and end the process.
     static_cast<void>(bag_.release());
-    throw cannot_write(file_);
+    throw CannotWrite(file_);
   }
 }
 
@@ -71,7 +71,7 @@ void TestBag::write(const std::string& topic, const ros::Time& stamp, const Mess
   try {
     bag_->write("/" + topic, stamp, message);
   } catch (const rosbag::BagException&) {
-    throw cannot_write(file_);
+    throw CannotWrite(file_);
   }
   ++messages_;
 }

@@ -3,6 +3,7 @@
 import filecmp
 import os
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -95,6 +96,29 @@ class KilledRecorderTest(unittest.TestCase):
         self.assertEqual(said.count('goes on with'), 3)
         self.assert_same_as_headless()
         self.assertIn(b'ended_by: program\n', content(self.out, 'result.yaml'))
+
+    def test_started_anew_after_the_end_it_leaves_the_files_alone(self):
+        launch = self.launch('after', respawn='true', real_time_factor='0', exit_at_end='false')
+        wait_until('all is written', lambda: self.has('result.yaml') and not self.has('journal'))
+        result = content(self.out, 'result.yaml')
+        before = launch.kill('recorder_node')
+        wait_until('another recorder', lambda: launch.pid('recorder_node') not in (None, before))
+        # The machine repeats this as long as it has not heard that all is recorded, and the physics its last answer.
+        launch.tool('rostopic', 'pub', '-1', '/utm/status', 'knot_utm/TestStatus',
+                    '{state: 3, run: 1, sequence: %d}' % (self.rows() - 1))
+        said = launch.tool('rostopic', 'echo', '-n', '1', '--filter', 'm.run == 1', '/recorder/status')
+        self.assertIn('complete: True', said)
+        self.assertEqual(content(self.out, 'result.yaml'), result)
+        self.assert_same_as_headless()
+
+    def test_stopped_in_the_midst_of_a_test_its_result_stays(self):
+        launch = self.launch('stopped', respawn='true')
+        wait_until('the test runs', lambda: self.rows() >= 100)
+        launch.kill('recorder_node', signal.SIGINT)
+        self.assertIn('holds a result, which the rest of a test would write over', launch.end())
+        self.assertIn(b'ended_by: operator\n', content(self.out, 'result.yaml'))
+        self.assertGreaterEqual(self.rows(), 100)
+        self.assert_beginning_of_headless()
 
     def test_without_room_it_says_so_and_the_journal_has_what_was_measured(self):
         launch = self.launch('full', real_time_factor='0', recorder_prefix='prlimit --fsize=60000')

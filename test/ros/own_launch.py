@@ -20,9 +20,10 @@ class OwnLaunch:
         self.uri = 'http://localhost:%d' % free_port()
         port = self.uri.rsplit(':', 1)[1]
         words = ['%s:=%s' % item for item in arguments.items()]
+        self._environment = dict(os.environ, ROS_MASTER_URI=self.uri)
         self._process = subprocess.Popen(['roslaunch', '-p', port, 'knot_utm', 'tighten.launch'] + words,
-                                         env=dict(os.environ, ROS_MASTER_URI=self.uri), stdout=subprocess.PIPE,
-                                         stderr=subprocess.STDOUT, universal_newlines=True)
+                                         env=self._environment, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                         universal_newlines=True)
 
     def pid(self, node):
         """Of a node; None where there is none that answers."""
@@ -32,11 +33,16 @@ class OwnLaunch:
         except (OSError, xmlrpc.client.Error):
             return None
 
-    def kill(self, node):
-        """Kills a node at once; the process it was."""
+    def kill(self, node, by=signal.SIGKILL):
+        """The process that the node was."""
         process = self.pid(node)
-        os.kill(process, signal.SIGKILL)
+        os.kill(process, by)
         return process
+
+    def tool(self, *command):
+        """What a tool of ROS says that ends by itself."""
+        return subprocess.run(command, env=self._environment, check=True, stdout=subprocess.PIPE, timeout=60.0,
+                              universal_newlines=True).stdout
 
     def end(self, timeout=60.0):
         """What it said until it ended by itself."""

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
 
 #include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/locked_file.hpp"
@@ -31,14 +32,9 @@ class Recovery {
   /// From `folder` to `out`, which may be the same. Throws InvalidInput where there is no journal, it is that of
   /// another method, or `out` has one of its own; std::runtime_error where the run is still being written.
   Recovery(const std::string& folder, const std::string& out);
-  ~Recovery();
-  Recovery(const Recovery&) = delete;
-  Recovery& operator=(const Recovery&) = delete;
-  Recovery(Recovery&&) = delete;
-  Recovery& operator=(Recovery&&) = delete;
 
   const Method& method() const { return method_; }
-  const std::string& place() const { return place_; }
+  const std::string& place() const { return place_.folder; }
 
   bool next(Record& record);  ///< false: there are no more that are whole
   void finish();              ///< once `next` is false
@@ -46,14 +42,28 @@ class Recovery {
   std::string summary() const;  ///< one line
 
  private:
+  /// Where the files are made.
+  struct Place {
+    explicit Place(std::string folder_) : folder(std::move(folder_)) {}
+    ~Place();
+    Place(const Place&) = delete;
+    Place& operator=(const Place&) = delete;
+    Place(Place&&) = delete;
+    Place& operator=(Place&&) = delete;
+
+    std::string folder;
+    bool is_scratch = false;  ///< gone in the end
+  };
+
+  void make_place();
   void move_into_place() const;
 
   std::string folder_;
   std::string out_;
-  std::string place_;
-  Method method_;
   LockedFile lock_;
   JournalReader journal_;
+  Method method_;
+  Place place_;
   std::unique_ptr<RunWriter> writer_;
   Points shape_;            ///< the latest
   double wall_time_ = 0.0;  ///< of the last record [s]

@@ -65,7 +65,7 @@ class RecorderNode {
   void on_gone(const ros::SingleSubscriberPublisher& subscriber);
   bool on_save(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
-  void begin_run(std::uint32_t run);
+  void begin_run(const Crosshead& first);
   bool go_on(const std::string& folder);
   void watch(const std::string& folder);
   void write(const KnotRecord& record);
