@@ -76,7 +76,8 @@ if(catkin_FOUND)
   foreach(test ${launched_tests})
     get_filename_component(name ${test} NAME_WE)
     add_test(NAME ${name} COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh ${PYTHON_EXECUTABLE} -B ${test})
-    set_tests_properties(${name} PROPERTIES TIMEOUT 240 RUN_SERIAL TRUE)
+    # One at a time: each is four processes already.
+    set_tests_properties(${name} PROPERTIES TIMEOUT 240 RESOURCE_LOCK launched_system)
   endforeach()
 
   if(CATKIN_ENABLE_TESTING)
