@@ -28,7 +28,7 @@ constexpr const char* kPhase = "phase";
 
 void open(std::ofstream& out, const std::string& file) {
   out.open(file, std::ios::binary | std::ios::trunc);
-  if (!out) throw cannot_write(file);
+  if (!out) throw CannotWrite(file);
 }
 
 std::vector<std::string_view> cells(std::string_view line) {
@@ -83,7 +83,7 @@ void CurveWriter::write(const CurveRow& row) {
   // Adding zero turns -0 into 0.
   for (const Column& column : kColumns) line += format_number(row.*column.value + 0.0) + ',';
   out_ << line << phase_name(row.phase) << '\n' << std::flush;
-  if (!out_) throw cannot_write(file_);
+  if (!out_) throw CannotWrite(file_);
   ++rows_;
 }
 
@@ -135,7 +135,7 @@ void write_centreline(const std::string& file, const Points& points) {
         << '\n';
   }
   out.close();
-  if (!out) throw cannot_write(file);
+  if (!out) throw CannotWrite(file);
 }
 
 }  // namespace knot_utm

@@ -1,17 +1,13 @@
 #include "knot_utm/io/journal.hpp"
 
 #include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
 
 #include <array>
 #include <cerrno>
-#include <chrono>
 #include <filesystem>
 #include <limits>
-#include <thread>
 #include <utility>
 
 #include "journal_codec.hpp"
@@ -27,7 +23,6 @@ constexpr std::string_view kMagic = "knot_utm journal\n";
 constexpr std::uint32_t kVersion = 1;
 constexpr std::size_t kWord = sizeof(std::uint32_t);
 constexpr std::size_t kFrameHead = 2 * kWord;
-constexpr std::chrono::milliseconds kTryAgain(20);  // for a journal that another holds
 
 void put_word(char* place, std::uint32_t value) {
   value = htole32(value);
@@ -71,27 +66,6 @@ std::string beginning(const JournalHeader& header) {
   return bytes;
 }
 
-/// Opens a file that this process alone holds then; -1 and errno where it cannot, EWOULDBLOCK: another holds it.
-int open_alone(const std::string& file, int flags, double patience) {
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration<double>(patience);
-  for (;;) {
-    const int descriptor = open(file.c_str(), flags | O_RDWR | O_APPEND | O_CLOEXEC, 0666);
-    if (descriptor < 0) return -1;
-    // A file system without locks keeps nobody out.
-    const bool held_by_another = flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-    struct stat status {};
-    // The one before may have removed it meanwhile.
-    if (!held_by_another && fstat(descriptor, &status) == 0 && status.st_nlink > 0) return descriptor;
-    close(descriptor);
-    if (held_by_another && Clock::now() >= end) {
-      errno = EWOULDBLOCK;
-      return -1;
-    }
-    if (held_by_another) std::this_thread::sleep_for(kTryAgain);
-  }
-}
-
 }  // namespace
 
 JournalHeader journal_header(const Method& method, const std::string& test) {
@@ -108,17 +82,17 @@ JournalHeader journal_header(const Method& method, const std::string& test) {
 
 std::string journal_file(const std::string& folder) { return (fs::path(folder) / "journal").string(); }
 
-JournalWriter::JournalWriter(std::string file, int descriptor, std::uint64_t bytes)
-    : file_(std::move(file)), descriptor_(descriptor), bytes_(bytes) {}
+JournalWriter::JournalWriter(const std::string& folder, int flags, double patience)
+    : path_(journal_file(folder)), file_(path_, flags | O_RDWR | O_APPEND, patience) {}
 
 JournalWriter::JournalWriter(const std::string& folder, const JournalHeader& header)
-    : JournalWriter(journal_file(folder), -1, 0) {
-  make_run_folder(folder);
-  descriptor_ = open_alone(file_, O_CREAT, 0.0);
-  if (descriptor_ < 0) {
+    : JournalWriter((make_run_folder(folder), folder), O_CREAT, 0.0) {
+  if (!file_.is_open()) {
+    const CannotWrite why(path_);
+    if (why.out_of_room()) throw why;
     throw InvalidInput(
         "--out", folder,
-        errno == EWOULDBLOCK ? "a folder that no other run is writing to" : "a folder that can be written to");
+        why.error == EWOULDBLOCK ? "a folder that no other run is writing to" : "a folder that can be written to");
   }
   truncate_to(0);
   try {
@@ -130,29 +104,18 @@ JournalWriter::JournalWriter(const std::string& folder, const JournalHeader& hea
 }
 
 JournalWriter JournalWriter::go_on(const std::string& folder, double patience) {
-  const std::string file = journal_file(folder);
-  const int descriptor = open_alone(file, 0, patience);
-  if (descriptor < 0 && errno == EWOULDBLOCK) throw std::runtime_error(file + ": another run is writing it");
-  if (descriptor < 0) throw cannot_write(file);
-  struct stat status {};
-  fstat(descriptor, &status);
-  return JournalWriter(file, descriptor, static_cast<std::uint64_t>(status.st_size));
+  JournalWriter writer(folder, 0, patience);
+  if (!writer.file_.is_open()) {
+    if (errno == EWOULDBLOCK) throw std::runtime_error(writer.path_ + ": another run is writing it");
+    throw CannotWrite(writer.path_);
+  }
+  writer.bytes_ = fs::file_size(writer.path_);
+  return writer;
 }
-
-JournalWriter::~JournalWriter() {
-  if (descriptor_ >= 0) close(descriptor_);
-}
-
-JournalWriter::JournalWriter(JournalWriter&& other) noexcept
-    : file_(std::move(other.file_)),
-      descriptor_(std::exchange(other.descriptor_, -1)),
-      bytes_(other.bytes_),
-      buffer_(std::move(other.buffer_)) {}
 
 void JournalWriter::append(const Record& record) {
-  struct stat status {};
   // What goes to a file without a name is lost with the process.
-  if (fstat(descriptor_, &status) != 0 || status.st_nlink == 0) throw std::runtime_error(file_ + ": was removed");
+  if (!file_.has_name()) throw std::runtime_error(path_ + ": was removed");
   buffer_.clear();
   append_frame(buffer_, [&](journal::Encoder& encoder) { journal::fields(encoder, record); });
   write(buffer_);
@@ -161,12 +124,12 @@ void JournalWriter::append(const Record& record) {
 void JournalWriter::write(const std::string& bytes) {
   std::size_t written = 0;
   while (written < bytes.size()) {
-    const ssize_t more = ::write(descriptor_, bytes.data() + written, bytes.size() - written);
+    const ssize_t more = ::write(file_.descriptor(), bytes.data() + written, bytes.size() - written);
     if (more < 0 && errno == EINTR) continue;
     if (more < 0) {
-      const std::runtime_error why = cannot_write(file_);
+      const CannotWrite why(path_);
       // Where even this fails a reader stops at the piece all the same.
-      static_cast<void>(ftruncate(descriptor_, static_cast<off_t>(bytes_)) == 0);
+      static_cast<void>(ftruncate(file_.descriptor(), static_cast<off_t>(bytes_)) == 0);
       throw why;
     }
     written += static_cast<std::size_t>(more);
@@ -175,13 +138,13 @@ void JournalWriter::write(const std::string& bytes) {
 }
 
 void JournalWriter::truncate_to(std::uint64_t bytes) {
-  if (ftruncate(descriptor_, static_cast<off_t>(bytes)) != 0) throw cannot_write(file_);
+  if (ftruncate(file_.descriptor(), static_cast<off_t>(bytes)) != 0) throw CannotWrite(path_);
   bytes_ = bytes;
 }
 
 void JournalWriter::remove() {
   std::error_code error;
-  fs::remove(file_, error);
+  fs::remove(path_, error);
 }
 
 JournalReader::JournalReader(const std::string& folder) : file_(journal_file(folder)), in_(file_, std::ios::binary) {

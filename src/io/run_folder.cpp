@@ -34,7 +34,7 @@ void begin_run_folder(const std::string& folder, const Method& method) {
     // A run repeated from its own folder reads this very file.
     if (!fs::equivalent(method.specimen.file, copy, error)) {
       fs::copy_file(method.specimen.file, copy, fs::copy_options::overwrite_existing, error);
-      if (error) throw cannot_write(copy.string(), error.value());
+      if (error) throw CannotWrite(copy.string(), error.value());
     }
   }
   // Not before the specimen has been read: it may be the shape that the last run left here.
@@ -42,7 +42,8 @@ void begin_run_folder(const std::string& folder, const Method& method) {
     fs::remove(fs::path(folder) / old, error);
   try {
     write_whole((fs::path(folder) / "method.yaml").string(), method_file_text(method));
-  } catch (const std::runtime_error&) {
+  } catch (const CannotWrite& why) {
+    if (why.out_of_room()) throw;
     throw InvalidInput("--out", folder, "a folder that can be written to");
   }
 }
@@ -63,12 +64,12 @@ void write_whole(const std::string& file, const std::string& text) {
   out.close();
   std::error_code error;
   if (!out) {
-    const std::runtime_error why = cannot_write(file);
+    const CannotWrite why(file);
     fs::remove(part, error);
     throw why;
   }
   fs::rename(part, file, error);
-  if (error) throw cannot_write(file, error.value());
+  if (error) throw CannotWrite(file, error.value());
 }
 
 std::string read_whole(const std::string& file) {

@@ -167,7 +167,11 @@ std::string result_yaml(const Results& r, const RunFacts& f) {
   lines.number("simulated_time", r.simulated_time);
   lines.number("wall_time", f.wall_time);
   lines.number("real_time_factor", f.wall_time > 0.0 ? r.simulated_time / f.wall_time : 0.0);
-  lines.count("peak_memory", f.peak_memory);
+  if (f.peak_memory > 0) {
+    lines.count("peak_memory", f.peak_memory);
+  } else {
+    lines.number("peak_memory", std::nullopt);
+  }
   lines.count("seed", f.seed);
   lines.word("version", f.version);
   return lines.all();

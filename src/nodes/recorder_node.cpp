@@ -1,12 +1,17 @@
 // Writes what a test measures.
 #include "knot_utm/ros/recorder_node.hpp"
 
+#include <csignal>
+
 #include "knot_utm/ros/test_setup.hpp"
 
 int main(int argc, char** argv) {
-  ros::init(argc, argv, "recorder_node");
-  return knot_utm::run_node("recorder_node", [] {
+  // A file as large as is allowed is an error like a full disk, which says what was being written.
+  std::signal(SIGXFSZ, SIG_IGN);
+  return knot_utm::run_node("recorder_node", [&] {
+    knot_utm::Keeper keeper;
+    ros::init(argc, argv, "recorder_node");
     const ros::NodeHandle node;
-    return knot_utm::RecorderNode(node, knot_utm::read_test_setup(node)).spin();
+    return knot_utm::RecorderNode(node, knot_utm::read_test_setup(node), keeper).spin();
   });
 }

@@ -3,24 +3,38 @@
 #include <ros/callback_queue.h>
 
 #include <filesystem>
+#include <stdexcept>
 #include <utility>
-#include <vector>
 
+#include "knot_utm/io/recovery.hpp"
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/journal_bag.hpp"
 #include "knot_utm/ros/knot_node.hpp"
 #include "knot_utm/ros/names.hpp"
 
 namespace knot_utm {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr std::uint32_t kQueue = 4 * KnotNode::kKeptAnswers;
 constexpr double kPatience = 2.0;                // wall time to wait for a record that is missing [s]
 constexpr double kPatienceAtEnd = 10.0;          // the same for the final shape [s]
+constexpr double kPatienceWithKeeper = 60.0;     // wall time that a recovery may take [s]
 constexpr double kAcknowledgePeriod = 0.005;     // wall time between acknowledgements [s]
 constexpr std::uint64_t kAcknowledgeAfter = 16;  // records, where they come faster
 
 double seconds_since(std::chrono::steady_clock::time_point then) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+}
+
+bool has_journal_of(const std::string& folder, const std::string& test) {
+  try {
+    return !test.empty() && JournalReader(folder).header().test == test;
+  } catch (const InvalidInput&) {
+    return false;  // none, or one that nobody can read
+  }
 }
 
 EndedBy ended_by_from_name(const std::string& name) {
@@ -33,13 +47,14 @@ EndedBy ended_by_from_name(const std::string& name) {
 
 }  // namespace
 
-RecorderNode::Run::Run(const std::string& folder_, const Method& method)
+RecorderNode::Run::Run(const std::string& folder_, const Method& method, JournalWriter journal_)
     : folder(folder_),
-      journal(folder_, journal_header(method)),
+      journal(std::move(journal_)),
       writer(folder_, method),
-      bag((std::filesystem::path(folder_) / "test.bag").string(), method) {}
+      bag((fs::path(folder_) / "test.bag").string(), method) {}
 
-RecorderNode::RecorderNode(const ros::NodeHandle& node, TestSetup setup) : node_(node), setup_(std::move(setup)) {
+RecorderNode::RecorderNode(const ros::NodeHandle& node, TestSetup setup, Keeper& keeper)
+    : node_(node), setup_(std::move(setup)), keeper_(keeper) {
   status_ = node_.advertise<RecorderStatus>(names::kRecorderStatus, 100, true);
   save_ = node_.advertiseService(names::kSave, &RecorderNode::on_save, this);
   const ros::TransportHints at_once = ros::TransportHints().tcpNoDelay();
@@ -55,10 +70,9 @@ int RecorderNode::spin() {
       give_up_gap();
       finish_when_ready();
     }
-    const bool complete = run_ && run_->complete;
     const std::uint64_t next = run_ ? run_->next : 0;
     const bool news = next != published_.next_sequence || run_number_ != published_.run ||
-                      complete != (published_.complete != 0) || error_ != published_.error;
+                      is_complete() != (published_.complete != 0) || error_ != published_.error;
     if (news && (seconds_since(published_at_) > kAcknowledgePeriod)) publish_status();
   }
   if (run_ && !run_->complete && error_.empty()) {
@@ -67,14 +81,47 @@ int RecorderNode::spin() {
   return error_.empty() ? 0 : 1;
 }
 
-void RecorderNode::begin_run(std::uint32_t run) {
+void RecorderNode::begin_run(const Crosshead& first) {
   if (run_ && !run_->complete) {
     finish(EndedBy::kOperator, "another test was started", "");
   }
-  const bool first = run_number_ == 0;
-  const std::string folder = first ? setup_.out : setup_.out + "-" + std::to_string(run);
+  run_.reset();
+  const std::uint32_t run = first.run;
   run_number_ = run;
-  run_ = std::make_unique<Run>(folder, setup_.method);
+  const std::string folder = run == 1 ? setup_.out : setup_.out + "-" + std::to_string(run);
+  test_id_.clear();
+  if (node_.getParam(names::kTestId, test_id_)) test_id_ += "/" + std::to_string(run);
+  std::string recorded;
+  node_.getParam(names::kRecordedTest, recorded);
+  completed_before_ = !test_id_.empty() && recorded == test_id_;
+  if (completed_before_ || go_on(folder)) return;
+  if (first.sequence > 0 && has_complete_result(folder)) {
+    throw std::runtime_error(folder +
+                             ": holds a result, which the rest of a test would write over: its recorder was stopped");
+  }
+  run_ = std::make_unique<Run>(folder, setup_.method, JournalWriter(folder, journal_header(setup_.method, test_id_)));
+  watch(folder);
+}
+
+bool RecorderNode::go_on(const std::string& folder) {
+  if (!has_journal_of(folder, test_id_)) return false;
+  // The keeper of the recorder before may be recovering the folder.
+  JournalWriter journal = JournalWriter::go_on(folder, kPatienceWithKeeper);
+  JournalReader reader(folder);
+  run_ = std::make_unique<Run>(folder, journalled_method(folder, reader.header()), std::move(journal));
+  watch(folder);
+  Record record;
+  while (reader.next(record)) keep(record);
+  run_->journal.truncate_to(reader.good_bytes());
+  run_->dropped = run_->next - run_->recorded;
+  run_->begin -= std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(record.wall_time));
+  ROS_WARN("goes on with %s after %llu commands", folder.c_str(), static_cast<unsigned long long>(run_->recorded));
+  return true;
+}
+
+void RecorderNode::watch(const std::string& folder) {
+  if (!keeper_.watch(fs::absolute(folder).string()))
+    ROS_WARN("the keeper is gone: a recorder that is killed needs `recover`");
 }
 
 void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
@@ -82,9 +129,9 @@ void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
   try {
     const Crosshead& command = record->command;
     if (command.run < run_number_) return;
-    if (command.run > run_number_) begin_run(command.run);
+    if (command.run > run_number_) begin_run(command);
+    if (is_complete()) return;
     Run& run = *run_;
-    if (run.complete) return;
     run.progress = Clock::now();
     if (!record->shape.points.empty() && command.sequence >= run.shape_sequence) {
       run.shape = points_from_message(record->shape);
@@ -107,12 +154,20 @@ void RecorderNode::write(const KnotRecord& record) {
   Record kept = from_message(record);
   kept.wall_time = seconds_since(run_->begin);
   run_->journal.append(kept);
-  run_->writer.add(kept);
-  run_->bag.add(kept);
-  run_->failed = kept.answer.status == BenchStatus::kFailed;
+  keep(kept);
   run_->stamp = record.command.header.stamp;
+}
+
+void RecorderNode::keep(const Record& record) {
+  run_->writer.add(record);
+  run_->bag.add(record);
+  if (record.shape.cols() > 0) {
+    run_->shape = record.shape;
+    run_->shape_sequence = record.command.sequence;
+  }
+  run_->failed = record.answer.status == BenchStatus::kFailed;
   ++run_->recorded;
-  run_->next = kept.command.sequence + 1;
+  run_->next = record.command.sequence + 1;
 }
 
 void RecorderNode::write_early() {
@@ -163,7 +218,10 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
     if (!warning.empty()) facts.warnings.push_back(warning);
     if (run.dropped > 0) facts.warnings.push_back(std::to_string(run.dropped) + " commands were not recorded");
     run.writer.finish(run.writer.results(ended_by), facts, run.shape);
+    // Whoever begins anew from here on has nothing left to do.
+    if (ros::ok() && !test_id_.empty()) node_.setParam(names::kRecordedTest, test_id_);
     run.journal.remove();
+    keeper_.release();
     run.complete = true;
     ROS_INFO("written to %s: %zu rows, %llu commands dropped", run.folder.c_str(), run.writer.rows(),
              static_cast<unsigned long long>(run.dropped));
@@ -174,7 +232,12 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
 
 void RecorderNode::fail(const std::string& why) {
   error_ = why;
-  ROS_ERROR("%s", why.c_str());
+  if (run_) {
+    // What is written to a disk without room would be no better for the keeper.
+    keeper_.release();
+    error_ += how_to_recover(run_->folder);
+  }
+  ROS_ERROR("%s", error_.c_str());
 }
 
 bool RecorderNode::on_save(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
@@ -185,7 +248,7 @@ bool RecorderNode::on_save(std_srvs::Trigger::Request& /*request*/, std_srvs::Tr
   }
   if (!run_->complete && error_.empty()) {
     try {
-      run_->bag.save((std::filesystem::path(run_->folder) / "saved.bag").string());
+      save_bag(run_->folder, setup_.method, (fs::path(run_->folder) / "saved.bag").string());
       RunFacts facts = run_->writer.facts();
       facts.reason = "saved while the test was running";
       facts.wall_time = seconds_since(run_->begin);
@@ -204,6 +267,7 @@ void RecorderNode::publish_status() {
   status.run = run_number_;
   status.error = error_;
   status.directory = setup_.out;
+  status.complete = static_cast<std::uint8_t>(is_complete());
   if (run_) {
     status.header.stamp = run_->stamp;
     status.recorded = run_->recorded;
@@ -212,7 +276,6 @@ void RecorderNode::publish_status() {
     status.curve_rows = run_->writer.rows();
     status.full_rows = run_->writer.full_rows();
     status.bag_messages = run_->bag.messages();
-    status.complete = static_cast<std::uint8_t>(run_->complete);
     status.directory = run_->folder;
   }
   published_ = status;

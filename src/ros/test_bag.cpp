@@ -1,14 +1,15 @@
 #include "knot_utm/ros/test_bag.hpp"
 
-#include <filesystem>
+#include <stdexcept>
 
+#include "knot_utm/io/cannot_write.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
 
 namespace knot_utm {
 namespace {
 
-/// Small enough that a run that is killed loses little, large enough for few chunks [bytes].
+/// Small enough to be read in pieces, large enough for few chunks [bytes].
 constexpr std::uint32_t kChunk = 64 * 1024;
 
 /// The bag holds one test, whatever number it had in the life of the node that ran it.
@@ -17,8 +18,20 @@ constexpr std::uint32_t kRun = 1;
 }  // namespace
 
 TestBag::TestBag(const std::string& file, const Method& method) : file_(file), radius_(method.material.radius) {
-  bag_.open(file_, rosbag::bagmode::Write);
-  bag_.setChunkThreshold(kChunk);
+  try {
+    bag_ = std::make_unique<rosbag::Bag>(file_, rosbag::bagmode::Write);
+  } catch (const rosbag::BagException&) {
+    throw CannotWrite(file_);
+  }
+  bag_->setChunkThreshold(kChunk);
+}
+
+TestBag::~TestBag() {
+  try {
+    close();
+  } catch (const std::runtime_error&) {
+    // Who wants to know closes it.
+  }
 }
 
 void TestBag::add(const Record& record) {
@@ -41,19 +54,25 @@ void TestBag::add(const Record& record) {
   }
 }
 
-void TestBag::save(const std::string& file) {
-  // Only a closed bag has an index.
-  bag_.close();
-  std::filesystem::copy_file(file_, file, std::filesystem::copy_options::overwrite_existing);
-  bag_.open(file_, rosbag::bagmode::Append);
-  bag_.setChunkThreshold(kChunk);
+void TestBag::close() {
+  if (!bag_) return;
+  try {
+    bag_->close();
+    bag_.reset();
+  } catch (const rosbag::BagException&) {
+    // Its destructor would try once more, and end the process.
+    static_cast<void>(bag_.release());
+    throw CannotWrite(file_);
+  }
 }
-
-void TestBag::close() { bag_.close(); }
 
 template <class Message>
 void TestBag::write(const std::string& topic, const ros::Time& stamp, const Message& message) {
-  bag_.write("/" + topic, stamp, message);
+  try {
+    bag_->write("/" + topic, stamp, message);
+  } catch (const rosbag::BagException&) {
+    throw CannotWrite(file_);
+  }
   ++messages_;
 }
 

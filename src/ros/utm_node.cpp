@@ -61,6 +61,7 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOpt
   balance_ = node_.advertiseService(names::kBalance, &UtmNode::on_balance, this);
   pause_ = node_.advertiseService(names::kPause, &UtmNode::on_pause, this);
   step_ = node_.advertiseService(names::kStep, &UtmNode::on_step, this);
+  node_.setParam(names::kTestId, std::to_string(ros::WallTime::now().toNSec()));
   publish_status();
 }
 

@@ -7,12 +7,14 @@
 #include <cstdio>
 #include <exception>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "knot_utm/io/checkpoint.hpp"
 #include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/io/recovery.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/machine/run_test.hpp"
@@ -195,25 +197,27 @@ void take(const Command& command, const Sample& answer, const TestBench& bench, 
   record.wall_time = wall_time;
 }
 
-int run(const Arguments& arguments) {
-  if (!arguments.resume.empty() && has_complete_result(arguments.resume))
-    throw InvalidInput("--resume", arguments.resume, "a test that was cut off; this one has ended");
-  const Method method = load_method(arguments.method, arguments.overrides);
-  TestBench bench(method.specimen, method.material, method.machine, method.physics);
-  TestProgram program = make_program(method, bench.longest_step());
+/// A test, and where it stands.
+struct Test {
+  const Method& method;
+  std::string out;
+  TestBench& bench;
+  TestProgram& program;
+  const Checkpoint& checkpoint;
+  std::optional<Past> past;  ///< none: it is new
+};
 
-  const std::string out = arguments.out.empty() ? "out/" + method.name : arguments.out;
-  const Checkpoint checkpoint(out, method_file_text(method));
-  std::optional<Past> past;
-  if (!arguments.resume.empty()) past.emplace(out, method, checkpoint, bench, program);
-  JournalWriter journal = past ? JournalWriter::go_on(out, 0.0) : JournalWriter(out, journal_header(method));
-  if (!past) checkpoint.remove();
-  Writers writers(out, method);
-  const WallClock clock(past ? past->write(writers, journal) : 0.0);
+int run_to_end(const Test& test, JournalWriter& journal, double checkpoint_period, bool quiet) {
+  TestBench& bench = test.bench;
+  TestProgram& program = test.program;
+  const std::string& out = test.out;
+  if (!test.past) test.checkpoint.remove();
+  Writers writers(out, test.method);
+  const WallClock clock(test.past ? test.past->write(writers, journal) : 0.0);
   {
-    ProgressLine progress(arguments.quiet);
+    ProgressLine progress(quiet);
     Record record;
-    CheckedBench checked{bench, program, journal, checkpoint, clock, arguments.checkpoint};
+    CheckedBench checked{bench, program, journal, test.checkpoint, clock, checkpoint_period};
     run_test(checked, program, [&](const Command& command, const Sample& sample) {
       take(command, sample, bench, clock.seconds(), record);
       journal.append(record);
@@ -230,7 +234,7 @@ int run(const Arguments& arguments) {
   facts.wall_time = clock.seconds();
   const Results results = writers.run.results(program.ended_by());
   writers.run.finish(results, facts, bench.state().position);
-  checkpoint.remove();
+  test.checkpoint.remove();
   journal.remove();
 
   const std::string unsure = accuracy_warning(results, facts.errors);
@@ -242,11 +246,32 @@ int run(const Arguments& arguments) {
     if (!bench.failed_step().empty())
       std::fprintf(stderr, "tensile_test: the step that could not be made: scripts/replay-step %s\n",
                    failed_step.c_str());
-  } else if (!arguments.quiet) {
+  } else if (!quiet) {
     std::printf("ended by %s after %.1f s, %.1f times real time; written to %s\n", ended_by_name(program.ended_by()),
                 results.simulated_time, results.simulated_time / facts.wall_time, out.c_str());
   }
   return gave_up ? kGaveUp : kEnded;
+}
+
+int run(const Arguments& arguments) {
+  const bool resumes = !arguments.resume.empty();
+  if (resumes && is_settled(arguments.resume))
+    throw InvalidInput("--resume", arguments.resume, "a test that was cut off; this one has ended");
+  const Method method = load_method(arguments.method, arguments.overrides);
+  TestBench bench(method.specimen, method.material, method.machine, method.physics);
+  TestProgram program = make_program(method, bench.longest_step());
+  const std::string out = arguments.out.empty() ? "out/" + method.name : arguments.out;
+  const Checkpoint checkpoint(out, method_file_text(method));
+  Test test{method, out, bench, program, checkpoint, std::nullopt};
+  if (resumes) test.past.emplace(out, method, checkpoint, bench, program);
+  JournalWriter journal = resumes ? JournalWriter::go_on(out, 0.0) : JournalWriter(out, journal_header(method));
+  try {
+    return run_to_end(test, journal, arguments.checkpoint, arguments.quiet);
+  } catch (const InvalidInput&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(error.what() + how_to_recover(out));
+  }
 }
 
 /// Reads the command line; an exit code where that is all there is to do.

@@ -79,7 +79,8 @@ class Readme(unittest.TestCase):
 
 class Documents(unittest.TestCase):
     def test_links_and_files_are_there(self):
-        for document in ("README.md", "doc/model.md", "doc/performance.md", "doc/references.md", "doc/terminology.md"):
+        for document in ("README.md", "doc/model.md", "doc/performance.md", "doc/references.md", "doc/reliability.md",
+                         "doc/terminology.md"):
             folder = os.path.dirname(document)
             for target in re.findall(r"\]\(([^)#]+)\)", text(document)):
                 self.assertTrue(os.path.exists(os.path.join(ROOT, folder, target)), f"{document}: {target}")
@@ -96,6 +97,18 @@ class Documents(unittest.TestCase):
         for name in re.findall(r"`((?:R\d+|K\d+)\w+|StencilAt|StretchingOf|IsotropicBendingBy|SmoothContactJacobian)",
                                text("doc/references.md")):
             self.assertTrue(name in suites, name)
+
+    def test_promises_have_their_tests(self):
+        tests = {f"{suite}.{name}" for file in files("test", "_test.cpp")
+                 for suite, name in re.findall(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", text(file), re.MULTILINE)}
+        launched = {name for file in files("test/ros", "_test.py") for name in re.findall(r"def (test_\w+)", text(file))}
+        named = re.findall(r"`(\w+)(\.\w+)?`", text("doc/reliability.md"))
+        for suite, name in named:
+            if re.match(r"[A-Z]", suite) and name:
+                self.assertTrue(suite + name in tests, suite + name)
+            elif suite.startswith("test_"):
+                self.assertTrue(suite in launched, suite)
+        self.assertGreater(len(named), 20)
 
 
 if __name__ == "__main__":

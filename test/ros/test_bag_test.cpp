@@ -3,9 +3,14 @@
 #include <gtest/gtest.h>
 #include <knot_utm/KnotState.h>
 #include <rosbag/view.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
+
+#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/ros/journal_bag.hpp"
 
 namespace knot_utm {
 namespace {
@@ -24,15 +29,18 @@ class TestBagTest : public testing::Test {
   fs::path folder_;
 };
 
-void add(TestBag& bag, std::uint64_t sequence) {
-  Record record;
-  record.command.sequence = record.answer.sequence = sequence;
-  record.command.time = record.answer.time = 0.1 * static_cast<double>(sequence);
-  record.command.read_cell = sequence % 2 == 0;
-  record.shape = Points::Zero(3, 4);
-  record.tension = Eigen::VectorXd::Zero(3);
-  bag.add(record);
+Record record(std::uint64_t sequence) {
+  Record r;
+  r.command.sequence = r.answer.sequence = sequence;
+  r.command.time = r.answer.time = 0.1 * static_cast<double>(sequence);
+  r.command.read_cell = sequence % 2 == 0;
+  r.steps = {r.answer};
+  r.shape = Points::Zero(3, 4);
+  r.tension = Eigen::VectorXd::Zero(3);
+  return r;
 }
+
+void add(TestBag& bag, std::uint64_t sequence) { bag.add(record(sequence)); }
 
 std::size_t count(const std::string& file, const std::string& topic) {
   const rosbag::Bag bag(file, rosbag::bagmode::Read);
@@ -60,14 +68,62 @@ TEST_F(TestBagTest, StampsAreThoseOfTheHeaders) {
   }
 }
 
-TEST_F(TestBagTest, SavedCopyCanBeReadWhileTheBagGoesOn) {
-  TestBag bag(file("a.bag"), Method());
-  add(bag, 0);
-  bag.save(file("saved.bag"));
-  add(bag, 1);
+/// One after the other what a run does, with a spring's records.
+void write_run(const std::string& folder, const Method& method, std::uint64_t records, bool end) {
+  JournalWriter journal(folder, journal_header(method));
+  RunWriter writer(folder, method);
+  TestBag bag(folder + "/test.bag", method);
+  for (std::uint64_t i = 0; i < records; ++i) {
+    const Record r = record(i);
+    journal.append(r);
+    writer.add(r);
+    bag.add(r);
+  }
+  if (end) bag.close();
+}
+
+TEST_F(TestBagTest, RecoveredFromTheJournalItIsTheSameToTheByte) {
+  const Method method = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml");
+  write_run(file("ended"), method, 40, true);
+  write_run(file("killed"), method, 40, false);
+  fs::resize_file(file("killed/test.bag"), 100);
+  {
+    Recovery recovery(file("killed"), file("killed"));
+    recover_with_bag(recovery);
+  }
+  EXPECT_EQ(read_whole(file("killed/test.bag")), read_whole(file("ended/test.bag")));
+}
+
+TEST_F(TestBagTest, SavedWhileTheTestGoesOnItCanBeRead) {
+  const Method method = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml");
+  JournalWriter journal(folder_.string(), journal_header(method));
+  journal.append(record(0));
+  save_bag(folder_.string(), method, file("saved.bag"));
+  journal.append(record(1));
   EXPECT_EQ(count(file("saved.bag"), "/knot/state"), 1u);
-  bag.close();
-  EXPECT_EQ(count(file("a.bag"), "/knot/state"), 2u);
+}
+
+/// A file that may not grow stands for a disk that is full.
+TEST_F(TestBagTest, WithoutRoomItNamesTheFileAndTheReason) {
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  rlimit tight = before;
+  tight.rlim_cur = 20000;
+  std::string why;
+  {
+    TestBag bag(file("a.bag"), Method());
+    setrlimit(RLIMIT_FSIZE, &tight);
+    try {
+      for (std::uint64_t i = 0; i < 1000; ++i) add(bag, i);
+      bag.close();
+    } catch (const std::runtime_error& error) {
+      why = error.what();
+    }
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(why, file("a.bag") + ": cannot be written: File too large");
 }
 
 }  // namespace

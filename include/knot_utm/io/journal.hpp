@@ -4,6 +4,7 @@
 #include <fstream>
 #include <string>
 
+#include "knot_utm/io/locked_file.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/record.hpp"
 
@@ -48,12 +49,6 @@ class JournalWriter {
   /// `patience` [s] for another to let go. Throws std::runtime_error where there is none or it is still held.
   static JournalWriter go_on(const std::string& folder, double patience);
 
-  ~JournalWriter();
-  JournalWriter(JournalWriter&& other) noexcept;
-  JournalWriter(const JournalWriter&) = delete;
-  JournalWriter& operator=(const JournalWriter&) = delete;
-  JournalWriter& operator=(JournalWriter&&) = delete;
-
   /// One unbuffered write; once it returns the record outlives the process. Throws std::runtime_error, which names file
   /// and reason, where it could not be written whole (the file then ends with the record before) or the file was
   /// removed.
@@ -68,12 +63,12 @@ class JournalWriter {
   std::uint64_t bytes() const { return bytes_; }  ///< length of the file: the end of the latest record
 
  private:
-  JournalWriter(std::string file, int descriptor, std::uint64_t bytes);
+  JournalWriter(const std::string& folder, int flags, double patience);
   void write(const std::string& bytes);
 
-  std::string file_;
-  int descriptor_;
-  std::uint64_t bytes_;
+  std::string path_;
+  LockedFile file_;
+  std::uint64_t bytes_ = 0;
   std::string buffer_;  ///< of a frame, kept for its memory
 };
 

@@ -16,7 +16,7 @@ struct RunFacts {
   double preload = Sample::kNone;     ///< F_p [N]; NaN: nothing was tied
   ReadingErrors errors;               ///< of the readings, as fractions of them
   double wall_time = 0.0;             ///< [s]
-  std::uint64_t peak_memory = 0;      ///< of the process [bytes]
+  std::uint64_t peak_memory = 0;      ///< of the process [bytes]; 0: not known
   unsigned seed = 0;                  ///< of the load cell's noise
   std::string version;                ///< of this package
 };

@@ -25,6 +25,10 @@ inline constexpr char kStep[] = "utm/step";
 inline constexpr char kReset[] = "knot/reset";
 inline constexpr char kSave[] = "recorder/save";
 
+// Parameters that the nodes set
+inline constexpr char kTestId[] = "test/id";              ///< by utm_node: no other utm_node has it
+inline constexpr char kRecordedTest[] = "test/recorded";  ///< by recorder_node: the last test it completed
+
 // Frames
 inline constexpr char kWorldFrame[] = "world";
 inline constexpr char kBaseFrame[] = "utm_base";

@@ -13,6 +13,7 @@
 
 #include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/run_writer.hpp"
+#include "knot_utm/ros/keeper.hpp"
 #include "knot_utm/ros/test_bag.hpp"
 #include "knot_utm/ros/test_setup.hpp"
 
@@ -21,10 +22,13 @@ namespace knot_utm {
 /// Writes every command and its answer in order, by the code that writes them headless. What is missing it waits for,
 /// as the machine asks for it again; what does not come it counts as dropped. The first test of a launch goes to the
 /// folder given, the second one to the folder beside it with "-2", and so on. The service recorder/save leaves
-/// result.yaml as of now and saved.bag, a copy of the bag so far.
+/// result.yaml as of now and saved.bag, the bag so far.
+///
+/// A record is acknowledged once the journal has it. Started anew in the midst of a test it goes on from the journal of
+/// that test, as the machine and the physics hold what is not acknowledged; the files are those of one recorder.
 class RecorderNode {
  public:
-  RecorderNode(const ros::NodeHandle& node, TestSetup setup);
+  RecorderNode(const ros::NodeHandle& node, TestSetup setup, Keeper& keeper);
 
   /// Runs until ROS is shut down; a test that has not ended then is closed as stopped by the operator. Returns the exit
   /// code: 1 where something could not be written.
@@ -35,7 +39,7 @@ class RecorderNode {
 
   /// The test being written.
   struct Run {
-    Run(const std::string& folder_, const Method& method);
+    Run(const std::string& folder_, const Method& method, JournalWriter journal_);
     std::string folder;
     JournalWriter journal;
     RunWriter writer;
@@ -57,20 +61,27 @@ class RecorderNode {
   void on_status(const TestStatus& status);
   bool on_save(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
-  void begin_run(std::uint32_t run);
+  void begin_run(const Crosshead& first);
+  bool go_on(const std::string& folder);
+  void watch(const std::string& folder);
   void write(const KnotRecord& record);
+  void keep(const Record& record);
   void write_early();
   void give_up_gap();
   void finish_when_ready();
   void finish(EndedBy ended_by, const std::string& reason, const std::string& warning);
   void fail(const std::string& why);
+  bool is_complete() const { return run_ ? run_->complete : completed_before_; }
   void publish_status();
 
   ros::NodeHandle node_;
   TestSetup setup_;
+  Keeper& keeper_;
   std::uint32_t run_number_ = 0;
-  std::unique_ptr<Run> run_;  ///< none before the first record
-  TestStatus test_;           ///< the latest
+  std::string test_id_;            ///< of the test being written, as no other test has it; empty: not known
+  std::unique_ptr<Run> run_;       ///< none before the first record
+  bool completed_before_ = false;  ///< a recorder before this one has completed the test
+  TestStatus test_;                ///< the latest
   std::string error_;
   RecorderStatus published_;
   Clock::time_point published_at_;

@@ -3,6 +3,7 @@
 #include <rosbag/bag.h>
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
 #include "knot_utm/analysis/motion_pattern.hpp"
@@ -17,12 +18,14 @@ class TestBag {
  public:
   /// Throws std::runtime_error where the file cannot be written, as all of it does.
   TestBag(const std::string& file, const Method& method);
+  ~TestBag();
+  TestBag(const TestBag&) = delete;
+  TestBag& operator=(const TestBag&) = delete;
+  TestBag(TestBag&&) = delete;
+  TestBag& operator=(TestBag&&) = delete;
 
   void add(const Record& record);
-
-  /// Copies what there is so far to `file`, which can be read at once, and goes on.
-  void save(const std::string& file);
-  void close();
+  void close();  ///< only then has the file an index, without which it cannot be read
 
   std::uint64_t messages() const { return messages_; }  ///< written so far
 
@@ -31,8 +34,8 @@ class TestBag {
   void write(const std::string& topic, const ros::Time& stamp, const Message& message);
 
   std::string file_;
-  rosbag::Bag bag_;
-  double radius_;  ///< [m]
+  std::unique_ptr<rosbag::Bag> bag_;  ///< none once closed
+  double radius_;                     ///< [m]
   MotionPatternTracker motion_;
   std::uint64_t messages_ = 0;
 };

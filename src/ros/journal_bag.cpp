@@ -1,0 +1,23 @@
+#include "knot_utm/ros/journal_bag.hpp"
+
+#include "knot_utm/ros/test_bag.hpp"
+
+namespace knot_utm {
+
+void recover_with_bag(Recovery& recovery) {
+  TestBag bag(recovery.place() + "/test.bag", recovery.method());
+  Record record;
+  while (recovery.next(record)) bag.add(record);
+  bag.close();
+  recovery.finish();
+}
+
+void save_bag(const std::string& folder, const Method& method, const std::string& file) {
+  JournalReader journal(folder);
+  TestBag bag(file, method);
+  Record record;
+  while (journal.next(record)) bag.add(record);
+  bag.close();
+}
+
+}  // namespace knot_utm

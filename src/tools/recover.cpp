@@ -1,0 +1,75 @@
+// What a run left that was killed: curves, bag and result, written anew from its method and journal.
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <string>
+
+#include "knot_utm/io/recovery.hpp"
+#include "knot_utm/io/run_facts.hpp"
+#ifdef KNOT_UTM_HAS_ROS
+#include "knot_utm/ros/journal_bag.hpp"
+#endif
+
+namespace knot_utm {
+namespace {
+
+enum ExitCode { kRecovered = 0, kFailed = 1, kWrongInput = 2 };
+
+struct Arguments {
+  std::string folder;
+  std::string out;
+};
+
+int run(const Arguments& arguments) {
+  if (is_settled(arguments.folder)) {
+    std::printf("%s is complete: there is nothing to recover\n", arguments.folder.c_str());
+    return kRecovered;
+  }
+  Recovery recovery(arguments.folder, arguments.out.empty() ? arguments.folder : arguments.out);
+#ifdef KNOT_UTM_HAS_ROS
+  recover_with_bag(recovery);
+#else
+  Record record;
+  while (recovery.next(record)) {
+  }
+  recovery.finish();
+#endif
+  std::printf("%s\n", recovery.summary().c_str());
+  return kRecovered;
+}
+
+/// Reads the command line; an exit code where that is all there is to do.
+std::optional<int> parse(int argc, char** argv, Arguments& arguments) {
+  CLI::App app("Writes anew what a run left that was killed, from its method.yaml and journal.");
+  app.set_version_flag("--version", version());
+  app.add_option("DIR", arguments.folder, "the run's folder")->required();
+  app.add_option("--out", arguments.out, "the folder to write to; DIR unless given");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    std::fprintf(stderr, "recover: %s\n", error.what());
+    return kWrongInput;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+}  // namespace knot_utm
+
+int main(int argc, char** argv) {
+  knot_utm::Arguments arguments;
+  try {
+    if (const std::optional<int> code = knot_utm::parse(argc, argv, arguments)) return *code;
+    std::signal(SIGXFSZ, SIG_IGN);
+    return knot_utm::run(arguments);
+  } catch (const knot_utm::InvalidInput& invalid) {
+    std::fprintf(stderr, "recover: %s\n", invalid.what());
+    return knot_utm::kWrongInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "recover: %s\n", error.what());
+    return knot_utm::kFailed;
+  }
+}

@@ -1,0 +1,149 @@
+#!/usr/bin/python3
+"""A recorder that is killed in the midst of a test loses nothing, whether or not another one takes its place."""
+import filecmp
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+
+import rospkg
+import rostest
+from catkin.find_in_workspaces import find_in_workspaces
+from own_launch import OwnLaunch, wait_until
+
+METHOD = os.path.join(rospkg.RosPack().get_path('knot_utm'), 'test/ros/pull_for_seconds.yaml')
+CURVES = ['curve.csv', 'curve_full.csv']
+FILES = CURVES + ['final_shape.csv', 'method.yaml', 'test.bag']
+
+
+def executable(name):
+    return find_in_workspaces(['libexec'], 'knot_utm', name, first_match_only=True)[0]
+
+
+def content(*path):
+    with open(os.path.join(*path), 'rb') as file:
+        return file.read()
+
+
+def messages(bag):
+    info = subprocess.run(['rosbag', 'info', '-y', '-k', 'messages', bag], check=True, stdout=subprocess.PIPE)
+    return int(info.stdout)
+
+
+class KilledRecorderTest(unittest.TestCase):
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.mkdtemp()
+        cls.headless = os.path.join(cls.folder, 'headless')
+        subprocess.run([executable('tensile_test'), METHOD, '--out', cls.headless, '--quiet'], check=True)
+
+    @classmethod
+    def tearDownClass(cls):
+        shutil.rmtree(cls.folder)
+
+    def launch(self, name, **arguments):
+        self.out = os.path.join(self.folder, name)
+        launch = OwnLaunch(method=METHOD, out=self.out, **arguments)
+        self.addCleanup(launch.stop)
+        return launch
+
+    def rows(self, name='curve.csv'):
+        """Rows of samples that a reader finds now."""
+        file = os.path.join(self.out, name)
+        return max(0, content(file).count(b'\n') - 2) if os.path.exists(file) else 0
+
+    def has(self, name):
+        return os.path.exists(os.path.join(self.out, name))
+
+    def assert_beginning_of_headless(self):
+        for name in CURVES:
+            self.assertTrue(content(self.headless, name).startswith(content(self.out, name)), name)
+
+    def assert_same_as_headless(self):
+        for name in FILES:
+            same = filecmp.cmp(os.path.join(self.out, name), os.path.join(self.headless, name), shallow=False)
+            self.assertTrue(same, name)
+        self.assertFalse(self.has('journal'))
+
+    def test_the_launch_ends_and_the_folder_is_recovered(self):
+        launch = self.launch('ends')
+        wait_until('the test runs', lambda: self.rows() >= 20)
+        launch.kill('recorder_node')
+        rows = self.rows()
+        said = launch.end()
+        self.assertIn('REQUIRED process [recorder_node', said)
+        wait_until('the folder is recovered', lambda: self.has('result.yaml'))
+        self.assertIn(b'ended_by: not yet\nreason: "the recorder died"', content(self.out, 'result.yaml'))
+        self.assertGreaterEqual(self.rows(), rows)
+        self.assert_beginning_of_headless()
+        # With each reading: command, joint, state, shape and load cell.
+        self.assertEqual(messages(self.out + '/test.bag'), 5 * self.rows())
+
+    def test_another_one_goes_on(self):
+        launch = self.launch('goes_on', respawn='true', real_time_factor='4')
+        # Between any two of them the machine has to wait for the new one.
+        for rows in 100, 300, 500:
+            wait_until('the test runs', lambda least=rows: self.rows() >= least)
+            before = launch.kill('recorder_node')
+            wait_until('another recorder', lambda one=before: launch.pid('recorder_node') not in (None, one))
+        said = launch.end()
+        self.assertEqual(said.count('goes on with'), 3)
+        self.assert_same_as_headless()
+        self.assertIn(b'ended_by: program\n', content(self.out, 'result.yaml'))
+
+    def test_started_anew_after_the_end_it_leaves_the_files_alone(self):
+        launch = self.launch('after', respawn='true', real_time_factor='0', exit_at_end='false')
+        wait_until('all is written', lambda: self.has('result.yaml') and not self.has('journal'))
+        result = content(self.out, 'result.yaml')
+        before = launch.kill('recorder_node')
+        wait_until('another recorder', lambda: launch.pid('recorder_node') not in (None, before))
+        # The machine repeats this as long as it has not heard that all is recorded, and the physics its last answer.
+        launch.tool('rostopic', 'pub', '-1', '/utm/status', 'knot_utm/TestStatus',
+                    '{state: 3, run: 1, sequence: %d}' % (self.rows() - 1))
+        said = launch.tool('rostopic', 'echo', '-n', '1', '--filter', 'm.run == 1', '/recorder/status')
+        self.assertIn('complete: True', said)
+        self.assertEqual(content(self.out, 'result.yaml'), result)
+        self.assert_same_as_headless()
+
+    def test_stopped_in_the_midst_of_a_test_its_result_stays(self):
+        launch = self.launch('stopped', respawn='true')
+        wait_until('the test runs', lambda: self.rows() >= 100)
+        launch.kill('recorder_node', signal.SIGINT)
+        self.assertIn('holds a result, which the rest of a test would write over', launch.end())
+        self.assertIn(b'ended_by: operator\n', content(self.out, 'result.yaml'))
+        self.assertGreaterEqual(self.rows(), 100)
+        self.assert_beginning_of_headless()
+
+    def test_without_room_it_says_so_and_the_journal_has_what_was_measured(self):
+        launch = self.launch('full', real_time_factor='0', recorder_prefix='prlimit --fsize=60000')
+        said = launch.end()
+        self.assertIn('cannot be written: File too large; what was recorded is in the journal: recover', said)
+        self.assertFalse(self.has('result.yaml'))
+        elsewhere = os.path.join(self.folder, 'elsewhere')
+        subprocess.run([executable('recover'), self.out, '--out', elsewhere], check=True)
+        self.out = elsewhere
+        self.assertGreater(self.rows(), 3)
+        self.assert_beginning_of_headless()
+        self.assertEqual(messages(self.out + '/test.bag'), 5 * self.rows())
+
+    def test_a_keeper_leaves_with_its_recorder(self):
+        launch = self.launch('left', real_time_factor='0')
+        wait_until('the recorder runs', lambda: launch.pid('recorder_node'))
+        recorder = launch.pid('recorder_node')
+        children = '/proc/%d/task/%d/children' % (recorder, recorder)
+        with open(children) as file:
+            keepers = [int(word) for word in file.read().split()]
+        self.assertEqual(len(keepers), 1)
+        launch.end()
+        wait_until('the keeper is gone', lambda: not os.path.exists('/proc/%d' % keepers[0]))
+        self.assert_same_as_headless()
+
+
+if __name__ == '__main__':
+    rostest.rosrun('knot_utm', 'killed_recorder', KilledRecorderTest)
