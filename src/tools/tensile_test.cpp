@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <exception>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -196,16 +197,27 @@ void take(const Command& command, const Sample& answer, const TestBench& bench, 
   record.wall_time = wall_time;
 }
 
-/// From a journal that is open to the result.
-int run_in(const std::string& out, const Method& method, TestBench& bench, TestProgram& program,
-           const Checkpoint& checkpoint, const std::optional<Past>& past, JournalWriter& journal,
-           const Arguments& arguments) {
-  Writers writers(out, method);
-  const WallClock clock(past ? past->write(writers, journal) : 0.0);
+/// A test, and where it stands.
+struct Test {
+  const Method& method;
+  std::string out;
+  TestBench& bench;
+  TestProgram& program;
+  const Checkpoint& checkpoint;
+  std::optional<Past> past;  ///< none: it is new
+};
+
+int run_to_end(const Test& test, JournalWriter& journal, double checkpoint_period, bool quiet) {
+  TestBench& bench = test.bench;
+  TestProgram& program = test.program;
+  const std::string& out = test.out;
+  if (!test.past) test.checkpoint.remove();
+  Writers writers(out, test.method);
+  const WallClock clock(test.past ? test.past->write(writers, journal) : 0.0);
   {
-    ProgressLine progress(arguments.quiet);
+    ProgressLine progress(quiet);
     Record record;
-    CheckedBench checked{bench, program, journal, checkpoint, clock, arguments.checkpoint};
+    CheckedBench checked{bench, program, journal, test.checkpoint, clock, checkpoint_period};
     run_test(checked, program, [&](const Command& command, const Sample& sample) {
       take(command, sample, bench, clock.seconds(), record);
       journal.append(record);
@@ -222,7 +234,7 @@ int run_in(const std::string& out, const Method& method, TestBench& bench, TestP
   facts.wall_time = clock.seconds();
   const Results results = writers.run.results(program.ended_by());
   writers.run.finish(results, facts, bench.state().position);
-  checkpoint.remove();
+  test.checkpoint.remove();
   journal.remove();
 
   const std::string unsure = accuracy_warning(results, facts.errors);
@@ -234,7 +246,7 @@ int run_in(const std::string& out, const Method& method, TestBench& bench, TestP
     if (!bench.failed_step().empty())
       std::fprintf(stderr, "tensile_test: the step that could not be made: scripts/replay-step %s\n",
                    failed_step.c_str());
-  } else if (!arguments.quiet) {
+  } else if (!quiet) {
     std::printf("ended by %s after %.1f s, %.1f times real time; written to %s\n", ended_by_name(program.ended_by()),
                 results.simulated_time, results.simulated_time / facts.wall_time, out.c_str());
   }
@@ -242,20 +254,19 @@ int run_in(const std::string& out, const Method& method, TestBench& bench, TestP
 }
 
 int run(const Arguments& arguments) {
-  if (!arguments.resume.empty() && has_complete_result(arguments.resume))
+  const bool resumes = !arguments.resume.empty();
+  if (resumes && is_settled(arguments.resume))
     throw InvalidInput("--resume", arguments.resume, "a test that was cut off; this one has ended");
   const Method method = load_method(arguments.method, arguments.overrides);
   TestBench bench(method.specimen, method.material, method.machine, method.physics);
   TestProgram program = make_program(method, bench.longest_step());
-
   const std::string out = arguments.out.empty() ? "out/" + method.name : arguments.out;
   const Checkpoint checkpoint(out, method_file_text(method));
-  std::optional<Past> past;
-  if (!arguments.resume.empty()) past.emplace(out, method, checkpoint, bench, program);
-  JournalWriter journal = past ? JournalWriter::go_on(out, 0.0) : JournalWriter(out, journal_header(method));
-  if (!past) checkpoint.remove();
+  Test test{method, out, bench, program, checkpoint, std::nullopt};
+  if (resumes) test.past.emplace(out, method, checkpoint, bench, program);
+  JournalWriter journal = resumes ? JournalWriter::go_on(out, 0.0) : JournalWriter(out, journal_header(method));
   try {
-    return run_in(out, method, bench, program, checkpoint, past, journal, arguments);
+    return run_to_end(test, journal, arguments.checkpoint, arguments.quiet);
   } catch (const InvalidInput&) {
     throw;
   } catch (const std::runtime_error& error) {

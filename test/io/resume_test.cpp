@@ -136,10 +136,10 @@ class Resume : public OwnFolder {
 
 TEST_F(Resume, KilledAgainAndAgainItLeavesTheSameFiles) {
   ASSERT_EQ(run(kTest, unbroken()), 0);
-  constexpr std::uintmax_t kFewRecords = 4000;
+  constexpr std::uintmax_t kSomeRecords = 40000;
   std::mt19937 random(7);
   std::uniform_int_distribution<std::uintmax_t> bytes(1, 60000);
-  ASSERT_TRUE(kill_after(in_cut({"--checkpoint", "1e-6"}), kFewRecords));
+  ASSERT_TRUE(kill_after(in_cut({"--checkpoint", "1e-6"}), kSomeRecords));
   int killed = 1;
   while (killed < 8 && kill_after(resumed("1e-6"), bytes(random))) {
     ++killed;
