@@ -19,7 +19,7 @@ namespace knot_utm {
 ///   curve_full.csv   one row an accepted time step
 ///   result.yaml, final_shape.csv   at the end; until then the folder has none, not even those of an earlier run
 ///
-/// Make it once all input is known to be right: it is the first thing that writes.
+/// Make it once all input is known to be right and a JournalWriter holds the folder.
 /// Everything throws std::runtime_error where a file cannot be written.
 class RunWriter {
  public:
