@@ -35,6 +35,11 @@ class Table {
                 "moved [m]", "active", "touching", "overlap [m]", "of [m], [m]");
   }
   void add(const Iterate& i) {
+    // A prediction comes of no change.
+    if (i.share == 0.0 && row_ > 0) {
+      std::printf("once more, friction linearised by secants\n");
+      row_ = 0;
+    }
     std::printf("%4d %12.5e %12.5e %8d%s %6.3f %12.5e %6d %8d ", row_++, i.residual, i.tolerance, i.node,
                 i.spin ? "t" : " ", i.share, i.motion, i.active, i.touching);
     if (!i.in_contact)
@@ -60,6 +65,7 @@ int run(const std::string& file) {
   if (summary.newton.converged())
     std::printf("; largest motion %g m, largest overlap %g m", summary.largest_motion, summary.largest_overlap);
   std::printf("\n%s%s\n", summary.accepted() ? "accepted" : "not accepted: ", summary.reason.c_str());
+  if (!summary.accepted()) std::printf("%s\n", summary.diagnosis.text().c_str());
   return summary.accepted() ? kAccepted : kNotAccepted;
 }
 

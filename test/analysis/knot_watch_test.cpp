@@ -52,6 +52,23 @@ TEST(KnotWatch, ReadsOnlyWhereSomethingHasMoved) {
   EXPECT_EQ(watch.readings(), 2);
 }
 
+TEST(KnotWatch, SavedItReadsNextWhereItWouldHave) {
+  const Points start = open_overhand().points;
+  KnotWatch watch({}, false, kRadius, start), elsewhere({}, false, kRadius, start);
+  Points points = start;
+  points.col(20).x() += 1.1 * kRadius;
+  watch.follow(points);
+  ASSERT_EQ(watch.readings(), 2);
+  Archive saved("knot");
+  saved(watch);
+  Archive loaded("knot", saved.bytes(), "here");
+  loaded(elsewhere);
+  loaded.end();
+  elsewhere.follow(points);
+  EXPECT_EQ(elsewhere.readings(), 2) << "nothing has moved since";
+  EXPECT_EQ(elsewhere.follow(straightened(start, 0.99)), KnotType::kChanged);
+}
+
 TEST(KnotWatch, AClosedRodIsJoinedWhereItsEndsMeet) {
   Points ring(3, 101);
   for (int i = 0; i <= 100; ++i) {

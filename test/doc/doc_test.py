@@ -111,7 +111,7 @@ class Documents(unittest.TestCase):
         self.assertGreater(len(named), 20)
 
     def test_tests_of_promises_are_there(self):
-        tests = [os.path.basename(file) for file in files("test", "") + files("src/tools", "")]
+        tests = [os.path.basename(file) for file in [*files("test", ""), *files("src/tools", "")]]
         for name in re.findall(r"`(\w+_test|\w+\.test)`", text("doc/reliability.md")):
             self.assertTrue(any(file in (name, name + ".py", name + ".cpp") for file in tests), name)
 

@@ -15,7 +15,12 @@ struct SavedStep {
   double time = 0.0;                  ///< at which it begins [s]
   double dt = 0.0;                    ///< its length [s]
 
-  StepSummary try_again() { return stepper->step(boundary, dt); }
+  /// As StepControl does in need: what Newton's method does not solve is tried once more with secants.
+  StepSummary try_again() {
+    StepSummary summary = stepper->step(boundary, dt);
+    if (!summary.newton.converged()) summary = stepper->step(boundary, dt, Solution::kSecants);
+    return summary;
+  }
 };
 
 /// A file's content. What `stepper` has tried since its last accepted step does not count.
