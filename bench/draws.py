@@ -43,7 +43,7 @@ class Draw:
     def log_uniform(self, name, low, high):
         return self.keep(name, significant(math.exp(self.random.uniform(math.log(low), math.log(high)))))
 
-    # ---- the test ------------------------------------------------------------------------------------------------------
+    # ---- the test ----------------------------------------------------------------------------------------------------
 
     def draw(self):
         knot = self.keep("knot", self.random.choices(list(KNOTS), KNOTS.values())[0])
@@ -81,9 +81,10 @@ class Draw:
             self.settings["physics." + key] = self.choice(key, options)
 
     def draw_fisherman(self):
-        distance = self.uniform("knot_distance", 36.0, 80.0)
-        roller = self.uniform("roller_diameter", 10.0, 30.0)
-        room = self.uniform("room", 24.0, 60.0)
+        # The smallest of each do not fit, and are refused.
+        distance = self.uniform("knot_distance", 28.0, 80.0)
+        roller = self.uniform("roller_diameter", 6.0, 30.0)
+        room = self.uniform("room", 20.0, 60.0)
         specimen = {"handedness": self.choice("handedness", ["same", "opposite"]), "knot_distance": distance,
                     "end_to_end": distance + roller + room, "tail": self.uniform("tail", 6.0, 15.0)}
         for key, value in specimen.items():
@@ -106,7 +107,7 @@ class Draw:
         full_turns = turns + 0.5
         braid = full_turns * max(2.0 * math.pi * 12.0 ** 0.25 * math.sqrt(loop), 4.0 * math.pi)
         excess = 2.0 * math.hypot(braid, 2.0 * math.pi * full_turns * 1.3) + 2.0 * math.pi * loop
-        end_to_end = braid + self.uniform("room", 30.0, 80.0)
+        end_to_end = braid + self.uniform("room", 20.0, 80.0)
         self.settings["specimen.turns"] = turns
         self.settings["specimen.length"] = significant(max((end_to_end + excess) * self.radius, 0.01))
         self.settings["specimen.end_to_end"] = significant(end_to_end * self.radius)
@@ -132,7 +133,7 @@ class Draw:
         self.settings["program"] = before + [
             {"pull": {"speed": significant(self.speed), "until": {"extension": way, "break": True}}}]
 
-    # ---- shapes, in radii, one row a point -----------------------------------------------------------------------------
+    # ---- shapes, in radii, one row a point ---------------------------------------------------------------------------
 
     def arch(self):
         rise = self.uniform("rise", 5.0, 20.0)

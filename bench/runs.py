@@ -100,7 +100,8 @@ class Started:
         self.name, self.out, self.process, self.verbose = name, out, process, verbose
 
     def wait(self):
-        said = self.process.stderr.read()
+        with self.process.stderr as stream:
+            said = stream.read()
         _, status, usage = os.wait4(self.process.pid, 0)
         self.process.returncode = os.waitstatus_to_exitcode(status)
         run = Run(self.out, usage.ru_utime + usage.ru_stime, self.process.returncode, said.strip())

@@ -1,140 +1,16 @@
 """The stability matrix: what became of tests drawn at random over everything that a method may say."""
-import concurrent.futures
-import csv
 import math
-import os
-import re
-import shutil
-import signal
 import statistics
-import sys
 
 import plots
-from draws import METHODS, PAPER_RADIUS, PAPER_SPEED, Draw
+from draws import PAPER_RADIUS, PAPER_SPEED, Draw
+from outcomes import GAVE_UP, NEVER, STATUS, Outcome, run_all
 from table import Report, Table, at_most
 
-CPU_LIMIT = 300         # [s] of CPU time; more is a hang
-GAVE_UP_SHARE = 0.01    # of the runs that the solver may give up, each with its reason
-DEEP = 0.5              # [h] overlap that counts as tunnelling
-SHELL_SIGNAL = 128      # a shell's exit code for a command that a signal ended, less the signal
-
-# Worst first: a run is what comes first of these.
-STATUS = {
-    "crash": "ended by a signal, or without an exit code that it may have",
-    "hang": f"still running after {CPU_LIMIT} s of CPU time",
-    "nan": "a result or a curve has a number that is none",
-    "tunnelled": f"the rod ran through itself, or strands overlap by more than {DEEP} h",
-    "mute": "exit 1 without a result, or refused by anything but one line",
-    "solver": "the physics gave up; what was measured is written with the reason",
-    "not at rest": "tying did not come to rest in time; written with the reason",
-    "refused": "the input cannot be tested; one line says why",
-    "ended": "the test ran to an end that the method allows",
-}
-NEVER = ["crash", "hang", "nan", "tunnelled", "mute"]
-GAVE_UP = ["solver", "not at rest"]
-
-
-class Outcome:
-    """A draw and what became of it."""
-
-    READINGS = ["motion_pattern", "knot_type_preserved", "max_penetration", "energy_balance_error",
-                "force_balance_error", "steps", "rejected_steps", "newton_iterations", "simulated_time"]
-    FACTS = ["status", "reason", "phase", "nodes", "cpu_time"]
-
-    def __init__(self, draw, run):
-        self.draw = draw
-        self.cpu_time = run.cpu_time
-        self.readings = {key: run.value(key) for key in self.READINGS}
-        self.nodes = run.nodes()
-        self.phase = (run.curve.get("phase") or [None])[-1]
-        self.status, self.reason = classify(run)
-
-    def get(self, key):
-        """A drawn value, a reading or a fact; None where it has none."""
-        if key in self.FACTS:
-            return getattr(self, key)
-        return self.readings.get(key, self.draw.values.get(key))
-
-    def work(self):
-        """Newton iterations a step."""
-        steps, iterations = self.get("steps"), self.get("newton_iterations")
-        return iterations / steps if steps else None
-
-    def line(self):
-        return (f"{self.draw.number}: {self.draw.values['knot']}: {self.status} after {self.cpu_time:.1f} s of CPU "
-                f"time: {self.reason}")
-
-
-def classify(run):
-    """Status, and the line that explains it."""
-    said = run.said.splitlines()
-    last = said[-1] if said else ""
-    if run.exit_code == SHELL_SIGNAL + signal.SIGXCPU:
-        return "hang", f"{run.cpu_time:.0f} s of CPU time"
-    if run.exit_code not in (0, 1, 2):
-        return "crash", f"exit code {run.exit_code}: {last}"
-    if run.exit_code == 2:
-        clear = len(said) == 1 and not run.result and not run.curve
-        return ("refused" if clear else "mute"), last
-    if not run.result or not run.curve:
-        return "mute", last
-    wrong = not_a_number(run)
-    if wrong:
-        return "nan", wrong
-    crossed = [line for line in run.value("warnings") or [] if "ran through itself" in line]
-    if crossed or (run.value("max_penetration") or 0.0) > DEEP:
-        return "tunnelled", crossed[0] if crossed else f"strands overlap by {run.value('max_penetration')} h"
-    if run.exit_code == 1:
-        return ("not at rest" if run.value("not_equilibrated") else "solver"), run.value("reason") or ""
-    return "ended", run.value("ended_by")
-
-
-def not_a_number(run):
-    """Which key or column has one; empty where none has. Without two knots there is no knot distance."""
-    for key, value in run.result.items():
-        for number in value if isinstance(value, list) else [value]:
-            if isinstance(number, float) and not math.isfinite(number):
-                return f"result.yaml: {key} is {number}"
-    knots = run.method.get("specimen", {}).get("knot") == "fisherman"
-    for column, values in list(run.curve.items()) + list(run.shape.items()):
-        if column != "phase" and (knots or column != "knot_distance") and not all(map(math.isfinite, values)):
-            return f"{column} has a number that is none"
-    return ""
-
-
-def run_all(runner, draws, jobs, keep=False):
-    """Outcomes in the order of the draws. `keep`: what every run left stays, else only of those that did not end."""
-
-    def run(draw):
-        outcome = Outcome(draw, start(runner, draw).wait())
-        print(outcome.line(), file=sys.stderr, flush=True)
-        if not keep and outcome.status in ("ended", "refused"):
-            shutil.rmtree(os.path.join(runner.folder, name_of(draw)), ignore_errors=True)
-        return outcome
-
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        return list(pool.map(run, draws))
-
-
-def name_of(draw):
-    return f"{draw.seed}_{draw.number}" + ("_quick" if draw.quick else "")
-
-
-def start(runner, draw, cpu_limit=CPU_LIMIT):
-    settings = dict(draw.settings)
-    if draw.shape is not None:
-        file = os.path.join(runner.folder, name_of(draw) + ".csv")
-        write_shape(file, draw.shape)
-        settings["specimen.file"] = os.path.abspath(file)
-    return runner.start(name_of(draw), settings, METHODS[draw.values["knot"]], runner.core, cpu_limit)
-
-
-def write_shape(file, points):
-    os.makedirs(os.path.dirname(file), exist_ok=True)
-    with open(file, "w", encoding="utf-8", newline="") as out:
-        writer = csv.writer(out)
-        writer.writerows([["x", "y", "z"], ["m", "m", "m"]])
-        writer.writerows([f"{value:.9g}" for value in point] for point in points.tolist())
+GAVE_UP_SHARE = 0.01  # of the runs that the solver may give up, each with its reason
+COLOURS = {"ended": "tab:green", "refused": "0.6", "not at rest": "tab:orange", "solver": "tab:red"}  # else black
+MAP_AXES = {"radius": "radius h [m]", "bending_stiffness": "k_b [N m²]", "stretching": "k_s h²/k_b",
+            "friction_coefficient": "μ", "bending_time": "h² √(ρA/k_b) [s]", "speed": "speed / (1.04 h/s)"}
 
 
 class Matrix:
@@ -144,7 +20,7 @@ class Matrix:
         self.outcomes = outcomes
         self.drawn = list(dict.fromkeys(key for outcome in outcomes for key in outcome.draw.values))
         self.CSV_HEADER = ["run"] + self.drawn + Outcome.FACTS + Outcome.READINGS
-        self.tables = [self.statuses(), self.readings()] + [self.shares()]
+        self.tables = [self.statuses(), self.readings(), self.shares()]
 
     def csv_rows(self):
         for outcome in self.outcomes:
@@ -208,22 +84,19 @@ class Matrix:
         return "\n".join(lines if len(lines) > 2 else lines + ["None."]) + "\n"
 
     def draw(self, file):
-        colours = {"ended": "tab:green", "refused": "0.6", "not at rest": "tab:orange", "solver": "tab:red"}
-        points = lambda x, y: {status: [(o.get(x), o.get(y)) for o in self.with_status(status)]  # noqa: E731
-                               for status in reversed(STATUS) if self.with_status(status)}
+        def points(x, y):
+            return {status: [(o.get(x), o.get(y)) for o in self.with_status(status)]
+                    for status in reversed(STATUS) if self.with_status(status)}
+
         ended = self.with_status("ended")
         plots.statuses(
-            file, {status: colours.get(status, "black") for status in STATUS},
+            file, {status: COLOURS.get(status, "black") for status in STATUS},
             {(MAP_AXES[x], MAP_AXES[y]): points(x, y)
              for x, y in [("radius", "bending_stiffness"), ("stretching", "friction_coefficient"),
                           ("bending_time", "speed")]},
             {"penetration [h]": [o.get("max_penetration") for o in ended],
              "energy balance error": [o.get("energy_balance_error") for o in ended],
              "Newton iterations a step": [o.work() for o in ended]}, linear=[MAP_AXES["friction_coefficient"]])
-
-
-MAP_AXES = {"radius": "radius h [m]", "bending_stiffness": "k_b [N m²]", "stretching": "k_s h²/k_b",
-            "friction_coefficient": "μ", "bending_time": "h² √(ρA/k_b) [s]", "speed": "speed / (1.04 h/s)"}
 
 
 def quantiles(values):
@@ -234,12 +107,12 @@ def quantiles(values):
 
 
 def report(runner, seed, numbers, jobs, quick=False, keep=False):
-    outcomes = run_all(runner, [Draw(seed, number, quick) for number in numbers], jobs, keep)
-    matrix = Matrix(outcomes)
-    return Report("Stability", f"{len(outcomes)} tests drawn by seed {seed} over radius (0.3 to 6 mm), k_b (1e-7 to 1e-3 N m²), "
-                  "k_s h²/k_b (4 to 3e4), friction (0 to 1.5), density (500 to 2000 kg/m³), pre-load (0.2 to 8 k_b/h²), edges "
-                  "(0.5 to 2 h), speed (x0.1 to x30), and all knots, grips, laws, accuracies and ways with twist. Every length "
-                  f"is drawn in radii; speed x1 is the source paper's {1e3 * PAPER_SPEED:g} mm/s for h = "
-                  f"{1e3 * PAPER_RADIUS:g} mm, {PAPER_SPEED / PAPER_RADIUS:.3g} h/s. Each pulls its specimen by some 10 h "
-                  "(overhands by as much as they hide) and ends with a load of 500 k_b/h² at the latest. "
-                  "`scripts/stress --only RUN` repeats one.", [matrix], matrix.draw)
+    matrix = Matrix(run_all(runner, [Draw(seed, number, quick) for number in numbers], jobs, keep))
+    introduction = (
+        f"{len(matrix.outcomes)} tests drawn by seed {seed} over radius (0.3 to 6 mm), k_b (1e-7 to 1e-3 N m²), "
+        "k_s h²/k_b (4 to 3e4), friction (0 to 1.5), density (500 to 2000 kg/m³), pre-load (0.2 to 8 k_b/h²), edges (0.5 "
+        "to 2 h), speed (x0.1 to x30), and all knots, grips, laws, accuracies and ways with twist. Every length is drawn "
+        f"in radii; speed x1 is the source paper's {1e3 * PAPER_SPEED:g} mm/s for h = {1e3 * PAPER_RADIUS:g} mm, "
+        f"{PAPER_SPEED / PAPER_RADIUS:.3g} h/s. Each pulls its specimen by some 10 h, overhands by as much as they hide, "
+        "and ends at a load of 500 k_b/h² at the latest. `scripts/stress --only RUN` repeats one.")
+    return Report("Stability", introduction, [matrix], matrix.draw)
