@@ -82,9 +82,9 @@ class Draw:
 
     def draw_fisherman(self):
         # The smallest of each do not fit, and are refused.
-        distance = self.uniform("knot_distance", 28.0, 80.0)
-        roller = self.uniform("roller_diameter", 6.0, 30.0)
-        room = self.uniform("room", 20.0, 60.0)
+        distance = self.uniform("knot_distance", 24.0, 80.0)
+        roller = self.uniform("roller_diameter", 5.0, 30.0)
+        room = self.uniform("room", 12.0, 60.0)
         specimen = {"handedness": self.choice("handedness", ["same", "opposite"]), "knot_distance": distance,
                     "end_to_end": distance + roller + room, "tail": self.uniform("tail", 6.0, 15.0)}
         for key, value in specimen.items():
@@ -102,12 +102,12 @@ class Draw:
 
     def draw_overhand(self):
         turns = self.choice("turns", [1, 2, 3])
-        loop = self.uniform("loop_radius", 3.0, 15.0)
+        loop = self.uniform("loop_radius", 2.0, 15.0)
         # As specimen/overhand.cpp lays it: two strands wound around each other, their ends joined by a loop.
         full_turns = turns + 0.5
         braid = full_turns * max(2.0 * math.pi * 12.0 ** 0.25 * math.sqrt(loop), 4.0 * math.pi)
         excess = 2.0 * math.hypot(braid, 2.0 * math.pi * full_turns * 1.3) + 2.0 * math.pi * loop
-        end_to_end = braid + self.uniform("room", 20.0, 80.0)
+        end_to_end = braid + self.uniform("room", 5.0, 80.0)
         self.settings["specimen.turns"] = turns
         self.settings["specimen.length"] = significant(max((end_to_end + excess) * self.radius, 0.01))
         self.settings["specimen.end_to_end"] = significant(end_to_end * self.radius)
@@ -155,7 +155,7 @@ class Draw:
         """A long knot 4_1 by polynomials (Shastri), drawn as wide as its strands then clear each other."""
         t = np.linspace(-2.1, 2.1, 800)
         knot = np.column_stack([t ** 3 - 3.0 * t, t * (t ** 2 - 1.0) * (t ** 2 - 4.0), (t ** 7 - 42.0 * t) / 12.0])
-        clear = self.uniform("clearance", 2.5, 5.0)
+        clear = self.uniform("clearance", 1.9, 5.0)
         knot *= clear / closest_approach(knot)
         lead = np.linspace(0.0, 20.0, 60)[:, None] * np.array([[0.0, 0.0, 1.0]])
         return joined(lead - lead[-1] + knot[0], knot, lead + knot[-1])

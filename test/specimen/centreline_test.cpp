@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
@@ -180,6 +181,21 @@ TEST(FishermanLoop, RefusesWhatDoesNotFitTheMachine) {
   shape = {};
   shape.roller_radius = 0.004;
   EXPECT_EQ(refused_key(shape), "machine.roller_diameter");
+}
+
+TEST(FishermanLoop, IsRefusedInTheDistanceThatWasAskedFor) {
+  FishermanShape shape;
+  shape.outward_shift = 0.05;
+  shape.knot_distance = 0.06;
+  try {
+    fisherman_loop(shape);
+    ADD_FAILURE() << "accepted";
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.key, "specimen.knot_distance");
+    EXPECT_EQ(error.value, "0.06");
+    shape.knot_distance = std::stod(error.allowed) + 1e-4;  // it begins with the smallest one, rounded
+  }
+  EXPECT_EQ(refused_key(shape), "");
 }
 
 TEST(FishermanLoop, FitsWhereverItIsAccepted) {
