@@ -91,6 +91,32 @@ def bars(file, values, label):
     save(figure, file)
 
 
+def statuses(file, colours, maps, histograms, linear=()):
+    """Above, runs over two values of each, coloured by status; below, how readings are spread. `maps`: (x label, y
+    label) -> status -> points; `histograms`: label -> values; `linear`: y labels of axes that are not logarithmic."""
+    figure, all_axes = plt.subplots(2, len(maps), figsize=(4.6 * len(maps), 8.0), squeeze=False)
+    for axes, ((x_label, y_label), groups) in zip(all_axes[0], maps.items()):
+        for status, points in groups.items():
+            axes.plot(*zip(*points), "o", markersize=4, alpha=0.8, color=colours[status],
+                      label=f"{status} ({len(points)})")
+        axes.set_xscale("log")
+        if y_label not in linear:
+            axes.set_yscale("log")
+        axes.set_xlabel(x_label)
+        axes.set_ylabel(y_label)
+    all_axes[0][0].legend(fontsize="x-small")
+    for axes, (label, values) in zip(all_axes[1], histograms.items()):
+        known = [value for value in values if value]
+        if known:
+            low, high = math.floor(math.log10(min(known))), math.ceil(math.log10(max(known)))
+            steps = max(20, 4 * (high - low))
+            axes.hist(known, [10.0 ** (low + (high - low) * i / steps) for i in range(steps + 1)] if high > low else 20)
+            axes.set_xscale("log")
+        axes.set_xlabel(label)
+        axes.set_ylabel("runs")
+    save(figure, file)
+
+
 def logarithmic(axes, values):
     """Logarithmic, and linear around zero: below a tenth of what is usual."""
     sizes = sorted(abs(value) for value in values)

@@ -3,6 +3,8 @@ import csv
 import json
 import math
 import os
+import resource
+import shlex
 import shutil
 import subprocess
 import sys
@@ -15,10 +17,12 @@ SHELLS_CHILD = ["/bin/sh", "-c", '"$@"; exit $?', "sh"]
 
 
 class Runner:
-    """Starts tensile_test on one core, one run after the other."""
+    """Starts tensile_test on one core, one run after the other. `core`: None for any; `verbose`: says what it starts
+    and what became of it."""
 
-    def __init__(self, root, tool, core, folder, overrides):
+    def __init__(self, root, tool, core, folder, overrides, verbose=True):
         self.root, self.tool, self.core, self.folder, self.overrides = root, tool, core, folder, overrides
+        self.verbose = verbose
 
     def run(self, name, settings, method="config/tighten.yaml", times=1):
         """`settings`: dotted key -> value, on top of which come those of the command line. Of several `times`, whose
@@ -26,7 +30,8 @@ class Runner:
         runs = [self.start(name, settings, method, self.core).wait() for _ in range(times)]
         return min(runs, key=lambda run: run.cpu_time)
 
-    def start(self, name, settings, method, core):
+    def start(self, name, settings, method, core, cpu_limit=None):
+        """`cpu_limit` [s]: more, and the run is ended by SIGXCPU, however busy the machine."""
         out = os.path.join(self.folder, name)
         shutil.rmtree(out, ignore_errors=True)
         os.makedirs(os.path.dirname(out), exist_ok=True)
@@ -36,11 +41,19 @@ class Runner:
         command = [os.path.abspath(self.tool), method, "--quiet", "--out", os.path.relpath(out, self.root)]
         for entry in sets:
             command += ["--set", entry]
-        print(f"{name}: tensile_test {method} " + " ".join(f"--set {entry}" for entry in sets), file=sys.stderr,
-              flush=True)
+        if self.verbose:
+            print(f"{name}: tensile_test {method} " + " ".join(f"--set {shlex.quote(entry)}" for entry in sets),
+                  file=sys.stderr, flush=True)
+
+        def confine():
+            if core is not None:
+                os.sched_setaffinity(0, {core})
+            if cpu_limit is not None:
+                resource.setrlimit(resource.RLIMIT_CPU, (cpu_limit, cpu_limit + 5))
+
         process = subprocess.Popen(SHELLS_CHILD + command, cwd=self.root, stderr=subprocess.PIPE, text=True,
-                                   preexec_fn=lambda: os.sched_setaffinity(0, {core}))
-        return Started(name, out, process)
+                                   preexec_fn=confine)
+        return Started(name, out, process, self.verbose)
 
     def bench_tool(self, tool, arguments):
         """What a small executable beside tensile_test prints as YAML."""
@@ -67,7 +80,7 @@ class Runner:
             return "missing (no git here)"
 
     def where(self):
-        return f"run on core {self.core}"
+        return "run on any core" if self.core is None else f"run on core {self.core}"
 
     def machine(self):
         """CPU model, cores and how busy they were."""
@@ -85,16 +98,18 @@ class Runner:
 class Started:
     """A run under way."""
 
-    def __init__(self, name, out, process):
-        self.name, self.out, self.process = name, out, process
+    def __init__(self, name, out, process, verbose):
+        self.name, self.out, self.process, self.verbose = name, out, process, verbose
 
     def wait(self):
-        said = self.process.stderr.read()
+        with self.process.stderr as stream:
+            said = stream.read()
         _, status, usage = os.wait4(self.process.pid, 0)
         self.process.returncode = os.waitstatus_to_exitcode(status)
         run = Run(self.out, usage.ru_utime + usage.ru_stime, self.process.returncode, said.strip())
-        print(f"{self.name}: exit {run.exit_code} after {run.cpu_time:.1f} s of CPU time" +
-              (f": {run.said}" if run.said else ""), file=sys.stderr, flush=True)
+        if self.verbose:
+            print(f"{self.name}: exit {run.exit_code} after {run.cpu_time:.1f} s of CPU time" +
+                  (f": {run.said}" if run.said else ""), file=sys.stderr, flush=True)
         return run
 
 

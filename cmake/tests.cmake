@@ -50,8 +50,9 @@ if(validation_sources)
   gtest_discover_tests(validation_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 LABELS long)
 endif()
 
-# What scripts/bench makes of its runs; README and doc/ against the code.
+# What scripts/bench and scripts/stress make of their runs; README and doc/ against the code.
 add_test(NAME bench_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/bench_test.py)
+add_test(NAME stress_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/stress_test.py)
 add_test(NAME doc_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/doc_test.py)
 
 # In a workspace, installing is the workspace's own business.

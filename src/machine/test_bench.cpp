@@ -105,7 +105,8 @@ Centreline build_centreline(const SpecimenOptions& specimen, const Material& mat
     case KnotKind::kFisherman: {
       FishermanShape shape;
       shape.radius = material.radius;
-      shape.knot_distance = specimen.knot_distance - (specimen.to_be_tied ? outward_shift(specimen, material) : 0.0);
+      shape.knot_distance = specimen.knot_distance;
+      shape.outward_shift = specimen.to_be_tied ? outward_shift(specimen, material) : 0.0;
       shape.end_to_end = specimen.end_to_end;
       shape.roller_radius = 0.5 * machine.roller_diameter;
       shape.tail = specimen.tail;

@@ -97,7 +97,7 @@ Centreline fisherman_loop(const FishermanShape& shape) {
   const double rho = before_smoothing(rolled, h);
 
   // The knots clear each other; their strands reach the rollers; their coils clear the rollers.
-  const double c = 0.5 * shape.knot_distance;
+  const double c = 0.5 * (shape.knot_distance - shape.outward_shift);
   const double middle = 0.5 * shape.end_to_end;
   const double past = coil.outer + 2.0 * h;
   const double beside_axis = std::max(0.0, rolled - coil.radius);
@@ -110,7 +110,8 @@ Centreline fisherman_loop(const FishermanShape& shape) {
   }
   if (!(c >= c_min && c <= c_max)) {
     throw InvalidInput("specimen.knot_distance", text(shape.knot_distance),
-                       text(2.0 * c_min) + " to " + text(2.0 * c_max) + " m for this rod and these rollers");
+                       text(2.0 * c_min + shape.outward_shift) + " to " + text(2.0 * c_max + shape.outward_shift) +
+                           " m for this rod and these rollers");
   }
 
   // Standing parts lie at +-u from the axis. Opposite-handed tails lie on either side of the loop's plane, so u lies in

@@ -184,6 +184,21 @@ TEST(FishermanLoop, RefusesWhatDoesNotFitTheMachine) {
   EXPECT_EQ(refused_key(shape), "machine.roller_diameter");
 }
 
+TEST(FishermanLoop, IsRefusedInTheDistanceThatWasAskedFor) {
+  FishermanShape shape;
+  shape.outward_shift = 0.05;
+  shape.knot_distance = 0.06;
+  try {
+    fisherman_loop(shape);
+    ADD_FAILURE() << "accepted";
+  } catch (const InvalidInput& error) {
+    EXPECT_EQ(error.key, "specimen.knot_distance");
+    EXPECT_EQ(error.value, "0.06");
+    shape.knot_distance = std::stod(error.allowed) + 1e-4;  // it begins with the smallest one, rounded
+  }
+  EXPECT_EQ(refused_key(shape), "");
+}
+
 TEST(FishermanLoop, FitsWhereverItIsAccepted) {
   for (const Handedness handedness : {Handedness::kSame, Handedness::kOpposite}) {
     for (const double e : {0.042, 0.15, 0.165}) {

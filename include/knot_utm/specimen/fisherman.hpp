@@ -9,18 +9,20 @@ namespace knot_utm {
 /// other strand.
 ///
 /// Rollers lie along y, centres at the origin and at (0, 0, end_to_end); the loop lies in the x-z plane, its straight
-/// side at x < 0, the knots at x > 0, `knot_distance` apart along z and symmetric about z = end_to_end/2. In
-/// cylindrical coordinates about the knots' axis, each knot's standing part runs outwards at radius a, turns by a half
-/// circle to radius R, coils by 450 degrees over an axial length 4 h back over itself, turns in to radius b and leaves
-/// as a tail inside its own coil, outwards. The threaded strand runs through the coil at radius a opposite the
-/// standing part. With a = (2 - sqrt 3) R and b = R - 2 a the standing part, the threaded strand, the tail and the
-/// coil are equally far apart, 2 a. The whole is smoothed along arclength by a Gaussian of standard deviation h.
+/// side at x < 0, the knots at x > 0, `knot_distance` less `outward_shift` apart along z and symmetric about z =
+/// end_to_end/2. In cylindrical coordinates about the knots' axis, each knot's standing part runs outwards at radius a,
+/// turns by a half circle to radius R, coils by 450 degrees over an axial length 4 h back over itself, turns in to
+/// radius b and leaves as a tail inside its own coil, outwards. The threaded strand runs through the coil at radius a
+/// opposite the standing part. With a = (2 - sqrt 3) R and b = R - 2 a the standing part, the threaded strand, the tail
+/// and the coil are equally far apart, 2 a. The whole is smoothed along arclength by a Gaussian of standard deviation
+/// h.
 ///
 /// Same-handed: the two knots are images of each other under a half turn about an axis normal to the load axis.
 /// Opposite-handed: the lower knot is the mirror image of that.
 struct FishermanShape {
   double radius = 3.175e-3;        ///< h, of the rod [m]
-  double knot_distance = 0.1;      ///< e, distance of the middles of the two coils [m]
+  double knot_distance = 0.1;      ///< e, distance of the middles of the two coils, once tied [m]
+  double outward_shift = 0.0;      ///< by how much tying will move the coils apart: they are drawn closer by that [m]
   double end_to_end = 0.25;        ///< L, distance of the rollers' centres [m]
   double roller_radius = 0.01905;  ///< [m]
   double tail = 0.03;              ///< free tail beyond the outermost point of the coil [m]
