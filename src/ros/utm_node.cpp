@@ -4,6 +4,7 @@
 #include <ros/callback_queue.h>
 #include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/JointState.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <limits>
@@ -52,7 +53,9 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOpt
   balance_ = node_.advertiseService(names::kBalance, &UtmNode::on_balance, this);
   pause_ = node_.advertiseService(names::kPause, &UtmNode::on_pause, this);
   step_ = node_.advertiseService(names::kStep, &UtmNode::on_step, this);
-  node_.setParam(names::kTestId, std::to_string(ros::WallTime::now().toNSec()));
+  // No other machine of this computer's life has both.
+  node_.setParam(names::kTestId,
+                 std::to_string(getpid()) + "-" + std::to_string(steady_clock::now().time_since_epoch().count()));
   publish_status();
 }
 

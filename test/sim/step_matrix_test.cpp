@@ -49,16 +49,17 @@ TEST(StepMatrix, FindsTheBlocksOfContactsThatComeSlideAndGo) {
 
 TEST(StepMatrix, HasRoomForContactsAboutToComeAndNotForThoseFarAway) {
   StepMatrix<3> matrix(kNodes);
-  ContactPoint near = pressed(2, 20), far = pressed(5, 14);
+  // Room is looked for where a contact has none.
+  ContactPoint near = pressed(2, 20), far = pressed(5, 14), touches = pressed(7, 17);
   for (ContactPoint* contact : {&near, &far}) contact->begins = -1e-4;
   near.overlap = -1.9e-4;
   far.overlap = -2.1e-4;
-  matrix.locate({near, far});
+  matrix.locate({near, far, touches});
   EXPECT_GE(matrix.values().pattern().index(near.a0, near.b0), 0);
   EXPECT_EQ(matrix.values().pattern().index(far.a0, far.b0), -1);
   near.overlap = far.overlap = 0.0;
-  matrix.locate({near, far});
-  expect_blocks_of({near, far}, matrix);
+  matrix.locate({near, far, touches});
+  expect_blocks_of({near, far, touches}, matrix);
 }
 
 TEST(StepMatrix, StencilsAreTheBlocksOfThreeNodesInARow) {
