@@ -21,12 +21,12 @@ STATUS = {
     "tunnelled": f"the rod ran through itself, or strands overlap by more than {DEEP} h",
     "mute": "exit 1 without a result, or refused by anything but one line",
     "solver": "the physics gave up; what was measured is written with the reason",
-    "not at rest": "tying did not come to rest in time; written with the reason",
     "refused": "the input cannot be tested; one line says why",
+    "not at rest": "ran to an end, but tying or release did not come to rest in time, which the result says",
     "ended": "the test ran to an end that the method allows",
 }
 NEVER = ["crash", "hang", "nan", "tunnelled", "mute"]
-GAVE_UP = ["solver", "not at rest"]
+GAVE_UP = "solver"
 
 
 class Outcome:
@@ -80,8 +80,8 @@ def classify(run):
     if crossed or (run.value("max_penetration") or 0.0) > DEEP:
         return "tunnelled", crossed[0] if crossed else f"strands overlap by {run.value('max_penetration')} h"
     if run.exit_code == 1:
-        return ("not at rest" if run.value("not_equilibrated") else "solver"), run.value("reason") or ""
-    return "ended", run.value("ended_by")
+        return "solver", run.value("reason") or ""
+    return ("not at rest" if run.value("not_equilibrated") else "ended"), run.value("ended_by")
 
 
 def not_a_number(run):
@@ -103,7 +103,7 @@ def run_all(runner, draws, jobs, keep=False):
     def run(draw):
         outcome = Outcome(draw, start(runner, draw).wait())
         print(outcome.line(), file=sys.stderr, flush=True)
-        if not keep and outcome.status in ("ended", "refused"):
+        if not keep and outcome.status in ("ended", "not at rest", "refused"):
             shutil.rmtree(os.path.join(runner.folder, name_of(draw)), ignore_errors=True)
         return outcome
 

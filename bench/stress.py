@@ -47,8 +47,10 @@ class Matrix:
 
         add("all", self.outcomes, None)
         for status in STATUS:
-            add(status, self.with_status(status), at_most(0) if status in NEVER else None)
-        add(" or ".join(GAVE_UP), self.with_status(*GAVE_UP), at_most(math.floor(GAVE_UP_SHARE * len(self.outcomes))))
+            gate = at_most(0) if status in NEVER else None
+            if status == GAVE_UP:
+                gate = at_most(math.floor(GAVE_UP_SHARE * len(self.outcomes)))
+            add(status, self.with_status(status), gate)
         measured = [outcome for outcome in self.outcomes if outcome.get("knot_type_preserved") is not None]
         add("knot kept", [outcome for outcome in measured if outcome.get("knot_type_preserved")], None)
         add("knot came undone", [outcome for outcome in measured if not outcome.get("knot_type_preserved")], None)
@@ -56,7 +58,7 @@ class Matrix:
 
     def readings(self):
         table = Table("Of those that ended", ["median", "90 %", "largest"])
-        ended = self.with_status("ended")
+        ended = self.with_status("ended", "not at rest")
         for name, unit, values in [("penetration", "h", [o.get("max_penetration") for o in ended]),
                                    ("energy balance error", "-", [o.get("energy_balance_error") for o in ended]),
                                    ("Newton iterations a step", "-", [o.work() for o in ended]),
@@ -88,7 +90,7 @@ class Matrix:
             return {status: [(o.get(x), o.get(y)) for o in self.with_status(status)]
                     for status in reversed(STATUS) if self.with_status(status)}
 
-        ended = self.with_status("ended")
+        ended = self.with_status("ended", "not at rest")
         plots.statuses(
             file, {status: COLOURS.get(status, "black") for status in STATUS},
             {(MAP_AXES[x], MAP_AXES[y]): points(x, y)

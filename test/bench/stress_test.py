@@ -68,7 +68,7 @@ class Outcomes(unittest.TestCase):
         solver = self.GOOD.replace("extension", "solver") + "reason: time step\n"
         self.assertEqual(self.status(0, self.GOOD), "ended")
         self.assertEqual(self.status(1, solver), "solver")
-        self.assertEqual(self.status(1, solver + "not_equilibrated: true\n"), "not at rest")
+        self.assertEqual(self.status(0, self.GOOD + "not_equilibrated: true\n"), "not at rest")
         self.assertEqual(self.status(2, said="tensile_test: m.yaml: a: b is not allowed: c"), "refused")
         self.assertEqual(self.status(2, said="one line\nand another"), "mute")
         self.assertEqual(self.status(2, self.GOOD, said="refused, and yet written"), "mute")
@@ -124,8 +124,8 @@ class Target(unittest.TestCase):
         return len(matrix.failed())
 
     def test_one_in_a_hundred_may_be_given_up(self):
-        self.assertEqual(self.failed(("ended", 195), ("refused", 3), ("solver", 1), ("not at rest", 1)), 0)
-        self.assertEqual(self.failed(("ended", 197), ("solver", 2), ("not at rest", 1)), 1)
+        self.assertEqual(self.failed(("ended", 190), ("refused", 3), ("solver", 2), ("not at rest", 5)), 0)
+        self.assertEqual(self.failed(("ended", 196), ("solver", 3), ("not at rest", 1)), 1)
 
     def test_none_may_crash_hang_or_go_wrong(self):
         for status in outcomes.NEVER:
