@@ -193,6 +193,9 @@ struct TestBench::Impl {
     if (!centreline.knots.empty()) {
       TyingRig::Options tying;
       tying.preload = preload(specimen, material);
+      // Smoothed friction holds nothing at rest: under any load it creeps, at up to about v_s.
+      if (physics.friction_law == FrictionLaw::kSmoothed)
+        tying.rest_speed = std::max(tying.rest_speed, physics.slip_tolerance);
       tying.grip_stiffness = tying.preload / (kGripStretch * material.radius);
       rig.emplace(centreline, rod, tying);
     }

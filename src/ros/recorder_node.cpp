@@ -246,7 +246,7 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
     if (run.dropped > 0) facts.warnings.push_back(std::to_string(run.dropped) + " commands were not recorded");
     run.writer.finish(run.writer.results(ended_by), facts, run.shape);
     // Whoever begins anew from here on has nothing left to do.
-    if (ros::ok() && !test_id_.empty()) node_.setParam(names::kRecordedTest, test_id_);
+    if (ros::ok() && !test_id_.empty()) tell_master_of_completion();
     run.journal.remove();
     keeper_.release();
     run.complete = true;
@@ -255,6 +255,15 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
   } catch (const std::exception& error) {
     fail(error.what());
   }
+}
+
+void RecorderNode::tell_master_of_completion() const {
+  // A master that died is not waited for, as setParam would for ever; nobody is started anew without one.
+  XmlRpc::XmlRpcValue request, response, payload;
+  request[0] = ros::this_node::getName();
+  request[1] = node_.resolveName(names::kRecordedTest);
+  request[2] = test_id_;
+  ros::master::execute("setParam", request, response, payload, false);
 }
 
 void RecorderNode::fail(const std::string& why) {

@@ -75,6 +75,7 @@ class RecorderNode {
   void finish_when_ready();
   void finish_early();
   void finish(EndedBy ended_by, const std::string& reason, const std::string& warning);
+  void tell_master_of_completion() const;
   void fail(const std::string& why);
   bool is_complete() const { return run_ ? run_->complete : completed_before_; }
   void publish_status();
