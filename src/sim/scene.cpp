@@ -24,8 +24,8 @@ void Boundary::state(Archive& archive, int nodes) {
 void StepSettings::state(Archive& archive) {
   archive.section("SETT");
   archive.choice("contact law", contact_law, ContactLaw::kEdge);
-  archive(normal, friction, roller_friction, share_time, gravity, drag, spin_inertia, residual, residual_of_tension,
-          newton_cap, motion_limit, overlap_limit, candidate_margin, max_iterations);
+  archive(normal, friction, roller_friction, share_time, gravity, drag, spin_inertia, residual, residual_from_step,
+          residual_of_tension, newton_cap, motion_limit, overlap_limit, candidate_margin, max_iterations);
 }
 
 }  // namespace knot_utm

@@ -31,7 +31,8 @@ struct PressureTangent {
   double pressure, slope;
 };
 
-constexpr int kPatience = 5;  // times as many iterations with secants
+constexpr int kPatience = 5;             // times as many iterations with secants
+constexpr double kLeastResidual = 1e-3;  // of the residual, in short steps
 
 template <typename StrandContact>
 StrandContact strand_contact(const RodProperties& rod, const StepSettings& settings) {
@@ -117,7 +118,10 @@ class ImplicitStep final : public TimeStep {
   }
 
   double tolerance() const {
-    return settings_.residual + settings_.residual_of_tension * centreline_.largest_tension();
+    // What is left unbalanced shakes the rod, the more often the shorter the steps: it would keep them short.
+    const double full = settings_.residual_from_step;
+    const double share = dt_ < full ? std::max(dt_ * dt_ / (full * full), kLeastResidual) : 1.0;
+    return share * settings_.residual + settings_.residual_of_tension * centreline_.largest_tension();
   }
 
   bool solve() {

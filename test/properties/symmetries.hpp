@@ -86,6 +86,7 @@ inline Scene scaled(Scene scene, const Units& units) {
   settings.gravity *= units.speed() / units.time;
   settings.drag *= units.stress() * units.time;
   settings.residual *= units.force;
+  settings.residual_from_step *= units.time;
   settings.newton_cap *= units.length;
   settings.motion_limit *= units.length;
   settings.overlap_limit *= units.length;

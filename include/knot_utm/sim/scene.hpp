@@ -76,6 +76,7 @@ struct StepSettings {
   double drag = 0.0;                 ///< c, force -c v per length [N s/m^2]
   bool spin_inertia = true;          ///< turning of the rod about itself has inertia and drag (frame_terms.hpp)
   double residual = 0.0;             ///< Newton's largest nodal residual [N]
+  double residual_from_step = 0.0;   ///< in shorter steps it shrinks with their square, to a thousandth [s]
   double residual_of_tension = 0.0;  ///< to which this share of the largest tension is added [-]
   double newton_cap = 0.0;           ///< longest movement of a node in one Newton iteration [m]
   double motion_limit = 0.0;         ///< longest movement of a node in one step [m]
