@@ -35,7 +35,7 @@ std::string StepControl::advance(TimeStep& stepper, double& time, double end, co
     StepSummary summary = stepper.step(there, dt);
     counters_.iterations += static_cast<std::uint64_t>(summary.newton.iterations);
     const bool in_need = failed >= kInARow || dt < kNearlyShortest * options_.shortest;
-    if (!summary.newton.converged() && in_need) {
+    if (!summary.accepted() && !summary.newton.converged() && in_need) {
       summary = stepper.step(there, dt, Solution::kSecants);
       counters_.iterations += static_cast<std::uint64_t>(summary.newton.iterations);
     }

@@ -17,14 +17,23 @@ class ScriptedStep : public TimeStep {
  public:
   ScriptedStep() : TimeStep(make_rod(braided_rope(), Eigen::VectorXd::Constant(4, 0.01)), RodState{}) {}
 
-  StepSummary step(const Boundary& /*boundary*/, double dt, Solution /*solution*/) override {
+  StepSummary step(const Boundary& /*boundary*/, double dt, Solution solution) override {
     StepSummary out;
+    (solution == Solution::kSecants ? by_secants : by_tangents).push_back(dt);
+    if (solution == Solution::kTangents && only_secants) out.reason = "it ran in circles";
     out.newton.iterations = iterations;
     out.largest_motion = speed * dt;
     if (dt > longest_good) out.reason = "it was too long";
     tried.push_back(dt);
+    out.diagnosis = diagnosis();
     return out;
   }
+  static StepDiagnosis diagnosis() {
+    StepDiagnosis out;
+    out.node = 3;
+    return out;
+  }
+  static std::string text() { return diagnosis().text(); }
   Vec3 reaction(int /*node*/) const override { return Vec3::Zero(); }
   double reaction_torque(int /*edge*/) const override { return 0.0; }
   Vec3 roller_force(int /*roller*/) const override { return Vec3::Zero(); }
@@ -36,7 +45,8 @@ class ScriptedStep : public TimeStep {
   double longest_good = 1.0;  // [s]
   double speed = 0.0;         // [m/s]
   int iterations = 3;
-  std::vector<double> tried;
+  bool only_secants = false;
+  std::vector<double> tried, by_tangents, by_secants;
 };
 
 struct Outcome {
@@ -59,6 +69,47 @@ StepControl::Options options() {
   out.longest = 0.1;
   out.motion = 1.0;
   return out;
+}
+
+TEST(StepControl, TriesSecantsWhereStepsHaveFailedInARow) {
+  StepControl control(options());
+  ScriptedStep step;
+  step.only_secants = true;
+  const Outcome run = advance(control, step, 0.1);
+  EXPECT_EQ(run.gave_up, "");
+  ASSERT_GE(step.by_tangents.size(), 4u);
+  // Three have failed before: the fourth, an eighth as long as the first, is solved.
+  EXPECT_NEAR(run.taken.front(), 0.1 / 8.0, 1e-15);
+  EXPECT_EQ(step.by_secants.front(), run.taken.front());
+  EXPECT_EQ(step.by_secants.size(), run.taken.size());
+}
+
+TEST(StepControl, GivesUpWithWhereItWasHardestAndWhatWasTried) {
+  StepControl control(options());
+  ScriptedStep step;
+  step.longest_good = 0.0;
+  const Outcome run = advance(control, step, 0.1);
+  EXPECT_THAT(run.gave_up, testing::HasSubstr(step.text()));
+  EXPECT_THAT(run.gave_up, testing::HasSubstr(" steps from 0.1 to "));
+  EXPECT_FALSE(step.by_secants.empty());
+}
+
+TEST(StepDiagnosis, NamesNodeResidualAndContact) {
+  StepDiagnosis where;
+  where.node = 17;
+  where.arclength = 0.25;
+  where.residual = 0.5;
+  EXPECT_THAT(where.text(), testing::AllOf(testing::HasSubstr("node 17, 0.25 m"), testing::HasSubstr("residual 0.5 N"),
+                                           testing::HasSubstr("touches nothing")));
+  where.in_contact = true;
+  where.contact_arclengths[0] = 0.26;
+  where.contact_arclengths[1] = 0.75;
+  where.overlap = 1e-5;
+  where.slides = true;
+  EXPECT_THAT(where.text(), testing::AllOf(testing::HasSubstr("0.26 m at 0.75 m"),
+                                           testing::HasSubstr("overlap 1e-05 m"), testing::HasSubstr("sliding")));
+  where.roller = 1;
+  EXPECT_THAT(where.text(), testing::HasSubstr("roller 1"));
 }
 
 TEST(StepControl, EndsExactlyAtTheEndWithoutASliver) {
