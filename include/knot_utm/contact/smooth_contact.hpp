@@ -19,8 +19,8 @@ namespace knot_utm {
 /// at the distance of contact, the other one stands in its centre of curvature and has no foot on it.
 /// g is linear between the middle of a segment, where it is its own, and its ends, where it is the smaller one of the
 /// two segments that meet: a foot that is about to vanish has lost its share by then.
-/// omega follows the shape within a set time: were it to follow at once, two places of a tight knot could throw a contact
-/// to and fro in steps however short, a flutter that no step resolves.
+/// omega follows the shape within a set time: were it to follow at once, two places of a tight knot could throw a
+/// contact to and fro in steps however short, a flutter that no step resolves.
 /// omega and the friction's memory belong to the last accepted step and are constant within a step: they are carried
 /// by the point of integration and found again by the nearest arclength of the foot, iterate by iterate, each by one
 /// foot only: a foot that is new starts without memory, with the share its place gives it.
