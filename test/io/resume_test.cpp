@@ -167,7 +167,8 @@ TEST_F(Resume, RefusesInOneLineWhatCannotBeTakenUp) {
     EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << arguments << "\n" << answer.text;
     return answer.text;
   };
-  ASSERT_TRUE(kill_after(in_cut({"--checkpoint", "1e-6"}), 20000));
+  // Several records, the largest of which is a small part of them: the checkpoint stands before the last one.
+  ASSERT_TRUE(kill_after(in_cut({"--checkpoint", "1e-6"}), 60000));
   const std::string resume = "--resume '" + cut() + "'";
   EXPECT_THAT(complaint(resume + " " + kTest[0]), HasSubstr("excludes"));
   EXPECT_THAT(complaint(resume + " --checkpoint -1"), HasSubstr("--checkpoint"));
@@ -192,7 +193,7 @@ TEST_F(Resume, RefusesInOneLineWhatCannotBeTakenUp) {
                         text = std::regex_replace(text, std::regex("capacity: 50000"), "capacity: 40000");
                       }),
               HasSubstr("journal: method: that of another run"));
-  EXPECT_THAT(changed("journal", [](std::string& bytes) { bytes.resize(bytes.size() / 4); }),
+  EXPECT_THAT(changed("journal", [](std::string& bytes) { bytes.resize(bytes.size() / 8); }),
               HasSubstr("checkpoint: journal: "));
   EXPECT_THAT(changed("journal", [](std::string& bytes) { bytes = "x,y,z\n"; }), HasSubstr("journal: "));
 
