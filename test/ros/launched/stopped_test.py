@@ -11,9 +11,8 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..
 
 from launched import METHOD, Headless, Launch
 
-NODES = ['utm_node', 'knot_node', 'recorder_node']
+NODES = ['utm_node', 'knot_node']
 STANDSTILL = 20.0
-STOPPED = ('utm_node', 'knot_node')
 HOLD = 'program.hold.duration=4'
 
 
@@ -22,7 +21,7 @@ class StoppedTest(unittest.TestCase):
     def test_same_files_as_headless(self):
         launches = {}
         try:
-            for node in STOPPED:
+            for node in NODES:
                 launches[node] = Launch('method:=' + METHOD, "overrides:='" + HOLD + "'")
             for node, launch in launches.items():
                 launch.wait_for_rows(3)
