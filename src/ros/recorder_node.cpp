@@ -2,6 +2,7 @@
 
 #include <ros/callback_queue.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -26,6 +27,7 @@ constexpr double kPatience = 2.0;                      // wall time to wait for 
 constexpr double kPatienceWithKeeper = 60.0;           // wall time that a recovery may take [s]
 constexpr double kPatienceAtEnd = 10.0;                // the same for the final shape [s]
 constexpr double kAcknowledgePeriod = 0.005;           // wall time between acknowledgements [s]
+constexpr double kLongestPause = 0.1;                  // between two looks that counts as waiting [s]
 constexpr std::uint64_t kAcknowledgeAfter = 16;        // records, where they come faster
 
 double seconds_since(std::chrono::steady_clock::time_point then) {
@@ -71,11 +73,11 @@ RecorderNode::RecorderNode(const ros::NodeHandle& node, TestSetup setup, Keeper&
 
 int RecorderNode::spin() {
   while (ros::ok()) {
-    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kAcknowledgePeriod));
+    wait_for_messages();
     if (run_ && !run_->complete && error_.empty()) {
       give_up_gap();
       finish_when_ready();
-      if (machine_died_ && seconds_since(*machine_died_) > kLastRecords && !run_->complete) finish_early();
+      if (machine_died_ && waited_ - *machine_died_ > kLastRecords && !run_->complete) finish_early();
     }
     const std::uint64_t next = run_ ? run_->next : 0;
     const bool news = next != published_.next_sequence || run_number_ != published_.run ||
@@ -86,8 +88,15 @@ int RecorderNode::spin() {
   return error_.empty() ? 0 : 1;
 }
 
+void RecorderNode::wait_for_messages() {
+  const Clock::time_point begin = Clock::now();
+  ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kAcknowledgePeriod));
+  // A process that is stopped, or swapped out, does not wait: what came meanwhile it has not seen yet.
+  waited_ += std::min(seconds_since(begin), kLongestPause);
+}
+
 void RecorderNode::on_gone(const ros::SingleSubscriberPublisher& subscriber) {
-  if (subscriber.getSubscriberName() == node_.resolveName(names::kUtmNode)) machine_died_ = Clock::now();
+  if (subscriber.getSubscriberName() == node_.resolveName(names::kUtmNode)) machine_died_ = waited_;
 }
 
 void RecorderNode::begin_run(const Crosshead& first) {
@@ -143,7 +152,7 @@ void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
     if (command.run > run_number_) begin_run(command);
     if (is_complete()) return;
     Run& run = *run_;
-    run.progress = Clock::now();
+    run.progress = waited_;
     if (!record->shape.points.empty() && command.sequence >= run.shape_sequence) {
       run.shape = points_from_message(record->shape);
       run.shape_sequence = command.sequence;
@@ -192,7 +201,7 @@ void RecorderNode::write_early() {
 void RecorderNode::give_up_gap() {
   Run& run = *run_;
   if (run.early.empty()) return;
-  if (seconds_since(run.progress) < kPatience && run.early.size() <= KnotNode::kKeptAnswers) return;
+  if (waited_ - run.progress < kPatience && run.early.size() <= KnotNode::kKeptAnswers) return;
   run.dropped += run.early.begin()->first - run.next;
   ROS_WARN("%llu commands of the test never arrived",
            static_cast<unsigned long long>(run.early.begin()->first - run.next));
@@ -217,7 +226,7 @@ void RecorderNode::finish_when_ready() {
   // A physics that has failed may not have the specimen any more.
   if (all && (shape || run_->failed)) {
     finish(ended_by_from_name(test_.ended_by), test_.reason, "");
-  } else if (seconds_since(run_->progress) > kPatienceAtEnd) {
+  } else if (waited_ - run_->progress > kPatienceAtEnd) {
     if (!all) run_->dropped += test_.sequence + 1 - run_->next;
     finish(ended_by_from_name(test_.ended_by), test_.reason, "the physics did not answer at the end of the test");
   }

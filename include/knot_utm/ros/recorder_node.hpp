@@ -55,8 +55,8 @@ class RecorderNode {
     std::uint64_t shape_sequence = 0;                     ///< of its record
     ros::Time stamp;                                      ///< of the last record
     Clock::time_point begin = Clock::now();
-    Clock::time_point progress = Clock::now();  ///< when something last came
-    bool failed = false;                        ///< the last answer was that of a physics that failed
+    double progress = 0.0;  ///< `waited_` when something last came [s]
+    bool failed = false;    ///< the last answer was that of a physics that failed
     bool complete = false;
   };
 
@@ -74,6 +74,7 @@ class RecorderNode {
   void give_up_gap();
   void finish_when_ready();
   void finish_early();
+  void wait_for_messages();
   void finish(EndedBy ended_by, const std::string& reason, const std::string& warning);
   void tell_master_of_completion() const;
   void fail(const std::string& why);
@@ -84,11 +85,12 @@ class RecorderNode {
   TestSetup setup_;
   Keeper& keeper_;
   std::uint32_t run_number_ = 0;
-  std::string test_id_;            ///< of the test being written, as no other test has it; empty: not known
-  std::unique_ptr<Run> run_;       ///< none before the first record
-  bool completed_before_ = false;  ///< a recorder before this one has completed the test
-  TestStatus test_;                ///< the latest
-  std::optional<Clock::time_point> machine_died_;
+  std::string test_id_;                 ///< of the test being written, as no other test has it; empty: not known
+  std::unique_ptr<Run> run_;            ///< none before the first record
+  bool completed_before_ = false;       ///< a recorder before this one has completed the test
+  TestStatus test_;                     ///< the latest
+  double waited_ = 0.0;                 ///< for messages, while this process ran [s]
+  std::optional<double> machine_died_;  ///< `waited_` then [s]
   TopicWarning odd_record_{names::kKnotRecord}, odd_status_{names::kTestStatus};
   std::string error_;
   RecorderStatus published_;

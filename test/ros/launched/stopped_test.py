@@ -11,7 +11,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..
 
 from launched import METHOD, Headless, Launch
 
-NODES = ['utm_node', 'knot_node']
+NODES = ['utm_node', 'knot_node', 'recorder_node']
 STANDSTILL = 20.0
 HOLD = 'program.hold.duration=4'
 
