@@ -25,7 +25,7 @@ namespace {
 
 constexpr double kStiffeningDepth = 0.015;   // c of the normal law: at the kN of a locked knot a rod gives 5 % [h]
 constexpr double kCoarsening = 1.5;          // of edges on the far side of a loop, which touches nothing but rollers
-constexpr double kFullResidual = 0.01;       // of the longest step, below which the residual shrinks with the step
+constexpr double kFullResidual = 0.1;        // of the longest step, below which the residual shrinks with the step
 constexpr double kResidualOfTension = 2e-6;  // of the largest tension, so that kN loads do not ask for more than digits
 constexpr double kSlack = 0.6;               // by which the rollers stand closer than taut, until mounting [h]
 constexpr double kGripStretch = 2.4;         // of a tail's grip when it slips [h]

@@ -15,14 +15,54 @@ constexpr double kShrink = 0.7;
 // Secants are tried once so many steps have failed in a row, and in steps that are nearly the shortest.
 constexpr int kInARow = 3;
 constexpr double kNearlyShortest = 100.0;
+// A run that so many iterations have led no further than this mean each is not going to end: usual are 0.01 to 1.
+constexpr std::uint64_t kPatience = 200'000;
+constexpr double kLeastHeadway = 1e-5;  // [longest step]
 
 }  // namespace
+
+StepSummary StepControl::step(TimeStep& stepper, const Boundary& boundary, double dt, bool in_need) {
+  StepSummary summary = stepper.step(boundary, dt);
+  counters_.iterations += static_cast<std::uint64_t>(summary.newton.iterations);
+  if (!summary.accepted() && !summary.newton.converged() && in_need) {
+    summary = stepper.step(boundary, dt, Solution::kSecants);
+    counters_.iterations += static_cast<std::uint64_t>(summary.newton.iterations);
+  }
+  return summary;
+}
+
+double StepControl::next_after(double dt, const StepSummary& summary) const {
+  double next = next_;
+  // Growth starts from what was wanted: the step taken may have been cut to meet an end.
+  if (summary.newton.iterations <= options_.easy_iterations)
+    next = std::max(next, dt) * (summary.newton.iterations <= kVeryEasy ? kFastGrowth : kGrowth);
+  else if (summary.newton.iterations >= options_.hard_iterations)
+    next = dt * kShrink;
+  if (summary.largest_motion > 0.0) next = std::min(next, dt * options_.motion / summary.largest_motion);
+  return std::clamp(next, options_.shortest, options_.longest);
+}
+
+std::string StepControl::no_headway(double time) {
+  const std::uint64_t iterations = counters_.iterations - watched_from_.iterations;
+  if (iterations < kPatience) return {};
+  const double way = time - watched_from_.time;
+  if (way < kLeastHeadway * options_.longest * static_cast<double>(iterations)) {
+    std::ostringstream reason;
+    reason << "no headway: the last " << iterations
+           << " iterations of Newton's method led from t = " << watched_from_.time << " s to " << time
+           << " s, in steps of " << last_tried_ << " s in the end";
+    return reason.str();
+  }
+  watched_from_ = {time, counters_.iterations};
+  return {};
+}
 
 std::string StepControl::advance(TimeStep& stepper, double& time, double end, const BoundaryAt& boundary,
                                  const Accepted& accepted) {
   int failed = 0;  // since the last accepted step
   double longest_failed = 0.0;
   while (time < end) {
+    if (std::string reason = no_headway(time); !reason.empty()) return reason;
     const double remaining = end - time;
     // Steps of equal length up to the end, so that no sliver of a step is left over.
     const double pieces = std::ceil(remaining / std::min(next_, options_.longest) - 1e-9);
@@ -31,14 +71,8 @@ std::string StepControl::advance(TimeStep& stepper, double& time, double end, co
     const double to = last ? end : time + dt;
     last_tried_ = dt;
 
-    const Boundary& there = boundary(time, to);
-    StepSummary summary = stepper.step(there, dt);
-    counters_.iterations += static_cast<std::uint64_t>(summary.newton.iterations);
     const bool in_need = failed >= kInARow || dt < kNearlyShortest * options_.shortest;
-    if (!summary.accepted() && !summary.newton.converged() && in_need) {
-      summary = stepper.step(there, dt, Solution::kSecants);
-      counters_.iterations += static_cast<std::uint64_t>(summary.newton.iterations);
-    }
+    const StepSummary summary = step(stepper, boundary(time, to), dt, in_need);
     if (!summary.accepted()) {
       ++counters_.rejected;
       if (failed++ == 0) longest_failed = dt;
@@ -56,13 +90,7 @@ std::string StepControl::advance(TimeStep& stepper, double& time, double end, co
     failed = 0;
     ++counters_.steps;
     time = to;
-    // Growth starts from what was wanted: the step taken may have been cut to meet `end`.
-    if (summary.newton.iterations <= options_.easy_iterations)
-      next_ = std::max(next_, dt) * (summary.newton.iterations <= kVeryEasy ? kFastGrowth : kGrowth);
-    else if (summary.newton.iterations >= options_.hard_iterations)
-      next_ = dt * kShrink;
-    if (summary.largest_motion > 0.0) next_ = std::min(next_, dt * options_.motion / summary.largest_motion);
-    next_ = std::clamp(next_, options_.shortest, options_.longest);
+    next_ = next_after(dt, summary);
     accepted(time, dt, summary);
   }
   return {};

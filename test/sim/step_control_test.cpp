@@ -94,6 +94,27 @@ TEST(StepControl, GivesUpWithWhereItWasHardestAndWhatWasTried) {
   EXPECT_FALSE(step.by_secants.empty());
 }
 
+TEST(StepControl, GivesUpWhatManyIterationsLeadNowhere) {
+  StepControl control(options());
+  ScriptedStep step;
+  step.longest_good = 2e-6;
+  step.iterations = 6;  // at most 3e-7 s an iteration; a hundred-thousandth of the longest step is 1e-6 s
+  const Outcome run = advance(control, step, 1.0);
+  EXPECT_THAT(run.gave_up, testing::HasSubstr("no headway: the last 2000"));
+  EXPECT_GT(run.time, 0.0);
+  EXPECT_LT(run.time, 0.1);
+}
+
+TEST(StepControl, LabouringOnIsNotGivenUp) {
+  StepControl control(options());
+  ScriptedStep step;
+  step.longest_good = 4e-5;
+  step.iterations = 6;
+  const Outcome run = advance(control, step, 1.0);
+  EXPECT_EQ(run.gave_up, "");
+  EXPECT_GT(control.counters().iterations, 200'000u);
+}
+
 TEST(StepDiagnosis, NamesNodeResidualAndContact) {
   StepDiagnosis where;
   where.node = 17;

@@ -10,7 +10,8 @@ namespace knot_utm {
 
 /// Chooses the length of time steps: longer where Newton's method converges in few iterations and nodes move little,
 /// shorter where not; a step that was not accepted is tried again at half its length. What Newton's method still does
-/// not solve after some of these is first tried once more with secants (Solution).
+/// not solve after some of these is first tried once more with secants (Solution). A run that very many iterations have
+/// led nowhere is given up.
 class StepControl {
  public:
   struct Options {
@@ -39,12 +40,23 @@ class StepControl {
   const Counters& counters() const { return counters_; }
   double last_tried() const { return last_tried_; }  ///< length of the last step, accepted or not [s]
 
-  void state(Archive& archive) { archive(next_, counters_.steps, counters_.rejected, counters_.iterations); }
+  void state(Archive& archive) {
+    archive(next_, counters_.steps, counters_.rejected, counters_.iterations, watched_from_.time,
+            watched_from_.iterations);
+  }
 
  private:
+  StepSummary step(TimeStep& stepper, const Boundary& boundary, double dt, bool in_need);
+  double next_after(double dt, const StepSummary& summary) const;
+  std::string no_headway(double time);
+
   Options options_;
   double next_, last_tried_ = 0.0;
   Counters counters_;
+  struct {
+    double time = 0.0;
+    std::uint64_t iterations = 0;
+  } watched_from_;  ///< since when headway is measured
 };
 
 }  // namespace knot_utm
