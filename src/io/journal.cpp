@@ -1,16 +1,19 @@
 #include "knot_utm/io/journal.hpp"
 
+#include <endian.h>
 #include <fcntl.h>
 #include <unistd.h>
 #include <zlib.h>
 
 #include <array>
 #include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <limits>
+#include <stdexcept>
+#include <string_view>
 #include <utility>
 
-#include "journal_codec.hpp"
 #include "knot_utm/io/cannot_write.hpp"
 #include "knot_utm/io/run_folder.hpp"
 
@@ -41,13 +44,12 @@ std::uint32_t checksum(const char* length, std::string_view payload) {
   return static_cast<std::uint32_t>(crc32_z(begin, bytes(payload.data()), payload.size()));
 }
 
-/// Behind what `buffer` holds, a frame with the payload that `encode` appends.
-template <class Encode>
-void append_frame(std::string& buffer, Encode encode) {
+/// Behind what `buffer` holds, a frame of what is kept.
+template <class T>
+void append_frame(std::string& buffer, const T& kept) {
   const std::size_t head = buffer.size();
   buffer.append(kFrameHead, '\0');
-  journal::Encoder encoder(buffer);
-  encode(encoder);
+  Archive::to(buffer).save(kept);
   const std::size_t length = buffer.size() - head - kFrameHead;
   if (length > std::numeric_limits<std::uint32_t>::max()) throw std::length_error("a record beyond 4 GiB");
   put_word(&buffer[head], static_cast<std::uint32_t>(length));
@@ -58,15 +60,18 @@ std::string beginning(const JournalHeader& header) {
   std::string bytes(kMagic);
   bytes.append(kWord, '\0');
   put_word(&bytes[kMagic.size()], kVersion);
-  append_frame(bytes, [&](journal::Encoder& encoder) {
-    encoder(header.method);
-    encoder(static_cast<std::uint64_t>(header.specimen));
-    encoder(header.test);
-  });
+  append_frame(bytes, header);
   return bytes;
 }
 
 }  // namespace
+
+void JournalHeader::state(Archive& archive) {
+  std::uint64_t sum = specimen;
+  archive(method, sum, test);
+  archive.require(sum <= std::numeric_limits<std::uint32_t>::max(), "checksum of the specimen", std::to_string(sum));
+  if (archive.loads()) specimen = static_cast<std::uint32_t>(sum);
+}
 
 JournalHeader journal_header(const Method& method, const std::string& test) {
   JournalHeader header;
@@ -117,7 +122,7 @@ void JournalWriter::append(const Record& record) {
   // What goes to a file without a name is lost with the process.
   if (!file_.has_name()) throw std::runtime_error(path_ + ": was removed");
   buffer_.clear();
-  append_frame(buffer_, [&](journal::Encoder& encoder) { journal::fields(encoder, record); });
+  append_frame(buffer_, record);
   write(buffer_);
 }
 
@@ -161,13 +166,7 @@ JournalReader::JournalReader(const std::string& folder) : file_(journal_file(fol
     throw InvalidInput(file_, "version", std::to_string(version), std::to_string(kVersion));
   }
   good_bytes_ = begin.size();
-  journal::Decoder decoder(read_frame() ? payload_ : std::string_view());
-  std::uint64_t specimen = 0;
-  decoder(header_.method);
-  decoder(specimen);
-  decoder(header_.test);
-  header_.specimen = static_cast<std::uint32_t>(specimen);
-  if (!decoder.good()) throw InvalidInput("file", file_, "a journal whose header is whole");
+  if (!read_frame() || !load(header_)) throw InvalidInput("file", file_, "a journal whose header is whole");
   good_bytes_ += kFrameHead + payload_.size();
 }
 
@@ -181,15 +180,21 @@ bool JournalReader::read_frame() {
   return checksum(head.data(), payload_) == word(head.data() + kWord);
 }
 
-bool JournalReader::next(Record& record) {
-  // Nothing behind a damaged frame is believed, though the stream stands behind it.
-  if (!in_ || !read_frame()) {
-    in_.setstate(std::ios::failbit);
+template <class T>
+bool JournalReader::load(T& kept) const {
+  try {
+    Archive archive = Archive::from(payload_, "journal", file_);
+    archive(kept);
+    archive.end();
+    return true;
+  } catch (const InvalidInput&) {
     return false;
   }
-  journal::Decoder decoder(payload_);
-  journal::fields(decoder, record);
-  if (!decoder.good()) {
+}
+
+bool JournalReader::next(Record& record) {
+  // Nothing behind a damaged frame is believed, though the stream stands behind it.
+  if (!in_ || !read_frame() || !load(record)) {
     in_.setstate(std::ios::failbit);
     return false;
   }

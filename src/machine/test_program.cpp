@@ -91,13 +91,8 @@ double TestProgram::time_left() const {
   return left;
 }
 
-void Command::state(Archive& archive) {
-  archive(sequence, time, displacement, velocity, step, speed, duration, balance, read_cell);
-  archive.choice("phase", phase, Phase::kDone);
-}
-
 void TestProgram::state(Archive& archive) {
-  archive.section("PROG");
+  archive.section("PRGM");  // "PROG" had a command's fields in another order
   archive.same("steps of the program", static_cast<std::int64_t>(program_.size()));
   int step = static_cast<int>(step_);
   archive.number("step of the program", step, 0, static_cast<int>(program_.size()) - 1);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "knot_utm/rod/invalid_input.hpp"
@@ -170,6 +171,61 @@ TEST(Archive, TellsWhatDoesNotFit) {
   Archive text("test", list.bytes(), "file");
   std::string word;
   EXPECT_THROW(text(word), InvalidInput);
+}
+
+/// As a journal has it, which frames it itself.
+TEST(Archive, BareIsTheStateAlone) {
+  const Things things = some();
+  std::string bytes = "before";
+  Archive::to(bytes).save(things);
+  const std::string file = saved(things), state = bytes.substr(6);
+  constexpr std::size_t kSumBytes = 4;
+  EXPECT_EQ(bytes.substr(0, 6), "before");
+  EXPECT_EQ(state, file.substr(file.size() - kSumBytes - state.size(), state.size()));
+
+  Things found;
+  Archive in = Archive::from(state, "test", "file");
+  in(found);
+  in.end();
+  EXPECT_EQ(saved(found), file);
+  for (std::size_t cut = 0; cut < state.size(); ++cut) {
+    Archive shorter = Archive::from(std::string_view(state).substr(0, cut), "test", "file");
+    EXPECT_THROW(shorter(found), InvalidInput) << cut;
+  }
+  const std::string longer = state + "x";
+  Archive more = Archive::from(longer, "test", "file");
+  more(found);
+  EXPECT_THROW(more.end(), InvalidInput);
+}
+
+TEST(Archive, AValueHasOneForm) {
+  for (const std::uint64_t bits : {std::uint64_t{2}, std::uint64_t{1} << 31U, ~std::uint64_t{0}}) {
+    std::string bytes;
+    Archive::to(bytes).save(bits);
+    Archive flags = Archive::from(bytes, "test", "file"), wholes = Archive::from(bytes, "test", "file");
+    bool flag = false;
+    EXPECT_THROW(flags(flag), InvalidInput) << bits;
+    int whole = 0;
+    if (bits == std::uint64_t{1} << 31U)
+      EXPECT_THROW(wholes(whole), InvalidInput);
+    else
+      EXPECT_NO_THROW(wholes(whole));
+  }
+}
+
+struct Large {
+  double values[100] = {};
+  void state(Archive& archive) { archive(values); }
+};
+
+TEST(Archive, ALengthAloneTakesNoMemory) {
+  std::string bytes;
+  Archive::to(bytes).save(std::uint64_t{1000});
+  bytes.resize(1008, '\0');
+  Archive in = Archive::from(bytes, "test", "file");
+  std::vector<Large> list;
+  EXPECT_THROW(in.list(list), InvalidInput);
+  EXPECT_LE(list.capacity() * sizeof(Large), 2 * bytes.size());
 }
 
 }  // namespace

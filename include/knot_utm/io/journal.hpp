@@ -18,6 +18,7 @@ namespace knot_utm {
 ///
 ///     "knot_utm journal\n", version (4 bytes), frame of the header, then one frame a record
 ///     frame: length n of the payload (4 bytes), CRC-32 of length and payload (4 bytes), payload (n bytes)
+///     payload: what is kept, as a bare Archive saves it
 ///
 /// The checksum is zlib's: several times faster than a table of bytes as Boost has it.
 ///
@@ -31,6 +32,8 @@ struct JournalHeader {
   bool operator==(const JournalHeader& other) const {
     return method == other.method && specimen == other.specimen && test == other.test;
   }
+
+  void state(Archive& archive);
 };
 
 JournalHeader journal_header(const Method& method, const std::string& test = "");
@@ -89,6 +92,8 @@ class JournalReader {
 
  private:
   bool read_frame();  ///< into `payload_`
+  template <class T>
+  bool load(T& kept) const;  ///< from `payload_`: whether that is the whole of it
 
   std::string file_;
   std::ifstream in_;

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "knot_utm/machine/sample.hpp"
+#include "knot_utm/rod/archive.hpp"
 #include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
@@ -15,6 +16,8 @@ struct Record {
   Points shape;               ///< nodes after the command [m]; without columns where none was due
   Eigen::VectorXd tension;    ///< of each edge, tension positive [N]; empty where no shape is
   double wall_time = 0.0;     ///< since the test began [s]
+
+  void state(Archive& archive);
 };
 
 /// Whether the rod's shape belongs into the record of a command: at every reading of the load cell.

@@ -78,6 +78,8 @@ struct Sample {
   KnotType knot_type = KnotType::kKept;
   BenchStatus status = BenchStatus::kRunning;
   std::string message;
+
+  void state(Archive& archive);
 };
 
 }  // namespace knot_utm

@@ -1,9 +1,14 @@
 #pragma once
 
+#include <endian.h>
+
 #include <Eigen/Core>
+#include <algorithm>
 #include <cstdint>
+#include <cstring>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,18 +25,30 @@ namespace knot_utm {
 /// object made as the saved one was made: what has a size has the same one there, but for lists.
 ///
 /// As a file: one line of text with the kind of state and the version of this package, the length of what follows [8
-/// bytes], the state, and a CRC-32 of all of it [4 bytes]. Numbers are binary and little-endian.
+/// bytes], the state, and a CRC-32 of all of it [4 bytes]. Numbers are binary and little-endian. Bare, it is the state
+/// alone: for what has a frame and a checksum of its own, as the journal has.
 ///
 /// Loading throws InvalidInput, one line, where the file is damaged, of another kind or version, or the state of
-/// another object; what was loaded into is of no use then.
+/// another object; what was loaded into is of no use then. It takes no more memory than a small multiple of the bytes,
+/// whatever lengths they tell. A value has one form: what is accepted is saved to the same bytes.
 class Archive {
  public:
   /// Saves; `kind` is a word or two.
-  explicit Archive(const std::string& kind) : kind_(kind) {}
+  explicit Archive(const std::string& kind) : kind_(kind), to_(&own_) {}
   /// Loads what an archive of the same kind has saved. `file`: its name, for complaints.
-  Archive(const std::string& kind, const std::string& bytes, const std::string& file);
+  Archive(const std::string& kind, std::string bytes, const std::string& file);
 
-  bool loads() const { return loads_; }
+  /// Saves bare, behind what `bytes` holds.
+  static Archive to(std::string& bytes) { return Archive(&bytes); }
+  /// Loads what was saved bare. The bytes must stay where they are.
+  static Archive from(std::string_view bytes, const std::string& kind, const std::string& file) {
+    return {Bare(), bytes, kind, file};
+  }
+
+  Archive(const Archive&) = delete;
+  Archive& operator=(const Archive&) = delete;
+
+  bool loads() const { return to_ == nullptr; }
 
   /// A mark of four letters: what was saved must be loaded in the same order.
   void section(const char* tag);
@@ -41,32 +58,34 @@ class Archive {
     (visit(values), ...);
   }
 
+  /// Saves what must not change: what is saved is only read.
+  template <typename T>
+  void save(const T& value) {
+    visit(const_cast<T&>(value));
+  }
+
   /// A list may be of any length.
   template <typename T>
   void list(std::vector<T>& values) {
-    std::uint64_t length = values.size();
-    visit(length);
-    if (loads_) {
-      // An entry takes a byte at least.
-      require(length <= body_.size() - next_, "length of a list", std::to_string(length));
-      values.resize(static_cast<std::size_t>(length));
+    // An entry takes a byte at least.
+    const auto length = static_cast<std::size_t>(length_of_list(values.size(), 1));
+    // An entry is made once those before were there: the length alone is not believed.
+    if (loads()) values.resize(std::min(length, left() / sizeof(T)));
+    for (std::size_t i = 0; i < length; ++i) {
+      if (i == values.size()) values.emplace_back();
+      visit(values[i]);
     }
-    for (T& value : values) visit(value);
   }
 
   /// So may a matrix have any number of columns, or a vector of rows.
   template <int Rows, int Columns>
   void list(Eigen::Matrix<double, Rows, Columns>& matrix) {
-    std::uint64_t length = static_cast<std::uint64_t>(matrix.size());
-    visit(length);
-    constexpr std::uint64_t kRows = Columns == Eigen::Dynamic ? static_cast<std::uint64_t>(Rows) : 1;
-    if (loads_) {
-      require(length <= (body_.size() - next_) / sizeof(double) && length % kRows == 0, "length of a list",
-              std::to_string(length));
-      matrix.resize(Columns == Eigen::Dynamic ? Rows : static_cast<Eigen::Index>(length),
-                    Columns == Eigen::Dynamic ? static_cast<Eigen::Index>(length / kRows) : Columns);
-    }
-    for (Eigen::Index i = 0; i < matrix.size(); ++i) visit(matrix.data()[i]);
+    constexpr bool kOfColumns = Columns == Eigen::Dynamic;
+    constexpr std::size_t kEntryBytes = sizeof(double) * (kOfColumns ? Rows : 1);
+    const Eigen::Index now = kOfColumns ? matrix.cols() : matrix.rows();
+    const auto length = static_cast<Eigen::Index>(length_of_list(static_cast<std::uint64_t>(now), kEntryBytes));
+    if (loads()) matrix.resize(kOfColumns ? Rows : length, kOfColumns ? length : Columns);
+    numbers(matrix.data(), static_cast<std::size_t>(matrix.size()));
   }
 
   /// A number within bounds, such as that of a node.
@@ -77,7 +96,7 @@ class Archive {
   void choice(const char* what, Choice& value, Choice last) {
     int index = static_cast<int>(value);
     number(what, index, 0, static_cast<int>(last));
-    value = static_cast<Choice>(index);
+    if (loads()) value = static_cast<Choice>(index);
   }
 
   /// What must be the same in both objects.
@@ -92,8 +111,21 @@ class Archive {
   void end() const;
 
  private:
-  void visit(std::uint64_t& value);
-  void visit(double& value);
+  static constexpr std::size_t kWord = sizeof(std::uint64_t);
+
+  explicit Archive(std::string* bytes) : to_(bytes) {}
+  struct Bare {};
+  Archive(Bare, std::string_view bytes, const std::string& kind, const std::string& file)
+      : kind_(kind), file_(file), from_(bytes) {}
+
+  // Journals are written and read by the thousand records a second: what visits numbers stands here.
+  void visit(std::uint64_t& value) {
+    if (loads())
+      value = take();
+    else
+      put(value);
+  }
+  void visit(double& value) { numbers(&value, 1); }
   void visit(int& value);
   void visit(bool& value);
   void visit(std::string& value);
@@ -106,7 +138,7 @@ class Archive {
   void visit(std::optional<T>& value) {
     bool there = value.has_value();
     visit(there);
-    if (loads_) value = there ? std::optional<T>(T{}) : std::nullopt;
+    if (loads()) value = there ? std::optional<T>(T{}) : std::nullopt;
     if (there) visit(*value);
   }
   template <typename T, std::size_t N>
@@ -122,19 +154,64 @@ class Archive {
   void visit(Eigen::Matrix<double, Rows, Columns>& matrix) {
     if (Rows == Eigen::Dynamic) same("rows", matrix.rows());
     if (Columns == Eigen::Dynamic) same("columns", matrix.cols());
-    for (Eigen::Index i = 0; i < matrix.size(); ++i) visit(matrix.data()[i]);
+    numbers(matrix.data(), static_cast<std::size_t>(matrix.size()));
   }
   template <typename T>
   auto visit(T& object) -> decltype(object.state(*this)) {
     object.state(*this);
   }
 
+  void put(std::uint64_t value) {
+    value = htole64(value);
+    to_->append(reinterpret_cast<const char*>(&value), kWord);
+  }
+  std::uint64_t take() {
+    std::uint64_t value = 0;
+    std::memcpy(&value, take(kWord), kWord);
+    return le64toh(value);
+  }
+  /// The next so many bytes to be loaded.
+  const char* take(std::size_t bytes) {
+    if (bytes > left()) refuse("length", std::to_string(from_.size()) + " bytes");
+    next_ += bytes;
+    return from_.data() + next_ - bytes;
+  }
+  std::size_t left() const { return from_.size() - next_; }
+
+  void numbers(double* values, std::size_t count) {
+    static_assert(sizeof(double) == kWord);
+    if (loads()) {
+      const char* bytes = take(count * kWord);
+      for (std::size_t i = 0; i < count; ++i) {
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, bytes + i * kWord, kWord);
+        bits = le64toh(bits);
+        std::memcpy(values + i, &bits, kWord);
+      }
+    } else {
+      for (std::size_t i = 0; i < count; ++i) {
+        std::uint64_t bits = 0;
+        std::memcpy(&bits, values + i, kWord);
+        put(bits);
+      }
+    }
+  }
+
+  /// That to be saved, or that loaded: no more entries, of so many bytes each at least, than are left.
+  std::uint64_t length_of_list(std::uint64_t length, std::size_t entry_bytes) {
+    visit(length);
+    if (loads() && length > left() / entry_bytes) refuse("length of a list", std::to_string(length));
+    return length;
+  }
+
+  [[noreturn]] void refuse(const char* what, const std::string& value) const;
   [[noreturn]] void complain(const std::string& what, const std::string& value, const std::string& allowed) const;
 
   std::string kind_, file_;
-  bool loads_ = false;
-  std::string body_;
-  std::size_t next_ = 0;  // of the body, to be loaded
+  std::string own_;            // what is saved, or the file
+  std::string* to_ = nullptr;  // what is saved is appended to
+  std::string_view from_;      // all that is to be loaded
+  std::size_t next_ = 0;       // of it
 };
 
 }  // namespace knot_utm
