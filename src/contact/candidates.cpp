@@ -67,6 +67,7 @@ void Candidates::state(Archive& archive) {
   archive(built);
   if (archive.loads()) built_at_.resize(3, built ? arclength_.size() : 0);
   archive(built_at_);
+  archive.require(are_places(built_at_), "places of the nodes", "that of no rod");
   if (archive.loads() && built) build(built_at_);
 }
 

@@ -1,6 +1,7 @@
 #include "knot_utm/contact/roller_contact.hpp"
 
 #include <Eigen/Geometry>
+#include <string>
 
 #include "knot_utm/contact/centreline_curve.hpp"
 
@@ -117,12 +118,17 @@ void RollerContact::state(Archive& archive) {
   // Before, what stands here is what a rejected step took for it.
   if (!committed) start_.clear();
   archive.list(start_);
-  if (archive.loads()) {
-    const std::size_t places = memory_index(voronoi_.size(), start_.size(), 0, 0);
-    committed_estimate_.resize(places);
-    memory_.resize(places);
+  if (!committed) {
+    archive.require(start_.empty(), "rollers", std::to_string(start_.size()));
+    committed_estimate_.clear();
+    memory_.clear();
+    return;
   }
-  if (committed) archive(committed_estimate_, memory_);
+  archive.list(committed_estimate_);
+  archive.list(memory_);
+  const std::size_t places = memory_index(voronoi_.size(), start_.size(), 0, 0);
+  archive.require(places > 0 && committed_estimate_.size() == places && memory_.size() == places, "places on rollers",
+                  std::to_string(memory_.size()));
 }
 
 }  // namespace knot_utm

@@ -17,6 +17,11 @@ RodProperties make_rod(const Material& material, const Eigen::VectorXd& rest_len
   return rod;
 }
 
+bool are_places(const Points& points) {
+  constexpr double kFarthest = 1e6;  // [m]
+  return (points.array().abs() <= kFarthest).all();
+}
+
 Eigen::VectorXd RodProperties::arclength() const {
   Eigen::VectorXd out(nodes());
   out[0] = 0.0;
@@ -38,11 +43,18 @@ void RodProperties::state(Archive& archive) {
   const bool fits = inner >= 1 && edges() == inner + 1 && mass.size() == nodes() && (curved == 0 || curved == inner) &&
                     (twisted == 0 || twisted == inner);
   archive.require(fits, "nodes", std::to_string(nodes()));
+  const auto positive = [](const Eigen::VectorXd& values) { return values.allFinite() && values.minCoeff() > 0.0; };
+  const bool solid = positive(rest_length) && positive(voronoi_length) && positive(mass) && std::isfinite(length()) &&
+                     material.radius > 0.0 && std::isfinite(material.radius);
+  archive.require(solid, "rod", "one without a length, a radius or a mass");
 }
 
 void RodState::state(Archive& archive) {
   archive.section("RODS");
   archive(position, velocity, twist, twist_rate, reference_director, reference_twist);
+  const bool finite = are_places(position) && velocity.allFinite() && twist.allFinite() && twist_rate.allFinite() &&
+                      reference_director.allFinite() && reference_twist.allFinite();
+  archive.require(finite, "state of the rod", "that of no rod");
 }
 
 }  // namespace knot_utm

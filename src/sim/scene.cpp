@@ -1,8 +1,15 @@
 #include "knot_utm/sim/scene.hpp"
 
+#include <cmath>
 #include <string>
 
 namespace knot_utm {
+
+namespace {
+
+constexpr int kMostIterations = 10000;
+
+}  // namespace
 
 void Boundary::state(Archive& archive, int nodes) {
   archive.section("BNDY");
@@ -25,7 +32,11 @@ void StepSettings::state(Archive& archive) {
   archive.section("SETT");
   archive.choice("contact law", contact_law, ContactLaw::kEdge);
   archive(normal, friction, roller_friction, share_time, gravity, drag, spin_inertia, residual, residual_from_step,
-          residual_of_tension, newton_cap, motion_limit, overlap_limit, candidate_margin, max_iterations);
+          residual_of_tension, newton_cap, motion_limit, overlap_limit, candidate_margin);
+  archive.number("iterations", max_iterations, 1, kMostIterations);
+  const bool finite = std::isfinite(normal.tolerance) && std::isfinite(candidate_margin) && normal.tolerance >= 0.0 &&
+                      candidate_margin >= 0.0;
+  archive.require(finite, "reach of contacts", std::to_string(normal.tolerance + candidate_margin) + " m");
 }
 
 }  // namespace knot_utm

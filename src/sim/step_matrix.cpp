@@ -6,6 +6,12 @@
 
 namespace knot_utm {
 
+namespace {
+
+constexpr int kRoomNodes = 4;  // of the other strand: three of a segment, one that it may slide on to
+
+}  // namespace
+
 template <int D>
 bool StepMatrix<D>::find(const std::vector<ContactPoint>& contacts) {
   located_.swap(before_);
@@ -47,9 +53,8 @@ void StepMatrix<D>::find_rooms(const std::vector<ContactPoint>& contacts) {
     if (!contact.active() && contact.overlap < 2.0 * contact.begins) continue;
     // A foot slides on to the segment that it is nearer to.
     const bool backwards = contact.c[3] < contact.c[5];
-    const int first = std::max(contact.b0 - (backwards ? 1 : 0), 0);
-    const int last = std::min(contact.b0 + (backwards ? 2 : 3), nodes_ - 1);
-    rooms_.push_back({contact.a0, first, last});
+    const int first = contact.b0 - (backwards ? 1 : 0);
+    rooms_.push_back({contact.a0, std::max(first, 0), std::min(first + kRoomNodes, nodes_) - 1});
   }
 }
 
@@ -91,7 +96,8 @@ void StepMatrix<D>::state(Archive& archive) {
   archive.list(accepted_rooms_);
   if (!archive.loads()) return;
   for (const Room& room : accepted_rooms_) {
-    const bool there = room.a >= 0 && room.a < nodes_ - 2 && room.first >= 0 && room.last < nodes_;
+    const bool there = room.a >= 0 && room.a < nodes_ - 2 && room.first >= 0 && room.last < nodes_ &&
+                       room.first <= room.last && room.last - room.first < kRoomNodes;
     archive.require(there, "room for a contact at node", std::to_string(room.a));
   }
   rebuilt_ = true;

@@ -11,6 +11,9 @@ using Vec3 = Eigen::Vector3d;
 using Mat3 = Eigen::Matrix3d;
 using Points = Eigen::Matrix3Xd;  ///< one column a point [m]
 
+/// Whether all of them are numbers, and none is further than 1000 km from the origin.
+bool are_places(const Points& points);
+
 /// What stays constant while the rod moves: N nodes, N-1 edges, N-2 inner nodes.
 /// Symbols: l_j rest length of edge j, lbar_i = (l_{i-1}+l_i)/2 Voronoi length of node i.
 struct RodProperties {
