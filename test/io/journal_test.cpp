@@ -19,35 +19,46 @@ namespace {
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
+constexpr double Sample::*kNumbers[] = {&Sample::time,
+                                        &Sample::displacement,
+                                        &Sample::extension,
+                                        &Sample::end_to_end,
+                                        &Sample::knot_distance,
+                                        &Sample::load,
+                                        &Sample::balance_offset,
+                                        &Sample::force_upper,
+                                        &Sample::force_lower,
+                                        &Sample::max_penetration,
+                                        &Sample::normal_force,
+                                        &Sample::fastest_node,
+                                        &Sample::stretching_energy,
+                                        &Sample::bending_energy,
+                                        &Sample::twisting_energy,
+                                        &Sample::contact_energy,
+                                        &Sample::kinetic_energy,
+                                        &Sample::grip_work,
+                                        &Sample::dissipation,
+                                        &Sample::friction_loss,
+                                        &Sample::numerical_dissipation,
+                                        &Sample::reweighting_loss,
+                                        &Sample::moment_imbalance};
+
+/// No two numbers are the same; some are those that are easily lost.
 Sample sample(std::uint64_t sequence) {
   Sample s;
   s.sequence = sequence;
-  s.time = 0.1 * static_cast<double>(sequence);
-  s.phase = Phase::kPull;
-  s.displacement = 1.0 / 3.0;
+  double value = 1.0 / 3.0;
+  for (const auto number : kNumbers) s.*number = value += static_cast<double>(sequence + 1);
   s.extension = -0.0;
   s.end_to_end = std::numeric_limits<double>::denorm_min();
-  s.load = 17.25;
+  s.knot_distance = Sample::kNone;
   s.balance_offset = 1e-300;
   s.force_upper = -1.0;
   s.force_lower = std::numeric_limits<double>::infinity();
+  s.phase = Phase::kPull;
   s.tail_force[1] = 70.0;
   s.excess_length[0] = 0.02;
-  s.max_penetration = 0.01;
-  s.normal_force = 1e6;
   s.contacts = 11;
-  s.fastest_node = 0.003;
-  s.stretching_energy = 1.0;
-  s.bending_energy = 2.0;
-  s.twisting_energy = 3.0;
-  s.contact_energy = 4.0;
-  s.kinetic_energy = 5.0;
-  s.grip_work = 6.0;
-  s.dissipation = 7.0;
-  s.friction_loss = 4.0;
-  s.numerical_dissipation = 0.25;
-  s.reweighting_loss = -0.125;
-  s.moment_imbalance = 1e-3;
   s.steps = 1u << 31u;
   s.rejected_steps = 3;
   s.newton_iterations = std::numeric_limits<std::uint64_t>::max();
@@ -92,31 +103,7 @@ void expect_same(const Sample& a, const Sample& b) {
   EXPECT_EQ(a.knot_type, b.knot_type);
   EXPECT_EQ(a.status, b.status);
   EXPECT_EQ(a.message, b.message);
-  for (const auto member : {&Sample::time,
-                            &Sample::displacement,
-                            &Sample::extension,
-                            &Sample::end_to_end,
-                            &Sample::knot_distance,
-                            &Sample::load,
-                            &Sample::balance_offset,
-                            &Sample::force_upper,
-                            &Sample::force_lower,
-                            &Sample::max_penetration,
-                            &Sample::normal_force,
-                            &Sample::fastest_node,
-                            &Sample::stretching_energy,
-                            &Sample::bending_energy,
-                            &Sample::twisting_energy,
-                            &Sample::contact_energy,
-                            &Sample::kinetic_energy,
-                            &Sample::grip_work,
-                            &Sample::dissipation,
-                            &Sample::friction_loss,
-                            &Sample::numerical_dissipation,
-                            &Sample::reweighting_loss,
-                            &Sample::moment_imbalance}) {
-    EXPECT_TRUE(same(a.*member, b.*member)) << a.*member << " " << b.*member;
-  }
+  for (const auto number : kNumbers) EXPECT_TRUE(same(a.*number, b.*number)) << a.*number << " " << b.*number;
   for (int i : {0, 1}) {
     EXPECT_TRUE(same(a.tail_force[i], b.tail_force[i]));
     EXPECT_TRUE(same(a.excess_length[i], b.excess_length[i]));
