@@ -4,6 +4,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "knot_utm/rod/invalid_input.hpp"
+
 namespace knot_utm {
 
 /// A fuzz target is one file, test/fuzz/NAME_fuzz.cpp, that defines this function: gives any bytes to one parser, and
@@ -16,6 +18,21 @@ inline void promise(bool kept, const char* what) {
   if (kept) return;
   std::fprintf(stderr, "broken promise: %s\n", what);
   std::abort();
+}
+
+/// Whether a parser understands what it is given; if not, that it says so as it should.
+template <typename Parse>
+bool understood(Parse parse) {
+  try {
+    parse();
+    return true;
+  } catch (const InvalidInput& refused) {
+    const std::string line = refused.what();
+    promise(line.find('\n') == std::string::npos, "a refusal is one line");
+    promise(line.size() < 4096, "a refusal can be read");
+    promise(!refused.key.empty() && !refused.allowed.empty(), "a refusal says where, and what is allowed");
+    return false;
+  }
 }
 
 }  // namespace knot_utm

@@ -1,0 +1,167 @@
+// Files that an Archive loads: a time step (failed_step.bin) and a checkpoint. The input as the file itself and, as no
+// random bytes have the right checksum, as the state that a whole file holds; and as bytes that stand in a good state,
+// from the place that the input's first two bytes tell. "<random>" stands for the load cell's random numbers, which
+// take 6 KB of a checkpoint.
+#include <zlib.h>
+
+#include <cstdint>
+#include <random>
+#include <sstream>
+
+#include "fuzz/scratch_folder.hpp"
+#include "fuzz/target.hpp"
+#include "knot_utm/io/checkpoint.hpp"
+#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/sim/saved_step.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+std::string little_endian(std::uint64_t value, int bytes) {
+  std::string out;
+  for (int i = 0; i < bytes; ++i) out += static_cast<char>(static_cast<unsigned char>(value >> (8 * i)));
+  return out;
+}
+
+constexpr std::size_t kLengthBytes = 8, kSumBytes = 4;
+
+std::string file_of(const std::string& kind, const std::string& state) {
+  const std::string empty = Archive(kind).bytes();
+  const std::string all =
+      empty.substr(0, empty.size() - kLengthBytes - kSumBytes) + little_endian(state.size(), kLengthBytes) + state;
+  return all + little_endian(crc32_z(0, reinterpret_cast<const Bytef*>(all.data()), all.size()), kSumBytes);
+}
+
+std::string state_of(const std::string& kind, const std::string& file) {
+  return file.substr(Archive(kind).bytes().size() - kSumBytes, file.size() - Archive(kind).bytes().size());
+}
+
+Material thread() {
+  Material out;
+  out.name = "thread";
+  out.radius = 1e-3;
+  out.density = 1000.0;
+  out.stretching_stiffness = 1e4;
+  out.bending_stiffness = 1e-3;
+  out.twisting_stiffness = 1e-3;
+  out.friction_coefficient = 0.2;
+  return out;
+}
+
+std::string written(const std::string& file) {
+  SavedStep step = load_step(file, "failed_step.bin");
+  return save_step(*step.stepper, step.boundary, step.time, step.dt);
+}
+
+/// Of a test of a rod a few edges long.
+class Resumed {
+ public:
+  Resumed() : checkpoint_(folder_.name(), "method") {}
+
+  std::string good() {
+    TestBench bench = make_bench();
+    TestProgram program = make_program(bench);
+    for (int i = 0; i < 3; ++i) program.next(bench.respond(program.last()));
+    checkpoint_.write(bench, program, 123);
+    return read_whole(checkpoint_.file());
+  }
+
+  std::string written(const std::string& file) {
+    write_whole(checkpoint_.file(), file);
+    TestBench bench = make_bench();
+    TestProgram program = make_program(bench);
+    const std::uint64_t journal_bytes = checkpoint_.load(bench, program);
+    checkpoint_.write(bench, program, journal_bytes);
+    return read_whole(checkpoint_.file());
+  }
+
+ private:
+  static TestBench make_bench() {
+    SpecimenOptions specimen;
+    specimen.knot = KnotKind::kStraight;
+    specimen.length = 0.008;
+    specimen.edge_length = 0.002;
+    MachineOptions machine;
+    machine.grips = GripKind::kClamps;
+    PhysicsOptions physics;
+    physics.accuracy = Accuracy::kDraft;
+    return TestBench(specimen, thread(), machine, physics);
+  }
+  static TestProgram make_program(const TestBench& bench) {
+    ProgramStep pull;
+    pull.phase = Phase::kPull;
+    pull.until.extension = 0.001;
+    return {{pull}, 10.0, bench.longest_step(), {}};
+  }
+
+  ScratchFolder folder_;
+  Checkpoint checkpoint_;
+};
+
+std::string good_step() {
+  const Material material = thread();
+  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(4, 2.0 * material.radius));
+  RodState state;
+  state.position = Points::Zero(3, rod.nodes());
+  state.position.row(2) = rod.arclength().transpose();
+  state.velocity = Points::Zero(3, rod.nodes());
+  StepSettings settings;
+  settings.normal = {1e5, 1e-5, 1e-5};
+  settings.residual = 1e-6;
+  settings.newton_cap = settings.motion_limit = settings.overlap_limit = settings.candidate_margin = 1e-3;
+  Boundary boundary;
+  boundary.fixed_nodes = {{0, Vec3::Zero()}};
+  boundary.forces = {{4, Vec3(0.0, 0.0, 1e-3)}};
+  boundary.rollers = {{Vec3(2e-3, 0.0, 4e-3), Vec3::UnitY(), 1e-3}};
+  const std::unique_ptr<TimeStep> stepper = TimeStep::make(rod, state, settings);
+  promise(stepper->step(boundary, 1e-3).accepted(), "a step of the rod");
+  return save_step(*stepper, boundary, 1e-3, 1e-3);
+}
+
+/// What is loaded may be written in another form, as numbers in a text are, but then it stays.
+template <typename Written>
+void hold(Written write, const std::string& file) {
+  std::string once;
+  if (!understood([&] { once = write(file); })) return;
+  promise(understood([&] { promise(write(once) == once, "what was written is written again"); }),
+          "what was written can be loaded");
+}
+
+std::string with_random_numbers(std::string state) {
+  static const std::string mark = "<random>", numbers = [] {
+    std::ostringstream out;
+    out << std::mt19937_64();
+    return little_endian(out.str().size(), kLengthBytes) + out.str();
+  }();
+  const std::size_t place = state.find(mark);
+  return place == std::string::npos ? state : state.replace(place, mark.size(), numbers);
+}
+
+std::string with(const std::string& good, const std::string& text) {
+  if (text.size() < 2) return good;
+  const std::size_t place =
+      static_cast<unsigned char>(text[0]) | static_cast<std::size_t>(static_cast<unsigned char>(text[1])) << 8;
+  std::string out = good;
+  out.replace(place % good.size(), text.size() - 2, text.substr(2));
+  return out;
+}
+
+}  // namespace
+
+void fuzz(const std::string& text) {
+  static Resumed resumed;
+  static const std::string step = good_step(), checkpoint = resumed.good();
+  const auto step_written = [](const std::string& file) { return written(file); };
+  const auto checkpoint_written = [&](const std::string& file) { return resumed.written(file); };
+  promise(step_written(step) == step && checkpoint_written(checkpoint) == checkpoint, "what is good is loaded");
+
+  hold(step_written, text);
+  hold(step_written, file_of("time step", text));
+  hold(step_written, file_of("time step", with(state_of("time step", step), text)));
+  hold(checkpoint_written, text);
+  hold(checkpoint_written, file_of("checkpoint", with_random_numbers(text)));
+  hold(checkpoint_written, file_of("checkpoint", with(state_of("checkpoint", checkpoint), text)));
+}
+
+}  // namespace knot_utm
