@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <string>
 
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
@@ -139,6 +140,7 @@ void StepReadings::state(Archive& archive) {
   archive(contact_, energies_, work_, first_);
   archive.list(rollers_);
   archive.list(roller_load_);
+  archive.require(roller_load_.size() == rollers_.size(), "loads of rollers", std::to_string(roller_load_.size()));
 }
 
 }  // namespace knot_utm
