@@ -154,7 +154,8 @@ void fuzz(const std::string& text) {
   static const std::string step = good_step(), checkpoint = resumed.good();
   const auto step_written = [](const std::string& file) { return written(file); };
   const auto checkpoint_written = [&](const std::string& file) { return resumed.written(file); };
-  promise(step_written(step) == step && checkpoint_written(checkpoint) == checkpoint, "what is good is loaded");
+  static const bool loads = step_written(step) == step && checkpoint_written(checkpoint) == checkpoint;
+  promise(loads, "what is good is loaded");
 
   hold(step_written, text);
   hold(step_written, file_of("time step", text));
