@@ -126,7 +126,11 @@ bool RecorderNode::go_on(const std::string& folder) {
   // The keeper of the recorder before may be recovering the folder.
   JournalWriter journal = JournalWriter::go_on(folder, kPatienceWithKeeper);
   JournalReader reader(folder);
+  // A new run takes away what an old one left; this one goes on.
+  const std::string failed_step = failed_step_file(folder);
+  const std::string step = fs::exists(failed_step) ? read_whole(failed_step) : "";
   run_ = std::make_unique<Run>(folder, journalled_method(folder, reader.header()), std::move(journal));
+  if (!step.empty()) write_whole(failed_step, step);
   watch(folder);
   Record record;
   while (reader.next(record)) keep(record);
@@ -157,6 +161,8 @@ void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
       run.shape = points_from_message(record->shape);
       run.shape_sequence = command.sequence;
     }
+    // Before the record is acknowledged: whoever has that record has this too.
+    if (!record->failed_step.empty()) keep_failed_step(*record);
     if (command.sequence == run.next) {
       write(*record);
       write_early();
@@ -176,6 +182,10 @@ void RecorderNode::write(const KnotRecord& record) {
   run_->journal.append(kept);
   keep(kept);
   run_->stamp = record.command.header.stamp;
+}
+
+void RecorderNode::keep_failed_step(const KnotRecord& record) {
+  write_whole(failed_step_file(run_->folder), std::string(record.failed_step.begin(), record.failed_step.end()));
 }
 
 void RecorderNode::keep(const Record& record) {
@@ -259,6 +269,9 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
     run.journal.remove();
     keeper_.release();
     run.complete = true;
+    const std::string failed_step = failed_step_file(run.folder);
+    if (fs::exists(failed_step))
+      ROS_WARN("the step that could not be made: scripts/replay-step %s", failed_step.c_str());
     ROS_INFO("written to %s: %zu rows, %llu commands dropped", run.folder.c_str(), run.writer.rows(),
              static_cast<unsigned long long>(run.dropped));
   } catch (const std::exception& error) {

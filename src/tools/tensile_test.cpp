@@ -227,7 +227,7 @@ int run_to_end(const Test& test, JournalWriter& journal, double checkpoint_perio
     });
   }
   writers.close();
-  const std::string failed_step = out + "/failed_step.bin";
+  const std::string failed_step = failed_step_file(out);
   if (!bench.failed_step().empty()) write_whole(failed_step, bench.failed_step());
   RunFacts facts = writers.run.facts();
   facts.reason = program.reason();

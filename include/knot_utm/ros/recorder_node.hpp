@@ -69,6 +69,7 @@ class RecorderNode {
   bool go_on(const std::string& folder);
   void watch(const std::string& folder);
   void write(const KnotRecord& record);
+  void keep_failed_step(const KnotRecord& record);
   void keep(const Record& record);
   void write_early();
   void give_up_gap();
