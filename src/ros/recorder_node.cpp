@@ -156,7 +156,6 @@ void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
     if (command.run > run_number_) begin_run(command);
     if (is_complete()) return;
     Run& run = *run_;
-    run.progress = waited_;
     if (!record->shape.points.empty() && command.sequence >= run.shape_sequence) {
       run.shape = points_from_message(record->shape);
       run.shape_sequence = command.sequence;
@@ -167,7 +166,8 @@ void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
       write(*record);
       write_early();
     } else if (command.sequence > run.next) {
-      run.early.emplace(command.sequence, record);
+      // Only what is new is progress: as long as something is missing, all behind it is asked for again and again.
+      if (run.early.emplace(command.sequence, record).second) run.progress = waited_;
       if (run.early.size() > KnotNode::kKeptAnswers) give_up_gap();
     }
     if (run.next >= published_.next_sequence + kAcknowledgeAfter) publish_status();
@@ -198,6 +198,7 @@ void RecorderNode::keep(const Record& record) {
   run_->failed = record.answer.status == BenchStatus::kFailed;
   ++run_->recorded;
   run_->next = record.command.sequence + 1;
+  run_->progress = waited_;
 }
 
 void RecorderNode::write_early() {
@@ -226,6 +227,8 @@ void RecorderNode::give_up_gap() {
 void RecorderNode::on_status(const TestStatus::ConstPtr& status) {
   const std::string fault = fault_of(*status);
   if (!fault.empty()) return odd_status_.say(names::kUtmNode, fault);
+  // A machine that was paused has its end long after its last record.
+  if (run_ && status->state == TestStatus::ENDED && test_.state != TestStatus::ENDED) run_->progress = waited_;
   test_ = *status;
 }
 

@@ -116,6 +116,21 @@ class KilledRecorderTest(unittest.TestCase):
         self.assertGreaterEqual(self.rows(), 100)
         self.assert_beginning_of_headless()
 
+    def test_that_lost_the_beginning_it_writes_the_rest_and_ends(self):
+        launch = self.launch('lost', respawn='true', real_time_factor='4')
+        wait_until('the test runs', lambda: self.rows() >= 100)
+        # Nobody finds the folder any more, the keeper neither: what the machine has been told is recorded is gone.
+        os.rename(self.out, self.out + '_away')
+        launch.kill('recorder_node')
+        said = launch.end()
+        self.assertIn('commands of the test never arrived', said)
+        result = content(self.out, 'result.yaml')
+        self.assertIn(b'ended_by: program\n', result)
+        self.assertRegex(result, rb'warnings: \["\d+ commands were not recorded"')
+        self.assertGreater(self.rows(), 100)
+        self.assertTrue(content(self.headless, 'curve.csv').endswith(content(self.out, 'curve.csv').split(b'\n', 3)[3]))
+        self.assertEqual(messages(self.out + '/test.bag'), 5 * self.rows())
+
     def test_without_room_it_says_so_and_the_journal_has_what_was_measured(self):
         launch = self.launch('full', real_time_factor='0', recorder_prefix='prlimit --fsize=60000')
         said = launch.end()
