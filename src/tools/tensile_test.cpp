@@ -5,7 +5,6 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <exception>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -23,11 +22,12 @@
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/test_bag.hpp"
 #endif
+#include "tool.hpp"
 
 namespace knot_utm {
 namespace {
 
-enum ExitCode { kEnded = 0, kGaveUp = 1, kWrongInput = 2 };
+constexpr const char* kTool = "tensile_test";
 
 volatile std::sig_atomic_t stop_asked = 0;
 
@@ -250,7 +250,7 @@ int run_to_end(const Test& test, JournalWriter& journal, double checkpoint_perio
     std::printf("ended by %s after %.1f s, %.1f times real time; written to %s\n", ended_by_name(program.ended_by()),
                 results.simulated_time, results.simulated_time / facts.wall_time, out.c_str());
   }
-  return gave_up ? kGaveUp : kEnded;
+  return gave_up ? kFailed : kDone;
 }
 
 int run(const Arguments& arguments) {
@@ -274,8 +274,13 @@ int run(const Arguments& arguments) {
   }
 }
 
+/// What is wrong with an argument stands in no file.
+InvalidInput with_place(const InvalidInput& invalid, const std::string& method) {
+  return invalid.key.rfind("--", 0) == 0 ? invalid : invalid.in_file(method);
+}
+
 /// Reads the command line; an exit code where that is all there is to do.
-std::optional<int> parse(int argc, char** argv, Arguments& arguments) {
+std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::App app("Runs one whole test of a method, as fast as it goes.");
   app.set_version_flag("--version", version());
   CLI::Option* method = app.add_option("METHOD", arguments.method, "the method, a YAML file");
@@ -291,15 +296,10 @@ std::optional<int> parse(int argc, char** argv, Arguments& arguments) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_flag("--quiet", arguments.quiet, "say nothing but what went wrong");
-  try {
-    app.parse(argc, argv);
+  const std::optional<int> code = parse(app, kTool, argc, argv, [&] {
     if (method->empty() && resume->empty()) throw CLI::RequiredError("METHOD");
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "tensile_test: %s\n", error.what());
-    return kWrongInput;
-  }
-  if (resume->empty()) return std::nullopt;
+  });
+  if (code || resume->empty()) return code;
   arguments.method = arguments.resume + "/method.yaml";
   arguments.out = arguments.resume;
   return std::nullopt;
@@ -309,17 +309,14 @@ std::optional<int> parse(int argc, char** argv, Arguments& arguments) {
 }  // namespace knot_utm
 
 int main(int argc, char** argv) {
-  knot_utm::Arguments arguments;
-  try {
-    if (const std::optional<int> code = knot_utm::parse(argc, argv, arguments)) return *code;
+  return knot_utm::run_tool(knot_utm::kTool, [&] {
+    knot_utm::Arguments arguments;
+    if (const std::optional<int> code = knot_utm::read_arguments(argc, argv, arguments)) return *code;
     knot_utm::set_signals();
-    return knot_utm::run(arguments);
-  } catch (const knot_utm::InvalidInput& invalid) {
-    const bool of_method = invalid.key.rfind("--", 0) != 0;
-    std::fprintf(stderr, "tensile_test: %s\n", (of_method ? invalid.in_file(arguments.method) : invalid).what());
-    return knot_utm::kWrongInput;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "tensile_test: %s\n", error.what());
-    return knot_utm::kGaveUp;
-  }
+    try {
+      return knot_utm::run(arguments);
+    } catch (const knot_utm::InvalidInput& invalid) {
+      throw knot_utm::with_place(invalid, arguments.method);
+    }
+  });
 }
