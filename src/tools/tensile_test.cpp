@@ -1,7 +1,9 @@
 // One whole test without ROS: read the method, run it, write what came out.
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -12,6 +14,7 @@
 
 #include "knot_utm/io/checkpoint.hpp"
 #include "knot_utm/io/journal.hpp"
+#include "knot_utm/io/locked_file.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/recovery.hpp"
 #include "knot_utm/io/run_folder.hpp"
@@ -253,10 +256,17 @@ int run_to_end(const Test& test, JournalWriter& journal, double checkpoint_perio
   return gave_up ? kFailed : kDone;
 }
 
+/// Throws InvalidInput where there is nothing to take up. Reads nothing of a run that goes on.
+void require_cut_off(const std::string& folder) {
+  if (is_settled(folder)) throw InvalidInput("--resume", folder, "a test that was cut off; this one has ended");
+  const LockedFile journal(journal_file(folder), O_RDONLY, 0.0);
+  if (!journal.is_open() && errno == EWOULDBLOCK)
+    throw InvalidInput("--resume", folder, "a test that was cut off; this one goes on");
+}
+
 int run(const Arguments& arguments) {
   const bool resumes = !arguments.resume.empty();
-  if (resumes && is_settled(arguments.resume))
-    throw InvalidInput("--resume", arguments.resume, "a test that was cut off; this one has ended");
+  if (resumes) require_cut_off(arguments.resume);
   const Method method = load_method(arguments.method, arguments.overrides);
   TestBench bench(method.specimen, method.material, method.machine, method.physics);
   TestProgram program = make_program(method, bench.longest_step());
