@@ -1,6 +1,5 @@
 #include "knot_utm/machine/test_bench.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,15 +7,13 @@
 
 #include "knot_utm/analysis/knot_watch.hpp"
 #include "knot_utm/machine/accuracy.hpp"
+#include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/load_cell.hpp"
+#include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/rod/frames.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/sim/saved_step.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
-#include "knot_utm/specimen/centreline_file.hpp"
-#include "knot_utm/specimen/fisherman.hpp"
-#include "knot_utm/specimen/overhand.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
 
 namespace knot_utm {
@@ -24,10 +21,8 @@ namespace knot_utm {
 namespace {
 
 constexpr double kStiffeningDepth = 0.015;   // c of the normal law: at the kN of a locked knot a rod gives 5 % [h]
-constexpr double kCoarsening = 1.5;          // of edges on the far side of a loop, which touches nothing but rollers
 constexpr double kFullResidual = 0.1;        // of the longest step, below which the residual shrinks with the step
 constexpr double kResidualOfTension = 2e-6;  // of the largest tension, so that kN loads do not ask for more than digits
-constexpr double kSlack = 0.6;               // by which the rollers stand closer than taut, until mounting [h]
 constexpr double kGripStretch = 2.4;         // of a tail's grip when it slips [h]
 constexpr double kTakeUpLoad = 0.02;         // slack is taken up once the load has risen by this much [k_b/h^2] ...
 constexpr double kTakeUpMotion = 0.3;        // ... or once the knots have moved by this much [h]
@@ -37,10 +32,6 @@ constexpr double kShortestStep = 0.01;  // below it the run gives up, where that
 // A shape that is pulled as it was drawn settles first, under a drag that fades as that of the tying rig does.
 constexpr double kSettlingTime = 1.0;   // [s]
 constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
-
-double preload(const SpecimenOptions& specimen, const Material& material) {
-  return specimen.preload.value_or(default_preload(material));
-}
 
 StepSettings step_settings(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                            const PhysicsOptions& physics) {
@@ -73,69 +64,6 @@ double bending_time(const Material& material) {
   return h * h * std::sqrt(mass / material.bending_stiffness);
 }
 
-/// By how much tying moves the knots apart: each runs outwards as its coil tightens, by what the coil gives up, and
-/// by more where the pre-load stretches the rod. Measured on the four shipped materials; they end within 3 % of it.
-double outward_shift(const SpecimenOptions& specimen, const Material& material) {
-  const double strain = std::min(preload(specimen, material) / material.stretching_stiffness, 1.0);
-  return (16.6 + 2.6 * strain) * material.radius;
-}
-
-/// The grips hold its ends, the last of them in the upper grip, which moves along +z.
-Centreline centreline_from_file(const SpecimenOptions& specimen, const Material& material) {
-  if (specimen.closed) throw InvalidInput("specimen.closed", "true", "false: the grips hold the rod's two ends");
-  const Points points = read_centreline(specimen.file);
-  Centreline out = from_points(points, false, material.radius, specimen.edge_length, specimen.file);
-  if (!(out.points.rightCols(1)(2) > out.points.leftCols(1)(2))) {
-    throw InvalidInput("specimen.file", specimen.file, "a line whose last point is above its first, along z");
-  }
-  return out;
-}
-
-/// What the clamps hold is one edge more at each end, so that `length` is what stretches: the load grows by k_s/length.
-Centreline straight_rod(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine) {
-  Centreline out = straight(specimen.length, material.radius, specimen.edge_length);
-  if (machine.grips == GripKind::kNodes) return out;
-  const double edge = out.length() / static_cast<double>(out.points.cols() - 1);
-  out = straight(specimen.length + 2.0 * edge, material.radius, edge);
-  out.points.row(2).array() -= edge;
-  return out;
-}
-
-Centreline build_centreline(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
-                            const PhysicsOptions& physics) {
-  switch (specimen.knot) {
-    case KnotKind::kFisherman: {
-      FishermanShape shape;
-      shape.radius = material.radius;
-      shape.knot_distance = specimen.knot_distance;
-      shape.outward_shift = specimen.to_be_tied ? outward_shift(specimen, material) : 0.0;
-      shape.end_to_end = specimen.end_to_end;
-      shape.roller_radius = 0.5 * machine.roller_diameter;
-      shape.tail = specimen.tail;
-      shape.handedness = specimen.handedness;
-      shape.edge_length = specimen.edge_length;
-      shape.refinement = tolerances(physics, specimen).refinement;
-      shape.coarsening = kCoarsening;
-      return fisherman_loop(shape);
-    }
-    case KnotKind::kOverhand: {
-      OverhandShape shape;
-      shape.radius = material.radius;
-      shape.turns = specimen.turns;
-      shape.length = specimen.length;
-      shape.end_to_end = specimen.end_to_end;
-      shape.edge_length = specimen.edge_length;
-      shape.refinement = tolerances(physics, specimen).refinement;
-      return overhand(shape);
-    }
-    case KnotKind::kStraight:
-      return straight_rod(specimen, material, machine);
-    case KnotKind::kFile:
-      break;
-  }
-  return centreline_from_file(specimen, material);
-}
-
 }  // namespace
 
 struct TestBench::Impl {
@@ -144,14 +72,12 @@ struct TestBench::Impl {
   MachineOptions machine;
   PhysicsOptions physics;
   Centreline centreline;
+  Grips grips;
   std::unique_ptr<TimeStep> stepper;
   StepControl control{StepControl::Options{}};
   LoadCell cell;
   std::optional<TyingRig> rig;
-  std::optional<KnotWatch> watch;                   // of anything that is knotted
-  std::vector<FixedNode> lower_nodes, upper_nodes;  // grips that hold nodes, as they stood at displacement 0
-  std::vector<FixedTwist> held_frames;              // of clamps
-  std::vector<Roller> rollers;                      // lower, upper, at displacement 0
+  std::optional<KnotWatch> watch;  // of anything that is knotted
   Boundary boundary;
 
   double time = 0.0, displacement = 0.0;
@@ -172,7 +98,8 @@ struct TestBench::Impl {
         material(material_),
         machine(machine_),
         physics(physics_),
-        centreline(build_centreline(specimen_, material_, machine_, physics_)),
+        centreline(specimen_centreline(specimen_, material_, machine_, physics_)),
+        grips(specimen_, machine_, centreline, material_.radius),
         cell(machine_.load_cell) {
     const Eigen::Index nodes = centreline.points.cols();
     Eigen::VectorXd rest(nodes - 1);
@@ -182,7 +109,6 @@ struct TestBench::Impl {
     state.position = centreline.points;
     state.velocity = Points::Zero(3, nodes);
     const RodProperties rod = make_rod(material, rest);
-    place_grips();
     if (solves_for_twist(rod)) initialise_frames(&state);
     stepper = TimeStep::make(rod, state, step_settings(specimen, material, machine, physics));
     StepControl::Options options;
@@ -194,7 +120,7 @@ struct TestBench::Impl {
     control = StepControl(options);
     if (!centreline.knots.empty()) {
       TyingRig::Options tying;
-      tying.preload = preload(specimen, material);
+      tying.preload = tying_load(specimen, material);
       // Smoothed friction holds nothing at rest: under any load it creeps, at up to about v_s.
       if (physics.friction_law == FrictionLaw::kSmoothed)
         tying.rest_speed = std::max(tying.rest_speed, physics.slip_tolerance);
@@ -205,47 +131,7 @@ struct TestBench::Impl {
       watch.emplace(rig ? rig->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
                     centreline.points);
     }
-    extension_zero = end_to_end();
-  }
-
-  bool on_rollers() const { return !rollers.empty(); }
-
-  void place_grips() {
-    const int nodes = static_cast<int>(centreline.points.cols());
-    if (specimen.knot == KnotKind::kFisherman && machine.grips == GripKind::kRollers) {
-      Roller roller;
-      roller.axis = Vec3::UnitY();
-      roller.radius = 0.5 * machine.roller_diameter;
-      roller.centre = Vec3::Zero();
-      rollers.push_back(roller);
-      roller.centre = Vec3(0.0, 0.0, specimen.end_to_end - kSlack * material.radius);
-      rollers.push_back(roller);
-      return;
-    }
-    auto hold = [&](std::vector<FixedNode>& held, int node) { held.push_back({node, centreline.points.col(node)}); };
-    if (specimen.knot == KnotKind::kFisherman) {
-      const int lower = centreline.nearest_node(centreline.lower_apex);
-      const int upper = centreline.nearest_node(centreline.upper_apex);
-      hold(lower_nodes, lower);
-      hold(upper_nodes, upper);
-      if (machine.grips == GripKind::kClamps) {
-        hold(lower_nodes, lower + 1);
-        hold(upper_nodes, upper + 1);
-        held_frames = {{lower, 0.0}, {upper, 0.0}};
-      }
-      return;
-    }
-    hold(lower_nodes, 0);
-    hold(upper_nodes, nodes - 1);
-    if (machine.grips != GripKind::kNodes) {
-      hold(lower_nodes, 1);
-      hold(upper_nodes, nodes - 2);
-      held_frames = {{0, 0.0}, {nodes - 2, 0.0}};
-      if (specimen.knot == KnotKind::kStraight) {  // its length is that between the clamps
-        std::swap(lower_nodes[0], lower_nodes[1]);
-        std::swap(upper_nodes[0], upper_nodes[1]);
-      }
-    }
+    extension_zero = grips.end_to_end(displacement);
   }
 
   /// `auto`: where frames are held at two places, or the rod at rest is curved or twisted. A rod whose ends are free
@@ -260,7 +146,7 @@ struct TestBench::Impl {
         break;
     }
     return rod.natural_curvature.cols() > 0 || rod.natural_twist.size() > 0 ||
-           (held_frames.size() > 1 && specimen.knot != KnotKind::kStraight);
+           (grips.hold_frames() && specimen.knot != KnotKind::kStraight);
   }
 
   const Boundary& boundary_at(const Command& command, double from, double to, double start_time,
@@ -268,18 +154,10 @@ struct TestBench::Impl {
     const double whole = command.time - start_time;
     const double share = whole > 0.0 ? (to - start_time) / whole : 1.0;
     const double travel = start_displacement + share * (command.displacement - start_displacement);
-    boundary.rollers = rollers;
-    if (on_rollers()) boundary.rollers[1].centre[2] += travel;
-    boundary.fixed_nodes.clear();
-    boundary.fixed_twists = held_frames;
+    grips.set(travel, boundary);
     boundary.forces.clear();
     boundary.grips.clear();
     boundary.extra_drag = settling_drag(to);
-    for (const FixedNode& node : lower_nodes) boundary.fixed_nodes.push_back(node);
-    for (FixedNode node : upper_nodes) {
-      node.position[2] += travel;
-      boundary.fixed_nodes.push_back(node);
-    }
     if (rig && rig->stage() != TyingRig::Stage::kIdle) rig->hold(boundary, from, to);
     return boundary;
   }
@@ -293,41 +171,6 @@ struct TestBench::Impl {
     return 0.1 * kSettlingTime * material.bending_stiffness * std::pow(wave_number, 4) * left * left;
   }
 
-  double end_to_end() const {
-    if (on_rollers()) return rollers[1].centre[2] + displacement - rollers[0].centre[2];
-    return (upper_nodes.front().position + Vec3(0.0, 0.0, displacement) - lower_nodes.front().position).norm();
-  }
-
-  /// Force of the rod on each grip along z, tension positive [N].
-  double force_upper() const {
-    if (on_rollers()) return -stepper->roller_force(1)[2];
-    double sum = 0.0;
-    for (const FixedNode& node : upper_nodes) sum += stepper->reaction(node.node)[2];
-    return sum;
-  }
-  double force_lower() const {
-    if (on_rollers()) return stepper->roller_force(0)[2];
-    double sum = 0.0;
-    for (const FixedNode& node : lower_nodes) sum -= stepper->reaction(node.node)[2];
-    return sum;
-  }
-
-  /// Size of the sum of all moments that the grips exert on the rod about the lower one [N m].
-  double moment_imbalance() const {
-    const Points& x = stepper->state().position;
-    Vec3 sum = Vec3::Zero();
-    if (on_rollers()) {
-      const Vec3 apart = rollers[1].centre + Vec3(0.0, 0.0, displacement) - rollers[0].centre;
-      sum -= stepper->roller_moment(0) + stepper->roller_moment(1) + apart.cross(stepper->roller_force(1));
-    }
-    for (const std::vector<FixedNode>* grip : {&lower_nodes, &upper_nodes})
-      for (const FixedNode& held : *grip)
-        sum += (x.col(held.node) - lower_nodes.front().position).cross(stepper->reaction(held.node));
-    for (const FixedTwist& held : held_frames)
-      sum += stepper->reaction_torque(held.edge) * (x.col(held.edge + 1) - x.col(held.edge)).normalized();
-    return sum.norm();
-  }
-
   void enter_step(const Command& command) {
     step_index = command.step;
     phase = command.phase;
@@ -336,13 +179,13 @@ struct TestBench::Impl {
     if (phase == Phase::kTie) rig->tie(command.speed, time, stepper->state().position);
     if (phase == Phase::kMount) {
       mount_distance = knot_distance();
-      mount_load = std::min(force_upper(), force_lower());
+      mount_load = std::min(grips.force_upper(*stepper), grips.force_lower(*stepper));
     }
     if (phase == Phase::kRelease) rig->release(command.duration, time);
   }
 
   bool slack_taken_up() const {
-    const double load = std::min(force_upper(), force_lower());
+    const double load = std::min(grips.force_upper(*stepper), grips.force_lower(*stepper));
     return load - mount_load >= kTakeUpLoad * material.bending_stiffness / (material.radius * material.radius) ||
            (rig && std::abs(knot_distance() - mount_distance) > kTakeUpMotion * material.radius);
   }
@@ -390,10 +233,10 @@ struct TestBench::Impl {
     s.time = at_time;
     s.phase = phase;
     s.displacement = displacement;
-    s.end_to_end = end_to_end();
+    s.end_to_end = grips.end_to_end(displacement);
     s.extension = s.end_to_end - extension_zero;
-    s.force_upper = force_upper();
-    s.force_lower = force_lower();
+    s.force_upper = grips.force_upper(*stepper);
+    s.force_lower = grips.force_lower(*stepper);
     s.load = cell.balanced(s.force_upper);
     s.balance_offset = cell.offset();
     if (rig) {
@@ -419,7 +262,7 @@ struct TestBench::Impl {
     s.friction_loss = work.friction;
     s.numerical_dissipation = work.numerical;
     s.reweighting_loss = work.reweighting;
-    s.moment_imbalance = moment_imbalance();
+    s.moment_imbalance = grips.moment_imbalance(displacement, *stepper);
     s.steps = control.counters().steps;
     s.rejected_steps = control.counters().rejected;
     s.newton_iterations = control.counters().iterations;
@@ -451,8 +294,8 @@ struct TestBench::Impl {
     }
     if (command.step != step_index) enter_step(command);
     if (command.balance) {
-      cell.balance(force_upper());
-      extension_zero = end_to_end();
+      cell.balance(grips.force_upper(*stepper));
+      extension_zero = grips.end_to_end(displacement);
     }
     const double start_time = time, start_displacement = displacement;
     const double speed =
@@ -499,13 +342,8 @@ const std::vector<Sample>& TestBench::substeps() const { return impl_->substeps;
 const std::string& TestBench::failed_step() const { return impl_->failed_step; }
 const RodProperties& TestBench::rod() const { return impl_->stepper->rod(); }
 const RodState& TestBench::state() const { return impl_->stepper->state(); }
-Vec3 TestBench::lower_grip() const {
-  return impl_->on_rollers() ? impl_->rollers[0].centre : impl_->lower_nodes.front().position;
-}
-Vec3 TestBench::upper_grip() const {
-  const Vec3 start = impl_->on_rollers() ? impl_->rollers[1].centre : impl_->upper_nodes.front().position;
-  return start + Vec3(0.0, 0.0, impl_->displacement);
-}
+Vec3 TestBench::lower_grip() const { return impl_->grips.lower(); }
+Vec3 TestBench::upper_grip() const { return impl_->grips.upper(impl_->displacement); }
 double TestBench::longest_step() const { return tolerances(impl_->physics, impl_->specimen).longest_step; }
 Eigen::VectorXd TestBench::tension() const { return impl_->stepper->tension(); }
 void TestBench::state(Archive& archive) { impl_->state(archive); }

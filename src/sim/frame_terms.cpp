@@ -16,8 +16,6 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 Vec3 column(const Points& points, int j) { return points.col(j); }
 
-Vec3 to_vec3(const Lanes& v) { return {v[0], v[1], v[2]}; }
-
 // Well above the rounding of the factorisation, far below anything that twists: over a thousand edges, a millionth of
 // the stiffness of one.
 constexpr double kRest = 1e-9;        // r_j [k_t/l_j]

@@ -23,9 +23,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-Lanes to_lanes(const Vec3& v) { return Lanes{v[0], v[1], v[2], 0.0}; }
-Vec3 to_vec3(const Lanes& v) { return {v[0], v[1], v[2]}; }
-
 /// Pressure of a contact's linear model at the present overlap, and its slope [N/m], [N/m^2].
 struct PressureTangent {
   double pressure, slope;
@@ -65,16 +62,9 @@ class ImplicitStep final : public TimeStep {
         diagonal_(at(nodes_)),
         force_(at(nodes_)),
         change_(at(nodes_)),
-        committed_force_(at(nodes_)),
         held_(at(nodes_), 0),
-        way_(3, nodes_) {
-    const ElasticEnergy elastic = elastic_energy(rod_, state_);
-    energies_.stretching = elastic.stretching;
-    energies_.bending = elastic.bending;
-    energies_.twisting = elastic.twisting;
-    for (int i = 0; i < nodes_; ++i) energies_.kinetic += 0.5 * rod_.mass[i] * state_.velocity.col(i).squaredNorm();
-    if constexpr (D == 4) energies_.kinetic += frames_.kinetic_energy(state_.twist_rate);
-  }
+        readings_(rod_, state_, settings_, initial_spin_energy()),
+        way_(3, nodes_) {}
 
   StepSummary step(const Boundary& boundary, double dt, Solution solution) override {
     boundary_ = &boundary;
@@ -160,38 +150,22 @@ class ImplicitStep final : public TimeStep {
 
   // ---- readings ---------------------------------------------------------------------------------------------------
 
-  Vec3 reaction(int node) const override { return -to_vec3(committed_force_[at(node)]); }
-  double reaction_torque(int edge) const override { return D == 4 ? -committed_force_[at(edge)][3] : 0.0; }
-  Vec3 roller_force(int roller) const override { return load_on(roller).force; }
-  Vec3 roller_moment(int roller) const override { return load_on(roller).moment; }
-  Energies energies() const override { return energies_; }
-  ContactReading contact_reading() const override { return contact_reading_; }
-  StepWork work() const override { return work_; }
+  Vec3 reaction(int node) const override { return readings_.reaction(node); }
+  double reaction_torque(int edge) const override { return D == 4 ? readings_.reaction_torque(edge) : 0.0; }
+  Vec3 roller_force(int roller) const override { return readings_.roller_force(roller); }
+  Vec3 roller_moment(int roller) const override { return readings_.roller_moment(roller); }
+  Energies energies() const override { return readings_.energies(); }
+  ContactReading contact_reading() const override { return readings_.contact(); }
+  StepWork work() const override { return readings_.work(); }
 
   void state(Archive& archive) override {
     archive.section("STEP");
     archive.same("nodes", nodes_);
     TimeStep::state(archive);
-    archive(contact_, rollers_, matrix_);
-    archive.section("READ");
-    for (Lanes& force : committed_force_)
-      for (int i = 0; i < 4; ++i) archive(reinterpret_cast<double*>(&force)[i]);
-    archive(contact_reading_, energies_, work_, first_step_);
-    archive.list(committed_rollers_);
-    archive.list(roller_load_);
+    archive(contact_, rollers_, matrix_, readings_);
   }
 
  private:
-  /// What the rod does to a roller.
-  struct RollerLoad {
-    Vec3 force = Vec3::Zero();   // [N]
-    Vec3 moment = Vec3::Zero();  // about its centre [N m]
-    void state(Archive& archive) { archive(force, moment); }
-  };
-  RollerLoad load_on(int roller) const {
-    return at(roller) < roller_load_.size() ? roller_load_[at(roller)] : RollerLoad{};
-  }
-
   /// Everything moves on as it did; held nodes stand where they must.
   void predict() {
     x_ = state_.position + dt_ * state_.velocity;
@@ -451,112 +425,28 @@ class ImplicitStep final : public TimeStep {
 
   void commit() {
     way_.noalias() = x_ - state_.position;
-    const Energies before = energies_;
-    energies_ = Energies{};
-    work_ = StepWork{};
-    contact_reading_ = ContactReading{};
-    add_work_of_boundary();
-    add_motion();
-    add_elastic(before);
-    work_.reweighting = before.contact;
-    add_contacts(contact_, settings_.friction);
-    add_contacts(rollers_, settings_.roller_friction);
+    read();
     contact_.commit(x_);
     rollers_.commit(boundary_->rollers);
     matrix_.commit();
     state_.velocity = way_ / dt_;
     if constexpr (D == 4) frames_.commit(state_);
     state_.position = x_;
-    committed_force_ = force_;
-    committed_rollers_ = boundary_->rollers;
-    first_step_ = false;
   }
 
-  // ---- work of a step, before the state moves on (StepWork)
-  // -----------------------------------------------------------
-
-  /// Of a force, by its mean over the step; the step itself took it as it is at the end.
-  void add_work_of_boundary(double at_end, double at_begin) {
-    const double mean = first_step_ ? at_end : 0.5 * (at_begin + at_end);
-    work_.boundary += mean;
-    work_.numerical -= at_end - mean;
+  void read() {
+    const SolvedStep step{state_, x_, way_, *boundary_, dt_, force_, held_};
+    readings_.begin(step, rollers_);
+    FrameTerms::Energy frames;
+    if constexpr (D == 4) frames = frames_.energy(way_, force_);
+    readings_.add_elastic(centreline_.energy(way_), frames);
+    readings_.add_contacts(step, contact_, settings_.friction);
+    readings_.add_contacts(step, rollers_, settings_.roller_friction);
   }
 
-  void add_work_of_boundary() {
-    for (const FixedNode& fixed : boundary_->fixed_nodes) {
-      const Vec3 way = way_.col(fixed.node);
-      add_work_of_boundary(-to_vec3(force_[at(fixed.node)]).dot(way),
-                           -to_vec3(committed_force_[at(fixed.node)]).dot(way));
-    }
-    if constexpr (D == 4)
-      for (const FixedTwist& fixed : boundary_->fixed_twists) {
-        const double turn = fixed.angle - state_.twist[fixed.edge];
-        add_work_of_boundary(-force_[at(fixed.edge)][3] * turn, -committed_force_[at(fixed.edge)][3] * turn);
-      }
-    roller_load_before_.swap(roller_load_);
-    roller_load_.clear();
-    for (std::size_t r = 0; r < boundary_->rollers.size(); ++r) {
-      const Roller& roller = boundary_->rollers[r];
-      const int number = static_cast<int>(r);
-      roller_load_.push_back({rollers_.force_on(number), rollers_.moment_on(roller, number, x_)});
-      if (r >= committed_rollers_.size()) continue;
-      const Vec3 way = roller.centre - committed_rollers_[r].centre;
-      add_work_of_boundary(-roller_load_[r].force.dot(way), -roller_load_before_[r].force.dot(way));
-    }
-    for (const SlippingGrip& grip : boundary_->grips)
-      work_.boundary += grip.force(x_.col(grip.node)) * grip.direction.dot(way_.col(grip.node));
-    for (const NodeForce& force : boundary_->forces) work_.boundary += force.force.dot(way_.col(force.node));
-  }
-
-  /// Inertia, gravity, drag, and what Newton's method left unbalanced.
-  void add_motion() {
-    const double drag = (settings_.drag + boundary_->extra_drag) / dt_;
-    for (int i = 0; i < nodes_; ++i) {
-      const Vec3 way = way_.col(i), velocity = way / dt_;
-      energies_.kinetic += 0.5 * rod_.mass[i] * velocity.squaredNorm();
-      work_.numerical += 0.5 * rod_.mass[i] * (velocity - state_.velocity.col(i)).squaredNorm();
-      work_.boundary += rod_.mass[i] * settings_.gravity.dot(way);
-      work_.drag += drag * rod_.voronoi_length[i] * way.squaredNorm();
-      if (!held_[at(i)]) work_.residual += to_vec3(force_[at(i)]).dot(way);
-    }
-  }
-
-  void add_elastic(const Energies& before) {
-    const CentrelineTerms::Energy centreline = centreline_.energy(way_);
-    energies_.stretching = centreline.stretching;
-    energies_.bending = centreline.bending;
-    work_.numerical += centreline.along;
-    if constexpr (D == 4) {
-      const FrameTerms::Energy frames = frames_.energy(way_, force_);
-      energies_.twisting = frames.twisting;
-      energies_.bending += frames.bending;
-      energies_.kinetic += frames.kinetic;
-      work_.numerical += frames.along + frames.inertia + frames.rest;
-      work_.drag += frames.drag;
-      work_.residual += frames.residual;
-    }
-    work_.numerical += before.elastic() - energies_.elastic();
-  }
-
-  template <typename Contacts>
-  void add_contacts(const Contacts& contacts, const Friction& friction) {
-    for (const ContactPoint& contact : contacts.contacts()) {
-      const ContactMotion motion = contacts.motion(contact, x_, state_.position);
-      const double now = contact.weight * contacts.normal().energy(contact.overlap);
-      const double before = contact.weight * contacts.normal().energy(motion.overlap_before);
-      energies_.contact += now;
-      work_.reweighting -= before;
-      work_.numerical += before - now;
-      if (!contact.touches()) continue;
-      const double force = contact.weight * contact.pressure;
-      work_.numerical -= force * contact.n.dot(motion.slip);
-      work_.friction += friction.coefficient * force * contact.z.dot(motion.slip);
-      if (contact.on_roller()) continue;
-      ++contact_reading_.touching;
-      contact_reading_.normal_force += force;
-      contact_reading_.largest_overlap = std::max(contact_reading_.largest_overlap, contact.overlap);
-      contact_reading_.couple += contact.x.cross(contact.force);
-    }
+  double initial_spin_energy() const {
+    if constexpr (D == 4) return frames_.kinetic_energy(state_.twist_rate);
+    return 0.0;
   }
 
   StrandContact contact_;
@@ -571,16 +461,11 @@ class ImplicitStep final : public TimeStep {
   double dt_ = 0.0;
   double share_ = 0.0, motion_ = 0.0;  // of the last change; its largest movement [m]
   Points x_;
-  std::vector<Lanes> force_, change_, committed_force_;
+  std::vector<Lanes> force_, change_;
   std::vector<char> held_;
-  ContactReading contact_reading_;
-  Energies energies_;
-  StepWork work_;
-  Points way_;
-  bool first_step_ = true;
-  std::vector<Roller> committed_rollers_;
-  std::vector<RollerLoad> roller_load_, roller_load_before_;  // of the last accepted step and the one before
-  std::vector<PressureTangent> tangents_;                     // of the active contacts, in order
+  StepReadings readings_;
+  Points way_;                             // of the step that is being accepted [m]
+  std::vector<PressureTangent> tangents_;  // of the active contacts, in order
 };
 
 }  // namespace

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
-#include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/step_diagnosis.hpp"
+#include "knot_utm/sim/step_readings.hpp"
 #include "knot_utm/solver/newton.hpp"
 
 namespace knot_utm {
@@ -41,68 +41,6 @@ struct Iterate {
   double overlap = 0.0;       ///< [m]
   double arclengths[2] = {};  ///< of its two strands at rest; on a roller the first only [m]
   int roller = -1;            ///< that it is on; -1: between strands
-};
-
-/// What can be read off the last accepted step. Contact has an energy from the first one on.
-struct Energies {
-  double stretching = 0.0, bending = 0.0, twisting = 0.0, contact = 0.0, kinetic = 0.0;  ///< [J]
-  double elastic() const { return stretching + bending + twisting; }
-  double total() const { return elastic() + contact + kinetic; }
-
-  void state(Archive& archive) { archive(stretching, bending, twisting, contact, kinetic); }
-};
-
-struct ContactReading {
-  int touching = 0;              ///< points of integration that carry force
-  double normal_force = 0.0;     ///< sum of their normal forces [N]
-  double largest_overlap = 0.0;  ///< between strands [m]
-  /// Sum of x x g, the couple that friction exerts as it acts on the centrelines, which are apart by x. Where the
-  /// strands' surfaces meet it would have none; the grips feel it. [N m]
-  Vec3 couple = Vec3::Zero();
-
-  void state(Archive& archive) { archive(touching, normal_force, largest_overlap, couple); }
-};
-
-/// Where the work of the last accepted step went [J]; an identity of the step's equations, to rounding, in which each
-/// term has a formula of its own:
-///
-///   boundary = change of Energies::total() + friction + drag + numerical + reweighting + residual
-///
-/// with way x - x_n, E the elastic energies, F the forces of held nodes and rollers on the rod, and for every contact
-/// its weight w, pressure p, slip s in the step, overlap D and energy e(D) per length:
-///
-///   boundary     sum 1/2 (F_n + F) . way, and what slipping grips, forces and gravity do at the end of the step
-///   friction     sum w mu p z . s, all that is done against friction: what the presliding spring of a contact at rest
-///                could give back, less than mu p w xi_s/2 each, counts as lost until it does
-///   drag         sum c lbar |way|^2/dt
-///   numerical    that of the implicit Euler step, which takes all forces at its end:
-///                  sum 1/2 m |v - v_n|^2 + E_n - E + dE/dx . way + sum w [e(D_n) - e(D) - p n . s]
-///                less 1/2 (F - F_n) . way, by which it takes the work of the boundary for too much
-///   reweighting  contact energy at the last step's end less sum w e(D_n): weights follow the shape between two steps,
-///                feet come and go, and what is stored in them changes without a force; negative where it grows
-///   residual     what Newton's method left unbalanced on free nodes, times their way
-///
-/// An edge's spin counts as the nodes' motion does, with its own inertia, drag, torques and the trifle r_j
-/// (frame_terms.hpp), which is numerical.
-struct StepWork {
-  double boundary = 0.0;
-  double friction = 0.0;
-  double drag = 0.0;
-  double numerical = 0.0;
-  double reweighting = 0.0;
-  double residual = 0.0;
-
-  StepWork& operator+=(const StepWork& other) {
-    boundary += other.boundary;
-    friction += other.friction;
-    drag += other.drag;
-    numerical += other.numerical;
-    reweighting += other.reweighting;
-    residual += other.residual;
-    return *this;
-  }
-
-  void state(Archive& archive) { archive(boundary, friction, drag, numerical, reweighting, residual); }
 };
 
 /// One implicit Euler step of a rod with contact and friction: find x at t + dt with

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <vector>
+
+#include "knot_utm/machine/options.hpp"
+#include "knot_utm/sim/scene.hpp"
+#include "knot_utm/sim/time_step.hpp"
+#include "knot_utm/specimen/centreline.hpp"
+#include "knot_utm/specimen/options.hpp"
+
+namespace knot_utm {
+
+/// What the machine holds the specimen by: two rollers in the loop of a fisherman's knot, or nodes, which clamps hold
+/// two by two with their material frames. The lower grip stands; the upper one moves along +z by the displacement [m].
+class Grips {
+ public:
+  /// At displacement 0. `radius`: of the rod [m].
+  Grips(const SpecimenOptions& specimen, const MachineOptions& machine, const Centreline& centreline, double radius);
+
+  bool on_rollers() const { return !rollers_.empty(); }
+  bool hold_frames() const { return !held_frames_.empty(); }
+
+  /// Rollers, held nodes and held frames of the boundary.
+  void set(double displacement, Boundary& boundary) const;
+
+  /// Centres of rollers, or places of the nodes between which the specimen's length counts [m].
+  Vec3 lower() const;
+  Vec3 upper(double displacement) const;
+  /// How far these are apart [m].
+  double end_to_end(double displacement) const;
+
+  /// Force of the rod on each grip along z, tension positive [N].
+  double force_upper(const TimeStep& step) const;
+  double force_lower(const TimeStep& step) const;
+
+  /// Size of the sum of all moments that the grips exert on the rod about the lower one [N m].
+  double moment_imbalance(double displacement, const TimeStep& step) const;
+
+ private:
+  std::vector<FixedNode> lower_nodes_, upper_nodes_;
+  std::vector<FixedTwist> held_frames_;
+  std::vector<Roller> rollers_;  // lower, upper
+};
+
+}  // namespace knot_utm

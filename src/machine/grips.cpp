@@ -1,0 +1,103 @@
+#include "knot_utm/machine/grips.hpp"
+
+#include <Eigen/Geometry>
+#include <utility>
+
+namespace knot_utm {
+
+namespace {
+
+constexpr double kSlack = 0.6;  // by which the rollers stand closer than taut, until mounting [h]
+
+}  // namespace
+
+Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, const Centreline& centreline,
+             double radius) {
+  const int nodes = static_cast<int>(centreline.points.cols());
+  if (specimen.knot == KnotKind::kFisherman && machine.grips == GripKind::kRollers) {
+    Roller roller;
+    roller.axis = Vec3::UnitY();
+    roller.radius = 0.5 * machine.roller_diameter;
+    roller.centre = Vec3::Zero();
+    rollers_.push_back(roller);
+    roller.centre = Vec3(0.0, 0.0, specimen.end_to_end - kSlack * radius);
+    rollers_.push_back(roller);
+    return;
+  }
+  auto hold = [&](std::vector<FixedNode>& held, int node) { held.push_back({node, centreline.points.col(node)}); };
+  if (specimen.knot == KnotKind::kFisherman) {
+    const int lower = centreline.nearest_node(centreline.lower_apex);
+    const int upper = centreline.nearest_node(centreline.upper_apex);
+    hold(lower_nodes_, lower);
+    hold(upper_nodes_, upper);
+    if (machine.grips == GripKind::kClamps) {
+      hold(lower_nodes_, lower + 1);
+      hold(upper_nodes_, upper + 1);
+      held_frames_ = {{lower, 0.0}, {upper, 0.0}};
+    }
+    return;
+  }
+  hold(lower_nodes_, 0);
+  hold(upper_nodes_, nodes - 1);
+  if (machine.grips != GripKind::kNodes) {
+    hold(lower_nodes_, 1);
+    hold(upper_nodes_, nodes - 2);
+    held_frames_ = {{0, 0.0}, {nodes - 2, 0.0}};
+    if (specimen.knot == KnotKind::kStraight) {  // its length is that between the clamps
+      std::swap(lower_nodes_[0], lower_nodes_[1]);
+      std::swap(upper_nodes_[0], upper_nodes_[1]);
+    }
+  }
+}
+
+void Grips::set(double displacement, Boundary& boundary) const {
+  boundary.rollers = rollers_;
+  if (on_rollers()) boundary.rollers[1].centre[2] += displacement;
+  boundary.fixed_twists = held_frames_;
+  boundary.fixed_nodes = lower_nodes_;
+  for (FixedNode node : upper_nodes_) {
+    node.position[2] += displacement;
+    boundary.fixed_nodes.push_back(node);
+  }
+}
+
+Vec3 Grips::lower() const { return on_rollers() ? rollers_[0].centre : lower_nodes_.front().position; }
+
+Vec3 Grips::upper(double displacement) const {
+  const Vec3 start = on_rollers() ? rollers_[1].centre : upper_nodes_.front().position;
+  return start + Vec3(0.0, 0.0, displacement);
+}
+
+double Grips::end_to_end(double displacement) const {
+  if (on_rollers()) return rollers_[1].centre[2] + displacement - rollers_[0].centre[2];
+  return (upper(displacement) - lower()).norm();
+}
+
+double Grips::force_upper(const TimeStep& step) const {
+  if (on_rollers()) return -step.roller_force(1)[2];
+  double sum = 0.0;
+  for (const FixedNode& node : upper_nodes_) sum += step.reaction(node.node)[2];
+  return sum;
+}
+
+double Grips::force_lower(const TimeStep& step) const {
+  if (on_rollers()) return step.roller_force(0)[2];
+  double sum = 0.0;
+  for (const FixedNode& node : lower_nodes_) sum -= step.reaction(node.node)[2];
+  return sum;
+}
+
+double Grips::moment_imbalance(double displacement, const TimeStep& step) const {
+  const Points& x = step.state().position;
+  Vec3 sum = Vec3::Zero();
+  if (on_rollers())
+    sum -= step.roller_moment(0) + step.roller_moment(1) + (upper(displacement) - lower()).cross(step.roller_force(1));
+  for (const std::vector<FixedNode>* grip : {&lower_nodes_, &upper_nodes_})
+    for (const FixedNode& held : *grip)
+      sum += (x.col(held.node) - lower_nodes_.front().position).cross(step.reaction(held.node));
+  for (const FixedTwist& held : held_frames_)
+    sum += step.reaction_torque(held.edge) * (x.col(held.edge + 1) - x.col(held.edge)).normalized();
+  return sum.norm();
+}
+
+}  // namespace knot_utm
