@@ -95,6 +95,9 @@ void Recovery::finish() {
   facts.warnings.push_back("rebuilt from the journal: the test goes no further than what was recorded");
   const std::uint64_t dropped = next_ - journal_.records();
   if (dropped > 0) facts.warnings.push_back(std::to_string(dropped) + " commands were not recorded");
+  // No journal has it: a recorder writes it as it comes.
+  const std::string step = failed_step_file(folder_);
+  if (!place_.is_scratch && fs::exists(step)) write_whole(failed_step_file(out_), read_whole(step));
   writer_->finish(writer_->results(EndedBy::kNotYet), facts, shape_);
   if (place_.is_scratch) move_into_place();
 }

@@ -13,6 +13,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* kFailedStep = "failed_step.bin";
+
 }  // namespace
 
 void make_run_folder(const std::string& folder) {
@@ -38,7 +40,7 @@ void begin_run_folder(const std::string& folder, const Method& method) {
     }
   }
   // Not before the specimen has been read: it may be the shape that the last run left here.
-  for (const char* old : {"result.yaml", "final_shape.csv", "test.bag", "saved.bag", "failed_step.bin"})
+  for (const char* old : {"result.yaml", "final_shape.csv", "test.bag", "saved.bag", kFailedStep})
     fs::remove(fs::path(folder) / old, error);
   try {
     write_whole((fs::path(folder) / "method.yaml").string(), method_file_text(method));
@@ -56,6 +58,8 @@ bool has_complete_result(const std::string& folder) {
   }
   return false;
 }
+
+std::string failed_step_file(const std::string& folder) { return (fs::path(folder) / kFailedStep).string(); }
 
 void write_whole(const std::string& file, const std::string& text) {
   const std::string part = file + ".part";

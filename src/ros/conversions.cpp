@@ -18,9 +18,62 @@ static_assert(static_cast<int>(BenchStatus::kNotEquilibrated) == KnotState::NOT_
 static_assert(static_cast<int>(BenchStatus::kBroken) == KnotState::BROKEN);
 static_assert(static_cast<int>(BenchStatus::kFailed) == KnotState::FAILED);
 
+/// What a command and its message call by the same name, there or back.
+template <class From, class To>
+void copy_command(const From& from, To& to) {
+  to.sequence = from.sequence;
+  to.time = from.time;
+  to.displacement = from.displacement;
+  to.velocity = from.velocity;
+  to.step = from.step;
+  to.speed = from.speed;
+  to.duration = from.duration;
+  to.balance = from.balance != 0;
+  to.read_cell = from.read_cell != 0;
+}
+
+/// The same of a sample.
+template <class From, class To>
+void copy_sample(const From& from, To& to) {
+  to.sequence = from.sequence;
+  to.time = from.time;
+  to.displacement = from.displacement;
+  to.extension = from.extension;
+  to.end_to_end = from.end_to_end;
+  to.knot_distance = from.knot_distance;
+  to.load = from.load;
+  to.balance_offset = from.balance_offset;
+  to.force_upper = from.force_upper;
+  to.force_lower = from.force_lower;
+  std::copy(std::begin(from.tail_force), std::end(from.tail_force), std::begin(to.tail_force));
+  std::copy(std::begin(from.excess_length), std::end(from.excess_length), std::begin(to.excess_length));
+  to.max_penetration = from.max_penetration;
+  to.normal_force = from.normal_force;
+  to.contacts = from.contacts;
+  to.fastest_node = from.fastest_node;
+  to.stretching_energy = from.stretching_energy;
+  to.bending_energy = from.bending_energy;
+  to.twisting_energy = from.twisting_energy;
+  to.contact_energy = from.contact_energy;
+  to.kinetic_energy = from.kinetic_energy;
+  to.grip_work = from.grip_work;
+  to.dissipation = from.dissipation;
+  to.friction_loss = from.friction_loss;
+  to.numerical_dissipation = from.numerical_dissipation;
+  to.reweighting_loss = from.reweighting_loss;
+  to.moment_imbalance = from.moment_imbalance;
+  to.steps = from.steps;
+  to.rejected_steps = from.rejected_steps;
+  to.newton_iterations = from.newton_iterations;
+  to.message = from.message;
+}
+
 }  // namespace
 
-ros::Time test_stamp(double start, double time) { return std::max(ros::Time(start + time), ros::TIME_MIN); }
+ros::Time test_stamp(double start, double time) {
+  // The start is worked out from a stamp, and may come out a little before the clock's, which no ros::Time can hold.
+  return std::max(ros::Time(std::max(start + time, 0.0)), ros::TIME_MIN);
+}
 
 Phase phase_from_name(const std::string& name) {
   if (const std::optional<Phase> phase = phase_named(name)) return *phase;
@@ -32,31 +85,15 @@ Crosshead to_message(const Command& command, std::uint32_t run, const ros::Time&
   m.header.stamp = stamp;
   m.header.frame_id = names::kCrossheadFrame;
   m.run = run;
-  m.sequence = command.sequence;
-  m.time = command.time;
-  m.displacement = command.displacement;
-  m.velocity = command.velocity;
-  m.step = command.step;
   m.phase = phase_name(command.phase);
-  m.speed = command.speed;
-  m.duration = command.duration;
-  m.balance = static_cast<std::uint8_t>(command.balance);
-  m.read_cell = static_cast<std::uint8_t>(command.read_cell);
+  copy_command(command, m);
   return m;
 }
 
 Command from_message(const Crosshead& m) {
   Command command;
-  command.sequence = m.sequence;
-  command.time = m.time;
-  command.displacement = m.displacement;
-  command.velocity = m.velocity;
-  command.step = m.step;
   command.phase = phase_from_name(m.phase);
-  command.speed = m.speed;
-  command.duration = m.duration;
-  command.balance = m.balance != 0;
-  command.read_cell = m.read_cell != 0;
+  copy_command(m, command);
   return command;
 }
 
@@ -65,40 +102,10 @@ KnotState to_message(const Sample& sample, std::uint32_t run, const ros::Time& s
   m.header.stamp = stamp;
   m.header.frame_id = names::kBaseFrame;
   m.run = run;
-  m.sequence = sample.sequence;
-  m.time = sample.time;
   m.phase = phase_name(sample.phase);
-  m.displacement = sample.displacement;
-  m.extension = sample.extension;
-  m.end_to_end = sample.end_to_end;
-  m.knot_distance = sample.knot_distance;
-  m.load = sample.load;
-  m.balance_offset = sample.balance_offset;
-  m.force_upper = sample.force_upper;
-  m.force_lower = sample.force_lower;
-  std::copy(std::begin(sample.tail_force), std::end(sample.tail_force), m.tail_force.begin());
-  std::copy(std::begin(sample.excess_length), std::end(sample.excess_length), m.excess_length.begin());
-  m.max_penetration = sample.max_penetration;
-  m.normal_force = sample.normal_force;
-  m.contacts = sample.contacts;
-  m.fastest_node = sample.fastest_node;
-  m.stretching_energy = sample.stretching_energy;
-  m.bending_energy = sample.bending_energy;
-  m.twisting_energy = sample.twisting_energy;
-  m.contact_energy = sample.contact_energy;
-  m.kinetic_energy = sample.kinetic_energy;
-  m.grip_work = sample.grip_work;
-  m.dissipation = sample.dissipation;
-  m.friction_loss = sample.friction_loss;
-  m.numerical_dissipation = sample.numerical_dissipation;
-  m.reweighting_loss = sample.reweighting_loss;
-  m.moment_imbalance = sample.moment_imbalance;
-  m.steps = sample.steps;
-  m.rejected_steps = sample.rejected_steps;
-  m.newton_iterations = sample.newton_iterations;
   m.knot_type = static_cast<std::uint8_t>(sample.knot_type);
   m.status = static_cast<std::uint8_t>(sample.status);
-  m.message = sample.message;
+  copy_sample(sample, m);
   return m;
 }
 
@@ -108,40 +115,10 @@ Sample from_message(const KnotState& m) {
     throw std::invalid_argument("knot type " + std::to_string(m.knot_type) + " is unknown");
   }
   Sample sample;
-  sample.sequence = m.sequence;
-  sample.time = m.time;
   sample.phase = phase_from_name(m.phase);
-  sample.displacement = m.displacement;
-  sample.extension = m.extension;
-  sample.end_to_end = m.end_to_end;
-  sample.knot_distance = m.knot_distance;
-  sample.load = m.load;
-  sample.balance_offset = m.balance_offset;
-  sample.force_upper = m.force_upper;
-  sample.force_lower = m.force_lower;
-  std::copy(m.tail_force.begin(), m.tail_force.end(), std::begin(sample.tail_force));
-  std::copy(m.excess_length.begin(), m.excess_length.end(), std::begin(sample.excess_length));
-  sample.max_penetration = m.max_penetration;
-  sample.normal_force = m.normal_force;
-  sample.contacts = m.contacts;
-  sample.fastest_node = m.fastest_node;
-  sample.stretching_energy = m.stretching_energy;
-  sample.bending_energy = m.bending_energy;
-  sample.twisting_energy = m.twisting_energy;
-  sample.contact_energy = m.contact_energy;
-  sample.kinetic_energy = m.kinetic_energy;
-  sample.grip_work = m.grip_work;
-  sample.dissipation = m.dissipation;
-  sample.friction_loss = m.friction_loss;
-  sample.numerical_dissipation = m.numerical_dissipation;
-  sample.reweighting_loss = m.reweighting_loss;
-  sample.moment_imbalance = m.moment_imbalance;
-  sample.steps = m.steps;
-  sample.rejected_steps = m.rejected_steps;
-  sample.newton_iterations = m.newton_iterations;
   sample.knot_type = static_cast<KnotType>(m.knot_type);
   sample.status = static_cast<BenchStatus>(m.status);
-  sample.message = m.message;
+  copy_sample(m, sample);
   return sample;
 }
 

@@ -126,7 +126,11 @@ bool RecorderNode::go_on(const std::string& folder) {
   // The keeper of the recorder before may be recovering the folder.
   JournalWriter journal = JournalWriter::go_on(folder, kPatienceWithKeeper);
   JournalReader reader(folder);
+  // A new run takes away what an old one left; this one goes on.
+  const std::string failed_step = failed_step_file(folder);
+  const std::string step = fs::exists(failed_step) ? read_whole(failed_step) : "";
   run_ = std::make_unique<Run>(folder, journalled_method(folder, reader.header()), std::move(journal));
+  if (!step.empty()) write_whole(failed_step, step);
   watch(folder);
   Record record;
   while (reader.next(record)) keep(record);
@@ -152,16 +156,18 @@ void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
     if (command.run > run_number_) begin_run(command);
     if (is_complete()) return;
     Run& run = *run_;
-    run.progress = waited_;
     if (!record->shape.points.empty() && command.sequence >= run.shape_sequence) {
       run.shape = points_from_message(record->shape);
       run.shape_sequence = command.sequence;
     }
+    // Before the record is acknowledged: whoever has that record has this too.
+    if (!record->failed_step.empty()) keep_failed_step(*record);
     if (command.sequence == run.next) {
       write(*record);
       write_early();
     } else if (command.sequence > run.next) {
-      run.early.emplace(command.sequence, record);
+      // Only what is new is progress: as long as something is missing, all behind it is asked for again and again.
+      if (run.early.emplace(command.sequence, record).second) run.progress = waited_;
       if (run.early.size() > KnotNode::kKeptAnswers) give_up_gap();
     }
     if (run.next >= published_.next_sequence + kAcknowledgeAfter) publish_status();
@@ -178,6 +184,10 @@ void RecorderNode::write(const KnotRecord& record) {
   run_->stamp = record.command.header.stamp;
 }
 
+void RecorderNode::keep_failed_step(const KnotRecord& record) {
+  write_whole(failed_step_file(run_->folder), std::string(record.failed_step.begin(), record.failed_step.end()));
+}
+
 void RecorderNode::keep(const Record& record) {
   run_->writer.add(record);
   run_->bag.add(record);
@@ -188,6 +198,7 @@ void RecorderNode::keep(const Record& record) {
   run_->failed = record.answer.status == BenchStatus::kFailed;
   ++run_->recorded;
   run_->next = record.command.sequence + 1;
+  run_->progress = waited_;
 }
 
 void RecorderNode::write_early() {
@@ -216,6 +227,8 @@ void RecorderNode::give_up_gap() {
 void RecorderNode::on_status(const TestStatus::ConstPtr& status) {
   const std::string fault = fault_of(*status);
   if (!fault.empty()) return odd_status_.say(names::kUtmNode, fault);
+  // A machine that was paused has its end long after its last record.
+  if (run_ && status->state == TestStatus::ENDED && test_.state != TestStatus::ENDED) run_->progress = waited_;
   test_ = *status;
 }
 
@@ -259,6 +272,9 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
     run.journal.remove();
     keeper_.release();
     run.complete = true;
+    const std::string failed_step = failed_step_file(run.folder);
+    if (fs::exists(failed_step))
+      ROS_WARN("the step that could not be made: scripts/replay-step %s", failed_step.c_str());
     ROS_INFO("written to %s: %zu rows, %llu commands dropped", run.folder.c_str(), run.writer.rows(),
              static_cast<unsigned long long>(run.dropped));
   } catch (const std::exception& error) {

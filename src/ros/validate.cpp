@@ -193,7 +193,11 @@ std::string fault_of(const KnotRecord& m) {
           [&] { return std::to_string(m.answer.sequence); },
           [&] { return "that of the command, " + std::to_string(m.command.sequence); })
       .count("steps", m.steps.size(), 0, kMostSteps)
-      .part(fault_of_shape(m.shape));
+      .part(fault_of_shape(m.shape))
+      .that(
+          m.failed_step.empty() || m.answer.status == KnotState::FAILED, "failed_step",
+          [&] { return std::to_string(m.failed_step.size()) + " bytes"; },
+          [] { return "none where the physics did not give up"; });
   for (std::size_t i = 0; i < m.steps.size() && check.fault().empty(); ++i) {
     check.part(fault_of_state(m.steps[i], "steps[" + std::to_string(i) + "]."));
   }

@@ -78,17 +78,20 @@ Centreline overhand(const OverhandShape& shape) {
   const auto room = [&](double loop_radius) {
     return shape.end_to_end - braid_length(h, shape.turns, loop_radius) - 8.0 * h;
   };
+  if (!(room(smallest) > 0.0)) {
+    throw InvalidInput(
+        "specimen.end_to_end", text(shape.end_to_end),
+        "above " + text(shape.end_to_end - room(smallest)) + " m, the room that the smallest knot takes up");
+  }
   const double shortest = rod_length(smallest) - shape.end_to_end;
   double high = smallest;
   for (double step = shape.length; step > 1e-3 * h; step *= 0.5) {
     if (room(high + step) > 0.0) high += step;
   }
   const double longest = rod_length(high) - shape.end_to_end;
-  if (!(room(smallest) > 0.0) || !(shape.length - shape.end_to_end >= shortest) ||
-      shape.length - shape.end_to_end > longest) {
+  if (!(shape.length - shape.end_to_end >= shortest) || shape.length - shape.end_to_end > longest) {
     throw InvalidInput("specimen.end_to_end", text(shape.end_to_end),
-                       "such that specimen.length exceeds it by " + text(shortest) + " to " + text(longest) +
-                           " m, and at least " + text(braid_length(h, shape.turns, smallest) + 8.0 * h) + " m");
+                       "such that specimen.length exceeds it by " + range_text(shortest, longest) + " m");
   }
   // The rod's length grows smoothly with the loop's radius: false position with a bracket (Illinois).
   double low = smallest;

@@ -1,16 +1,31 @@
 #include "shape_checks.hpp"
 
+#include <limits>
 #include <sstream>
 
 #include "knot_utm/rod/invalid_input.hpp"
 
 namespace knot_utm {
 
-std::string text(double value) {
+namespace {
+
+constexpr int kDigits = 4;
+
+std::string text(double value, int digits) {
   std::ostringstream out;
-  out.precision(4);
+  out.precision(digits);
   out << value;
   return out.str();
+}
+
+}  // namespace
+
+std::string text(double value) { return text(value, kDigits); }
+
+std::string range_text(double low, double high) {
+  int digits = kDigits;
+  while (digits < std::numeric_limits<double>::max_digits10 && text(low, digits) == text(high, digits)) ++digits;
+  return low == high ? text(low) : text(low, digits) + " to " + text(high, digits);
 }
 
 void check_edge_length(double edge_length, double radius) {

@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
-#include <exception>
 #include <optional>
 #include <string>
 
@@ -11,11 +10,12 @@
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/journal_bag.hpp"
 #endif
+#include "tool.hpp"
 
 namespace knot_utm {
 namespace {
 
-enum ExitCode { kRecovered = 0, kFailed = 1, kWrongInput = 2 };
+constexpr const char* kTool = "recover";
 
 struct Arguments {
   std::string folder;
@@ -25,7 +25,7 @@ struct Arguments {
 int run(const Arguments& arguments) {
   if (is_settled(arguments.folder)) {
     std::printf("%s is complete: there is nothing to recover\n", arguments.folder.c_str());
-    return kRecovered;
+    return kDone;
   }
   Recovery recovery(arguments.folder, arguments.out.empty() ? arguments.folder : arguments.out);
 #ifdef KNOT_UTM_HAS_ROS
@@ -37,39 +37,26 @@ int run(const Arguments& arguments) {
   recovery.finish();
 #endif
   std::printf("%s\n", recovery.summary().c_str());
-  return kRecovered;
+  return kDone;
 }
 
 /// Reads the command line; an exit code where that is all there is to do.
-std::optional<int> parse(int argc, char** argv, Arguments& arguments) {
+std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::App app("Writes anew what a run left that was killed, from its method.yaml and journal.");
   app.set_version_flag("--version", version());
   app.add_option("DIR", arguments.folder, "the run's folder")->required();
   app.add_option("--out", arguments.out, "the folder to write to; DIR unless given");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "recover: %s\n", error.what());
-    return kWrongInput;
-  }
-  return std::nullopt;
+  return parse(app, kTool, argc, argv);
 }
 
 }  // namespace
 }  // namespace knot_utm
 
 int main(int argc, char** argv) {
-  knot_utm::Arguments arguments;
-  try {
-    if (const std::optional<int> code = knot_utm::parse(argc, argv, arguments)) return *code;
+  return knot_utm::run_tool(knot_utm::kTool, [&] {
+    knot_utm::Arguments arguments;
+    if (const std::optional<int> code = knot_utm::read_arguments(argc, argv, arguments)) return *code;
     std::signal(SIGXFSZ, SIG_IGN);
     return knot_utm::run(arguments);
-  } catch (const knot_utm::InvalidInput& invalid) {
-    std::fprintf(stderr, "recover: %s\n", invalid.what());
-    return knot_utm::kWrongInput;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "recover: %s\n", error.what());
-    return knot_utm::kFailed;
-  }
+  });
 }

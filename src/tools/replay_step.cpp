@@ -1,18 +1,18 @@
 // Tries a saved time step again, and tells what happens.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <optional>
+#include <stdexcept>
 #include <string>
 
 #include "knot_utm/io/run_folder.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/sim/saved_step.hpp"
+#include "tool.hpp"
 
 namespace knot_utm {
 namespace {
 
-enum ExitCode { kAccepted = 0, kNotAccepted = 1, kWrongInput = 2 };
+constexpr const char* kTool = "replay_step";
 
 void print_scene(const SavedStep& step) {
   const RodProperties& rod = step.stepper->rod();
@@ -54,8 +54,17 @@ class Table {
   int row_ = 0;
 };
 
+/// A file that cannot be read is as wrong as one that is no step's.
+std::string content_of(const std::string& file) {
+  try {
+    return read_whole(file);
+  } catch (const std::runtime_error&) {
+    throw InvalidInput(file, "file", "one that cannot be read", "that of a time step");
+  }
+}
+
 int run(const std::string& file) {
-  SavedStep step = load_step(read_whole(file), file);
+  SavedStep step = load_step(content_of(file), file);
   print_scene(step);
   Table table;
   step.stepper->watch([&](const Iterate& iterate) { table.add(iterate); });
@@ -66,33 +75,23 @@ int run(const std::string& file) {
     std::printf("; largest motion %g m, largest overlap %g m", summary.largest_motion, summary.largest_overlap);
   std::printf("\n%s%s\n", summary.accepted() ? "accepted" : "not accepted: ", summary.reason.c_str());
   if (!summary.accepted()) std::printf("%s\n", summary.diagnosis.text().c_str());
-  return summary.accepted() ? kAccepted : kNotAccepted;
+  return summary.accepted() ? kDone : kFailed;
 }
 
 /// Reads the command line; an exit code where that is all there is to do.
-std::optional<int> parse(int argc, char** argv, std::string& file) {
+std::optional<int> read_arguments(int argc, char** argv, std::string& file) {
   CLI::App app("Tries a saved time step again. Exit code 0: it was accepted; 1: it was not; 2: the file is wrong.");
   app.add_option("FILE", file, "a time step as tensile_test leaves it, failed_step.bin")->required();
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "replay_step: %s\n", error.what());
-    return kWrongInput;
-  }
-  return std::nullopt;
+  return parse(app, kTool, argc, argv);
 }
 
 }  // namespace
 }  // namespace knot_utm
 
 int main(int argc, char** argv) {
-  std::string file;
-  try {
-    if (const std::optional<int> code = knot_utm::parse(argc, argv, file)) return *code;
+  return knot_utm::run_tool(knot_utm::kTool, [&] {
+    std::string file;
+    if (const std::optional<int> code = knot_utm::read_arguments(argc, argv, file)) return *code;
     return knot_utm::run(file);
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "replay_step: %s\n", error.what());
-    return knot_utm::kWrongInput;
-  }
+  });
 }

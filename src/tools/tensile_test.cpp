@@ -1,11 +1,12 @@
 // One whole test without ROS: read the method, run it, write what came out.
+#include <fcntl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
-#include <exception>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -13,6 +14,7 @@
 
 #include "knot_utm/io/checkpoint.hpp"
 #include "knot_utm/io/journal.hpp"
+#include "knot_utm/io/locked_file.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/recovery.hpp"
 #include "knot_utm/io/run_folder.hpp"
@@ -23,11 +25,12 @@
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/test_bag.hpp"
 #endif
+#include "tool.hpp"
 
 namespace knot_utm {
 namespace {
 
-enum ExitCode { kEnded = 0, kGaveUp = 1, kWrongInput = 2 };
+constexpr const char* kTool = "tensile_test";
 
 volatile std::sig_atomic_t stop_asked = 0;
 
@@ -227,7 +230,7 @@ int run_to_end(const Test& test, JournalWriter& journal, double checkpoint_perio
     });
   }
   writers.close();
-  const std::string failed_step = out + "/failed_step.bin";
+  const std::string failed_step = failed_step_file(out);
   if (!bench.failed_step().empty()) write_whole(failed_step, bench.failed_step());
   RunFacts facts = writers.run.facts();
   facts.reason = program.reason();
@@ -250,13 +253,20 @@ int run_to_end(const Test& test, JournalWriter& journal, double checkpoint_perio
     std::printf("ended by %s after %.1f s, %.1f times real time; written to %s\n", ended_by_name(program.ended_by()),
                 results.simulated_time, results.simulated_time / facts.wall_time, out.c_str());
   }
-  return gave_up ? kGaveUp : kEnded;
+  return gave_up ? kFailed : kDone;
+}
+
+/// Throws InvalidInput where there is nothing to take up. Reads nothing of a run that goes on.
+void require_cut_off(const std::string& folder) {
+  if (is_settled(folder)) throw InvalidInput("--resume", folder, "a test that was cut off; this one has ended");
+  const LockedFile journal(journal_file(folder), O_RDONLY, 0.0);
+  if (!journal.is_open() && errno == EWOULDBLOCK)
+    throw InvalidInput("--resume", folder, "a test that was cut off; this one goes on");
 }
 
 int run(const Arguments& arguments) {
   const bool resumes = !arguments.resume.empty();
-  if (resumes && is_settled(arguments.resume))
-    throw InvalidInput("--resume", arguments.resume, "a test that was cut off; this one has ended");
+  if (resumes) require_cut_off(arguments.resume);
   const Method method = load_method(arguments.method, arguments.overrides);
   TestBench bench(method.specimen, method.material, method.machine, method.physics);
   TestProgram program = make_program(method, bench.longest_step());
@@ -274,8 +284,13 @@ int run(const Arguments& arguments) {
   }
 }
 
+/// What is wrong with an argument stands in no file.
+InvalidInput with_place(const InvalidInput& invalid, const std::string& method) {
+  return invalid.key.rfind("--", 0) == 0 ? invalid : invalid.in_file(method);
+}
+
 /// Reads the command line; an exit code where that is all there is to do.
-std::optional<int> parse(int argc, char** argv, Arguments& arguments) {
+std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::App app("Runs one whole test of a method, as fast as it goes.");
   app.set_version_flag("--version", version());
   CLI::Option* method = app.add_option("METHOD", arguments.method, "the method, a YAML file");
@@ -291,15 +306,10 @@ std::optional<int> parse(int argc, char** argv, Arguments& arguments) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_flag("--quiet", arguments.quiet, "say nothing but what went wrong");
-  try {
-    app.parse(argc, argv);
+  const std::optional<int> code = parse(app, kTool, argc, argv, [&] {
     if (method->empty() && resume->empty()) throw CLI::RequiredError("METHOD");
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);
-    std::fprintf(stderr, "tensile_test: %s\n", error.what());
-    return kWrongInput;
-  }
-  if (resume->empty()) return std::nullopt;
+  });
+  if (code || resume->empty()) return code;
   arguments.method = arguments.resume + "/method.yaml";
   arguments.out = arguments.resume;
   return std::nullopt;
@@ -309,17 +319,14 @@ std::optional<int> parse(int argc, char** argv, Arguments& arguments) {
 }  // namespace knot_utm
 
 int main(int argc, char** argv) {
-  knot_utm::Arguments arguments;
-  try {
-    if (const std::optional<int> code = knot_utm::parse(argc, argv, arguments)) return *code;
+  return knot_utm::run_tool(knot_utm::kTool, [&] {
+    knot_utm::Arguments arguments;
+    if (const std::optional<int> code = knot_utm::read_arguments(argc, argv, arguments)) return *code;
     knot_utm::set_signals();
-    return knot_utm::run(arguments);
-  } catch (const knot_utm::InvalidInput& invalid) {
-    const bool of_method = invalid.key.rfind("--", 0) != 0;
-    std::fprintf(stderr, "tensile_test: %s\n", (of_method ? invalid.in_file(arguments.method) : invalid).what());
-    return knot_utm::kWrongInput;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "tensile_test: %s\n", error.what());
-    return knot_utm::kGaveUp;
-  }
+    try {
+      return knot_utm::run(arguments);
+    } catch (const knot_utm::InvalidInput& invalid) {
+      throw knot_utm::with_place(invalid, arguments.method);
+    }
+  });
 }

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <cstddef>
 #include <utility>
 #include <vector>
@@ -10,8 +9,7 @@
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/solver/block_matrix.hpp"
-#include "knot_utm/specimen/overhand.hpp"
-#include "sim/scenes.hpp"
+#include "sim/drawn_overhand.hpp"
 
 namespace {
 std::size_t allocations = 0;
@@ -103,27 +101,12 @@ struct SlidingOverhand {
 
   explicit SlidingOverhand(bool twist) {
     const Material material = polypropylene();
-    OverhandShape shape;
-    shape.radius = material.radius;
-    shape.length = 0.6;
-    shape.end_to_end = 0.35;
-    const Centreline line = overhand(shape);
-    const Eigen::Index nodes = line.points.cols();
-    const RodProperties rod =
-        make_rod(material, (line.points.rightCols(nodes - 1) - line.points.leftCols(nodes - 1)).colwise().norm());
-    RodState state;
-    state.position = line.points;
-    state.velocity = Points::Zero(3, nodes);
-    if (twist) initialise_frames(&state);
-    StepSettings settings = closed_form_settings(material);
-    settings.friction.coefficient = material.friction_coefficient;
-    settings.normal = {300.0 * material.bending_stiffness / std::pow(material.radius, 4.0), 0.05 * material.radius};
-    settings.drag = 1.0;
-    settings.residual = 1e-4;
+    DrawnOverhand drawn(material);
+    if (twist) initialise_frames(&drawn.state);
+    const StepSettings settings = sliding_settings(material);
     candidate_margin = settings.candidate_margin;
-    step = TimeStep::make(rod, state, settings);
-    for (const int node : {0, static_cast<int>(nodes) - 1})
-      boundary.fixed_nodes.push_back({node, state.position.col(node)});
+    step = TimeStep::make(drawn.rod, drawn.state, settings);
+    boundary = drawn.held();
   }
 
   void pull(double distance) {

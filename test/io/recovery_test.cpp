@@ -156,6 +156,15 @@ TEST_F(RecoveryOf, ARunElsewhereChangesNothingWhereItWas) {
   EXPECT_THAT(refusal(in("other"), in("other")), HasSubstr("a journal that can be read"));
 }
 
+TEST_F(RecoveryOf, AFailedStepIsThereAsItWas) {
+  run(in("killed"), 7);
+  write_whole(failed_step_file(in("killed")), "step");
+  recover(in("killed"), in("killed"));
+  recover(in("killed"), in("other"));
+  EXPECT_EQ(read_whole(in("killed/failed_step.bin")), "step");
+  EXPECT_EQ(read_whole(in("other/failed_step.bin")), "step");
+}
+
 TEST_F(RecoveryOf, IsRefusedOverAnotherRunsJournal) {
   run(in("killed"), 7);
   run(in("other"), 5);

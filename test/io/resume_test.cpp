@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <random>
 #include <regex>
 #include <set>
@@ -160,13 +161,39 @@ TEST_F(Resume, WithoutACheckpointItBeginsAnew) {
   expect_same_files();
 }
 
-TEST_F(Resume, RefusesInOneLineWhatCannotBeTakenUp) {
-  const auto complaint = [](const std::string& arguments) {
-    const Answer answer = answer_of(tool("tensile_test", arguments));
-    EXPECT_EQ(answer.code, 2) << arguments;
-    EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << arguments << "\n" << answer.text;
-    return answer.text;
+/// What tensile_test says in its one line about wrong input.
+std::string complaint(const std::string& arguments) {
+  const Answer answer = answer_of(tool("tensile_test", arguments));
+  EXPECT_EQ(answer.code, 2) << arguments;
+  EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << arguments << "\n" << answer.text;
+  return answer.text;
+}
+
+TEST_F(Resume, IsRefusedWhileTheTestGoesOnAndDisturbsNothing) {
+  ASSERT_EQ(run(kTest, unbroken()), 0);
+  const fs::path journal = cut() + "/journal";
+  std::error_code error;
+  const pid_t process = launch(in_cut({"--checkpoint", "1e-6"}));
+  while (kill(process, 0) == 0 && (!fs::exists(journal, error) || fs::file_size(journal, error) < 40000)) usleep(500);
+  // It stands still, so that it goes on for certain, and whatever is changed was not changed by it.
+  kill(process, SIGSTOP);
+  siginfo_t stopped{};
+  ASSERT_EQ(waitid(P_PID, static_cast<id_t>(process), &stopped, WSTOPPED | WEXITED | WNOWAIT), 0);
+  ASSERT_EQ(stopped.si_code, CLD_STOPPED) << "the test was over before it could be stopped";
+  const auto contents = [&] {
+    std::map<std::string, std::string> all;
+    for (const std::string& name : files_of(cut())) all[name] = text_of(cut() + "/" + name);
+    return all;
   };
+  const auto before = contents();
+  EXPECT_THAT(complaint("--resume '" + cut() + "'"), HasSubstr("a test that was cut off; this one goes on"));
+  EXPECT_TRUE(contents() == before);
+  kill(process, SIGCONT);
+  ASSERT_EQ(wait_for(process), 0);
+  expect_same_files();
+}
+
+TEST_F(Resume, RefusesInOneLineWhatCannotBeTakenUp) {
   // Several records, the largest of which is a small part of them: the checkpoint stands before the last one.
   ASSERT_TRUE(kill_after(in_cut({"--checkpoint", "1e-6"}), 60000));
   const std::string resume = "--resume '" + cut() + "'";

@@ -12,6 +12,7 @@
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/test_bench.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
+#include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {
@@ -142,10 +143,7 @@ Scene straight() {
 
 Scene overhand(const std::string& name, FrictionLaw friction, ContactLaw contact) {
   Scene out{name, {}, pink_vps(), {}, {}, {step(Phase::kHold, 1.0), step(Phase::kBalance), pull(0.05)}, 11};
-  out.specimen.knot = KnotKind::kOverhand;
-  out.specimen.length = 0.4;
-  out.specimen.end_to_end = 0.15;
-  out.specimen.edge_length = 0.006;
+  out.specimen = overhand_specimen(0.4, 0.15, 0.006);
   out.machine.grips = GripKind::kClamps;
   out.machine.load_cell.noise = 0.01;
   out.physics.accuracy = Accuracy::kDraft;

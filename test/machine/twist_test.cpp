@@ -7,6 +7,7 @@
 #include <string>
 
 #include "knot_utm/machine/test_bench.hpp"
+#include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {
@@ -46,14 +47,7 @@ SpecimenOptions loop() {
   return specimen;
 }
 
-SpecimenOptions open_overhand() {
-  SpecimenOptions specimen;
-  specimen.knot = KnotKind::kOverhand;
-  specimen.length = 1.0;
-  specimen.end_to_end = 0.7;
-  specimen.edge_length = 0.005;
-  return specimen;
-}
+SpecimenOptions open_overhand() { return overhand_specimen(1.0, 0.7, 0.005); }
 
 bool has_twist(const TestBench& machine) { return machine.state().twist.size() > 0; }
 

@@ -119,6 +119,7 @@ TEST(Conversions, EveryPhaseIsFoundByItsName) {
 TEST(Conversions, StampIsNeverZero) {
   EXPECT_EQ(test_stamp(0.0, 0.0), ros::TIME_MIN);
   EXPECT_EQ(test_stamp(10.0, 0.25), ros::Time(10.25));
+  EXPECT_EQ(test_stamp(0.333333333 - 1.0 / 3.0, 0.0), ros::TIME_MIN);
 }
 
 TEST(Conversions, ShapeSurvives) {

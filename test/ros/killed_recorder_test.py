@@ -116,17 +116,37 @@ class KilledRecorderTest(unittest.TestCase):
         self.assertGreaterEqual(self.rows(), 100)
         self.assert_beginning_of_headless()
 
+    def test_that_lost_the_beginning_it_writes_the_rest_and_ends(self):
+        launch = self.launch('lost', respawn='true', real_time_factor='4')
+        wait_until('the test runs', lambda: self.rows() >= 100)
+        # Nobody finds the folder any more, the keeper neither: what the machine has been told is recorded is gone.
+        os.rename(self.out, self.out + '_away')
+        launch.kill('recorder_node')
+        said = launch.end()
+        self.assertIn('commands of the test never arrived', said)
+        result = content(self.out, 'result.yaml')
+        self.assertIn(b'ended_by: program\n', result)
+        self.assertRegex(result, rb'warnings: \["\d+ commands were not recorded"')
+        self.assertGreater(self.rows(), 100)
+        self.assertTrue(content(self.headless, 'curve.csv').endswith(content(self.out, 'curve.csv').split(b'\n', 3)[3]))
+        self.assertEqual(messages(self.out + '/test.bag'), 5 * self.rows())
+
     def test_without_room_it_says_so_and_the_journal_has_what_was_measured(self):
         launch = self.launch('full', real_time_factor='0', recorder_prefix='prlimit --fsize=60000')
         said = launch.end()
         self.assertIn('cannot be written: File too large; what was recorded is in the journal: recover', said)
         self.assertFalse(self.has('result.yaml'))
-        elsewhere = os.path.join(self.folder, 'elsewhere')
-        subprocess.run([executable('recover'), self.out, '--out', elsewhere], check=True)
-        self.out = elsewhere
-        self.assertGreater(self.rows(), 3)
-        self.assert_beginning_of_headless()
-        self.assertEqual(messages(self.out + '/test.bag'), 5 * self.rows())
+        here, elsewhere = self.out, os.path.join(self.folder, 'elsewhere')
+        # Once there is room, in place too: the bag that ran out of it has no index.
+        for arguments in [here, '--out', elsewhere], [here]:
+            self.out = arguments[-1]
+            if self.out == here:
+                self.assertNotEqual(subprocess.run(['rosbag', 'info', here + '/test.bag'], check=False,
+                                                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode, 0)
+            subprocess.run([executable('recover')] + arguments, check=True)
+            self.assertGreater(self.rows(), 3)
+            self.assert_beginning_of_headless()
+            self.assertEqual(messages(self.out + '/test.bag'), 5 * self.rows())
 
     def test_a_keeper_leaves_with_its_recorder(self):
         launch = self.launch('left', real_time_factor='0')

@@ -64,6 +64,10 @@ TEST(Validate, WhatTheNodesSayPasses) {
   EXPECT_EQ(fault_after(command(3), command(4), kLimits), "");
   EXPECT_EQ(fault_of(state(3)), "");
   EXPECT_EQ(fault_of(record(3)), "");
+  KnotRecord failure = record(3);
+  failure.answer.status = KnotState::FAILED;
+  failure.failed_step.resize(9);
+  EXPECT_EQ(fault_of(failure), "");
   TestStatus status;
   status.phase = "idle";
   status.time_left = status.real_time_factor = kNan;
@@ -129,6 +133,7 @@ TEST(Validate, RecordThatDoesNotHoldTogether) {
   EXPECT_THAT(fault([](KnotRecord& m) { m.shape.tension.resize(2); }), StartsWith("shape.tension: 2 edges"));
   EXPECT_THAT(fault([](KnotRecord& m) { m.shape.points[2].y = kNan; }), StartsWith("shape.points: point 2"));
   EXPECT_THAT(fault([](KnotRecord& m) { m.shape.tension[2] = kInf; }), StartsWith("shape.tension: edge 2"));
+  EXPECT_THAT(fault([](KnotRecord& m) { m.failed_step.resize(9); }), StartsWith("failed_step: 9 bytes"));
 }
 
 TEST(Validate, SpecimenAndStatus) {

@@ -11,7 +11,7 @@
 
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
-#include "knot_utm/specimen/overhand.hpp"
+#include "sim/drawn_overhand.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -138,14 +138,9 @@ struct Running {
     RodState state;
     RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(40, material.radius));
     if (scene.kind == Kind::kOverhand) {
-      OverhandShape shape;
-      shape.radius = material.radius;
-      shape.length = 0.6;
-      shape.end_to_end = 0.35;
-      state.position = overhand(shape).points;
-      const Eigen::Index edges = state.position.cols() - 1;
-      rod = make_rod(material, (state.position.rightCols(edges) - state.position.leftCols(edges)).colwise().norm());
-      state.velocity = Points::Zero(3, rod.nodes());
+      const DrawnOverhand drawn(material);
+      rod = drawn.rod;
+      state = drawn.state;
       settings.drag = 20.0;
     } else {
       state = straight_state(rod);

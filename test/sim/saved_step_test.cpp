@@ -10,6 +10,7 @@
 #include "knot_utm/machine/test_bench.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
+#include "machine/overhand_specimen.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -101,16 +102,11 @@ TEST(WatchedTimeStep, IsToldOfEveryIterate) {
 
 /// A knot on the machine whose crosshead jumps: the step fails, and fails the same way elsewhere.
 TEST(FailedTimeStep, FailsForTheSameReasonElsewhere) {
-  SpecimenOptions overhand;
-  overhand.knot = KnotKind::kOverhand;
-  overhand.length = 0.4;
-  overhand.end_to_end = 0.15;
-  overhand.edge_length = 0.006;
   MachineOptions machine;
   machine.grips = GripKind::kClamps;
   PhysicsOptions physics;
   physics.accuracy = Accuracy::kDraft;
-  TestBench bench(overhand, pink_vps(), machine, physics);
+  TestBench bench(overhand_specimen(0.4, 0.15, 0.006), pink_vps(), machine, physics);
   Command command;
   bench.respond(command);
   command.phase = Phase::kPull;

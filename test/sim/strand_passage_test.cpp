@@ -12,8 +12,8 @@
 #include <string>
 
 #include "knot_utm/sim/step_control.hpp"
-#include "knot_utm/specimen/overhand.hpp"
 #include "rod/materials.hpp"
+#include "sim/drawn_overhand.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -149,33 +149,17 @@ INSTANTIATE_TEST_SUITE_P(Throws, NothingPassesThrough,
 
 TEST(StrandPassageOfASimulation, IsNeverSeenWhereAnOverhandIsPulledTight) {
   const Material material = polypropylene();
-  OverhandShape shape;
-  shape.radius = material.radius;
-  shape.length = 0.6;
-  shape.end_to_end = 0.35;
-  shape.refinement = 2.0;
-  const Centreline line = overhand(shape);
-  const Eigen::Index nodes = line.points.cols();
-  const RodProperties rod =
-      make_rod(material, (line.points.rightCols(nodes - 1) - line.points.leftCols(nodes - 1)).colwise().norm());
-  RodState state;
-  state.position = line.points;
-  state.velocity = Points::Zero(3, nodes);
-  StepSettings settings = closed_form_settings(material);
-  settings.friction.coefficient = material.friction_coefficient;
-  settings.normal = {300.0 * material.bending_stiffness / std::pow(material.radius, 4.0), 0.05 * material.radius};
-  settings.drag = 1.0;
-  settings.residual = 1e-4;
+  const DrawnOverhand drawn(material, 2.0);
+  StepSettings settings = sliding_settings(material);
   settings.max_iterations = 12;
-  const std::unique_ptr<TimeStep> stepper = TimeStep::make(rod, state, settings);
-  Boundary boundary;
-  for (const int node : {0, static_cast<int>(nodes) - 1})
-    boundary.fixed_nodes.push_back({node, state.position.col(node)});
+  const std::unique_ptr<TimeStep> stepper = TimeStep::make(drawn.rod, drawn.state, settings);
+  Boundary boundary = drawn.held();
+  const double drawn_height = boundary.fixed_nodes[1].position.z();
   double dt = 1e-3, pulled = 0.0;
   int accepted = 0;
   while (pulled < 0.12 && dt > 1e-7) {
     const double further = 0.01 * dt;
-    boundary.fixed_nodes[1].position.z() = line.points(2, nodes - 1) + pulled + further;
+    boundary.fixed_nodes[1].position.z() = drawn_height + pulled + further;
     const StepSummary summary = stepper->step(boundary, dt);
     EXPECT_THAT(summary.reason, testing::Not(testing::HasSubstr("pass through")));
     if (summary.accepted()) {

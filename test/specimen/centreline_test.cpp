@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <regex>
 #include <string>
 
 #include "knot_utm/rod/invalid_input.hpp"
@@ -243,6 +244,33 @@ TEST(Overhand, RefusesTooLittleOrTooMuchExcessLength) {
   shape.end_to_end = 0.7;
   shape.turns = 5;
   EXPECT_THROW(overhand(shape), InvalidInput);
+}
+
+TEST(Overhand, SaysWhichExcessLengthFits) {
+  const auto refusal = [](double length, double end_to_end) {
+    OverhandShape shape;
+    shape.length = length;
+    shape.end_to_end = end_to_end;
+    try {
+      overhand(shape);
+    } catch (const InvalidInput& invalid) {
+      return invalid.allowed;
+    }
+    return std::string();
+  };
+  // What one takes from the text is right: the two ends of the range differ, and what lies between them fits.
+  const std::regex range("such that specimen.length exceeds it by ([^ ]*) to ([^ ]*) m");
+  for (const double above_least : {0.05, 1e-3, 1e-4}) {
+    std::smatch least, ends;
+    const std::string no_room = refusal(1.0, 0.01);
+    ASSERT_TRUE(std::regex_match(no_room, least, std::regex("above ([^ ]*) m, the room that .*"))) << no_room;
+    const double end_to_end = std::stod(least.str(1)) + above_least;
+    const std::string text = refusal(1.0, end_to_end);
+    ASSERT_TRUE(std::regex_match(text, ends, range)) << text;
+    const double low = std::stod(ends.str(1)), high = std::stod(ends.str(2));
+    EXPECT_LT(low, high) << text;
+    EXPECT_EQ(refusal(end_to_end + 0.5 * (low + high), end_to_end), "") << text;
+  }
 }
 
 TEST(Straight, LiesAlongTheLoadAxis) {

@@ -20,6 +20,9 @@ void begin_run_folder(const std::string& folder, const Method& method);
 /// Whether the folder has the result of a test that ran to its end.
 bool has_complete_result(const std::string& folder);
 
+/// Where the physics gave up: the time step that could not be made (sim/saved_step.hpp), for scripts/replay-step.
+std::string failed_step_file(const std::string& folder);
+
 /// A file that is there whole or not at all, so that it can be trusted. Throws std::runtime_error.
 void write_whole(const std::string& file, const std::string& text);
 

@@ -55,7 +55,7 @@ class RecorderNode {
     std::uint64_t shape_sequence = 0;                     ///< of its record
     ros::Time stamp;                                      ///< of the last record
     Clock::time_point begin = Clock::now();
-    double progress = 0.0;  ///< `waited_` when something last came [s]
+    double progress = 0.0;  ///< `waited_` when something new last came [s]
     bool failed = false;    ///< the last answer was that of a physics that failed
     bool complete = false;
   };
@@ -69,6 +69,7 @@ class RecorderNode {
   bool go_on(const std::string& folder);
   void watch(const std::string& folder);
   void write(const KnotRecord& record);
+  void keep_failed_step(const KnotRecord& record);
   void keep(const Record& record);
   void write_early();
   void give_up_gap();

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <optional>
+
+#include "knot_utm/rod/invalid_input.hpp"
+
+namespace knot_utm {
+
+/// How every tool ends.
+enum ExitCode { kDone = 0, kFailed = 1, kWrongInput = 2 };
+
+/// Says in one line why a tool ends with this code.
+inline int complain(const char* tool, const std::exception& error, ExitCode code) {
+  std::fprintf(stderr, "%s: %s\n", tool, error.what());
+  return code;
+}
+
+/// Reads the command line; an exit code where that is all there is to do. `check` may throw a CLI::ParseError too.
+template <class Check>
+std::optional<int> parse(CLI::App& app, const char* tool, int argc, char** argv, Check check) {
+  try {
+    app.parse(argc, argv);
+    check();
+  } catch (const CLI::ParseError& error) {
+    return error.get_exit_code() == 0 ? app.exit(error) : complain(tool, error, kWrongInput);
+  }
+  return std::nullopt;
+}
+inline std::optional<int> parse(CLI::App& app, const char* tool, int argc, char** argv) {
+  return parse(app, tool, argc, argv, [] {});
+}
+
+/// Runs `body` and says in one line what went wrong. Returns the exit code, that of `body` or one of the above.
+template <class Body>
+int run_tool(const char* tool, Body body) {
+  try {
+    return body();
+  } catch (const InvalidInput& error) {
+    return complain(tool, error, kWrongInput);
+  } catch (const std::exception& error) {
+    return complain(tool, error, kFailed);
+  }
+}
+
+}  // namespace knot_utm
