@@ -8,6 +8,7 @@ PAPER_RADIUS, PAPER_SPEED, PAPER_TYING = 3.175e-3, 3.3e-3, 0.01  # [m, m/s, m/s]
 FASTEST = 0.5          # [m/s] that a method allows
 LONGEST_PULL = 300.0   # [s] of simulated time
 KNOTS = {"fisherman": 11, "overhand": 5, "file": 3, "straight": 1}  # of twenty
+QUICK_KNOTS = {"fisherman": 4, "overhand": 8, "file": 6, "straight": 2}
 SHAPES = ["arch", "helix", "figure_eight"]                          # of knot: file
 METHODS = {"fisherman": "config/tighten.yaml", "overhand": "config/overhand.yaml", "straight": "config/straight.yaml",
            "file": "config/from_file.yaml"}
@@ -46,7 +47,8 @@ class Draw:
     # ---- the test ----------------------------------------------------------------------------------------------------
 
     def draw(self):
-        knot = self.keep("knot", self.random.choices(list(KNOTS), KNOTS.values())[0])
+        knots = QUICK_KNOTS if self.quick else KNOTS
+        knot = self.keep("knot", self.random.choices(list(knots), knots.values())[0])
         self.draw_material()
         self.draw_physics()
         edge = self.uniform("edge_length", 0.8 if self.quick else 0.5, 2.0)
