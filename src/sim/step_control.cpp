@@ -82,7 +82,7 @@ std::string StepControl::advance(TimeStep& stepper, double& time, double end, co
         reason << "time step fell below " << options_.shortest << " s at t = " << time << " s: " << summary.reason
                << " (residual " << summary.newton.residual << " N, tolerance " << summary.newton.tolerance << " N); "
                << summary.diagnosis.text() << "; tried " << failed << " steps from " << longest_failed << " to " << dt
-               << " s, the shorter ones with secants of the friction too";
+               << " s, the shorter ones by secants of the friction too";
         return reason.str();
       }
       continue;

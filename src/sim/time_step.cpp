@@ -28,7 +28,8 @@ struct PressureTangent {
   double pressure, slope;
 };
 
-constexpr int kPatience = 5;             // times as many iterations with secants
+constexpr int kTurns = 6;                // of secants and tangents
+constexpr double kShareBySecants = 0.5;  // of a change
 constexpr double kLeastResidual = 1e-3;  // of the residual, in short steps
 
 template <typename StrandContact>
@@ -76,18 +77,38 @@ class ImplicitStep final : public TimeStep {
     contact_.begin_step();
     rollers_.begin_step();
     if constexpr (D == 4) frames_.begin_step(state_, boundary.fixed_twists, dt);
-    const bool secants = solution == Solution::kSecants;
-    contact_.use_secants(secants);
-    rollers_.use_secants(secants);
     matrix_.begin_step();
-    summary.newton = newton(*this, secants ? NewtonOptions{kPatience * settings_.max_iterations, 0.5}
-                                           : NewtonOptions{settings_.max_iterations});
+    summary.newton = solution == Solution::kTangents ? by_tangents() : by_turns();
     examine(summary);
     if (summary.accepted())
       commit();
     else
       summary.diagnosis = diagnose(summary.newton.converged());
     return summary;
+  }
+
+  NewtonSummary by_tangents() {
+    use_secants(false);
+    return newton(*this, {settings_.max_iterations});
+  }
+
+  /// Secants creep up to the solution from afar, on a side of every kink; tangents from there find it in few
+  /// iterations.
+  NewtonSummary by_turns() {
+    NewtonSummary out;
+    for (int turn = 0; turn < kTurns; ++turn) {
+      const int before = out.iterations;
+      use_secants(turn % 2 == 0);
+      out = newton(*this, {settings_.max_iterations, turn % 2 == 0 ? kShareBySecants : 1.0});
+      out.iterations += before;
+      if (out.end != NewtonSummary::End::kIterationLimit) break;
+    }
+    return out;
+  }
+
+  void use_secants(bool secants) {
+    contact_.use_secants(secants);
+    rollers_.use_secants(secants);
   }
 
   // ---- the system that Newton solves -----------------------------------------------------------------------------

@@ -37,7 +37,7 @@ class Table {
   void add(const Iterate& i) {
     // A prediction comes of no change.
     if (i.share == 0.0 && row_ > 0) {
-      std::printf("once more, friction linearised by secants\n");
+      std::printf("once more, friction linearised by secants and tangents in turn\n");
       row_ = 0;
     }
     std::printf("%4d %12.5e %12.5e %8d%s %6.3f %12.5e %6d %8d ", row_++, i.residual, i.tolerance, i.node,

@@ -12,8 +12,9 @@
 
 namespace knot_utm {
 
-/// How a time step is solved: by Newton's method as it stands, or, where that runs in circles, with friction
-/// linearised by secants, shorter moves and more patience. The equations and their tolerance are the same.
+/// How a time step is solved: by Newton's method as it stands, or, where that runs in circles, with friction linearised
+/// by secants and half moves, then from there by tangents, three times over. The equations and their tolerance are the
+/// same.
 enum class Solution { kTangents, kSecants };
 
 /// How one time step went.
