@@ -12,9 +12,10 @@ constexpr double kGrowth = 1.2;
 constexpr double kFastGrowth = 1.6;  // after a step of hardly any work
 constexpr int kVeryEasy = 3;
 constexpr double kShrink = 0.7;
-// Secants are tried once so many steps have failed in a row, and in steps that are nearly the shortest.
+// Secants are tried once so many steps have failed in a row, and in steps so short: where tangents fail at every other
+// one, the steps would stay short for ever.
 constexpr int kInARow = 3;
-constexpr double kNearlyShortest = 100.0;
+constexpr double kShort = 0.01;  // [longest step]
 // A run that so many iterations have led no further than this mean each is not going to end: usual are 0.01 to 1.
 constexpr std::uint64_t kPatience = 200'000;
 constexpr double kLeastHeadway = 1e-5;  // [longest step]
@@ -71,7 +72,7 @@ std::string StepControl::advance(TimeStep& stepper, double& time, double end, co
     const double to = last ? end : time + dt;
     last_tried_ = dt;
 
-    const bool in_need = failed >= kInARow || dt < kNearlyShortest * options_.shortest;
+    const bool in_need = failed >= kInARow || dt < kShort * options_.longest;
     const StepSummary summary = step(stepper, boundary(time, to), dt, in_need);
     if (!summary.accepted()) {
       ++counters_.rejected;
