@@ -15,7 +15,7 @@ constexpr double kShrink = 0.7;
 // Secants are tried once so many steps have failed in a row, and in steps so short: where tangents fail at every other
 // one, the steps would stay short for ever.
 constexpr int kInARow = 3;
-constexpr double kShort = 0.01;  // [longest step]
+constexpr double kShort = 1e-3;  // [longest step]
 // A run that so many iterations have led no further than this mean each is not going to end: usual are 0.01 to 1.
 constexpr std::uint64_t kPatience = 200'000;
 constexpr double kLeastHeadway = 1e-5;  // [longest step]

@@ -86,11 +86,11 @@ TEST(StepControl, TriesSecantsWhereStepsHaveFailedInARow) {
 
 TEST(StepControl, TriesSecantsInShortStepsAtOnce) {
   StepControl::Options from = options();
-  from.first = 0.005 * from.longest;
+  from.first = 5e-4 * from.longest;
   StepControl control(from);
   ScriptedStep step;
   step.only_secants = true;
-  const Outcome run = advance(control, step, 1e-3);
+  const Outcome run = advance(control, step, 1e-4);
   EXPECT_EQ(run.gave_up, "");
   EXPECT_EQ(control.counters().rejected, 0u);
   EXPECT_EQ(step.by_secants.size(), run.taken.size());
