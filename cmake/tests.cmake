@@ -12,6 +12,10 @@ list(APPEND core_test_sources test/rooms_test.cpp)
 add_executable(core_tests ${core_test_sources})
 target_include_directories(core_tests PRIVATE test)
 target_link_libraries(core_tests PRIVATE knot_utm_core yaml-cpp ZLIB::ZLIB GTest::gtest_main GTest::gmock)
+if(KNOT_UTM_SANITIZE)
+  target_precompile_headers(core_tests PRIVATE <gmock/gmock.h> <gtest/gtest.h> <Eigen/Core> <Eigen/Geometry>
+                            <functional> <string> <vector>)
+endif()
 # To these files only: what a file does not use need not compile it anew.
 set_source_files_properties(
   test/rooms_test.cpp test/sim/failed_steps_test.cpp test/io/bad_input_test.cpp test/io/killed_run_test.cpp
