@@ -4,6 +4,7 @@ files are those of the headless tool, and no node hoards what is not read."""
 import copy
 import math
 import os
+import signal
 import socket
 import struct
 import sys
@@ -110,8 +111,11 @@ class StrangersTest(unittest.TestCase):
             deaf = [subscribe(launch.uri, topic, read)
                     for topic in ('/knot/state', '/knot/record', '/utm/crosshead') for read in (0, 100000)]
             deaf.append(subscribe(launch.uri, '/knot/markers'))
-            stranger = Stranger(launch.uri)
             pids = {node: launch.pid(node) for node in ('utm_node', 'knot_node')}
+            # On a busy machine the test would be over before the stranger is there.
+            os.kill(pids['utm_node'], signal.SIGSTOP)
+            stranger = Stranger(launch.uri)
+            os.kill(pids['utm_node'], signal.SIGCONT)
             before = {}
             while launch.process.poll() is None:
                 stranger.talk()
