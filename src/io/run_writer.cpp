@@ -22,6 +22,9 @@ std::string begin(const std::string& folder, const Method& method) {
 constexpr double kJump = 0.1;
 /// A contact deeper than this is no longer that of the rod it stands for [fraction of radius].
 constexpr double kDeep = 0.05;
+/// Where energies miss the work by more, what Newton's method leaves unbalanced has a part in the forces too: seen
+/// where a loose loop pulls with far less than k_b/h^2, of which `physics.residual` is a share.
+constexpr double kUnbalanced = 0.01;
 
 std::vector<std::string> warnings(const Results& results) {
   std::vector<std::string> all;
@@ -35,6 +38,10 @@ std::vector<std::string> warnings(const Results& results) {
   }
   if (results.max_penetration > kDeep) {
     all.push_back("contacts were up to " + format_number(results.max_penetration) + " radii deep");
+  }
+  if (results.energy_balance_error > kUnbalanced) {
+    all.push_back("the energy balance is off by " + format_number(*results.energy_balance_error) +
+                  ": a smaller physics.residual moves the forces");
   }
   return all;
 }

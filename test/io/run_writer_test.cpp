@@ -182,12 +182,14 @@ TEST(ResultYaml, WarnsOfWhatTheResultsShow) {
   results.untangled_at = 12.5;
   results.fastest_node = 0.2;
   results.max_penetration = 0.06;
+  results.energy_balance_error = 0.02;
   RunFacts facts;
   facts.warnings = {"of the run"};
   const YAML::Node result = YAML::Load(result_yaml(results, facts));
   const std::vector<std::string> warnings = result["warnings"].as<std::vector<std::string>>();
   EXPECT_THAT(warnings, ::testing::ElementsAre(HasSubstr("through itself at 12.5 s"), HasSubstr("0.2 m/s"),
-                                               HasSubstr("0.06 radii"), "of the run", HasSubstr("still moved")));
+                                               HasSubstr("0.06 radii"), HasSubstr("off by 0.02"), "of the run",
+                                               HasSubstr("still moved")));
   EXPECT_FALSE(result["knot_type_preserved"].as<bool>());
   EXPECT_TRUE(result["not_equilibrated"].as<bool>());
 }
