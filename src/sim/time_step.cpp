@@ -1,13 +1,12 @@
 #include "knot_utm/sim/time_step.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 #include <sstream>
 #include <type_traits>
 
+#include "diagnose_step.hpp"
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/contact/strand_passage.hpp"
@@ -83,7 +82,8 @@ class ImplicitStep final : public TimeStep {
     if (summary.accepted())
       commit();
     else
-      summary.diagnosis = diagnose(summary.newton.converged());
+      summary.diagnosis =
+          diagnose(rod_, solved(), summary.newton.converged(), {contact_.contacts(), rollers_.contacts()});
     return summary;
   }
 
@@ -408,44 +408,13 @@ class ImplicitStep final : public TimeStep {
     return out.str();
   }
 
-  /// Of the unknowns as Newton's method left them.
-  StepDiagnosis diagnose(bool converged) const {
-    StepDiagnosis out;
-    double worst = -1.0;
-    for (int i = 0; i < nodes_; ++i) {
-      const double residual = held_[at(i)] ? 0.0 : to_vec3(force_[at(i)]).norm();
-      const double motion = (x_.col(i) - state_.position.col(i)).norm();
-      const double here = converged ? motion : residual;
-      if (std::isfinite(here) && here <= worst) continue;
-      worst = here;
-      out.node = i;
-      out.residual = residual;
-      out.motion = motion;
-      if (!std::isfinite(here)) break;
-    }
-    out.arclength = rod_.rest_length.head(out.node).sum();
-    diagnose_contacts(contact_.contacts(), out);
-    diagnose_contacts(rollers_.contacts(), out);
-    return out;
-  }
-
-  template <typename Contacts>
-  static void diagnose_contacts(const Contacts& contacts, StepDiagnosis& out) {
-    for (const ContactPoint& contact : contacts) {
-      const auto stands_on = [&](int first) { return out.node >= first && out.node < first + 3; };
-      const bool part = stands_on(contact.a0) || (!contact.on_roller() && stands_on(contact.b0));
-      if (!part || !contact.touches() || (out.in_contact && contact.overlap <= out.overlap)) continue;
-      out.in_contact = true;
-      out.roller = contact.roller;
-      out.contact_arclengths[0] = contact.arclength_a;
-      out.contact_arclengths[1] = contact.arclength_b;
-      out.overlap = contact.overlap;
-      out.slides = contact.z.squaredNorm() > 0.99;
-    }
+  /// As its unknowns stand now.
+  SolvedStep solved() {
+    way_.noalias() = x_ - state_.position;
+    return {state_, x_, way_, *boundary_, dt_, force_, held_};
   }
 
   void commit() {
-    way_.noalias() = x_ - state_.position;
     read();
     contact_.commit(x_);
     rollers_.commit(boundary_->rollers);
@@ -456,7 +425,7 @@ class ImplicitStep final : public TimeStep {
   }
 
   void read() {
-    const SolvedStep step{state_, x_, way_, *boundary_, dt_, force_, held_};
+    const SolvedStep step = solved();
     readings_.begin(step, rollers_);
     FrameTerms::Energy frames;
     if constexpr (D == 4) frames = frames_.energy(way_, force_);
@@ -485,7 +454,7 @@ class ImplicitStep final : public TimeStep {
   std::vector<Lanes> force_, change_;
   std::vector<char> held_;
   StepReadings readings_;
-  Points way_;                             // of the step that is being accepted [m]
+  Points way_;                             // of the step that is accepted or diagnosed [m]
   std::vector<PressureTangent> tangents_;  // of the active contacts, in order
 };
 
