@@ -23,9 +23,10 @@ namespace {
 constexpr double kStiffeningDepth = 0.015;   // c of the normal law: at the kN of a locked knot a rod gives 5 % [h]
 constexpr double kFullResidual = 0.1;        // of the longest step, below which the residual shrinks with the step
 constexpr double kResidualOfTension = 2e-6;  // of the largest tension, so that kN loads do not ask for more than digits
-constexpr double kGripStretch = 2.4;         // of a tail's grip when it slips [h]
-constexpr double kTakeUpLoad = 0.02;         // slack is taken up once the load has risen by this much [k_b/h^2] ...
-constexpr double kTakeUpMotion = 0.3;        // ... or once the knots have moved by this much [h]
+constexpr double kResidualAtLittleTension = 1e-3;  // loose knots bear much less than k_b/h^2, and are read too
+constexpr double kGripStretch = 2.4;               // of a tail's grip when it slips [h]
+constexpr double kTakeUpLoad = 0.02;   // slack is taken up once the load has risen by this much [k_b/h^2] ...
+constexpr double kTakeUpMotion = 0.3;  // ... or once the knots have moved by this much [h]
 
 constexpr double kShortestStep = 0.01;  // below it the run gives up, where that is less than usual [bending time]
 
@@ -50,6 +51,7 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
   out.residual = tolerance.residual * material.bending_stiffness / (h * h);
   out.residual_from_step = kFullResidual * tolerance.longest_step;
   out.residual_of_tension = kResidualOfTension;
+  out.residual_at_little_tension = kResidualAtLittleTension;
   out.newton_cap = 0.1 * h;
   out.motion_limit = 0.8 * h;
   out.overlap_limit = 0.5 * h;

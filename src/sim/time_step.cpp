@@ -30,6 +30,7 @@ struct PressureTangent {
 constexpr int kTurns = 6;                // of secants and tangents
 constexpr double kShareBySecants = 0.5;  // of a change
 constexpr double kLeastResidual = 1e-3;  // of the residual, in short steps
+constexpr double kLooseResidual = 1e-2;  // of the residual, at little tension
 
 template <typename StrandContact>
 StrandContact strand_contact(const RodProperties& rod, const StepSettings& settings) {
@@ -132,7 +133,14 @@ class ImplicitStep final : public TimeStep {
     // What is left unbalanced shakes the rod, the more often the shorter the steps: it would keep them short.
     const double full = settings_.residual_from_step;
     const double share = dt_ < full ? std::max(dt_ * dt_ / (full * full), kLeastResidual) : 1.0;
-    return share * settings_.residual + settings_.residual_of_tension * centreline_.largest_tension();
+    const double tension = centreline_.largest_tension();
+    return share * loose_residual(tension) + settings_.residual_of_tension * tension;
+  }
+
+  double loose_residual(double tension) const {
+    const double residual = settings_.residual;
+    if (settings_.residual_at_little_tension <= 0.0) return residual;
+    return std::clamp(settings_.residual_at_little_tension * tension, kLooseResidual * residual, residual);
   }
 
   bool solve() {

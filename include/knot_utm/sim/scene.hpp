@@ -71,17 +71,18 @@ struct StepSettings {
   NormalLaw normal;                              ///< between strands, and on rollers
   Friction friction;                             ///< between strands
   Friction roller_friction;
-  double share_time = 0.05;          ///< in which a contact's share follows the shape (smooth_contact.hpp) [s]
-  Vec3 gravity = Vec3::Zero();       ///< g [m/s^2]
-  double drag = 0.0;                 ///< c, force -c v per length [N s/m^2]
-  bool spin_inertia = true;          ///< turning of the rod about itself has inertia and drag (frame_terms.hpp)
-  double residual = 0.0;             ///< Newton's largest nodal residual [N]
-  double residual_from_step = 0.0;   ///< in shorter steps it shrinks with their square, to a thousandth [s]
-  double residual_of_tension = 0.0;  ///< to which this share of the largest tension is added [-]
-  double newton_cap = 0.0;           ///< longest movement of a node in one Newton iteration [m]
-  double motion_limit = 0.0;         ///< longest movement of a node in one step [m]
-  double overlap_limit = 0.0;        ///< deepest overlap of a step that may be accepted [m]
-  double candidate_margin = 0.0;     ///< of the contact search [m]
+  double share_time = 0.05;                 ///< in which a contact's share follows the shape (smooth_contact.hpp) [s]
+  Vec3 gravity = Vec3::Zero();              ///< g [m/s^2]
+  double drag = 0.0;                        ///< c, force -c v per length [N s/m^2]
+  bool spin_inertia = true;                 ///< turning of the rod about itself has inertia and drag (frame_terms.hpp)
+  double residual = 0.0;                    ///< Newton's largest nodal residual [N]
+  double residual_from_step = 0.0;          ///< in shorter steps it shrinks with their square, to a thousandth [s]
+  double residual_of_tension = 0.0;         ///< to which this share of the largest tension is added [-]
+  double residual_at_little_tension = 0.0;  ///< it shrinks to this share of that, at most to a hundredth; 0: never [-]
+  double newton_cap = 0.0;                  ///< longest movement of a node in one Newton iteration [m]
+  double motion_limit = 0.0;                ///< longest movement of a node in one step [m]
+  double overlap_limit = 0.0;               ///< deepest overlap of a step that may be accepted [m]
+  double candidate_margin = 0.0;            ///< of the contact search [m]
   int max_iterations = 20;
 
   void state(Archive& archive);
