@@ -27,7 +27,7 @@ struct PressureTangent {
   double pressure, slope;
 };
 
-constexpr int kTurns = 6;                // of secants and tangents
+constexpr int kTurns = 3;                // of secants and tangents
 constexpr double kShareBySecants = 0.5;  // of a change
 constexpr double kLeastResidual = 1e-3;  // of the residual, in short steps
 constexpr double kLooseResidual = 1e-2;  // of the residual, at little tension
@@ -70,15 +70,8 @@ class ImplicitStep final : public TimeStep {
   StepSummary step(const Boundary& boundary, double dt, Solution solution) override {
     boundary_ = &boundary;
     dt_ = dt;
-    share_ = motion_ = 0.0;
     StepSummary summary;
-    contact_.refresh(state_.position);
-    predict();
-    contact_.begin_step();
-    rollers_.begin_step();
-    if constexpr (D == 4) frames_.begin_step(state_, boundary.fixed_twists, dt);
-    matrix_.begin_step();
-    summary.newton = solution == Solution::kTangents ? by_tangents() : by_turns();
+    summary.newton = solution == Solution::kTangents ? by_tangents() : by_secants();
     examine(summary);
     if (summary.accepted())
       commit();
@@ -88,19 +81,43 @@ class ImplicitStep final : public TimeStep {
     return summary;
   }
 
+  void begin() {
+    share_ = motion_ = 0.0;
+    contact_.refresh(state_.position);
+    predict();
+    contact_.begin_step();
+    rollers_.begin_step();
+    if constexpr (D == 4) frames_.begin_step(state_, boundary_->fixed_twists, dt_);
+    matrix_.begin_step();
+  }
+
   NewtonSummary by_tangents() {
+    begin();
     use_secants(false);
     return newton(*this, {settings_.max_iterations});
   }
 
   /// Secants creep up to the solution from afar, on a side of every kink; tangents from there find it in few
-  /// iterations.
-  NewtonSummary by_turns() {
+  /// iterations. Where whole changes leap to and fro, halves need not.
+  NewtonSummary by_secants() {
+    begin();
+    NewtonSummary out = by_turns(1.0, 1);
+    if (out.converged()) return out;
+    begin();
+    const int before = out.iterations;
+    out = by_turns(kShareBySecants, kTurns);
+    out.iterations += before;
+    return out;
+  }
+
+  /// Secants, of whose changes that share is taken, and tangents, so many times over.
+  NewtonSummary by_turns(double share, int turns) {
     NewtonSummary out;
-    for (int turn = 0; turn < kTurns; ++turn) {
+    for (int turn = 0; turn < 2 * turns; ++turn) {
+      const bool secants = turn % 2 == 0;
       const int before = out.iterations;
-      use_secants(turn % 2 == 0);
-      out = newton(*this, {settings_.max_iterations, turn % 2 == 0 ? kShareBySecants : 1.0});
+      use_secants(secants);
+      out = newton(*this, {settings_.max_iterations, secants ? share : 1.0});
       out.iterations += before;
       if (out.end != NewtonSummary::End::kIterationLimit) break;
     }
@@ -131,14 +148,19 @@ class ImplicitStep final : public TimeStep {
 
   double tolerance() const {
     // What is left unbalanced shakes the rod, the more often the shorter the steps: it would keep them short.
-    const double full = settings_.residual_from_step;
-    const double share = dt_ < full ? std::max(dt_ * dt_ / (full * full), kLeastResidual) : 1.0;
-    const double tension = centreline_.largest_tension();
-    return share * loose_residual(tension) + settings_.residual_of_tension * tension;
+    const double full = settings_.residual_from_step, residual = settings_.residual;
+    const double share = dt_ < full ? dt_ * dt_ / (full * full) : 1.0;
+    return std::max(share * loose_residual(), kLeastResidual * residual);
   }
 
-  double loose_residual(double tension) const {
-    const double residual = settings_.residual;
+  /// How much more than the tolerance a node's force may be off. Its own edges count: in a locked knot they bear kN,
+  /// while next to it are tails that a trifle moves.
+  double ease(int node, double tolerance) const {
+    return 1.0 + settings_.residual_of_tension * centreline_.largest_tension_at(node) / tolerance;
+  }
+
+  double loose_residual() const {
+    const double tension = centreline_.largest_tension(), residual = settings_.residual;
     if (settings_.residual_at_little_tension <= 0.0) return residual;
     return std::clamp(settings_.residual_at_little_tension * tension, kLooseResidual * residual, residual);
   }
@@ -352,7 +374,7 @@ class ImplicitStep final : public TimeStep {
       out.spin = spin;
     };
     for (int i = 0; i < nodes_; ++i) {
-      if (!held_[at(i)]) find_worst(i, false, to_vec3(force_[at(i)]).norm());
+      if (!held_[at(i)]) find_worst(i, false, to_vec3(force_[at(i)]).norm() / ease(i, out.tolerance));
       if constexpr (D == 4)
         if (!frames_.held(i)) find_worst(i, true, std::abs(force_[at(i)][3]) / rod_.material.radius);
     }
@@ -376,13 +398,14 @@ class ImplicitStep final : public TimeStep {
   }
 
   double largest_free_force() const {
+    const double tolerance = this->tolerance();
     double largest2 = 0.0;
     for (int i = 0; i < nodes_; ++i) {
       if (held_[at(i)]) continue;
       const Lanes& f = force_[at(i)];
-      const double size2 = f[0] * f[0] + f[1] * f[1] + f[2] * f[2];
+      const double size2 = f[0] * f[0] + f[1] * f[1] + f[2] * f[2], ease = this->ease(i, tolerance);
       if (!std::isfinite(size2)) return size2;
-      largest2 = std::max(largest2, size2);
+      largest2 = std::max(largest2, size2 / (ease * ease));
     }
     return std::sqrt(largest2);
   }

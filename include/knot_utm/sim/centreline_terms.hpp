@@ -20,6 +20,13 @@ class CentrelineTerms {
   /// Largest |tension| of an edge at that position [N].
   double largest_tension() const { return largest_tension_; }
 
+  /// Of the one or two edges that end at a node.
+  double largest_tension_at(int node) const {
+    const std::size_t j = static_cast<std::size_t>(node);
+    const double ahead = j < tension_.size() ? std::abs(tension_[j]) : 0.0;
+    return j > 0 ? std::max(std::abs(tension_[j - 1]), ahead) : ahead;
+  }
+
   /// Both energies at that position, and how they would change along `way` [m] by their gradient there.
   struct Energy {
     double stretching = 0.0, bending = 0.0;  ///< [J]

@@ -77,8 +77,8 @@ struct StepSettings {
   bool spin_inertia = true;                 ///< turning of the rod about itself has inertia and drag (frame_terms.hpp)
   double residual = 0.0;                    ///< Newton's largest nodal residual [N]
   double residual_from_step = 0.0;          ///< in shorter steps it shrinks with their square, to a thousandth [s]
-  double residual_of_tension = 0.0;         ///< to which this share of the largest tension is added [-]
-  double residual_at_little_tension = 0.0;  ///< it shrinks to this share of that, at most to a hundredth; 0: never [-]
+  double residual_of_tension = 0.0;         ///< more of it where a node's own edges bear tension: by this share [-]
+  double residual_at_little_tension = 0.0;  ///< it shrinks to this share of the largest one; 0: no [-]
   double newton_cap = 0.0;                  ///< longest movement of a node in one Newton iteration [m]
   double motion_limit = 0.0;                ///< longest movement of a node in one step [m]
   double overlap_limit = 0.0;               ///< deepest overlap of a step that may be accepted [m]

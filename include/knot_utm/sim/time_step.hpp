@@ -13,8 +13,8 @@
 namespace knot_utm {
 
 /// How a time step is solved: by Newton's method as it stands, or, where that runs in circles, with friction linearised
-/// by secants and half moves, then from there by tangents, three times over. The equations and their tolerance are the
-/// same.
+/// by secants, then from there by tangents; if that fails too, anew with half of each change that secants make, three
+/// times over. The equations and their tolerance are the same.
 enum class Solution { kTangents, kSecants };
 
 /// How one time step went.
