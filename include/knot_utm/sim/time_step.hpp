@@ -30,7 +30,7 @@ struct StepSummary {
 
 /// Where the solution of a step stands, for those who watch it.
 struct Iterate {
-  double residual = 0.0;      ///< the largest [N]
+  double residual = 0.0;      ///< the largest; a node's is less by the factor by which its edges' tension eases it [N]
   double tolerance = 0.0;     ///< what it may be [N]
   int node = -1;              ///< whose it is; -1: of none, all are held
   bool spin = false;          ///< it is the torque on the edge behind the node, over the radius

@@ -15,7 +15,7 @@ struct NewtonSummary {
   enum class End { kNotRun, kConverged, kIterationLimit, kSingular, kNotFinite };
   End end = End::kNotRun;
   int iterations = 0;      ///< linear solves
-  double residual = 0.0;   ///< largest nodal residual at the end [N]
+  double residual = 0.0;   ///< at the end, as the system measures it [N]
   double tolerance = 0.0;  ///< what it was compared with [N]
 
   bool converged() const { return end == End::kConverged; }
