@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "knot_utm/io/number.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/rod/archive.hpp"
 
@@ -42,6 +43,10 @@ std::uint64_t Checkpoint::load(TestBench& bench, TestProgram& program) const {
   std::uint64_t journal_bytes = 0;
   visit(archive, bench, program, journal_bytes);
   archive.end();
+  // A command is at most a longest step ahead; twice that leaves room for rounding.
+  const double ahead = program.last().time - bench.time();
+  archive.require(ahead >= 0.0 && ahead <= 2.0 * bench.longest_step(), "next command",
+                  format_number(ahead) + " s ahead of the physics");
   return journal_bytes;
 }
 

@@ -346,6 +346,7 @@ const RodProperties& TestBench::rod() const { return impl_->stepper->rod(); }
 const RodState& TestBench::state() const { return impl_->stepper->state(); }
 Vec3 TestBench::lower_grip() const { return impl_->grips.lower(); }
 Vec3 TestBench::upper_grip() const { return impl_->grips.upper(impl_->displacement); }
+double TestBench::time() const { return impl_->time; }
 double TestBench::longest_step() const { return tolerances(impl_->physics, impl_->specimen).longest_step; }
 Eigen::VectorXd TestBench::tension() const { return impl_->stepper->tension(); }
 void TestBench::state(Archive& archive) { impl_->state(archive); }

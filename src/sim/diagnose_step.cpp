@@ -1,7 +1,5 @@
 #include "diagnose_step.hpp"
 
-#include <cmath>
-
 namespace knot_utm {
 
 namespace {
@@ -23,22 +21,13 @@ void find_contact(const std::vector<ContactPoint>& contacts, StepDiagnosis& out)
 
 }  // namespace
 
-StepDiagnosis diagnose(const RodProperties& rod, const SolvedStep& step, bool converged, ContactLists contacts) {
+StepDiagnosis diagnose(const RodProperties& rod, const SolvedStep& step, int node, double residual,
+                       ContactLists contacts) {
   StepDiagnosis out;
-  double worst = -1.0;
-  for (int i = 0; i < static_cast<int>(rod.nodes()); ++i) {
-    const auto node = static_cast<std::size_t>(i);
-    const double residual = step.held[node] ? 0.0 : to_vec3(step.force[node]).norm();
-    const double motion = step.way.col(i).norm();
-    const double here = converged ? motion : residual;
-    if (std::isfinite(here) && here <= worst) continue;
-    worst = here;
-    out.node = i;
-    out.residual = residual;
-    out.motion = motion;
-    if (!std::isfinite(here)) break;
-  }
-  out.arclength = rod.rest_length.head(out.node).sum();
+  out.node = node;
+  out.arclength = rod.rest_length.head(node).sum();
+  out.residual = residual;
+  out.motion = step.way.col(node).norm();
   for (const std::vector<ContactPoint>& list : contacts) find_contact(list, out);
   return out;
 }

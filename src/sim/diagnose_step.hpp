@@ -12,7 +12,8 @@ namespace knot_utm {
 
 using ContactLists = std::initializer_list<std::reference_wrapper<const std::vector<ContactPoint>>>;
 
-/// Where a step was hardest, as Newton's method left it.
-StepDiagnosis diagnose(const RodProperties& rod, const SolvedStep& step, bool converged, ContactLists contacts);
+/// A node of a step as Newton's method left it; `residual`: its own [N].
+StepDiagnosis diagnose(const RodProperties& rod, const SolvedStep& step, int node, double residual,
+                       ContactLists contacts);
 
 }  // namespace knot_utm

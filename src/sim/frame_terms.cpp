@@ -141,17 +141,6 @@ FrameTerms::EdgeStiffness FrameTerms::edge_stiffness(int j) const {
   return out;
 }
 
-double FrameTerms::largest_free_torque(const std::vector<Lanes>& force) const {
-  double largest = 0.0;
-  for (std::size_t j = 0; j + 1 < held_.size(); ++j) {
-    if (held_[j]) continue;
-    const double size = std::abs(force[j][3]);
-    if (!std::isfinite(size)) return size;
-    largest = std::max(largest, size);
-  }
-  return largest;
-}
-
 double FrameTerms::angle_change(const std::vector<Lanes>& change, int j) const {
   return held(j) ? 0.0 : change[at(j)][3] - lean(j).dot(to_vec3(change[at(j + 1)] - change[at(j)]));
 }

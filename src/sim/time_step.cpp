@@ -15,6 +15,7 @@
 #include "knot_utm/sim/centreline_terms.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
+#include "residual_rule.hpp"
 
 namespace knot_utm {
 
@@ -27,10 +28,15 @@ struct PressureTangent {
   double pressure, slope;
 };
 
+/// The largest residual, and whose it is.
+struct Worst {
+  double residual = 0.0;  // over the node's ease [N]
+  int node = -1;          // none: all are held
+  bool spin = false;      // the torque on the edge behind the node, over the radius
+};
+
 constexpr int kTurns = 3;                // of secants and tangents
 constexpr double kShareBySecants = 0.5;  // of a change
-constexpr double kLeastResidual = 1e-3;  // of the residual, in short steps
-constexpr double kLooseResidual = 1e-2;  // of the residual, at little tension
 
 template <typename StrandContact>
 StrandContact strand_contact(const RodProperties& rod, const StepSettings& settings) {
@@ -58,6 +64,7 @@ class ImplicitStep final : public TimeStep {
         passage_(rod.nodes()),
         centreline_(rod_, rod.natural_curvature.cols() == 0),
         frames_(rod_, settings_),
+        rule_(settings_),
         nodes_(static_cast<int>(rod.nodes())),
         matrix_(nodes_),
         diagonal_(at(nodes_)),
@@ -76,8 +83,7 @@ class ImplicitStep final : public TimeStep {
     if (summary.accepted())
       commit();
     else
-      summary.diagnosis =
-          diagnose(rod_, solved(), summary.newton.converged(), {contact_.contacts(), rollers_.contacts()});
+      summary.diagnosis = summary.newton.converged() ? diagnosis_at(fastest_node()) : diagnosis_at(worst_.node);
     return summary;
   }
 
@@ -141,29 +147,12 @@ class ImplicitStep final : public TimeStep {
     for (const ContactPoint& contact : contact_.contacts()) add_contact_force(contact);
     for (const ContactPoint& contact : rollers_.contacts()) add_contact_force(contact);
     add_grips_and_forces();
-    const double largest = largest_residual();
-    if (watcher_) report(largest);
-    return largest;
+    worst_ = worst();
+    if (watcher_) report();
+    return worst_.residual;
   }
 
-  double tolerance() const {
-    // What is left unbalanced shakes the rod, the more often the shorter the steps: it would keep them short.
-    const double full = settings_.residual_from_step, residual = settings_.residual;
-    const double share = dt_ < full ? dt_ * dt_ / (full * full) : 1.0;
-    return std::max(share * loose_residual(), kLeastResidual * residual);
-  }
-
-  /// How much more than the tolerance a node's force may be off. Its own edges count: in a locked knot they bear kN,
-  /// while next to it are tails that a trifle moves.
-  double ease(int node, double tolerance) const {
-    return 1.0 + settings_.residual_of_tension * centreline_.largest_tension_at(node) / tolerance;
-  }
-
-  double loose_residual() const {
-    const double tension = centreline_.largest_tension(), residual = settings_.residual;
-    if (settings_.residual_at_little_tension <= 0.0) return residual;
-    return std::clamp(settings_.residual_at_little_tension * tension, kLooseResidual * residual, residual);
-  }
+  double tolerance() const { return rule_.tolerance(centreline_.largest_tension(), dt_); }
 
   bool solve() {
     matrix_.locate(contact_.contacts());
@@ -349,35 +338,46 @@ class ImplicitStep final : public TimeStep {
     }
   }
 
-  double largest_residual() const {
-    const double force = largest_free_force();
-    if constexpr (D == 4) {
-      const double torque = frames_.largest_free_torque(force_) / rod_.material.radius;
-      // std::max keeps its first argument where it is not a number, not its second.
-      return std::isfinite(torque) ? std::max(force, torque) : torque;
-    }
-    return force;
+  double residual_at(int node) const {
+    return held_[at(node)] ? 0.0 : to_vec3(force_[at(node)]).norm() / ease(node, tolerance());
   }
 
-  void report(double largest) const {
+  double ease(int node, double tolerance) const { return rule_.ease(centreline_.largest_tension_at(node), tolerance); }
+
+  /// The first that is no number, else the largest.
+  Worst worst() const {
+    const double tolerance = this->tolerance();
+    Worst out;
+    double largest2 = 0.0;
+    for (int i = 0; i < nodes_; ++i) {
+      if (held_[at(i)]) continue;
+      const Lanes& f = force_[at(i)];
+      const double size2 = f[0] * f[0] + f[1] * f[1] + f[2] * f[2], ease = this->ease(i, tolerance);
+      if (!std::isfinite(size2)) return {size2, i, false};
+      const double eased2 = size2 / (ease * ease);
+      if (out.node >= 0 && eased2 <= largest2) continue;
+      largest2 = eased2;
+      out.node = i;
+    }
+    out.residual = std::sqrt(largest2);
+    if constexpr (D == 4)
+      for (int i = 0; i + 1 < nodes_; ++i) {
+        if (frames_.held(i)) continue;
+        const double size = std::abs(force_[at(i)][3]) / rod_.material.radius;
+        if (!std::isfinite(size)) return {size, i, true};
+        if (size > out.residual) out = {size, i, true};
+      }
+    return out;
+  }
+
+  void report() const {
     Iterate out;
-    out.residual = largest;
+    out.residual = worst_.residual;
     out.tolerance = tolerance();
+    out.node = worst_.node;
+    out.spin = worst_.spin;
     out.share = share_;
     out.motion = motion_;
-    double worst = -1.0;
-    const auto find_worst = [&](int node, bool spin, double size) {
-      // Once it is not a number it stays so.
-      if (std::isnan(worst) || size <= worst) return;
-      worst = size;
-      out.node = node;
-      out.spin = spin;
-    };
-    for (int i = 0; i < nodes_; ++i) {
-      if (!held_[at(i)]) find_worst(i, false, to_vec3(force_[at(i)]).norm() / ease(i, out.tolerance));
-      if constexpr (D == 4)
-        if (!frames_.held(i)) find_worst(i, true, std::abs(force_[at(i)][3]) / rod_.material.radius);
-    }
     report_contacts(contact_.contacts(), out);
     report_contacts(rollers_.contacts(), out);
     watcher_(out);
@@ -397,19 +397,6 @@ class ImplicitStep final : public TimeStep {
     }
   }
 
-  double largest_free_force() const {
-    const double tolerance = this->tolerance();
-    double largest2 = 0.0;
-    for (int i = 0; i < nodes_; ++i) {
-      if (held_[at(i)]) continue;
-      const Lanes& f = force_[at(i)];
-      const double size2 = f[0] * f[0] + f[1] * f[1] + f[2] * f[2], ease = this->ease(i, tolerance);
-      if (!std::isfinite(size2)) return size2;
-      largest2 = std::max(largest2, size2 / (ease * ease));
-    }
-    return std::sqrt(largest2);
-  }
-
   void examine(StepSummary& summary) {
     if (!summary.newton.converged()) {
       summary.reason = summary.newton.reason();
@@ -427,6 +414,18 @@ class ImplicitStep final : public TimeStep {
       summary.reason = "strands overlap more than a step may leave";
     else if (const std::optional<Passage> passage = passage_.find(state_.position, x_))
       summary.reason = reason(*passage);
+  }
+
+  int fastest_node() const {
+    Eigen::Index node = 0;
+    (x_ - state_.position).colwise().squaredNorm().maxCoeff(&node);
+    return static_cast<int>(node);
+  }
+
+  StepDiagnosis diagnosis_at(int node) {
+    if (node < 0) return {};
+    const double residual = node == worst_.node ? worst_.residual : residual_at(node);
+    return diagnose(rod_, solved(), node, residual, {contact_.contacts(), rollers_.contacts()});
   }
 
   std::string reason(const Passage& passage) const {
@@ -475,6 +474,7 @@ class ImplicitStep final : public TimeStep {
   StrandPassage passage_;
   CentrelineTerms centreline_;
   std::conditional_t<D == 4, FrameTerms, NoFrames> frames_;
+  ResidualRule rule_;
   int nodes_;
   StepMatrix<D> matrix_;
   std::vector<double> diagonal_;
@@ -483,6 +483,7 @@ class ImplicitStep final : public TimeStep {
   double share_ = 0.0, motion_ = 0.0;  // of the last change; its largest movement [m]
   Points x_;
   std::vector<Lanes> force_, change_;
+  Worst worst_;  // of force_
   std::vector<char> held_;
   StepReadings readings_;
   Points way_;                             // of the step that is accepted or diagnosed [m]

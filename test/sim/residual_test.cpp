@@ -15,20 +15,33 @@ struct RodWithTail {
   const Material material = braided_rope();
   const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(kStretched + kTail, material.radius));
 
-  /// How far a force across moves the end of the tail in a long step [m].
-  double deflection(double force, double residual_of_tension) const {
+  RodState stretched() const {
     RodState state = straight_state(rod);
     for (int i = 0; i < kStretched; ++i) state.position(0, i) -= 0.1 * (kStretched - i) * material.radius;
-    StepSettings settings = closed_form_settings(material);
+    return state;
+  }
+  std::unique_ptr<TimeStep> make(StepSettings settings) const {
     settings.newton_cap = 0.03 * material.radius;  // so that one iteration does not get there
-    settings.residual_of_tension = residual_of_tension;
+    return TimeStep::make(rod, stretched(), settings);
+  }
+  /// A long step with that force across the end of the tail [N].
+  StepSummary step(TimeStep& step, double force, double force_on_the_loaded = 0.0) const {
+    const Points position = stretched().position;
     Boundary boundary;
-    boundary.fixed_nodes = {{0, state.position.col(0)}, {kStretched, state.position.col(kStretched)}};
-    boundary.forces = {{kStretched + kTail, Vec3(0.0, 0.0, force)}};
-    const std::unique_ptr<TimeStep> step = TimeStep::make(rod, state, settings);
-    const StepSummary summary = step->step(boundary, 1e3);
+    boundary.fixed_nodes = {{0, position.col(0)}, {kStretched, position.col(kStretched)}};
+    boundary.forces = {{kStretched + kTail, Vec3(0.0, 0.0, force)},
+                       {kStretched / 2, Vec3(0.0, 0.0, force_on_the_loaded)}};
+    return step.step(boundary, 1e3);
+  }
+
+  /// How far the force moves the end of the tail [m].
+  double deflection(double force, double residual_of_tension) const {
+    StepSettings settings = closed_form_settings(material);
+    settings.residual_of_tension = residual_of_tension;
+    const std::unique_ptr<TimeStep> stepper = make(settings);
+    const StepSummary summary = step(*stepper, force);
     EXPECT_TRUE(summary.accepted()) << summary.reason;
-    return step->state().position(2, kStretched + kTail);
+    return stepper->state().position(2, kStretched + kTail);
   }
 };
 
@@ -42,6 +55,18 @@ TEST(Residual, OfASlackTailIsNotThatOfTheLoadedRodBesideIt) {
   const double length = RodWithTail::kTail * scene.material.radius;
   const double error = 1e-8 * std::pow(length, 3) / (3.0 * scene.material.bending_stiffness);
   EXPECT_NEAR(scene.deflection(kForce, kOfTension), exact, RodWithTail::kTail * error);
+}
+
+TEST(Residual, ADiagnosisIsOfTheNodeThatNewtonsMethodMeasuredTheLargestAt) {
+  const RodWithTail scene;
+  StepSettings settings = closed_form_settings(scene.material);
+  settings.residual_of_tension = 2e-6;
+  settings.max_iterations = 1;
+  const std::unique_ptr<TimeStep> stepper = scene.make(settings);
+  const StepSummary summary = scene.step(*stepper, 1e-3, 1e-2);
+  ASSERT_FALSE(summary.newton.converged());
+  EXPECT_GT(summary.diagnosis.node, RodWithTail::kStretched) << "the larger force is on a node whose edges are taut";
+  EXPECT_EQ(summary.diagnosis.residual, summary.newton.residual);
 }
 
 }  // namespace

@@ -39,6 +39,7 @@ class TestBench {
   const RodState& state() const;
   Vec3 lower_grip() const;      ///< centre of roller, node or clamp [m]
   Vec3 upper_grip() const;      ///< [m]
+  double time() const;          ///< that the physics has come to [s]
   double longest_step() const;  ///< longest time step of the chosen accuracy [s]: the longest command period
 
   /// Force in the rod at each edge, tension positive [N], as the last accepted step left it.

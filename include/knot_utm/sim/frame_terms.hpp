@@ -71,8 +71,6 @@ class FrameTerms {
 
   /// The angle is prescribed; so is that of the last node, which has no edge behind it.
   bool held(int edge) const { return held_[static_cast<std::size_t>(edge)] != 0; }
-  /// Largest torque on an edge that is free to turn [N m].
-  double largest_free_torque(const std::vector<Lanes>& force) const;
 
   /// A share of at most 1 of the change (dx, ds) that no angle takes further than it may go in one iteration.
   double longest_share(const std::vector<Lanes>& change) const;

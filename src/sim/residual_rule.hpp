@@ -1,0 +1,46 @@
+#pragma once
+
+#include <algorithm>
+
+#include "knot_utm/sim/scene.hpp"
+
+namespace knot_utm {
+
+/// What Newton's method may leave unbalanced.
+///
+///   tolerance  max(s clamp(l T, r/100, r), r/1000), s = min(1, (dt/t_r)^2)
+///   ease       of a node: 1 + a T_i / tolerance, the factor by which its residual may be larger
+///
+/// Symbols: r residual [N], l residual_at_little_tension (0: r instead of the clamp), a residual_of_tension, t_r
+/// residual_from_step [s]; T largest tension of the rod, T_i of the edges of node i [N].
+///
+/// What is left unbalanced shakes the rod, the more often the shorter the steps: it would keep them short. A node's own
+/// edges count: in a locked knot they bear kN, while next to it are tails that a trifle moves.
+class ResidualRule {
+ public:
+  explicit ResidualRule(const StepSettings& settings)
+      : residual_(settings.residual),
+        from_step_(settings.residual_from_step),
+        of_tension_(settings.residual_of_tension),
+        at_little_tension_(settings.residual_at_little_tension) {}
+
+  double tolerance(double tension, double dt) const {
+    const double share = dt < from_step_ ? dt * dt / (from_step_ * from_step_) : 1.0;
+    return std::max(share * loose(tension), kInShortSteps * residual_);
+  }
+  double ease(double tension_at_node, double tolerance) const {
+    return 1.0 + of_tension_ * tension_at_node / tolerance;
+  }
+
+ private:
+  static constexpr double kInShortSteps = 1e-3, kAtLittleTension = 1e-2;  // of r, at least
+
+  double loose(double tension) const {
+    if (at_little_tension_ <= 0.0) return residual_;
+    return std::clamp(at_little_tension_ * tension, kAtLittleTension * residual_, residual_);
+  }
+
+  double residual_, from_step_, of_tension_, at_little_tension_;
+};
+
+}  // namespace knot_utm
