@@ -1,6 +1,9 @@
 # Every file of src/tools is one executable that needs no ROS master; with catkin they write bags too.
 find_package(CLI11 REQUIRED)
 file(GLOB tools CONFIGURE_DEPENDS src/tools/*.cpp)
+if(NOT catkin_FOUND)
+  list(FILTER tools EXCLUDE REGEX import_instron)  # writes nothing but a bag
+endif()
 foreach(source ${tools})
   get_filename_component(name ${source} NAME_WE)
   knot_utm_executable(${name} ${source})

@@ -12,8 +12,6 @@ constexpr double kLeastSliding = 0.15;  // of all extension
 constexpr double kGone = 0.05;          // of the largest load
 constexpr double kOpened = 1.5;         // times the tied excess length
 
-using Pull = MotionPatternTracker::Pull;
-
 /// Least-squares line y(s) through the samples from `begin` to `end`, each weighted by the extension it stands for.
 struct Line {
   double mean_s = 0.0, mean = 0.0, slope = 0.0;
@@ -23,7 +21,7 @@ struct Line {
 };
 
 template <typename Value>
-Line fit(const std::vector<Pull>& pull, std::size_t begin, std::size_t end, Value value) {
+Line fit(const Pull& pull, std::size_t begin, std::size_t end, Value value) {
   Line line;
   double weights = 0.0;
   const auto weight = [&](std::size_t i) {
@@ -119,7 +117,7 @@ void MotionPatternTracker::add(const Sample& sample) {
   while (window_begin_ + 3 < pull_.size() && sample.extension - pull_[window_begin_ + 1].extension >= window_) {
     ++window_begin_;
   }
-  const Line line = fit(pull_, window_begin_, pull_.size(), [](const Pull& p) { return p.knot_distance; });
+  const Line line = fit(pull_, window_begin_, pull_.size(), [](const PullPoint& p) { return p.knot_distance; });
   const double slope_before = slope_;
   const double centre_before = centre_;
   const bool first = !std::isfinite(slope_before);
@@ -180,27 +178,25 @@ double MotionPatternTracker::confidence() const {
     return opened() ? 0.75 : 0.5;
   }
   const bool sliding = found == MotionPattern::kSliding;
-  const double start = pull_.front().extension;
-  const double end = sliding ? lock_extension().value_or(pull_.back().extension) : pull_.back().extension;
-  const double low = sliding ? start + 0.3 * (end - start) : start;
-  const double high = sliding ? start + 0.8 * (end - start) : end;
+  const Range whole = {pull_.front().extension, pull_.back().extension};
+  const Range part = sliding ? plateau_range(pull_, lock_extension().value_or(whole.high)) : whole;
   const auto place = [&](double s) {
-    const auto found_at = std::lower_bound(pull_.begin(), pull_.end(), s,
-                                           [](const Pull& p, double extension) { return p.extension < extension; });
+    const auto found_at = std::lower_bound(
+        pull_.begin(), pull_.end(), s, [](const PullPoint& p, double extension) { return p.extension < extension; });
     return static_cast<std::size_t>(found_at - pull_.begin());
   };
-  const std::size_t first = place(low);
-  const std::size_t last = std::min(place(high) + 1, pull_.size());
+  const std::size_t first = place(part.low);
+  const std::size_t last = std::min(place(part.high) + 1, pull_.size());
   if (last < first + 3) return 0.0;
 
   const auto force_sign = [&](const Line& line) {
     if (!sliding) return unit(line.correlation);
     return unit(1.0 - (std::max(0.0, line.slope) * line.width + line.deviation) / line.mean);
   };
-  const double rate = fit(pull_, first, last, [](const Pull& p) { return p.knot_distance; }).slope;
+  const double rate = fit(pull_, first, last, [](const PullPoint& p) { return p.knot_distance; }).slope;
   double signs = sliding ? unit(1.0 - std::abs(rate + 2.0)) : unit(1.0 + rate);
-  signs += force_sign(fit(pull_, first, last, [](const Pull& p) { return p.force; }));
-  const Line contact = fit(pull_, first, last, [](const Pull& p) { return p.normal_force; });
+  signs += force_sign(fit(pull_, first, last, [](const PullPoint& p) { return p.force; }));
+  const Line contact = fit(pull_, first, last, [](const PullPoint& p) { return p.normal_force; });
   if (!(contact.mean > 0.0)) return signs / 2.0;
   return (signs + force_sign(contact)) / 3.0;
 }

@@ -6,6 +6,7 @@
 
 #include "knot_utm/io/number.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/io/yaml_lines.hpp"
 
 namespace knot_utm {
 namespace {
@@ -54,40 +55,6 @@ ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
 std::optional<double> share_of(const std::optional<double>& reading, const std::optional<double>& share) {
   return reading && share ? std::optional<double>(std::abs(*reading) * *share) : std::nullopt;
 }
-
-/// One "key: value" line after the other.
-class Lines {
- public:
-  void number(const char* key, double value) { line(key, std::isnan(value) ? "null" : format_yaml_number(value)); }
-  void number(const char* key, const std::optional<double>& value) { number(key, value.value_or(Sample::kNone)); }
-  void count(const char* key, std::uint64_t value) { line(key, std::to_string(value)); }
-  void flag(const char* key, bool value) { line(key, value ? "true" : "false"); }
-  void word(const char* key, const std::string& value) { line(key, value); }
-  void text(const char* key, const std::string& value) { line(key, value.empty() ? "null" : quoted(value)); }
-  void pair(const char* key, const std::array<std::optional<double>, 2>& values) {
-    if (!values[0] || !values[1]) return line(key, "null");
-    line(key, "[" + format_yaml_number(*values[0]) + ", " + format_yaml_number(*values[1]) + "]");
-  }
-  void list(const char* key, const std::vector<std::string>& texts) {
-    std::string all;
-    for (const std::string& entry : texts) all += (all.empty() ? "" : ", ") + quoted(entry);
-    line(key, "[" + all + "]");
-  }
-  const std::string& all() const { return all_; }
-
- private:
-  static std::string quoted(const std::string& value) {
-    std::string result = "\"";
-    for (const char c : value) {
-      if (c == '"' || c == '\\') result += '\\';
-      result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-    return result + '"';
-  }
-  void line(const char* key, const std::string& value) { all_ += std::string(key) + ": " + value + "\n"; }
-
-  std::string all_;
-};
 
 }  // namespace
 
@@ -141,7 +108,7 @@ void RunWriter::finish(const Results& results, const RunFacts& facts, const Poin
 
 std::string result_yaml(const Results& r, const RunFacts& f) {
   const ReadingErrors errors = known_errors(r, f);
-  Lines lines;
+  YamlLines lines;
   lines.word("motion_pattern", motion_pattern_name(r.motion_pattern));
   lines.number("motion_pattern_confidence", r.motion_pattern_confidence);
   lines.word("ended_by", ended_by_name(r.ended_by));

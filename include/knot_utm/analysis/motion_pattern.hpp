@@ -1,8 +1,8 @@
 #pragma once
 
 #include <optional>
-#include <vector>
 
+#include "knot_utm/analysis/curve_readings.hpp"
 #include "knot_utm/machine/sample.hpp"
 
 namespace knot_utm {
@@ -55,17 +55,14 @@ class MotionPatternTracker {
   std::optional<double> untangled_at() const;
 
   /// The samples of the pull that count.
-  struct Pull {
-    double time, extension, knot_distance, force, normal_force;
-  };
-  const std::vector<Pull>& pull() const { return pull_; }
+  const Pull& pull() const { return pull_; }
 
  private:
   double slope() const;
   bool opened() const;
   bool load_gone() const;
 
-  std::vector<Pull> pull_;
+  Pull pull_;
   std::size_t window_begin_ = 0;  ///< first sample of the current window
   double window_ = 0.0;           ///< its width [m]
   double slope_ = 0.0;            ///< de/ds in the current window, NaN before the first is full

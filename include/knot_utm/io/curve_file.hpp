@@ -1,0 +1,19 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "knot_utm/analysis/curve_readings.hpp"
+#include "knot_utm/io/csv.hpp"
+
+namespace knot_utm {
+
+/// A curve as a text file: curve.csv or curve_full.csv (csv.hpp), else raw data of a testing machine (raw_data.hpp).
+/// Throws InvalidInput.
+std::vector<CurveRow> read_curve_file(const std::string& file);
+
+/// The rows of phase `pull` that reach a new largest extension. `balanced`: loads and extensions are those beyond the
+/// first such row's. Simulated loads are balanced already; whether a machine's are, its operator knows.
+Pull pull_of(const std::vector<CurveRow>& rows, bool balanced = false);
+
+}  // namespace knot_utm

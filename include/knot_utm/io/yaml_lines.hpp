@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace knot_utm {
+
+/// A YAML map, one "key: value" line after the other. What is not there, NaN too, is null.
+class YamlLines {
+ public:
+  void number(const char* key, double value);
+  void number(const char* key, const std::optional<double>& value);
+  void count(const char* key, std::uint64_t value);
+  void flag(const char* key, bool value);
+  void word(const char* key, const std::string& value);  ///< as it is
+  void text(const char* key, const std::string& value);  ///< quoted; empty is null
+  void pair(const char* key, const std::array<std::optional<double>, 2>& values);
+  void list(const char* key, const std::vector<std::string>& texts);
+
+  const std::string& all() const { return all_; }
+
+ private:
+  std::string all_;
+};
+
+}  // namespace knot_utm

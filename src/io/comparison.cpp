@@ -1,0 +1,78 @@
+#include "knot_utm/io/comparison.hpp"
+
+#include <array>
+#include <cmath>
+
+#include "knot_utm/io/number.hpp"
+#include "knot_utm/io/yaml_lines.hpp"
+
+namespace knot_utm {
+namespace {
+
+struct Reading {
+  const char* name;
+  std::optional<double> CurveReadings::*value;
+};
+
+constexpr std::array<Reading, 4> kReadings{{{"peak_force", &CurveReadings::peak_force},
+                                            {"plateau_force", &CurveReadings::plateau_force},
+                                            {"lock_extension", &CurveReadings::lock_extension},
+                                            {"locked_stiffness", &CurveReadings::locked_stiffness}}};
+
+std::optional<double> difference(const std::optional<double>& a, const std::optional<double>& b) {
+  return a && b ? std::optional<double>(*b - *a) : std::nullopt;
+}
+
+std::optional<double> over(const std::optional<double>& value, const std::optional<double>& scale) {
+  return value && scale && *scale != 0.0 ? std::optional<double>(*value / std::abs(*scale)) : std::nullopt;
+}
+
+std::string flow(const std::optional<double>& a, const std::optional<double>& b) {
+  const auto text = [](const std::optional<double>& value) { return value ? format_yaml_number(*value) : "null"; };
+  const std::optional<double> change = difference(a, b);
+  return "{a: " + text(a) + ", b: " + text(b) + ", difference: " + text(change) +
+         ", relative: " + text(over(change, a)) + "}";
+}
+
+}  // namespace
+
+Comparison compare(const Pull& a, const Pull& b) {
+  return {curve_readings(a), curve_readings(b), curve_difference(a, b)};
+}
+
+std::string comparison_yaml(const Comparison& comparison, const std::string& file_a, const std::string& file_b) {
+  YamlLines lines;
+  lines.text("a", file_a);
+  lines.text("b", file_b);
+  if (comparison.difference) {
+    const CurveDifference& d = *comparison.difference;
+    lines.word("common_extension",
+               "[" + format_yaml_number(d.common.low) + ", " + format_yaml_number(d.common.high) + "]");
+    lines.number("rms_difference", d.rms);
+    lines.number("rms_difference_over_load", d.load > 0.0 ? d.rms / d.load : Sample::kNone);
+    lines.number("largest_difference", d.largest);
+    lines.number("largest_difference_at", d.largest_at);
+  }
+  for (const Reading& reading : kReadings)
+    lines.word(reading.name, flow(comparison.a.*reading.value, comparison.b.*reading.value));
+  return lines.all();
+}
+
+std::vector<std::string> beyond_tolerance(const Comparison& comparison, double tolerance) {
+  std::vector<std::string> out;
+  const auto hold = [&](const std::string& name, double relative) {
+    if (!(std::abs(relative) <= tolerance))
+      out.push_back(name + ": " + format_number(relative) + " is beyond " + format_number(tolerance));
+  };
+  if (comparison.difference) hold("rms_difference_over_load", comparison.difference->rms / comparison.difference->load);
+  for (const Reading& reading : kReadings) {
+    const std::optional<double>&a = comparison.a.*reading.value, &b = comparison.b.*reading.value;
+    if (a.has_value() != b.has_value())
+      out.push_back(std::string(reading.name) + ": only " + (a ? "A" : "B") + " has one");
+    else if (a && *a != *b)
+      hold(reading.name, (*b - *a) / std::abs(*a));
+  }
+  return out;
+}
+
+}  // namespace knot_utm

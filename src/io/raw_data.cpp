@@ -1,0 +1,386 @@
+#include "knot_utm/io/raw_data.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <sstream>
+#include <string_view>
+
+#include "knot_utm/io/number.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/rod/text_rows.hpp"
+
+namespace knot_utm {
+namespace {
+
+using Cells = std::vector<std::string>;
+
+// ---- characters -----------------------------------------------------------------------------------------------------
+
+constexpr char kForeign = '?';  // stands for every letter beyond ASCII
+
+/// Two bytes a character, the high one first or second.
+std::string from_utf16(const std::string& bytes, std::size_t high) {
+  std::string out;
+  for (std::size_t i = 2; i + 1 < bytes.size(); i += 2) {
+    const auto upper = static_cast<unsigned char>(bytes[i + high]),
+               lower = static_cast<unsigned char>(bytes[i + 1 - high]);
+    out += upper == 0 && lower < 0x80 ? static_cast<char>(lower) : kForeign;
+  }
+  return out;
+}
+
+/// Of a code page every byte is a letter; of UTF-8 those that go on with one (10xxxxxx) are none of their own.
+std::string from_bytes(const std::string& bytes, bool utf8) {
+  std::string out;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x80)
+      out += c;
+    else if (!utf8 || (byte & 0xC0) != 0x80)
+      out += kForeign;
+  }
+  return out;
+}
+
+/// Whether every letter beyond ASCII is whole: 110xxxxx 10xxxxxx and so on.
+bool is_utf8(const std::string& bytes) {
+  int missing = 0;
+  for (const char c : bytes) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool goes_on = (byte & 0xC0) == 0x80;
+    if (goes_on != (missing > 0)) return false;
+    if (goes_on)
+      --missing;
+    else if (byte >= 0x80)
+      missing = byte >= 0xF0 ? 3 : byte >= 0xE0 ? 2 : 1;
+  }
+  return missing == 0;
+}
+
+/// The text in ASCII.
+std::string decoded(const std::string& bytes) {
+  const auto begins = [&](const char* mark) { return bytes.rfind(mark, 0) == 0; };
+  if (begins("\xFF\xFE")) return from_utf16(bytes, 1);
+  if (begins("\xFE\xFF")) return from_utf16(bytes, 0);
+  if (begins("\xEF\xBB\xBF")) return from_bytes(bytes.substr(3), true);
+  return from_bytes(bytes, is_utf8(bytes));
+}
+
+// ---- cells ----------------------------------------------------------------------------------------------------------
+
+std::string trimmed(std::string_view text) {
+  constexpr const char* kBlank = " \t\r";
+  const std::size_t begin = text.find_first_not_of(kBlank);
+  if (begin == std::string_view::npos) return {};
+  return std::string(text.substr(begin, text.find_last_not_of(kBlank) + 1 - begin));
+}
+
+Cells split(const std::string& row, char separator) {
+  Cells cells(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    const bool twice = quoted && row[i] == '"' && i + 1 < row.size() && row[i + 1] == '"';
+    if (twice)
+      cells.back() += row[i++];
+    else if (row[i] == '"')
+      quoted = !quoted;
+    else if (row[i] == separator && !quoted)
+      cells.emplace_back();
+    else
+      cells.back() += row[i];
+  }
+  for (std::string& cell : cells) cell = trimmed(cell);
+  return cells;
+}
+
+std::string lower(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+// ---- names and units ------------------------------------------------------------------------------------------------
+
+struct Unit {
+  const char* name;
+  double si;
+};
+
+/// What a column may hold. Letters beyond ASCII are '?'.
+struct Quantity {
+  const char* name;
+  double CurveRow::*value;
+  std::vector<const char*> names;  // the machine's own first
+  std::vector<Unit> units;
+  const char* allowed;
+};
+
+const std::array<Quantity, 3>& quantities() {
+  static const std::array<Quantity, 3> all{
+      {{"time",
+        &CurveRow::time,
+        {"time", "zeit", "czas", "godzina", "temps"},
+        {{"s", 1.0}, {"sec", 1.0}, {"ms", 1e-3}, {"min", 60.0}, {"h", 3600.0}},
+        "ms, s, sec, min or h"},
+       {"extension",
+        &CurveRow::extension,
+        {"extension", "displacement", "crosshead displacement", "traversenweg", "verl?ngerung", "przemieszczenie",
+         "wyd?u?enie", "d?placement", "deplacement", "d?placement de la traverse", "allongement", "tensile extension",
+         "tensile displacement"},
+        {{"mm", 1e-3}, {"m", 1.0}, {"cm", 1e-2}, {"um", 1e-6}, {"?m", 1e-6}, {"in", 0.0254}, {"ft", 0.3048}},
+        "um, mm, cm, m, in or ft"},
+       {"load",
+        &CurveRow::load,
+        {"load", "force", "last", "kraft", "obci??enie", "obciazenie", "si?a", "sila", "charge"},
+        {{"n", 1.0},
+         {"kn", 1e3},
+         {"mn", 1e-3},
+         {"cn", 1e-2},
+         {"gf", 9.80665e-3},
+         {"kgf", 9.80665},
+         {"lbf", 4.4482216152605}},
+        "mN, cN, N, kN, gf, kgf or lbf"}}};
+  return all;
+}
+
+/// Mega is not milli.
+bool is_mega(const std::string& unit) { return unit.rfind('M', 0) == 0 && unit.size() > 1; }
+
+std::optional<double> si_of(const Quantity& quantity, const std::string& unit) {
+  for (const Unit& known : quantity.units)
+    if (lower(unit) == known.name && !is_mega(unit)) return known.si;
+  return std::nullopt;
+}
+
+/// "(mm)" or "[mm]" without its brackets; nothing where there are none.
+std::optional<std::string> bracketed(const std::string& text) {
+  if (text.size() < 2) return std::nullopt;
+  const char first = text.front(), last = text.back();
+  if (!((first == '(' && last == ')') || (first == '[' && last == ']'))) return std::nullopt;
+  return trimmed(std::string_view(text).substr(1, text.size() - 2));
+}
+
+/// A cell of the row of names: "Load (N)", or "Load" and no unit.
+struct Name {
+  std::string name;
+  std::optional<std::string> unit;
+};
+
+Name name_of(const std::string& cell) {
+  const std::size_t bracket = cell.find_last_of("([");
+  if (bracket != std::string::npos && bracket > 0) {
+    if (const auto unit = bracketed(cell.substr(bracket))) return {lower(trimmed(cell.substr(0, bracket))), unit};
+  }
+  return {lower(cell), std::nullopt};
+}
+
+/// Where a column stands and what its numbers are in.
+struct Column {
+  const Quantity* quantity;
+  std::size_t place;
+  std::string name;                 // as given
+  std::optional<std::string> unit;  // that behind the name
+};
+
+/// The one of the machine's own name; of two alike that with a unit of this quantity: the other may be a strain
+/// gauge's, "Displacement (Strain 1)".
+std::optional<Column> find(const Quantity& quantity, const Cells& cells) {
+  std::optional<Column> best;
+  for (const char* known : quantity.names) {
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const Name name = name_of(cells[i]);
+      if (name.name != known) continue;
+      if (!name.unit || si_of(quantity, *name.unit)) return Column{&quantity, i, cells[i], name.unit};
+      if (!best) best = Column{&quantity, i, cells[i], name.unit};
+    }
+  }
+  return best;
+}
+
+using Columns = std::array<Column, 3>;
+
+std::optional<Columns> find_columns(const Cells& cells) {
+  std::array<std::optional<Column>, 3> found;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    found[i] = find(quantities()[i], cells);
+    if (!found[i]) return std::nullopt;
+  }
+  return Columns{*found[0], *found[1], *found[2]};
+}
+
+// ---- numbers --------------------------------------------------------------------------------------------------------
+
+/// The mark of decimals in a file, by the cells that tell it.
+class DecimalMark {
+ public:
+  void look_at(const std::string& cell) {
+    const std::size_t point = cell.rfind('.'), comma = cell.rfind(',');
+    const bool has_point = point != std::string::npos, has_comma = comma != std::string::npos;
+    if (has_point && has_comma) told_ = point > comma ? '.' : ',';
+    points_ |= has_point;
+    commas_ |= has_comma;
+  }
+  char mark() const { return told_ ? *told_ : commas_ && !points_ ? ',' : '.'; }
+
+ private:
+  std::optional<char> told_;  // by a cell that has both
+  bool points_ = false, commas_ = false;
+};
+
+bool has_digit(const std::string& cell) { return cell.find_first_of("0123456789") != std::string::npos; }
+
+/// Drops what stands between groups of three digits; nothing where it does not.
+std::optional<std::string> without_groups(const std::string& whole, char mark) {
+  std::string out;
+  const std::size_t first = whole.find(mark);
+  if (first == std::string::npos) return whole;
+  const std::size_t digits = whole.find_first_of("0123456789");
+  if (digits == std::string::npos || first <= digits || first > digits + 3 || whole[digits] == '0') return std::nullopt;
+  for (std::size_t i = first; i < whole.size(); i += 4) {
+    if (whole[i] != mark || whole.size() < i + 4) return std::nullopt;
+    if (whole.find(mark, i + 1) < i + 4) return std::nullopt;
+  }
+  for (const char c : whole)
+    if (c != mark) out += c;
+  return out;
+}
+
+std::optional<double> number(const std::string& cell, char mark) {
+  const std::size_t decimals = std::min(cell.find(mark), cell.size());
+  const auto whole = without_groups(cell.substr(0, decimals), mark == '.' ? ',' : '.');
+  if (!whole) return std::nullopt;
+  std::string text = *whole;
+  if (decimals < cell.size()) text += '.' + cell.substr(decimals + 1);
+  if (!has_digit(text)) return std::nullopt;
+  return parse_number(text);
+}
+
+// ---- the file -------------------------------------------------------------------------------------------------------
+
+struct Row {
+  std::size_t number;  // in the file, from 1
+  std::string text;
+};
+
+std::vector<Row> rows_of(std::istream& in, const std::string& file) {
+  std::istringstream text(decoded(std::string(std::istreambuf_iterator<char>(in), {})));
+  TextRows rows(text);
+  std::vector<Row> out;
+  while (rows.next()) out.push_back({rows.number(), rows.text()});
+  if (!rows.fault().empty()) throw InvalidInput(file, "row " + std::to_string(rows.number()), "more", rows.fault());
+  return out;
+}
+
+/// The table in the file: what its columns are, and the cells of its rows.
+class RawTable {
+ public:
+  RawTable(std::istream& in, const std::string& file) : file_(file), rows_(rows_of(in, file)) {
+    find_names();
+    find_units();
+    for (std::size_t i = next_; i < rows_.size(); ++i)
+      for (const std::string& cell : wanted(split(rows_[i].text, separator_))) mark_.look_at(cell);
+  }
+
+  std::vector<CurveRow> read() const {
+    std::vector<CurveRow> out;
+    for (std::size_t i = next_; i < rows_.size(); ++i) {
+      const std::array<std::string, 3> cells = wanted(split(rows_[i].text, separator_));
+      if (std::all_of(cells.begin(), cells.end(), [](const std::string& cell) { return cell.empty(); })) continue;
+      const CurveRow row = row_of(cells, rows_[i].number);
+      if (!out.empty() && row.time < out.back().time)
+        refuse(rows_[i].number, columns_[0].name, cells[0], "a time that does not go back");
+      if (out.empty() || !is_same(row, out.back())) out.push_back(row);
+    }
+    if (out.empty()) throw InvalidInput(file_, "rows", "none", "a row of numbers behind the names");
+    return out;
+  }
+
+ private:
+  void find_names() {
+    for (; next_ < rows_.size(); ++next_)
+      for (const char separator : {';', '\t', ','})
+        if (const auto found = find_columns(split(rows_[next_].text, separator))) {
+          columns_ = *found;
+          separator_ = separator;
+          ++next_;
+          return;
+        }
+    throw InvalidInput(file_, "names", "none", "a row that names time, extension and load");
+  }
+
+  /// Those behind the names, or of the row below them.
+  void find_units() {
+    while (next_ < rows_.size() && trimmed(rows_[next_].text).empty()) ++next_;
+    std::array<std::string, 3> below;
+    if (next_ < rows_.size()) below = wanted(split(rows_[next_].text, separator_));
+    const bool has_units = std::none_of(below.begin(), below.end(), has_digit);
+    if (has_units) ++next_;
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      si_[i] = si(columns_[i], has_units ? bracketed(below[i]).value_or(below[i]) : "");
+  }
+
+  double si(const Column& column, const std::string& below) const {
+    const std::string unit = column.unit.value_or(below);
+    const std::string key = "unit of column " + column.name, allowed = column.quantity->allowed;
+    if (unit.empty()) throw InvalidInput(file_, key, "none", allowed);
+    const std::optional<double> si = si_of(*column.quantity, unit);
+    if (!si) throw InvalidInput(file_, key, unit, allowed);
+    if (!below.empty() && si_of(*column.quantity, below) != si)
+      throw InvalidInput(file_, key, below, "the same below the name as in it, " + unit);
+    return *si;
+  }
+
+  std::array<std::string, 3> wanted(const Cells& cells) const {
+    std::array<std::string, 3> out;
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (columns_[i].place < cells.size()) out[i] = cells[columns_[i].place];
+    return out;
+  }
+
+  CurveRow row_of(const std::array<std::string, 3>& cells, std::size_t row_number) const {
+    CurveRow row;
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      const double value = number(cells[i], mark_.mark()).value_or(Sample::kNone) * si_[i];
+      if (!std::isfinite(value))
+        refuse(row_number, columns_[i].name, cells[i],
+               std::string("a number with decimals behind \"") + mark_.mark() + "\"");
+      row.*columns_[i].quantity->value = value;
+    }
+    row.end_to_end = row.load_lower = Sample::kNone;
+    row.phase = Phase::kPull;
+    return row;
+  }
+
+  static bool is_same(const CurveRow& a, const CurveRow& b) {
+    return a.time == b.time && a.extension == b.extension && a.load == b.load;
+  }
+
+  [[noreturn]] void refuse(std::size_t row, const std::string& column, const std::string& value,
+                           const std::string& allowed) const {
+    throw InvalidInput(file_, "row " + std::to_string(row) + ": " + column, value, allowed);
+  }
+
+  std::string file_;
+  std::vector<Row> rows_;
+  std::size_t next_ = 0;  // that has not been read yet
+  char separator_ = ',';
+  Columns columns_;
+  std::array<double, 3> si_{};
+  DecimalMark mark_;
+};
+
+}  // namespace
+
+std::vector<CurveRow> read_raw_data(std::istream& in, const std::string& file) { return RawTable(in, file).read(); }
+
+std::vector<CurveRow> read_raw_data(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw InvalidInput("file", file, "raw data that can be read");
+  return read_raw_data(in, file);
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,49 @@
+#include "knot_utm/io/yaml_lines.hpp"
+
+#include <cmath>
+#include <limits>
+
+#include "knot_utm/io/number.hpp"
+
+namespace knot_utm {
+namespace {
+
+std::string quoted(const std::string& value) {
+  std::string result = "\"";
+  for (const char c : value) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+  }
+  return result + '"';
+}
+
+}  // namespace
+
+void YamlLines::number(const char* key, double value) {
+  word(key, std::isnan(value) ? "null" : format_yaml_number(value));
+}
+
+void YamlLines::number(const char* key, const std::optional<double>& value) {
+  number(key, value.value_or(std::numeric_limits<double>::quiet_NaN()));
+}
+
+void YamlLines::count(const char* key, std::uint64_t value) { word(key, std::to_string(value)); }
+
+void YamlLines::flag(const char* key, bool value) { word(key, value ? "true" : "false"); }
+
+void YamlLines::word(const char* key, const std::string& value) { all_ += std::string(key) + ": " + value + "\n"; }
+
+void YamlLines::text(const char* key, const std::string& value) { word(key, value.empty() ? "null" : quoted(value)); }
+
+void YamlLines::pair(const char* key, const std::array<std::optional<double>, 2>& values) {
+  if (!values[0] || !values[1]) return word(key, "null");
+  word(key, "[" + format_yaml_number(*values[0]) + ", " + format_yaml_number(*values[1]) + "]");
+}
+
+void YamlLines::list(const char* key, const std::vector<std::string>& texts) {
+  std::string all;
+  for (const std::string& entry : texts) all += (all.empty() ? "" : ", ") + quoted(entry);
+  word(key, "[" + all + "]");
+}
+
+}  // namespace knot_utm

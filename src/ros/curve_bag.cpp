@@ -1,0 +1,115 @@
+#include "knot_utm/ros/curve_bag.hpp"
+
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <map>
+
+#include "knot_utm/io/cannot_write.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/names.hpp"
+
+namespace knot_utm {
+namespace {
+
+bool ends_with(const std::string& topic, const std::string& name) {
+  return topic.size() > name.size() &&
+         topic.compare(topic.size() - name.size() - 1, std::string::npos, "/" + name) == 0;
+}
+
+/// What the bag calls a topic; empty: it does not have it.
+std::string topic_named(const rosbag::Bag& bag, const std::string& file, const std::string& name) {
+  std::string found;
+  rosbag::View all(bag);
+  for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
+    if (!ends_with(connection->topic, name) || connection->topic == found) continue;
+    if (!found.empty()) throw InvalidInput(file, "topic " + name, found + " and " + connection->topic, "one of them");
+    found = connection->topic;
+  }
+  return found;
+}
+
+std::string required_topic(const rosbag::Bag& bag, const std::string& file, const std::string& name) {
+  const std::string topic = topic_named(bag, file, name);
+  if (topic.empty()) throw InvalidInput(file, "topic " + name, "none", "a bag that has it");
+  return topic;
+}
+
+/// Calls `take` with every message of a topic.
+template <typename Message, typename Take>
+void for_each(const rosbag::Bag& bag, const std::string& file, const std::string& topic, Take take) {
+  if (topic.empty()) return;
+  for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topic))) {
+    const boost::shared_ptr<Message> message = instance.instantiate<Message>();
+    if (!message)
+      throw InvalidInput(file, "topic " + topic, instance.getDataType(), ros::message_traits::datatype<Message>());
+    take(*message);
+  }
+}
+
+std::vector<CurveRow> rows_of(const rosbag::Bag& bag, const std::string& file) {
+  const std::string load_cell = required_topic(bag, file, names::kLoadCell);
+  const std::string crosshead = required_topic(bag, file, names::kCrosshead);
+  const std::string state = topic_named(bag, file, names::kKnotState);
+  std::map<ros::Time, CurveRow> at;
+  for_each<Crosshead>(bag, file, crosshead, [&](const Crosshead& message) {
+    const Command command = from_message(message);
+    CurveRow& row = at[message.header.stamp];
+    row.time = command.time;
+    row.extension = command.displacement;
+    row.phase = command.phase;
+    row.end_to_end = row.load_lower = Sample::kNone;
+  });
+  for_each<KnotState>(bag, file, state,
+                      [&](const KnotState& message) { at[message.header.stamp] = curve_row(from_message(message)); });
+  std::vector<CurveRow> out;
+  for_each<geometry_msgs::WrenchStamped>(bag, file, load_cell, [&](const geometry_msgs::WrenchStamped& message) {
+    const auto found = at.find(message.header.stamp);
+    if (found == at.end())
+      throw InvalidInput(file, "topic " + load_cell, "a reading without a command of its stamp", "one of both");
+    out.push_back(found->second);
+    out.back().load = message.wrench.force.z;
+  });
+  return out;
+}
+
+}  // namespace
+
+std::vector<CurveRow> read_curve_bag(const std::string& file) {
+  try {
+    const rosbag::Bag bag(file, rosbag::bagmode::Read);
+    return rows_of(bag, file);
+  } catch (const rosbag::BagException& error) {
+    throw InvalidInput(file, "bag", error.what(), "a bag that can be read");
+  } catch (const std::invalid_argument& error) {
+    throw InvalidInput(file, "phase", error.what(), "a phase of a test");
+  }
+}
+
+void write_curve_bag(const std::string& file, const std::vector<CurveRow>& rows) {
+  try {
+    rosbag::Bag bag(file, rosbag::bagmode::Write);
+    Command command;
+    Sample sample;
+    const double start = rows.empty() ? 0.0 : rows.front().time;
+    for (const CurveRow& row : rows) {
+      const ros::Time stamp = test_stamp(-start, row.time);
+      command.velocity =
+          row.time > command.time ? (row.extension - command.displacement) / (row.time - command.time) : 0.0;
+      command.time = row.time;
+      command.displacement = row.extension;
+      command.phase = row.phase;
+      command.read_cell = true;
+      sample.load = row.load;
+      bag.write(std::string("/") + names::kCrosshead, stamp, to_message(command, 1, stamp));
+      bag.write(std::string("/") + names::kLoadCell, stamp, to_wrench(sample, stamp));
+      ++command.sequence;
+    }
+    bag.close();
+  } catch (const rosbag::BagException&) {
+    throw CannotWrite(file);
+  }
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,72 @@
+// Two curves, simulated or measured, beside each other.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "knot_utm/analysis/curve_difference.hpp"
+#include "knot_utm/io/comparison.hpp"
+#include "knot_utm/io/curve_file.hpp"
+#ifdef KNOT_UTM_HAS_ROS
+#include "knot_utm/ros/curve_bag.hpp"
+#endif
+#include "tool.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr const char* kTool = "compare";
+
+struct Arguments {
+  std::string a, b;
+  bool balance = false;
+  std::optional<double> tolerance;
+};
+
+std::vector<CurveRow> read(const std::string& file) {
+  const std::size_t dot = file.rfind('.');
+  if (dot == std::string::npos || file.substr(dot) != ".bag") return read_curve_file(file);
+#ifdef KNOT_UTM_HAS_ROS
+  return read_curve_bag(file);
+#else
+  throw InvalidInput("file", file, "a CSV: this was built without ROS, and reads no bags");
+#endif
+}
+
+Pull pull_from(const std::string& file, bool balanced) {
+  Pull pull = pull_of(read(file), balanced);
+  if (pull.size() < 2) throw InvalidInput(file, "pull", std::to_string(pull.size()) + " readings", "at least 2");
+  return pull;
+}
+
+int run(const Arguments& arguments) {
+  const Comparison comparison =
+      compare(pull_from(arguments.a, arguments.balance), pull_from(arguments.b, arguments.balance));
+  if (!comparison.difference) throw InvalidInput("extensions", "none that both have", "two curves that overlap");
+  std::fputs(comparison_yaml(comparison, arguments.a, arguments.b).c_str(), stdout);
+  if (!arguments.tolerance) return kDone;
+  const std::vector<std::string> beyond = beyond_tolerance(comparison, *arguments.tolerance);
+  for (const std::string& line : beyond) std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
+  return beyond.empty() ? kDone : kFailed;
+}
+
+}  // namespace
+}  // namespace knot_utm
+
+int main(int argc, char** argv) {
+  return knot_utm::run_tool(knot_utm::kTool, [&] {
+    knot_utm::Arguments arguments;
+    CLI::App app(
+        "Compares two force-extension curves: curve.csv, a bag, or raw data that Instron's Bluehill exported. Prints "
+        "YAML.");
+    app.add_option("A", arguments.a, "the curve that B is held against")->required();
+    app.add_option("B", arguments.b, "the other curve")->required();
+    app.add_flag("--balance", arguments.balance, "the first load and extension of each pull are its zeros");
+    app.add_option("--tolerance", arguments.tolerance, "exit code 1 where a relative difference is larger [-]")
+        ->check(CLI::NonNegativeNumber);
+    if (const auto code = knot_utm::parse(app, knot_utm::kTool, argc, argv)) return *code;
+    return knot_utm::run(arguments);
+  });
+}

@@ -1,0 +1,87 @@
+#include "knot_utm/analysis/curve_readings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "knot_utm/analysis/curve_difference.hpp"
+
+namespace knot_utm {
+namespace {
+
+Pull pull(const std::function<double(double)>& force, double end = 0.12, int points = 1200) {
+  Pull out;
+  for (int i = 0; i <= points; ++i) {
+    const double s = end * i / points;
+    out.push_back({s / 3.3e-3, s, Sample::kNone, force(s)});
+  }
+  return out;
+}
+
+/// 6 N that slide, and 2e5 N/m behind s = 0.08 m.
+double sliding(double s) { return 6.0 * std::min(1.0, s / 1e-3) + 2e5 * std::max(0.0, s - 0.08); }
+
+TEST(CurveReadings, ASlidingKnotHasAPlateauALockAndAStiffness) {
+  const CurveReadings readings = curve_readings(pull(sliding));
+  EXPECT_NEAR(*readings.plateau_force, 6.0, 1e-12);
+  EXPECT_NEAR(*readings.plateau_force_sd, 0.0, 1e-6);  // the root of a rounding of 36 N^2
+  // Twice the plateau is reached 6 N / (2e5 N/m) behind the corner.
+  EXPECT_NEAR(*readings.lock_extension, 0.08 + 6.0 / 2e5, 1e-9);
+  EXPECT_NEAR(*readings.locked_stiffness, 2e5, 1e-4);
+  EXPECT_DOUBLE_EQ(*readings.peak_force, 6.0 + 2e5 * 0.04);
+}
+
+TEST(CurveReadings, AStretchingRodHasAStiffnessAlone) {
+  const CurveReadings readings = curve_readings(pull([](double s) { return 160.0 * s; }));
+  EXPECT_FALSE(readings.plateau_force);
+  EXPECT_FALSE(readings.lock_extension);
+  EXPECT_NEAR(*readings.locked_stiffness, 160.0, 1e-9);
+}
+
+TEST(CurveReadings, AKnotThatSlidesToTheEndHasNoLockAndNoStiffness) {
+  const CurveReadings readings = curve_readings(pull(sliding, 0.07, 700));
+  EXPECT_NEAR(*readings.plateau_force, 6.0, 1e-12);
+  EXPECT_FALSE(readings.lock_extension);
+  EXPECT_FALSE(readings.locked_stiffness);
+}
+
+TEST(CurveReadings, ABreakawayIsNoLock) {
+  const auto force = [](double s) { return sliding(s) + 30.0 * std::exp(-s / 2e-3); };
+  EXPECT_NEAR(*curve_readings(pull(force)).lock_extension, 0.08 + 6.0 / 2e5, 1e-6);
+  EXPECT_FALSE(curve_readings(pull(force, 0.07, 700)).lock_extension);
+}
+
+TEST(CurveReadings, OfNothingThereAreNone) {
+  EXPECT_FALSE(curve_readings({}).peak_force);
+  const CurveReadings one = curve_readings({{0.0, 0.0, Sample::kNone, 1.0}});
+  EXPECT_EQ(one.peak_force, 1.0);
+  EXPECT_FALSE(one.plateau_force || one.lock_extension || one.locked_stiffness);
+}
+
+TEST(CurveDifference, OfLinesIsTheirExactIntegral) {
+  // F_b - F_a = 100 s - 1 over s from 0.01 to 0.03: its mean square is 4/3, over points that do not coincide.
+  const Pull a = pull([](double s) { return 1.0 + 100.0 * s; }, 0.03, 7);
+  Pull b = pull([](double s) { return 200.0 * s; }, 0.05, 11);
+  b.erase(b.begin(), b.begin() + 2);
+  const auto difference = curve_difference(a, b);
+  ASSERT_TRUE(difference);
+  const double low = b.front().extension, high = 0.03;
+  EXPECT_DOUBLE_EQ(difference->common.low, low);
+  EXPECT_DOUBLE_EQ(difference->common.high, high);
+  const auto cube = [](double s) { return std::pow(100.0 * s - 1.0, 3) / 300.0; };
+  EXPECT_NEAR(difference->rms, std::sqrt((cube(high) - cube(low)) / (high - low)), 1e-12);
+  EXPECT_NEAR(difference->largest, 2.0, 1e-12);
+  EXPECT_DOUBLE_EQ(difference->largest_at, high);
+  EXPECT_NEAR(difference->load, 4.0, 1e-12);
+}
+
+TEST(CurveDifference, WithNothingInCommonThereIsNone) {
+  Pull far = pull(sliding);
+  for (PullPoint& point : far) point.extension += 1.0;
+  EXPECT_FALSE(curve_difference(pull(sliding), far));
+  EXPECT_FALSE(curve_difference(pull(sliding), {}));
+}
+
+}  // namespace
+}  // namespace knot_utm

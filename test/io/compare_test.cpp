@@ -1,0 +1,97 @@
+// compare holds two curves against each other, whoever recorded them.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "io/command.hpp"
+#include "io/own_folder.hpp"
+#include "knot_utm/io/curve_file.hpp"
+#include "knot_utm/io/run_folder.hpp"
+
+namespace knot_utm {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+class Compare : public OwnFolder {
+ protected:
+  void SetUp() override {
+    OwnFolder::SetUp();
+    std::filesystem::create_directories(folder());
+  }
+  std::string file(const std::string& name) const { return folder() + "/" + name; }
+
+  /// Load 10 N/mm times `factor`, beyond an offset, from 1 mm on.
+  void write_curve(const std::string& name, double factor, double offset = 0.0) const {
+    CurveWriter writer(file(name));
+    for (int i = 0; i <= 10; ++i) {
+      CurveRow row;
+      row.time = i;
+      row.extension = 1e-3 * (i + 1);
+      row.load = factor * 10.0 * i + offset;
+      row.phase = Phase::kPull;
+      writer.write(row);
+    }
+  }
+  void write_raw_data(const std::string& name, double factor) const {
+    std::string text = "Zeit;Traversenweg;Kraft\r\n(s);(mm);(kN)\r\n";
+    for (int i = 0; i <= 10; ++i) {
+      const int newtons = static_cast<int>(factor * 10.0 * i), tenths = newtons % 1000;
+      const std::string digits = std::to_string(1000 + tenths).substr(1);
+      text += std::to_string(i) + ",0;" + std::to_string(i + 1) + ",0;" + std::to_string(newtons / 1000) + ',' +
+              digits + "\r\n";
+    }
+    write_whole(file(name), text);
+  }
+  Answer compare(const std::string& a, const std::string& b, const std::string& more = "") const {
+    return answer_of(tool("compare", "'" + file(a) + "' '" + file(b) + "' " + more));
+  }
+};
+
+TEST_F(Compare, ACurveIsTheSameAsItselfAndAsItsRawData) {
+  write_curve("a.csv", 1.0);
+  write_raw_data("raw.csv", 1.0);
+  for (const char* other : {"a.csv", "raw.csv"}) {
+    // Millimetres and metres may differ by a rounding.
+    const Answer same = compare("a.csv", other, "--tolerance 1e-12");
+    EXPECT_EQ(same.code, 0) << same.text;
+    EXPECT_THAT(same.text, AllOf(HasSubstr("peak_force: {a: 100, b: 100, difference: 0, relative: 0}"),
+                                 HasSubstr("plateau_force: {a: null, b: null")));
+  }
+}
+
+TEST_F(Compare, SaysWhatIsBeyondTheTolerance) {
+  write_curve("a.csv", 1.0);
+  write_raw_data("b.csv", 1.5);
+  const Answer within = compare("a.csv", "b.csv", "--tolerance 0.51");
+  EXPECT_EQ(within.code, 0) << within.text;
+  const Answer beyond = compare("a.csv", "b.csv", "--tolerance 0.4");
+  EXPECT_EQ(beyond.code, 1);
+  EXPECT_THAT(beyond.text, AllOf(HasSubstr("compare: peak_force: 0.5 is beyond 0.4\n"),
+                                 HasSubstr("largest_difference: 50\n"), HasSubstr("largest_difference_at: 0.011")));
+}
+
+TEST_F(Compare, BalancesWhereItIsTold) {
+  write_curve("a.csv", 1.0);
+  write_curve("b.csv", 1.0, 25.0);
+  EXPECT_EQ(compare("a.csv", "b.csv", "--tolerance 0.01").code, 1);
+  EXPECT_EQ(compare("a.csv", "b.csv", "--tolerance 0.01 --balance").code, 0);
+}
+
+TEST_F(Compare, RefusesInOneLine) {
+  write_curve("a.csv", 1.0);
+  write_whole(file("no_unit.csv"), "Time,Extension,Load\n0,0,0\n");
+  for (const char* other : {"no_unit.csv", "not_there.csv", "not_there.bag"}) {
+    const Answer answer = compare("a.csv", other);
+    EXPECT_EQ(answer.code, 2) << other;
+    EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
+    EXPECT_THAT(answer.text, HasSubstr(other));
+  }
+  EXPECT_EQ(compare("a.csv", "a.csv", "--tolerance -1").code, 2);
+}
+
+}  // namespace
+}  // namespace knot_utm

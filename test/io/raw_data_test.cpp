@@ -1,0 +1,115 @@
+#include "knot_utm/io/raw_data.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "knot_utm/rod/invalid_input.hpp"
+
+namespace knot_utm {
+namespace {
+
+using testing::HasSubstr;
+
+/// The dialects: files as Bluehill writes them, of the same five readings. The fuzz target has them too.
+std::string dialect(const std::string& name) {
+  return std::string(KNOT_UTM_SOURCE_DIR) + "/test/fuzz/corpus/raw_data/" + name;
+}
+
+struct Reading {
+  double time, extension, load;  // [s], [mm], [N]
+};
+constexpr Reading kReadings[] = {
+    {0, 0, 0}, {0.1, 0.33, 1.25}, {0.25, 0.825, 2.5}, {0.4, 1.32, 4.75}, {0.5, 1.65, 1234.5}};
+
+class EveryDialect : public testing::TestWithParam<const char*> {};
+
+TEST_P(EveryDialect, GivesTheSameReadings) {
+  const std::vector<CurveRow> rows = read_raw_data(dialect(GetParam()));
+  ASSERT_EQ(rows.size(), std::size(kReadings));
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].time, kReadings[i].time);
+    // A decimal and its unit are each rounded once.
+    EXPECT_DOUBLE_EQ(rows[i].extension, 1e-3 * kReadings[i].extension);
+    EXPECT_DOUBLE_EQ(rows[i].load, kReadings[i].load);
+    EXPECT_EQ(rows[i].phase, Phase::kPull);
+    EXPECT_TRUE(std::isnan(rows[i].knot_distance) && std::isnan(rows[i].end_to_end) && std::isnan(rows[i].load_lower));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(RawData, EveryDialect,
+                         testing::Values("english.csv", "english_lf.csv", "english_quoted.csv",
+                                         "english_units_in_names.csv", "english_strain_gauges.csv",
+                                         "english_results_first.csv", "english_thousands.csv", "german_cp1252.csv",
+                                         "german_utf16.csv", "german_utf16_tabs.csv", "polish_cp1250.csv",
+                                         "polish_utf8.csv", "french_cp1252.csv", "french_utf8.csv", "empty_rows.csv"),
+                         [](const testing::TestParamInfo<const char*>& info) {
+                           const std::string name = info.param;
+                           return name.substr(0, name.size() - 4);
+                         });
+
+std::string complaint(const std::string& name) {
+  try {
+    read_raw_data(dialect(name));
+  } catch (const InvalidInput& invalid) {
+    return std::string(invalid.what()).substr(dialect("").size());
+  }
+  return "none";
+}
+
+std::string complaint_of(const std::string& text) {
+  std::istringstream in(text);
+  try {
+    read_raw_data(in, "raw.csv");
+  } catch (const InvalidInput& invalid) {
+    return invalid.what();
+  }
+  return "none";
+}
+
+TEST(RawData, UnitsAreNeverGuessed) {
+  EXPECT_EQ(complaint("no_unit.csv"),
+            "no_unit.csv: unit of column Load: none is not allowed: mN, cN, N, kN, gf, kgf or lbf");
+  EXPECT_EQ(complaint("unknown_unit.csv"),
+            "unknown_unit.csv: unit of column Load: daN is not allowed: mN, cN, N, kN, gf, kgf or lbf");
+  EXPECT_EQ(complaint_of("Time,Extension,Load\n0,0,0\n"),
+            "raw.csv: unit of column Time: none is not allowed: ms, s, sec, min or h");
+  EXPECT_THAT(complaint_of("Time (s),Extension (mm),Load (N)\n(s),(cm),(N)\n0,0,0\n"),
+              HasSubstr("unit of column Extension (mm): cm is not allowed: the same below the name as in it, mm"));
+}
+
+TEST(RawData, MegaIsNotMilli) {
+  EXPECT_THAT(complaint_of("Time,Extension,Load\n(s),(mm),(MN)\n0,0,0\n"), HasSubstr("MN is not allowed"));
+  std::istringstream in("Time,Extension,Load\n(s),(mm),(mN)\n0,0,2\n");
+  EXPECT_DOUBLE_EQ(read_raw_data(in, "raw.csv").front().load, 2e-3);
+}
+
+TEST(RawData, WhatIsNotANumberIsNamedByRowAndColumn) {
+  EXPECT_EQ(complaint("cut_off.csv"), "cut_off.csv: row 8: Load:  is not allowed: a number with decimals behind \".\"");
+  EXPECT_EQ(complaint("goes_back.csv"), "goes_back.csv: row 8: Time: 0.3 is not allowed: a time that does not go back");
+  EXPECT_EQ(complaint("no_names.csv"),
+            "no_names.csv: names: none is not allowed: a row that names time, extension and load");
+  EXPECT_EQ(complaint("empty"), "empty: names: none is not allowed: a row that names time, extension and load");
+  EXPECT_THAT(complaint_of("Time,Extension,Load\n(s),(mm),(N)\n"), HasSubstr("rows: none"));
+  EXPECT_THAT(complaint("not there"), HasSubstr("raw data that can be read"));
+}
+
+TEST(RawData, ACommaIsOfDecimalsOrOfThousandsNeverOfBoth) {
+  const std::string head = "Time;Extension;Load\n(s);(mm);(N)\n";
+  std::istringstream in(head + "0;0;1.234,5\n1;1;1.234.567,5\n");
+  const std::vector<CurveRow> rows = read_raw_data(in, "raw.csv");
+  EXPECT_EQ(rows[0].load, 1234.5);
+  EXPECT_EQ(rows[1].load, 1234567.5);
+  for (const char* load : {"12,34", "0,123", "1234,567", "1,2345", ",123", "1,,234"})
+    EXPECT_THAT(complaint_of(head + "0.5;0;" + load + "\n"), HasSubstr("row 3: Load")) << load;
+}
+
+TEST(RawData, WhatIsSaidOfNumbersAsLargeAsTheyGet) {
+  EXPECT_THAT(complaint_of("Time,Extension,Load\n(s),(mm),(kN)\n0,0,1e308\n"), HasSubstr("row 3: Load"));
+  EXPECT_THAT(complaint_of("Time,Extension,Load\n(s),(mm),(N)\n0,0,nan\n"), HasSubstr("row 3: Load"));
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,111 @@
+#include "knot_utm/ros/curve_bag.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <rosbag/bag.h>
+#include <std_msgs/String.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+
+#include "knot_utm/io/cannot_write.hpp"
+#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/ros/test_bag.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class CurveBag : public testing::Test {
+ protected:
+  CurveBag() : folder_(fs::path(testing::TempDir()) / ("curve_bag_test_" + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~CurveBag() override { fs::remove_all(folder_); }
+
+  std::string file(const char* name) const { return (folder_ / name).string(); }
+
+  std::string complaint(const char* name) const {
+    try {
+      read_curve_bag(file(name));
+    } catch (const InvalidInput& invalid) {
+      return invalid.what();
+    }
+    return "none";
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(CurveBag, GivesBackAMeasuredCurve) {
+  std::vector<CurveRow> rows(3);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].time = 0.1 + static_cast<double>(i) / 3.0;
+    rows[i].extension = 1e-3 / static_cast<double>(3 + i);
+    rows[i].load = -0.1 + static_cast<double>(i) / 7.0;
+    rows[i].phase = Phase::kPull;
+  }
+  write_curve_bag(file("a.bag"), rows);
+  const std::vector<CurveRow> back = read_curve_bag(file("a.bag"));
+  ASSERT_EQ(back.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(back[i].time, rows[i].time);
+    EXPECT_EQ(back[i].extension, rows[i].extension);
+    EXPECT_EQ(back[i].load, rows[i].load);
+    EXPECT_EQ(back[i].phase, Phase::kPull);
+    EXPECT_TRUE(std::isnan(back[i].knot_distance));
+  }
+}
+
+TEST_F(CurveBag, OfASimulatedTestIsItsCurve) {
+  {
+    TestBag bag(file("test.bag"), Method());
+    Record record;
+    for (std::uint64_t i = 0; i < 4; ++i) {
+      record.command.sequence = record.answer.sequence = i;
+      record.command.time = record.answer.time = 0.5 * static_cast<double>(i);
+      record.command.read_cell = i % 2 == 1;
+      record.command.phase = record.answer.phase = Phase::kPull;
+      record.command.displacement = 0.3;
+      record.answer.extension = 0.01 * static_cast<double>(i);
+      record.answer.load = 2.0 * static_cast<double>(i);
+      record.answer.knot_distance = 0.15;
+      bag.add(record);
+    }
+    bag.close();
+  }
+  const std::vector<CurveRow> rows = read_curve_bag(file("test.bag"));
+  ASSERT_EQ(rows.size(), 2u);  // of readings alone
+  EXPECT_EQ(rows[1].time, 1.5);
+  EXPECT_EQ(rows[1].extension, 0.03);
+  EXPECT_EQ(rows[1].load, 6.0);
+  EXPECT_EQ(rows[1].knot_distance, 0.15);
+}
+
+TEST_F(CurveBag, OfOtherFilesIsRefusedInOneLine) {
+  write_whole(file("text.bag"), "this is no bag\n");
+  EXPECT_THAT(complaint("text.bag"), HasSubstr("a bag that can be read"));
+  EXPECT_THAT(complaint("not_there.bag"), HasSubstr("a bag that can be read"));
+  {
+    rosbag::Bag bag(file("other.bag"), rosbag::bagmode::Write);
+    bag.write("/chatter", ros::Time(1.0), std_msgs::String());
+  }
+  EXPECT_THAT(complaint("other.bag"), HasSubstr("topic utm/load_cell: none is not allowed"));
+  {
+    rosbag::Bag bag(file("strings.bag"), rosbag::bagmode::Write);
+    bag.write("/utm/load_cell", ros::Time(1.0), std_msgs::String());
+    bag.write("/utm/crosshead", ros::Time(1.0), std_msgs::String());
+  }
+  EXPECT_THAT(complaint("strings.bag"), HasSubstr("std_msgs/String is not allowed: knot_utm/Crosshead"));
+}
+
+TEST_F(CurveBag, ThatCannotBeWrittenIsSaid) {
+  EXPECT_THROW(write_curve_bag(file("no/such/folder.bag"), {}), CannotWrite);
+}
+
+}  // namespace
+}  // namespace knot_utm
