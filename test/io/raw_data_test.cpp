@@ -45,8 +45,8 @@ INSTANTIATE_TEST_SUITE_P(RawData, EveryDialect,
                                          "english_results_first.csv", "english_thousands.csv", "german_cp1252.csv",
                                          "german_utf16.csv", "german_utf16_tabs.csv", "polish_cp1250.csv",
                                          "polish_utf8.csv", "french_cp1252.csv", "french_utf8.csv", "empty_rows.csv"),
-                         [](const testing::TestParamInfo<const char*>& info) {
-                           const std::string name = info.param;
+                         [](const testing::TestParamInfo<const char*>& dialect_info) {
+                           const std::string name = dialect_info.param;
                            return name.substr(0, name.size() - 4);
                          });
 
