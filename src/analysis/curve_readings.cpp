@@ -145,7 +145,7 @@ CurveReadings curve_readings(const Pull& pull) {
   out.peak_force = peak_force(pull);
   out.lock_extension = lock_by_load(pull);
   const std::optional<Plateau> level = plateau(pull, out.lock_extension.value_or(pull.back().extension));
-  if (level && std::abs(level->rise) < kLevel * level->force) {
+  if (level && (out.lock_extension || std::abs(level->rise) < kLevel * level->force)) {
     out.plateau_force = level->force;
     out.plateau_force_sd = level->force_sd;
   }

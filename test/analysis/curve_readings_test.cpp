@@ -52,6 +52,17 @@ TEST(CurveReadings, ABreakawayIsNoLock) {
   EXPECT_FALSE(curve_readings(pull(force, 0.07, 700)).lock_extension);
 }
 
+TEST(CurveReadings, APlateauBeforeALockMayRise) {
+  const CurveReadings readings = curve_readings(pull([](double s) { return sliding(s) + 150.0 * s; }));
+  ASSERT_TRUE(readings.lock_extension);
+  // Of a straight line the mean is that of the middle, 0.55 of the lock. Pieces of the curve that stand in the range in
+  // part count with their own mean, half a piece off at most, at either end.
+  constexpr double kPiece = 1e-4, kRise = 150.0;
+  const double width = 0.5 * *readings.lock_extension;
+  EXPECT_NEAR(*readings.plateau_force, 6.0 + kRise * 0.55 * *readings.lock_extension,
+              2.0 * kRise * 0.5 * kPiece * kPiece / width);
+}
+
 TEST(CurveReadings, OfNothingThereAreNone) {
   EXPECT_FALSE(curve_readings({}).peak_force);
   const CurveReadings one = curve_readings({{0.0, 0.0, Sample::kNone, 1.0}});

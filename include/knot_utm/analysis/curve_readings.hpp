@@ -49,8 +49,9 @@ std::optional<double> locked_stiffness(const Pull& pull, double from);
 
 /// What a force-extension curve says by itself, be it measured or simulated.
 struct CurveReadings {
-  std::optional<double> peak_force;        ///< [N]
-  std::optional<double> plateau_force;     ///< mean F, where it is level: its rise below half of it [N]
+  std::optional<double> peak_force;  ///< [N]
+  std::optional<double>
+      plateau_force;  ///< mean F before the lock; without one where F is level: it rises by less than half [N]
   std::optional<double> plateau_force_sd;  ///< [N]
   std::optional<double> lock_extension;    ///< s_l [m]
   std::optional<double> locked_stiffness;  ///< behind s_l; of the whole pull where there is no plateau [N/m]
