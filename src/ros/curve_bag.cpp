@@ -31,7 +31,7 @@ std::string topic_named(const rosbag::Bag& bag, const std::string& file, const s
 }
 
 std::string required_topic(const rosbag::Bag& bag, const std::string& file, const std::string& name) {
-  const std::string topic = topic_named(bag, file, name);
+  std::string topic = topic_named(bag, file, name);
   if (topic.empty()) throw InvalidInput(file, "topic " + name, "none", "a bag that has it");
   return topic;
 }
