@@ -41,6 +41,7 @@ std::optional<CurveDifference> curve_difference(const Pull& a, const Pull& b) {
   CurveDifference out;
   out.common = {std::max(a.front().extension, b.front().extension), std::min(a.back().extension, b.back().extension)};
   if (!(out.common.high > out.common.low)) return std::nullopt;
+  out.largest_at = out.common.low;
   Walk along_a(a), along_b(b);
   double square = 0.0, last = 0.0, last_at = out.common.low;
   for (const double s : corners(a, b, out.common)) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <vector>
 
 namespace knot_utm {
 namespace {
@@ -11,6 +12,22 @@ constexpr double kPlateauBegin = 0.3, kPlateauEnd = 0.8;  // of the way to the l
 constexpr double kLockedLoad = 2.0;                       // times the plateau's mean
 constexpr double kEarliestLock = 0.15;                    // of the pull
 constexpr double kLevel = 0.5;                            // rise of a plateau over its mean
+
+/// What stands of the piece of a curve from a to b, straight between them, in a range of s.
+struct Piece {
+  double width;     // of s; none where it is not positive
+  double from, to;  // F at its ends
+  double share;     // of the piece
+
+  Piece(const PullPoint& a, const PullPoint& b, const Range& range) {
+    const double begin = std::max(a.extension, range.low), length = b.extension - a.extension;
+    width = std::min(b.extension, range.high) - begin;
+    const double slope = (b.force - a.force) / length;
+    from = a.force + slope * (begin - a.extension);
+    to = from + slope * width;
+    share = width / length;
+  }
+};
 
 /// Integrals over a range of s, F being straight from point to point.
 struct Integrals {
@@ -21,13 +38,12 @@ Integrals integrate(const Pull& pull, const Range& range) {
   Integrals out;
   for (std::size_t i = 1; i < pull.size(); ++i) {
     const PullPoint &a = pull[i - 1], &b = pull[i];
-    const double from = std::max(a.extension, range.low), to = std::min(b.extension, range.high);
-    if (!(to > from)) continue;
-    const double part = (to - from) / (b.extension - a.extension);
-    out.width += to - from;
-    out.force += (to - from) * 0.5 * (a.force + b.force);
-    out.square += (to - from) * 0.5 * (a.force * a.force + b.force * b.force);
-    out.distance_change += part * (b.knot_distance - a.knot_distance);
+    const Piece piece(a, b, range);
+    if (!(piece.width > 0.0)) continue;
+    out.width += piece.width;
+    out.force += piece.width * (piece.from + piece.to) / 2.0;
+    out.square += piece.width * (piece.from * piece.from + piece.from * piece.to + piece.to * piece.to) / 3.0;
+    out.distance_change += piece.share * (b.knot_distance - a.knot_distance);
   }
   return out;
 }
@@ -42,12 +58,10 @@ double slope_over(const Pull& pull, const Range& range) {
   const double length = range.high - range.low, middle = 0.5 * (range.low + range.high);
   double moment = 0.0;  // integral of F (s - middle) ds
   for (std::size_t i = 1; i < pull.size(); ++i) {
-    const PullPoint &a = pull[i - 1], &b = pull[i];
-    const double from = std::max(a.extension, range.low), width = std::min(b.extension, range.high) - from;
-    if (!(width > 0.0)) continue;
-    const double slope = (b.force - a.force) / (b.extension - a.extension);
-    const double arm = from - middle, force = a.force + slope * (from - a.extension);
-    moment += width * (force * (arm + width / 2.0) + slope * width * (arm / 2.0 + width / 3.0));
+    const Piece piece(pull[i - 1], pull[i], range);
+    if (!(piece.width > 0.0)) continue;
+    const double arm = std::max(pull[i - 1].extension, range.low) - middle, rise = piece.to - piece.from;
+    moment += piece.width * (piece.from * (arm + piece.width / 2.0) + rise * (arm / 2.0 + piece.width / 3.0));
   }
   return 12.0 * moment / (length * length * length);
 }
@@ -69,28 +83,61 @@ std::size_t peak_of(const Pull& pull) {
   return static_cast<std::size_t>(std::max_element(pull.begin(), pull.end(), less) - pull.begin());
 }
 
-/// Where F, on the way to the peak, last rises through `force`; the peak where it is above all of it.
-double last_rise_through(const Pull& pull, std::size_t peak, double force) {
-  std::size_t below = peak;
-  while (below > 0 && pull[below].force > force) --below;
-  if (below == peak) return pull[peak].extension;
-  const PullPoint &a = pull[below], &b = pull[below + 1];
-  if (a.force > force) return a.extension;
-  return a.extension + (force - a.force) / (b.force - a.force) * (b.extension - a.extension);
-}
+/// The way of a pull to its peak, for questions that are asked many times.
+class WayToPeak {
+ public:
+  explicit WayToPeak(const Pull& pull) : pull_(pull), peak_(peak_of(pull)), work_(peak_ + 1, 0.0), least_(peak_ + 1) {
+    for (std::size_t i = 1; i <= peak_; ++i)
+      work_[i] = work_[i - 1] + 0.5 * (pull[i].extension - pull[i - 1].extension) * (pull[i].force + pull[i - 1].force);
+    least_[peak_] = pull[peak_].force;
+    for (std::size_t i = peak_; i-- > 0;) least_[i] = std::min(least_[i + 1], pull[i].force);
+  }
+
+  double start() const { return pull_.front().extension; }
+  double end() const { return pull_[peak_].extension; }
+  double mean_force(const Range& range) const {
+    return (work_to(range.high) - work_to(range.low)) / (range.high - range.low);
+  }
+
+  /// Where F last rises through `force`; the end where it never does.
+  double last_rise_through(double force) const {
+    // The least F from a point on only grows from point to point.
+    const auto above = std::upper_bound(least_.begin(), least_.end(), force);
+    if (above == least_.end()) return end();
+    if (above == least_.begin()) return start();
+    const auto next = static_cast<std::size_t>(above - least_.begin());
+    const PullPoint &a = pull_[next - 1], &b = pull_[next];
+    return a.extension + (force - a.force) / (b.force - a.force) * (b.extension - a.extension);
+  }
+
+ private:
+  double work_to(double extension) const {
+    const auto less = [](const PullPoint& point, double s) { return point.extension < s; };
+    const auto last = pull_.begin() + static_cast<std::ptrdiff_t>(peak_);
+    const auto next = std::lower_bound(pull_.begin() + 1, last, extension, less);
+    const Piece piece(*(next - 1), *next, {(next - 1)->extension, extension});
+    return work_[static_cast<std::size_t>(next - pull_.begin()) - 1] + piece.width * (piece.from + piece.to) / 2.0;
+  }
+
+  const Pull& pull_;
+  std::size_t peak_;
+  std::vector<double> work_;   // integral of F from the first point to each [J]
+  std::vector<double> least_;  // F from each point to the peak [N]
+};
 
 std::optional<double> lock_by_load(const Pull& pull) {
-  const std::size_t peak = peak_of(pull);
-  const double start = pull.front().extension, last = pull[peak].extension;
-  const double earliest = start + kEarliestLock * (pull.back().extension - start);
-  // Each step goes back, by a point or within one piece of the curve: the bound is for roundings at the fixed point.
-  double lock = last;
-  for (std::size_t step = 0; step < 2 * pull.size() && lock > earliest; ++step) {
-    const std::optional<Plateau> before = plateau(pull, lock);
-    if (!before || before->force <= 0.0) return std::nullopt;
-    const double next = std::min(lock, last_rise_through(pull, peak, kLockedLoad * before->force));
-    if (next >= last) return std::nullopt;
-    if (lock - next <= 1e-9 * (last - start)) return next;
+  const WayToPeak way(pull);
+  const double length = way.end() - way.start();
+  const double earliest = way.start() + kEarliestLock * (pull.back().extension - way.start());
+  // Steps go back by a share each, unless F grows in about proportion to s: then there is no lock to be found.
+  constexpr int kMostSteps = 1000;
+  double lock = way.end();
+  for (int step = 0; step < kMostSteps && lock > earliest; ++step) {
+    const double mean = way.mean_force(plateau_range(pull, lock));
+    if (!(mean > 0.0)) return std::nullopt;
+    const double next = std::min(lock, way.last_rise_through(kLockedLoad * mean));
+    if (next >= way.end()) return std::nullopt;
+    if (lock - next <= 1e-9 * length) return next;
     lock = next;
   }
   return std::nullopt;

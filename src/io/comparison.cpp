@@ -64,7 +64,8 @@ std::vector<std::string> beyond_tolerance(const Comparison& comparison, double t
     if (!(std::abs(relative) <= tolerance))
       out.push_back(name + ": " + format_number(relative) + " is beyond " + format_number(tolerance));
   };
-  if (comparison.difference) hold("rms_difference_over_load", comparison.difference->rms / comparison.difference->load);
+  if (comparison.difference && comparison.difference->rms > 0.0)
+    hold("rms_difference_over_load", comparison.difference->rms / comparison.difference->load);
   for (const Reading& reading : kReadings) {
     const std::optional<double>&a = comparison.a.*reading.value, &b = comparison.b.*reading.value;
     if (a.has_value() != b.has_value())

@@ -1,29 +1,31 @@
 #include "knot_utm/io/curve_file.hpp"
 
-#include <fstream>
+#include <sstream>
 
 #include "knot_utm/io/raw_data.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
-#include "knot_utm/rod/text_rows.hpp"
+#include "knot_utm/io/run_folder.hpp"
 
 namespace knot_utm {
 namespace {
 
-/// A machine's raw data have no phases.
-bool has_phases(std::istream& in) {
-  TextRows rows(in);
-  return rows.next() && rows.text().find("phase") != std::string::npos;
+/// By the row of its names; raw data of a machine have no phases.
+bool is_own(const std::string& content) {
+  std::istringstream names(content.substr(0, content.find_first_of("\r\n")));
+  bool time = false, phase = false;
+  for (std::string name; std::getline(names, name, ',');) {
+    time |= name == "time";
+    phase |= name == "phase";
+  }
+  return time && phase;
 }
 
 }  // namespace
 
 std::vector<CurveRow> read_curve_file(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InvalidInput("file", file, "a curve that can be read");
-  const bool own = has_phases(in);
-  in.clear();
-  in.seekg(0);
-  return own ? read_curve(in, file) : read_raw_data(in, file);
+  const std::string content = read_input(file, "a curve.csv, or raw data of a testing machine");
+  if (!is_own(content)) return read_raw_data(content, file);
+  std::istringstream in(content);
+  return read_curve(in, file);
 }
 
 Pull pull_of(const std::vector<CurveRow>& rows, bool balanced) {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -20,28 +18,42 @@ using Cells = std::vector<std::string>;
 
 // ---- characters -----------------------------------------------------------------------------------------------------
 
-constexpr char kForeign = '?';  // stands for every letter beyond ASCII
+constexpr char kForeign = '?';  // stands for every letter beyond ASCII, but for blanks that do not break a line
 
 /// Two bytes a character, the high one first or second.
 std::string from_utf16(const std::string& bytes, std::size_t high) {
   std::string out;
   for (std::size_t i = 2; i + 1 < bytes.size(); i += 2) {
-    const auto upper = static_cast<unsigned char>(bytes[i + high]),
-               lower = static_cast<unsigned char>(bytes[i + 1 - high]);
-    out += upper == 0 && lower < 0x80 ? static_cast<char>(lower) : kForeign;
+    const int upper = static_cast<unsigned char>(bytes[i + high]),
+              lower = static_cast<unsigned char>(bytes[i + 1 - high]);
+    const int letter = upper << 8 | lower;
+    if (letter < 0x80)
+      out += static_cast<char>(letter);
+    else
+      out += letter == 0xA0 || letter == 0x202F ? ' ' : kForeign;
   }
   return out;
 }
 
-/// Of a code page every byte is a letter; of UTF-8 those that go on with one (10xxxxxx) are none of their own.
-std::string from_bytes(const std::string& bytes, bool utf8) {
-  std::string out;
-  for (const char c : bytes) {
+/// Of a code page every byte is a letter.
+std::string from_code_page(const std::string& bytes) {
+  std::string out = bytes;
+  for (char& c : out) {
     const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80) c = byte == 0xA0 ? ' ' : kForeign;
+  }
+  return out;
+}
+
+/// Bytes that go on with a letter (10xxxxxx) are none of their own.
+std::string from_utf8(const std::string& bytes) {
+  std::string out;
+  for (std::size_t i = 0; i < bytes.size(); ++i) {
+    const auto byte = static_cast<unsigned char>(bytes[i]);
     if (byte < 0x80)
-      out += c;
-    else if (!utf8 || (byte & 0xC0) != 0x80)
-      out += kForeign;
+      out += bytes[i];
+    else if ((byte & 0xC0) != 0x80)
+      out += bytes.compare(i, 2, "\xC2\xA0") == 0 || bytes.compare(i, 3, "\xE2\x80\xAF") == 0 ? ' ' : kForeign;
   }
   return out;
 }
@@ -66,8 +78,8 @@ std::string decoded(const std::string& bytes) {
   const auto begins = [&](const char* mark) { return bytes.rfind(mark, 0) == 0; };
   if (begins("\xFF\xFE")) return from_utf16(bytes, 1);
   if (begins("\xFE\xFF")) return from_utf16(bytes, 0);
-  if (begins("\xEF\xBB\xBF")) return from_bytes(bytes.substr(3), true);
-  return from_bytes(bytes, is_utf8(bytes));
+  if (begins("\xEF\xBB\xBF")) return from_utf8(bytes.substr(3));
+  return is_utf8(bytes) ? from_utf8(bytes) : from_code_page(bytes);
 }
 
 // ---- cells ----------------------------------------------------------------------------------------------------------
@@ -147,12 +159,10 @@ const std::array<Quantity, 3>& quantities() {
   return all;
 }
 
-/// Mega is not milli.
-bool is_mega(const std::string& unit) { return unit.rfind('M', 0) == 0 && unit.size() > 1; }
-
 std::optional<double> si_of(const Quantity& quantity, const std::string& unit) {
+  if (unit == "MN") return std::nullopt;  // mega is not milli
   for (const Unit& known : quantity.units)
-    if (lower(unit) == known.name && !is_mega(unit)) return known.si;
+    if (lower(unit) == known.name) return known.si;
   return std::nullopt;
 }
 
@@ -214,49 +224,67 @@ std::optional<Columns> find_columns(const Cells& cells) {
 
 // ---- numbers --------------------------------------------------------------------------------------------------------
 
-/// The mark of decimals in a file, by the cells that tell it.
-class DecimalMark {
- public:
-  void look_at(const std::string& cell) {
-    const std::size_t point = cell.rfind('.'), comma = cell.rfind(',');
-    const bool has_point = point != std::string::npos, has_comma = comma != std::string::npos;
-    if (has_point && has_comma) told_ = point > comma ? '.' : ',';
-    points_ |= has_point;
-    commas_ |= has_comma;
-  }
-  char mark() const { return told_ ? *told_ : commas_ && !points_ ? ',' : '.'; }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool has_digit(const std::string& cell) { return std::any_of(cell.begin(), cell.end(), is_digit); }
 
- private:
-  std::optional<char> told_;  // by a cell that has both
-  bool points_ = false, commas_ = false;
-};
-
-bool has_digit(const std::string& cell) { return cell.find_first_of("0123456789") != std::string::npos; }
-
-/// Drops what stands between groups of three digits; nothing where it does not.
+/// 1,234,567 without its marks; what has none as it is; nothing where they stand elsewhere.
 std::optional<std::string> without_groups(const std::string& whole, char mark) {
-  std::string out;
   const std::size_t first = whole.find(mark);
   if (first == std::string::npos) return whole;
-  const std::size_t digits = whole.find_first_of("0123456789");
-  if (digits == std::string::npos || first <= digits || first > digits + 3 || whole[digits] == '0') return std::nullopt;
-  for (std::size_t i = first; i < whole.size(); i += 4) {
-    if (whole[i] != mark || whole.size() < i + 4) return std::nullopt;
-    if (whole.find(mark, i + 1) < i + 4) return std::nullopt;
+  const std::size_t begin = whole[0] == '-' || whole[0] == '+' ? 1 : 0;
+  if (first == begin || first > begin + 3 || whole[begin] == '0' || (whole.size() - first) % 4 != 0)
+    return std::nullopt;
+  std::string out = whole.substr(0, begin);
+  for (std::size_t i = begin; i < whole.size(); ++i) {
+    const bool between = i >= first && (i - first) % 4 == 0;
+    if (between ? whole[i] != mark : !is_digit(whole[i])) return std::nullopt;
+    if (!between) out += whole[i];
   }
-  for (const char c : whole)
-    if (c != mark) out += c;
   return out;
 }
 
+/// The mark of decimals in a file: the first cell that tells it counts for all.
+class DecimalMark {
+ public:
+  void look_at(const std::string& cell) {
+    if (is_told()) return;
+    const std::size_t point = cell.rfind('.'), comma = cell.rfind(',');
+    if (point != std::string::npos && comma != std::string::npos) {
+      told_ = point > comma ? '.' : ',';
+    } else if (point != comma) {
+      const char mark = point != std::string::npos ? '.' : ',';
+      const bool twice = std::count(cell.begin(), cell.end(), mark) > 1;
+      if (twice)
+        told_ = mark == '.' ? ',' : '.';
+      else if (!without_groups(cell, mark))
+        told_ = mark;
+      else if (unclear_.empty())
+        unclear_ = cell;
+    }
+  }
+
+  bool is_told() const { return told_.has_value(); }
+  char mark() const { return told_.value_or('.'); }
+  /// A number of three digits behind a mark, where none tells whether it is of decimals; else empty.
+  std::string unclear() const { return told_ ? std::string() : unclear_; }
+
+ private:
+  std::optional<char> told_;
+  std::string unclear_;
+};
+
 std::optional<double> number(const std::string& cell, char mark) {
   const std::size_t decimals = std::min(cell.find(mark), cell.size());
-  const auto whole = without_groups(cell.substr(0, decimals), mark == '.' ? ',' : '.');
-  if (!whole) return std::nullopt;
-  std::string text = *whole;
-  if (decimals < cell.size()) text += '.' + cell.substr(decimals + 1);
-  if (!has_digit(text)) return std::nullopt;
-  return parse_number(text);
+  std::optional<std::string> text = without_groups(cell.substr(0, decimals), mark == '.' ? ',' : '.');
+  if (text) text = without_groups(*text, ' ');
+  if (!text) return std::nullopt;
+  if (decimals < cell.size()) *text += '.' + cell.substr(decimals + 1);
+  return has_digit(*text) ? parse_number(*text) : std::nullopt;
+}
+
+template <typename Iterator>
+bool are_empty(Iterator begin, Iterator end) {
+  return std::all_of(begin, end, [](const std::string& cell) { return cell.empty(); });
 }
 
 // ---- the file -------------------------------------------------------------------------------------------------------
@@ -266,8 +294,8 @@ struct Row {
   std::string text;
 };
 
-std::vector<Row> rows_of(std::istream& in, const std::string& file) {
-  std::istringstream text(decoded(std::string(std::istreambuf_iterator<char>(in), {})));
+std::vector<Row> rows_of(const std::string& content, const std::string& file) {
+  std::istringstream text(decoded(content));
   TextRows rows(text);
   std::vector<Row> out;
   while (rows.next()) out.push_back({rows.number(), rows.text()});
@@ -278,18 +306,24 @@ std::vector<Row> rows_of(std::istream& in, const std::string& file) {
 /// The table in the file: what its columns are, and the cells of its rows.
 class RawTable {
  public:
-  RawTable(std::istream& in, const std::string& file) : file_(file), rows_(rows_of(in, file)) {
+  RawTable(const std::string& content, const std::string& file) : file_(file), rows_(rows_of(content, file)) {
     find_names();
     find_units();
-    for (std::size_t i = next_; i < rows_.size(); ++i)
+    for (std::size_t i = next_; i < rows_.size() && !mark_.is_told(); ++i)
       for (const std::string& cell : wanted(split(rows_[i].text, separator_))) mark_.look_at(cell);
+    if (!mark_.unclear().empty())
+      throw InvalidInput(file_, "decimals", mark_.unclear(),
+                         "a file of which a number tells whether they have that mark");
   }
 
   std::vector<CurveRow> read() const {
     std::vector<CurveRow> out;
     for (std::size_t i = next_; i < rows_.size(); ++i) {
-      const std::array<std::string, 3> cells = wanted(split(rows_[i].text, separator_));
-      if (std::all_of(cells.begin(), cells.end(), [](const std::string& cell) { return cell.empty(); })) continue;
+      const Cells all = split(rows_[i].text, separator_);
+      const std::array<std::string, 3> cells = wanted(all);
+      if (are_empty(cells.begin(), cells.end())) continue;
+      require_named(all, rows_[i].number);
+      if (!has_digit(cells[0]) && find_columns(all)) refuse(rows_[i].number, "names", "once more", "one table");
       const CurveRow row = row_of(cells, rows_[i].number);
       if (!out.empty() && row.time < out.back().time)
         refuse(rows_[i].number, columns_[0].name, cells[0], "a time that does not go back");
@@ -306,6 +340,7 @@ class RawTable {
         if (const auto found = find_columns(split(rows_[next_].text, separator))) {
           columns_ = *found;
           separator_ = separator;
+          names_ = split(rows_[next_].text, separator).size();
           ++next_;
           return;
         }
@@ -314,13 +349,25 @@ class RawTable {
 
   /// Those behind the names, or of the row below them.
   void find_units() {
-    while (next_ < rows_.size() && trimmed(rows_[next_].text).empty()) ++next_;
+    const auto is_empty = [&](const Row& row) {
+      const Cells cells = split(row.text, separator_);
+      return are_empty(cells.begin(), cells.end());
+    };
+    while (next_ < rows_.size() && is_empty(rows_[next_])) ++next_;
     std::array<std::string, 3> below;
     if (next_ < rows_.size()) below = wanted(split(rows_[next_].text, separator_));
     const bool has_units = std::none_of(below.begin(), below.end(), has_digit);
     if (has_units) ++next_;
     for (std::size_t i = 0; i < columns_.size(); ++i)
       si_[i] = si(columns_[i], has_units ? bracketed(below[i]).value_or(below[i]) : "");
+  }
+
+  /// Whose cells have a name each: a decimal comma that is not in quotes would make two of one.
+  void require_named(const Cells& cells, std::size_t row) const {
+    const std::size_t named = std::min(names_, cells.size());
+    if (!are_empty(cells.begin() + static_cast<std::ptrdiff_t>(named), cells.end()))
+      refuse(row, "cells", std::to_string(cells.size()),
+             std::to_string(names_) + ", as there are names; a comma of decimals must stand in quotes");
   }
 
   double si(const Column& column, const std::string& below) const {
@@ -368,6 +415,7 @@ class RawTable {
   std::vector<Row> rows_;
   std::size_t next_ = 0;  // that has not been read yet
   char separator_ = ',';
+  std::size_t names_ = 0;  // how many columns have one
   Columns columns_;
   std::array<double, 3> si_{};
   DecimalMark mark_;
@@ -375,12 +423,8 @@ class RawTable {
 
 }  // namespace
 
-std::vector<CurveRow> read_raw_data(std::istream& in, const std::string& file) { return RawTable(in, file).read(); }
-
-std::vector<CurveRow> read_raw_data(const std::string& file) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InvalidInput("file", file, "raw data that can be read");
-  return read_raw_data(in, file);
+std::vector<CurveRow> read_raw_data(const std::string& content, const std::string& file) {
+  return RawTable(content, file).read();
 }
 
 }  // namespace knot_utm

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "knot_utm/io/cannot_write.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {
@@ -82,6 +83,14 @@ std::string read_whole(const std::string& file) {
   if (in.peek() != std::ifstream::traits_type::eof()) all << in.rdbuf();
   if (!in) throw std::runtime_error(file + ": cannot be read");
   return all.str();
+}
+
+std::string read_input(const std::string& file, const std::string& allowed) {
+  try {
+    return read_whole(file);
+  } catch (const std::runtime_error&) {
+    throw InvalidInput(file, "file", "one that cannot be read", allowed);
+  }
 }
 
 }  // namespace knot_utm

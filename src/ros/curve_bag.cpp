@@ -1,9 +1,12 @@
 #include "knot_utm/ros/curve_bag.hpp"
 
+#include <ros/exception.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 
+#include <algorithm>
 #include <map>
+#include <stdexcept>
 
 #include "knot_utm/io/cannot_write.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
@@ -36,6 +39,11 @@ std::string required_topic(const rosbag::Bag& bag, const std::string& file, cons
   return topic;
 }
 
+template <typename Message>
+std::string named() {
+  return ros::message_traits::datatype<Message>();
+}
+
 /// Calls `take` with every message of a topic.
 template <typename Message, typename Take>
 void for_each(const rosbag::Bag& bag, const std::string& file, const std::string& topic, Take take) {
@@ -43,7 +51,8 @@ void for_each(const rosbag::Bag& bag, const std::string& file, const std::string
   for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topic))) {
     const boost::shared_ptr<Message> message = instance.instantiate<Message>();
     if (!message)
-      throw InvalidInput(file, "topic " + topic, instance.getDataType(), ros::message_traits::datatype<Message>());
+      throw InvalidInput(file, "topic " + topic, instance.getDataType() + " " + instance.getMD5Sum(),
+                         named<Message>() + " " + ros::message_traits::md5sum<Message>());
     take(*message);
   }
 }
@@ -80,10 +89,10 @@ std::vector<CurveRow> read_curve_bag(const std::string& file) {
   try {
     const rosbag::Bag bag(file, rosbag::bagmode::Read);
     return rows_of(bag, file);
-  } catch (const rosbag::BagException& error) {
+  } catch (const ros::Exception& error) {
     throw InvalidInput(file, "bag", error.what(), "a bag that can be read");
   } catch (const std::invalid_argument& error) {
-    throw InvalidInput(file, "phase", error.what(), "a phase of a test");
+    throw InvalidInput(file, "message", error.what(), "those of a test");
   }
 }
 
@@ -92,9 +101,11 @@ void write_curve_bag(const std::string& file, const std::vector<CurveRow>& rows)
     rosbag::Bag bag(file, rosbag::bagmode::Write);
     Command command;
     Sample sample;
+    ros::Time stamp;
     const double start = rows.empty() ? 0.0 : rows.front().time;
     for (const CurveRow& row : rows) {
-      const ros::Time stamp = test_stamp(-start, row.time);
+      // Readings may be closer to each other than their times tell; their stamps pair them with their commands.
+      stamp = std::max(test_stamp(-start, row.time), stamp + ros::Duration(0, 1));
       command.velocity =
           row.time > command.time ? (row.extension - command.displacement) / (row.time - command.time) : 0.0;
       command.time = row.time;

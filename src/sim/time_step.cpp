@@ -83,7 +83,7 @@ class ImplicitStep final : public TimeStep {
     if (summary.accepted())
       commit();
     else
-      summary.diagnosis = summary.newton.converged() ? diagnosis_at(fastest_node()) : diagnosis_at(worst_.node);
+      summary.diagnosis = summary.newton.converged() ? of_the_fastest_node() : diagnosis(worst_.node, worst_.residual);
     return summary;
   }
 
@@ -338,10 +338,6 @@ class ImplicitStep final : public TimeStep {
     }
   }
 
-  double residual_at(int node) const {
-    return held_[at(node)] ? 0.0 : to_vec3(force_[at(node)]).norm() / ease(node, tolerance());
-  }
-
   double ease(int node, double tolerance) const { return rule_.ease(centreline_.largest_tension_at(node), tolerance); }
 
   /// The first that is no number, else the largest.
@@ -416,15 +412,15 @@ class ImplicitStep final : public TimeStep {
       summary.reason = reason(*passage);
   }
 
-  int fastest_node() const {
+  StepDiagnosis of_the_fastest_node() {
     Eigen::Index node = 0;
     (x_ - state_.position).colwise().squaredNorm().maxCoeff(&node);
-    return static_cast<int>(node);
+    const int i = static_cast<int>(node);
+    return diagnosis(i, held_[at(i)] ? 0.0 : to_vec3(force_[at(i)]).norm() / ease(i, tolerance()));
   }
 
-  StepDiagnosis diagnosis_at(int node) {
+  StepDiagnosis diagnosis(int node, double residual) {
     if (node < 0) return {};
-    const double residual = node == worst_.node ? worst_.residual : residual_at(node);
     return diagnose(rod_, solved(), node, residual, {contact_.contacts(), rollers_.contacts()});
   }
 

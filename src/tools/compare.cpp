@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "knot_utm/analysis/curve_difference.hpp"
+#include "knot_utm/io/cannot_write.hpp"
 #include "knot_utm/io/comparison.hpp"
 #include "knot_utm/io/curve_file.hpp"
 #ifdef KNOT_UTM_HAS_ROS
@@ -35,17 +36,32 @@ std::vector<CurveRow> read(const std::string& file) {
 #endif
 }
 
+void require_finite(const std::vector<CurveRow>& rows, const std::string& file) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const CurveRow& row = rows[i];
+    if (row.phase == Phase::kPull &&
+        !(std::isfinite(row.time) && std::isfinite(row.extension) && std::isfinite(row.load)))
+      throw InvalidInput(file, "reading " + std::to_string(i + 1), "one that is not finite",
+                         "time, extension and load");
+  }
+}
+
 Pull pull_from(const std::string& file, bool balanced) {
-  Pull pull = pull_of(read(file), balanced);
+  const std::vector<CurveRow> rows = read(file);
+  require_finite(rows, file);
+  Pull pull = pull_of(rows, balanced);
   if (pull.size() < 2) throw InvalidInput(file, "pull", std::to_string(pull.size()) + " readings", "at least 2");
   return pull;
 }
 
 int run(const Arguments& arguments) {
+  if (arguments.tolerance && !std::isfinite(*arguments.tolerance))
+    throw InvalidInput("--tolerance", std::to_string(*arguments.tolerance), "a number of at least 0");
   const Comparison comparison =
       compare(pull_from(arguments.a, arguments.balance), pull_from(arguments.b, arguments.balance));
   if (!comparison.difference) throw InvalidInput("extensions", "none that both have", "two curves that overlap");
   std::fputs(comparison_yaml(comparison, arguments.a, arguments.b).c_str(), stdout);
+  if (std::fflush(stdout) != 0) throw CannotWrite("standard output");
   if (!arguments.tolerance) return kDone;
   const std::vector<std::string> beyond = beyond_tolerance(comparison, *arguments.tolerance);
   for (const std::string& line : beyond) std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());

@@ -54,17 +54,8 @@ class Table {
   int row_ = 0;
 };
 
-/// A file that cannot be read is as wrong as one that is no step's.
-std::string content_of(const std::string& file) {
-  try {
-    return read_whole(file);
-  } catch (const std::runtime_error&) {
-    throw InvalidInput(file, "file", "one that cannot be read", "that of a time step");
-  }
-}
-
 int run(const std::string& file) {
-  SavedStep step = load_step(content_of(file), file);
+  SavedStep step = load_step(read_input(file, "that of a time step"), file);
   print_scene(step);
   Table table;
   step.stepper->watch([&](const Iterate& iterate) { table.add(iterate); });

@@ -55,12 +55,25 @@ TEST(CurveReadings, ABreakawayIsNoLock) {
 TEST(CurveReadings, APlateauBeforeALockMayRise) {
   const CurveReadings readings = curve_readings(pull([](double s) { return sliding(s) + 150.0 * s; }));
   ASSERT_TRUE(readings.lock_extension);
-  // Of a straight line the mean is that of the middle, 0.55 of the lock. Pieces of the curve that stand in the range in
-  // part count with their own mean, half a piece off at most, at either end.
-  constexpr double kPiece = 1e-4, kRise = 150.0;
-  const double width = 0.5 * *readings.lock_extension;
-  EXPECT_NEAR(*readings.plateau_force, 6.0 + kRise * 0.55 * *readings.lock_extension,
-              2.0 * kRise * 0.5 * kPiece * kPiece / width);
+  // Of a straight line the mean is that of the middle, 0.55 of the lock.
+  EXPECT_NEAR(*readings.plateau_force, 6.0 + 150.0 * 0.55 * *readings.lock_extension, 1e-9);
+}
+
+TEST(CurveReadings, TheSameLinesByMorePointsAreTheSame) {
+  const auto bent = [](double s) { return sliding(s) + 100.0 * std::max(0.0, s - 0.04); };
+  Pull few;
+  for (const double s : {0.0, 1e-3, 0.04, 0.08, 0.12}) few.push_back({s, s, Sample::kNone, bent(s)});
+  const CurveReadings a = curve_readings(few), b = curve_readings(pull(bent));
+  EXPECT_NEAR(*a.lock_extension, *b.lock_extension, 1e-9);
+  EXPECT_NEAR(*a.plateau_force, *b.plateau_force, 1e-9);
+  EXPECT_NEAR(*a.plateau_force_sd, *b.plateau_force_sd, 1e-6);
+  const CurveReadings line = curve_readings({{0.0, 0.0, Sample::kNone, 0.0}, {1.0, 0.1, Sample::kNone, 10.0}});
+  EXPECT_FALSE(line.plateau_force || line.lock_extension);
+}
+
+TEST(CurveReadings, WhereTheSearchForALockCreepsThereIsNone) {
+  // Twice the mean of s^1.1711 over its plateau is reached where that ends: the search hardly goes back.
+  EXPECT_FALSE(curve_readings(pull([](double s) { return std::pow(s, 1.1712); }, 1.0, 20000)).lock_extension);
 }
 
 TEST(CurveReadings, OfNothingThereAreNone) {

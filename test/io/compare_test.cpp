@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <filesystem>
 
 #include "io/command.hpp"
@@ -74,6 +75,17 @@ TEST_F(Compare, SaysWhatIsBeyondTheTolerance) {
                                  HasSubstr("largest_difference: 50\n"), HasSubstr("largest_difference_at: 0.011")));
 }
 
+TEST_F(Compare, WithoutAnyLoadACurveIsTheSameAsItself) {
+  write_curve("zero.csv", 0.0);
+  EXPECT_EQ(compare("zero.csv", "zero.csv", "--tolerance 0").code, 0);
+}
+
+TEST_F(Compare, ANoteOfAPhaseIsNoCurveOfOurs) {
+  write_raw_data("raw.csv", 1.0);
+  write_whole(file("note.csv"), "Note : phase,time\r\n" + read_whole(file("raw.csv")));
+  EXPECT_EQ(compare("raw.csv", "note.csv", "--tolerance 0").code, 0);
+}
+
 TEST_F(Compare, BalancesWhereItIsTold) {
   write_curve("a.csv", 1.0);
   write_curve("b.csv", 1.0, 25.0);
@@ -90,7 +102,15 @@ TEST_F(Compare, RefusesInOneLine) {
     EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
     EXPECT_THAT(answer.text, HasSubstr(other));
   }
-  EXPECT_EQ(compare("a.csv", "a.csv", "--tolerance -1").code, 2);
+  for (const char* tolerance : {"-1", "nan", "inf"})
+    EXPECT_EQ(compare("a.csv", "a.csv", std::string("--tolerance ") + tolerance).code, 2) << tolerance;
+  EXPECT_EQ(compare("a.csv", ".").code, 2);
+  EXPECT_NE(
+      answer_of("( " + tool("compare", "'" + file("a.csv") + "' '" + file("a.csv") + "' > /dev/full") + " )").code, 0);
+
+  const double nan = std::nan("");
+  write_curve("nan.csv", nan);
+  EXPECT_THAT(compare("a.csv", "nan.csv").text, HasSubstr("nan.csv: reading 1: one that is not finite"));
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <sstream>
 
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
 
 namespace knot_utm {
@@ -18,6 +18,10 @@ std::string dialect(const std::string& name) {
   return std::string(KNOT_UTM_SOURCE_DIR) + "/test/fuzz/corpus/raw_data/" + name;
 }
 
+std::vector<CurveRow> read(const std::string& name) {
+  return read_raw_data(read_input(dialect(name), "a fixture"), dialect(name));
+}
+
 struct Reading {
   double time, extension, load;  // [s], [mm], [N]
 };
@@ -27,7 +31,7 @@ constexpr Reading kReadings[] = {
 class EveryDialect : public testing::TestWithParam<const char*> {};
 
 TEST_P(EveryDialect, GivesTheSameReadings) {
-  const std::vector<CurveRow> rows = read_raw_data(dialect(GetParam()));
+  const std::vector<CurveRow> rows = read(GetParam());
   ASSERT_EQ(rows.size(), std::size(kReadings));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     EXPECT_EQ(rows[i].time, kReadings[i].time);
@@ -52,7 +56,7 @@ INSTANTIATE_TEST_SUITE_P(RawData, EveryDialect,
 
 std::string complaint(const std::string& name) {
   try {
-    read_raw_data(dialect(name));
+    read(name);
   } catch (const InvalidInput& invalid) {
     return std::string(invalid.what()).substr(dialect("").size());
   }
@@ -60,9 +64,8 @@ std::string complaint(const std::string& name) {
 }
 
 std::string complaint_of(const std::string& text) {
-  std::istringstream in(text);
   try {
-    read_raw_data(in, "raw.csv");
+    read_raw_data(text, "raw.csv");
   } catch (const InvalidInput& invalid) {
     return invalid.what();
   }
@@ -82,8 +85,7 @@ TEST(RawData, UnitsAreNeverGuessed) {
 
 TEST(RawData, MegaIsNotMilli) {
   EXPECT_THAT(complaint_of("Time,Extension,Load\n(s),(mm),(MN)\n0,0,0\n"), HasSubstr("MN is not allowed"));
-  std::istringstream in("Time,Extension,Load\n(s),(mm),(mN)\n0,0,2\n");
-  EXPECT_DOUBLE_EQ(read_raw_data(in, "raw.csv").front().load, 2e-3);
+  EXPECT_DOUBLE_EQ(read_raw_data("Time,Extension,Load\n(s),(mm),(mN)\n0,0,2\n", "raw.csv").front().load, 2e-3);
 }
 
 TEST(RawData, WhatIsNotANumberIsNamedByRowAndColumn) {
@@ -93,17 +95,54 @@ TEST(RawData, WhatIsNotANumberIsNamedByRowAndColumn) {
             "no_names.csv: names: none is not allowed: a row that names time, extension and load");
   EXPECT_EQ(complaint("empty"), "empty: names: none is not allowed: a row that names time, extension and load");
   EXPECT_THAT(complaint_of("Time,Extension,Load\n(s),(mm),(N)\n"), HasSubstr("rows: none"));
-  EXPECT_THAT(complaint("not there"), HasSubstr("raw data that can be read"));
 }
 
 TEST(RawData, ACommaIsOfDecimalsOrOfThousandsNeverOfBoth) {
   const std::string head = "Time;Extension;Load\n(s);(mm);(N)\n";
-  std::istringstream in(head + "0;0;1.234,5\n1;1;1.234.567,5\n");
-  const std::vector<CurveRow> rows = read_raw_data(in, "raw.csv");
+  const std::vector<CurveRow> rows = read_raw_data(head + "0;0;1.234,5\n1;1;1.234.567,5\n", "raw.csv");
   EXPECT_EQ(rows[0].load, 1234.5);
   EXPECT_EQ(rows[1].load, 1234567.5);
   for (const char* load : {"12,34", "0,123", "1234,567", "1,2345", ",123", "1,,234"})
     EXPECT_THAT(complaint_of(head + "0.5;0;" + load + "\n"), HasSubstr("row 3: Load")) << load;
+}
+
+double load_of(const std::string& rows) {
+  return read_raw_data("Time;Extension;Load\n(s);(mm);(N)\n" + rows, "raw.csv").back().load;
+}
+
+TEST(RawData, OneNumberTellsTheMarkOfAll) {
+  EXPECT_EQ(load_of("0,000;0,000;0,000\n0,100;0,100;1,234\n"), 1.234);
+  EXPECT_EQ(load_of("0.5;1;1,234\n"), 1234.0);
+  EXPECT_EQ(load_of("0;0;1,234,567\n"), 1234567.0);
+  EXPECT_EQ(load_of("0;0;1 234,50\n"), 1234.5);
+  EXPECT_EQ(load_of("0;0;1\xA0"
+                    "234,50\n"),
+            1234.5);
+  EXPECT_EQ(load_of("0;0;1\xC2\xA0"
+                    "234,50\n"),
+            1234.5);
+  EXPECT_EQ(load_of("0;0;1\xE2\x80\xAF"
+                    "234,50\n"),
+            1234.5);
+  const std::string head = "Time;Extension;Load\n(s);(mm);(N)\n";
+  for (const char* row : {"1;1;1,234\n", "1,500;1,250;1.201\n", "1;1;1.234\n"})
+    EXPECT_THAT(complaint_of(head + row), HasSubstr("decimals: 1")) << row;
+}
+
+TEST(RawData, EveryCellHasAName) {
+  const std::string head = "Zeit,Traversenweg,Kraft\n(s),(mm),(N)\n";
+  EXPECT_THAT(complaint_of(head + "0,10,0,33,1,25\n"),
+              HasSubstr("row 3: cells: 6 is not allowed: 3, as there are names"));
+  EXPECT_EQ(complaint_of(head + "0,10,0.5,,\n"), "none");
+}
+
+TEST(RawData, OfTwoTablesNoneIsRead) {
+  const std::string table = "Time,Extension,Load\n(s),(mm),(N)\n0,0,0\n";
+  EXPECT_THAT(complaint_of(table + table), HasSubstr("row 4: names: once more is not allowed: one table"));
+}
+
+TEST(RawData, ARowOfSeparatorsIsEmpty) {
+  EXPECT_EQ(complaint_of("Time,Extension,Load\n,,\n(s),(mm),(N)\n,,\n0,0,0\n"), "none");
 }
 
 TEST(RawData, WhatIsSaidOfNumbersAsLargeAsTheyGet) {

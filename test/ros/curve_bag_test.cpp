@@ -18,6 +18,7 @@ namespace knot_utm {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 
 class CurveBag : public testing::Test {
@@ -61,6 +62,22 @@ TEST_F(CurveBag, GivesBackAMeasuredCurve) {
   }
 }
 
+TEST_F(CurveBag, KeepsReadingsOfOneTimeApart) {
+  std::vector<CurveRow> rows(6);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    rows[i].time = 0.1 * static_cast<double>(i / 2);
+    rows[i].extension = rows[i].load = static_cast<double>(i);
+  }
+  write_curve_bag(file("a.bag"), rows);
+  const std::vector<CurveRow> back = read_curve_bag(file("a.bag"));
+  ASSERT_EQ(back.size(), rows.size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(back[i].time, rows[i].time);
+    EXPECT_EQ(back[i].extension, rows[i].extension);
+    EXPECT_EQ(back[i].load, rows[i].load);
+  }
+}
+
 TEST_F(CurveBag, OfASimulatedTestIsItsCurve) {
   {
     TestBag bag(file("test.bag"), Method());
@@ -100,7 +117,7 @@ TEST_F(CurveBag, OfOtherFilesIsRefusedInOneLine) {
     bag.write("/utm/load_cell", ros::Time(1.0), std_msgs::String());
     bag.write("/utm/crosshead", ros::Time(1.0), std_msgs::String());
   }
-  EXPECT_THAT(complaint("strings.bag"), HasSubstr("std_msgs/String is not allowed: knot_utm/Crosshead"));
+  EXPECT_THAT(complaint("strings.bag"), ContainsRegex("std_msgs/String .* is not allowed: knot_utm/Crosshead"));
 }
 
 TEST_F(CurveBag, ThatCannotBeWrittenIsSaid) {

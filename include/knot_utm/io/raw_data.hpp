@@ -1,6 +1,5 @@
 #pragma once
 
-#include <istream>
 #include <string>
 #include <vector>
 
@@ -18,18 +17,18 @@ namespace knot_utm {
 ///   names       English, German, Polish or French; their row is the first that names all three. Of names for the same
 ///               quantity in one row the machine's own counts: "Extension" before "Tensile extension".
 ///   units       in brackets behind the names ("Load (N)") or in a row of their own ("(N)"). They are never guessed: a
-///               column with none, or an unknown one, is refused. Time: ms, s, min, h. Extension: um, mm, cm, m, in,
-///               ft. Load: mN, cN, N, kN, gf, kgf, lbf.
-///   decimals    point or comma, the same in all of the file; the other one may stand between groups of three digits.
+///               column with none, or an unknown one, is refused. Time: ms, s or sec, min, h. Extension: um, mm, cm, m,
+///               in, ft. Load: mN, cN, N, kN, gf, kgf, lbf.
+///   decimals    point or comma, the same in all of the file; the other one or a blank may stand between groups of
+///   three
+///               digits. A number must tell which: of 1,234 alone it is not known.
 ///
 /// Rows are in SI as they were recorded: neither is the load balanced nor the extension zeroed. A row that repeats the
 /// one before in all three, as the first one often does, is left out; so is one in which all three are empty. What the
 /// machine did not measure is NaN, the phase is `pull`.
 ///
 /// Throws InvalidInput, which names the row and the column, where this is not so, a time goes back, a value is not
-/// finite, or there is no row at all.
-std::vector<CurveRow> read_raw_data(const std::string& file);
-/// The same from a stream; `file` is its name in messages.
-std::vector<CurveRow> read_raw_data(std::istream& in, const std::string& file);
+/// finite, a row has a cell without a name, or there is no row at all. `file`: its name in messages.
+std::vector<CurveRow> read_raw_data(const std::string& content, const std::string& file);
 
 }  // namespace knot_utm

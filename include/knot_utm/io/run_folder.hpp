@@ -28,5 +28,7 @@ void write_whole(const std::string& file, const std::string& text);
 
 /// Throws std::runtime_error where the file cannot be read.
 std::string read_whole(const std::string& file);
+/// The same of what a user names; throws InvalidInput, with what is allowed, where it cannot be read.
+std::string read_input(const std::string& file, const std::string& allowed);
 
 }  // namespace knot_utm
