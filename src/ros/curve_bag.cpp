@@ -8,8 +8,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "knot_utm/io/cannot_write.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/ros/bag_writer.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
 
@@ -39,11 +39,6 @@ std::string required_topic(const rosbag::Bag& bag, const std::string& file, cons
   return topic;
 }
 
-template <typename Message>
-std::string named() {
-  return ros::message_traits::datatype<Message>();
-}
-
 /// Calls `take` with every message of a topic.
 template <typename Message, typename Take>
 void for_each(const rosbag::Bag& bag, const std::string& file, const std::string& topic, Take take) {
@@ -51,8 +46,9 @@ void for_each(const rosbag::Bag& bag, const std::string& file, const std::string
   for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topic))) {
     const boost::shared_ptr<Message> message = instance.instantiate<Message>();
     if (!message)
-      throw InvalidInput(file, "topic " + topic, instance.getDataType() + " " + instance.getMD5Sum(),
-                         named<Message>() + " " + ros::message_traits::md5sum<Message>());
+      throw InvalidInput(
+          file, "topic " + topic, instance.getDataType() + " " + instance.getMD5Sum(),
+          std::string(ros::message_traits::datatype<Message>()) + " " + ros::message_traits::md5sum<Message>());
     take(*message);
   }
 }
@@ -97,30 +93,26 @@ std::vector<CurveRow> read_curve_bag(const std::string& file) {
 }
 
 void write_curve_bag(const std::string& file, const std::vector<CurveRow>& rows) {
-  try {
-    rosbag::Bag bag(file, rosbag::bagmode::Write);
-    Command command;
-    Sample sample;
-    ros::Time stamp;
-    const double start = rows.empty() ? 0.0 : rows.front().time;
-    for (const CurveRow& row : rows) {
-      // Readings may be closer to each other than their times tell; their stamps pair them with their commands.
-      stamp = std::max(test_stamp(-start, row.time), stamp + ros::Duration(0, 1));
-      command.velocity =
-          row.time > command.time ? (row.extension - command.displacement) / (row.time - command.time) : 0.0;
-      command.time = row.time;
-      command.displacement = row.extension;
-      command.phase = row.phase;
-      command.read_cell = true;
-      sample.load = row.load;
-      bag.write(std::string("/") + names::kCrosshead, stamp, to_message(command, 1, stamp));
-      bag.write(std::string("/") + names::kLoadCell, stamp, to_wrench(sample, stamp));
-      ++command.sequence;
-    }
-    bag.close();
-  } catch (const rosbag::BagException&) {
-    throw CannotWrite(file);
+  BagWriter bag(file);
+  Command command;
+  Sample sample;
+  ros::Time stamp;
+  const double start = rows.empty() ? 0.0 : rows.front().time;
+  for (const CurveRow& row : rows) {
+    // Readings may be closer to each other than their times tell; their stamps pair them with their commands.
+    stamp = std::max(test_stamp(-start, row.time), stamp + ros::Duration(0, 1));
+    const double passed = row.time - command.time;
+    command.velocity = passed > 0.0 ? (row.extension - command.displacement) / passed : 0.0;
+    command.time = row.time;
+    command.displacement = row.extension;
+    command.phase = row.phase;
+    command.read_cell = true;
+    sample.load = row.load;
+    bag.write(names::kCrosshead, stamp, to_message(command, 1, stamp));
+    bag.write(names::kLoadCell, stamp, to_wrench(sample, stamp));
+    ++command.sequence;
   }
+  bag.close();
 }
 
 }  // namespace knot_utm

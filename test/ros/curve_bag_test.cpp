@@ -4,11 +4,13 @@
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
 #include <std_msgs/String.h>
-#include <unistd.h>
+#include <sys/resource.h>
 
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 
+#include "io/own_folder.hpp"
 #include "knot_utm/io/cannot_write.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
@@ -17,18 +19,30 @@
 namespace knot_utm {
 namespace {
 
-namespace fs = std::filesystem;
 using testing::ContainsRegex;
 using testing::HasSubstr;
 
-class CurveBag : public testing::Test {
+class CurveBag : public OwnFolder {
  protected:
-  CurveBag() : folder_(fs::path(testing::TempDir()) / ("curve_bag_test_" + std::to_string(getpid()))) {
-    fs::create_directories(folder_);
+  void SetUp() override {
+    OwnFolder::SetUp();
+    std::filesystem::create_directories(folder());
   }
-  ~CurveBag() override { fs::remove_all(folder_); }
+  std::string file(const char* name) const { return folder() + "/" + name; }
 
-  std::string file(const char* name) const { return (folder_ / name).string(); }
+  /// Writes the curve and reads it back.
+  void expect_kept(const std::vector<CurveRow>& rows) const {
+    write_curve_bag(file("a.bag"), rows);
+    const std::vector<CurveRow> back = read_curve_bag(file("a.bag"));
+    ASSERT_EQ(back.size(), rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      EXPECT_EQ(back[i].time, rows[i].time);
+      EXPECT_EQ(back[i].extension, rows[i].extension);
+      EXPECT_EQ(back[i].load, rows[i].load);
+      EXPECT_EQ(back[i].phase, rows[i].phase);
+      EXPECT_TRUE(std::isnan(back[i].knot_distance));
+    }
+  }
 
   std::string complaint(const char* name) const {
     try {
@@ -38,8 +52,6 @@ class CurveBag : public testing::Test {
     }
     return "none";
   }
-
-  fs::path folder_;
 };
 
 TEST_F(CurveBag, GivesBackAMeasuredCurve) {
@@ -50,16 +62,7 @@ TEST_F(CurveBag, GivesBackAMeasuredCurve) {
     rows[i].load = -0.1 + static_cast<double>(i) / 7.0;
     rows[i].phase = Phase::kPull;
   }
-  write_curve_bag(file("a.bag"), rows);
-  const std::vector<CurveRow> back = read_curve_bag(file("a.bag"));
-  ASSERT_EQ(back.size(), rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    EXPECT_EQ(back[i].time, rows[i].time);
-    EXPECT_EQ(back[i].extension, rows[i].extension);
-    EXPECT_EQ(back[i].load, rows[i].load);
-    EXPECT_EQ(back[i].phase, Phase::kPull);
-    EXPECT_TRUE(std::isnan(back[i].knot_distance));
-  }
+  expect_kept(rows);
 }
 
 TEST_F(CurveBag, KeepsReadingsOfOneTimeApart) {
@@ -68,14 +71,7 @@ TEST_F(CurveBag, KeepsReadingsOfOneTimeApart) {
     rows[i].time = 0.1 * static_cast<double>(i / 2);
     rows[i].extension = rows[i].load = static_cast<double>(i);
   }
-  write_curve_bag(file("a.bag"), rows);
-  const std::vector<CurveRow> back = read_curve_bag(file("a.bag"));
-  ASSERT_EQ(back.size(), rows.size());
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    EXPECT_EQ(back[i].time, rows[i].time);
-    EXPECT_EQ(back[i].extension, rows[i].extension);
-    EXPECT_EQ(back[i].load, rows[i].load);
-  }
+  expect_kept(rows);
 }
 
 TEST_F(CurveBag, OfASimulatedTestIsItsCurve) {
@@ -118,6 +114,19 @@ TEST_F(CurveBag, OfOtherFilesIsRefusedInOneLine) {
     bag.write("/utm/crosshead", ros::Time(1.0), std_msgs::String());
   }
   EXPECT_THAT(complaint("strings.bag"), ContainsRegex("std_msgs/String .* is not allowed: knot_utm/Crosshead"));
+}
+
+/// A file that may not grow stands for a disk that is full.
+TEST_F(CurveBag, WithoutRoomItIsSaidAndNothingDies) {
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  rlimit tight = before;
+  tight.rlim_cur = 20000;
+  setrlimit(RLIMIT_FSIZE, &tight);
+  EXPECT_THROW(write_curve_bag(file("a.bag"), std::vector<CurveRow>(1000)), CannotWrite);
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
 }
 
 TEST_F(CurveBag, ThatCannotBeWrittenIsSaid) {

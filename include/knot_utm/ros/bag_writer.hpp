@@ -1,0 +1,45 @@
+#pragma once
+
+#include <rosbag/bag.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "knot_utm/io/cannot_write.hpp"
+
+namespace knot_utm {
+
+/// A bag as it is written. All of it throws CannotWrite, and nothing of it ends the process, as rosbag's own destructor
+/// does where the disk is full.
+class BagWriter {
+ public:
+  explicit BagWriter(const std::string& file);
+  ~BagWriter();
+  BagWriter(const BagWriter&) = delete;
+  BagWriter& operator=(const BagWriter&) = delete;
+  BagWriter(BagWriter&&) = delete;
+  BagWriter& operator=(BagWriter&&) = delete;
+
+  /// `topic` without its leading slash.
+  template <class Message>
+  void write(const std::string& topic, const ros::Time& stamp, const Message& message) {
+    try {
+      bag_->write("/" + topic, stamp, message);
+    } catch (const rosbag::BagException&) {
+      throw CannotWrite(file_);
+    }
+    ++messages_;
+  }
+
+  void close();  ///< only then has the file an index, without which it cannot be read
+
+  std::uint64_t messages() const { return messages_; }  ///< written so far
+
+ private:
+  std::string file_;
+  std::unique_ptr<rosbag::Bag> bag_;  ///< none once closed
+  std::uint64_t messages_ = 0;
+};
+
+}  // namespace knot_utm
