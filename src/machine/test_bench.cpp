@@ -372,7 +372,7 @@ struct TestBench::Impl {
     }
     if (command.step != step_index) enter_step(command);
     if (command.balance) {
-      cell.balance(grips.force_upper(*stepper));
+      cell.balance(grips.force_upper(*stepper), time);
       extension_zero = grips.end_to_end(displacement);
     }
     std::string gave_up = advance(command, {time, displacement}, command.time);
@@ -389,7 +389,7 @@ struct TestBench::Impl {
     }
     if (watch && !parted()) watch->follow(stepper->state().position);
     Sample last = read(command, time);
-    if (command.read_cell && status != BenchStatus::kFailed) last.load = cell.read(last.force_upper);
+    if (command.read_cell && status != BenchStatus::kFailed) last.load = cell.read(last.force_upper, time);
     for (const Sample& step : substeps) {
       last.highest_load = std::max(last.highest_load, step.highest_load);
       last.lowest_load = std::min(last.lowest_load, step.lowest_load);

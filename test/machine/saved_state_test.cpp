@@ -141,6 +141,7 @@ Scene straight() {
   out.specimen.edge_length = 0.005;
   out.machine.grips = GripKind::kClamps;
   out.machine.load_cell.noise = 3.0;
+  out.machine.load_cell.drift = 0.1;
   out.physics.accuracy = Accuracy::kDraft;
   return out;
 }
