@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "knot_utm/analysis/curve_readings.hpp"
+#include "knot_utm/analysis/pull_readings.hpp"
 
 namespace knot_utm {
 namespace {
@@ -31,6 +32,38 @@ std::string failure_mode(const Results& results) {
     default:
       return "fracture";
   }
+}
+
+/// With the state that it began from in front of it.
+Pull with_origin(const Pull& pull, const Sample* before) {
+  if (!before || pull.empty() || !(before->extension < pull.front().extension)) return pull;
+  Pull whole = {{before->time, before->extension, before->knot_distance, before->force_upper, before->normal_force}};
+  whole.insert(whole.end(), pull.begin(), pull.end());
+  return whole;
+}
+
+void read_pull(const Pull& pull, Results& results) {
+  results.energy_to_peak = energy_to_peak(pull);
+  if (results.break_extension) results.energy_to_break = energy(pull);
+  results.chord_stiffness = chord_stiffness(pull);
+  results.secant_stiffness = secant_stiffness(pull);
+  results.tangent_stiffness = tangent_stiffness(pull);
+}
+
+/// Of the last hold that begins with the crosshead out and a load on the grip. A drawn shape that settles has neither.
+std::optional<Relaxation> last_relaxation(const std::vector<Sample>& samples) {
+  std::optional<Relaxation> last;
+  bool loaded = false;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const Sample &before = samples[i - 1], &sample = samples[i];
+    if (sample.phase != Phase::kHold) continue;
+    if (before.phase != Phase::kHold) {
+      loaded = before.displacement > samples.front().displacement && before.force_upper > 0.0;
+      if (loaded) last = Relaxation{before.force_upper, sample.force_upper};
+    }
+    if (loaded) last->to = sample.force_upper;
+  }
+  return last;
 }
 
 double stored_energy(const Sample& sample) {
@@ -100,6 +133,7 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
   results.failure_mode = failure_mode(results);
   if (energy_scale > 0.0) results.energy_balance_error = energy_error / energy_scale;
 
+  results.relaxation = last_relaxation(samples);
   if (!tied) tied = pull_begin;
   if (pull_begin) results.balance_offset = pull_begin->balance_offset;
   const Sample& last = samples.back();
@@ -122,6 +156,7 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
     results.moment_balance_error = moment_imbalance / peak;
   }
 
+  read_pull(with_origin(pull, before_pull), results);
   const double start = pull.front().extension;
   if (results.motion_pattern == MotionPattern::kSliding) {
     const double end = results.lock_extension.value_or(pull.back().extension);

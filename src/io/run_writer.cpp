@@ -178,6 +178,14 @@ std::string result_yaml(const Results& r, const RunFacts& f) {
   lines.number("energy_balance_error", r.energy_balance_error);
   lines.number("load_cell_error", class_error(f.load_cell, r.peak_force));
   lines.number("plateau_load_cell_error", class_error(f.load_cell, r.plateau_force));
+  lines.number("energy_to_peak", r.energy_to_peak);
+  lines.number("energy_to_break", r.energy_to_break);
+  lines.number("chord_stiffness", r.chord_stiffness);
+  lines.number("secant_stiffness", r.secant_stiffness);
+  lines.number("tangent_stiffness", r.tangent_stiffness);
+  lines.number("hold_force_begin", r.relaxation ? r.relaxation->from : Sample::kNone);
+  lines.number("hold_force_end", r.relaxation ? r.relaxation->to : Sample::kNone);
+  lines.number("relaxation", r.relaxation ? r.relaxation->lost() : Sample::kNone);
   lines.count("steps", r.steps);
   lines.count("rejected_steps", r.rejected_steps);
   lines.count("newton_iterations", r.newton_iterations);

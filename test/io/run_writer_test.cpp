@@ -105,7 +105,15 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
                           "not_equilibrated",
                           "tied_knot_distance",
                           "load_cell_error",
-                          "plateau_load_cell_error"}) {
+                          "plateau_load_cell_error",
+                          "energy_to_peak",
+                          "energy_to_break",
+                          "chord_stiffness",
+                          "secant_stiffness",
+                          "tangent_stiffness",
+                          "hold_force_begin",
+                          "hold_force_end",
+                          "relaxation"}) {
     EXPECT_TRUE(result[key].IsDefined()) << key;
   }
   EXPECT_EQ(result["ended_by"].as<std::string>(), "extension");
