@@ -90,8 +90,8 @@ std::string accuracy_warning(const Results& results, const ReadingErrors& errors
 
 RunWriter::RunWriter(const std::string& folder, const Method& method)
     : folder_(begin(folder, method)),
-      curve_((fs::path(folder) / "curve.csv").string()),
-      full_curve_((fs::path(folder) / "curve_full.csv").string()) {
+      curve_((fs::path(folder) / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
+      full_curve_((fs::path(folder) / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)) {
   known_.errors = reading_errors(method.specimen, method.material, method.physics);
   if (method.specimen.to_be_tied) known_.preload = method.specimen.preload.value_or(Sample::kNone);
   known_.load_cell = method.machine.load_cell;

@@ -58,6 +58,7 @@ std::vector<Bits> numbers(const Sample& s) {
           {s.numerical_dissipation},
           {s.reweighting_loss},
           {s.moment_imbalance},
+          {s.raw_extension},
           {static_cast<double>(s.steps)},
           {static_cast<double>(s.rejected_steps)},
           {static_cast<double>(s.newton_iterations)},
@@ -168,6 +169,13 @@ Scene broken() {
   return out;
 }
 
+Scene on_a_compliant_frame() {
+  Scene out = straight();
+  out.name = "compliantFrame";
+  out.machine.stiffness = 1e5;
+  return out;
+}
+
 Scene overhand(const std::string& name, FrictionLaw friction, ContactLaw contact) {
   Scene out{name, {}, pink_vps(), {}, {}, {step(Phase::kHold, 1.0), step(Phase::kBalance), pull(0.05)}, 11};
   out.specimen = overhand_specimen(0.4, 0.15, 0.006);
@@ -250,7 +258,7 @@ TEST_P(SavedState, GoesOnToTheSameBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SavedState,
-                         testing::Values(straight(), programmed(), broken(),
+                         testing::Values(straight(), on_a_compliant_frame(), programmed(), broken(),
                                          overhand("overhandWithTwist", FrictionLaw::kMemory, ContactLaw::kSmooth),
                                          overhand("smoothedFriction", FrictionLaw::kSmoothed, ContactLaw::kSmooth),
                                          overhand("edgeContact", FrictionLaw::kMemory, ContactLaw::kEdge),
