@@ -95,7 +95,7 @@ struct TestBench::Impl {
   double grip_tried = 0.0;    // in the step that is being made
   double extension_zero = 0.0, raw_extension_zero = 0.0;
   double exposure = 0.0;    // share of the way to a break
-  double recoil_end = 0.0;  // of a rod that has parted [s]
+  double recoil_end = 0.0;  // of a rod that has just parted [s]
   BreakPlace break_place = BreakPlace::kNone;
   double mount_load = 0.0;      // when mounting began [N]
   double mount_distance = 0.0;  // of the knots when mounting began [m]
@@ -337,11 +337,13 @@ struct TestBench::Impl {
     archive.number("parted edge", parted_edge, -1, static_cast<int>(stepper->rod().edges()) - 1);
     if (archive.loads() && parted_edge >= 0) stepper->part(parted_edge);
     archive.choice("place of the break", break_place, BreakPlace::kGrip);
-    archive(exposure, recoil_end);
+    archive(exposure);
     archive(time, displacement, grip, extension_zero, raw_extension_zero, mount_load, mount_distance, step_index, work,
             message);
     archive.choice("phase", phase, Phase::kDone);
     archive.choice("status", status, BenchStatus::kFailed);
+    archive.require(parted() == (status == BenchStatus::kBroken), "status of a rod that parted",
+                    break_place_name(break_place));
     archive(control, cell, *stepper);
     bool ties = rig.has_value(), watches = watch.has_value();
     archive.same("tying rig", ties ? 1 : 0);
