@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "knot_utm/analysis/curve_readings.hpp"
+#include "knot_utm/analysis/cycles.hpp"
 #include "knot_utm/analysis/pull_readings.hpp"
 
 namespace knot_utm {
@@ -50,20 +51,44 @@ void read_pull(const Pull& pull, Results& results) {
   results.tangent_stiffness = tangent_stiffness(pull);
 }
 
-/// Of the last hold that begins with the crosshead out and a load on the grip. A drawn shape that settles has neither.
+/// From the first sample of a phase to the one behind its last.
+struct Stretch {
+  std::size_t begin, end;
+};
+
+/// In order, those that have a sample before them.
+std::vector<Stretch> stretches(const std::vector<Sample>& samples, Phase phase) {
+  std::vector<Stretch> out;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (samples[i].phase != phase) continue;
+    if (out.empty() || out.back().end != i) out.push_back({i, i});
+    out.back().end = i + 1;
+  }
+  return out;
+}
+
+/// Of the last hold in which the crosshead stands still, and is out with a load on the grip: where a load is held it
+/// moves, and a drawn shape that settles bears none.
 std::optional<Relaxation> last_relaxation(const std::vector<Sample>& samples) {
   std::optional<Relaxation> last;
-  bool loaded = false;
-  for (std::size_t i = 1; i < samples.size(); ++i) {
-    const Sample &before = samples[i - 1], &sample = samples[i];
-    if (sample.phase != Phase::kHold) continue;
-    if (before.phase != Phase::kHold) {
-      loaded = before.displacement > samples.front().displacement && before.force_upper > 0.0;
-      if (loaded) last = Relaxation{before.force_upper, sample.force_upper};
-    }
-    if (loaded) last->to = sample.force_upper;
+  for (const Stretch& hold : stretches(samples, Phase::kHold)) {
+    const Sample &before = samples[hold.begin - 1], &end = samples[hold.end - 1];
+    bool stands = true;
+    for (std::size_t i = hold.begin; i < hold.end; ++i) stands &= samples[i].displacement == before.displacement;
+    if (stands && before.displacement > samples.front().displacement && before.force_upper > 0.0)
+      last = Relaxation{before.force_upper, end.force_upper};
   }
   return last;
+}
+
+/// Of the last step that cycles.
+std::vector<Cycle> last_cycles(const std::vector<Sample>& samples) {
+  const std::vector<Stretch> steps = stretches(samples, Phase::kCycle);
+  Path path;
+  if (steps.empty()) return {};
+  for (std::size_t i = steps.back().begin - 1; i < steps.back().end; ++i)
+    path.push_back({samples[i].extension, samples[i].force_upper});
+  return closed_cycles(path);
 }
 
 double stored_energy(const Sample& sample) {
@@ -134,6 +159,9 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
   if (energy_scale > 0.0) results.energy_balance_error = energy_error / energy_scale;
 
   results.relaxation = last_relaxation(samples);
+  const std::vector<Cycle> cycles = last_cycles(samples);
+  results.cycles = cycles.size();
+  if (!cycles.empty()) results.hysteresis = cycles.back().hysteresis;
   if (!tied) tied = pull_begin;
   if (pull_begin) results.balance_offset = pull_begin->balance_offset;
   const Sample& last = samples.back();

@@ -186,6 +186,8 @@ std::string result_yaml(const Results& r, const RunFacts& f) {
   lines.number("hold_force_begin", r.relaxation ? r.relaxation->from : Sample::kNone);
   lines.number("hold_force_end", r.relaxation ? r.relaxation->to : Sample::kNone);
   lines.number("relaxation", r.relaxation ? r.relaxation->lost() : Sample::kNone);
+  lines.count("cycles", r.cycles);
+  lines.number("hysteresis", r.hysteresis);
   lines.count("steps", r.steps);
   lines.count("rejected_steps", r.rejected_steps);
   lines.count("newton_iterations", r.newton_iterations);

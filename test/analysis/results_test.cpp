@@ -278,6 +278,46 @@ TEST(Results, RelaxationIsThatOfTheLastHoldUnderALoad) {
   EXPECT_NEAR(results.relaxation->lost(), 0.25, 1e-12);
 }
 
+TEST(Results, AHoldAtALoadIsNoRelaxation) {
+  std::vector<Sample> samples(4);
+  const double displacement[] = {0.0, 0.01, 0.01, 0.011};
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].phase = i < 2 ? Phase::kPull : Phase::kHold;
+    samples[i].displacement = samples[i].extension = displacement[i];
+    samples[i].force_upper = 100.0 * static_cast<double>(i);
+    samples[i].end_to_end = 0.25;
+  }
+  EXPECT_FALSE(analyse(samples, EndedBy::kProgram).relaxation);
+  samples[3].displacement = samples[2].displacement;
+  EXPECT_NEAR(analyse(samples, EndedBy::kProgram).relaxation->lost(), -2.0, 1e-12);
+}
+
+/// A spring of 200 N/m with dry friction of 2 N beside it, which is pulled to 0.02 m and cycles from there to 0.03 m.
+TEST(Results, HysteresisIsThatOfTheLastCycle) {
+  std::vector<Sample> samples;
+  const auto move = [&](Phase phase, double from, double to) {
+    for (int i = 1; i <= 100; ++i) {
+      Sample sample;
+      sample.phase = phase;
+      sample.displacement = sample.extension = from + (to - from) * i / 100.0;
+      sample.force_upper = 200.0 * sample.extension + (to > from ? 2.0 : -2.0);
+      sample.end_to_end = 0.25 + sample.extension;
+      samples.push_back(sample);
+    }
+  };
+  move(Phase::kPull, 0.0, 0.02);
+  EXPECT_FALSE(analyse(samples, EndedBy::kProgram).hysteresis);
+  for (int i = 0; i < 3; ++i) {
+    move(Phase::kCycle, 0.02, 0.03);
+    move(Phase::kCycle, 0.03, 0.02);
+  }
+  move(Phase::kReturn, 0.02, 0.0);
+  const Results results = analyse(samples, EndedBy::kProgram);
+  EXPECT_EQ(results.cycles, 3u);
+  // Where it turns F falls within one of a hundred steps.
+  EXPECT_NEAR(*results.hysteresis, 2.0 * 2.0 * 0.01, 1.01 * 2.0 * 2.0 * 0.01 / 100.0);
+}
+
 TEST(Results, EnergyBalanceIsThatOfWorkStorageAndLoss) {
   std::vector<Sample> samples = Curve().samples();
   for (std::size_t i = 0; i < samples.size(); ++i) {

@@ -113,7 +113,9 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
                           "tangent_stiffness",
                           "hold_force_begin",
                           "hold_force_end",
-                          "relaxation"}) {
+                          "relaxation",
+                          "cycles",
+                          "hysteresis"}) {
     EXPECT_TRUE(result[key].IsDefined()) << key;
   }
   EXPECT_EQ(result["ended_by"].as<std::string>(), "extension");

@@ -29,7 +29,7 @@ struct EnergyParts {
 /// What happened between two samples.
 EnergyParts energy_between(const Sample& from, const Sample& to);
 
-/// What became of F while the crosshead was held.
+/// What became of F while the crosshead stood still.
 struct Relaxation {
   double from;  ///< F where the hold begins, which is positive [N]
   double to;    ///< and where it ends [N]
@@ -75,6 +75,10 @@ struct Results {
   std::optional<double> tangent_stiffness;  ///< where the pull is steepest [N/m]
 
   std::optional<Relaxation> relaxation;  ///< of the last hold under a load
+
+  // Of the last step that cycles (cycles.hpp).
+  std::size_t cycles = 0;            ///< that were closed
+  std::optional<double> hysteresis;  ///< of the last of them [J]
 
   std::optional<double> untangled_at;    ///< time [s], see MotionPatternTracker
   KnotType knot_type = KnotType::kKept;  ///< at the end, see KnotWatch
