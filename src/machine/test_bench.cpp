@@ -349,6 +349,10 @@ Vec3 TestBench::upper_grip() const { return impl_->grips.upper(impl_->displaceme
 double TestBench::time() const { return impl_->time; }
 double TestBench::longest_step() const { return tolerances(impl_->physics, impl_->specimen).longest_step; }
 Eigen::VectorXd TestBench::tension() const { return impl_->stepper->tension(); }
+std::vector<ContactForce> TestBench::contact_forces() const {
+  // A step that could not be made leaves contacts that no accepted step has.
+  return impl_->status == BenchStatus::kFailed ? std::vector<ContactForce>() : impl_->stepper->contact_forces();
+}
 void TestBench::state(Archive& archive) { impl_->state(archive); }
 
 }  // namespace knot_utm

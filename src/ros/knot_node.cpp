@@ -8,14 +8,15 @@
 
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
-#include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/names.hpp"
 
 namespace knot_utm {
 namespace {
 
-constexpr double kViewPeriod = 0.04;        // wall time between pictures [s]
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
+// More than the contacts of any shipped material at its largest load, bench/results/tighten.md [radius].
+constexpr double kDeep = 0.05;
+constexpr double kManyRejected = 0.5;  // of the time steps that were tried
 constexpr std::uint32_t kQueue = 2 * KnotNode::kKeptAnswers;
 constexpr std::uint32_t kLargest = 16 * 1024;  // message to this node [bytes]
 
@@ -39,7 +40,16 @@ geometry_msgs::TransformStamped transform(const char* parent, const char* child,
 }  // namespace
 
 KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
-    : node_(node), method_(method), bench_(make_bench(method)), diagnostics_(node_) {
+    : node_(node),
+      method_(method),
+      bench_(make_bench(method)),
+      picture_(method.machine, method.material.radius),
+      view_timer_(node_.createSteadyTimer(ros::WallDuration(1.0), &KnotNode::on_view_timer, this)),
+      diagnostics_(node_),
+      view_(picture_, [this](double period) {
+        view_is_old_ = true;
+        view_timer_.setPeriod(ros::WallDuration(period));
+      }) {
   state_ = node_.advertise<KnotState>(names::kKnotState, kQueue);
   record_ = node_.advertise<KnotRecord>(names::kKnotRecord, kQueue);
   load_cell_ = node_.advertise<geometry_msgs::WrenchStamped>(names::kLoadCell, kQueue);
@@ -59,7 +69,6 @@ KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
   diagnostics_.add("physics", this, &KnotNode::diagnose);
   diagnostics_timer_ = node_.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
                                                [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
-  view_timer_ = node_.createSteadyTimer(ros::WallDuration(kViewPeriod), &KnotNode::on_view_timer, this);
   new_specimen();
 }
 
@@ -69,6 +78,7 @@ void KnotNode::new_specimen() {
   kept_.clear();
   sample_ = Sample();
   motion_ = MotionPatternTracker();
+  picture_.begin(bench_.state().position);
   view_is_old_ = true;
 
   SpecimenInfo info;
@@ -189,11 +199,15 @@ void KnotNode::on_view_timer(const ros::SteadyTimerEvent& /*event*/) {
 
 void KnotNode::publish_markers() {
   const Eigen::VectorXd tension = bench_.tension();
-  if (tension.size() > 0) highest_tension_ = std::max(highest_tension_, tension.maxCoeff());
-  const SceneView view{bench_.state().position, tension,         method_.material.radius,
-                       highest_tension_,        method_.machine, bench_.lower_grip(),
-                       bench_.upper_grip(),     sample_,         motion_pattern_name(motion_.pattern())};
-  markers_.publish(scene_markers(view, stamp_));
+  const std::vector<ContactForce> contacts = bench_.contact_forces();
+  const SceneView view{bench_.state().position,
+                       tension,
+                       contacts,
+                       bench_.lower_grip(),
+                       bench_.upper_grip(),
+                       sample_,
+                       motion_pattern_name(motion_.pattern())};
+  markers_.publish(picture_.draw(view, stamp_));
 }
 
 void KnotNode::publish_transforms() {
@@ -208,10 +222,21 @@ void KnotNode::publish_transforms() {
 
 void KnotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
+  const auto since = [&](std::uint64_t Sample::*count) {
+    return static_cast<double>(sample_.*count - std::min(sample_.*count, diagnosed_.*count));
+  };
+  const double rejected = since(&Sample::rejected_steps), tried = since(&Sample::steps) + rejected;
   if (sample_.status == BenchStatus::kFailed) {
     status.summary(DiagnosticStatus::ERROR, "gave up: " + sample_.message);
   } else if (sample_.status == BenchStatus::kNotEquilibrated) {
     status.summary(DiagnosticStatus::WARN, "did not come to rest in time");
+  } else if (sample_.knot_type == KnotType::kCrossed) {
+    status.summary(DiagnosticStatus::ERROR, "the rod ran through itself");
+  } else if (sample_.max_penetration > kDeep) {
+    status.summaryf(DiagnosticStatus::WARN, "strands are pressed into each other by %.3g of the radius",
+                    sample_.max_penetration);
+  } else if (rejected > kManyRejected * tried) {
+    status.summaryf(DiagnosticStatus::WARN, "hard: %.0f of %.0f time steps had to be shortened", rejected, tried);
   } else if (sample_.status == BenchStatus::kBroken) {
     status.summary(DiagnosticStatus::OK, "the rod broke");
   } else {
@@ -221,8 +246,10 @@ void KnotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("time steps", sample_.steps);
   status.add("rejected time steps", sample_.rejected_steps);
   status.add("Newton iterations", sample_.newton_iterations);
+  status.add("Newton iterations per time step of late", tried > 0.0 ? since(&Sample::newton_iterations) / tried : 0.0);
   status.add("contacts", sample_.contacts);
   status.add("deepest contact [fraction of radius]", sample_.max_penetration);
+  diagnosed_ = sample_;
 }
 
 }  // namespace knot_utm

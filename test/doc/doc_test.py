@@ -73,8 +73,14 @@ class Readme(unittest.TestCase):
             self.assertTrue(f"`{name}`" in self.readme, name)
 
     def test_has_every_message(self):
-        for name in (os.path.basename(file)[:-4] for file in files("msg", ".msg")):
+        for file in [*files("msg", ".msg"), *files("action", ".action")]:
+            name = os.path.splitext(os.path.basename(file))[0]
             self.assertTrue(f"knot_utm/{name}`" in self.readme, name)
+
+    def test_has_every_dynamic_parameter(self):
+        for file in files("cfg", ".cfg"):
+            for name in re.findall(r"\.add\('(\w+)'", text(file)):
+                self.assertTrue(f"`~{name}` (dynamic)" in self.readme, name)
 
 
 class Documents(unittest.TestCase):

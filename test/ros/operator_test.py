@@ -84,8 +84,13 @@ class OperatorTest(unittest.TestCase):
         self.state.wait('one step', lambda s: s.sequence == before + 1)
         time.sleep(0.5)
         self.assertEqual(self.state.last.sequence, before + 1)
-        self.assertTrue(call('utm/pause', Trigger).success)
+        self.assertTrue(call('utm/resume', Trigger).success)
         self.state.wait('goes on', lambda s: s.sequence > before + 3)
+        self.assertFalse(call('utm/resume', Trigger).success)
+        self.assertTrue(call('utm/pause', Trigger).success)
+        self.assertTrue(call('utm/pause', Trigger).success, 'pressed again it goes on')
+        before = self.state.last.sequence
+        self.state.wait('goes on again', lambda s: s.sequence > before)
 
     def test_5_tools(self):
         topics = tool('rostopic', 'list').split()
@@ -124,9 +129,15 @@ class OperatorTest(unittest.TestCase):
 
     def test_9_reset(self):
         before = self.state.last
+        self.assertGreater(before.force_upper, 1.0)
         self.assertTrue(call('knot/reset', Trigger).success)
         self.assertTrue(call('utm/start_test', Trigger).success)
-        second = self.state.wait('second test', lambda s: s.run == 2 and s.phase == 'pull')
+        self.state.wait('second test', lambda s: s.run == 2 and s.phase == 'pull')
+        # The specimen is as it was before the first test, the clock is not.
+        first, second = ([s for s in self.state.messages if s.run == run][0] for run in (1, 2))
+        self.assertEqual(second.sequence, 0)
+        for field in ('time', 'displacement', 'extension', 'end_to_end', 'load', 'force_upper', 'steps'):
+            self.assertEqual(getattr(second, field), getattr(first, field), field)
         self.assertGreater(second.header.stamp, before.header.stamp)
         # A specimen that is taken out during the test ends it, and says so.
         self.assertTrue(call('knot/reset', Trigger).success)

@@ -16,7 +16,9 @@
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/validate.hpp"
+#include "knot_utm/ros/view_parameters.hpp"
 
 namespace knot_utm {
 
@@ -56,7 +58,8 @@ class KnotNode {
   Sample sample_;                                   ///< the last answer
   MotionPatternTracker motion_;                     ///< of this specimen
   ros::Time stamp_;                                 ///< of the last answer
-  double highest_tension_ = 0.0;                    ///< seen in any picture [N]
+  Sample diagnosed_;                                ///< the answer at the last diagnosis
+  ScenePicture picture_;
   bool view_is_old_ = true;
   std::uint32_t viewers_ = 0;
   ros::Time transforms_stamp_;
@@ -68,6 +71,7 @@ class KnotNode {
   tf2_ros::TransformBroadcaster transforms_;
   tf2_ros::StaticTransformBroadcaster static_transforms_;
   diagnostic_updater::Updater diagnostics_;
+  ViewParameters view_;
 };
 
 }  // namespace knot_utm

@@ -26,9 +26,13 @@ inline constexpr char kStartTest[] = "utm/start_test";
 inline constexpr char kStopTest[] = "utm/stop_test";
 inline constexpr char kBalance[] = "utm/balance";
 inline constexpr char kPause[] = "utm/pause";
+inline constexpr char kResume[] = "utm/resume";
 inline constexpr char kStep[] = "utm/step";
 inline constexpr char kReset[] = "knot/reset";
 inline constexpr char kSave[] = "recorder/save";
+
+// Actions
+inline constexpr char kRunTest[] = "utm/run_test";  ///< RunTest: a test, from its start until all of it is recorded
 
 // Parameters that the nodes set
 inline constexpr char kTestId[] = "test/id";              ///< by utm_node: no other utm_node has it
