@@ -1,6 +1,5 @@
 #include "knot_utm/ros/knot_node.hpp"
 
-#include <geometry_msgs/TransformStamped.h>
 #include <knot_utm/SpecimenInfo.h>
 
 #include <algorithm>
@@ -24,25 +23,13 @@ TestBench make_bench(const Method& method) {
   return TestBench(method.specimen, method.material, method.machine, method.physics);
 }
 
-geometry_msgs::TransformStamped transform(const char* parent, const char* child, const Vec3& translation,
-                                          const ros::Time& stamp) {
-  geometry_msgs::TransformStamped t;
-  t.header.stamp = stamp;
-  t.header.frame_id = parent;
-  t.child_frame_id = child;
-  t.transform.translation.x = translation.x();
-  t.transform.translation.y = translation.y();
-  t.transform.translation.z = translation.z();
-  t.transform.rotation.w = 1.0;
-  return t;
-}
-
 }  // namespace
 
 KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
     : node_(node),
       method_(method),
       bench_(make_bench(method)),
+      frames_(bench_.lower_grip(), method.specimen.end_to_end),
       picture_(method.machine, method.material.radius),
       view_timer_(node_.createSteadyTimer(ros::WallDuration(1.0), &KnotNode::on_view_timer, this)),
       diagnostics_(node_),
@@ -61,10 +48,6 @@ KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
   status_ = subscribe_gated(node_, {names::kTestStatus, names::kUtmNode, 10, kLargest}, &KnotNode::on_status, this);
   reset_ = node_.advertiseService(names::kReset, &KnotNode::on_reset, this);
 
-  static_transforms_.sendTransform(std::vector<geometry_msgs::TransformStamped>{
-      transform(names::kWorldFrame, names::kBaseFrame, Vec3::Zero(), ros::TIME_MIN),
-      transform(names::kBaseFrame, names::kLowerGripFrame, bench_.lower_grip(), ros::TIME_MIN),
-      transform(names::kUpperGripFrame, names::kLoadCellFrame, Vec3::Zero(), ros::TIME_MIN)});
   diagnostics_.setHardwareID(method_.material.name);
   diagnostics_.add("physics", this, &KnotNode::diagnose);
   diagnostics_timer_ = node_.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
@@ -194,7 +177,7 @@ void KnotNode::on_view_timer(const ros::SteadyTimerEvent& /*event*/) {
   viewers_ = viewers;
   if (viewers > 0 && (view_is_old_ || somebody_is_new)) publish_markers();
   view_is_old_ = false;
-  publish_transforms();
+  frames_.publish(stamp_, sample_.displacement, bench_.upper_grip());
 }
 
 void KnotNode::publish_markers() {
@@ -208,16 +191,6 @@ void KnotNode::publish_markers() {
                        sample_,
                        motion_pattern_name(motion_.pattern())};
   markers_.publish(picture_.draw(view, stamp_));
-}
-
-void KnotNode::publish_transforms() {
-  const ros::Time stamp = std::max(stamp_, ros::TIME_MIN);
-  if (stamp == transforms_stamp_) return;  // tf2 warns of a stamp that it has already
-  transforms_stamp_ = stamp;
-  const Vec3 crosshead = bench_.lower_grip() + Vec3(0.0, 0.0, method_.specimen.end_to_end + sample_.displacement);
-  transforms_.sendTransform(std::vector<geometry_msgs::TransformStamped>{
-      transform(names::kBaseFrame, names::kCrossheadFrame, crosshead, stamp),
-      transform(names::kCrossheadFrame, names::kUpperGripFrame, bench_.upper_grip() - crosshead, stamp)});
 }
 
 void KnotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -121,7 +121,8 @@ std::string reading_text(const SceneView& view, ColorBy color_by, double highest
     std::snprintf(text, sizeof text, "e = %.1f mm\n", 1e3 * sample.knot_distance);
     out += text;
   }
-  std::snprintf(text, sizeof text, color_by == ColorBy::kTension ? "\nred: %.3g N" : "\nred: bent to %.2g radii",
+  std::snprintf(text, sizeof text,
+                color_by == ColorBy::kTension ? "\nred: %.3g N in the rod" : "\nred: bent to %.2g radii",
                 color_by == ColorBy::kTension || highest <= 0.0 ? highest : 1.0 / highest);
   return out + view.motion_pattern + text;
 }
@@ -238,7 +239,7 @@ Marker tube_marker(const Points& points, const Eigen::VectorXd& value, double ra
 
 Marker contact_marker(const std::vector<ContactForce>& forces, double radius, double highest, double longest) {
   Marker m = base_marker("contact_forces", 0, Marker::LINE_LIST);
-  m.scale.x = 0.25 * radius;
+  m.scale.x = 0.35 * radius;
   m.color = kContactColor;
   m.points.reserve(2 * forces.size());
   for (const ContactForce& contact : forces) {
@@ -250,7 +251,7 @@ Marker contact_marker(const std::vector<ContactForce>& forces, double radius, do
 }
 
 void ScenePicture::begin(const Points& points) {
-  highest_tension_ = highest_curvature_ = highest_contact_ = 0.0;
+  forget_largest();
   gauge_.clear();
   double length = 0.0, passed = 0.0;
   for (Eigen::Index i = 1; i < points.cols(); ++i) length += (points.col(i) - points.col(i - 1)).norm();
@@ -282,6 +283,8 @@ Marker ScenePicture::text_marker(const SceneView& view) const {
 }
 
 visualization_msgs::MarkerArray ScenePicture::draw(const SceneView& view, const ros::Time& stamp) {
+  if (view.sample.phase != phase_) forget_largest();
+  phase_ = view.sample.phase;
   for (const ContactForce& contact : view.contacts) highest_contact_ = std::max(highest_contact_, contact.force.norm());
   visualization_msgs::MarkerArray array;
   array.markers.push_back(rod_marker(view));

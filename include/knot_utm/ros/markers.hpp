@@ -51,8 +51,8 @@ struct SceneView {
   std::string motion_pattern;
 };
 
-/// The pictures of one test after the other, whose colours and lengths mean the same throughout a test: they end at the
-/// largest value seen so far.
+/// The pictures of one test after the other, whose colours and lengths mean the same throughout a phase: they end at
+/// the largest value seen in it so far. Tying and locking pull harder by orders of magnitude than what comes between.
 class ScenePicture {
  public:
   ScenePicture(const MachineOptions& machine, double radius) : machine_(machine), radius_(radius) {}
@@ -67,6 +67,7 @@ class ScenePicture {
   visualization_msgs::MarkerArray draw(const SceneView& view, const ros::Time& stamp);
 
  private:
+  void forget_largest() { highest_tension_ = highest_curvature_ = highest_contact_ = 0.0; }
   visualization_msgs::Marker rod_marker(const SceneView& view);
   visualization_msgs::Marker text_marker(const SceneView& view) const;
 
@@ -75,6 +76,7 @@ class ScenePicture {
   std::vector<Eigen::Index> gauge_;  ///< nodes with a mark
   ColorBy color_by_ = ColorBy::kTension;
   bool show_contacts_ = true;
+  Phase phase_ = Phase::kIdle;
   double highest_tension_ = 0.0;    ///< [N]
   double highest_curvature_ = 0.0;  ///< [-]
   double highest_contact_ = 0.0;    ///< [N]

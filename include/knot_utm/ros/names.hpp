@@ -7,6 +7,7 @@ namespace knot_utm::names {
 inline constexpr char kUtmNode[] = "utm_node";
 inline constexpr char kKnotNode[] = "knot_node";
 inline constexpr char kRecorderNode[] = "recorder_node";
+inline constexpr char kReplayNode[] = "replay_node";
 
 // Topics
 inline constexpr char kCrosshead[] = "utm/crosshead";         ///< Crosshead, a command for the physics
