@@ -3,11 +3,13 @@
 #include <ros/callback_queue.h>
 #include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/JointState.h>
+#include <std_msgs/String.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/validate.hpp"
 
@@ -45,6 +47,7 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOpt
   crosshead_ = node_.advertise<Crosshead>(names::kCrosshead, kQueue, ros::SubscriberStatusCallback(), gone);
   joint_states_ = node_.advertise<sensor_msgs::JointState>(names::kJointStates, kQueue);
   status_ = node_.advertise<TestStatus>(names::kTestStatus, 10, true);
+  method_text_ = node_.advertise<std_msgs::String>(names::kMethod, 1, true);
   clock_ = node_.advertise<rosgraph_msgs::Clock>(names::kClock, 10);
   states_ = subscribe_gated(node_, {names::kKnotState, names::kKnotNode, kQueue, kLargest}, &UtmNode::on_state, this);
   specimens_ = subscribe_gated(node_, {names::kSpecimen, names::kKnotNode, 1, kLargest}, &UtmNode::on_specimen, this);
@@ -64,6 +67,9 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOpt
   // No other machine of this computer's life has both.
   node_.setParam(names::kTestId,
                  std::to_string(getpid()) + "-" + std::to_string(steady_clock::now().time_since_epoch().count()));
+  std_msgs::String text;
+  text.data = method_file_text(method_);
+  method_text_.publish(text);
   publish_status();
 }
 

@@ -12,8 +12,9 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import rospy
 import rostest
 from geometry_msgs.msg import WrenchStamped
-from knot_utm.msg import KnotState, RecorderStatus, TestStatus
+from knot_utm.msg import KnotState, RecorderStatus, SpecimenInfo, TestStatus
 from node_test import Latest, call
+from std_msgs.msg import String
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -103,6 +104,13 @@ class OperatorTest(unittest.TestCase):
             self.assertIn('---', text, topic)
         self.assertTrue(printed('average rate', 'rostopic', 'hz', '--wall-time', '/knot/state'))
         self.assertIn('success: True', tool('rosservice', 'call', '/recorder/save'))
+
+    def test_5_what_never_changes_is_there_for_those_who_come_late(self):
+        method = Latest('utm/method', String).wait('the method', lambda m: True).data
+        with open(OUT + '/method.yaml', encoding='utf-8') as file:
+            self.assertEqual(method, file.read())
+        specimen = Latest('knot/specimen', SpecimenInfo).wait('the specimen', lambda s: True)
+        self.assertAlmostEqual(specimen.length, 0.25)
 
     def test_6_markers(self):
         markers = Latest('knot/markers', MarkerArray).wait('a picture', lambda m: True).markers

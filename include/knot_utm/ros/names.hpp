@@ -14,6 +14,7 @@ inline constexpr char kCrosshead[] = "utm/crosshead";         ///< Crosshead, a 
 inline constexpr char kJointStates[] = "utm/joint_states";    ///< sensor_msgs/JointState of the crosshead
 inline constexpr char kLoadCell[] = "utm/load_cell";          ///< geometry_msgs/WrenchStamped, as the cell reads it
 inline constexpr char kTestStatus[] = "utm/status";           ///< TestStatus, latched
+inline constexpr char kMethod[] = "utm/method";               ///< std_msgs/String, latched: the method.yaml of the test
 inline constexpr char kClock[] = "/clock";                    ///< rosgraph_msgs/Clock, the time of the test
 inline constexpr char kKnotState[] = "knot/state";            ///< KnotState, the answer to each command
 inline constexpr char kKnotRecord[] = "knot/record";          ///< KnotRecord, all of it for the recorder

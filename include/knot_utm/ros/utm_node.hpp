@@ -116,7 +116,7 @@ class UtmNode {
   double factor_time_ = 0.0;  ///< of the test when the factor was last measured [s]
   double factor_;             ///< test time over wall time of late
 
-  ros::Publisher crosshead_, joint_states_, status_, clock_;
+  ros::Publisher crosshead_, joint_states_, status_, method_text_, clock_;
   ros::Subscriber states_, specimens_, recorder_;
   ros::ServiceServer start_, stop_, balance_, pause_, resume_, step_;
   RunTestServer run_test_;
