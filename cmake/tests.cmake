@@ -50,6 +50,8 @@ gtest_discover_tests(property_tests DISCOVERY_TIMEOUT 60
 file(GLOB validation_sources CONFIGURE_DEPENDS test/validation/*_test.cpp)
 if(validation_sources)
   add_executable(validation_tests ${validation_sources})
+  set_source_files_properties(test/validation/break_test.cpp
+                              PROPERTIES COMPILE_DEFINITIONS "KNOT_UTM_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\"")
   target_include_directories(validation_tests PRIVATE test)
   target_link_libraries(validation_tests PRIVATE knot_utm_core GTest::gtest_main)
   gtest_discover_tests(validation_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 LABELS long)

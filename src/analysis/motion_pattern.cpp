@@ -78,7 +78,7 @@ void MotionPatternTracker::add(const Sample& sample) {
   if (broken_) return;
   if (sample.status == BenchStatus::kBroken) broken_ = true;
   if (sample.status == BenchStatus::kFailed) return;
-  if (sample.phase != Phase::kPull) {
+  if (!pulls(sample.phase)) {
     if (pull_.empty() && (sample.phase == Phase::kTie || sample.phase == Phase::kRelease)) {
       for (int k = 0; k < 2; ++k) {
         // The end of tying sets the mark; a release that lets the knot open does not move it.

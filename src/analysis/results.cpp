@@ -14,9 +14,23 @@ std::optional<double> known(double value) { return std::isfinite(value) ? std::o
 double fastest_node_while_sliding(const std::vector<Sample>& samples, std::optional<double> lock_extension) {
   double fastest = 0.0;
   for (const Sample& sample : samples)
-    if (sample.phase == Phase::kPull && !(lock_extension && sample.extension > *lock_extension))
+    if (pulls(sample.phase) && sample.status != BenchStatus::kBroken &&
+        !(lock_extension && sample.extension > *lock_extension))
       fastest = std::max(fastest, sample.fastest_node);
   return fastest;
+}
+
+std::string failure_mode(const Results& results) {
+  if (results.untangled_at || results.motion_pattern == MotionPattern::kUntangling) return "untangling";
+  if (results.ended_by != EndedBy::kBreak) return "";
+  switch (results.motion_pattern) {
+    case MotionPattern::kSliding:
+      return "sliding then fracture";
+    case MotionPattern::kStretching:
+      return "stretching then fracture";
+    default:
+      return "fracture";
+  }
 }
 
 double stored_energy(const Sample& sample) {
@@ -47,20 +61,21 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
   double moment_imbalance = 0.0;  // over L [N]
   double energy_error = 0.0;
   double energy_scale = 0.0;
+  bool broken = false;
   const Sample& first = samples.front();
   const Sample* before_pull = nullptr;
   const Sample* pull_begin = nullptr;
   const Sample* tied = nullptr;
   for (const Sample& sample : samples) {
     tracker.add(sample);
-    results.max_penetration = std::max(results.max_penetration, sample.max_penetration);
+    if (!broken) results.max_penetration = std::max(results.max_penetration, sample.max_penetration);
     if (sample.status == BenchStatus::kNotEquilibrated) results.not_equilibrated = sample.message;
     const EnergyParts parts = energy_between(first, sample);
     energy_error = std::max(energy_error, std::abs(parts.gap()));
     energy_scale = std::max(
         {energy_scale, std::abs(parts.stored + parts.kinetic), std::abs(parts.losses()), std::abs(parts.work)});
     if (sample.phase == Phase::kTie || sample.phase == Phase::kRelease) tied = &sample;
-    if (sample.phase != Phase::kPull) {
+    if (!pulls(sample.phase)) {
       if (!pull_begin) before_pull = &sample;
       continue;
     }
@@ -68,16 +83,21 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
       pull_begin = &sample;
       results.energy = energy_between(before_pull ? *before_pull : sample, samples.back());
     }
-    if (sample.status == BenchStatus::kBroken && !results.break_extension) results.break_extension = sample.extension;
+    if (broken) continue;  // the ends' recoil says nothing about the test
+    broken = sample.status == BenchStatus::kBroken;
+    if (broken) results.break_extension = sample.extension;
     imbalance = std::max(imbalance, std::abs(sample.force_upper - sample.force_lower));
     moment_imbalance = std::max(moment_imbalance, sample.moment_imbalance / sample.end_to_end);
   }
   results.knot_type = samples.back().knot_type;
+  results.break_arclength = known(samples.back().break_arclength);
+  results.break_place = samples.back().break_place;
   results.motion_pattern = tracker.pattern();
   results.motion_pattern_confidence = tracker.confidence();
   results.lock_extension = tracker.lock_extension();
   results.fastest_node = fastest_node_while_sliding(samples, results.lock_extension);
   results.untangled_at = tracker.untangled_at();
+  results.failure_mode = failure_mode(results);
   if (energy_scale > 0.0) results.energy_balance_error = energy_error / energy_scale;
 
   if (!tied) tied = pull_begin;

@@ -40,11 +40,16 @@ bool Candidates::refresh(const Points& position) {
   return true;
 }
 
+void Candidates::part(int edge) {
+  parted_ = edge;
+  built_at_.resize(3, 0);
+}
+
 void Candidates::measure(const Points& position) {
   double before = (position.col(1) - position.col(0)).norm();
   for (Eigen::Index i = 1; i + 1 < position.cols(); ++i) {
     const double after = (position.col(i + 1) - position.col(i)).norm();
-    size_[i] = extent_ * std::max(before, after);
+    size_[i] = reaches_into_parted(static_cast<int>(i)) ? 0.0 : extent_ * std::max(before, after);
     before = after;
   }
 }
@@ -78,7 +83,7 @@ void Candidates::build(const Points& position) {
   runs_.clear();
   begin_.assign(static_cast<std::size_t>(position.cols()) + 1, 0);
   measure(position);
-  if (is_taut(position)) return;
+  if (parted_ == kWhole && is_taut(position)) return;
   const int nodes = static_cast<int>(position.cols());
   const double cell = reach_ + margin_ + 2.0 * size_.maxCoeff();
   const Vec3 origin = position.rowwise().minCoeff().array() - cell;
@@ -88,13 +93,15 @@ void Candidates::build(const Points& position) {
     const Vec3 q = (position.col(i) - origin) / cell;
     return cell_key(static_cast<std::int64_t>(q[0]), static_cast<std::int64_t>(q[1]), static_cast<std::int64_t>(q[2]));
   };
-  for (int i = 1; i + 1 < nodes; ++i) entries_.push_back({key_of(i), i});
+  for (int i = 1; i + 1 < nodes; ++i)
+    if (!reaches_into_parted(i)) entries_.push_back({key_of(i), i});
   std::sort(entries_.begin(), entries_.end(),
             [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.segment < b.segment; });
 
   for (int i = 1; i + 1 < nodes; ++i) {
     begin_[static_cast<std::size_t>(i)] = runs_.size();
     found_.clear();
+    if (reaches_into_parted(i)) continue;
     const std::int64_t own = key_of(i);
     for (int di = -1; di <= 1; ++di) {
       for (int dj = -1; dj <= 1; ++dj) {

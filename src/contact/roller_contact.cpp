@@ -43,6 +43,7 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
   for (std::size_t r = 0; r < rollers.size(); ++r) {
     const Roller& roller = rollers[r];
     for (int segment = 1; segment <= last; ++segment) {
+      if (segment == parted_ || segment == parted_ + 1) continue;
       Vec3 away = position.col(segment) - roller.centre;
       away -= roller.axis * roller.axis.dot(away);
       const double limit = roller.radius + radius_ + voronoi_[segment];

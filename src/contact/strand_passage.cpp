@@ -110,6 +110,7 @@ std::optional<Passage> StrandPassage::search(std::size_t level, int i, int j) co
 }
 
 std::optional<Passage> StrandPassage::edges_meet(int a, int b) const {
+  if (a == parted_ || b == parted_) return std::nullopt;
   if (closed_ && a == 0 && b + 2 == start_->cols()) return std::nullopt;  // they share the node that closes the rod
   auto pair = [&](const Points& nodes) -> EdgePair {
     return {nodes.col(a), nodes.col(a + 1), nodes.col(b), nodes.col(b + 1)};

@@ -32,7 +32,7 @@ Pull pull_of(const std::vector<CurveRow>& rows, bool balanced) {
   Pull pull;
   CurveRow zero;
   for (const CurveRow& row : rows) {
-    if (row.phase != Phase::kPull) continue;
+    if (!pulls(row.phase)) continue;
     if (pull.empty() && balanced) zero = row;
     const PullPoint point = {row.time, row.extension - zero.extension, row.knot_distance, row.load - zero.load};
     if (pull.empty() || point.extension > pull.back().extension) pull.push_back(point);

@@ -4,6 +4,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -12,6 +13,7 @@
 #include <system_error>
 #include <utility>
 
+#include "knot_utm/io/curve_file.hpp"
 #include "method_fields.hpp"
 #include "method_reader.hpp"
 
@@ -25,6 +27,9 @@ using fields::Writer;
 
 /// The paper's machine has this cell for all but the softest material.
 constexpr const char* kDefaultLoadCell = "50kN";
+
+/// From which load on a fall may be a break, unless the method says so: testing machines have such a share.
+constexpr double kArmingShare = 0.02;  // of the cell's capacity
 
 /// Methods, materials and load cells are a few thousand characters long.
 constexpr std::size_t kLongestText = 65536;
@@ -287,7 +292,7 @@ ProgramStep default_step(Phase phase) {
 }
 
 Program read_program(const YAML::Node& node, const std::string& file) {
-  constexpr const char* kSteps = "tie, release, mount, preload, balance, pull or hold";
+  constexpr const char* kSteps = "tie, release, mount, preload, balance, pull, hold, cycle, return or follow";
   const std::string form = std::string("a list of steps, each {name: {...}} with the name ") + kSteps;
   if (!node.IsDefined() || !node.IsSequence() || node.size() == 0) {
     throw InvalidInput(file, "program", one_line(node), form);
@@ -306,6 +311,29 @@ Program read_program(const YAML::Node& node, const std::string& file) {
     program.push_back(step);
   }
   return program;
+}
+
+/// The course of the crosshead in the record of another test, curve.csv or raw data.
+void read_record(const fs::path& folder, const std::string& key, ProgramStep& step) {
+  std::error_code error;
+  const fs::path file = fs::absolute(folder / step.record).lexically_normal();
+  if (step.record.empty() || !fs::is_regular_file(file, error))
+    throw InvalidInput(key, step.record.empty() ? "\"\"" : step.record,
+                       "a curve.csv, or raw data of a testing machine");
+  step.record = file.string();
+  step.recorded.clear();
+  CurveRow first;
+  for (const CurveRow& row : read_curve_file(step.record)) {
+    if (!pulls(row.phase)) continue;
+    if (step.recorded.empty()) first = row;
+    const RecordedPlace place{row.time - first.time, row.extension - first.extension};
+    if (!std::isfinite(place.time) || !std::isfinite(place.displacement))
+      throw InvalidInput(step.record, "reading " + std::to_string(step.recorded.size() + 1), "one that is not finite",
+                         "time and extension");
+    if (step.recorded.empty() || place.time > step.recorded.back().time) step.recorded.push_back(place);
+  }
+  if (step.recorded.size() < 2)
+    throw InvalidInput(key, step.record, "a record of at least 2 readings at different times");
 }
 
 }  // namespace
@@ -336,6 +364,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     method.program = read_program(top.take("program"), file);
     method.specimen.to_be_tied = std::any_of(method.program.begin(), method.program.end(),
                                              [](const ProgramStep& step) { return step.phase == Phase::kTie; });
+    top.section("ends", [&](Reader& reader) { fields::ends(reader, method.ends); });
     top.section("physics", [&](Reader& reader) { fields::physics(reader, method.physics); });
     top.finish();
 
@@ -346,6 +375,9 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     if (method.specimen.knot == KnotKind::kFile && !method.specimen.file.empty()) {
       method.specimen.file = fs::absolute(folder / method.specimen.file).lexically_normal().string();
     }
+    for (std::size_t i = 0; i < method.program.size(); ++i)
+      if (method.program[i].phase == Phase::kFollow)
+        read_record(folder, "program." + std::to_string(i) + ".follow.record", method.program[i]);
     check_method(method);
     return method;
   } catch (const InvalidInput& invalid) {
@@ -379,6 +411,9 @@ std::string method_yaml(const Method& method) {
     entry_map.SetStyle(YAML::EmitterStyle::Flow);
     root["program"].push_back(entry_map);
   }
+  Writer ends;
+  fields::ends(ends, m.ends);
+  root["ends"] = ends.map();
   Writer physics;
   fields::physics(physics, m.physics);
   root["physics"] = physics.map();
@@ -389,8 +424,12 @@ std::string method_yaml(const Method& method) {
 
 TestProgram make_program(const Method& method, double longest_step) {
   TestProgram::Limits limits;
-  limits.load = method.machine.load_cell.capacity;
+  const double capacity = method.machine.load_cell.capacity;
+  limits.load = method.ends.load.value_or(capacity);
   limits.travel = method.machine.travel;
+  limits.time = method.ends.time.value_or(limits.time);
+  limits.breaks = method.ends.breaks;
+  limits.breaks.arming_load = method.ends.arming_load.value_or(kArmingShare * capacity);
   return TestProgram(method.program, method.machine.load_cell.sampling_rate, longest_step, limits);
 }
 

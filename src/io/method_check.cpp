@@ -1,3 +1,4 @@
+#include <cmath>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -105,6 +106,57 @@ void check_machine(const Method& m) {
   }
 }
 
+void check_load(const std::string& key, double load, double capacity) {
+  if (std::abs(load) > capacity)
+    reject(key, load, "at most the load cell's capacity, " + format_number(capacity) + " N");
+}
+
+/// Faster than any testing machine: a record in other units than it says, or not one.
+constexpr double kFastest = 0.5;  // [m/s]
+
+void check_record(const ProgramStep& step, const std::string& key) {
+  for (std::size_t i = 1; i < step.recorded.size(); ++i) {
+    const RecordedPlace &from = step.recorded[i - 1], &to = step.recorded[i];
+    const double speed = std::abs(to.displacement - from.displacement) / (to.time - from.time);
+    if (speed > kFastest)
+      throw InvalidInput(key, format_number(speed) + " m/s at " + format_number(from.time) + " s",
+                         "a record no faster than " + format_number(kFastest) + " m/s");
+  }
+}
+
+void check_step(const ProgramStep& step, const std::string& key, double capacity) {
+  if (step.phase == Phase::kPreload) check_load(key + ".load", step.load, capacity);
+  if (step.phase == Phase::kPull && step.until.load) check_load(key + ".until.load", *step.until.load, capacity);
+  if (step.phase == Phase::kReturn && step.until.load) check_load(key + ".load", *step.until.load, capacity);
+  if (step.phase == Phase::kHold && step.held_load) {
+    if (!step.hold_load) reject(key + ".load", *step.held_load, "only with control: load");
+    check_load(key + ".load", *step.held_load, capacity);
+  }
+  if (step.phase == Phase::kCycle) {
+    if (step.extension_turns.has_value() == step.load_turns.has_value())
+      throw InvalidInput(key, step.load_turns ? "extension and load" : "nothing", "one of extension and load");
+    if (step.load_turns) {
+      check_load(key + ".load", step.load_turns->low, capacity);
+      check_load(key + ".load", step.load_turns->high, capacity);
+    }
+    if (step.cycles == 0 && !step.until.time) throw InvalidInput(key, "nothing", "count, time, or both");
+  }
+  if (step.phase == Phase::kFollow) check_record(step, key + ".record");
+}
+
+void check_ends(const Method& m) {
+  const double capacity = m.machine.load_cell.capacity;
+  if (m.ends.load) check_load("ends.load", *m.ends.load, capacity);
+  if (m.ends.arming_load) check_load("ends.arming_load", *m.ends.arming_load, capacity);
+  const BreakDetection& breaks = m.ends.breaks;
+  const BreakDetection unset;
+  has_effect(breaks.on(), "ends.arming_load", m.ends.arming_load.value_or(0.0), 0.0,
+             "with break_at_fraction_of_peak, sharp_drop or drop");
+  has_effect(breaks.sharp_drop.has_value(), "ends.sharp_drop_time", breaks.sharp_drop_time, unset.sharp_drop_time,
+             "with sharp_drop");
+  has_effect(breaks.drop.has_value(), "ends.drop_extension", breaks.drop_extension, unset.drop_extension, "with drop");
+}
+
 void check_program(const Method& m) {
   const bool loop = m.specimen.knot == KnotKind::kFisherman;
   bool pulled = false;
@@ -130,6 +182,9 @@ void check_program(const Method& m) {
         break;
       case Phase::kPreload:
       case Phase::kPull:
+      case Phase::kCycle:
+      case Phase::kReturn:
+      case Phase::kFollow:
         pulled = true;
         break;
       default:
@@ -140,14 +195,7 @@ void check_program(const Method& m) {
         !step.until.broken) {
       throw InvalidInput(key + ".pull.until", "nothing", "one or more of extension, load, time and break");
     }
-    const double capacity = m.machine.load_cell.capacity;
-    if (step.phase == Phase::kPreload && step.load > capacity) {
-      reject(key + ".preload.load", step.load, "at most the load cell's capacity, " + format_number(capacity) + " N");
-    }
-    if (step.until.load && *step.until.load > capacity) {
-      reject(key + ".pull.until.load", *step.until.load,
-             "at most the load cell's capacity, " + format_number(capacity) + " N");
-    }
+    check_step(step, key + "." + name, m.machine.load_cell.capacity);
   }
 }
 
@@ -157,6 +205,7 @@ void check_method(const Method& method) {
   check_specimen(method);
   check_machine(method);
   check_program(method);
+  check_ends(method);
   check_effects(method);
 }
 

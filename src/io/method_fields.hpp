@@ -12,6 +12,7 @@
 ///   number(key, double&, Range)                 optional_number(key, optional<double>&, Range, word)
 ///   integer(key, Integer&, min, max)            text(key, string&)          flag(key, bool&)
 ///   choice(key, Enum&, names in enum order)     vector(key, Vector3d&, Range)
+///   turns(key, optional<TurningPoints>&, Range)
 ///   section(key, [](Fields&) {...})
 /// where `word` is what may stand in a file for "not set".
 namespace knot_utm::fields {
@@ -54,6 +55,7 @@ void material(Fields& f, Material& o) {
   f.optional_number("contact_stiffness", o.contact_stiffness, Range{1.0, 1e13, "N/m2"}, "auto");
   f.optional_number("tying_preload", o.tying_preload, Range{1e-4, 1e5, "N"}, "auto");
   f.optional_number("breaking_force", o.breaking_force, Range{1e-4, 1e8, "N"}, "none");
+  f.optional_number("breaking_strain", o.breaking_strain, Range{1e-6, 100.0, "-"}, "none");
   f.text("load_cell", o.load_cell);
   f.text("notes", o.notes);
 }
@@ -92,13 +94,34 @@ void step(Fields& f, ProgramStep& o) {
       break;
     case Phase::kHold:
       f.required_number("duration", o.duration, Range{1e-3, 1e6, "s"});
+      f.choice("control", o.hold_load, std::array{"extension", "load"});
+      f.optional_number("load", o.held_load, Range{-1e8, 1e8, "N"}, "auto");
+      if (o.hold_load) f.number("speed", o.speed, Range{1e-6, 0.5, "m/s"});
       break;
     case Phase::kPreload:
       f.required_number("load", o.load, Range{1e-6, 1e8, "N"});
       f.number("speed", o.speed, Range{1e-6, 0.5, "m/s"});
+      f.optional_number("load_rate", o.load_rate, Range{1e-6, 1e8, "N/s"}, "none");
+      f.flag("balance", o.balance);
+      break;
+    case Phase::kCycle:
+      f.turns("extension", o.extension_turns, Range{-100.0, 100.0, "m"});
+      f.turns("load", o.load_turns, Range{-1e8, 1e8, "N"});
+      f.number("speed", o.speed, Range{1e-6, 0.5, "m/s"});
+      f.integer("count", o.cycles, 0, 1000000);
+      f.optional_number("time", o.until.time, Range{1e-3, 1e6, "s"}, "none");
+      break;
+    case Phase::kReturn:
+      f.number("speed", o.speed, Range{1e-6, 0.5, "m/s"});
+      f.number("extension", o.return_extension, Range{-100.0, 100.0, "m"});
+      f.optional_number("load", o.until.load, Range{-1e8, 1e8, "N"}, "none");
+      break;
+    case Phase::kFollow:
+      f.text("record", o.record);
       break;
     case Phase::kPull:
       f.number("speed", o.speed, Range{1e-6, 0.5, "m/s"});
+      f.optional_number("load_rate", o.load_rate, Range{1e-6, 1e8, "N/s"}, "none");
       f.section("until", [&o](auto& until) {
         until.optional_number("extension", o.until.extension, Range{1e-6, 100.0, "m"}, "none");
         until.optional_number("load", o.until.load, Range{1e-6, 1e8, "N"}, "none");
@@ -111,6 +134,18 @@ void step(Fields& f, ProgramStep& o) {
     case Phase::kDone:
       break;
   }
+}
+
+template <class Fields>
+void ends(Fields& f, EndOptions& o) {
+  f.optional_number("load", o.load, Range{1e-6, 1e8, "N"}, "auto");
+  f.optional_number("time", o.time, Range{1e-3, 1e8, "s"}, "none");
+  f.optional_number("arming_load", o.arming_load, Range{0.0, 1e8, "N"}, "auto");
+  f.optional_number("break_at_fraction_of_peak", o.breaks.fraction_of_peak, Range{0.0, 0.99, "-"}, "none");
+  f.optional_number("sharp_drop", o.breaks.sharp_drop, Range{0.01, 2.0, "of the peak"}, "none");
+  f.number("sharp_drop_time", o.breaks.sharp_drop_time, Range{1e-6, 1e3, "s"});
+  f.optional_number("drop", o.breaks.drop, Range{0.01, 2.0, "of the peak"}, "none");
+  f.number("drop_extension", o.breaks.drop_extension, Range{1e-6, 10.0, "m"});
 }
 
 template <class Fields>

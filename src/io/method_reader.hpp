@@ -137,6 +137,21 @@ class Reader {
     }
   }
 
+  void turns(const char* key, std::optional<TurningPoints>& value, const Range& range) {
+    const YAML::Node node = take(key);
+    if (!node.IsDefined()) return;
+    const std::string allowed = "[low, high], low below high, each " + allowed_numbers(range);
+    if (!node.IsSequence() || node.size() != 2) fail(key, node, allowed);
+    double numbers[2];
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::optional<double> number = node[i].IsScalar() ? parse_number(node[i].Scalar()) : std::nullopt;
+      if (!number || !(*number >= range.min && *number <= range.max)) fail(key, node, allowed);
+      numbers[i] = *number;
+    }
+    if (numbers[0] >= numbers[1]) fail(key, node, allowed);
+    value = TurningPoints{numbers[0], numbers[1]};
+  }
+
   template <class Body>
   void section(const char* key, Body body) {
     const YAML::Node node = take(key);
@@ -219,6 +234,13 @@ class Writer {
   void vector(const char* key, const Eigen::Vector3d& value, const Range&) {
     YAML::Node list;
     for (const double x : value) list.push_back(format_yaml_number(x));
+    list.SetStyle(YAML::EmitterStyle::Flow);
+    map_[key] = list;
+  }
+  void turns(const char* key, const std::optional<TurningPoints>& value, const Range&) {
+    if (!value) return;
+    YAML::Node list;
+    for (const double x : {value->low, value->high}) list.push_back(format_yaml_number(x));
     list.SetStyle(YAML::EmitterStyle::Flow);
     map_[key] = list;
   }

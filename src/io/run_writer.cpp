@@ -7,6 +7,7 @@
 #include "knot_utm/io/number.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/yaml_lines.hpp"
+#include "knot_utm/machine/fracture.hpp"
 
 namespace knot_utm {
 namespace {
@@ -135,6 +136,9 @@ std::string result_yaml(const Results& r, const RunFacts& f) {
   lines.number("peak_force", r.peak_force);
   lines.number("balance_offset", r.balance_offset);
   lines.number("break_extension", r.break_extension);
+  lines.number("break_arclength", r.break_arclength);
+  lines.word("break_place", break_place_name(r.break_place));
+  lines.text("failure_mode", r.failure_mode);
   lines.number("untangled_at", r.untangled_at);
   lines.flag("knot_type_preserved", r.knot_type == KnotType::kKept);
   lines.number("max_penetration", r.max_penetration);

@@ -1,6 +1,7 @@
 #include "knot_utm/machine/grips.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <utility>
 
 namespace knot_utm {
@@ -48,6 +49,17 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
       std::swap(upper_nodes_[0], upper_nodes_[1]);
     }
   }
+}
+
+bool Grips::hold(double displacement, const Vec3& point, double radius) const {
+  Boundary boundary;
+  set(displacement, boundary);
+  for (const Roller& roller : boundary.rollers) {
+    const Vec3 away = point - roller.centre;
+    if ((away - roller.axis * roller.axis.dot(away)).norm() < roller.radius + 2.0 * radius) return true;
+  }
+  return std::any_of(boundary.fixed_nodes.begin(), boundary.fixed_nodes.end(),
+                     [&](const FixedNode& node) { return (node.position - point).norm() < 2.0 * radius; });
 }
 
 void Grips::set(double displacement, Boundary& boundary) const {

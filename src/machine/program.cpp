@@ -6,15 +6,18 @@
 namespace knot_utm {
 namespace {
 
-constexpr std::array<std::pair<Phase, const char*>, 9> kPhaseNames{{{Phase::kIdle, "idle"},
-                                                                    {Phase::kTie, "tie"},
-                                                                    {Phase::kRelease, "release"},
-                                                                    {Phase::kMount, "mount"},
-                                                                    {Phase::kPreload, "preload"},
-                                                                    {Phase::kBalance, "balance"},
-                                                                    {Phase::kPull, "pull"},
-                                                                    {Phase::kHold, "hold"},
-                                                                    {Phase::kDone, "done"}}};
+constexpr std::array<std::pair<Phase, const char*>, 12> kPhaseNames{{{Phase::kIdle, "idle"},
+                                                                     {Phase::kTie, "tie"},
+                                                                     {Phase::kRelease, "release"},
+                                                                     {Phase::kMount, "mount"},
+                                                                     {Phase::kPreload, "preload"},
+                                                                     {Phase::kBalance, "balance"},
+                                                                     {Phase::kPull, "pull"},
+                                                                     {Phase::kHold, "hold"},
+                                                                     {Phase::kCycle, "cycle"},
+                                                                     {Phase::kReturn, "return"},
+                                                                     {Phase::kFollow, "follow"},
+                                                                     {Phase::kDone, "done"}}};
 
 }  // namespace
 

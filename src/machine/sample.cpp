@@ -2,7 +2,7 @@
 
 namespace knot_utm {
 
-// In the order of the journal's version 1: another one is another version (src/io/journal.cpp).
+// In the order of the journal's version 2: another one is another version (src/io/journal.cpp).
 
 void Command::state(Archive& archive) {
   archive(sequence, time, displacement, velocity, step);
@@ -19,7 +19,8 @@ void Sample::state(Archive& archive) {
           numerical_dissipation, reweighting_loss, moment_imbalance, steps, rejected_steps, newton_iterations);
   archive.choice("knot type", knot_type, KnotType::kCrossed);
   archive.choice("status", status, BenchStatus::kFailed);
-  archive(message);
+  archive(message, highest_load, lowest_load, break_arclength);
+  archive.choice("place of the break", break_place, BreakPlace::kGrip);
 }
 
 }  // namespace knot_utm

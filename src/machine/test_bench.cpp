@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <sstream>
 #include <utility>
 
 #include "knot_utm/analysis/knot_watch.hpp"
 #include "knot_utm/machine/accuracy.hpp"
+#include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
@@ -60,6 +62,9 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
   return out;
 }
 
+constexpr double kNearBreak = 1e-3;      // steps are no shorter for a break that is near [longest step]
+constexpr double kRecoilTransits = 5.0;  // of the specimen, that the ends of a parted rod are followed for
+
 /// In which a wave as long as the rod is thick bends to and fro, but for a factor: h^2 sqrt(rho A/k_b) [s].
 double bending_time(const Material& material) {
   const double h = material.radius, mass = material.density * M_PI * h * h;
@@ -84,6 +89,9 @@ struct TestBench::Impl {
 
   double time = 0.0, displacement = 0.0;
   double extension_zero = 0.0;
+  double exposure = 0.0;    // share of the way to a break
+  double recoil_end = 0.0;  // of a rod that has parted [s]
+  BreakPlace break_place = BreakPlace::kNone;
   double mount_load = 0.0;      // when mounting began [N]
   double mount_distance = 0.0;  // of the knots when mounting began [m]
   int step_index = -1;
@@ -154,7 +162,8 @@ struct TestBench::Impl {
   const Boundary& boundary_at(const Command& command, double from, double to, double start_time,
                               double start_displacement) {
     const double whole = command.time - start_time;
-    const double share = whole > 0.0 ? (to - start_time) / whole : 1.0;
+    // A recoil may go on behind the command; the crosshead does not.
+    const double share = whole > 0.0 ? std::min(1.0, (to - start_time) / whole) : 1.0;
     const double travel = start_displacement + share * (command.displacement - start_displacement);
     grips.set(travel, boundary);
     boundary.forces.clear();
@@ -198,12 +207,49 @@ struct TestBench::Impl {
     return (rig->knot_middle(0, rod, state) - rig->knot_middle(1, rod, state)).norm();
   }
 
-  void judge_phase() {
-    if (material.breaking_force && stepper->tension().maxCoeff() > *material.breaking_force) {
-      status = BenchStatus::kBroken;
-      message = "the rod's tension passed its breaking force";
-      return;
+  bool parted() const { return stepper->parted_edge() >= 0; }
+
+  /// After an accepted step: does the rod part? The next step ends where at this pace it will.
+  void watch_for_break(double dt) {
+    if (!can_part(material) || parted()) return;
+    const Exposure now = most_exposed(stepper->rod(), stepper->state());
+    if (now.share >= 1.0) {
+      part(now.edge);
+    } else if (now.share > exposure) {
+      const double left = (1.0 - now.share) / (now.share - exposure) * dt;
+      control.at_most(std::max(left, kNearBreak * tolerances(physics, specimen).longest_step));
     }
+    exposure = now.share;
+  }
+
+  void part(int edge) {
+    const Points& position = stepper->state().position;
+    break_place = lies_in_knot(stepper->rod(), position, edge)              ? BreakPlace::kKnot
+                  : grips.hold(displacement, middle(edge), material.radius) ? BreakPlace::kGrip
+                                                                            : BreakPlace::kStrand;
+    std::ostringstream text;
+    text << "the rod parted " << break_arclength(edge) << " m along it (" << break_place_name(break_place)
+         << ") at a tension of " << stepper->tension()[edge] << " N";
+    status = BenchStatus::kBroken;
+    message = text.str();
+    stepper->part(edge);
+    recoil_end = time + kRecoilTransits * transit_time(material, grips.end_to_end(displacement));
+    control.at_most(transit_time(material, stepper->rod().rest_length[edge]));
+    control.halt();
+  }
+
+  Vec3 middle(int edge) const {
+    const Points& position = stepper->state().position;
+    return 0.5 * (position.col(edge) + position.col(edge + 1));
+  }
+
+  double break_arclength(int edge) const {
+    const RodProperties& rod = stepper->rod();
+    return rod.rest_length.head(edge).sum() + 0.5 * rod.rest_length[edge];
+  }
+
+  void judge_phase() {
+    if (parted()) return;
     bool done = false;
     switch (phase) {
       case Phase::kTie:
@@ -239,7 +285,7 @@ struct TestBench::Impl {
     s.extension = s.end_to_end - extension_zero;
     s.force_upper = grips.force_upper(*stepper);
     s.force_lower = grips.force_lower(*stepper);
-    s.load = cell.balanced(s.force_upper);
+    s.load = s.highest_load = s.lowest_load = cell.balanced(s.force_upper);
     s.balance_offset = cell.offset();
     if (rig) {
       for (int k = 0; k < 2; ++k) {
@@ -269,6 +315,8 @@ struct TestBench::Impl {
     s.rejected_steps = control.counters().rejected;
     s.newton_iterations = control.counters().iterations;
     if (watch) s.knot_type = watch->type();
+    if (parted()) s.break_arclength = break_arclength(stepper->parted_edge());
+    s.break_place = break_place;
     s.status = status;
     s.message = message;
     return s;
@@ -276,6 +324,11 @@ struct TestBench::Impl {
 
   void state(Archive& archive) {
     archive.section("BNCH");
+    int parted_edge = stepper->parted_edge();
+    archive.number("parted edge", parted_edge, -1, static_cast<int>(stepper->rod().edges()) - 1);
+    if (archive.loads() && parted_edge >= 0) stepper->part(parted_edge);
+    archive.choice("place of the break", break_place, BreakPlace::kGrip);
+    archive(exposure, recoil_end);
     archive(time, displacement, extension_zero, mount_load, mount_distance, step_index, work, message);
     archive.choice("phase", phase, Phase::kDone);
     archive.choice("status", status, BenchStatus::kFailed);
@@ -288,9 +341,32 @@ struct TestBench::Impl {
     if (archive.loads()) substeps.clear();
   }
 
+  /// When and where the crosshead was.
+  struct Start {
+    double time, displacement;
+  };
+
+  /// Steps on from `start` towards the command, as far as `end` [s]. Empty, or why it gave up.
+  std::string advance(const Command& command, const Start& start, double end) {
+    const double speed =
+        command.time > start.time ? (command.displacement - start.displacement) / (command.time - start.time) : 0.0;
+    return control.advance(
+        *stepper, time, end,
+        [&](double from, double to) -> const Boundary& {
+          return boundary_at(command, from, to, start.time, start.displacement);
+        },
+        [&](double to, double dt, const StepSummary&) {
+          displacement = to < command.time ? start.displacement + speed * (to - start.time) : command.displacement;
+          work += stepper->work();
+          if (rig) rig->follow(*stepper, to, dt);
+          watch_for_break(dt);
+          substeps.push_back(read(command, to));
+        });
+  }
+
   Sample respond(const Command& command) {
     substeps.clear();
-    if (status == BenchStatus::kFailed) {
+    if (status == BenchStatus::kFailed || status == BenchStatus::kBroken) {
       substeps.push_back(read(command, time));
       return substeps.back();
     }
@@ -299,21 +375,11 @@ struct TestBench::Impl {
       cell.balance(grips.force_upper(*stepper));
       extension_zero = grips.end_to_end(displacement);
     }
-    const double start_time = time, start_displacement = displacement;
-    const double speed =
-        command.time > start_time ? (command.displacement - start_displacement) / (command.time - start_time) : 0.0;
-    const std::string gave_up = control.advance(
-        *stepper, time, command.time,
-        [&](double from, double to) -> const Boundary& {
-          return boundary_at(command, from, to, start_time, start_displacement);
-        },
-        [&](double to, double dt, const StepSummary&) {
-          displacement = to < command.time ? start_displacement + speed * (to - start_time) : command.displacement;
-          work += stepper->work();
-          if (rig) rig->follow(*stepper, to, dt);
-          substeps.push_back(read(command, to));
-        });
-    if (!gave_up.empty()) {
+    std::string gave_up = advance(command, {time, displacement}, command.time);
+    if (parted()) {
+      gave_up = advance(command, {time, displacement}, recoil_end);
+      if (!gave_up.empty()) message += "; the recoil of its ends could not be followed to its end";
+    } else if (!gave_up.empty()) {
       status = BenchStatus::kFailed;
       message = gave_up;
       failed_step = save_step(*stepper, boundary, time, control.last_tried());
@@ -321,9 +387,13 @@ struct TestBench::Impl {
       displacement = command.displacement;
       judge_phase();
     }
-    if (watch) watch->follow(stepper->state().position);
+    if (watch && !parted()) watch->follow(stepper->state().position);
     Sample last = read(command, time);
     if (command.read_cell && status != BenchStatus::kFailed) last.load = cell.read(last.force_upper);
+    for (const Sample& step : substeps) {
+      last.highest_load = std::max(last.highest_load, step.highest_load);
+      last.lowest_load = std::min(last.lowest_load, step.lowest_load);
+    }
     if (substeps.empty())
       substeps.push_back(last);
     else
@@ -350,8 +420,9 @@ double TestBench::time() const { return impl_->time; }
 double TestBench::longest_step() const { return tolerances(impl_->physics, impl_->specimen).longest_step; }
 Eigen::VectorXd TestBench::tension() const { return impl_->stepper->tension(); }
 std::vector<ContactForce> TestBench::contact_forces() const {
-  // A step that could not be made leaves contacts that no accepted step has.
-  return impl_->status == BenchStatus::kFailed ? std::vector<ContactForce>() : impl_->stepper->contact_forces();
+  // A step that could not be made leaves contacts that no accepted step has, of a recoil too.
+  const bool over = impl_->status == BenchStatus::kFailed || impl_->status == BenchStatus::kBroken;
+  return over ? std::vector<ContactForce>() : impl_->stepper->contact_forces();
 }
 void TestBench::state(Archive& archive) { impl_->state(archive); }
 

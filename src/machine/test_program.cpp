@@ -8,7 +8,23 @@
 namespace knot_utm {
 namespace {
 
-bool moves(Phase phase) { return phase == Phase::kMount || phase == Phase::kPreload || phase == Phase::kPull; }
+constexpr double kAtTurn = 1e-9;  // nearer to an extension it is met [m]
+
+/// Of the crosshead as a step begins [m/s].
+double first_velocity(const ProgramStep& step) {
+  switch (step.phase) {
+    case Phase::kPreload:
+    case Phase::kPull:
+      return step.load_rate ? 0.0 : step.speed;
+    case Phase::kMount:
+    case Phase::kCycle:
+      return step.speed;
+    case Phase::kReturn:
+      return -step.speed;
+    default:
+      return 0.0;
+  }
+}
 
 }  // namespace
 
@@ -30,12 +46,14 @@ const char* ended_by_name(EndedBy end) {
       return "solver";
     case EndedBy::kProgram:
       return "program";
+    case EndedBy::kTime:
+      return "time";
   }
   return "not yet";
 }
 
 TestProgram::TestProgram(Program program, double sampling_rate, double longest_period, Limits limits)
-    : program_(std::move(program)), limits_(limits) {
+    : program_(std::move(program)), limits_(limits), break_detector_(limits.breaks) {
   if (program_.empty()) throw std::invalid_argument("a test program needs a step");
   if (!(sampling_rate > 0.0) || !(longest_period > 0.0)) {
     throw std::invalid_argument("a test program needs a positive sampling rate and period");
@@ -57,14 +75,15 @@ Command TestProgram::next(const Sample& sample) {
 
   const EndedBy by = last_.sequence == 0 ? EndedBy::kNotYet : step_end(sample);
   if (by != EndedBy::kNotYet) {
-    step_begin_ = last_.sequence;
-    step_begin_displacement_ = last_.displacement;
     if (step_ + 1 == program_.size()) {
       end(by, "");
       return command(last_.sequence);
     }
+    if (step().phase == Phase::kPreload && step().balance) balance_next_ = true;
     ++step_;
   }
+  if (by != EndedBy::kNotYet || last_.sequence == 0) begin_step(sample);
+  steer(sample);
   last_ = command(last_.sequence + 1);
   balance_next_ = false;
   return last_;
@@ -92,13 +111,14 @@ double TestProgram::time_left() const {
 }
 
 void TestProgram::state(Archive& archive) {
-  archive.section("PRGM");  // "PROG" had a command's fields in another order
+  archive.section("PRG3");
   archive.same("steps of the program", static_cast<std::int64_t>(program_.size()));
   int step = static_cast<int>(step_);
   archive.number("step of the program", step, 0, static_cast<int>(program_.size()) - 1);
   step_ = static_cast<std::size_t>(step);
-  archive(step_begin_, step_begin_displacement_, last_, balance_next_, reason_);
-  archive.choice("end of the test", ended_by_, EndedBy::kProgram);
+  archive(step_begin_, step_begin_load_, leg_.begin, leg_.displacement, leg_.velocity, outwards_, turns_, load_control_,
+          break_detector_, last_, balance_next_, reason_);
+  archive.choice("end of the test", ended_by_, EndedBy::kTime);
 }
 
 double TestProgram::seconds(std::uint64_t commands) const { return static_cast<double>(commands) / command_rate_; }
@@ -116,9 +136,20 @@ double TestProgram::estimated_duration(const ProgramStep& step) const {
     case Phase::kRelease:
     case Phase::kHold:
       return step.duration;
-    case Phase::kPull:
-      return std::min(step.until.extension.value_or(limits_.travel) / step.speed,
-                      step.until.time.value_or(limits_.travel / step.speed));
+    case Phase::kPull: {
+      const double way = step.until.extension.value_or(limits_.travel) / step.speed;
+      const double rise = step.load_rate ? step.until.load.value_or(limits_.load) / *step.load_rate : way;
+      return std::min({way, rise, step.until.time.value_or(way)});
+    }
+    case Phase::kCycle: {
+      const double way = step.extension_turns ? step.extension_turns->high - step.extension_turns->low : kUsualWay;
+      const double whole = 2.0 * way * step.cycles / step.speed, time = step.until.time.value_or(whole);
+      return step.cycles > 0 ? std::min(whole, time) : time;
+    }
+    case Phase::kReturn:
+      return std::max(0.0, last_.displacement - step.return_extension) / step.speed;
+    case Phase::kFollow:
+      return step.recorded.empty() ? 0.0 : step.recorded.back().time;
     default:
       return period();
   }
@@ -137,14 +168,31 @@ bool TestProgram::end_by_alarm(const Sample& sample) {
   } else if (sample.status == BenchStatus::kBroken) {
     end(EndedBy::kBreak, sample.message);
   } else if (std::abs(sample.load) > limits_.load || std::abs(sample.force_upper) > limits_.load) {
-    end(EndedBy::kLoad, phase + ": the load is beyond the load cell's capacity");
+    end(EndedBy::kLoad, phase + ": the load is beyond its limit, the load cell's capacity or ends.load");
   } else if (std::abs(last_.displacement) >= limits_.travel) {
     end(EndedBy::kTravel, phase + ": the crosshead is at the end of its way");
+  } else if (const std::string seen = break_seen(sample); !seen.empty()) {
+    end(EndedBy::kBreak, phase + ": " + seen);
+  } else if (last_.time >= limits_.time) {
+    end(EndedBy::kTime, phase + ": the test's time is over");
   }
   return ended();
 }
 
-EndedBy TestProgram::step_end(const Sample& sample) const {
+std::string TestProgram::break_seen(const Sample& sample) {
+  switch (last_.phase) {
+    case Phase::kPreload:
+    case Phase::kPull:
+    case Phase::kHold:
+      return break_detector_.judge(sample);
+    case Phase::kCycle:
+      return outwards_ ? break_detector_.judge(sample) : "";
+    default:
+      return {};
+  }
+}
+
+EndedBy TestProgram::step_end(const Sample& sample) {
   const std::uint64_t commands = last_.sequence - step_begin_;
   // A time is over after as many whole periods as cover it; the slack is for times that are a multiple of the period.
   const auto over = [&](double time) { return static_cast<double>(commands) >= time * command_rate_ - 1e-6; };
@@ -164,12 +212,102 @@ EndedBy TestProgram::step_end(const Sample& sample) const {
       return s.until.time && over(*s.until.time) ? EndedBy::kProgram : EndedBy::kNotYet;
     case Phase::kHold:
       return over(s.duration) ? EndedBy::kProgram : EndedBy::kNotYet;
+    case Phase::kCycle:
+      return cycles_over(sample) || (s.until.time && over(*s.until.time)) ? EndedBy::kProgram : EndedBy::kNotYet;
+    case Phase::kReturn:
+      if (sample.extension <= s.return_extension + kAtTurn) return EndedBy::kExtension;
+      return s.until.load && sample.load <= *s.until.load ? EndedBy::kLoad : EndedBy::kNotYet;
+    case Phase::kFollow:
+      return over(s.recorded.back().time) ? EndedBy::kProgram : EndedBy::kNotYet;
     case Phase::kIdle:
     case Phase::kBalance:
     case Phase::kDone:
       break;
   }
   return EndedBy::kProgram;
+}
+
+/// Turns round where a turning point is reached.
+bool TestProgram::cycles_over(const Sample& sample) {
+  const ProgramStep& s = step();
+  const double sign = outwards_ ? 1.0 : -1.0;
+  const bool reached =
+      s.extension_turns
+          ? sign * (sample.extension - (outwards_ ? s.extension_turns->high : s.extension_turns->low)) >= -kAtTurn
+          : sign * (sample.load - (outwards_ ? s.load_turns->high : s.load_turns->low)) >= 0.0;
+  if (!reached) return false;
+  outwards_ = !outwards_;
+  if (outwards_) break_detector_.begin();
+  ++turns_;
+  return s.cycles > 0 && turns_ >= 2 * s.cycles;
+}
+
+void TestProgram::begin_step(const Sample& sample) {
+  step_begin_ = last_.sequence;
+  step_begin_load_ = sample.load;
+  outwards_ = true;
+  turns_ = 0;
+  load_control_.begin();
+  break_detector_.begin();
+  begin_leg(first_velocity(step()));
+}
+
+void TestProgram::begin_leg(double velocity) {
+  leg_.begin = last_.sequence;
+  leg_.displacement = last_.displacement;
+  leg_.velocity = velocity;
+}
+
+/// Where the crosshead's speed follows from the last sample, the next command is a leg of its own.
+void TestProgram::steer(const Sample& sample) {
+  const ProgramStep& s = step();
+  const double next_time = seconds(last_.sequence + 1 - step_begin_);
+  switch (s.phase) {
+    case Phase::kPreload:
+    case Phase::kPull:
+    case Phase::kHold:
+      if (s.load_rate || s.hold_load) begin_leg(load_control_.speed(sample, wanted_load(next_time), period(), s.speed));
+      break;
+    case Phase::kCycle:
+      if (s.extension_turns) {
+        land((outwards_ ? s.extension_turns->high : s.extension_turns->low) - sample.extension);
+      } else {
+        begin_leg(outwards_ ? s.speed : -s.speed);
+      }
+      break;
+    case Phase::kReturn:
+      land(s.return_extension - sample.extension);
+      break;
+    case Phase::kFollow:
+      begin_leg((recorded_way(next_time) - recorded_way(seconds(last_.sequence - step_begin_))) / period());
+      break;
+    default:
+      break;
+  }
+}
+
+/// Towards what is `left` to go [m], and no further.
+void TestProgram::land(double left) {
+  const double most = step().speed * period();
+  begin_leg(std::clamp(left, -most, most) / period());
+}
+
+/// Of the next command [N].
+double TestProgram::wanted_load(double time) const {
+  const ProgramStep& s = step();
+  return s.hold_load ? s.held_load.value_or(step_begin_load_) : step_begin_load_ + *s.load_rate * time;
+}
+
+/// Of a record, linear between its rows [m].
+double TestProgram::recorded_way(double time) const {
+  const std::vector<RecordedPlace>& recorded = step().recorded;
+  const auto after = std::lower_bound(recorded.begin(), recorded.end(), time,
+                                      [](const RecordedPlace& row, double at) { return row.time < at; });
+  if (after == recorded.begin()) return 0.0;
+  if (after == recorded.end()) return recorded.back().displacement - recorded.front().displacement;
+  const RecordedPlace &from = *(after - 1), &to = *after;
+  const double share = (time - from.time) / (to.time - from.time);
+  return from.displacement + share * (to.displacement - from.displacement) - recorded.front().displacement;
 }
 
 Command TestProgram::command(std::uint64_t sequence) const {
@@ -191,9 +329,9 @@ Command TestProgram::command(std::uint64_t sequence) const {
   c.phase = s.phase;
   c.speed = s.speed;
   c.duration = s.duration;
-  c.velocity = moves(s.phase) ? s.speed : 0.0;
-  // From the step's beginning each time, so that rounding does not add up.
-  c.displacement = step_begin_displacement_ + c.velocity * seconds(sequence - step_begin_);
+  c.velocity = leg_.velocity;
+  // From the leg's beginning each time, so that rounding does not add up.
+  c.displacement = leg_.displacement + c.velocity * seconds(sequence - leg_.begin);
   c.balance = s.phase == Phase::kBalance || balance_next_;
   return c;
 }

@@ -12,6 +12,10 @@ namespace {
 static_assert(static_cast<int>(KnotType::kKept) == KnotState::KNOT_KEPT);
 static_assert(static_cast<int>(KnotType::kChanged) == KnotState::KNOT_CHANGED);
 static_assert(static_cast<int>(KnotType::kCrossed) == KnotState::KNOT_CROSSED);
+static_assert(static_cast<int>(BreakPlace::kNone) == KnotState::BREAK_NONE);
+static_assert(static_cast<int>(BreakPlace::kStrand) == KnotState::BREAK_STRAND);
+static_assert(static_cast<int>(BreakPlace::kKnot) == KnotState::BREAK_KNOT);
+static_assert(static_cast<int>(BreakPlace::kGrip) == KnotState::BREAK_GRIP);
 static_assert(static_cast<int>(BenchStatus::kRunning) == KnotState::RUNNING);
 static_assert(static_cast<int>(BenchStatus::kPhaseDone) == KnotState::PHASE_DONE);
 static_assert(static_cast<int>(BenchStatus::kNotEquilibrated) == KnotState::NOT_EQUILIBRATED);
@@ -42,6 +46,9 @@ void copy_sample(const From& from, To& to) {
   to.end_to_end = from.end_to_end;
   to.knot_distance = from.knot_distance;
   to.load = from.load;
+  to.highest_load = from.highest_load;
+  to.lowest_load = from.lowest_load;
+  to.break_arclength = from.break_arclength;
   to.balance_offset = from.balance_offset;
   to.force_upper = from.force_upper;
   to.force_lower = from.force_lower;
@@ -103,6 +110,7 @@ KnotState to_message(const Sample& sample, std::uint32_t run, const ros::Time& s
   m.header.frame_id = names::kBaseFrame;
   m.run = run;
   m.phase = phase_name(sample.phase);
+  m.break_place = static_cast<std::uint8_t>(sample.break_place);
   m.knot_type = static_cast<std::uint8_t>(sample.knot_type);
   m.status = static_cast<std::uint8_t>(sample.status);
   copy_sample(sample, m);
@@ -114,8 +122,11 @@ Sample from_message(const KnotState& m) {
   if (m.knot_type > KnotState::KNOT_CROSSED) {
     throw std::invalid_argument("knot type " + std::to_string(m.knot_type) + " is unknown");
   }
+  if (m.break_place > KnotState::BREAK_GRIP)
+    throw std::invalid_argument("place of the break " + std::to_string(m.break_place) + " is unknown");
   Sample sample;
   sample.phase = phase_from_name(m.phase);
+  sample.break_place = static_cast<BreakPlace>(m.break_place);
   sample.knot_type = static_cast<KnotType>(m.knot_type);
   sample.status = static_cast<BenchStatus>(m.status);
   copy_sample(m, sample);

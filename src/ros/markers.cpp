@@ -231,9 +231,14 @@ Marker tube_marker(const Points& points, const Eigen::VectorXd& value, double ra
   const std::size_t corners = 6 * static_cast<std::size_t>(options.sides) * static_cast<std::size_t>(points.cols());
   m.points.reserve(corners);
   m.colors.reserve(corners);
-  Tube(m, points, radius, options.sides).draw([&](std::size_t node) {
-    return value_color(value.size() > 0 ? value[static_cast<Eigen::Index>(node)] : 0.0, options.highest);
-  });
+  const auto piece = [&](Eigen::Index first, Eigen::Index end) {
+    if (end - first < 2) return;
+    Tube(m, points.middleCols(first, end - first), radius, options.sides).draw([&](std::size_t node) {
+      return value_color(value.size() > 0 ? value[first + static_cast<Eigen::Index>(node)] : 0.0, options.highest);
+    });
+  };
+  piece(0, options.parted + 1);
+  piece(options.parted + 1, points.cols());
   return m;
 }
 
@@ -253,21 +258,29 @@ Marker contact_marker(const std::vector<ContactForce>& forces, double radius, do
 void ScenePicture::begin(const Points& points) {
   forget_largest();
   gauge_.clear();
-  double length = 0.0, passed = 0.0;
-  for (Eigen::Index i = 1; i < points.cols(); ++i) length += (points.col(i) - points.col(i - 1)).norm();
+  arclength_ = Eigen::VectorXd::Zero(points.cols());
+  for (Eigen::Index i = 1; i < points.cols(); ++i)
+    arclength_[i] = arclength_[i - 1] + (points.col(i) - points.col(i - 1)).norm();
   for (Eigen::Index i = 1; i < points.cols(); ++i) {
-    passed += (points.col(i) - points.col(i - 1)).norm();
-    const double next = length * static_cast<double>(gauge_.size() + 1) / (kGaugeMarks + 1.0);
-    if (gauge_.size() < kGaugeMarks && passed >= next) gauge_.push_back(i);
+    const double next = arclength_[points.cols() - 1] * static_cast<double>(gauge_.size() + 1) / (kGaugeMarks + 1.0);
+    if (gauge_.size() < kGaugeMarks && arclength_[i] >= next) gauge_.push_back(i);
   }
+}
+
+Eigen::Index ScenePicture::parted_edge(const Sample& sample) const {
+  if (std::isnan(sample.break_arclength)) return -1;
+  const double* end = arclength_.data() + arclength_.size();
+  return std::upper_bound(arclength_.data(), end, sample.break_arclength) - arclength_.data() - 1;
 }
 
 Marker ScenePicture::rod_marker(const SceneView& view) {
   const bool by_tension = color_by_ == ColorBy::kTension;
-  const Eigen::VectorXd value = by_tension ? tension_at_nodes(view.tension) : curvature_at_nodes(view.points, radius_);
+  Eigen::VectorXd value = by_tension ? tension_at_nodes(view.tension) : curvature_at_nodes(view.points, radius_);
+  TubeOptions tube;
+  tube.parted = std::min(parted_edge(view.sample), view.points.cols() - 2);
+  if (tube.parted >= 0 && !by_tension) value.segment(tube.parted, 2).setZero();  // no bend is there any more
   double& highest = by_tension ? highest_tension_ : highest_curvature_;
   if (value.size() > 0) highest = std::max(highest, value.maxCoeff());
-  TubeOptions tube;
   tube.highest = highest;
   return tube_marker(view.points, value, radius_, tube);
 }

@@ -41,7 +41,10 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOpt
       method_(method),
       options_(options),
       factor_(std::numeric_limits<double>::quiet_NaN()),
-      run_test_(node, {[this] { return start_if_possible(); }, [this] { program_->stop(); }}),
+      run_test_(node, {[this] { return start_if_possible(); },
+                       [this] {
+                         if (active()) program_->stop();
+                       }}),
       diagnostics_(node) {
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
   crosshead_ = node_.advertise<Crosshead>(names::kCrosshead, kQueue, ros::SubscriberStatusCallback(), gone);
@@ -131,7 +134,7 @@ void UtmNode::on_state(const KnotState::ConstPtr& answer) {
   if (!fault.empty()) return physics_failed(std::string(names::kKnotState) + ": " + fault);
   sample_ = from_message(state);
   motion_pattern_ = state.motion_pattern;
-  if (sample_.phase == Phase::kPull) peak_force_ = std::max(peak_force_, sample_.force_upper);
+  if (pulls(sample_.phase)) peak_force_ = std::max(peak_force_, sample_.force_upper);
   max_penetration_ = std::max(max_penetration_, sample_.max_penetration);
   waiting_ = false;
   now_ = state.header.stamp;

@@ -20,15 +20,24 @@ double dot(const Lanes& a, const Lanes& b) {
 CentrelineTerms::CentrelineTerms(const RodProperties& rod, bool bends)
     : rod_(rod),
       bends_(bends),
+      stretching_stiffness_(static_cast<std::size_t>(rod.edges()), rod.material.stretching_stiffness),
+      bending_stiffness_(static_cast<std::size_t>(rod.nodes())),
       tangent_(static_cast<std::size_t>(rod.edges())),
       inverse_length_(tangent_.size()),
       tension_(tangent_.size()),
       cosine_(static_cast<std::size_t>(rod.nodes())),
-      inverse_1c_(cosine_.size()) {}
+      inverse_1c_(cosine_.size()) {
+  for (std::size_t i = 0; i < bending_stiffness_.size(); ++i)
+    bending_stiffness_[i] = rod.material.bending_stiffness / rod.voronoi_length[static_cast<Eigen::Index>(i)];
+}
+
+void CentrelineTerms::part(int edge) {
+  const auto j = static_cast<std::size_t>(edge);
+  stretching_stiffness_[j] = bending_stiffness_[j] = bending_stiffness_[j + 1] = 0.0;
+}
 
 void CentrelineTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
   const std::size_t edges = tangent_.size();
-  const double k_s = rod_.material.stretching_stiffness, k_b = rod_.material.bending_stiffness;
   largest_tension_ = 0.0;
   for (std::size_t j = 0; j < edges; ++j) {
     const double* x = position.data() + 3 * j;
@@ -36,7 +45,7 @@ void CentrelineTerms::add_forces(const Points& position, std::vector<Lanes>& for
     const double length = std::sqrt(dot(e, e));
     inverse_length_[j] = 1.0 / length;
     tangent_[j] = inverse_length_[j] * e;
-    tension_[j] = k_s * (length / rod_.rest_length[static_cast<Eigen::Index>(j)] - 1.0);
+    tension_[j] = stretching_stiffness_[j] * (length / rod_.rest_length[static_cast<Eigen::Index>(j)] - 1.0);
     largest_tension_ = std::max(largest_tension_, std::abs(tension_[j]));
     const Lanes pull = tension_[j] * tangent_[j];
     force[j] += pull;
@@ -48,7 +57,7 @@ void CentrelineTerms::add_forces(const Points& position, std::vector<Lanes>& for
     const double c = dot(t_e, t_f), inverse_1c = 1.0 / (1.0 + c);
     cosine_[i] = c;
     inverse_1c_[i] = inverse_1c;
-    const double slope = -4.0 * k_b / rod_.voronoi_length[static_cast<Eigen::Index>(i)] * inverse_1c * inverse_1c;
+    const double slope = -4.0 * bending_stiffness_[i] * inverse_1c * inverse_1c;
     const Lanes gradient_e = (slope * inverse_length_[i - 1]) * (t_f - c * t_e);
     const Lanes gradient_f = (slope * inverse_length_[i]) * (t_e - c * t_f);
     force[i - 1] += gradient_e;
@@ -58,7 +67,7 @@ void CentrelineTerms::add_forces(const Points& position, std::vector<Lanes>& for
 }
 
 CentrelineTerms::Energy CentrelineTerms::energy(const Points& way) const {
-  const double k_s = rod_.material.stretching_stiffness, k_b = rod_.material.bending_stiffness;
+  const double k_s = rod_.material.stretching_stiffness;
   Energy out;
   Lanes before = kZero;  // of the edge before: its change over its length
   for (std::size_t j = 0; j < tangent_.size(); ++j) {
@@ -70,7 +79,7 @@ CentrelineTerms::Energy CentrelineTerms::energy(const Points& way) const {
     if (bends_ && j > 0) {
       const Lanes &t_e = tangent_[j - 1], &t_f = tangent_[j];
       const Lanes apart = t_f - t_e;
-      const double stiffness = k_b / rod_.voronoi_length[static_cast<Eigen::Index>(j)];
+      const double stiffness = bending_stiffness_[j];
       const double c = cosine_[j], inverse_1c = inverse_1c_[j];
       out.bending += stiffness * inverse_1c * dot(apart, apart);
       out.along -=
@@ -82,7 +91,7 @@ CentrelineTerms::Energy CentrelineTerms::energy(const Points& way) const {
 }
 
 CentrelineTerms::NodeHessian CentrelineTerms::bending_hessian(std::size_t node) const {
-  const double stiffness = rod_.material.bending_stiffness / rod_.voronoi_length[static_cast<Eigen::Index>(node)];
+  const double stiffness = bending_stiffness_[node];
   const double c = cosine_[node], inverse_1c = inverse_1c_[node];
   const double slope = -4.0 * stiffness * inverse_1c * inverse_1c;  // W'
   const double curve = -2.0 * slope * inverse_1c;                   // W''
@@ -109,7 +118,6 @@ CentrelineTerms::NodeHessian CentrelineTerms::bending_hessian(std::size_t node) 
 template <int D>
 void CentrelineTerms::set_stiffness(const std::vector<double>& diagonal, StepMatrix<D>& matrix) const {
   const std::size_t nodes = diagonal.size(), edges = tangent_.size();
-  const double k_s = rod_.material.stretching_stiffness;
   // With A_j = d2E/de_j^2 and B_i = d2E/(de_{i-1} de_i), the latter of bending at node i, the nodes have
   //   (i,i)  A_{i-1} + A_i - B_i - B_i^T     (i,i+1)  B_i + B_{i+1} - A_i     (i,i+2)  -B_{i+1}
   NodeHessian here = {}, after = {};
@@ -121,7 +129,7 @@ void CentrelineTerms::set_stiffness(const std::vector<double>& diagonal, StepMat
     if (bends_ && i + 1 < edges) after = bending_hessian(i + 1);
     if (!last) {
       const double across = tension_[i] * inverse_length_[i];
-      const double along = k_s / rod_.rest_length[static_cast<Eigen::Index>(i)] - across;
+      const double along = stretching_stiffness_[i] / rod_.rest_length[static_cast<Eigen::Index>(i)] - across;
       const Lanes t = along * tangent_[i];
       for (int k = 0; k < 3; ++k) edge[k] = t * tangent_[i][k] + across * kAxis[k] + here.ff[k] + after.ee[k];
     } else {

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/frames.hpp"
-#include "knot_utm/rod/twisting.hpp"
 
 namespace knot_utm {
 
@@ -20,15 +18,6 @@ Vec3 column(const Points& points, int j) { return points.col(j); }
 // the stiffness of one.
 constexpr double kRest = 1e-9;        // r_j [k_t/l_j]
 constexpr double kLongestTurn = 0.5;  // of an edge in one iteration [rad]
-
-TwistingInput twisting_input(const RodProperties& rod, int i) {
-  return {rod.material.twisting_stiffness, rod.voronoi_length[i],
-          rod.natural_twist.size() > 0 ? rod.natural_twist[i - 1] : 0.0};
-}
-
-BendingInput bending_input(const RodProperties& rod, int i) {
-  return {rod.material.bending_stiffness, rod.voronoi_length[i], rod.natural_curvature.col(i - 1)};
-}
 
 void subtract(const StencilVector& gradient, int i, std::vector<Lanes>& force) {
   for (int k = 0; k < 3; ++k) {
@@ -100,14 +89,25 @@ void FrameTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
   }
 }
 
+TwistingInput FrameTerms::twisting_input(int i) const {
+  const double whole = i == parted_ || i == parted_ + 1 ? 0.0 : 1.0;
+  return {whole * rod_.material.twisting_stiffness, rod_.voronoi_length[i],
+          rod_.natural_twist.size() > 0 ? rod_.natural_twist[i - 1] : 0.0};
+}
+
+BendingInput FrameTerms::bending_input(int i) const {
+  const double whole = i == parted_ || i == parted_ + 1 ? 0.0 : 1.0;
+  return {whole * rod_.material.bending_stiffness, rod_.voronoi_length[i], rod_.natural_curvature.col(i - 1)};
+}
+
 StencilGradient FrameTerms::node_twisting(int i) const {
   const double twist = angle_[i] - angle_[i - 1] + reference_twist_[i - 1];
-  return twisting_gradient(twisting_input(rod_, i), column(edge_, i - 1), column(edge_, i), twist);
+  return twisting_gradient(twisting_input(i), column(edge_, i - 1), column(edge_, i), twist);
 }
 
 StencilGradient FrameTerms::node_bending(int i) const {
   const int e = i - 1, f = i;
-  return bending_gradient(bending_input(rod_, i), column(edge_, e), column(edge_, f),
+  return bending_gradient(bending_input(i), column(edge_, e), column(edge_, f),
                           material_directors(column(tangent_, e), column(director_, e), angle_[e]),
                           material_directors(column(tangent_, f), column(director_, f), angle_[f]));
 }
@@ -117,10 +117,10 @@ FrameTerms::NodeStiffness FrameTerms::node_stiffness(int i) const {
   const double twist = angle_[f] - angle_[e] + reference_twist_[e];
   NodeStiffness out = NodeStiffness::Zero();
   out.topLeftCorner<kStencilSize, kStencilSize>() =
-      twisting(twisting_input(rod_, i), column(edge_, e), column(edge_, f), twist).hessian;
+      twisting(twisting_input(i), column(edge_, e), column(edge_, f), twist).hessian;
   if (curved_)
     out.topLeftCorner<kStencilSize, kStencilSize>() +=
-        bending(bending_input(rod_, i), column(edge_, e), column(edge_, f),
+        bending(bending_input(i), column(edge_, e), column(edge_, f),
                 material_directors(column(tangent_, e), column(director_, e), angle_[e]),
                 material_directors(column(tangent_, f), column(director_, f), angle_[f]))
             .hessian;

@@ -62,7 +62,8 @@ std::string StepControl::advance(TimeStep& stepper, double& time, double end, co
                                  const Accepted& accepted) {
   int failed = 0;  // since the last accepted step
   double longest_failed = 0.0;
-  while (time < end) {
+  halted_ = false;
+  while (time < end && !halted_) {
     if (std::string reason = no_headway(time); !reason.empty()) return reason;
     const double remaining = end - time;
     // Steps of equal length up to the end, so that no sliver of a step is left over.

@@ -188,6 +188,15 @@ class ImplicitStep final : public TimeStep {
     estimate_pressures(rollers_, share, m);
   }
 
+  void part(int edge) override {
+    parted_edge_ = edge;
+    centreline_.part(edge);
+    if constexpr (D == 4) frames_.part(edge);
+    contact_.part(edge);
+    rollers_.part(edge);
+    passage_.part(edge);
+  }
+
   // ---- readings ---------------------------------------------------------------------------------------------------
 
   Vec3 reaction(int node) const override { return readings_.reaction(node); }
@@ -492,10 +501,11 @@ class ImplicitStep final : public TimeStep {
 }  // namespace
 
 Eigen::VectorXd TimeStep::tension() const {
-  Eigen::VectorXd out(rod_.edges());
+  Eigen::VectorXd out = Eigen::VectorXd::Zero(rod_.edges());
   for (Eigen::Index i = 0; i < rod_.edges(); ++i)
-    out[i] = stretching_tension(rod_.material.stretching_stiffness, rod_.rest_length[i],
-                                state_.position.col(i + 1) - state_.position.col(i));
+    if (i != parted_edge_)
+      out[i] = stretching_tension(rod_.material.stretching_stiffness, rod_.rest_length[i],
+                                  state_.position.col(i + 1) - state_.position.col(i));
   return out;
 }
 

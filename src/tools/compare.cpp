@@ -39,8 +39,7 @@ std::vector<CurveRow> read(const std::string& file) {
 void require_finite(const std::vector<CurveRow>& rows, const std::string& file) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const CurveRow& row = rows[i];
-    if (row.phase == Phase::kPull &&
-        !(std::isfinite(row.time) && std::isfinite(row.extension) && std::isfinite(row.load)))
+    if (pulls(row.phase) && !(std::isfinite(row.time) && std::isfinite(row.extension) && std::isfinite(row.load)))
       throw InvalidInput(file, "reading " + std::to_string(i + 1), "one that is not finite",
                          "time, extension and load");
   }

@@ -32,7 +32,8 @@ const std::vector<Wrong>& wrong_overrides() {
   static const std::vector<Wrong> kTable{
       // Keys
       {"specimen.nots=3", "specimen.nots", "3", "the keys here are knot, handedness"},
-      {"speciment.knot=overhand", "speciment", "{knot: overhand}", "specimen, material, machine, program, physics"},
+      {"speciment.knot=overhand", "speciment", "{knot: overhand}",
+       "specimen, material, machine, program, ends, physics"},
       {"physics.friction.mu=0.3", "physics.friction.mu", "0.3", "law, slip_tolerance, presliding"},
       {"material.colour=red", "material.colour", "red", "radius, density"},
       {"machine.load_cell.range=20", "machine.load_cell.range", "20", "capacity, sampling_rate"},
@@ -80,7 +81,8 @@ const std::vector<Wrong>& wrong_overrides() {
       {"machine.load_cell={capacity: 0}", "machine.load_cell.capacity", "0", "N"},
       {"machine.load_cell.sampling_rate=0", "machine.load_cell.sampling_rate", "0", "Hz"},
       {"machine.load_cell.seed=-1", "machine.load_cell.seed", "-1", "a whole number"},
-      {"program=[{push: {}}]", "program.0", "push", "tie, release, mount, preload, balance, pull or hold"},
+      {"program=[{push: {}}]", "program.0", "push",
+       "tie, release, mount, preload, balance, pull, hold, cycle, return or follow"},
       {"program.pull.speed=3.3", "program.4.pull.speed", "3.3", "0.5 m/s"},
       {"program.pull.until.break=yes", "program.4.pull.until.break", "yes", "true or false"},
       {"program=[{hold: {}}]", "program.0.hold.duration", "nothing", "s"},
@@ -114,6 +116,22 @@ const std::vector<Wrong>& wrong_overrides() {
       {"program=[{release: {}}]", "program.0", "release", "right after tie"},
       {"program=[{tie: {}}, {mount: {}}]", "program.1", "mount", "release"},
       {"program.pull.until.load=60000", "program.4.pull.until.load", "60000", "capacity, 50000 N"},
+      {"program=[{cycle: {count: 1}}]", "program.0.cycle", "nothing", "one of extension and load"},
+      {"program=[{cycle: {extension: [0, 1], load: [0, 1], count: 1}}]", "program.0.cycle", "extension and load",
+       "one of extension and load"},
+      {"program=[{cycle: {extension: [0.01, 0.02]}}]", "program.0.cycle", "nothing", "count, time, or both"},
+      {"program=[{cycle: {extension: [0.02, 0.01], count: 1}}]", "program.0.cycle.extension", "[0.02, 0.01]",
+       "low below high"},
+      {"program=[{cycle: {load: [0, 6e4], count: 1}}]", "program.0.cycle.load", "60000", "capacity"},
+      {"program=[{hold: {duration: 1, load: 3}}]", "program.0.hold.load", "3", "only with control: load"},
+      {"program=[{hold: {duration: 1, speed: 0.1}}]", "program.0.hold.speed", "0.1", "the keys here are"},
+      {"program=[{follow: {}}]", "program.0.follow.record", "\"\"", "a curve.csv, or raw data"},
+      {"program=[{follow: {record: nowhere.csv}}]", "program.0.follow.record", "nowhere.csv", "a curve.csv"},
+      {"ends.load=60000", "ends.load", "60000", "capacity, 50000 N"},
+      {"ends.break_at_fraction_of_peak=40", "ends.break_at_fraction_of_peak", "40", "0 to 0.99"},
+      {"ends.arming_load=5", "ends.arming_load", "5", "only with break_at_fraction_of_peak, sharp_drop or drop"},
+      {"ends.drop_extension=0.01", "ends.drop_extension", "0.01", "only with drop"},
+      {"ends.sharp_drop_time=0.2", "ends.sharp_drop_time", "0.2", "only with sharp_drop"},
   };
   return kTable;
 }

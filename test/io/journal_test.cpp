@@ -263,9 +263,9 @@ TEST_F(Journal, RefusesAForeignFile) {
 TEST_F(Journal, RefusesAnotherVersion) {
   write(1);
   std::string all = bytes();
-  all[all.find('\n') + 1] = 2;
+  all[all.find('\n') + 1] = 1;
   put(all);
-  EXPECT_THAT(invalid(), HasSubstr("journal: version: 2 is not allowed: 1"));
+  EXPECT_THAT(invalid(), HasSubstr("journal: version: 1 is not allowed: 2"));
 }
 
 TEST_F(Journal, GoesOnFromARecord) {

@@ -105,6 +105,50 @@ TEST(Method, WritesBackToTheSame) {
   fs::remove(copy);
 }
 
+TEST(Method, EveryStepWritesBackToTheSame) {
+  const std::string copy = ::testing::TempDir() + "knot_utm_round_trip_steps.yaml";
+  const std::string record = ::testing::TempDir() + "knot_utm_record.csv";
+  std::ofstream(record) << "Time (s),Extension (mm),Load (N)\n5.0,1.0,0.5\n6.0,2.5,1.5\n8.0,2.0,1.0\n";
+  const Method method = load_method(
+      kTighten,
+      {"ends={load: 4000, time: 600, break_at_fraction_of_peak: 0.4, arming_load: 50, sharp_drop: 0.3, drop: "
+       "0.2, drop_extension: 0.002}",
+       "program=[{preload: {load: 5, load_rate: 2, balance: false}}, {pull: {load_rate: 10, until: {load: 50}}}, "
+       "{hold: {duration: 3, control: load, load: 20}}, {cycle: {extension: [0.001, 0.002], count: 3}}, {cycle: "
+       "{load: [1, 2], time: 9}}, {return: {extension: 0.001, load: 1}}, {follow: {record: " +
+           record + "}}]"});
+  ASSERT_EQ(method.program.size(), 7u);
+  EXPECT_EQ(method.program[2].held_load, 20.0);
+  EXPECT_EQ(method.program[3].extension_turns->high, 0.002);
+  EXPECT_EQ(method.program[4].cycles, 0);
+  EXPECT_EQ(method.program[5].until.load, 1.0);
+  const std::vector<RecordedPlace>& recorded = method.program[6].recorded;
+  ASSERT_EQ(recorded.size(), 3u);
+  EXPECT_DOUBLE_EQ(recorded[1].time, 1.0);
+  EXPECT_NEAR(recorded[1].displacement, 1.5e-3, 1e-15);
+  EXPECT_NEAR(recorded[2].displacement, 1e-3, 1e-15);
+  EXPECT_EQ(method.ends.load, 4000.0);
+  EXPECT_EQ(method.ends.breaks.drop_extension, 0.002);
+  const std::string text = method_yaml(method);
+  std::ofstream(copy) << text;
+  EXPECT_EQ(method_yaml(load_method(copy)), text);
+  fs::remove(copy);
+  fs::remove(record);
+}
+
+TEST(Method, ARecordIsNoFasterThanACrosshead) {
+  const std::string record = ::testing::TempDir() + "knot_utm_fast_record.csv";
+  std::ofstream(record) << "Time (s),Extension (m),Load (N)\n0,0,0\n1.0,1.5,0.5\n";
+  try {
+    load_method(kTighten, {"program=[{follow: {record: " + record + "}}]"});
+    ADD_FAILURE();
+  } catch (const InvalidInput& invalid) {
+    EXPECT_THAT(invalid.what(),
+                HasSubstr("program.0.follow.record: 1.5 m/s at 0 s is not allowed: a record no faster"));
+  }
+  fs::remove(record);
+}
+
 TEST(Method, OverridesReachEveryKey) {
   const Method m = load_method(
       kTighten, {"program.pull.speed=0.001", "program.1.release.duration=5", "material.friction_coefficient=0.2",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -15,6 +16,8 @@ struct FakeBench {
   double break_force = std::numeric_limits<double>::infinity();
   double fail_time = std::numeric_limits<double>::infinity();  ///< [s] when the physics gives up
   bool comes_to_rest = true;
+  double weak_from = std::numeric_limits<double>::infinity();  ///< displacement, beyond which it bears ... [m]
+  double weakness = 0.3;                                       ///< ... this share
 
   Sample respond(const Command& command) {
     if (command.step != step_) {
@@ -23,7 +26,7 @@ struct FakeBench {
     }
     if (command.balance) {
       balanced_displacement_ = last_.displacement;
-      balanced_force_ = stiffness * last_.displacement;
+      balanced_force_ = force(last_.displacement);
     }
     Sample sample;
     const double begin = last_.time;
@@ -37,8 +40,10 @@ struct FakeBench {
       sample.displacement = from + share * (command.displacement - from);
       sample.extension = sample.displacement - balanced_displacement_;
       sample.end_to_end = 0.25 + sample.displacement;
-      sample.force_upper = sample.force_lower = stiffness * sample.displacement;
+      sample.force_upper = sample.force_lower = force(sample.displacement);
       sample.load = sample.force_upper - balanced_force_;
+      sample.balance_offset = balanced_force_;
+      sample.highest_load = sample.lowest_load = sample.load;
       sample.steps = ++steps_;
       substeps.push_back(sample);
       if (command.sequence == 0) break;
@@ -54,6 +59,10 @@ struct FakeBench {
                in_step >= (command.phase == Phase::kRelease ? command.duration : tie_time) - 1e-9) {
       sample.status = !comes_to_rest && still ? BenchStatus::kNotEquilibrated : BenchStatus::kPhaseDone;
     }
+    for (const Sample& step : substeps) {
+      sample.highest_load = std::max(sample.highest_load, step.load);
+      sample.lowest_load = std::min(sample.lowest_load, step.load);
+    }
     substeps.back() = sample;
     last_ = sample;
     return sample;
@@ -62,6 +71,10 @@ struct FakeBench {
   std::vector<Sample> substeps;
 
  private:
+  double force(double displacement) const {
+    return (displacement > weak_from ? weakness : 1.0) * stiffness * displacement;
+  }
+
   Sample last_;
   int step_ = -1;
   double step_begin_ = 0.0;

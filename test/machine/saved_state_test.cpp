@@ -61,6 +61,10 @@ std::vector<Bits> numbers(const Sample& s) {
           {static_cast<double>(s.steps)},
           {static_cast<double>(s.rejected_steps)},
           {static_cast<double>(s.newton_iterations)},
+          {s.highest_load},
+          {s.lowest_load},
+          {s.break_arclength},
+          {static_cast<double>(s.break_place)},
           {static_cast<double>(s.knot_type)},
           {static_cast<double>(s.status)}};
 }
@@ -138,6 +142,28 @@ Scene straight() {
   out.machine.grips = GripKind::kClamps;
   out.machine.load_cell.noise = 3.0;
   out.physics.accuracy = Accuracy::kDraft;
+  return out;
+}
+
+/// Every way in which the crosshead is led.
+Scene programmed() {
+  Scene out = straight();
+  out.name = "programmed";
+  ProgramStep by_load = pull(0.01), held = step(Phase::kHold, 1.0), cycle = step(Phase::kCycle);
+  by_load.load_rate = 100.0;
+  by_load.until.load = 300.0;
+  held.hold_load = true;
+  cycle.extension_turns = TurningPoints{0.0, 0.002};
+  cycle.cycles = 2;
+  out.program = {by_load, held, cycle, step(Phase::kReturn)};
+  return out;
+}
+
+Scene broken() {
+  Scene out = straight();
+  out.name = "broken";
+  out.material.breaking_force = 1000.0;
+  out.every = 1;
   return out;
 }
 
@@ -223,7 +249,7 @@ TEST_P(SavedState, GoesOnToTheSameBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SavedState,
-                         testing::Values(straight(),
+                         testing::Values(straight(), programmed(), broken(),
                                          overhand("overhandWithTwist", FrictionLaw::kMemory, ContactLaw::kSmooth),
                                          overhand("smoothedFriction", FrictionLaw::kSmoothed, ContactLaw::kSmooth),
                                          overhand("edgeContact", FrictionLaw::kMemory, ContactLaw::kEdge),

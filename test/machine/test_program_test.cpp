@@ -228,5 +228,146 @@ TEST(TestProgram, ProgressGrowsFromZeroToOne) {
   EXPECT_EQ(program.time_left(), 0.0);
 }
 
+TEST(TestProgram, PreloadThenBalances) {
+  ProgramStep preload = step(Phase::kPreload, 0.001);
+  preload.load = 2.0;
+  TestProgram program({preload, pull(0.01)}, 3.0, 0.1, {});
+  const Record result = run(FakeBench(), program);
+  std::size_t first = 1;
+  while (result.commands[first].phase == Phase::kPreload) ++first;
+  EXPECT_TRUE(result.commands[first].balance);
+  EXPECT_NEAR(result.samples[first].load, 1000.0 * result.commands[first].velocity * program.period(), 1e-12);
+
+  preload.balance = false;
+  TestProgram unbalanced({preload, pull(0.01)}, 3.0, 0.1, {});
+  for (const Command& command : run(FakeBench(), unbalanced).commands) EXPECT_FALSE(command.balance);
+}
+
+TEST(TestProgram, PullsAtARateOfLoad) {
+  ProgramStep by_load = step(Phase::kPull, 0.01);
+  by_load.load_rate = 2.0;
+  by_load.until.load = 10.0;
+  TestProgram program({by_load}, 3.0, 0.1, {});
+  const Record result = run(FakeBench(), program);
+  // The first command finds out how stiff the spring is.
+  for (std::size_t n = 2; n < result.samples.size(); ++n)
+    EXPECT_NEAR(result.samples[n].load, 2.0 * result.samples[n].time, 1e-9);
+  EXPECT_EQ(program.ended_by(), EndedBy::kLoad);
+}
+
+TEST(TestProgram, HoldsALoad) {
+  ProgramStep hold = step(Phase::kHold, 0.01, 5.0);
+  hold.hold_load = true;
+  hold.held_load = 7.0;
+  TestProgram to_another({pull(0.01), hold}, 3.0, 0.1, {});
+  EXPECT_NEAR(run(FakeBench(), to_another).samples.back().load, 7.0, 1e-9);
+  hold.held_load.reset();
+  TestProgram as_it_is({pull(0.01), hold}, 3.0, 0.1, {});
+  const Record result = run(FakeBench(), as_it_is);
+  for (const Sample& sample : result.samples)
+    if (sample.phase == Phase::kHold) {
+      EXPECT_NEAR(sample.load, 1000.0 * 0.01, 0.5);
+    }
+  EXPECT_EQ(as_it_is.ended_by(), EndedBy::kProgram);
+}
+
+TEST(TestProgram, CyclesBetweenExtensionsThatItMeets) {
+  ProgramStep cycle = step(Phase::kCycle, 0.0033);
+  cycle.extension_turns = TurningPoints{0.001, 0.004};
+  cycle.cycles = 3;
+  TestProgram program({step(Phase::kBalance), cycle}, 3.0, 0.1, {});
+  const Record result = run(FakeBench(), program);
+  int highs = 0, lows = 0;
+  for (const Sample& sample : result.samples) {
+    EXPECT_LE(sample.extension, 0.004 + 1e-12);
+    highs += std::abs(sample.extension - 0.004) < 1e-12 ? 1 : 0;
+    lows += std::abs(sample.extension - 0.001) < 1e-12 ? 1 : 0;
+  }
+  EXPECT_EQ(highs, 3);
+  EXPECT_EQ(lows, 3);
+  EXPECT_NEAR(result.samples.back().extension, 0.001, 1e-12);
+  EXPECT_EQ(program.ended_by(), EndedBy::kProgram);
+}
+
+TEST(TestProgram, CyclesBetweenLoadsByCountOrTime) {
+  ProgramStep cycle = step(Phase::kCycle, 0.0033);
+  cycle.load_turns = TurningPoints{1.0, 4.0};
+  cycle.cycles = 2;
+  TestProgram by_count({cycle}, 3.0, 0.1, {});
+  const Record counted = run(FakeBench(), by_count);
+  const double passed = 1000.0 * 0.0033 * by_count.period();  // what one period moves
+  for (const Sample& sample : counted.samples) EXPECT_LE(sample.load, 4.0 + passed);
+  EXPECT_LE(counted.samples.back().load, 1.0);
+  EXPECT_GE(counted.samples.back().load, 1.0 - passed);
+
+  cycle.cycles = 0;
+  cycle.until.time = 10.0;
+  TestProgram by_time({cycle}, 3.0, 0.1, {});
+  EXPECT_DOUBLE_EQ(run(FakeBench(), by_time).samples.back().time, 10.0);
+  EXPECT_EQ(by_time.ended_by(), EndedBy::kProgram);
+}
+
+TEST(TestProgram, ReturnsToAnExtensionOrALoad) {
+  TestProgram home({step(Phase::kBalance), pull(0.01), step(Phase::kReturn)}, 3.0, 0.1, {});
+  EXPECT_NEAR(run(FakeBench(), home).samples.back().extension, 0.0, 1e-12);
+  EXPECT_EQ(home.ended_by(), EndedBy::kExtension);
+
+  ProgramStep unload = step(Phase::kReturn);
+  unload.until.load = 3.0;
+  TestProgram to_load({step(Phase::kBalance), pull(0.01), unload}, 3.0, 0.1, {});
+  EXPECT_NEAR(run(FakeBench(), to_load).samples.back().load, 3.0, 1000.0 * 0.0033 * to_load.period());
+  EXPECT_EQ(to_load.ended_by(), EndedBy::kLoad);
+}
+
+TEST(TestProgram, FollowsARecordFromWhereItStands) {
+  ProgramStep follow = step(Phase::kFollow);
+  follow.recorded = {{0.0, 0.5}, {1.0, 0.502}, {1.5, 0.501}, {3.0, 0.507}};
+  TestProgram program({pull(0.01), follow}, 3.0, 0.1, {});
+  const Record result = run(FakeBench(), program);
+  double begin = 0.0, from = 0.0;
+  for (std::size_t n = 1; n < result.samples.size(); ++n) {
+    const Sample& sample = result.samples[n];
+    if (sample.phase != Phase::kFollow) {
+      begin = sample.time;
+      from = sample.displacement;
+      continue;
+    }
+    const double t = sample.time - begin, way = sample.displacement - from;
+    const double expected = t <= 1.0 ? 0.002 * t : t <= 1.5 ? 0.002 - 0.002 * (t - 1.0) : 0.001 + 0.004 * (t - 1.5);
+    EXPECT_NEAR(way, std::min(expected, 0.007), 1e-12) << t;
+  }
+  EXPECT_EQ(program.ended_by(), EndedBy::kProgram);
+}
+
+TEST(TestProgram, ATimeLimitEndsIt) {
+  TestProgram::Limits limits;
+  limits.time = 1.0;
+  TestProgram program({pull(0.1)}, 3.0, 0.1, limits);
+  EXPECT_DOUBLE_EQ(run(FakeBench(), program).samples.back().time, 1.0);
+  EXPECT_EQ(program.ended_by(), EndedBy::kTime);
+  EXPECT_THAT(program.reason(), HasSubstr("time is over"));
+}
+
+TEST(TestProgram, ADropThatIsABreakEndsIt) {
+  FakeBench weak;
+  weak.weak_from = 0.008;
+  TestProgram::Limits limits;
+  limits.breaks.fraction_of_peak = 0.4;
+  limits.breaks.arming_load = 5.0;
+  TestProgram program({pull(0.1)}, 3.0, 0.1, limits);
+  const Record result = run(weak, program);
+  EXPECT_EQ(program.ended_by(), EndedBy::kBreak);
+  EXPECT_THAT(program.reason(), HasSubstr("the load fell"));
+  EXPECT_NEAR(result.samples.back().displacement, 0.008, 0.0033 * program.period());
+
+  // On the way in of a cycle loads fall as they should.
+  ProgramStep cycle = step(Phase::kCycle, 0.0033);
+  cycle.extension_turns = TurningPoints{0.0, 0.007};
+  cycle.cycles = 2;
+  TestProgram cycles({step(Phase::kBalance), cycle}, 3.0, 0.1, limits);
+  run(weak, cycles);
+  EXPECT_EQ(cycles.ended_by(), EndedBy::kProgram);
+}
+
 }  // namespace
 }  // namespace knot_utm

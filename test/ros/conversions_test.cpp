@@ -23,13 +23,14 @@ Sample full_sample() {
       &s.excess_length[1], &s.max_penetration, &s.normal_force,   &s.fastest_node,          &s.stretching_energy,
       &s.bending_energy,   &s.twisting_energy, &s.contact_energy, &s.kinetic_energy,        &s.grip_work,
       &s.dissipation,      &s.balance_offset,  &s.friction_loss,  &s.numerical_dissipation, &s.reweighting_loss,
-      &s.moment_imbalance};
+      &s.moment_imbalance, &s.highest_load,    &s.lowest_load,    &s.break_arclength};
   int i = 1;
   for (double* field : fields) *field = odd_number(i++);
   s.contacts = 31;
   s.steps = 1001;
   s.rejected_steps = 12;
   s.newton_iterations = 5003;
+  s.break_place = BreakPlace::kKnot;
   s.knot_type = KnotType::kCrossed;
   s.status = BenchStatus::kNotEquilibrated;
   s.message = "not at rest";
@@ -48,6 +49,10 @@ TEST(Conversions, SampleSurvivesBitForBit) {
   EXPECT_EQ(out.knot_distance, in.knot_distance);
   EXPECT_EQ(out.load, in.load);
   EXPECT_EQ(out.balance_offset, in.balance_offset);
+  EXPECT_EQ(out.highest_load, in.highest_load);
+  EXPECT_EQ(out.lowest_load, in.lowest_load);
+  EXPECT_EQ(out.break_arclength, in.break_arclength);
+  EXPECT_EQ(out.break_place, in.break_place);
   EXPECT_EQ(out.force_upper, in.force_upper);
   EXPECT_EQ(out.force_lower, in.force_lower);
   for (int i = 0; i < 2; ++i) {

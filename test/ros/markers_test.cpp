@@ -141,6 +141,18 @@ TEST_F(ScenePictureTest, TextSaysWhereTheTestIsAndWhereTheColoursEnd) {
   EXPECT_NE(part(draw(helix(50)), "reading").text.find("radii"), std::string::npos);
 }
 
+/// Of the straight rod's 100 edges the one that parted is missing, and the two new ends are closed.
+TEST_F(ScenePictureTest, ARodThatPartedHasAGap) {
+  Points rod = Points::Zero(3, 101);
+  rod.row(2) = Eigen::RowVectorXd::LinSpaced(101, 0.0, 1.0);
+  picture.begin(rod);
+  const double whole = enclosed_volume(part(draw(rod), "rod"));
+  sample.break_arclength = 0.305;
+  const auto marker = part(draw(rod), "rod");
+  EXPECT_NEAR(enclosed_volume(marker), 0.99 * whole, 1e-9 * whole);
+  for (const auto& point : marker.points) EXPECT_FALSE(point.z > 0.3 + 1e-9 && point.z < 0.31 - 1e-9) << point.z;
+}
+
 TEST_F(ScenePictureTest, ForcesThatAreNotShownAreTakenAway) {
   picture.begin(helix(50));
   contacts = {{Vec3::Zero(), Vec3::UnitX()}};

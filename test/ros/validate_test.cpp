@@ -117,6 +117,8 @@ TEST(Validate, StateOfNoSpecimen) {
   EXPECT_THAT(fault([](KnotState& m) { m.contacts = -1; }), StartsWith("contacts: -1"));
   EXPECT_THAT(fault([](KnotState& m) { m.status = 5; }), StartsWith("status: 5"));
   EXPECT_THAT(fault([](KnotState& m) { m.knot_type = 3; }), StartsWith("knot_type: 3"));
+  EXPECT_THAT(fault([](KnotState& m) { m.break_place = 4; }), StartsWith("break_place: 4"));
+  EXPECT_THAT(fault([](KnotState& m) { m.break_arclength = -1.0; }), StartsWith("break_arclength: -1"));
   EXPECT_THAT(fault([](KnotState& m) { m.message = std::string(1000000, 'x'); }), StartsWith("message: 1000000"));
   // Nothing that is written or logged gets a second line.
   EXPECT_EQ(fault([](KnotState& m) { m.message = "x\nended_by: break"; }),

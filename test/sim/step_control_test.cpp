@@ -34,6 +34,7 @@ class ScriptedStep : public TimeStep {
     return out;
   }
   static std::string text() { return diagnosis().text(); }
+  void part(int) override {}
   Vec3 reaction(int /*node*/) const override { return Vec3::Zero(); }
   double reaction_torque(int /*edge*/) const override { return 0.0; }
   Vec3 roller_force(int /*roller*/) const override { return Vec3::Zero(); }

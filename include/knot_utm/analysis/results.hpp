@@ -54,10 +54,13 @@ struct Results {
   std::optional<double> locked_stiffness;
   std::optional<double> peak_force;       ///< largest F of the pull [N]
   std::optional<double> balance_offset;   ///< F that the cell reads as zero, once the pull begins [N]
-  std::optional<double> break_extension;  ///< s where the rod broke [m]
-  std::optional<double> untangled_at;     ///< time [s], see MotionPatternTracker
-  KnotType knot_type = KnotType::kKept;   ///< at the end, see KnotWatch
-  std::string not_equilibrated;           ///< empty: tying and release ended at rest; else what still moved
+  std::optional<double> break_extension;  ///< s where the rod parted [m]
+  std::optional<double> break_arclength;  ///< of the place where it did, from its first node [m]
+  BreakPlace break_place = BreakPlace::kNone;
+  std::string failure_mode;  ///< sliding then fracture, stretching then fracture, fracture, untangling; empty: none
+  std::optional<double> untangled_at;    ///< time [s], see MotionPatternTracker
+  KnotType knot_type = KnotType::kKept;  ///< at the end, see KnotWatch
+  std::string not_equilibrated;          ///< empty: tying and release ended at rest; else what still moved
 
   double max_penetration = 0.0;               ///< [fraction of radius], over the whole test
   std::optional<double> force_balance_error;  ///< largest |upper - lower| of the pull / peak force

@@ -38,6 +38,9 @@ class Candidates {
 
   double exclusion() const { return exclusion_; }
 
+  /// From now on the rod has parted at an edge, and the two segments that reach into it touch nothing.
+  void part(int edge);
+
   /// Where the list was built: the list follows from it.
   void state(Archive& archive);
 
@@ -47,6 +50,9 @@ class Candidates {
     int segment;
   };
 
+  static constexpr int kWhole = -2;  // no segment reaches into it
+
+  bool reaches_into_parted(int segment) const { return segment == parted_ || segment == parted_ + 1; }
   void build(const Points& position);
   void measure(const Points& position);
   /// Whether the rod is drawn out so far that it cannot come back to itself.
@@ -56,6 +62,7 @@ class Candidates {
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd size_;       // of segment i about its node [m]
   Points built_at_;
+  int parted_ = kWhole;  // edge
   std::vector<std::size_t> begin_;
   std::vector<Run> runs_;
   std::vector<int> segments_;

@@ -47,6 +47,8 @@ class EdgeContact {
 
   /// Rebuilds the candidates where something moved far enough; true if it did.
   bool refresh(const Points& position);
+  /// From now on the rod has parted at an edge.
+  void part(int edge) { candidates_.part(edge); }
   /// Pairs of edges that may touch.
   const std::vector<std::pair<int, int>>& pairs() const { return pairs_; }
 

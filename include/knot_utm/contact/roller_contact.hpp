@@ -36,6 +36,9 @@ class RollerContact {
     linearise(normal_, friction_, friction_.scale(dt), contact, model);
   }
 
+  /// From now on the rod has parted at an edge, and what reaches into it touches nothing.
+  void part(int edge) { parted_ = edge; }
+
   /// Of one of `contacts()`.
   ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;
 
@@ -56,6 +59,7 @@ class RollerContact {
   NormalLaw normal_;
   Friction friction_;
   double radius_;
+  int parted_ = -2;  // edge; no segment reaches into this one
   Eigen::VectorXd voronoi_;
   std::vector<Roller> start_;
   std::vector<ContactPoint> contacts_;

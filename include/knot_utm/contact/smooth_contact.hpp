@@ -34,6 +34,8 @@ class SmoothContact {
 
   /// Rebuilds the candidates where something moved far enough; true if it did.
   bool refresh(const Points& position) { return candidates_.refresh(position); }
+  /// From now on the rod has parted at an edge.
+  void part(int edge) { candidates_.part(edge); }
 
   /// Before the first evaluation of a step: estimates of the pressures are those of the last accepted step.
   void begin_step();

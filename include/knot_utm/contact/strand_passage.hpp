@@ -31,6 +31,9 @@ class StrandPassage {
  public:
   explicit StrandPassage(Eigen::Index nodes);
 
+  /// From now on the rod has parted at an edge, which anything may pass.
+  void part(int edge) { parted_ = edge; }
+
   /// Columns are nodes, all of them finite. A first and a last one that lie on each other, at the start and at the end,
   /// are one node.
   std::optional<Passage> find(const Points& start, const Points& end);
@@ -61,6 +64,7 @@ class StrandPassage {
   const Points* start_ = nullptr;
   const Points* end_ = nullptr;
   bool closed_ = false;
+  int parted_ = -1;  // edge; -1: none
 };
 
 }  // namespace knot_utm

@@ -29,6 +29,9 @@ class Grips {
   /// How far these are apart [m].
   double end_to_end(double displacement) const;
 
+  /// Whether a point of the rod's centreline lies on a roller, or within two radii of a node that is held.
+  bool hold(double displacement, const Vec3& point, double radius) const;
+
   /// Force of the rod on each grip along z, tension positive [N].
   double force_upper(const TimeStep& step) const;
   double force_lower(const TimeStep& step) const;

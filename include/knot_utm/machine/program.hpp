@@ -7,26 +7,50 @@
 namespace knot_utm {
 
 /// The phases of a test. A program is a list of steps, one phase each.
-enum class Phase { kIdle, kTie, kRelease, kMount, kPreload, kBalance, kPull, kHold, kDone };
+enum class Phase { kIdle, kTie, kRelease, kMount, kPreload, kBalance, kPull, kHold, kCycle, kReturn, kFollow, kDone };
 
 const char* phase_name(Phase phase);  ///< "idle", "tie", "release", ... as in methods and curve files
 std::optional<Phase> phase_named(const std::string& name);  ///< the other way; nothing for a name that is none
+
+/// Phases in which the specimen is pulled further than before: what reaches a new largest extension in them is the
+/// force-extension curve.
+inline bool pulls(Phase phase) { return phase == Phase::kPull || phase == Phase::kCycle || phase == Phase::kFollow; }
 
 /// When a step ends: at the first condition that holds.
 struct Until {
   std::optional<double> extension;  ///< s reaches it [m]
   std::optional<double> load;       ///< the cell's reading reaches it [N]
   std::optional<double> time;       ///< time since the step began reaches it [s]
-  bool broken = false;              ///< `break: true`, the rod broke
+  bool broken = false;              ///< `break: true`: by a break, which ends the whole test whatever stands here
+};
+
+/// Two turning points of a cycle, the lower one first.
+struct TurningPoints {
+  double low = 0.0, high = 0.0;
+};
+
+/// Where the crosshead stood when, in the record of another test.
+struct RecordedPlace {
+  double time = 0.0, displacement = 0.0;  ///< since the record began [s], [m]
 };
 
 /// One step of the test program.
 struct ProgramStep {
   Phase phase = Phase::kIdle;
-  double speed = 0.0033;  ///< pull, preload, mount: crosshead speed [m/s]; tie: speed of the tail grips [m/s]
-  double duration = 0.0;  ///< release: ramp and rest [s]; hold: [s]
+  double speed = 0.0033;  ///< of the crosshead; where a load is asked for, the highest [m/s]; tie: of the tail grips
+  double duration = 0.0;  ///< release: ramp and rest; hold: how long [s]
   double load = 0.0;      ///< preload: the load at which it ends [N]
+  std::optional<double> load_rate;  ///< preload, pull: of load instead of extension [N/s]
+  bool balance = true;              ///< preload: then load and extension are zero
   Until until;
+  bool hold_load = false;                        ///< hold: the load, not the crosshead
+  std::optional<double> held_load;               ///< hold: at this load [N]; unset: at that of the step's beginning
+  std::optional<TurningPoints> extension_turns;  ///< cycle: between extensions [m] ...
+  std::optional<TurningPoints> load_turns;       ///< ... or loads [N]
+  int cycles = 0;                                ///< cycle: so many; 0: until `until.time` is over
+  double return_extension = 0.0;                 ///< return: to this extension [m]
+  std::string record;                            ///< follow: the file of the record
+  std::vector<RecordedPlace> recorded;           ///< and what it says, times ascending from 0
 };
 
 using Program = std::vector<ProgramStep>;

@@ -30,7 +30,7 @@ enum class BenchStatus {
   kRunning,          ///< the phase goes on
   kPhaseDone,        ///< tie, release, mount: its end condition is met
   kNotEquilibrated,  ///< tie, release: goes on as if at rest, which did not come in time; `message` says what moves
-  kBroken,           ///< the rod's tension passed the material's breaking force
+  kBroken,           ///< the rod parted; `message` says where
   kFailed            ///< the physics gave up; `message` says why
 };
 
@@ -39,6 +39,14 @@ enum class KnotType {
   kKept,
   kChanged,  ///< it came undone, or is another one now
   kCrossed   ///< the rod ran through itself
+};
+
+/// Where a rod parted.
+enum class BreakPlace {
+  kNone,    ///< it is whole
+  kStrand,  ///< where it lies free
+  kKnot,    ///< where another strand lies against it
+  kGrip     ///< on a roller, or where a clamp or node holds it
 };
 
 /// One reading of the whole bench, at the physics' own accuracy but for `load`.
@@ -75,6 +83,10 @@ struct Sample {
   std::uint64_t steps = 0;                   ///< time steps since the start
   std::uint64_t rejected_steps = 0;          ///< of which thrown away
   std::uint64_t newton_iterations = 0;       ///< since the start
+  /// Balanced true force on the upper grip: largest and least of the command's time steps, of a time step its own [N].
+  double highest_load = 0.0, lowest_load = 0.0;
+  double break_arclength = kNone;  ///< of the place where the rod parted, from its first node [m]; NaN: it is whole
+  BreakPlace break_place = BreakPlace::kNone;
   KnotType knot_type = KnotType::kKept;
   BenchStatus status = BenchStatus::kRunning;
   std::string message;

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
+#include "knot_utm/machine/break_detector.hpp"
+#include "knot_utm/machine/load_control.hpp"
 #include "knot_utm/machine/program.hpp"
 #include "knot_utm/machine/sample.hpp"
 
@@ -12,13 +15,14 @@ namespace knot_utm {
 /// How a test ended. The names written to result.yaml are those of `ended_by_name`.
 enum class EndedBy {
   kNotYet,
-  kBreak,      ///< the rod broke
+  kBreak,      ///< the rod parted, or the load fell as it does in a break
   kExtension,  ///< the last step, a pull, reached its extension
-  kLoad,       ///< the last step reached its load, or the load cell would be overloaded
+  kLoad,       ///< the last step reached its load, or the load its limit
   kTravel,     ///< the crosshead reached the end of its way
   kOperator,   ///< stopped
   kSolver,     ///< the physics gave up, or did not come to rest where it had to
-  kProgram     ///< the last step's time was over
+  kProgram,    ///< the last step's time was over
+  kTime        ///< the time limit of the test
 };
 
 const char* ended_by_name(EndedBy end);  ///< "not yet", "break", "extension", "load", "travel", ...
@@ -33,18 +37,31 @@ const char* ended_by_name(EndedBy end);  ///< "not yet", "break", "extension", "
 /// What the crosshead does in each step, and what ends it:
 ///   tie, release  stands still, until the bench answers kPhaseDone, or kNotEquilibrated: the results say so
 ///   mount         moves outwards at `speed` until the bench answers kPhaseDone
-///   preload       moves outwards at `speed` until the sample's load is at least `load`
+///   preload       moves outwards at `speed`, or so that the load grows at `load_rate`, until the sample's load is at
+///                 least `load`; the next command balances if `balance` says so
 ///   balance       stands still for one command, which has `balance` set
-///   pull          moves outwards at `speed` until the first sample that meets one of `until`: extension and load are
-///                 at least, so they may be passed by what one period moves
-///   hold          stands still for `duration`, rounded up to whole periods
-/// The whole test ends when the last step has ended, or at once by a broken rod, a bench that failed, a true force or a
-/// reading beyond Limits::load, the end of the crosshead's way, or the operator.
+///   pull          moves outwards at `speed`, or so that the load grows at `load_rate`, until the first sample that
+///                 meets one of `until`: extension and load are at least, so they may be passed by what one period
+///                 moves
+///   hold          for `duration`, rounded up to whole periods: stands still, or keeps a load
+///   cycle         out to the upper turning point, in to the lower one, and so on at `speed`; ends with the last of
+///                 `cycles`, or by `until.time`. Extensions are met, loads are passed by what one period moves
+///   return        moves inwards at `speed` until the extension is `return_extension`, or the sample's load at most
+///                 `until.load`
+///   follow        goes as the record says from where it stands, until that ends
+/// A load is kept and followed by LoadControl, the crosshead never being faster than `speed`.
+///
+/// The whole test ends when the last step has ended, or at once, whichever comes first: by a rod that parted, a load
+/// that falls as Limits::breaks says (judged in preload, pull, hold and on the ways out of a cycle), a bench that
+/// failed, a true force or a reading beyond Limits::load, the end of the crosshead's way, the time limit, or the
+/// operator.
 class TestProgram {
  public:
   struct Limits {
-    double load = 50e3;   ///< ends the test: the cell's capacity [N]
-    double travel = 1.0;  ///< ends the test: |displacement| [m]
+    double load = 50e3;                                     ///< ends the test: the cell's capacity, or less [N]
+    double travel = 1.0;                                    ///< ends the test: |displacement| [m]
+    double time = std::numeric_limits<double>::infinity();  ///< ends the test [s]
+    BreakDetection breaks;
   };
 
   /// Sampling rate [Hz], longest period [s]. Throws std::invalid_argument for an empty program, or for a rate or period
@@ -77,7 +94,15 @@ class TestProgram {
   double estimated_duration(const ProgramStep& step) const;
   void end(EndedBy by, std::string reason);
   bool end_by_alarm(const Sample& sample);
-  EndedBy step_end(const Sample& sample) const;  ///< kNotYet: the step goes on
+  std::string break_seen(const Sample& sample);
+  EndedBy step_end(const Sample& sample);  ///< kNotYet: the step goes on
+  bool cycles_over(const Sample& sample);
+  void begin_step(const Sample& sample);
+  void begin_leg(double velocity);
+  void steer(const Sample& sample);
+  void land(double left);
+  double recorded_way(double time) const;
+  double wanted_load(double time) const;
   Command command(std::uint64_t sequence) const;
 
   Program program_;
@@ -86,8 +111,18 @@ class TestProgram {
   double command_rate_ = 1.0;  ///< k f [Hz]
 
   std::size_t step_ = 0;
-  std::uint64_t step_begin_ = 0;          ///< the last command before the step
-  double step_begin_displacement_ = 0.0;  ///< [m]
+  std::uint64_t step_begin_ = 0;  ///< the last command before the step
+  double step_begin_load_ = 0.0;  ///< [N]
+  /// A piece of a step in which the crosshead moves at one speed.
+  struct {
+    std::uint64_t begin = 0;    ///< the last command before it
+    double displacement = 0.0;  ///< then [m]
+    double velocity = 0.0;      ///< [m/s]
+  } leg_;
+  bool outwards_ = true;  ///< cycle: on the way to the upper turning point
+  int turns_ = 0;         ///< cycle: so far
+  LoadControl load_control_;
+  BreakDetector break_detector_;
   Command last_;
   bool balance_next_ = false;
   EndedBy ended_by_ = EndedBy::kNotYet;

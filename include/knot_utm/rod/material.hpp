@@ -19,11 +19,12 @@ struct Material {
   double friction_coefficient = 0.0;        ///< mu [-]
   std::optional<double> contact_stiffness;  ///< K [N/m^2], that of the normal law; unset: default_contact_stiffness
   std::optional<double> tying_preload;      ///< F_p [N]; unset: default_preload
-  std::optional<double> breaking_force;     ///< [N]
+  std::optional<double> breaking_force;     ///< F_b, tension at which it parts [N]; unset: it does not
+  std::optional<double> breaking_strain;    ///< eps_b of its outermost fibre (machine/fracture.hpp) [-]; unset: none
   std::string load_cell;                    ///< name of the load cell that suits it
   std::string notes;
 
-  void state(Archive& archive);
+  void state(Archive& archive);  ///< all that a time step depends on
 };
 
 /// Pre-load F_p that `specimen.preload: auto` stands for [N]: the material's own, else four times the scale k_b/h^2 of

@@ -29,7 +29,8 @@ Eigen::VectorXd curvature_at_nodes(const Points& points, double radius);
 /// The cross-section is carried along without twist, so that the surface does not wring where the rod turns.
 struct TubeOptions {
   int sides = 16;
-  double highest = 1.0;  ///< value where the colours end; the others end at its negative
+  double highest = 1.0;      ///< value where the colours end; the others end at its negative
+  Eigen::Index parted = -1;  ///< edge that is not there; -1: all are
 };
 /// `value`: of each node, what the colours show; none: grey.
 visualization_msgs::Marker tube_marker(const Points& points, const Eigen::VectorXd& value, double radius,
@@ -67,12 +68,14 @@ class ScenePicture {
   visualization_msgs::MarkerArray draw(const SceneView& view, const ros::Time& stamp);
 
  private:
+  Eigen::Index parted_edge(const Sample& sample) const;
   void forget_largest() { highest_tension_ = highest_curvature_ = highest_contact_ = 0.0; }
   visualization_msgs::Marker rod_marker(const SceneView& view);
   visualization_msgs::Marker text_marker(const SceneView& view) const;
 
   MachineOptions machine_;
   double radius_;                    ///< of the rod [m]
+  Eigen::VectorXd arclength_;        ///< of the nodes, as the specimen began [m]
   std::vector<Eigen::Index> gauge_;  ///< nodes with a mark
   ColorBy color_by_ = ColorBy::kTension;
   bool show_contacts_ = true;

@@ -7,6 +7,7 @@ namespace knot_utm::names {
 inline constexpr char kUtmNode[] = "utm_node";
 inline constexpr char kKnotNode[] = "knot_node";
 inline constexpr char kRecorderNode[] = "recorder_node";
+inline constexpr char kExperimentNode[] = "experiment_node";
 inline constexpr char kReplayNode[] = "replay_node";
 
 // Topics
@@ -22,6 +23,8 @@ inline constexpr char kKnotShape[] = "knot/shape";            ///< KnotShape, at
 inline constexpr char kSpecimen[] = "knot/specimen";          ///< SpecimenInfo, latched
 inline constexpr char kMarkers[] = "knot/markers";            ///< visualization_msgs/MarkerArray
 inline constexpr char kRecorderStatus[] = "recorder/status";  ///< RecorderStatus, latched
+inline constexpr char kExperimentLoad[] = "experiment/load_cell";       ///< geometry_msgs/WrenchStamped, as measured
+inline constexpr char kExperimentCrosshead[] = "experiment/crosshead";  ///< Crosshead, as measured
 
 // Services, all of them std_srvs/Trigger
 inline constexpr char kStartTest[] = "utm/start_test";

@@ -14,6 +14,9 @@ class CentrelineTerms {
   /// Without `bends`, stretching only: bending about a curved rest shape needs frames. `rod` must outlive this.
   CentrelineTerms(const RodProperties& rod, bool bends);
 
+  /// From now on the rod has parted at an edge: it has no tension, and does not bend at its ends.
+  void part(int edge);
+
   /// Adds the forces on every node [N]. The stiffness that is set later belongs to this position.
   void add_forces(const Points& position, std::vector<Lanes>& force);
 
@@ -49,6 +52,8 @@ class CentrelineTerms {
   const RodProperties& rod_;
   bool bends_;
   double largest_tension_ = 0.0;
+  std::vector<double> stretching_stiffness_;  // k_s of every edge [N]; 0: parted
+  std::vector<double> bending_stiffness_;     // k_b/lbar of every node [N m]; 0: at a parted edge
   // As isotropic_bending.hpp names them.
   std::vector<Lanes> tangent_;                    // t of every edge
   std::vector<double> inverse_length_, tension_;  // 1/|e| [1/m], T [N]

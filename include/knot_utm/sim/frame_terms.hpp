@@ -2,7 +2,9 @@
 
 #include <vector>
 
+#include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/stencil.hpp"
+#include "knot_utm/rod/twisting.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/solver/block.hpp"
 
@@ -57,6 +59,9 @@ class FrameTerms {
   /// `rod` must outlive this.
   FrameTerms(const RodProperties& rod, const StepSettings& settings);
 
+  /// From now on the rod has parted at an edge: at its ends nothing twists or bends.
+  void part(int edge) { parted_ = edge; }
+
   /// Begins a step of length dt [s] from `start`, a state with frames, which must stay unchanged until it ends. Held
   /// angles stand where they must, all others turn on as they did.
   void begin_step(const RodState& start, const std::vector<FixedTwist>& held, double dt);
@@ -94,6 +99,9 @@ class FrameTerms {
   void commit(RodState& state) const;
 
  private:
+  /// Stiffnesses of inner node i are zero where it ends a parted edge.
+  TwistingInput twisting_input(int i) const;
+  BendingInput bending_input(int i) const;
   StencilGradient node_twisting(int i) const;
   StencilGradient node_bending(int i) const;
   double angle_change(const std::vector<Lanes>& change, int edge) const;
@@ -104,6 +112,7 @@ class FrameTerms {
   Eigen::VectorXd drag_;     // c h^2 l_j [N m s]
   Eigen::VectorXd rest_;     // r_j
   bool curved_;              // at rest
+  int parted_ = -2;          // edge; no node ends this one
   const RodState* start_ = nullptr;
   double dt_ = 0.0;
   std::vector<char> held_;  // N

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -37,6 +38,11 @@ class StepControl {
   std::string advance(TimeStep& stepper, double& time, double end, const BoundaryAt& boundary,
                       const Accepted& accepted);
 
+  /// For `accepted`: the next step is no longer than this [s].
+  void at_most(double dt) { next_ = std::min(next_, std::max(dt, options_.shortest)); }
+  /// For `accepted`: `advance` ends with this step, as if it had come to its end.
+  void halt() { halted_ = true; }
+
   const Counters& counters() const { return counters_; }
   double last_tried() const { return last_tried_; }  ///< length of the last step, accepted or not [s]
 
@@ -53,6 +59,7 @@ class StepControl {
   Options options_;
   double next_, last_tried_ = 0.0;
   Counters counters_;
+  bool halted_ = false;
   struct {
     double time = 0.0;
     std::uint64_t iterations = 0;

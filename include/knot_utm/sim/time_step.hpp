@@ -63,6 +63,11 @@ class TimeStep {
   StepSummary step(const Boundary& boundary, double dt) { return step(boundary, dt, Solution::kTangents); }
   virtual StepSummary step(const Boundary& boundary, double dt, Solution solution) = 0;
 
+  /// The rod parts at an edge, between two steps: from the next one on nothing holds its two ends together, and what
+  /// was stored there is lost as `StepWork::numerical`. Once only; not kept by `state`.
+  virtual void part(int edge) = 0;
+  int parted_edge() const { return parted_edge_; }  ///< -1: none has
+
   const RodProperties& rod() const { return rod_; }
   const RodState& state() const { return state_; }
   const StepSettings& settings() const { return settings_; }
@@ -83,7 +88,7 @@ class TimeStep {
   virtual StepWork work() const = 0;
   /// Of the last step that was tried: what is read off an accepted one, before the next is tried.
   virtual std::vector<ContactForce> contact_forces() const = 0;
-  /// Tension of each edge [N].
+  /// Tension of each edge [N]; of a parted one none.
   Eigen::VectorXd tension() const;
 
   /// That of the last accepted step, on which the next one depends.
@@ -97,6 +102,7 @@ class TimeStep {
   RodState state_;
   StepSettings settings_;
   std::function<void(const Iterate&)> watcher_;
+  int parted_edge_ = -1;
 };
 
 }  // namespace knot_utm

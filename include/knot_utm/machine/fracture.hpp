@@ -1,0 +1,34 @@
+#pragma once
+
+#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/rod/rod.hpp"
+
+namespace knot_utm {
+
+/// How near a rod is to parting, and at which edge: at a share of 1 it parts there.
+///
+/// Symbols: T tension [N], F_b breaking force [N], k_s stretching stiffness [N], h radius [m], kappa curvature at the
+/// edge's more bent end, 2 tan(phi/2)/lbar [1/m], eps_b breaking strain [-]. Of edge j
+///
+///   share_j = max(T_j/F_b, (T_j/k_s + h kappa_j)/eps_b),
+///
+/// each where the material gives its limit: the rod's tension, and the strain of its outermost fibre, which a solid rod
+/// feels. In a rope fibres slip past each other as it bends; it is given a breaking force only.
+struct Exposure {
+  double share = 0.0;  ///< largest of all edges [-]
+  int edge = -1;       ///< whose it is; -1: no edge is under tension
+};
+
+bool can_part(const Material& material);  ///< it has a limit
+
+Exposure most_exposed(const RodProperties& rod, const RodState& state);
+
+/// Time that a wave of tension takes along a length [m] of the rod: length sqrt(rho pi h^2/k_s) [s].
+double transit_time(const Material& material, double length);
+
+/// Whether another strand lies against an edge, nearer than 2.2 h to it and further than 5 h along the rod.
+bool lies_in_knot(const RodProperties& rod, const Points& position, int edge);
+
+const char* break_place_name(BreakPlace place);  ///< "strand", "knot", "grip"; of kNone "none"
+
+}  // namespace knot_utm

@@ -1,0 +1,78 @@
+#include "knot_utm/machine/fracture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "knot_utm/rod/stretching.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr double kTouching = 2.2;   // [h]
+constexpr double kNeighbour = 5.0;  // along the rod [h]
+
+/// kappa of an inner node: 2 tan(phi/2) = 2 |t_e x t_f|/(1 + t_e . t_f), over lbar.
+double curvature(const RodProperties& rod, const Points& position, Eigen::Index node) {
+  if (node < 1 || node + 1 >= rod.nodes()) return 0.0;
+  const Vec3 e = (position.col(node) - position.col(node - 1)).normalized();
+  const Vec3 f = (position.col(node + 1) - position.col(node)).normalized();
+  const double cosine = e.dot(f);
+  return 2.0 * std::sqrt(std::max(0.0, (1.0 - cosine) / (1.0 + cosine))) / rod.voronoi_length[node];
+}
+
+}  // namespace
+
+bool can_part(const Material& material) { return material.breaking_force || material.breaking_strain; }
+
+Exposure most_exposed(const RodProperties& rod, const RodState& state) {
+  const Material& material = rod.material;
+  Exposure out;
+  double bend_before = 0.0;
+  for (Eigen::Index j = 0; j < rod.edges(); ++j) {
+    const double tension = stretching_tension(material.stretching_stiffness, rod.rest_length[j],
+                                              state.position.col(j + 1) - state.position.col(j));
+    double share = material.breaking_force ? tension / *material.breaking_force : 0.0;
+    if (material.breaking_strain) {
+      const double bend = curvature(rod, state.position, j + 1);
+      const double strain = tension / material.stretching_stiffness + material.radius * std::max(bend, bend_before);
+      share = std::max(share, strain / *material.breaking_strain);
+      bend_before = bend;
+    }
+    if (share > out.share) out = {share, static_cast<int>(j)};
+  }
+  return out;
+}
+
+double transit_time(const Material& material, double length) {
+  const double mass = material.density * M_PI * material.radius * material.radius;
+  return length * std::sqrt(mass / material.stretching_stiffness);
+}
+
+bool lies_in_knot(const RodProperties& rod, const Points& position, int edge) {
+  const Eigen::VectorXd arclength = rod.arclength();
+  const auto middle = [&](Eigen::Index j) -> Vec3 { return 0.5 * (position.col(j) + position.col(j + 1)); };
+  const double h = rod.material.radius;
+  for (Eigen::Index j = 0; j < rod.edges(); ++j) {
+    if (std::abs(arclength[j] - arclength[edge]) <= kNeighbour * h) continue;
+    const double reach = kTouching * h + 0.5 * rod.rest_length[j];
+    if ((middle(j) - middle(edge)).squaredNorm() < reach * reach) return true;
+  }
+  return false;
+}
+
+const char* break_place_name(BreakPlace place) {
+  switch (place) {
+    case BreakPlace::kStrand:
+      return "strand";
+    case BreakPlace::kKnot:
+      return "knot";
+    case BreakPlace::kGrip:
+      return "grip";
+    case BreakPlace::kNone:
+      break;
+  }
+  return "none";
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,187 @@
+#include "knot_utm/machine/fracture.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "knot_utm/analysis/results.hpp"
+#include "knot_utm/machine/run_test.hpp"
+#include "knot_utm/machine/test_bench.hpp"
+#include "machine/overhand_specimen.hpp"
+#include "rod/materials.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kLength = 0.25;  // [m]
+
+ProgramStep pull(double extension) {
+  ProgramStep out;
+  out.phase = Phase::kPull;
+  out.until.extension = extension;
+  return out;
+}
+
+struct Pulled {
+  TestBench bench;
+  TestProgram program;
+  std::vector<Sample> samples;
+};
+
+Pulled run(const SpecimenOptions& specimen, const Material& material, const PhysicsOptions& physics,
+           const Program& steps) {
+  MachineOptions machine;
+  machine.grips = GripKind::kClamps;
+  TestBench bench(specimen, material, machine, physics);
+  const double period = bench.longest_step();
+  Pulled out{std::move(bench), TestProgram(steps, machine.load_cell.sampling_rate, period, {}), {}};
+  run_test(out.bench, out.program, [&](const Command&, const Sample&) {
+    out.samples.insert(out.samples.end(), out.bench.substeps().begin(), out.bench.substeps().end());
+  });
+  return out;
+}
+
+Pulled straight_run(Accuracy accuracy, double breaking_force) {
+  SpecimenOptions specimen;
+  specimen.knot = KnotKind::kStraight;
+  specimen.length = kLength;
+  specimen.edge_length = 0.005;
+  Material material = nylon();
+  material.breaking_force = breaking_force;
+  PhysicsOptions physics;
+  physics.accuracy = accuracy;
+  return run(specimen, material, physics, {pull(0.02)});
+}
+
+const Sample& at_break(const Pulled& run) {
+  for (const Sample& sample : run.samples)
+    if (sample.status == BenchStatus::kBroken) return sample;
+  return run.samples.back();
+}
+
+TEST(Fracture, AStraightRodPartsAtItsBreakingForceWhateverTheStep) {
+  constexpr double kBreaking = 2000.0;  // [N]
+  const double stiffness = nylon().stretching_stiffness / kLength;
+  for (const Accuracy accuracy : {Accuracy::kDraft, Accuracy::kNormal, Accuracy::kFine}) {
+    const Pulled test = straight_run(accuracy, kBreaking);
+    EXPECT_EQ(test.program.ended_by(), EndedBy::kBreak);
+    EXPECT_THAT(test.program.reason(), testing::HasSubstr("the rod parted"));
+    const Sample& parted = at_break(test);
+    // The step that parts it may be as long as the shortest that is taken for it, a thousandth of the longest.
+    const double overshoot = stiffness * 0.0033 * 1e-3 * test.bench.longest_step();
+    EXPECT_GE(parted.force_upper, kBreaking * (1.0 - 1e-9));
+    EXPECT_LE(parted.force_upper, kBreaking + overshoot + 1e-5 * kBreaking);  // drag and inertia, as between the grips
+    EXPECT_NEAR(parted.extension, kBreaking / stiffness, (overshoot + 1e-5 * kBreaking) / stiffness);
+    EXPECT_GT(parted.break_arclength, 0.0);
+  }
+}
+
+/// A wave of release runs into each half, in which the rod moves at F_b/sqrt(k_s rho pi h^2).
+TEST(Fracture, TheEndsOfAStraightRodRecoil) {
+  constexpr double kBreaking = 500.0;  // strain 0.7 %, so that lengths change little [N]
+  const Pulled test = straight_run(Accuracy::kNormal, kBreaking);
+  const Material material = nylon();
+  const double mass = material.density * M_PI * material.radius * material.radius;
+  const double speed = kBreaking / std::sqrt(material.stretching_stiffness * mass);
+  double fastest = 0.0;
+  for (const Sample& sample : test.samples) fastest = std::max(fastest, sample.fastest_node);
+  // The end's own half edge is lighter than the rest, and swings ahead by a third on a lattice; implicit steps damp it.
+  EXPECT_GT(fastest, 0.9 * speed);
+  EXPECT_LT(fastest, 1.4 * speed);
+  EXPECT_EQ(test.bench.tension()[static_cast<Eigen::Index>(at_break(test).break_arclength / 0.005)], 0.0);
+  EXPECT_LT(std::abs(test.samples.back().force_upper), 1.1 * kBreaking);
+  const Results results = analyse(test.samples, test.program.ended_by());
+  EXPECT_LT(*results.energy_balance_error, 1e-9);  // an identity of the steps, that which parts included
+  EXPECT_EQ(results.failure_mode, "fracture");
+  EXPECT_EQ(results.break_place, BreakPlace::kGrip);  // where all edges bear the same, the first one does
+  EXPECT_EQ(*results.break_arclength, at_break(test).break_arclength);
+  EXPECT_LT(results.fastest_node, 0.1 * speed);  // the recoil is none of the test's
+}
+
+TEST(Fracture, ABenchWhoseRodPartedAnswersEveryCommandWithTheSame) {
+  Pulled test = straight_run(Accuracy::kDraft, 300.0);
+  const Sample last = test.samples.back();
+  Command command;
+  command.sequence = 1000;
+  command.time = 1000.0;
+  command.step = 7;
+  const Sample answer = test.bench.respond(command);
+  EXPECT_EQ(answer.status, BenchStatus::kBroken);
+  EXPECT_EQ(answer.time, last.time);
+  EXPECT_EQ(answer.message, last.message);
+}
+
+class FractureOfAnOverhand : public testing::TestWithParam<std::tuple<ContactLaw, TwistMode>> {};
+
+TEST_P(FractureOfAnOverhand, EndsTheTestAndChangesNothingBefore) {
+  const auto [contact, twist] = GetParam();
+  PhysicsOptions physics;
+  physics.accuracy = Accuracy::kDraft;
+  physics.contact_law = contact;
+  physics.twist = twist;
+  ProgramStep settle;
+  settle.phase = Phase::kHold;
+  settle.duration = 1.0;
+  const SpecimenOptions specimen = overhand_specimen(0.4, 0.15, 0.006);
+  const Program steps = {settle, pull(0.05)};
+  const Pulled whole = run(specimen, pink_vps(), physics, steps);
+  ASSERT_EQ(whole.program.ended_by(), EndedBy::kExtension) << whole.program.reason();
+  double largest = 0.0;
+  for (const Sample& sample : whole.samples) largest = std::max(largest, sample.force_upper);
+
+  Material weak = pink_vps();
+  weak.breaking_force = 0.8 * largest;
+  const Pulled broken = run(specimen, weak, physics, steps);
+  EXPECT_EQ(broken.program.ended_by(), EndedBy::kBreak) << broken.program.reason();
+  EXPECT_THAT(broken.program.reason(), testing::Not(testing::HasSubstr("recoil")));
+  EXPECT_LT(at_break(broken).extension, 0.05);
+  EXPECT_TRUE(broken.bench.state().position.allFinite());
+  const Results results = analyse(broken.samples, broken.program.ended_by());
+  EXPECT_LT(*results.energy_balance_error, 1e-3);  // as that of the whole overhand: the residual of loose knots
+}
+
+INSTANTIATE_TEST_SUITE_P(Every, FractureOfAnOverhand,
+                         testing::Combine(testing::Values(ContactLaw::kSmooth, ContactLaw::kEdge),
+                                          testing::Values(TwistMode::kOn, TwistMode::kOff)),
+                         [](const auto& test) {
+                           return std::string(std::get<0>(test.param) == ContactLaw::kSmooth ? "smooth" : "edge") +
+                                  (std::get<1>(test.param) == TwistMode::kOn ? "WithTwist" : "");
+                         });
+
+/// A polygon around a circle of radius R whose edges are 2 R tan(phi/2) long has kappa = 1/R at every node.
+TEST(Fracture, StrainOfTheOutermostFibreIsThatOfTensionAndOfBending) {
+  constexpr double kTurn = 0.1, kRadius = 0.05, kStretch = 1.02;
+  const double edge = 2.0 * kRadius * std::tan(0.5 * kTurn);
+  Material material = nylon();
+  material.breaking_strain = 0.2;
+  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(20, edge / kStretch));
+  RodState state;
+  state.position = Points::Zero(3, 21);
+  for (int i = 0; i < 20; ++i)
+    state.position.col(i + 1) = state.position.col(i) + edge * Vec3(std::cos(kTurn * i), std::sin(kTurn * i), 0.0);
+  const double strain = (kStretch - 1.0) + material.radius * kStretch / kRadius;  // kappa is over the length at rest
+  EXPECT_NEAR(most_exposed(rod, state).share, strain / 0.2, 1e-12);
+  EXPECT_TRUE(can_part(material));
+  EXPECT_FALSE(can_part(nylon()));
+}
+
+TEST(Fracture, OfTwoLimitsTheNearerOneCounts) {
+  Material material = nylon();
+  material.breaking_force = 100.0;
+  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(4, 0.01));
+  RodState state;
+  state.position = Points::Zero(3, 5);
+  for (int i = 1; i < 5; ++i) state.position(2, i) = state.position(2, i - 1) + (i == 3 ? 0.01001 : 0.01);
+  const double tension = material.stretching_stiffness * 1e-3;
+  const Exposure by_force = most_exposed(rod, state);
+  EXPECT_EQ(by_force.edge, 2);
+  EXPECT_NEAR(by_force.share, tension / 100.0, 1e-9);
+  RodProperties strained = rod;
+  strained.material.breaking_strain = 1e-4;
+  EXPECT_NEAR(most_exposed(strained, state).share, 10.0, 1e-9);
+}
+
+}  // namespace
+}  // namespace knot_utm
