@@ -7,8 +7,8 @@ if(KNOT_UTM_ROS)
     set(CATKIN_INSTALL_INTO_PREFIX_ROOT FALSE)
     set(KNOT_UTM_INSTALLS_SETUP TRUE)
   endif()
-  set(message_packages geometry_msgs std_msgs)
-  set(node_packages diagnostic_updater rosbag roscpp rosgraph_msgs sensor_msgs std_srvs tf2_ros visualization_msgs)
+  set(message_packages actionlib_msgs geometry_msgs std_msgs)
+  set(node_packages actionlib diagnostic_updater dynamic_reconfigure rosbag roscpp rosgraph_msgs sensor_msgs std_srvs tf2_ros visualization_msgs)
   # The environment of the tests is written now, with those of its paths that are there: on a first configuration none.
   if(NOT DEFINED CATKIN_DEVEL_PREFIX)
     file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/devel/lib/python3/dist-packages ${CMAKE_BINARY_DIR}/devel/lib/pkgconfig)
@@ -20,6 +20,8 @@ if(catkin_FOUND)
   add_message_files(DIRECTORY msg FILES
                     Crosshead.msg KnotRecord.msg KnotShape.msg KnotState.msg RecorderStatus.msg SpecimenInfo.msg
                     TestStatus.msg)
+  add_action_files(DIRECTORY action FILES RunTest.action)
+  generate_dynamic_reconfigure_options(cfg/Machine.cfg cfg/View.cfg)
   generate_messages(DEPENDENCIES ${message_packages})
   get_target_property(EIGEN3_INCLUDE_DIRS Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
   catkin_package(INCLUDE_DIRS include LIBRARIES knot_utm_ros knot_utm_core

@@ -434,6 +434,11 @@ Vec3 TestBench::upper_grip() const { return impl_->grips.upper(impl_->grip); }
 double TestBench::time() const { return impl_->time; }
 double TestBench::longest_step() const { return tolerances(impl_->physics, impl_->specimen).longest_step; }
 Eigen::VectorXd TestBench::tension() const { return impl_->stepper->tension(); }
+std::vector<ContactForce> TestBench::contact_forces() const {
+  // A step that could not be made leaves contacts that no accepted step has, of a recoil too.
+  const bool over = impl_->status == BenchStatus::kFailed || impl_->status == BenchStatus::kBroken;
+  return over ? std::vector<ContactForce>() : impl_->stepper->contact_forces();
+}
 void TestBench::state(Archive& archive) { impl_->state(archive); }
 
 }  // namespace knot_utm

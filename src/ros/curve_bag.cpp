@@ -1,13 +1,12 @@
 #include "knot_utm/ros/curve_bag.hpp"
 
 #include <ros/exception.h>
-#include <rosbag/bag.h>
-#include <rosbag/view.h>
 
 #include <algorithm>
 #include <map>
 #include <stdexcept>
 
+#include "bag_topics.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/ros/bag_writer.hpp"
 #include "knot_utm/ros/conversions.hpp"
@@ -16,40 +15,12 @@
 namespace knot_utm {
 namespace {
 
-bool ends_with(const std::string& topic, const std::string& name) {
-  return topic.size() > name.size() &&
-         topic.compare(topic.size() - name.size() - 1, std::string::npos, "/" + name) == 0;
-}
-
-/// What the bag calls a topic; empty: it does not have it.
-std::string topic_named(const rosbag::Bag& bag, const std::string& file, const std::string& name) {
-  std::string found;
-  rosbag::View all(bag);
-  for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
-    if (!ends_with(connection->topic, name) || connection->topic == found) continue;
-    if (!found.empty()) throw InvalidInput(file, "topic " + name, found + " and " + connection->topic, "one of them");
-    found = connection->topic;
-  }
-  return found;
-}
-
-std::string required_topic(const rosbag::Bag& bag, const std::string& file, const std::string& name) {
-  std::string topic = topic_named(bag, file, name);
-  if (topic.empty()) throw InvalidInput(file, "topic " + name, "none", "a bag that has it");
-  return topic;
-}
-
 /// Calls `take` with every message of a topic.
 template <typename Message, typename Take>
 void for_each(const rosbag::Bag& bag, const std::string& file, const std::string& topic, Take take) {
   if (topic.empty()) return;
   for (const rosbag::MessageInstance& instance : rosbag::View(bag, rosbag::TopicQuery(topic))) {
-    const boost::shared_ptr<Message> message = instance.instantiate<Message>();
-    if (!message)
-      throw InvalidInput(
-          file, "topic " + topic, instance.getDataType() + " " + instance.getMD5Sum(),
-          std::string(ros::message_traits::datatype<Message>()) + " " + ros::message_traits::md5sum<Message>());
-    take(*message);
+    take(*message_of<Message>(instance, file));
   }
 }
 

@@ -1,6 +1,5 @@
 #include "knot_utm/ros/knot_node.hpp"
 
-#include <geometry_msgs/TransformStamped.h>
 #include <knot_utm/SpecimenInfo.h>
 
 #include <algorithm>
@@ -8,14 +7,15 @@
 
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
-#include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/names.hpp"
 
 namespace knot_utm {
 namespace {
 
-constexpr double kViewPeriod = 0.04;        // wall time between pictures [s]
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
+// More than the contacts of any shipped material at its largest load, bench/results/tighten.md [radius].
+constexpr double kDeep = 0.05;
+constexpr double kManyRejected = 0.5;  // of the time steps that were tried
 constexpr std::uint32_t kQueue = 2 * KnotNode::kKeptAnswers;
 constexpr std::uint32_t kLargest = 16 * 1024;  // message to this node [bytes]
 
@@ -23,23 +23,20 @@ TestBench make_bench(const Method& method) {
   return TestBench(method.specimen, method.material, method.machine, method.physics);
 }
 
-geometry_msgs::TransformStamped transform(const char* parent, const char* child, const Vec3& translation,
-                                          const ros::Time& stamp) {
-  geometry_msgs::TransformStamped t;
-  t.header.stamp = stamp;
-  t.header.frame_id = parent;
-  t.child_frame_id = child;
-  t.transform.translation.x = translation.x();
-  t.transform.translation.y = translation.y();
-  t.transform.translation.z = translation.z();
-  t.transform.rotation.w = 1.0;
-  return t;
-}
-
 }  // namespace
 
 KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
-    : node_(node), method_(method), bench_(make_bench(method)), diagnostics_(node_) {
+    : node_(node),
+      method_(method),
+      bench_(make_bench(method)),
+      frames_(bench_.lower_grip(), method.specimen.end_to_end),
+      picture_(method.machine, method.material.radius),
+      view_timer_(node_.createSteadyTimer(ros::WallDuration(1.0), &KnotNode::on_view_timer, this)),
+      diagnostics_(node_),
+      view_(picture_, [this](double period) {
+        view_is_old_ = true;
+        view_timer_.setPeriod(ros::WallDuration(period));
+      }) {
   state_ = node_.advertise<KnotState>(names::kKnotState, kQueue);
   record_ = node_.advertise<KnotRecord>(names::kKnotRecord, kQueue);
   load_cell_ = node_.advertise<geometry_msgs::WrenchStamped>(names::kLoadCell, kQueue);
@@ -51,15 +48,10 @@ KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
   status_ = subscribe_gated(node_, {names::kTestStatus, names::kUtmNode, 10, kLargest}, &KnotNode::on_status, this);
   reset_ = node_.advertiseService(names::kReset, &KnotNode::on_reset, this);
 
-  static_transforms_.sendTransform(std::vector<geometry_msgs::TransformStamped>{
-      transform(names::kWorldFrame, names::kBaseFrame, Vec3::Zero(), ros::TIME_MIN),
-      transform(names::kBaseFrame, names::kLowerGripFrame, bench_.lower_grip(), ros::TIME_MIN),
-      transform(names::kUpperGripFrame, names::kLoadCellFrame, Vec3::Zero(), ros::TIME_MIN)});
   diagnostics_.setHardwareID(method_.material.name);
   diagnostics_.add("physics", this, &KnotNode::diagnose);
   diagnostics_timer_ = node_.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
                                                [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
-  view_timer_ = node_.createSteadyTimer(ros::WallDuration(kViewPeriod), &KnotNode::on_view_timer, this);
   new_specimen();
 }
 
@@ -69,6 +61,7 @@ void KnotNode::new_specimen() {
   kept_.clear();
   sample_ = Sample();
   motion_ = MotionPatternTracker();
+  picture_.begin(bench_.state().position);
   view_is_old_ = true;
 
   SpecimenInfo info;
@@ -184,34 +177,39 @@ void KnotNode::on_view_timer(const ros::SteadyTimerEvent& /*event*/) {
   viewers_ = viewers;
   if (viewers > 0 && (view_is_old_ || somebody_is_new)) publish_markers();
   view_is_old_ = false;
-  publish_transforms();
+  frames_.publish(stamp_, sample_.displacement, bench_.upper_grip());
 }
 
 void KnotNode::publish_markers() {
   const Eigen::VectorXd tension = bench_.tension();
-  if (tension.size() > 0) highest_tension_ = std::max(highest_tension_, tension.maxCoeff());
-  const SceneView view{bench_.state().position, tension,         method_.material.radius,
-                       highest_tension_,        method_.machine, bench_.lower_grip(),
-                       bench_.upper_grip(),     sample_,         motion_pattern_name(motion_.pattern())};
-  markers_.publish(scene_markers(view, stamp_));
-}
-
-void KnotNode::publish_transforms() {
-  const ros::Time stamp = std::max(stamp_, ros::TIME_MIN);
-  if (stamp == transforms_stamp_) return;  // tf2 warns of a stamp that it has already
-  transforms_stamp_ = stamp;
-  const Vec3 crosshead = bench_.lower_grip() + Vec3(0.0, 0.0, method_.specimen.end_to_end + sample_.displacement);
-  transforms_.sendTransform(std::vector<geometry_msgs::TransformStamped>{
-      transform(names::kBaseFrame, names::kCrossheadFrame, crosshead, stamp),
-      transform(names::kCrossheadFrame, names::kUpperGripFrame, bench_.upper_grip() - crosshead, stamp)});
+  const std::vector<ContactForce> contacts = bench_.contact_forces();
+  const SceneView view{bench_.state().position,
+                       tension,
+                       contacts,
+                       bench_.lower_grip(),
+                       bench_.upper_grip(),
+                       sample_,
+                       motion_pattern_name(motion_.pattern())};
+  markers_.publish(picture_.draw(view, stamp_));
 }
 
 void KnotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
+  const auto since = [&](std::uint64_t Sample::*count) {
+    return static_cast<double>(sample_.*count - std::min(sample_.*count, diagnosed_.*count));
+  };
+  const double rejected = since(&Sample::rejected_steps), tried = since(&Sample::steps) + rejected;
   if (sample_.status == BenchStatus::kFailed) {
     status.summary(DiagnosticStatus::ERROR, "gave up: " + sample_.message);
   } else if (sample_.status == BenchStatus::kNotEquilibrated) {
     status.summary(DiagnosticStatus::WARN, "did not come to rest in time");
+  } else if (sample_.knot_type == KnotType::kCrossed) {
+    status.summary(DiagnosticStatus::ERROR, "the rod ran through itself");
+  } else if (sample_.max_penetration > kDeep) {
+    status.summaryf(DiagnosticStatus::WARN, "strands are pressed into each other by %.3g of the radius",
+                    sample_.max_penetration);
+  } else if (rejected > kManyRejected * tried) {
+    status.summaryf(DiagnosticStatus::WARN, "hard: %.0f of %.0f time steps had to be shortened", rejected, tried);
   } else if (sample_.status == BenchStatus::kBroken) {
     status.summary(DiagnosticStatus::OK, "the rod broke");
   } else {
@@ -221,8 +219,10 @@ void KnotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   status.add("time steps", sample_.steps);
   status.add("rejected time steps", sample_.rejected_steps);
   status.add("Newton iterations", sample_.newton_iterations);
+  status.add("Newton iterations per time step of late", tried > 0.0 ? since(&Sample::newton_iterations) / tried : 0.0);
   status.add("contacts", sample_.contacts);
   status.add("deepest contact [fraction of radius]", sample_.max_penetration);
+  diagnosed_ = sample_;
 }
 
 }  // namespace knot_utm

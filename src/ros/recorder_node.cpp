@@ -27,6 +27,7 @@ constexpr double kPatience = 2.0;                      // wall time to wait for 
 constexpr double kPatienceWithKeeper = 60.0;           // wall time that a recovery may take [s]
 constexpr double kPatienceAtEnd = 10.0;                // the same for the final shape [s]
 constexpr double kAcknowledgePeriod = 0.005;           // wall time between acknowledgements [s]
+constexpr double kDiagnosticsPeriod = 1.0;             // wall time [s]
 constexpr double kLongestPause = 0.1;                  // between two looks that counts as waiting [s]
 constexpr std::uint64_t kAcknowledgeAfter = 16;        // records, where they come faster
 
@@ -59,7 +60,7 @@ RecorderNode::Run::Run(const std::string& folder_, const Method& method, Journal
       bag((fs::path(folder_) / "test.bag").string(), method) {}
 
 RecorderNode::RecorderNode(const ros::NodeHandle& node, TestSetup setup, Keeper& keeper)
-    : node_(node), setup_(std::move(setup)), keeper_(keeper) {
+    : node_(node), setup_(std::move(setup)), keeper_(keeper), diagnostics_(node) {
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
   status_ = node_.advertise<RecorderStatus>(names::kRecorderStatus, 100, ros::SubscriberStatusCallback(), gone,
                                             ros::VoidConstPtr(), true);
@@ -68,6 +69,8 @@ RecorderNode::RecorderNode(const ros::NodeHandle& node, TestSetup setup, Keeper&
       subscribe_gated(node_, {names::kKnotRecord, names::kKnotNode, kQueue, kLargest}, &RecorderNode::on_record, this);
   test_status_ =
       subscribe_gated(node_, {names::kTestStatus, names::kUtmNode, 10, kLargest}, &RecorderNode::on_status, this);
+  diagnostics_.setHardwareID("none");
+  diagnostics_.add("files", this, &RecorderNode::diagnose);
   publish_status();
 }
 
@@ -83,6 +86,10 @@ int RecorderNode::spin() {
     const bool news = next != published_.next_sequence || run_number_ != published_.run ||
                       is_complete() != (published_.complete != 0) || error_ != published_.error;
     if (news && (seconds_since(published_at_) > kAcknowledgePeriod)) publish_status();
+    if (seconds_since(diagnosed_) > kDiagnosticsPeriod) {
+      diagnosed_ = Clock::now();
+      diagnostics_.force_update();
+    }
   }
   if (run_ && !run_->complete && error_.empty()) finish_early();
   return error_.empty() ? 0 : 1;
@@ -342,6 +349,26 @@ void RecorderNode::publish_status() {
   published_ = status;
   published_at_ = Clock::now();
   status_.publish(status);
+}
+
+void RecorderNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  if (!error_.empty()) {
+    status.summary(DiagnosticStatus::ERROR, one_line(error_));
+  } else if (run_ && run_->dropped > 0) {
+    status.summary(DiagnosticStatus::WARN, std::to_string(run_->dropped) + " commands of the test never arrived");
+  } else if (is_complete()) {
+    status.summary(DiagnosticStatus::OK, "complete");
+  } else {
+    status.summary(DiagnosticStatus::OK, run_ ? "records" : "nothing to record yet");
+  }
+  if (!run_) return;
+  status.add("folder", run_->folder);
+  status.add("commands recorded", run_->recorded);
+  status.add("commands dropped", run_->dropped);
+  status.add("rows", run_->writer.rows());
+  status.add("rows of time steps", run_->writer.full_rows());
+  status.add("messages in the bag", run_->bag.messages());
 }
 
 }  // namespace knot_utm

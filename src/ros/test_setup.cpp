@@ -3,6 +3,7 @@
 #include <ros/console.h>
 #include <ros/init.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <vector>
@@ -41,6 +42,16 @@ std::string find_method(const std::string& method, const fs::path& base, const f
   return places.front().string();  // load_method says what is wrong with it
 }
 
+/// The override by which a program follows a record instead of its last pull.
+std::string following(const std::string& data, const Program& program) {
+  const auto pull = std::find_if(program.rbegin(), program.rend(),
+                                 [](const ProgramStep& step) { return step.phase == Phase::kPull; });
+  if (pull == program.rend()) throw InvalidInput("test/data", data, "with a method that pulls");
+  std::string quoted;
+  for (const char c : data) quoted += c == '\'' ? "''" : std::string(1, c);
+  return "program." + std::to_string(program.rend() - pull - 1) + "={follow: {record: '" + quoted + "'}}";
+}
+
 }  // namespace
 
 TestSetup read_test_setup(const ros::NodeHandle& node) {
@@ -60,6 +71,12 @@ TestSetup read_test_setup(const ros::NodeHandle& node) {
   const std::string file =
       find_method(text_parameter(node, "test/method"), base, text_parameter(node, "test/shipped_methods"));
   setup.method = load_method(file, overrides);
+  const std::string data = text_parameter(node, "test/data");
+  if (!data.empty()) {
+    setup.data = (base / data).lexically_normal().string();
+    overrides.push_back(following(setup.data, setup.method.program));
+    setup.method = load_method(file, overrides);
+  }
   // The folder's name below out/.
   if (setup.method.name == "." || setup.method.name == "..") {
     throw InvalidInput("test/method", file, "a file whose name without ending is a name for a folder");

@@ -1,14 +1,15 @@
 #include "knot_utm/ros/utm_node.hpp"
 
-#include <knot_utm/TestStatus.h>
 #include <ros/callback_queue.h>
 #include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/JointState.h>
+#include <std_msgs/String.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <limits>
 
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/validate.hpp"
 
@@ -18,12 +19,12 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 using std::chrono::steady_clock;
 
-constexpr double kClockPeriod = 0.002;    // shortest wall time between two messages on /clock [s]
-constexpr double kIdleClockPeriod = 0.1;  // longest wall time between them [s]
-constexpr double kStatusPeriod = 0.2;     // wall time between two statuses [s]
-constexpr double kCatchUp = 0.1;          // wall time that is made up for after a slow step [s]
-constexpr double kGapBetweenTests = 1.0;  // on /clock [s]
-constexpr double kGoodbye = 0.3;          // wall time for the last messages to leave before the node ends [s]
+constexpr double kClockPeriod = 0.002;      // shortest wall time between two messages on /clock [s]
+constexpr double kIdleClockPeriod = 0.1;    // longest wall time between them [s]
+constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
+constexpr double kCatchUp = 0.1;            // wall time that is made up for after a slow step [s]
+constexpr double kGapBetweenTests = 1.0;    // on /clock [s]
+constexpr double kGoodbye = 0.3;            // wall time for the last messages to leave before the node ends [s]
 constexpr std::uint32_t kQueue = 1000;
 constexpr std::uint32_t kLargest = 64 * 1024;  // message to this node [bytes]
 
@@ -36,11 +37,20 @@ steady_clock::duration to_duration(double seconds) {
 }  // namespace
 
 UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOptions& options)
-    : node_(node), method_(method), options_(options), factor_(std::numeric_limits<double>::quiet_NaN()) {
+    : node_(node),
+      method_(method),
+      options_(options),
+      factor_(std::numeric_limits<double>::quiet_NaN()),
+      run_test_(node, {[this] { return start_if_possible(); },
+                       [this] {
+                         if (active()) program_->stop();
+                       }}),
+      diagnostics_(node) {
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
   crosshead_ = node_.advertise<Crosshead>(names::kCrosshead, kQueue, ros::SubscriberStatusCallback(), gone);
   joint_states_ = node_.advertise<sensor_msgs::JointState>(names::kJointStates, kQueue);
   status_ = node_.advertise<TestStatus>(names::kTestStatus, 10, true);
+  method_text_ = node_.advertise<std_msgs::String>(names::kMethod, 1, true);
   clock_ = node_.advertise<rosgraph_msgs::Clock>(names::kClock, 10);
   states_ = subscribe_gated(node_, {names::kKnotState, names::kKnotNode, kQueue, kLargest}, &UtmNode::on_state, this);
   specimens_ = subscribe_gated(node_, {names::kSpecimen, names::kKnotNode, 1, kLargest}, &UtmNode::on_specimen, this);
@@ -52,10 +62,17 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOpt
   stop_ = node_.advertiseService(names::kStopTest, &UtmNode::on_stop, this);
   balance_ = node_.advertiseService(names::kBalance, &UtmNode::on_balance, this);
   pause_ = node_.advertiseService(names::kPause, &UtmNode::on_pause, this);
+  resume_ = node_.advertiseService(names::kResume, &UtmNode::on_resume, this);
   step_ = node_.advertiseService(names::kStep, &UtmNode::on_step, this);
+  diagnostics_.setHardwareIDf("%s", method_.machine.load_cell.name.c_str());
+  diagnostics_.add("machine", this, &UtmNode::diagnose);
+  pace_.setCallback([this](MachineConfig& wanted, std::uint32_t) { set_pace(wanted); });
   // No other machine of this computer's life has both.
   node_.setParam(names::kTestId,
                  std::to_string(getpid()) + "-" + std::to_string(steady_clock::now().time_since_epoch().count()));
+  std_msgs::String text;
+  text.data = method_file_text(method_);
+  method_text_.publish(text);
   publish_status();
 }
 
@@ -67,6 +84,11 @@ int UtmNode::spin() {
     if (seconds_since(sent_) > options_.resend_period) resend();
     if (seconds_since(clock_published_) > kIdleClockPeriod) publish_clock(true);
     if (seconds_since(status_published_) > kStatusPeriod && (active() || !all_is_recorded())) publish_status();
+    if (seconds_since(diagnosed_) > kDiagnosticsPeriod) {
+      diagnosed_ = steady_clock::now();
+      diagnostics_.force_update();
+    }
+    if (state_ == State::kEnded && all_is_recorded()) finish_goal();
     if (options_.exit_at_end && state_ == State::kEnded && all_is_recorded()) {
       ros::WallDuration(kGoodbye).sleep();
       break;
@@ -111,6 +133,9 @@ void UtmNode::on_state(const KnotState::ConstPtr& answer) {
   const std::string fault = fault_of(state);
   if (!fault.empty()) return physics_failed(std::string(names::kKnotState) + ": " + fault);
   sample_ = from_message(state);
+  motion_pattern_ = state.motion_pattern;
+  if (pulls(sample_.phase)) peak_force_ = std::max(peak_force_, sample_.force_upper);
+  max_penetration_ = std::max(max_penetration_, sample_.max_penetration);
   waiting_ = false;
   now_ = state.header.stamp;
   publish_clock(false);
@@ -124,6 +149,7 @@ void UtmNode::on_recorder(const RecorderStatus::ConstPtr& recorded) {
   recorded_ = std::max(recorded_, status.next_sequence);
   while (!unrecorded_.empty() && unrecorded_.front().sequence < recorded_) unrecorded_.pop_front();
   recorder_complete_ = status.complete != 0;
+  directory_ = status.directory;
   if (!status.error.empty()) {
     recorder_failed_ = true;
     if (active()) {
@@ -158,6 +184,8 @@ void UtmNode::start() {
   recorder_failed_ = false;
   single_steps_ = 0;
   sample_ = Sample();
+  motion_pattern_.clear();
+  peak_force_ = max_penetration_ = 0.0;
   state_ = State::kRunning;
   due_ = steady_clock::now();
   factor_measured_ = due_;
@@ -213,34 +241,6 @@ void UtmNode::publish_clock(bool at_once) {
   rosgraph_msgs::Clock clock;
   clock.clock = std::max(now_, ros::TIME_MIN);
   clock_.publish(clock);
-}
-
-void UtmNode::publish_status() {
-  status_published_ = steady_clock::now();
-  TestStatus status;
-  status.header.stamp = now_;
-  status.state = static_cast<std::uint8_t>(state_);
-  status.run = run_;
-  status.sequence = command_.sequence;
-  status.time = sample_.time;
-  status.phase = phase_name(program_ ? program_->phase() : Phase::kIdle);
-  status.time_left = std::numeric_limits<double>::quiet_NaN();
-  if (program_) {
-    const double wall = seconds_since(factor_measured_);
-    if (wall > 0.9 * kStatusPeriod) {
-      factor_ = (sample_.time - factor_time_) / wall;
-      factor_measured_ = steady_clock::now();
-      factor_time_ = sample_.time;
-    }
-    if (state_ == State::kEnded) {
-      status.ended_by = ended_by_name(program_->ended_by());
-      status.reason = program_->reason();
-    }
-    status.progress = program_->progress();
-    if (factor_ > 0.0) status.time_left = program_->time_left() / factor_;
-  }
-  status.real_time_factor = factor_;
-  status_.publish(status);
 }
 
 }  // namespace knot_utm

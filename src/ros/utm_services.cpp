@@ -6,7 +6,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
-bool refuse(std_srvs::Trigger::Response& response, const char* why) {
+bool refuse(std_srvs::Trigger::Response& response, const std::string& why) {
   response.success = 0;
   response.message = why;
   return true;
@@ -20,11 +20,17 @@ bool accept(std_srvs::Trigger::Response& response, const std::string& what) {
 
 }  // namespace
 
-bool UtmNode::on_start(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  if (active()) return refuse(response, "a test is running");
-  if (longest_step_ <= 0.0) return refuse(response, "there is no specimen yet");
-  if (run_ > 0 && !all_is_recorded()) return refuse(response, "the last test is still being recorded");
+std::string UtmNode::start_if_possible() {
+  if (active()) return "a test is running";
+  if (longest_step_ <= 0.0) return "there is no specimen yet";
+  if (run_ > 0 && !all_is_recorded()) return "the last test is still being recorded";
   start();
+  return "";
+}
+
+bool UtmNode::on_start(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  const std::string why_not = start_if_possible();
+  if (!why_not.empty()) return refuse(response, why_not);
   return accept(response, "test " + std::to_string(run_) + " runs");
 }
 
@@ -43,11 +49,27 @@ bool UtmNode::on_balance(std_srvs::Trigger::Request& /*request*/, std_srvs::Trig
 bool UtmNode::on_pause(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
   if (!active()) return refuse(response, "no test is running");
   const bool goes_on = state_ == State::kPaused;
-  state_ = goes_on ? State::kRunning : State::kPaused;
+  pause(!goes_on);
+  return accept(response, goes_on ? "the test goes on" : "the test is paused");
+}
+
+bool UtmNode::on_resume(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
+  if (state_ != State::kPaused) return refuse(response, "the test is not paused");
+  pause(false);
+  return accept(response, "the test goes on");
+}
+
+void UtmNode::pause(bool paused) {
+  state_ = paused ? State::kPaused : State::kRunning;
   single_steps_ = 0;
   due_ = steady_clock::now();
   publish_status();
-  return accept(response, goes_on ? "the test goes on" : "the test is paused");
+}
+
+void UtmNode::set_pace(MachineConfig& wanted) {
+  if (!(wanted.real_time_factor >= 0.0)) wanted.real_time_factor = options_.real_time_factor;  // not-a-number
+  options_.real_time_factor = wanted.real_time_factor;
+  due_ = steady_clock::now();
 }
 
 bool UtmNode::on_step(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {

@@ -16,6 +16,18 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
+std::vector<ContactForce> contact_forces(const std::vector<ContactPoint>& contacts, const Points& position) {
+  std::vector<ContactForce> out;
+  for (const ContactPoint& contact : contacts) {
+    if (contact.on_roller() || !contact.touches()) continue;
+    Vec3 a = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+      if (contact.c[k] != 0.0) a += contact.c[k] * position.col(contact.a0 + k);
+    out.push_back({a - 0.5 * contact.x, contact.force});
+  }
+  return out;
+}
+
 StepReadings::StepReadings(const RodProperties& rod, const RodState& state, const StepSettings& settings, double spin)
     : rod_(rod), settings_(settings), force_(static_cast<std::size_t>(rod.nodes())) {
   const ElasticEnergy elastic = elastic_energy(rod, state);

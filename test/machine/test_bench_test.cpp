@@ -178,6 +178,31 @@ TEST(TestBench, ADrawnOverhandSettlesGently) {
   }
 }
 
+/// Friction's part of a force is at most mu times its pressure, and tangential.
+TEST(TestBench, ForcesBetweenStrandsAreThoseOfTheReading) {
+  SpecimenOptions overhand;
+  overhand.knot = KnotKind::kOverhand;
+  overhand.end_to_end = 0.7;
+  overhand.edge_length = 0.0063;
+  TestBench machine = bench(overhand);
+  machine.respond(Command{});
+  EXPECT_TRUE(machine.contact_forces().empty());
+  Sample sample;
+  for (std::uint64_t k = 1; k <= 10; ++k) sample = machine.respond(pull(k, 0.2 * static_cast<double>(k), 0.0));
+  const std::vector<ContactForce> forces = machine.contact_forces();
+  ASSERT_GT(sample.contacts, 0);
+  EXPECT_EQ(forces.size(), static_cast<std::size_t>(sample.contacts));
+  double sum = 0.0;
+  for (const ContactForce& contact : forces) {
+    sum += contact.force.norm();
+    const double nearest = (machine.state().position.colwise() - contact.place).colwise().norm().minCoeff();
+    EXPECT_LT(nearest, std::hypot(nylon().radius, 0.5 * overhand.edge_length) * 1.05) << "between two strands";
+  }
+  const double rounding = 1e-12 * sample.normal_force, mu = nylon().friction_coefficient;
+  EXPECT_GE(sum, sample.normal_force - rounding);
+  EXPECT_LE(sum, sample.normal_force * std::hypot(1.0, mu) + rounding);
+}
+
 TEST(TestBench, OnceFailedItAnswersEveryCommandWithTheSame) {
   TestBench machine = bench(straight_rod());
   machine.respond(Command{});
@@ -196,6 +221,7 @@ TEST(TestBench, OnceFailedItAnswersEveryCommandWithTheSame) {
     EXPECT_EQ(sample.displacement, failed.displacement);
     EXPECT_EQ(machine.substeps().size(), 1u);
   }
+  EXPECT_TRUE(machine.contact_forces().empty());
   EXPECT_EQ(machine.state().position, position);
 }
 

@@ -12,8 +12,9 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import rospy
 import rostest
 from geometry_msgs.msg import WrenchStamped
-from knot_utm.msg import KnotState, RecorderStatus, TestStatus
+from knot_utm.msg import KnotState, RecorderStatus, SpecimenInfo, TestStatus
 from node_test import Latest, call
+from std_msgs.msg import String
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -84,8 +85,13 @@ class OperatorTest(unittest.TestCase):
         self.state.wait('one step', lambda s: s.sequence == before + 1)
         time.sleep(0.5)
         self.assertEqual(self.state.last.sequence, before + 1)
-        self.assertTrue(call('utm/pause', Trigger).success)
+        self.assertTrue(call('utm/resume', Trigger).success)
         self.state.wait('goes on', lambda s: s.sequence > before + 3)
+        self.assertFalse(call('utm/resume', Trigger).success)
+        self.assertTrue(call('utm/pause', Trigger).success)
+        self.assertTrue(call('utm/pause', Trigger).success, 'pressed again it goes on')
+        before = self.state.last.sequence
+        self.state.wait('goes on again', lambda s: s.sequence > before)
 
     def test_5_tools(self):
         topics = tool('rostopic', 'list').split()
@@ -98,6 +104,13 @@ class OperatorTest(unittest.TestCase):
             self.assertIn('---', text, topic)
         self.assertTrue(printed('average rate', 'rostopic', 'hz', '--wall-time', '/knot/state'))
         self.assertIn('success: True', tool('rosservice', 'call', '/recorder/save'))
+
+    def test_5_what_never_changes_is_there_for_those_who_come_late(self):
+        method = Latest('utm/method', String).wait('the method', lambda m: True).data
+        with open(OUT + '/method.yaml', encoding='utf-8') as file:
+            self.assertEqual(method, file.read())
+        specimen = Latest('knot/specimen', SpecimenInfo).wait('the specimen', lambda s: True)
+        self.assertAlmostEqual(specimen.length, 0.25)
 
     def test_6_markers(self):
         markers = Latest('knot/markers', MarkerArray).wait('a picture', lambda m: True).markers
@@ -124,9 +137,15 @@ class OperatorTest(unittest.TestCase):
 
     def test_9_reset(self):
         before = self.state.last
+        self.assertGreater(before.force_upper, 1.0)
         self.assertTrue(call('knot/reset', Trigger).success)
         self.assertTrue(call('utm/start_test', Trigger).success)
-        second = self.state.wait('second test', lambda s: s.run == 2 and s.phase == 'pull')
+        self.state.wait('second test', lambda s: s.run == 2 and s.phase == 'pull')
+        # The specimen is as it was before the first test, the clock is not.
+        first, second = ([s for s in self.state.messages if s.run == run][0] for run in (1, 2))
+        self.assertEqual(second.sequence, 0)
+        for field in ('time', 'displacement', 'extension', 'end_to_end', 'load', 'force_upper', 'steps'):
+            self.assertEqual(getattr(second, field), getattr(first, field), field)
         self.assertGreater(second.header.stamp, before.header.stamp)
         # A specimen that is taken out during the test ends it, and says so.
         self.assertTrue(call('knot/reset', Trigger).success)

@@ -42,6 +42,7 @@ class ScriptedStep : public TimeStep {
   Energies energies() const override { return {}; }
   ContactReading contact_reading() const override { return {}; }
   StepWork work() const override { return {}; }
+  std::vector<ContactForce> contact_forces() const override { return {}; }
 
   double longest_good = 1.0;  // [s]
   double speed = 0.0;         // [m/s]

@@ -8,6 +8,7 @@
 #include "knot_utm/machine/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/options.hpp"
+#include "knot_utm/sim/step_readings.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
@@ -44,6 +45,10 @@ class TestBench {
 
   /// Force in the rod at each edge, tension positive [N], as the last accepted step left it.
   Eigen::VectorXd tension() const;
+
+  /// Between the strands, as the last accepted step left them; none where the physics has failed, the rod has parted,
+  /// or before the first step. For pictures: nothing is computed before it is asked for.
+  std::vector<ContactForce> contact_forces() const;
 
   /// That after the last command. Loaded into a bench made in the same way it answers all further commands to the same
   /// bits; `substeps` are not part of it.

@@ -6,8 +6,6 @@
 #include <knot_utm/TestStatus.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
-#include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_broadcaster.h>
 
 #include <boost/shared_ptr.hpp>
 #include <deque>
@@ -16,7 +14,10 @@
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/ros/grip_frames.hpp"
+#include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/validate.hpp"
+#include "knot_utm/ros/view_parameters.hpp"
 
 namespace knot_utm {
 
@@ -45,7 +46,6 @@ class KnotNode {
   void publish(const KnotRecord& record);
   void put_shape(KnotRecord& record) const;
   void publish_markers();
-  void publish_transforms();
 
   ros::NodeHandle node_;
   Method method_;
@@ -56,18 +56,18 @@ class KnotNode {
   Sample sample_;                                   ///< the last answer
   MotionPatternTracker motion_;                     ///< of this specimen
   ros::Time stamp_;                                 ///< of the last answer
-  double highest_tension_ = 0.0;                    ///< seen in any picture [N]
+  Sample diagnosed_;                                ///< the answer at the last diagnosis
+  GripFrames frames_;
+  ScenePicture picture_;
   bool view_is_old_ = true;
   std::uint32_t viewers_ = 0;
-  ros::Time transforms_stamp_;
 
   ros::Publisher state_, record_, load_cell_, shape_, specimen_, markers_;
   ros::Subscriber commands_, status_;
   ros::ServiceServer reset_;
   ros::SteadyTimer view_timer_, diagnostics_timer_;
-  tf2_ros::TransformBroadcaster transforms_;
-  tf2_ros::StaticTransformBroadcaster static_transforms_;
   diagnostic_updater::Updater diagnostics_;
+  ViewParameters view_;
 };
 
 }  // namespace knot_utm

@@ -7,12 +7,15 @@ namespace knot_utm::names {
 inline constexpr char kUtmNode[] = "utm_node";
 inline constexpr char kKnotNode[] = "knot_node";
 inline constexpr char kRecorderNode[] = "recorder_node";
+inline constexpr char kExperimentNode[] = "experiment_node";
+inline constexpr char kReplayNode[] = "replay_node";
 
 // Topics
 inline constexpr char kCrosshead[] = "utm/crosshead";         ///< Crosshead, a command for the physics
 inline constexpr char kJointStates[] = "utm/joint_states";    ///< sensor_msgs/JointState of the crosshead
 inline constexpr char kLoadCell[] = "utm/load_cell";          ///< geometry_msgs/WrenchStamped, as the cell reads it
 inline constexpr char kTestStatus[] = "utm/status";           ///< TestStatus, latched
+inline constexpr char kMethod[] = "utm/method";               ///< std_msgs/String, latched: the method.yaml of the test
 inline constexpr char kClock[] = "/clock";                    ///< rosgraph_msgs/Clock, the time of the test
 inline constexpr char kKnotState[] = "knot/state";            ///< KnotState, the answer to each command
 inline constexpr char kKnotRecord[] = "knot/record";          ///< KnotRecord, all of it for the recorder
@@ -20,15 +23,21 @@ inline constexpr char kKnotShape[] = "knot/shape";            ///< KnotShape, at
 inline constexpr char kSpecimen[] = "knot/specimen";          ///< SpecimenInfo, latched
 inline constexpr char kMarkers[] = "knot/markers";            ///< visualization_msgs/MarkerArray
 inline constexpr char kRecorderStatus[] = "recorder/status";  ///< RecorderStatus, latched
+inline constexpr char kExperimentLoad[] = "experiment/load_cell";       ///< geometry_msgs/WrenchStamped, as measured
+inline constexpr char kExperimentCrosshead[] = "experiment/crosshead";  ///< Crosshead, as measured
 
 // Services, all of them std_srvs/Trigger
 inline constexpr char kStartTest[] = "utm/start_test";
 inline constexpr char kStopTest[] = "utm/stop_test";
 inline constexpr char kBalance[] = "utm/balance";
 inline constexpr char kPause[] = "utm/pause";
+inline constexpr char kResume[] = "utm/resume";
 inline constexpr char kStep[] = "utm/step";
 inline constexpr char kReset[] = "knot/reset";
 inline constexpr char kSave[] = "recorder/save";
+
+// Actions
+inline constexpr char kRunTest[] = "utm/run_test";  ///< RunTest: a test, from its start until all of it is recorded
 
 // Parameters that the nodes set
 inline constexpr char kTestId[] = "test/id";              ///< by utm_node: no other utm_node has it

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <diagnostic_updater/diagnostic_updater.h>
 #include <knot_utm/KnotRecord.h>
 #include <knot_utm/RecorderStatus.h>
 #include <knot_utm/TestStatus.h>
@@ -81,6 +82,7 @@ class RecorderNode {
   void fail(const std::string& why);
   bool is_complete() const { return run_ ? run_->complete : completed_before_; }
   void publish_status();
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle node_;
   TestSetup setup_;
@@ -99,6 +101,8 @@ class RecorderNode {
   ros::Publisher status_;
   ros::Subscriber records_, test_status_;
   ros::ServiceServer save_;
+  diagnostic_updater::Updater diagnostics_;
+  Clock::time_point diagnosed_;
 };
 
 }  // namespace knot_utm

@@ -16,11 +16,13 @@ namespace knot_utm {
 ///   test/preload            specimen.preload [N]; empty: the method's
 ///   test/overrides          list of "dotted.key=YAML", after these two among paths as long
 ///   test/working_directory  where relative paths begin; empty: the node's own
+///   test/data               record of an experiment, which is followed instead of the last pull; empty: none
 ///   test/out                folder of the files [out/NAME of the method]
 ///   test/network            true: other machines may reach the nodes
 struct TestSetup {
   Method method;
-  std::string out;  ///< absolute
+  std::string out;   ///< absolute
+  std::string data;  ///< absolute; empty: none
 };
 
 /// Throws InvalidInput.

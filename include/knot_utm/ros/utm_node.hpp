@@ -1,20 +1,26 @@
 #pragma once
 
+#include <diagnostic_updater/diagnostic_updater.h>
+#include <dynamic_reconfigure/server.h>
 #include <knot_utm/Crosshead.h>
 #include <knot_utm/KnotState.h>
+#include <knot_utm/MachineConfig.h>
 #include <knot_utm/RecorderStatus.h>
 #include <knot_utm/SpecimenInfo.h>
+#include <knot_utm/TestStatus.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
 
 #include <chrono>
 #include <deque>
 #include <optional>
+#include <string>
 
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/test_program.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/run_test_server.hpp"
 
 namespace knot_utm {
 
@@ -33,6 +39,7 @@ struct UtmOptions {
 /// connection breaks has died: that ends the test, as one that gave up does. One that is only slow is waited for.
 class UtmNode {
  public:
+  static constexpr double kStatusPeriod = 0.2;  ///< wall time between two statuses [s]
   /// Commands that may be ahead of the recorder. Half of what the physics keeps for asking again.
   static constexpr std::uint64_t kWindow = 128;
 
@@ -54,13 +61,16 @@ class UtmNode {
   bool on_stop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_balance(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_pause(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool on_resume(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_step(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   bool active() const { return state_ == State::kRunning || state_ == State::kPaused; }
   bool recorder_keeps_up() const;
   bool all_is_recorded() const;
   bool may_advance() const;
+  std::string start_if_possible();  ///< returns why not; empty: the test runs
   void start();
+  void pause(bool paused);
   void advance();
   void send(const Command& command);
   void resend();
@@ -68,6 +78,10 @@ class UtmNode {
   void end();
   void publish_clock(bool at_once);
   void publish_status();
+  void report_to_goal(const TestStatus& status);
+  void finish_goal();
+  void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
+  void set_pace(MachineConfig& wanted);
   double wait_time() const;  ///< until there is something to do that no message brings [s]
 
   ros::NodeHandle node_;
@@ -80,26 +94,34 @@ class UtmNode {
   double run_start_ = 0.0;            ///< on /clock [s]
   Command command_;                   ///< the last given
   Sample sample_;                     ///< the last answer
+  std::string motion_pattern_;        ///< that it told
+  double peak_force_ = 0.0;           ///< the largest true force while pulled, of all answers [N]
+  double max_penetration_ = 0.0;      ///< of all answers [fraction of radius]
   bool waiting_ = false;              ///< for the answer to `command_`
   std::uint64_t single_steps_ = 0;    ///< asked for while paused
   std::deque<Crosshead> unrecorded_;  ///< commands that the recorder has not acknowledged
   std::uint64_t recorded_ = 0;        ///< all before this sequence are
   bool recorder_complete_ = false;
   bool recorder_failed_ = false;
-  ros::Time now_;  ///< what /clock says
+  std::string directory_;  ///< of the recorder's files
+  ros::Time now_;          ///< what /clock says
   TopicWarning odd_specimen_{names::kSpecimen};
 
   Clock::time_point due_;   ///< when the next command may go
   Clock::time_point sent_;  ///< when something was last asked for, or asked again
   Clock::time_point clock_published_;
   Clock::time_point status_published_;
+  Clock::time_point diagnosed_;
   Clock::time_point factor_measured_;
   double factor_time_ = 0.0;  ///< of the test when the factor was last measured [s]
   double factor_;             ///< test time over wall time of late
 
-  ros::Publisher crosshead_, joint_states_, status_, clock_;
+  ros::Publisher crosshead_, joint_states_, status_, method_text_, clock_;
   ros::Subscriber states_, specimens_, recorder_;
-  ros::ServiceServer start_, stop_, balance_, pause_, step_;
+  ros::ServiceServer start_, stop_, balance_, pause_, resume_, step_;
+  RunTestServer run_test_;
+  diagnostic_updater::Updater diagnostics_;
+  dynamic_reconfigure::Server<MachineConfig> pace_;
 };
 
 }  // namespace knot_utm

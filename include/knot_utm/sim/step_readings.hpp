@@ -30,6 +30,15 @@ struct ContactReading {
   void state(Archive& archive) { archive(touching, normal_force, largest_overlap, couple); }
 };
 
+/// What two strands exert on each other at one point of integration.
+struct ContactForce {
+  Vec3 place = Vec3::Zero();  ///< in the middle between the centrelines [m]
+  Vec3 force = Vec3::Zero();  ///< g, pressure and friction, of one strand on the other; the opposite comes back [N]
+};
+
+/// Of the contacts that a law has evaluated at `position`, those between strands that touch.
+std::vector<ContactForce> contact_forces(const std::vector<ContactPoint>& contacts, const Points& position);
+
 /// Where the work of the last accepted step went [J]; an identity of the step's equations, to rounding, in which each
 /// term has a formula of its own:
 ///

@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/step_diagnosis.hpp"
@@ -85,6 +86,8 @@ class TimeStep {
   virtual Energies energies() const = 0;
   virtual ContactReading contact_reading() const = 0;
   virtual StepWork work() const = 0;
+  /// Of the last step that was tried: what is read off an accepted one, before the next is tried.
+  virtual std::vector<ContactForce> contact_forces() const = 0;
   /// Tension of each edge [N]; of a parted one none.
   Eigen::VectorXd tension() const;
 

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <knot_utm/KnotShape.h>
+#include <ros/ros.h>
+#include <rosbag/bag.h>
+#include <rosbag/view.h>
+
+#include <chrono>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "knot_utm/io/method.hpp"
+#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/ros/grip_frames.hpp"
+#include "knot_utm/ros/markers.hpp"
+#include "knot_utm/ros/view_parameters.hpp"
+
+namespace knot_utm {
+
+/// What is replayed, and how.
+struct ReplayOptions {
+  std::string bag;           ///< a test.bag
+  double rate = 1.0;         ///< time of the test over wall time; 0: as fast as it goes
+  bool exit_at_end = false;  ///< `spin` returns when the bag has ended
+};
+
+/// A recorded test, played without physics: its messages on their topics, /clock, frames and the pictures for rviz,
+/// made of the recorded shapes. The method says only what the machine looks like. It begins when somebody looks at the
+/// pictures, or after some seconds without.
+class ReplayNode {
+ public:
+  /// Throws InvalidInput where the bag cannot be read, or has no shapes and states.
+  ReplayNode(const ros::NodeHandle& node, const Method& method, const ReplayOptions& options);
+
+  /// Runs until ROS is shut down, or the bag has ended with `exit_at_end`. Returns the exit code of the node. Throws
+  /// InvalidInput where a message of the bag is of another version.
+  int spin();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool somebody_looks() const { return markers_.getNumSubscribers() > 0; }
+  void begin();
+  void play_what_is_due();
+  double until_due() const;  ///< wall time until the next message is to be played [s]
+  void play(const rosbag::MessageInstance& instance);
+  template <class Message>
+  boost::shared_ptr<Message> replay(const rosbag::MessageInstance& instance);
+  void publish_clock();
+  void on_view_timer(const ros::SteadyTimerEvent& event);
+
+  ros::NodeHandle node_;
+  ReplayOptions options_;
+  rosbag::Bag bag_;
+  std::map<std::string, std::string> names_;  ///< of its topics, what we call them
+  std::unique_ptr<rosbag::View> view_;
+  rosbag::View::iterator next_;
+  TestBench bench_;  ///< as it stands before the test
+  GripFrames frames_;
+  ScenePicture picture_;
+  bool begun_ = false;
+  ros::Time start_;  ///< of the bag
+  ros::Time now_;    ///< of what was played last
+  Clock::time_point begin_, clock_published_;
+  Sample sample_;
+  std::string motion_pattern_;
+  KnotShape shape_;  ///< the latest; no points: none yet
+  bool picture_is_old_ = false;
+  std::uint32_t viewers_ = 0;
+
+  std::map<std::string, ros::Publisher> publishers_;  ///< by our names
+  ros::Publisher markers_, clock_;
+  ros::SteadyTimer view_timer_;
+  ViewParameters parameters_;
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,84 @@
+#include "knot_utm/ros/experiment_node.hpp"
+
+#include <geometry_msgs/WrenchStamped.h>
+#include <ros/callback_queue.h>
+#include <std_srvs/Trigger.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "knot_utm/io/curve_file.hpp"
+#include "knot_utm/machine/program.hpp"
+#include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/gate.hpp"
+#include "knot_utm/ros/names.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kLook = 0.05;  // wall time between two looks at what has come [s]
+constexpr std::uint32_t kQueue = 1000;
+constexpr std::uint32_t kLargest = 16 * 1024;  // message to this node [bytes]
+
+std::vector<CurveRow> rows_that_pull(const std::string& file) {
+  std::vector<CurveRow> out;
+  const std::vector<CurveRow> all = read_curve_file(file);
+  std::copy_if(all.begin(), all.end(), std::back_inserter(out), [](const CurveRow& row) { return pulls(row.phase); });
+  return out;
+}
+
+}  // namespace
+
+ExperimentNode::ExperimentNode(const ros::NodeHandle& node, const std::string& file)
+    : node_(node),
+      rows_(rows_that_pull(file)),
+      load_cell_(node_.advertise<geometry_msgs::WrenchStamped>(names::kExperimentLoad, kQueue)),
+      crosshead_(node_.advertise<Crosshead>(names::kExperimentCrosshead, kQueue)),
+      commands_(subscribe_gated(node_, {names::kCrosshead, names::kUtmNode, kQueue, kLargest},
+                                &ExperimentNode::on_command, this)),
+      start_(node_.serviceClient<std_srvs::Trigger>(names::kStartTest)) {}
+
+void ExperimentNode::spin(bool autostart) {
+  while (ros::ok()) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(kLook));
+    if (autostart && run_ == 0) try_to_start();
+  }
+}
+
+void ExperimentNode::try_to_start() {
+  std_srvs::Trigger trigger;
+  // Until the physics is there too the machine refuses.
+  if (commands_.getNumPublishers() > 0 && start_.call(trigger) && trigger.response.success == 0)
+    ros::WallDuration(kLook).sleep();
+}
+
+void ExperimentNode::on_command(const Crosshead::ConstPtr& command) {
+  if (command->run < run_ || (command->run == run_ && command->sequence < sequence_)) return;  // asked for again
+  if (command->run != run_) next_ = 0;
+  run_ = command->run;
+  sequence_ = command->sequence;
+  if (command->phase != phase_name(Phase::kFollow)) {
+    if (next_ == 0) begin_ = command->header.stamp;
+    return;
+  }
+  for (; next_ < rows_.size(); ++next_) {
+    const ros::Time stamp = begin_ + ros::Duration(rows_[next_].time - rows_.front().time);
+    if (stamp > command->header.stamp) break;
+    publish(rows_[next_], stamp);
+  }
+}
+
+void ExperimentNode::publish(const CurveRow& row, const ros::Time& stamp) {
+  Sample measured;
+  measured.load = row.load;
+  load_cell_.publish(to_wrench(measured, stamp));
+  Command place;
+  place.sequence = next_;
+  place.time = row.time;
+  place.displacement = row.extension;
+  place.phase = Phase::kFollow;
+  place.read_cell = true;
+  crosshead_.publish(to_message(place, run_, stamp));
+}
+
+}  // namespace knot_utm

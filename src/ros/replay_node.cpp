@@ -1,0 +1,172 @@
+#include "knot_utm/ros/replay_node.hpp"
+
+#include <geometry_msgs/WrenchStamped.h>
+#include <knot_utm/Crosshead.h>
+#include <knot_utm/KnotState.h>
+#include <ros/callback_queue.h>
+#include <rosgraph_msgs/Clock.h>
+#include <sensor_msgs/JointState.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include "bag_topics.hpp"
+#include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/validate.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kPatience = 5.0;         // wall time for somebody to look [s]
+constexpr double kClockPeriod = 0.002;    // shortest wall time between two messages on /clock [s]
+constexpr double kIdleClockPeriod = 0.1;  // longest wall time between them [s]
+constexpr double kGoodbye = 0.3;          // wall time for the last messages to leave before the node ends [s]
+constexpr std::size_t kAtOnce = 100;      // messages between two looks at what others want
+constexpr std::uint32_t kQueue = 1000;
+
+double seconds_since(std::chrono::steady_clock::time_point then) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
+}
+
+void open(rosbag::Bag& bag, const std::string& file) {
+  try {
+    bag.open(file, rosbag::bagmode::Read);
+  } catch (const ros::Exception& error) {
+    throw InvalidInput(file, "bag", error.what(), "a bag that can be read");
+  }
+}
+
+/// What its messages are called in the bag, and by us.
+std::map<std::string, std::string> topics_of(const rosbag::Bag& bag, const std::string& file) {
+  std::map<std::string, std::string> names;
+  for (const char* name : {names::kKnotShape, names::kKnotState}) names[required_topic(bag, file, name)] = name;
+  for (const char* name : {names::kCrosshead, names::kJointStates, names::kLoadCell}) {
+    const std::string topic = topic_named(bag, file, name);
+    if (!topic.empty()) names[topic] = name;
+  }
+  return names;
+}
+
+}  // namespace
+
+ReplayNode::ReplayNode(const ros::NodeHandle& node, const Method& method, const ReplayOptions& options)
+    : node_(node),
+      options_(options),
+      bench_(method.specimen, method.material, method.machine, method.physics),
+      frames_(bench_.lower_grip(), method.specimen.end_to_end),
+      picture_(method.machine, method.material.radius),
+      markers_(node_.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 1)),
+      clock_(node_.advertise<rosgraph_msgs::Clock>(names::kClock, 10)),
+      view_timer_(node_.createSteadyTimer(ros::WallDuration(1.0), &ReplayNode::on_view_timer, this)),
+      parameters_(picture_, [this](double period) {
+        picture_is_old_ = true;
+        view_timer_.setPeriod(ros::WallDuration(period));
+      }) {
+  open(bag_, options_.bag);
+  names_ = topics_of(bag_, options_.bag);
+  std::vector<std::string> topics;
+  for (const auto& [topic, name] : names_) topics.push_back(topic);
+  view_ = std::make_unique<rosbag::View>(bag_, rosbag::TopicQuery(topics));
+  next_ = view_->begin();
+  start_ = now_ = view_->getBeginTime();
+  publishers_[names::kKnotShape] = node_.advertise<KnotShape>(names::kKnotShape, kQueue);
+  publishers_[names::kKnotState] = node_.advertise<KnotState>(names::kKnotState, kQueue);
+  publishers_[names::kCrosshead] = node_.advertise<Crosshead>(names::kCrosshead, kQueue);
+  publishers_[names::kJointStates] = node_.advertise<sensor_msgs::JointState>(names::kJointStates, kQueue);
+  publishers_[names::kLoadCell] = node_.advertise<geometry_msgs::WrenchStamped>(names::kLoadCell, kQueue);
+  begin_ = Clock::now();
+}
+
+int ReplayNode::spin() {
+  while (ros::ok()) {
+    ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(until_due()));
+    if (!begun_ && (somebody_looks() || seconds_since(begin_) > kPatience)) begin();
+    if (begun_) play_what_is_due();
+    if (seconds_since(clock_published_) > kIdleClockPeriod) publish_clock();
+    if (options_.exit_at_end && next_ == view_->end()) {
+      publish_clock();
+      on_view_timer({});
+      ROS_INFO("%s has been replayed", options_.bag.c_str());
+      ros::WallDuration(kGoodbye).sleep();
+      break;
+    }
+  }
+  return 0;
+}
+
+void ReplayNode::begin() {
+  begun_ = true;
+  begin_ = Clock::now();
+}
+
+double ReplayNode::until_due() const {
+  constexpr double kLook = 0.02;
+  if (!begun_ || next_ == view_->end()) return kLook;
+  if (options_.rate <= 0.0) return 0.0;
+  return std::clamp((next_->getTime() - start_).toSec() / options_.rate - seconds_since(begin_), 0.0, kLook);
+}
+
+void ReplayNode::play_what_is_due() {
+  for (std::size_t played = 0; played < kAtOnce && next_ != view_->end() && until_due() <= 0.0; ++played) {
+    play(*next_);
+    ++next_;
+    if (seconds_since(clock_published_) > kClockPeriod) publish_clock();
+  }
+}
+
+template <class Message>
+boost::shared_ptr<Message> ReplayNode::replay(const rosbag::MessageInstance& instance) {
+  const boost::shared_ptr<Message> message = message_of<Message>(instance, options_.bag);
+  publishers_.at(names_.at(instance.getTopic())).publish(*message);
+  return message;
+}
+
+void ReplayNode::play(const rosbag::MessageInstance& instance) {
+  now_ = std::max(now_, instance.getTime());
+  const std::string& name = names_.at(instance.getTopic());
+  if (name == names::kKnotShape) {
+    const bool first = shape_.points.empty();
+    shape_ = *replay<KnotShape>(instance);
+    if (first) picture_.begin(points_from_message(shape_));
+    picture_is_old_ = true;
+  } else if (name == names::kKnotState) {
+    const boost::shared_ptr<KnotState> state = replay<KnotState>(instance);
+    const std::string fault = fault_of(*state);
+    if (!fault.empty()) throw InvalidInput(options_.bag, name, fault, "those of a test");
+    sample_ = from_message(*state);
+    motion_pattern_ = state->motion_pattern;
+  } else if (name == names::kCrosshead) {
+    replay<Crosshead>(instance);
+  } else if (name == names::kJointStates) {
+    replay<sensor_msgs::JointState>(instance);
+  } else {
+    replay<geometry_msgs::WrenchStamped>(instance);
+  }
+}
+
+void ReplayNode::publish_clock() {
+  clock_published_ = Clock::now();
+  rosgraph_msgs::Clock clock;
+  clock.clock = std::max(now_, ros::TIME_MIN);
+  clock_.publish(clock);
+}
+
+void ReplayNode::on_view_timer(const ros::SteadyTimerEvent& /*event*/) {
+  const std::uint32_t viewers = markers_.getNumSubscribers();
+  const bool somebody_is_new = viewers > viewers_;
+  viewers_ = viewers;
+  const Vec3 upper_grip = bench_.upper_grip() + sample_.displacement * Vec3::UnitZ();
+  frames_.publish(now_, sample_.displacement, upper_grip);
+  if (viewers == 0 || shape_.points.empty() || !(picture_is_old_ || somebody_is_new)) return;
+  picture_is_old_ = false;
+  const Points points = points_from_message(shape_);
+  const std::vector<ContactForce> none_recorded;
+  const Eigen::VectorXd tension =
+      Eigen::Map<const Eigen::VectorXd>(shape_.tension.data(), static_cast<Eigen::Index>(shape_.tension.size()));
+  const SceneView view{points, tension, none_recorded, bench_.lower_grip(), upper_grip, sample_, motion_pattern_};
+  markers_.publish(picture_.draw(view, now_));
+}
+
+}  // namespace knot_utm

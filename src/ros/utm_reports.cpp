@@ -1,0 +1,105 @@
+// What the machine tells of itself: its status, the action's feedback and result, its health.
+#include <limits>
+
+#include "knot_utm/io/number.hpp"
+#include "knot_utm/ros/utm_node.hpp"
+
+namespace knot_utm {
+namespace {
+
+using std::chrono::steady_clock;
+
+constexpr double kKeepsPace = 0.9;  // of the pace asked for: below it the machine says so
+
+double seconds_since(steady_clock::time_point then) {
+  return std::chrono::duration<double>(steady_clock::now() - then).count();
+}
+
+}  // namespace
+
+void UtmNode::publish_status() {
+  status_published_ = steady_clock::now();
+  TestStatus status;
+  status.header.stamp = now_;
+  status.state = static_cast<std::uint8_t>(state_);
+  status.run = run_;
+  status.sequence = command_.sequence;
+  status.time = sample_.time;
+  status.phase = phase_name(program_ ? program_->phase() : Phase::kIdle);
+  status.time_left = std::numeric_limits<double>::quiet_NaN();
+  if (program_) {
+    const double wall = seconds_since(factor_measured_);
+    if (wall > 0.9 * kStatusPeriod) {
+      factor_ = (sample_.time - factor_time_) / wall;
+      factor_measured_ = steady_clock::now();
+      factor_time_ = sample_.time;
+    }
+    if (state_ == State::kEnded) {
+      status.ended_by = ended_by_name(program_->ended_by());
+      status.reason = program_->reason();
+    }
+    status.progress = program_->progress();
+    if (factor_ > 0.0) status.time_left = program_->time_left() / factor_;
+  }
+  status.real_time_factor = factor_;
+  status_.publish(status);
+  if (active()) report_to_goal(status);
+}
+
+void UtmNode::report_to_goal(const TestStatus& status) {
+  if (!run_test_.has_goal()) return;
+  RunTestFeedback feedback;
+  feedback.phase = status.phase;
+  feedback.time = sample_.time;
+  feedback.extension = sample_.extension;
+  feedback.force = sample_.force_upper;
+  feedback.load = sample_.load;
+  feedback.knot_distance = sample_.knot_distance;
+  feedback.motion_pattern = motion_pattern_;
+  feedback.progress = status.progress;
+  feedback.real_time_factor = status.real_time_factor;
+  feedback.time_left = status.time_left;
+  run_test_.report(feedback);
+}
+
+void UtmNode::finish_goal() {
+  if (!run_test_.has_goal()) return;
+  const EndedBy ended_by = program_->ended_by();
+  RunTestResult result;
+  result.run = run_;
+  result.ended_by = ended_by_name(ended_by);
+  result.reason = recorder_failed_ ? "the recorder failed" : program_->reason();
+  result.motion_pattern = motion_pattern_;
+  result.time = sample_.time;
+  result.extension = sample_.extension;
+  result.peak_force = peak_force_;
+  result.max_penetration = max_penetration_;
+  result.directory = directory_;
+  run_test_.finish(ended_by, ended_by == EndedBy::kSolver || recorder_failed_, result);
+}
+
+void UtmNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
+  using diagnostic_msgs::DiagnosticStatus;
+  const double asked = options_.real_time_factor;
+  const bool late = state_ == State::kRunning && asked > 0.0 && factor_ < kKeepsPace * asked;
+  if (recorder_failed_) {
+    status.summary(DiagnosticStatus::ERROR, "the recorder failed");
+  } else if (program_ && program_->ended_by() == EndedBy::kSolver) {
+    status.summary(DiagnosticStatus::ERROR, "the test ended by solver: " + program_->reason());
+  } else if (late) {
+    status.summary(DiagnosticStatus::WARN, "slower than asked for: a real-time factor of " + format_number(factor_));
+  } else if (state_ == State::kEnded) {
+    status.summary(DiagnosticStatus::OK, std::string("the test ended by ") + ended_by_name(program_->ended_by()));
+  } else {
+    const char* states[] = {"idle", "running", "paused"};
+    status.summary(DiagnosticStatus::OK, states[static_cast<int>(state_)]);
+  }
+  status.add("test", run_);
+  status.add("phase", phase_name(program_ ? program_->phase() : Phase::kIdle));
+  status.add("time [s]", sample_.time);
+  status.add("real-time factor", factor_);
+  status.add("real-time factor asked for", asked);
+  status.add("commands", command_.sequence);
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,212 @@
+#!/usr/bin/python3
+"""The action utm/run_test, what dynamic_reconfigure changes while a test runs, and /diagnostics."""
+import filecmp
+import math
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import xmlrpc.client
+
+sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
+
+import actionlib
+import rospkg
+import rospy
+import rostest
+from actionlib_msgs.msg import GoalStatus
+from catkin.find_in_workspaces import find_in_workspaces
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
+from dynamic_reconfigure.client import Client
+from knot_utm.msg import KnotState, RunTestAction, RunTestGoal, TestStatus
+from node_test import Latest, call
+from rosgraph_msgs.msg import Clock
+from std_srvs.srv import Trigger
+from visualization_msgs.msg import Marker, MarkerArray
+
+OUT = '/tmp/knot_utm_run_test'
+
+
+class Goal:
+    """One goal of the action, and what is heard of it."""
+
+    def __init__(self):
+        self.client = actionlib.SimpleActionClient('utm/run_test', RunTestAction)
+        self.client.wait_for_server()
+        self.feedback = []
+        self._heard = threading.Event()
+        self.client.send_goal(RunTestGoal(), feedback_cb=self._take)
+
+    def _take(self, feedback):
+        self.feedback.append(feedback)
+        self._heard.set()
+
+    def wait_for_feedback(self):
+        self._heard.clear()
+        if not self._heard.wait(20.0):
+            raise AssertionError('no feedback: ' + self.client.get_goal_status_text())
+        return self.feedback[-1]
+
+    def wait(self):
+        """State, result and text at the end."""
+        end = time.monotonic() + 40.0
+        while not self.client.wait_for_result(rospy.Duration(0.01)):
+            if time.monotonic() > end:
+                raise AssertionError('the goal goes on')
+            time.sleep(0.01)
+        return self.client.get_state(), self.client.get_result(), self.client.get_goal_status_text()
+
+
+def start():
+    """A goal that runs: the physics may not be there yet."""
+    end = time.monotonic() + 20.0
+    while True:
+        goal = Goal()
+        while goal.client.get_state() == GoalStatus.PENDING and time.monotonic() < end:
+            time.sleep(0.01)
+        if goal.client.get_state() == GoalStatus.ACTIVE:
+            return goal
+        if time.monotonic() > end:
+            raise AssertionError(goal.client.get_goal_status_text())
+        time.sleep(0.2)
+
+
+def process(node):
+    """Its number."""
+    uri = xmlrpc.client.ServerProxy(os.environ['ROS_MASTER_URI']).lookupNode('/test', '/' + node)[2]
+    return xmlrpc.client.ServerProxy(uri).getPid('/test')[2]
+
+
+def difference(folder):
+    """Files of a test that are not those of the headless tool, byte for byte."""
+    headless = tempfile.mkdtemp()
+    try:
+        tool = find_in_workspaces(['libexec'], 'knot_utm', 'tensile_test', first_match_only=True)[0]
+        method = os.path.join(rospkg.RosPack().get_path('knot_utm'), 'test', 'ros', 'pull_for_seconds.yaml')
+        subprocess.run([tool, method, '--out', headless, '--quiet'], check=True)
+        names = ['curve.csv', 'curve_full.csv', 'final_shape.csv', 'method.yaml', 'test.bag']
+        _, different, missing = filecmp.cmpfiles(folder, headless, names, shallow=False)
+        return different + missing
+    finally:
+        shutil.rmtree(headless)
+
+
+class RunTestTest(unittest.TestCase):
+    """One story, told in order."""
+
+    @classmethod
+    def setUpClass(cls):
+        shutil.rmtree(OUT, ignore_errors=True)
+        rospy.init_node('run_test_test')
+        cls.goals = []
+        cls.clock = Latest('/clock', Clock)
+        cls.state = Latest('knot/state', KnotState)
+        cls.status = Latest('utm/status', TestStatus)
+        cls.markers = Latest('knot/markers', MarkerArray)
+        cls.diagnostics = Latest('/diagnostics', DiagnosticArray)
+
+    def diagnosis(self, name, what, condition):
+        """The status of this name, once condition(status) holds."""
+        def latest(message):
+            return next((s for s in message.status if s.name == name), None)
+
+        def holds(message):
+            status = latest(message)
+            return status is not None and condition(status)
+        return latest(self.diagnostics.wait(name + ': ' + what, holds))
+
+    def test_1_a_test_whose_pace_and_picture_are_changed_is_the_same_test(self):
+        goal = start()
+        told = goal.wait_for_feedback()
+        self.assertIn(told.phase, ('balance', 'pull'))
+        while goal.wait_for_feedback().phase != 'pull' or goal.feedback[-1].extension <= 0.0:
+            pass
+        told = goal.feedback[-1]
+        self.assertGreater(told.force, 1.0)
+        self.assertEqual(told.load, told.force)
+        self.assertTrue(math.isnan(told.knot_distance))
+        self.assertGreater(told.progress, 0.0)
+
+        other = Goal()
+        state, _, text = other.wait()
+        self.assertEqual((state, text), (GoalStatus.REJECTED, 'a test is running'))
+
+        healthy = self.diagnosis('utm_node: machine', 'runs', lambda s: s.message == 'running')
+        self.assertEqual(healthy.level, DiagnosticStatus.OK)
+        physics = self.diagnosis('knot_node: physics', 'pulls', lambda s: s.message == 'pull')
+        values = {v.key: float(v.value) for v in physics.values}
+        self.assertGreater(values['time steps'], 0.0)
+        self.assertLessEqual(values['Newton iterations per time step of late'], values['Newton iterations'])
+        self.diagnosis('recorder_node: files', 'records', lambda s: s.message == 'records')
+
+        self.markers.wait('a picture', lambda m: any(k.text.endswith(' N') for k in m.markers))
+        view = Client('knot_node', timeout=10.0)
+        changed = view.update_configuration({'color_by': 'curvature', 'marker_rate': 50.0})
+        self.assertEqual(changed['color_by'], 'curvature')
+        self.markers.wait('curvature', lambda m: any('radii' in k.text for k in m.markers))
+        self.assertEqual(view.update_configuration({'color_by': 'beauty'})['color_by'], 'curvature')
+
+        machine = Client('utm_node', timeout=10.0)
+        # The least that is allowed: as fast as it goes.
+        self.assertEqual(machine.update_configuration({'real_time_factor': -1.0})['real_time_factor'], 0.0)
+        state, result, text = goal.wait()
+        self.assertEqual(state, GoalStatus.SUCCEEDED, text)
+        self.assertEqual((result.run, result.ended_by, result.directory), (1, 'program', OUT))
+        self.assertAlmostEqual(result.time, 8.0, delta=0.1)
+        self.assertGreater(result.peak_force, told.force)
+        self.assertEqual(difference(OUT), [])
+
+    def test_2_slower_than_asked_for_is_said(self):
+        Client('utm_node', timeout=10.0).update_configuration({'real_time_factor': 1.0})
+        goal = start()
+        goal.wait_for_feedback()
+        physics = process('knot_node')
+        os.kill(physics, signal.SIGSTOP)
+        try:
+            late = self.diagnosis('utm_node: machine', 'late', lambda s: s.level == DiagnosticStatus.WARN)
+        finally:
+            os.kill(physics, signal.SIGCONT)
+        self.assertIn('slower than asked for', late.message)
+        self.diagnosis('utm_node: machine', 'in time again', lambda s: s.level == DiagnosticStatus.OK)
+        self.goals.append(goal)
+
+    def test_3_cancelled(self):
+        goal = self.goals.pop()
+        goal.wait_for_feedback()
+        goal.client.cancel_goal()
+        state, result, _ = goal.wait()
+        self.assertEqual(state, GoalStatus.PREEMPTED)
+        self.assertEqual(result.ended_by, 'operator')
+        with open(os.path.join(result.directory, 'result.yaml'), encoding='utf-8') as file:
+            self.assertIn('ended_by: operator', file.read())
+
+    def test_4_stopped_by_another_operator(self):
+        goal = start()
+        goal.wait_for_feedback()
+        self.assertTrue(call('utm/stop_test', Trigger).success)
+        self.assertEqual(goal.wait()[0], GoalStatus.PREEMPTED)
+
+    def test_5_the_physics_gives_up(self):
+        goal = start()
+        goal.wait_for_feedback()
+        self.assertTrue(call('knot/reset', Trigger).success)
+        state, result, text = goal.wait()
+        self.assertEqual(state, GoalStatus.ABORTED)
+        self.assertEqual(result.ended_by, 'solver')
+        self.assertIn('reset', text)
+        sick = self.diagnosis('utm_node: machine', 'gave up', lambda s: s.level == DiagnosticStatus.ERROR)
+        self.assertIn('reset', sick.message)
+
+    def test_6_clock_never_went_back(self):
+        stamps = [m.clock for m in self.clock.messages]
+        self.assertGreater(stamps[-1], stamps[0])
+        self.assertEqual(stamps, sorted(stamps))
+
+
+if __name__ == '__main__':
+    rostest.rosrun('knot_utm', 'run_test', RunTestTest)
