@@ -97,10 +97,11 @@ class InABrowser(unittest.TestCase):
         chromium(f"--window-size={WIDTH},{seen['height']}", f"--screenshot={shot}", f"file://{run}/report.html")
         pixels = matplotlib.image.imread(shot)[:, :, :3]
         self.assertEqual(pixels.shape[:2], (seen["height"], WIDTH))
-        # The load in blue, the locked rod in dark red: their colours as the figures have them, light aside.
+        # The load in blue, the tension of the locked rod in dark red.
         red, green, blue = (pixels[:, :, i] for i in range(3))
         self.assertGreater(int(((blue > 0.5) & (red < 0.25) & (green < 0.5)).sum()), 500)
-        self.assertGreater(int(((red > 1.6 * green) & (red > 1.2 * blue) & (red > 0.25)).sum()), 2000)
+        if os.path.exists(os.path.join(run, "test.bag")):  # built with ROS: tensions are known
+            self.assertGreater(int(((red > 1.6 * green) & (red > 1.2 * blue) & (red > 0.25)).sum()), 2000)
 
 
 class OnPaper(unittest.TestCase):
