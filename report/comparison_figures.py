@@ -75,6 +75,6 @@ def draw_difference(axes, comparison):
     if at is not None and largest is not None:
         axes.plot(1e3 * at, largest, "o", ms=4, color=GREEN)
         side = "right" if at > np.mean(comparison.facts["common_extension"]) else "left"
-        axes.annotate(f"largest: {number(largest)} N at {number(1e3 * at)} mm", (1e3 * at, largest), ha=side, va="center",
-                      xytext=(-8 if side == "right" else 8, 0), textcoords="offset points", fontsize=8.5, color=GREEN)
+        axes.annotate(f"largest: {number(largest)} N at {number(1e3 * at)} mm", (1e3 * at, largest), ha=side,
+                      va="center", xytext=(-8 if side == "right" else 8, 0), textcoords="offset points", fontsize=8.5, color=GREEN)
     axes.set_ylabel("B – A [N]")

@@ -86,7 +86,8 @@ def force_extension(run, marks):
     all_axes[-1].set_xlim(min(0.0, s.min()), s.max() + 0.015 * (np.ptp(s) or 1.0))
     all_axes[-1].set_xlabel("extension s [mm]")
     figure.align_ylabels(all_axes)
-    figure.subplots_adjust(left=0.085, right=0.985, bottom=0.55 / (sum(heights) + 0.9), top=1.0 - 0.25 / (sum(heights) + 0.9))
+    tall = sum(heights) + 0.9
+    figure.subplots_adjust(left=0.085, right=0.985, bottom=0.55 / tall, top=1.0 - 0.25 / tall)
     return as_svg(figure)
 
 
@@ -107,7 +108,7 @@ def draw_load(axes, run, marks):
     if band:
         axes.fill_between(1e3 * pull["extension"], *band, color=BLUE, alpha=0.22, lw=0, label="error of the pull")
     for number, (name, a, b) in enumerate(phases_of(tested) if len(tested) else []):
-        colour = {"pull": BLUE, "hold": VIOLET}.get(name, GREEN)
+        colour = {"hold": VIOLET, "return": GREEN}.get(name, BLUE)
         first = name not in [other for other, _, _ in phases_of(tested)[:number]]
         axes.plot(1e3 * tested["extension"][a:b + 1], tested["load"][a:b + 1], color=colour, lw=1.4,
                   label=name if first else None)
@@ -115,6 +116,9 @@ def draw_load(axes, run, marks):
     if len(cell) <= FEW:
         axes.plot(1e3 * cell["extension"], cell["load"], "o", ms=2.6, mfc="white", mec=BLUE, mew=0.7,
                   label="as the cell reads it")
+    if tested.has_compliant_frame():
+        axes.plot(1e3 * tested["crosshead_extension"], tested["load"], color=GREY, lw=0.9, ls=(0, (5, 2)),
+                  label="over the crosshead's extension")
     axes.set_ylabel("load F [N]")
     axes.yaxis.set_major_locator(MaxNLocator(6))
     if tested["load"].min() >= 0.0:

@@ -9,17 +9,23 @@ KEYS = {
     "length": ("Length of rod", "mm", 1e3), "tail": ("Tails", "mm", 1e3), "preload": ("Pre-load F_p", "N", 1.0),
     "edge_length": ("Edges of the mesh", "mm", 1e3), "refinement": ("Finer in knots by", "", 1.0),
     "file": ("Shape from", "", 1.0), "radius": ("Radius", "mm", 1e3), "density": ("Density", "kg/m³", 1.0),
-    "stretching_stiffness": ("Stretching stiffness", "N", 1.0), "bending_stiffness": ("Bending stiffness", "N m²", 1.0),
-    "twisting_stiffness": ("Twisting stiffness", "N m²", 1.0), "friction_coefficient": ("Friction coefficient", "", 1.0),
+    "stretching_stiffness": ("Stretching stiffness", "N", 1.0),
+    "bending_stiffness": ("Bending stiffness", "N m²", 1.0),
+    "twisting_stiffness": ("Twisting stiffness", "N m²", 1.0),
+    "friction_coefficient": ("Friction coefficient", "", 1.0),
     "contact_stiffness": ("Contact stiffness", "N/m²", 1.0), "breaking_force": ("Breaking force", "N", 1.0),
     "grips": ("Grips", "", 1.0), "roller_diameter": ("Roller diameter", "mm", 1e3),
     "roller_friction": ("Roller friction", "", 1.0), "stiffness": ("Frame stiffness", "N/m", 1.0),
     "travel": ("Travel", "mm", 1e3), "capacity": ("Cell's capacity", "N", 1.0),
     "sampling_rate": ("Cell's readings", "Hz", 1.0), "resolution": ("Cell's resolution", "N", 1.0),
     "noise": ("Cell's noise, sd", "N", 1.0), "floor": ("Cell's floor, of capacity", "", 1.0),
-    "accuracy": ("Accuracy", "", 1.0), "speed": ("speed", "mm/s", 1e3), "rate": ("rate", "N/s", 1.0),
+    "accuracy": ("Accuracy", "", 1.0), "speed": ("speed", "mm/s", 1e3),
     "duration": ("duration", "s", 1.0), "extension": ("extension", "mm", 1e3), "load": ("load", "N", 1.0),
-    "time": ("time", "s", 1.0), "drag": ("Drag", "N s/m²", 1.0), "max_step": ("Longest step", "s", 1.0),
+    "load_rate": ("load rate", "N/s", 1.0), "time": ("time", "s", 1.0),
+    "drift": ("Cell's drift", "N/s", 1.0), "overload": ("Cell's stop, of capacity", "", 1.0),
+    "breaking_strain": ("Breaking strain", "", 1.0), "arming_load": ("Armed from", "N", 1.0),
+    "sharp_drop_time": ("Sharp drop within", "s", 1.0), "drop_extension": ("Drop within", "mm", 1e3),
+    "drag": ("Drag", "N s/m²", 1.0), "max_step": ("Longest step", "s", 1.0),
     "residual": ("Residual", "k_b/h²", 1.0), "twist": ("Twist", "", 1.0)}
 OF_KNOT = {"fisherman": ("handedness", "knot_distance", "end_to_end", "tail", "preload", "edge_length", "refinement"),
            "overhand": ("turns", "length", "end_to_end", "edge_length", "refinement"),
@@ -50,7 +56,11 @@ def text_of(key, value):
 def facts(section, keys=None):
     """[(label, text)] of the keys that are there."""
     names = [key for key in (keys or section) if key in section and key not in NOT_FACTS]
-    return [(KEYS.get(key, (key.replace("_", " ").capitalize(),))[0], text_of(key, section[key])) for key in names]
+    return [(sentence(KEYS.get(key, (key.replace("_", " "),))[0]), text_of(key, section[key])) for key in names]
+
+
+def sentence(label):
+    return label[:1].upper() + label[1:]
 
 
 def knot_of(method):
@@ -68,6 +78,7 @@ def method_facts(method):
         ("Machine", [*facts({key: value for key, value in machine.items() if key != "load_cell"}),
                      ("Load cell", str(cell.get("name", "–"))), *facts(cell)], cell.get("notes") or ""),
         ("Physics", facts(method.get("physics", {})), ""),
+        *([("Ends of the test", facts(method["ends"]), "")] if method.get("ends") else []),
     ]
 
 

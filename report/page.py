@@ -53,6 +53,7 @@ def report_on_run(folder, command, version):
         "result": run.result, "headlines": headlines(run.result), "facts": method_facts(run.method),
         "program": program(run.method), "results": results_table(run.result), "checks": checks, "verdict": words,
         "good": good, "band": error_band(run, run.curve.pull()) is not None, "floor": run.load_cell_floor(),
+        "compliant": run.curve.has_compliant_frame(),
         "files": files_of(folder), "command": command, "version": version, "folder": folder})
 
 
@@ -75,10 +76,10 @@ def headlines(result):
 def report_on_comparison(folder, command, version):
     comparison = Comparison(folder)
     rows = [comparison_row(comparison, key) for key in READINGS if isinstance(comparison.facts.get(key), dict)]
-    sides = [(name, comparison.facts[key], run_beside(comparison.facts[key])) for name, key in (("A", "a"), ("B", "b"))]
+    files = {name.upper(): comparison.facts[name] for name in ("a", "b")}
     return render("comparison.html.j2", {
         "title": "Comparison of two curves", "facts": comparison.facts, "curves": overlay(comparison), "rows": rows,
-        "sides": [(name, file, *side_facts(beside)) for name, file, beside in sides],
+        "sides": [(name, file, *side_facts(run_beside(file))) for name, file in files.items()],
         "common": [shown(s, 1e3) for s in comparison.facts["common_extension"]],
         "rms": shown(comparison.number("rms_difference")), "largest": shown(comparison.number("largest_difference")),
         "share": percent(comparison.number("rms_difference_over_load")),
@@ -89,7 +90,8 @@ def report_on_comparison(folder, command, version):
 def comparison_row(comparison, key):
     both, quantity = comparison.facts[key], quantity_of(key)
     return (key, re.split("[,;]", quantity.label)[0], quantity.unit,
-            *(shown(both.get(part), quantity.scale) for part in ("a", "b", "difference")), percent(both.get("relative")))
+            *(shown(both.get(part), quantity.scale) for part in ("a", "b", "difference")),
+            percent(both.get("relative")))
 
 
 def percent(share):

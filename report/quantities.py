@@ -50,7 +50,7 @@ GROUPS = [
         "break_extension": length("Extension at break"),
         "break_edge": Quantity("Edge that broke, counted along the rod"),
         "break_arclength": length("Place of the break, along the rod"),
-        "break_place": Quantity("Place of the break"),
+        "break_place": Quantity("What that place touched"),
         "energy_to_peak": energy("Energy to the peak"),
         "energy_to_break": energy("Energy to break"),
         "chord_stiffness": stiffness("Chord stiffness"),

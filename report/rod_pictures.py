@@ -6,6 +6,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap, LogNorm, to_rgb
 from matplotlib.ticker import FuncFormatter, LogLocator
 
+from shapes import pieces
 from style import GREY, INK, WIDTH, as_png
 from tube import Tube, smooth, to_picture
 
@@ -30,7 +31,7 @@ def pictures(run, marks, shapes):
                                bottom=0.0, top=1.0, hspace=0.0)
     for row, (mark, shape, box) in enumerate(zip(marks, shapes, views)):
         axes = figure.add_subplot(grid[row])
-        draw_rod(axes, shape, radius, norm)
+        draw_rod(axes, shape, shapes[0], radius, norm)
         draw_rollers(axes, run, shape)
         frame(axes, box, width, heights[row])
         label(axes, mark, shape, run)
@@ -48,20 +49,26 @@ def scale_of(tensions):
     return LogNorm(min(max(0.3 * usual, 1e-4 * largest), 0.1 * largest), largest, clip=True)
 
 
-def draw_rod(axes, shape, radius, norm):
-    line = smooth(to_picture(shape.points))
-    tube = Tube(line, radius)
-    if shape.tension is None or norm is None:
-        base = np.tile(UNKNOWN, (len(tube.along), 1))
-    else:
-        edges = (np.arange(len(shape.tension)) + 0.5) / len(shape.tension)
-        base = TENSION(norm(np.maximum(np.interp(tube.along, edges, shape.tension), norm.vmin)))[:, :3]
+def draw_rod(axes, shape, whole, radius, norm):
+    tubes = [(part, Tube(smooth(to_picture(shape.points[part])), radius)) for part in pieces(shape, whole)]
+    colours = np.concatenate([tube.shaded(base_of(shape, part, tube.along, norm)) for part, tube in tubes])
+    depth = np.concatenate([tube.depth for _, tube in tubes])
     # What is farther from the eye is paler.
-    away = (tube.depth.max() - tube.depth) / max(np.ptp(tube.depth), 4.0 * radius)
-    colours = tube.shaded(base)
+    away = (depth.max() - depth) / max(np.ptp(depth), 4.0 * radius)
     colours = colours + 0.35 * away[:, None] * (0.93 - colours)
-    axes.add_collection(PolyCollection(1e3 * tube.outlines, facecolors=colours, edgecolors=colours, linewidths=0.25,
-                                       zorder=2))
+    order = np.argsort(depth, kind="stable")
+    outlines = np.concatenate([tube.outlines for _, tube in tubes])[order]
+    axes.add_collection(PolyCollection(1e3 * outlines, facecolors=colours[order], edgecolors=colours[order],
+                                       linewidths=0.25, zorder=2))
+
+
+def base_of(shape, part, along, norm):
+    """Colours by tension at places along a part of the rod, 0 to 1."""
+    if shape.tension is None or norm is None:
+        return np.tile(UNKNOWN, (len(along), 1))
+    nodes = part.start + along * (part.stop - 1 - part.start)
+    tension = np.interp(nodes, np.arange(len(shape.tension)) + 0.5, shape.tension)
+    return TENSION(norm(np.maximum(tension, norm.vmin)))[:, :3]
 
 
 def draw_rollers(axes, run, shape):

@@ -7,6 +7,8 @@ import yaml
 
 from failure import CannotReport
 
+# Phases in which the specimen is pulled further than before.
+PULLING = ("pull", "cycle", "follow")
 # What comes before the test proper: the specimen is made, mounted and zeroed.
 PREPARATION = ("idle", "tie", "release", "mount", "preload", "balance", "done")
 
@@ -31,12 +33,15 @@ class Curve:
         return self.where(~np.isin(self.phase, PREPARATION))
 
     def pull(self):
-        """The rows of phase `pull` that reach a new largest extension: what the readings are of."""
-        pulled = self.where(self.phase == "pull")
+        """The rows that pull and reach a new largest extension: what the readings are of."""
+        pulled = self.where(np.isin(self.phase, PULLING))
         if not len(pulled):
             return pulled
         before = np.concatenate([[-np.inf], np.maximum.accumulate(pulled["extension"])[:-1]])
         return pulled.where(pulled["extension"] > before)
+
+    def has_compliant_frame(self):
+        return "crosshead_extension" in self.columns
 
     def has_knot_distance(self):
         return bool(np.isfinite(self["knot_distance"]).any())
@@ -111,4 +116,9 @@ def read_curve(file):
         if name not in columns:
             raise CannotReport(f"{file}: no column {name}")
     phase = np.array(columns.pop("phase"), dtype=str)
-    return Curve({name: numbers(file, name, column) for name, column in columns.items()}, phase)
+    curve = Curve({name: numbers(file, name, column) for name, column in columns.items()}, phase)
+    if "corrected_extension" in columns:  # the frame is compliant: results are of the specimen's own extension
+        own = curve["corrected_extension"]
+        curve.columns["crosshead_extension"] = curve["extension"]
+        curve.columns["extension"] = np.where(np.isfinite(own), own, curve["extension"])
+    return curve

@@ -11,7 +11,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 INK, GREY, FAINT = "#22303c", "#6b7a88", "#d9e0e6"
 BLUE, ORANGE, GREEN, VIOLET = "#1f5f99", "#c8641b", "#2f7d5b", "#6d4a9c"
 PHASES = {"tie": "#f3e6c8", "release": "#e9efd2", "mount": "#d8eee3", "preload": "#d6e9ee", "balance": "#c9ced3",
-          "pull": "#dfe6f3", "hold": "#ece0f1", "cycle": "#f4dfe3", "return": "#e6e6e6"}
+          "pull": "#dfe6f3", "hold": "#ece0f1", "cycle": "#f4dfe3", "return": "#e6e6e6",
+          "follow": "#dcecf2"}
 WIDTH = 9.6  # [in]
 
 # A typeface that is not there is replaced by the next one: no news.

@@ -83,8 +83,9 @@ class InABrowser(unittest.TestCase):
         self.is_whole(comparison, 1, yaml.safe_load(read(comparison, "comparison.yaml")))
 
     def test_what_is_not_whole_would_be_seen(self):
-        seen, console = in_browser('<html><body><img src="data:image/png;base64,AAAA"><img src="http://127.0.0.1:9/x.png">'
-                                   '<div style="width: 3000px">.</div><script>console.error("seen");</script>'
+        seen, console = in_browser('<html><body><img src="data:image/png;base64,AAAA">'
+                                   '<img src="http://127.0.0.1:9/x.png"><div style="width: 3000px">.</div>'
+                                   '<script>console.error("seen");</script>'
                                    '</body></html>')
         self.assertEqual([natural for _, natural, _ in seen["images"]], [0, 0])
         self.assertIn("http://127.0.0.1:9/x.png", seen["requests"])
@@ -120,8 +121,8 @@ class OnPaper(unittest.TestCase):
 
     def test_a_run(self):
         text = self.pages(run)
-        for words in ("Fisherman's knot, polypropylene", "Force and extension", "The rod at the marked points", "Results",
-                      "Quality certificate", "What was tested, and how", "Where it comes from", "--report"):
+        for words in ("Fisherman's knot, polypropylene", "Force and extension", "The rod at the marked points",
+                      "Results", "Quality certificate", "What was tested, and how", "Where it comes from", "--report"):
             self.assertIn(words, text)
         lock = yaml.safe_load(read(run, "result.yaml"))["lock_extension"]
         self.assertRegex(text, rf"lock_extension\s+{1e3 * lock:.1f}")

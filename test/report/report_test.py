@@ -15,6 +15,7 @@ import error_band
 import marks
 import page
 import quantities
+import shapes
 from run import Curve, Run
 
 
@@ -185,6 +186,31 @@ class Band(unittest.TestCase):
                                                 pull))
 
 
+class ABrokenRod(unittest.TestCase):
+    def test_is_drawn_in_its_pieces(self):
+        nodes = np.column_stack([np.zeros(10), np.zeros(10), np.linspace(0.0, 0.9, 10)])
+        whole = shapes.Shape(0.0, nodes, np.ones(9))
+        recoil = np.where(np.arange(10) >= 4, 0.5, 0.0)[:, None] * [0.0, 0.0, 1.0]
+        parted = shapes.Shape(1.0, nodes + recoil, np.zeros(9))
+        stretched = shapes.Shape(1.0, 3.0 * nodes, np.ones(9))
+        self.assertEqual(shapes.pieces(parted, whole), [slice(0, 4), slice(4, 10)])
+        self.assertEqual(shapes.pieces(stretched, whole), [slice(0, 10)])
+
+
+class ACompliantFrame(unittest.TestCase):
+    def test_readings_are_held_against_the_specimens_own_extension(self):
+        folder = folders.copy(straight)
+        for name in ("curve.csv", "curve_full.csv"):
+            rows = [row.split(",") for row in read(folder, name).splitlines()]
+            rows = [rows[0] + ["corrected_extension"], rows[1] + ["m"],
+                    *(row[:1] + [str(2.0 * float(row[1]))] + row[2:] + [row[1]] for row in rows[2:])]
+            write("\n".join(map(",".join, rows)) + "\n", folder, name)
+        own, rigid = Run(folder).curve, Run(straight).curve
+        np.testing.assert_array_equal(own["extension"], rigid["extension"])
+        np.testing.assert_array_equal(own["crosshead_extension"], 2.0 * rigid["extension"])
+        self.assertIn("without what the frame gives", html_of(folder))
+
+
 class Marks(unittest.TestCase):
     def test_are_start_lock_peak_and_end(self):
         s = np.linspace(0.0, 0.1, 101)
@@ -196,7 +222,8 @@ class Marks(unittest.TestCase):
 
     def test_that_fall_together_are_one(self):
         s = np.linspace(0.0, 0.1, 101)
-        self.assertEqual([mark.title() for mark in marks.marks_of(OfValues(a_pull(s, s)))], ["start of pull", "peak, end"])
+        self.assertEqual([mark.title() for mark in marks.marks_of(OfValues(a_pull(s, s)))],
+                         ["start of pull", "peak, end"])
 
 
 class Numbers(unittest.TestCase):
@@ -236,7 +263,8 @@ class Failures(unittest.TestCase):
                                 ("jinja2", "python3-jinja2")):
             blocked = (f"import sys; sys.modules['{module}'] = None; sys.argv[1:] = [{straight!r}]\n"
                        f"sys.path.insert(0, {os.path.join(ROOT, 'report')!r})\nimport make_report; make_report.main()")
-            done = subprocess.run(["/usr/bin/python3", "-B", "-c", blocked], capture_output=True, text=True, check=False)
+            done = subprocess.run(["/usr/bin/python3", "-B", "-c", blocked], capture_output=True, text=True,
+                                  check=False)
             self.assertIn(f"install Debian's package {package}\n", self.one_line(done, 1))
 
     def test_a_report_that_cannot_be_written_leaves_the_results(self):
