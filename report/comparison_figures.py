@@ -2,6 +2,7 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
+from few_points import few_points
 from quantities import number
 from style import BLUE, GREEN, GREY, INK, ORANGE, WIDTH, as_svg
 
@@ -53,7 +54,8 @@ def readings(comparison, key):
 
 def draw_both(axes, comparison):
     for pull, colour, name in ((comparison.a, ORANGE, "A"), (comparison.b, BLUE, "B")):
-        axes.plot(1e3 * pull.extension, pull.load, color=colour, lw=1.4,
+        rows = few_points(pull.load)
+        axes.plot(1e3 * pull.extension[rows], pull.load[rows], color=colour, lw=1.4,
                   label=f"{name}: {short(comparison.facts[name.lower()])}")
     for colour, lock in zip((ORANGE, BLUE), readings(comparison, "lock_extension")):
         if lock is not None:
@@ -63,11 +65,14 @@ def draw_both(axes, comparison):
 def short(file):
     """The last two parts of a path, the last ones of a long name."""
     text = "/".join(file.split("/")[-2:])
-    return text if len(text) <= 60 else "…" + text[-59:]
+    text = text if len(text) <= 60 else "…" + text[-59:]
+    return text.replace("$", r"\$")  # which begins a formula
 
 
 def draw_difference(axes, comparison):
     s, difference = comparison.difference()
+    rows = few_points(difference)
+    s, difference = s[rows], difference[rows]
     axes.axhline(0.0, color=INK, lw=0.8)
     axes.fill_between(1e3 * s, difference, color=GREEN, alpha=0.25, lw=0)
     axes.plot(1e3 * s, difference, color=GREEN, lw=1.2)

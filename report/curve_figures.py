@@ -4,6 +4,7 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from error_band import error_band
+from few_points import few_points
 from style import BLUE, GREEN, GREY, INK, ORANGE, PHASES, VIOLET, WIDTH, as_svg
 
 SMALL = 8.0       # a peak above this many plateaus hides the plateau: it gets axes of its own
@@ -45,14 +46,15 @@ def course(run):
         axes.text(0.5 * (begin + end), 1.04, names, ha="center", fontsize=8.5, color=GREY,
                   transform=axes.get_xaxis_transform())
     tested = ~np.isin(curve.phase, ("tie", "release"))
-    axes.plot(time, np.where(tested, curve["load"], np.nan), color=BLUE, lw=1.3)
+    rows = few_points(curve["load"], curve["extension"])
+    axes.plot(time[rows], np.where(tested, curve["load"], np.nan)[rows], color=BLUE, lw=1.3)
     axes.set_xlabel("time [s]")
     axes.set_ylabel("load F [N]", color=BLUE)
     axes.grid(False)
     if time[-1] > time[0]:
         axes.set_xlim(time[0], time[-1])
     second = axes.twinx()
-    second.plot(time, 1e3 * np.where(tested, curve["extension"], np.nan), color=ORANGE, lw=1.1)
+    second.plot(time[rows], 1e3 * np.where(tested, curve["extension"], np.nan)[rows], color=ORANGE, lw=1.1)
     second.set_ylabel("extension s [mm]", color=ORANGE)
     second.spines["right"].set_visible(True)
     second.grid(False)
@@ -97,27 +99,31 @@ def near_the_plateau(run):
     if plateau is None or peak is None or peak < SMALL * plateau:
         return None
     top = max(2.5 * plateau, 1.3 * (run.value("breakaway_force") or 0.0)) - run.offset()
-    tested = run.curve.tested()
-    return min(0.0, float(tested["load"].min())) - 0.05 * top, top
+    lowest = min(0.0, float(run.curve.tested()["load"].min()))
+    return max(lowest, -0.5 * top) - 0.05 * top, top
 
 
 def draw_load(axes, run, marks):
-    tested, pull = run.curve.tested(), run.curve.pull()
+    tested, pull = run.curve.tested(), run.pull()
     draw_floor(axes, run, tested)
     band = error_band(run, pull)
     if band:
-        axes.fill_between(1e3 * pull["extension"], *band, color=BLUE, alpha=0.22, lw=0, label="error of the pull")
+        rows = few_points(*band)
+        axes.fill_between(1e3 * pull["extension"][rows], band[0][rows], band[1][rows], color=BLUE, alpha=0.22, lw=0,
+                          label="error of the pull")
     for number, (name, a, b) in enumerate(phases_of(tested) if len(tested) else []):
         colour = {"hold": VIOLET, "return": GREEN}.get(name, BLUE)
         first = name not in [other for other, _, _ in phases_of(tested)[:number]]
-        axes.plot(1e3 * tested["extension"][a:b + 1], tested["load"][a:b + 1], color=colour, lw=1.4,
+        rows = a + few_points(tested["extension"][a:b + 1], tested["load"][a:b + 1])
+        axes.plot(1e3 * tested["extension"][rows], tested["load"][rows], color=colour, lw=1.4,
                   label=name if first else None)
     cell = run.readings.tested()
     if len(cell) <= FEW:
         axes.plot(1e3 * cell["extension"], cell["load"], "o", ms=2.6, mfc="white", mec=BLUE, mew=0.7,
                   label="as the cell reads it")
     if tested.has_compliant_frame():
-        axes.plot(1e3 * tested["crosshead_extension"], tested["load"], color=GREY, lw=0.9, ls=(0, (5, 2)),
+        rows = few_points(tested["crosshead_extension"], tested["load"])
+        axes.plot(1e3 * tested["crosshead_extension"][rows], tested["load"][rows], color=GREY, lw=0.9, ls=(0, (5, 2)),
                   label="over the crosshead's extension")
     axes.set_ylabel("load F [N]")
     axes.yaxis.set_major_locator(MaxNLocator(6))
@@ -140,7 +146,7 @@ def draw_plateau(axes, run):
     plateau, lock = run.value("plateau_force"), run.value("lock_extension")
     if plateau is None:
         return
-    pull = run.curve.pull()
+    pull = run.pull()
     end = lock if lock is not None else pull["extension"][-1]
     level = plateau - run.offset()
     axes.plot([0.3e3 * end, 0.8e3 * end], [level, level], color=ORANGE, lw=1.6, zorder=4)
@@ -148,14 +154,15 @@ def draw_plateau(axes, run):
     words = f"plateau {plateau:.4g} N" + (f", sd {sd:.2g} N" if sd is not None else "")
     if run.offset():
         words += f" (true force: load + {run.offset():.3g} N)"
-    axes.annotate(words, (0.55e3 * end, level), xytext=(0, 9), textcoords="offset points", ha="center", fontsize=8.5,
-                  color=ORANGE)
+    axes.text(0.55e3 * end, 0.85, words, ha="center", fontsize=8.5, color=ORANGE,
+              transform=axes.get_xaxis_transform())
 
 
 def draw_knot_distance(axes, run, marks):
     tested = run.curve.tested()
     s, e = 1e3 * tested["extension"], 1e3 * tested["knot_distance"]
-    axes.plot(s, e, color=VIOLET, lw=1.4, label="e")
+    rows = few_points(s, e)
+    axes.plot(s[rows], e[rows], color=VIOLET, lw=1.4, label="e")
     known = np.flatnonzero(np.isfinite(e))
     lock = run.value("lock_extension")
     if lock is not None or run.result.get("motion_pattern") == "sliding":

@@ -13,29 +13,35 @@ class Mark:
         return ", ".join(self.names)
 
 
+def time_of_break(marks):
+    """[s]; None: the rod is whole."""
+    return next((mark.time for mark in marks if "break" in mark.names), None)
+
+
 def marks_of(run):
     """Start of the pull, lock, peak, break and end, in order of time; none where nothing was tested."""
     tested = run.curve.tested()
     if not len(tested):
         return []
-    pull = run.curve.pull()
+    pull = run.pull()
     begin = pull if len(pull) else tested
     found = [("start of pull" if len(pull) else "start", begin, 0)]
-    for name, key in (("lock", "lock_extension"), ("break", "break_extension")):
-        at = run.value(key)
-        if at is not None and len(pull):
+    for name, at in (("lock", run.value("lock_extension")), ("peak", None), ("break", run.value("break_extension"))):
+        if name == "peak":
+            found.append((name, tested, int(np.argmax(tested["load"]))))
+        elif at is not None and len(pull):
             found.append((name, pull, int(np.argmin(np.abs(pull["extension"] - at)))))
-    found.append(("peak", tested, int(np.argmax(tested["load"]))))
     found.append(("end", tested, len(tested) - 1))
     return together([Mark([name], rows["time"][i], rows["extension"][i], rows["load"][i]) for name, rows, i in found],
-                    0.01 * (tested["time"][-1] - tested["time"][0]))
+                    0.01 * (tested["time"][-1] - tested["time"][0]), 0.05 * float(np.abs(tested["load"]).max()))
 
 
-def together(marks, close):
-    """Marks within `close` [s] of the one before become one with it, at the later time; then they get their letters."""
+def together(marks, soon, near):
+    """Marks within `soon` [s] and `near` [N] of the one before become one with it, at the later time; a break lies
+    between others. Then they get their letters."""
     merged = []
     for mark in sorted(marks, key=lambda mark: mark.time):
-        if merged and mark.time - merged[-1].time <= close:
+        if merged and mark.time - merged[-1].time <= soon and abs(mark.load - merged[-1].load) <= near:
             mark.names = merged.pop().names + mark.names
         merged.append(mark)
     for number, mark in enumerate(merged):

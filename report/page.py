@@ -11,7 +11,7 @@ from comparison_figures import overlay
 from curve_figures import course, force_extension
 from error_band import error_band
 from failure import CannotReport
-from marks import marks_of
+from marks import marks_of, time_of_break
 from method_facts import knot_of, method_facts, program
 from quantities import error_shown, number, quantity_of, shown
 from results_table import results_table
@@ -52,13 +52,13 @@ def report_on_run(folder, command, version):
         **content, "run": run, "title": f"{knot_of(run.method)}, {run.method['material'].get('name', 'own material')}",
         "result": run.result, "headlines": headlines(run.result), "facts": method_facts(run.method),
         "program": program(run.method), "results": results_table(run.result), "checks": checks, "verdict": words,
-        "good": good, "band": error_band(run, run.curve.pull()) is not None, "floor": run.load_cell_floor(),
+        "good": good, "band": error_band(run, run.pull()) is not None, "floor": run.load_cell_floor(),
         "compliant": run.curve.has_compliant_frame(),
-        "files": files_of(folder), "command": command, "version": version, "folder": folder})
+        "files": files_of(folder), "command": printable(command), "version": version, "folder": printable(folder)})
 
 
 def drawn(run, marks):
-    shapes, note = shapes_at(run, [mark.time for mark in marks])
+    shapes, note = shapes_at(run, [mark.time for mark in marks], time_of_break(marks))
     return pictures(run, marks[-len(shapes):], shapes), note
 
 
@@ -84,7 +84,7 @@ def report_on_comparison(folder, command, version):
         "rms": shown(comparison.number("rms_difference")), "largest": shown(comparison.number("largest_difference")),
         "share": percent(comparison.number("rms_difference_over_load")),
         "largest_at": shown(comparison.number("largest_difference_at"), 1e3), "files": files_of(folder),
-        "command": command, "version": version, "folder": folder})
+        "command": printable(command), "version": version, "folder": printable(folder)})
 
 
 def comparison_row(comparison, key):
@@ -112,6 +112,11 @@ def files_of(folder):
     """The page itself is among them, also where it is yet to be written."""
     return [(name, words) for name, words in FILES
             if name.startswith("report.") or os.path.exists(os.path.join(folder, name))]
+
+
+def printable(text):
+    """Names of files are bytes, which need not be text."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
 
 
 def render(template, content):

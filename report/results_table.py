@@ -11,6 +11,7 @@ class Row:
     def __init__(self, result, key):
         quantity = quantity_of(key)
         self.label, self.unit = quantity.label, quantity.unit
+        self.is_text = isinstance(result[key], str)
         self.keys = [key] + [key + "_" + part for part in ("error", "sd") if key + "_" + part in result]
         error = result.get(key + "_error")
         self.value = shown(result[key], quantity.scale, error)

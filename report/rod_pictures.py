@@ -22,7 +22,7 @@ def pictures(run, marks, shapes):
     """All of them in one picture, one below the other, with one scale of colours."""
     radius = run.method["material"]["radius"]
     norm = scale_of([shape.tension for shape in shapes if shape.tension is not None])
-    views = [view(shape, radius) for shape in shapes]
+    views = [view(run, shape, radius) for shape in shapes]
     width = max(right - left for left, right, _, _ in views)
     heights = [WIDTH * (top - bottom) / width + 0.25 for _, _, bottom, top in views]
     scale_height = 0.75 if norm else 0.1
@@ -71,19 +71,25 @@ def base_of(shape, part, along, norm):
     return TENSION(norm(np.maximum(tension, norm.vmin)))[:, :3]
 
 
-def draw_rollers(axes, run, shape):
+def rollers(run, shape):
+    """[(place along the load axis, radius)] [mm]"""
     if run.method["specimen"]["knot"] != "fisherman" or run.method["machine"]["grips"] != "rollers":
-        return
+        return []
     radius = 0.5e3 * run.method["machine"]["roller_diameter"]
-    for z in (0.0, 1e3 * float(np.interp(shape.time, run.curve["time"], run.curve["end_to_end"]))):
+    return [(z, radius) for z in (0.0, 1e3 * float(np.interp(shape.time, run.curve["time"], run.curve["end_to_end"])))]
+
+
+def draw_rollers(axes, run, shape):
+    for z, radius in rollers(run, shape):
         axes.add_patch(plt.Circle((z, 0.0), radius, facecolor="#e3e8ec", edgecolor="#b3bfc9", lw=0.8, zorder=1))
         axes.add_patch(plt.Circle((z, 0.0), 0.15 * radius, facecolor="#b3bfc9", edgecolor="none", zorder=1))
 
 
-def view(shape, radius):
-    """Left, right, bottom, top [mm] of what is shown: the whole rod, or its knot where that would be too small."""
+def view(run, shape, radius):
+    """Left, right, bottom, top [mm] of what is shown: rod and rollers, or the knot alone where it would be too small."""
     shown = to_picture(shape.points)
-    whole = box_around(shown, radius)
+    ends = [[1e-3 * (z + side * r), 1e-3 * side * r] for z, r in rollers(run, shape) for side in (-1.0, 1.0)]
+    whole = box_around(np.vstack([shown[:, :2], *ends]), radius)
     if whole[1] - whole[0] <= LONGEST * (whole[3] - whole[2]) * 1.6:
         return whole
     knot = touching(shape.points, radius)

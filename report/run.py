@@ -60,6 +60,11 @@ class Run:
         value = self.result.get(key)
         return value if is_number(value) else None
 
+    def pull(self):
+        """The pull, up to the break."""
+        pull, broke = self.curve.pull(), self.value("break_extension")
+        return pull if broke is None else pull.where(pull["extension"] <= broke)
+
     def offset(self):
         """True force less load [N]."""
         return self.value("balance_offset") or 0.0

@@ -30,14 +30,14 @@ def lengths(shape):
     return np.linalg.norm(np.diff(shape.points, axis=0), axis=1)
 
 
-def shapes_at(run, times):
+def shapes_at(run, times, broke=None):
     """The shape nearest to each time that has one, in the order of `times`, and what is to be said of them: a line, or
-    nothing."""
+    nothing. Of a time before the rod `broke` a shape that is from before that."""
     bag = os.path.join(run.folder, "test.bag")
     if not os.path.exists(bag):
         return [final_shape(run)], "There is no test.bag, so only the final shape is shown, without tensions."
     try:
-        return shapes_of_bag(bag, times), ""
+        return shapes_of_bag(bag, times, broke), ""
     except ModuleNotFoundError as missing:
         why = f"{missing} (Debian: python3-rosbag)"
     except Exception as error:  # a bag is read by code that its own content chooses: anything may go wrong
@@ -52,7 +52,12 @@ def final_shape(run):
     return Shape(run.curve["time"][-1] if len(run.curve) else 0.0, points, None)
 
 
-def shapes_of_bag(file, times):
+def nearest(seconds, time, broke):
+    i = int(np.argmin(np.abs(seconds - time)))
+    return i - 1 if broke is not None and i > 0 and time <= broke < seconds[i] else i
+
+
+def shapes_of_bag(file, times, broke):
     import rosbag
 
     with rosbag.Bag(file) as bag:
@@ -66,7 +71,7 @@ def shapes_of_bag(file, times):
         if not stamps:
             raise ValueError("it holds no shape")
         seconds = np.array([stamp.to_sec() for stamp in stamps]) - begin
-        chosen = [int(np.argmin(np.abs(seconds - time))) for time in times]
+        chosen = [nearest(seconds, time, broke) for time in times]
         return [shape_of(next(bag.read_messages(topics=[shape], start_time=stamps[i], end_time=stamps[i])).message,
                          float(seconds[i])) for i in chosen]
 

@@ -2,6 +2,7 @@
 """The report: what is read from a run's folder, what is made of it, and what is said where it cannot be made."""
 import os
 import re
+import shutil
 import subprocess
 import unittest
 
@@ -16,6 +17,7 @@ import marks
 import page
 import quantities
 import shapes
+from few_points import few_points
 from run import Curve, Run
 
 
@@ -186,6 +188,16 @@ class Band(unittest.TestCase):
                                                 pull))
 
 
+class FewPoints(unittest.TestCase):
+    def test_keep_the_first_the_last_and_every_extreme(self):
+        load = np.sin(np.linspace(0.0, 40.0, 300001))
+        load[123456], load[200001] = 7.0, -7.0
+        rows = few_points(load)
+        self.assertLess(len(rows), 10000)
+        self.assertEqual((rows[0], rows[-1], load[rows].max(), load[rows].min()), (0, 300000, 7.0, -7.0))
+        self.assertEqual(len(few_points(load[:500])), 500)
+
+
 class ABrokenRod(unittest.TestCase):
     def test_is_drawn_in_its_pieces(self):
         nodes = np.column_stack([np.zeros(10), np.zeros(10), np.linspace(0.0, 0.9, 10)])
@@ -219,6 +231,14 @@ class Marks(unittest.TestCase):
         self.assertEqual([(mark.letter, mark.title()) for mark in found],
                          [("a", "start of pull"), ("b", "lock"), ("c", "peak"), ("d", "end")])
         self.assertAlmostEqual(found[1].extension, 0.05)
+
+    def test_tell_what_was_before_a_break_from_what_was_behind(self):
+        s = np.linspace(0.0, 0.1, 101)
+        found = marks.marks_of(OfValues(a_pull(s, np.where(s < 0.0995, s, 0.0)), break_extension=0.0992))
+        self.assertEqual([mark.title() for mark in found], ["start of pull", "peak, break", "end"])
+        self.assertAlmostEqual(marks.time_of_break(found), 0.99)
+        seconds = np.array([0.0, 0.5, 0.98, 1.02, 1.3])
+        self.assertEqual([shapes.nearest(seconds, time, 1.01) for time in (0.4, 1.005, 1.01, 1.4)], [1, 2, 2, 4])
 
     def test_that_fall_together_are_one(self):
         s = np.linspace(0.0, 0.1, 101)
@@ -296,6 +316,16 @@ class PageOfAComparison(unittest.TestCase):
         self.assertIn(f"curve_full.csv --report {out} --balance<", html)
         self.assertIn("simulated: Straight rod, nylon", html)
         self.assertEqual(script(out).returncode, 0)
+
+    def test_takes_files_of_any_name(self):
+        odd = os.path.join(folders.path, "a$b$ <c> it's_ä.csv")
+        write(read(straight, "curve.csv"), odd)
+        out = os.path.join(folders.path, "odd")
+        self.assertEqual(tool("compare", odd, f"{straight}/curve.csv", "--report", out).stderr, "")
+        self.assertIn("a$b$ &lt;c&gt; it&#39;s_ä.csv", page_of(out))
+        bytes_only = os.fsencode(folders.path) + b"/\xff"
+        shutil.copytree(os.fsencode(straight), bytes_only)
+        self.assertEqual(script(bytes_only).stderr, "")
 
     def test_is_written_beyond_the_tolerance_too(self):
         out = os.path.join(folders.path, "beyond")
