@@ -91,7 +91,7 @@ class Readme(unittest.TestCase):
 class Documents(unittest.TestCase):
     def test_links_and_files_are_there(self):
         for document in ("README.md", "doc/model.md", "doc/performance.md", "doc/references.md", "doc/reliability.md",
-                         "doc/terminology.md"):
+                         "doc/terminology.md", "doc/tutorial.md"):
             folder = os.path.dirname(document)
             for target in re.findall(r"\]\(([^)#]+)\)", text(document)):
                 self.assertTrue(os.path.exists(os.path.join(ROOT, folder, target)), f"{document}: {target}")
