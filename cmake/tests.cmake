@@ -62,6 +62,17 @@ add_test(NAME bench_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test
 add_test(NAME stress_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/stress_test.py)
 add_test(NAME doc_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/doc_test.py)
 
+# The report: what is made of a run, and what a browser and a printer make of that. Label `long`: they run whole tests.
+foreach(name report_test browser_test)
+  add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/report/${name}.py)
+  set_tests_properties(${name} PROPERTIES TIMEOUT 600 LABELS long ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
+endforeach()
+
+# The tutorial, from a clone on, which is built with the same launcher of compilers.
+add_test(NAME tutorial_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/tutorial_test.py)
+set_tests_properties(tutorial_test PROPERTIES TIMEOUT 1500 LABELS long PROCESSORS 2
+                     ENVIRONMENT "CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER}")
+
 # In a workspace, installing is the workspace's own business.
 if(NOT catkin_FOUND OR KNOT_UTM_INSTALLS_SETUP)
   add_test(NAME install_test COMMAND ${PROJECT_SOURCE_DIR}/test/install_test ${PROJECT_BINARY_DIR})

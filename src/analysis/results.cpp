@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "knot_utm/analysis/curve_readings.hpp"
+#include "knot_utm/analysis/cycles.hpp"
+#include "knot_utm/analysis/pull_readings.hpp"
 
 namespace knot_utm {
 namespace {
@@ -31,6 +33,62 @@ std::string failure_mode(const Results& results) {
     default:
       return "fracture";
   }
+}
+
+/// With the state that it began from in front of it.
+Pull with_origin(const Pull& pull, const Sample* before) {
+  if (!before || pull.empty() || !(before->extension < pull.front().extension)) return pull;
+  Pull whole = {{before->time, before->extension, before->knot_distance, before->force_upper, before->normal_force}};
+  whole.insert(whole.end(), pull.begin(), pull.end());
+  return whole;
+}
+
+void read_pull(const Pull& pull, Results& results) {
+  results.energy_to_peak = energy_to_peak(pull);
+  if (results.break_extension) results.energy_to_break = energy(pull);
+  results.chord_stiffness = chord_stiffness(pull);
+  results.secant_stiffness = secant_stiffness(pull);
+  results.tangent_stiffness = tangent_stiffness(pull);
+}
+
+/// From the first sample of a phase to the one behind its last.
+struct Stretch {
+  std::size_t begin, end;
+};
+
+/// In order, those that have a sample before them.
+std::vector<Stretch> stretches(const std::vector<Sample>& samples, Phase phase) {
+  std::vector<Stretch> out;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (samples[i].phase != phase) continue;
+    if (out.empty() || out.back().end != i) out.push_back({i, i});
+    out.back().end = i + 1;
+  }
+  return out;
+}
+
+/// Of the last hold in which the crosshead stands still, and is out with a load on the grip: where a load is held it
+/// moves, and a drawn shape that settles bears none.
+std::optional<Relaxation> last_relaxation(const std::vector<Sample>& samples) {
+  std::optional<Relaxation> last;
+  for (const Stretch& hold : stretches(samples, Phase::kHold)) {
+    const Sample &before = samples[hold.begin - 1], &end = samples[hold.end - 1];
+    bool stands = true;
+    for (std::size_t i = hold.begin; i < hold.end; ++i) stands &= samples[i].displacement == before.displacement;
+    if (stands && before.displacement > samples.front().displacement && before.force_upper > 0.0)
+      last = Relaxation{before.force_upper, end.force_upper};
+  }
+  return last;
+}
+
+/// Of the last step that cycles.
+std::vector<Cycle> last_cycles(const std::vector<Sample>& samples) {
+  const std::vector<Stretch> steps = stretches(samples, Phase::kCycle);
+  Path path;
+  if (steps.empty()) return {};
+  for (std::size_t i = steps.back().begin - 1; i < steps.back().end; ++i)
+    path.push_back({samples[i].extension, samples[i].force_upper});
+  return closed_cycles(path);
 }
 
 double stored_energy(const Sample& sample) {
@@ -100,6 +158,10 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
   results.failure_mode = failure_mode(results);
   if (energy_scale > 0.0) results.energy_balance_error = energy_error / energy_scale;
 
+  results.relaxation = last_relaxation(samples);
+  const std::vector<Cycle> cycles = last_cycles(samples);
+  results.cycles = cycles.size();
+  if (!cycles.empty()) results.hysteresis = cycles.back().hysteresis;
   if (!tied) tied = pull_begin;
   if (pull_begin) results.balance_offset = pull_begin->balance_offset;
   const Sample& last = samples.back();
@@ -122,6 +184,7 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
     results.moment_balance_error = moment_imbalance / peak;
   }
 
+  read_pull(with_origin(pull, before_pull), results);
   const double start = pull.front().extension;
   if (results.motion_pattern == MotionPattern::kSliding) {
     const double end = results.lock_extension.value_or(pull.back().extension);

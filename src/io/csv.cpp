@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string_view>
 
@@ -26,6 +27,7 @@ constexpr std::array<Column, 6> kColumns{{{"time", "s", &CurveRow::time},
                                           {"end_to_end", "m", &CurveRow::end_to_end},
                                           {"load_lower", "N", &CurveRow::load_lower}}};
 constexpr const char* kPhase = "phase";
+constexpr Column kCorrected = {"corrected_extension", "m", &CurveRow::corrected_extension};
 
 void open(std::ofstream& out, const std::string& file) {
   out.open(file, std::ios::binary | std::ios::trunc);
@@ -60,6 +62,10 @@ CurveRow curve_row(const Sample& sample) {
   CurveRow row;
   row.time = sample.time;
   row.extension = sample.extension;
+  if (!std::isnan(sample.raw_extension)) {
+    row.extension = sample.raw_extension;
+    row.corrected_extension = sample.extension;
+  }
   row.load = sample.load;
   row.knot_distance = sample.knot_distance;
   row.end_to_end = sample.end_to_end;
@@ -68,7 +74,8 @@ CurveRow curve_row(const Sample& sample) {
   return row;
 }
 
-CurveWriter::CurveWriter(const std::string& file) : file_(file) {
+CurveWriter::CurveWriter(const std::string& file, bool compliant_frame)
+    : file_(file), compliant_frame_(compliant_frame) {
   open(out_, file);
   std::string names;
   std::string units;
@@ -76,14 +83,22 @@ CurveWriter::CurveWriter(const std::string& file) : file_(file) {
     names += std::string(column.name) + ',';
     units += std::string(column.unit) + ',';
   }
-  out_ << names << kPhase << '\n' << units << "-\n" << std::flush;
+  names += kPhase;
+  units += '-';
+  if (compliant_frame_) {
+    names += std::string(",") + kCorrected.name;
+    units += std::string(",") + kCorrected.unit;
+  }
+  out_ << names << '\n' << units << '\n' << std::flush;
 }
 
 void CurveWriter::write(const CurveRow& row) {
   std::string line;
   // Adding zero turns -0 into 0.
   for (const Column& column : kColumns) line += format_number(row.*column.value + 0.0) + ',';
-  out_ << line << phase_name(row.phase) << '\n' << std::flush;
+  line += phase_name(row.phase);
+  if (compliant_frame_) line += ',' + format_number(row.corrected_extension + 0.0);
+  out_ << line << '\n' << std::flush;
   if (!out_) throw CannotWrite(file_);
   ++rows_;
 }
@@ -102,10 +117,10 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
   }
   const std::vector<std::string_view> names = cells(head[0]);
   const std::vector<std::string_view> units = cells(head[1]);
-  std::array<std::size_t, kColumns.size()> places{};
-  for (std::size_t i = 0; i < kColumns.size(); ++i) {
-    places[i] = place(file, names, units, kColumns[i].name, kColumns[i].unit);
-  }
+  std::vector<Column> columns(kColumns.begin(), kColumns.end());
+  if (std::find(names.begin(), names.end(), kCorrected.name) != names.end()) columns.push_back(kCorrected);
+  std::vector<std::size_t> places;
+  for (const Column& column : columns) places.push_back(place(file, names, units, column.name, column.unit));
   const std::size_t phase_place = place(file, names, units, kPhase, "-");
 
   std::vector<CurveRow> rows;
@@ -117,10 +132,10 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
                          std::to_string(names.size()) + " columns");
     }
     CurveRow row;
-    for (std::size_t i = 0; i < kColumns.size(); ++i) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
       const std::optional<double> value = parse_number(values[places[i]]);
-      if (!value) throw InvalidInput(file, key + ": " + kColumns[i].name, std::string(values[places[i]]), "a number");
-      row.*kColumns[i].value = *value;
+      if (!value) throw InvalidInput(file, key + ": " + columns[i].name, std::string(values[places[i]]), "a number");
+      row.*columns[i].value = *value;
     }
     const std::string phase(values[phase_place]);
     const std::optional<Phase> known = phase_named(phase);

@@ -52,7 +52,6 @@ void check_effects(const Method& m) {
   has_effect(loop, "machine.roller_diameter", machine.roller_diameter, bare.roller_diameter, "for knot: fisherman");
   has_effect(machine.grips == GripKind::kRollers, "machine.roller_friction", machine.roller_friction,
              bare.roller_friction, "with grips: rollers");
-  has_effect(false, "machine.stiffness", machine.stiffness, bare.stiffness, ".inf N/m: the frame is rigid");
 
   const PhysicsOptions& physics = m.physics;
   const PhysicsOptions plain;

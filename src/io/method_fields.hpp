@@ -65,8 +65,12 @@ void load_cell(Fields& f, LoadCellOptions& o) {
   f.text("name", o.name);
   f.number("capacity", o.capacity, Range{1e-3, 1e8, "N"});
   f.number("sampling_rate", o.sampling_rate, Range{1e-2, 1e4, "Hz"});
+  f.number("accuracy", o.accuracy, Range{0.0, 0.1, "of the reading"});
+  f.number("floor", o.floor, Range{0.0, 1.0, "of capacity"});
   f.number("resolution", o.resolution, Range{0.0, 1e5, "N"});
   f.number("noise", o.noise, Range{0.0, 1e5, "N"});
+  f.number("drift", o.drift, Range{-1e3, 1e3, "N/s"});
+  f.number("overload", o.overload, Range{1.0, kInfinity, "of capacity"});
   f.integer("seed", o.seed, 0u, std::numeric_limits<unsigned>::max());
   f.text("notes", o.notes);
 }

@@ -41,7 +41,8 @@ void begin_run_folder(const std::string& folder, const Method& method) {
     }
   }
   // Not before the specimen has been read: it may be the shape that the last run left here.
-  for (const char* old : {"result.yaml", "final_shape.csv", "test.bag", "saved.bag", kFailedStep})
+  for (const char* old :
+       {"result.yaml", "final_shape.csv", "test.bag", "saved.bag", "report.html", "report.pdf", kFailedStep})
     fs::remove(fs::path(folder) / old, error);
   try {
     write_whole((fs::path(folder) / "method.yaml").string(), method_file_text(method));

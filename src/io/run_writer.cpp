@@ -8,6 +8,7 @@
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/yaml_lines.hpp"
 #include "knot_utm/machine/fracture.hpp"
+#include "knot_utm/machine/load_cell.hpp"
 
 namespace knot_utm {
 namespace {
@@ -48,6 +49,26 @@ std::vector<std::string> warnings(const Results& results) {
   return all;
 }
 
+/// What the cell cannot tell: forces below its floor, or beyond its stop.
+std::vector<std::string> warnings(const Results& results, const LoadCellOptions& cell) {
+  std::vector<std::string> all;
+  const std::string floor = "the load cell's floor of " + format_number(cell.floor * cell.capacity) + " N";
+  if (results.peak_force && is_below_floor(cell, *results.peak_force)) {
+    all.push_back("the peak force lies below " + floor);
+  } else if (results.plateau_force && is_below_floor(cell, *results.plateau_force)) {
+    all.push_back("the plateau force lies below " + floor);
+  }
+  const double stop = cell.overload * cell.capacity;
+  if (results.peak_force > stop) {
+    all.push_back("the load cell was overloaded: beyond " + format_number(stop) + " N it reads its stop");
+  }
+  return all;
+}
+
+std::optional<double> class_error(const LoadCellOptions& cell, const std::optional<double>& force) {
+  return force ? class_error(cell, *force) : std::nullopt;
+}
+
 /// Of readings whose specimen had not come to rest no study says how far off they are.
 ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
   return results.not_equilibrated.empty() ? facts.errors : ReadingErrors{};
@@ -69,11 +90,11 @@ std::string accuracy_warning(const Results& results, const ReadingErrors& errors
 
 RunWriter::RunWriter(const std::string& folder, const Method& method)
     : folder_(begin(folder, method)),
-      curve_((fs::path(folder) / "curve.csv").string()),
-      full_curve_((fs::path(folder) / "curve_full.csv").string()) {
+      curve_((fs::path(folder) / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
+      full_curve_((fs::path(folder) / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)) {
   known_.errors = reading_errors(method.specimen, method.material, method.physics);
   if (method.specimen.to_be_tied) known_.preload = method.specimen.preload.value_or(Sample::kNone);
-  known_.seed = method.machine.load_cell.seed;
+  known_.load_cell = method.machine.load_cell;
   known_.version = version();
 }
 
@@ -115,7 +136,8 @@ std::string result_yaml(const Results& r, const RunFacts& f) {
   lines.word("ended_by", ended_by_name(r.ended_by));
   lines.text("reason", f.reason);
   std::vector<std::string> all_warnings = warnings(r);
-  all_warnings.insert(all_warnings.end(), f.warnings.begin(), f.warnings.end());
+  for (const std::vector<std::string>& more : {warnings(r, f.load_cell), f.warnings})
+    all_warnings.insert(all_warnings.end(), more.begin(), more.end());
   const std::string unsure = accuracy_warning(r, f.errors);
   if (!unsure.empty()) all_warnings.push_back(unsure);
   lines.list("warnings", all_warnings);
@@ -154,6 +176,18 @@ std::string result_yaml(const Results& r, const RunFacts& f) {
   lines.number("numerical_dissipation", part(&EnergyParts::numerical));
   lines.number("reweighting_loss", part(&EnergyParts::reweighting));
   lines.number("energy_balance_error", r.energy_balance_error);
+  lines.number("load_cell_error", class_error(f.load_cell, r.peak_force));
+  lines.number("plateau_load_cell_error", class_error(f.load_cell, r.plateau_force));
+  lines.number("energy_to_peak", r.energy_to_peak);
+  lines.number("energy_to_break", r.energy_to_break);
+  lines.number("chord_stiffness", r.chord_stiffness);
+  lines.number("secant_stiffness", r.secant_stiffness);
+  lines.number("tangent_stiffness", r.tangent_stiffness);
+  lines.number("hold_force_begin", r.relaxation ? r.relaxation->from : Sample::kNone);
+  lines.number("hold_force_end", r.relaxation ? r.relaxation->to : Sample::kNone);
+  lines.number("relaxation", r.relaxation ? r.relaxation->lost() : Sample::kNone);
+  lines.count("cycles", r.cycles);
+  lines.number("hysteresis", r.hysteresis);
   lines.count("steps", r.steps);
   lines.count("rejected_steps", r.rejected_steps);
   lines.count("newton_iterations", r.newton_iterations);
@@ -165,7 +199,7 @@ std::string result_yaml(const Results& r, const RunFacts& f) {
   } else {
     lines.number("peak_memory", std::nullopt);
   }
-  lines.count("seed", f.seed);
+  lines.count("seed", f.load_cell.seed);
   lines.word("version", f.version);
   return lines.all();
 }

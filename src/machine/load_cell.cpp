@@ -1,6 +1,8 @@
 #include "knot_utm/machine/load_cell.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <locale>
 #include <sstream>
 
@@ -8,30 +10,58 @@
 
 namespace knot_utm {
 
-LoadCell::LoadCell(const LoadCellOptions& options) : options_(options), random_(options.seed) {
+namespace {
+
+constexpr double kUnit = 0x1p-53;
+
+/// From 0 to 1, without the end.
+double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * kUnit; }
+
+/// Between the bounds that the class sets, from random numbers that no noise is made of.
+double gain_error(const LoadCellOptions& options) {
+  constexpr std::uint64_t kBeyondSeeds = std::uint64_t{1} << 32;
+  std::mt19937_64 random(kBeyondSeeds + options.seed);
+  return options.accuracy * (2.0 * uniform(random) - 1.0);
+}
+
+}  // namespace
+
+LoadCell::LoadCell(const LoadCellOptions& options)
+    : options_(options), gain_(1.0 + gain_error(options)), random_(options.seed) {
   const auto check = [](const char* key, double value, bool allowed, const char* text) {
     if (!allowed) throw InvalidInput(std::string("machine.load_cell.") + key, std::to_string(value), text);
   };
   check("capacity", options.capacity, options.capacity > 0.0, "more than 0 N");
   check("sampling_rate", options.sampling_rate, options.sampling_rate > 0.0, "more than 0 Hz");
+  check("accuracy", options.accuracy, options.accuracy >= 0.0 && options.accuracy < 1.0, "0 or more, less than 1");
+  check("floor", options.floor, options.floor >= 0.0 && options.floor <= 1.0, "0 to 1 of the capacity");
+  check("overload", options.overload, options.overload >= 1.0, "1 or more of the capacity");
+  check("drift", options.drift, std::isfinite(options.drift), "a finite number of N/s");
   check("resolution", options.resolution, options.resolution >= 0.0, "0 N or more");
   check("noise", options.noise, options.noise >= 0.0, "0 N or more");
 }
 
-double LoadCell::read(double true_force) {
-  double reading = balanced(true_force);
+void LoadCell::balance(double true_force, double time) {
+  balanced_ = true_force;
+  balanced_at_ = time;
+}
+
+double LoadCell::read(double true_force, double time) {
+  const double stop = options_.overload * options_.capacity;
+  double reading = gain_ * balanced(std::clamp(true_force, -stop, stop));
+  if (options_.drift != 0.0) reading += options_.drift * (time - balanced_at_);
   if (options_.noise > 0.0) reading += options_.noise * normal();
   if (options_.resolution > 0.0) reading = std::round(reading / options_.resolution) * options_.resolution;
   return reading;
 }
 
 void LoadCell::state(Archive& archive) {
-  archive.section("CELL");
+  archive.section("CELT");  // "CELL" did not know when it was balanced
   std::stringstream random;
   random.imbue(std::locale::classic());
   random << random_;
   std::string text = random.str();
-  archive(balanced_, text);
+  archive(balanced_, balanced_at_, text);
   if (!archive.loads()) return;
   random.str(text);
   random >> random_;
@@ -40,10 +70,19 @@ void LoadCell::state(Archive& archive) {
 
 double LoadCell::normal() {
   // Box and Muller: std::normal_distribution differs between standard libraries.
-  constexpr double kUnit = 0x1p-53;
-  const double u = (static_cast<double>(random_() >> 11) + 1.0) * kUnit;
-  const double v = static_cast<double>(random_() >> 11) * kUnit;
+  const double u = uniform(random_) + kUnit;
+  const double v = uniform(random_);
   return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * M_PI * v);
+}
+
+bool is_below_floor(const LoadCellOptions& cell, double true_force) {
+  return std::abs(true_force) < cell.floor * cell.capacity;
+}
+
+std::optional<double> class_error(const LoadCellOptions& cell, double true_force) {
+  if (cell.accuracy == 0.0 && cell.floor == 0.0) return std::nullopt;
+  if (is_below_floor(cell, true_force)) return cell.floor * cell.capacity;
+  return cell.accuracy * std::abs(true_force);
 }
 
 }  // namespace knot_utm

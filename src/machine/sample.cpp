@@ -21,6 +21,7 @@ void Sample::state(Archive& archive) {
   archive.choice("status", status, BenchStatus::kFailed);
   archive(message, highest_load, lowest_load, break_arclength);
   archive.choice("place of the break", break_place, BreakPlace::kGrip);
+  archive(raw_extension);
 }
 
 }  // namespace knot_utm

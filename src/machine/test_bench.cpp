@@ -9,6 +9,7 @@
 #include "knot_utm/analysis/knot_watch.hpp"
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/machine/fracture.hpp"
+#include "knot_utm/machine/frame.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
@@ -80,6 +81,7 @@ struct TestBench::Impl {
   PhysicsOptions physics;
   Centreline centreline;
   Grips grips;
+  Frame frame;
   std::unique_ptr<TimeStep> stepper;
   StepControl control{StepControl::Options{}};
   LoadCell cell;
@@ -87,10 +89,13 @@ struct TestBench::Impl {
   std::optional<KnotWatch> watch;  // of anything that is knotted
   Boundary boundary;
 
-  double time = 0.0, displacement = 0.0;
-  double extension_zero = 0.0;
+  double time = 0.0;
+  double displacement = 0.0;  // of the crosshead [m]
+  double grip = 0.0;          // of the upper grip, the same on a rigid frame [m]
+  double grip_tried = 0.0;    // in the step that is being made
+  double extension_zero = 0.0, raw_extension_zero = 0.0;
   double exposure = 0.0;    // share of the way to a break
-  double recoil_end = 0.0;  // of a rod that has parted [s]
+  double recoil_end = 0.0;  // of a rod that has just parted [s]
   BreakPlace break_place = BreakPlace::kNone;
   double mount_load = 0.0;      // when mounting began [N]
   double mount_distance = 0.0;  // of the knots when mounting began [m]
@@ -110,6 +115,7 @@ struct TestBench::Impl {
         physics(physics_),
         centreline(specimen_centreline(specimen_, material_, machine_, physics_)),
         grips(specimen_, machine_, centreline, material_.radius),
+        frame(machine_.stiffness, material_, specimen_.knot == KnotKind::kFisherman ? 2 : 1, grips.end_to_end(0.0)),
         cell(machine_.load_cell) {
     const Eigen::Index nodes = centreline.points.cols();
     Eigen::VectorXd rest(nodes - 1);
@@ -141,7 +147,7 @@ struct TestBench::Impl {
       watch.emplace(rig ? rig->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
                     centreline.points);
     }
-    extension_zero = grips.end_to_end(displacement);
+    extension_zero = grips.end_to_end(grip);
   }
 
   /// `auto`: where frames are held at two places, or the rod at rest is curved or twisted. A rod whose ends are free
@@ -165,7 +171,9 @@ struct TestBench::Impl {
     // A recoil may go on behind the command; the crosshead does not.
     const double share = whole > 0.0 ? std::min(1.0, (to - start_time) / whole) : 1.0;
     const double travel = start_displacement + share * (command.displacement - start_displacement);
-    grips.set(travel, boundary);
+    // Of what was last accepted alone: a step that is tried again at another length begins from the same.
+    grip_tried = frame.grip_after(grip, travel, frame.rigid() ? 0.0 : grips.force_upper(*stepper), to - from);
+    grips.set(grip_tried, boundary);
     boundary.forces.clear();
     boundary.grips.clear();
     boundary.extra_drag = settling_drag(to);
@@ -224,16 +232,16 @@ struct TestBench::Impl {
 
   void part(int edge) {
     const Points& position = stepper->state().position;
-    break_place = lies_in_knot(stepper->rod(), position, edge)              ? BreakPlace::kKnot
-                  : grips.hold(displacement, middle(edge), material.radius) ? BreakPlace::kGrip
-                                                                            : BreakPlace::kStrand;
+    break_place = lies_in_knot(stepper->rod(), position, edge)      ? BreakPlace::kKnot
+                  : grips.hold(grip, middle(edge), material.radius) ? BreakPlace::kGrip
+                                                                    : BreakPlace::kStrand;
     std::ostringstream text;
     text << "the rod parted " << break_arclength(edge) << " m along it (" << break_place_name(break_place)
          << ") at a tension of " << stepper->tension()[edge] << " N";
     status = BenchStatus::kBroken;
     message = text.str();
     stepper->part(edge);
-    recoil_end = time + kRecoilTransits * transit_time(material, grips.end_to_end(displacement));
+    recoil_end = time + kRecoilTransits * transit_time(material, grips.end_to_end(grip));
     control.at_most(transit_time(material, stepper->rod().rest_length[edge]));
     control.halt();
   }
@@ -281,8 +289,9 @@ struct TestBench::Impl {
     s.time = at_time;
     s.phase = phase;
     s.displacement = displacement;
-    s.end_to_end = grips.end_to_end(displacement);
+    s.end_to_end = grips.end_to_end(grip);
     s.extension = s.end_to_end - extension_zero;
+    if (!frame.rigid()) s.raw_extension = displacement - raw_extension_zero;
     s.force_upper = grips.force_upper(*stepper);
     s.force_lower = grips.force_lower(*stepper);
     s.load = s.highest_load = s.lowest_load = cell.balanced(s.force_upper);
@@ -310,7 +319,7 @@ struct TestBench::Impl {
     s.friction_loss = work.friction;
     s.numerical_dissipation = work.numerical;
     s.reweighting_loss = work.reweighting;
-    s.moment_imbalance = grips.moment_imbalance(displacement, *stepper);
+    s.moment_imbalance = grips.moment_imbalance(grip, *stepper);
     s.steps = control.counters().steps;
     s.rejected_steps = control.counters().rejected;
     s.newton_iterations = control.counters().iterations;
@@ -323,15 +332,18 @@ struct TestBench::Impl {
   }
 
   void state(Archive& archive) {
-    archive.section("BNCH");
+    archive.section("BNCG");  // "BNCH" had no grip beside the crosshead
     int parted_edge = stepper->parted_edge();
     archive.number("parted edge", parted_edge, -1, static_cast<int>(stepper->rod().edges()) - 1);
     if (archive.loads() && parted_edge >= 0) stepper->part(parted_edge);
     archive.choice("place of the break", break_place, BreakPlace::kGrip);
-    archive(exposure, recoil_end);
-    archive(time, displacement, extension_zero, mount_load, mount_distance, step_index, work, message);
+    archive(exposure);
+    archive(time, displacement, grip, extension_zero, raw_extension_zero, mount_load, mount_distance, step_index, work,
+            message);
     archive.choice("phase", phase, Phase::kDone);
     archive.choice("status", status, BenchStatus::kFailed);
+    archive.require(parted() == (status == BenchStatus::kBroken), "status of a rod that parted",
+                    break_place_name(break_place));
     archive(control, cell, *stepper);
     bool ties = rig.has_value(), watches = watch.has_value();
     archive.same("tying rig", ties ? 1 : 0);
@@ -357,6 +369,7 @@ struct TestBench::Impl {
         },
         [&](double to, double dt, const StepSummary&) {
           displacement = to < command.time ? start.displacement + speed * (to - start.time) : command.displacement;
+          grip = frame.rigid() ? displacement : grip_tried;
           work += stepper->work();
           if (rig) rig->follow(*stepper, to, dt);
           watch_for_break(dt);
@@ -372,8 +385,9 @@ struct TestBench::Impl {
     }
     if (command.step != step_index) enter_step(command);
     if (command.balance) {
-      cell.balance(grips.force_upper(*stepper));
-      extension_zero = grips.end_to_end(displacement);
+      cell.balance(grips.force_upper(*stepper), time);
+      extension_zero = grips.end_to_end(grip);
+      raw_extension_zero = displacement;
     }
     std::string gave_up = advance(command, {time, displacement}, command.time);
     if (parted()) {
@@ -385,11 +399,12 @@ struct TestBench::Impl {
       failed_step = save_step(*stepper, boundary, time, control.last_tried());
     } else {
       displacement = command.displacement;
+      if (frame.rigid()) grip = displacement;
       judge_phase();
     }
     if (watch && !parted()) watch->follow(stepper->state().position);
     Sample last = read(command, time);
-    if (command.read_cell && status != BenchStatus::kFailed) last.load = cell.read(last.force_upper);
+    if (command.read_cell && status != BenchStatus::kFailed) last.load = cell.read(last.force_upper, time);
     for (const Sample& step : substeps) {
       last.highest_load = std::max(last.highest_load, step.highest_load);
       last.lowest_load = std::min(last.lowest_load, step.lowest_load);
@@ -415,7 +430,7 @@ const std::string& TestBench::failed_step() const { return impl_->failed_step; }
 const RodProperties& TestBench::rod() const { return impl_->stepper->rod(); }
 const RodState& TestBench::state() const { return impl_->stepper->state(); }
 Vec3 TestBench::lower_grip() const { return impl_->grips.lower(); }
-Vec3 TestBench::upper_grip() const { return impl_->grips.upper(impl_->displacement); }
+Vec3 TestBench::upper_grip() const { return impl_->grips.upper(impl_->grip); }
 double TestBench::time() const { return impl_->time; }
 double TestBench::longest_step() const { return tolerances(impl_->physics, impl_->specimen).longest_step; }
 Eigen::VectorXd TestBench::tension() const { return impl_->stepper->tension(); }

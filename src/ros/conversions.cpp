@@ -73,6 +73,7 @@ void copy_sample(const From& from, To& to) {
   to.rejected_steps = from.rejected_steps;
   to.newton_iterations = from.newton_iterations;
   to.message = from.message;
+  to.raw_extension = from.raw_extension;
 }
 
 }  // namespace

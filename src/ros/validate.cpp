@@ -115,6 +115,7 @@ std::string fault_of_state(const KnotState& m, const std::string& prefix) {
       .count("status", m.status, KnotState::RUNNING, KnotState::FAILED)
       .text("message", m.message)
       .text("motion_pattern", m.motion_pattern)
+      .number_or_none("raw_extension", m.raw_extension)
       .fault();
 }
 

@@ -10,6 +10,7 @@
 #include "knot_utm/io/cannot_write.hpp"
 #include "knot_utm/io/comparison.hpp"
 #include "knot_utm/io/curve_file.hpp"
+#include "knot_utm/io/report.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/curve_bag.hpp"
 #endif
@@ -24,6 +25,8 @@ struct Arguments {
   std::string a, b;
   bool balance = false;
   std::optional<double> tolerance;
+  std::optional<std::string> report;  // a folder
+  std::string command;                // the whole line
 };
 
 std::vector<CurveRow> read(const std::string& file) {
@@ -56,11 +59,14 @@ Pull pull_from(const std::string& file, bool balanced) {
 int run(const Arguments& arguments) {
   if (arguments.tolerance && !std::isfinite(*arguments.tolerance))
     throw InvalidInput("--tolerance", std::to_string(*arguments.tolerance), "a number of at least 0");
-  const Comparison comparison =
-      compare(pull_from(arguments.a, arguments.balance), pull_from(arguments.b, arguments.balance));
+  const Pull a = pull_from(arguments.a, arguments.balance), b = pull_from(arguments.b, arguments.balance);
+  const Comparison comparison = compare(a, b);
   if (!comparison.difference) throw InvalidInput("extensions", "none that both have", "two curves that overlap");
-  std::fputs(comparison_yaml(comparison, arguments.a, arguments.b).c_str(), stdout);
+  const std::string yaml = comparison_yaml(comparison, arguments.a, arguments.b);
+  if (arguments.report) write_comparison(*arguments.report, yaml, a, b, arguments.a, arguments.b);
+  std::fputs(yaml.c_str(), stdout);
   if (std::fflush(stdout) != 0) throw CannotWrite("standard output");
+  if (arguments.report) write_report(*arguments.report, arguments.command);
   if (!arguments.tolerance) return kDone;
   const std::vector<std::string> beyond = beyond_tolerance(comparison, *arguments.tolerance);
   for (const std::string& line : beyond) std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
@@ -81,6 +87,8 @@ int main(int argc, char** argv) {
     app.add_flag("--balance", arguments.balance, "the first load and extension of each pull are its zeros");
     app.add_option("--tolerance", arguments.tolerance, "exit code 1 where a relative difference is larger [-]")
         ->check(CLI::NonNegativeNumber);
+    app.add_option("--report", arguments.report, "a folder to write a page to: report.html and report.pdf");
+    arguments.command = knot_utm::command_line(argc, argv);
     if (const auto code = knot_utm::parse(app, knot_utm::kTool, argc, argv)) return *code;
     return knot_utm::run(arguments);
   });

@@ -17,6 +17,7 @@
 #include "knot_utm/io/locked_file.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/recovery.hpp"
+#include "knot_utm/io/report.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/machine/run_test.hpp"
@@ -94,6 +95,8 @@ struct Arguments {
   std::string resume;       // a folder; empty: a new test
   double checkpoint = 5.0;  // wall time between two [s]; 0: none
   bool quiet = false;
+  bool report = false;
+  std::string command;  // the whole line
 };
 
 /// What a run leaves in its folder, written as it goes.
@@ -275,13 +278,19 @@ int run(const Arguments& arguments) {
   Test test{method, out, bench, program, checkpoint, std::nullopt};
   if (resumes) test.past.emplace(out, method, checkpoint, bench, program);
   JournalWriter journal = resumes ? JournalWriter::go_on(out, 0.0) : JournalWriter(out, journal_header(method));
+  int code = kDone;
   try {
-    return run_to_end(test, journal, arguments.checkpoint, arguments.quiet);
+    code = run_to_end(test, journal, arguments.checkpoint, arguments.quiet);
   } catch (const InvalidInput&) {
     throw;
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(error.what() + how_to_recover(out));
   }
+  if (arguments.report) {
+    write_report(out, arguments.command);
+    if (!arguments.quiet) std::printf("report: %s/report.html and %s/report.pdf\n", out.c_str(), out.c_str());
+  }
+  return code;
 }
 
 /// What is wrong with an argument stands in no file.
@@ -306,6 +315,7 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_flag("--quiet", arguments.quiet, "say nothing but what went wrong");
+  app.add_flag("--report", arguments.report, "write report.html and report.pdf too");
   const std::optional<int> code = parse(app, kTool, argc, argv, [&] {
     if (method->empty() && resume->empty()) throw CLI::RequiredError("METHOD");
   });
@@ -321,6 +331,7 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
 int main(int argc, char** argv) {
   return knot_utm::run_tool(knot_utm::kTool, [&] {
     knot_utm::Arguments arguments;
+    arguments.command = knot_utm::command_line(argc, argv);
     if (const std::optional<int> code = knot_utm::read_arguments(argc, argv, arguments)) return *code;
     knot_utm::set_signals();
     try {

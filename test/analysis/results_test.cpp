@@ -231,6 +231,93 @@ TEST(Results, ABreakEndsThePullAndIsNoUntangling) {
   EXPECT_EQ(results.ended_by, EndedBy::kBreak);
 }
 
+/// A spring that is pulled in three coarse steps, breaks, and is balanced where it begins.
+TEST(Results, WhatIsReadOffThePullBeginsWhereThePullDoes) {
+  std::vector<Sample> samples(4);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].phase = i == 0 ? Phase::kBalance : Phase::kPull;
+    samples[i].extension = samples[i].displacement = 0.01 * static_cast<double>(i);
+    samples[i].force_upper = samples[i].force_lower = 2.0 + 500.0 * samples[i].extension;
+    samples[i].end_to_end = 0.25 + samples[i].extension;
+  }
+  Results results = analyse(samples, EndedBy::kExtension);
+  EXPECT_NEAR(*results.energy_to_peak, 0.03 * (2.0 + 17.0) / 2.0, 1e-12);
+  EXPECT_FALSE(results.energy_to_break);
+  EXPECT_NEAR(*results.secant_stiffness, 500.0, 1e-9);
+  EXPECT_NEAR(*results.tangent_stiffness, 500.0, 1e-9);
+  EXPECT_FALSE(results.chord_stiffness) << "it never was as low as a tenth of the peak";
+  EXPECT_FALSE(results.relaxation);
+  samples.back().status = BenchStatus::kBroken;
+  results = analyse(samples, EndedBy::kBreak);
+  EXPECT_DOUBLE_EQ(*results.energy_to_break, *results.energy_to_peak);
+}
+
+TEST(Results, RelaxationIsThatOfTheLastHoldUnderALoad) {
+  std::vector<Sample> samples;
+  const auto add = [&](Phase phase, double displacement, double force) {
+    Sample sample;
+    sample.phase = phase;
+    sample.displacement = sample.extension = displacement;
+    sample.force_upper = force;
+    sample.end_to_end = 0.25 + displacement;
+    samples.push_back(sample);
+  };
+  add(Phase::kIdle, 0.0, 0.5);
+  add(Phase::kHold, 0.0, 0.4);
+  EXPECT_FALSE(analyse(samples, EndedBy::kProgram).relaxation) << "a shape that settles";
+  add(Phase::kPull, 0.01, 100.0);
+  add(Phase::kHold, 0.01, 90.0);
+  add(Phase::kHold, 0.01, 80.0);
+  add(Phase::kPull, 0.02, 200.0);
+  EXPECT_NEAR(analyse(samples, EndedBy::kProgram).relaxation->lost(), 0.2, 1e-12);
+  add(Phase::kHold, 0.02, 190.0);
+  add(Phase::kHold, 0.02, 150.0);
+  const Results results = analyse(samples, EndedBy::kProgram);
+  EXPECT_EQ(results.relaxation->from, 200.0);
+  EXPECT_EQ(results.relaxation->to, 150.0);
+  EXPECT_NEAR(results.relaxation->lost(), 0.25, 1e-12);
+}
+
+TEST(Results, AHoldAtALoadIsNoRelaxation) {
+  std::vector<Sample> samples(4);
+  const double displacement[] = {0.0, 0.01, 0.01, 0.011};
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    samples[i].phase = i < 2 ? Phase::kPull : Phase::kHold;
+    samples[i].displacement = samples[i].extension = displacement[i];
+    samples[i].force_upper = 100.0 * static_cast<double>(i);
+    samples[i].end_to_end = 0.25;
+  }
+  EXPECT_FALSE(analyse(samples, EndedBy::kProgram).relaxation);
+  samples[3].displacement = samples[2].displacement;
+  EXPECT_NEAR(analyse(samples, EndedBy::kProgram).relaxation->lost(), -2.0, 1e-12);
+}
+
+/// A spring of 200 N/m with dry friction of 2 N beside it, which is pulled to 0.02 m and cycles from there to 0.03 m.
+TEST(Results, HysteresisIsThatOfTheLastCycle) {
+  std::vector<Sample> samples;
+  const auto move = [&](Phase phase, double from, double to) {
+    for (int i = 1; i <= 100; ++i) {
+      Sample sample;
+      sample.phase = phase;
+      sample.displacement = sample.extension = from + (to - from) * i / 100.0;
+      sample.force_upper = 200.0 * sample.extension + (to > from ? 2.0 : -2.0);
+      sample.end_to_end = 0.25 + sample.extension;
+      samples.push_back(sample);
+    }
+  };
+  move(Phase::kPull, 0.0, 0.02);
+  EXPECT_FALSE(analyse(samples, EndedBy::kProgram).hysteresis);
+  for (int i = 0; i < 3; ++i) {
+    move(Phase::kCycle, 0.02, 0.03);
+    move(Phase::kCycle, 0.03, 0.02);
+  }
+  move(Phase::kReturn, 0.02, 0.0);
+  const Results results = analyse(samples, EndedBy::kProgram);
+  EXPECT_EQ(results.cycles, 3u);
+  // Where it turns F falls within one of a hundred steps.
+  EXPECT_NEAR(*results.hysteresis, 2.0 * 2.0 * 0.01, 1.01 * 2.0 * 2.0 * 0.01 / 100.0);
+}
+
 TEST(Results, EnergyBalanceIsThatOfWorkStorageAndLoss) {
   std::vector<Sample> samples = Curve().samples();
   for (std::size_t i = 0; i < samples.size(); ++i) {
@@ -341,6 +428,8 @@ TEST(Results, WhatATestDoesNotHaveIsEmpty) {
   EXPECT_FALSE(results.energy_balance_error);
   EXPECT_FALSE(results.energy);
   EXPECT_FALSE(results.tied_knot_distance);
+  EXPECT_FALSE(results.energy_to_peak || results.energy_to_break || results.relaxation);
+  EXPECT_FALSE(results.chord_stiffness || results.secant_stiffness || results.tangent_stiffness);
 }
 
 }  // namespace

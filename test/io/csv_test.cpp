@@ -74,6 +74,27 @@ TEST_F(Csv, CurveReadsBackToTheSameBits) {
   EXPECT_EQ(rows[1].phase, Phase::kHold);
 }
 
+TEST_F(Csv, OfACompliantFrameTheCorrectedExtensionIsTheLastColumn) {
+  Sample sample;
+  sample.extension = 0.01;
+  sample.raw_extension = 0.0125;
+  sample.phase = Phase::kPull;
+  CurveWriter writer(path_, true);
+  writer.write(sample);
+  EXPECT_EQ(text(),
+            "time,extension,load,knot_distance,end_to_end,load_lower,phase,corrected_extension\n"
+            "s,m,N,m,m,N,-,m\n"
+            "0,0.0125,0,nan,0,0,pull,0.01\n");
+  const std::vector<CurveRow> rows = read_curve(path_);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].extension, 0.0125);
+  EXPECT_EQ(rows[0].corrected_extension, 0.01);
+  EXPECT_TRUE(std::isnan(curve_row(Sample()).corrected_extension));
+  const std::string names = "time,extension,load,knot_distance,end_to_end,load_lower,phase,corrected_extension\n";
+  EXPECT_THAT(complaint(names + "s,m,N,m,m,N,-,mm\n"), HasSubstr("unit of corrected_extension: mm"));
+  EXPECT_THAT(complaint(names + "s,m,N,m,m,N,-,m\n0,0,0,0,0,0,pull,x\n"), HasSubstr("corrected_extension: x"));
+}
+
 TEST_F(Csv, WrongCurvesAreNamed) {
   EXPECT_THAT(complaint(""), HasSubstr("can be read"));
   EXPECT_THAT(complaint("time,load\ns,N\n"), HasSubstr("no column extension"));

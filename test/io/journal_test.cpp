@@ -41,7 +41,8 @@ constexpr double Sample::*kNumbers[] = {&Sample::time,
                                         &Sample::friction_loss,
                                         &Sample::numerical_dissipation,
                                         &Sample::reweighting_loss,
-                                        &Sample::moment_imbalance};
+                                        &Sample::moment_imbalance,
+                                        &Sample::raw_extension};
 
 /// No two numbers are the same; some are those that are easily lost.
 Sample sample(std::uint64_t sequence) {

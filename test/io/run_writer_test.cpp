@@ -103,7 +103,19 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
                           "warnings",
                           "reason",
                           "not_equilibrated",
-                          "tied_knot_distance"}) {
+                          "tied_knot_distance",
+                          "load_cell_error",
+                          "plateau_load_cell_error",
+                          "energy_to_peak",
+                          "energy_to_break",
+                          "chord_stiffness",
+                          "secant_stiffness",
+                          "tangent_stiffness",
+                          "hold_force_begin",
+                          "hold_force_end",
+                          "relaxation",
+                          "cycles",
+                          "hysteresis"}) {
     EXPECT_TRUE(result[key].IsDefined()) << key;
   }
   EXPECT_EQ(result["ended_by"].as<std::string>(), "extension");
@@ -192,6 +204,29 @@ TEST(ResultYaml, WarnsOfWhatTheResultsShow) {
                                                HasSubstr("still moved")));
   EXPECT_FALSE(result["knot_type_preserved"].as<bool>());
   EXPECT_TRUE(result["not_equilibrated"].as<bool>());
+}
+
+TEST(ResultYaml, SaysHowFarTheLoadCellMayBeOff) {
+  Results results;
+  results.peak_force = 2000.0;
+  results.plateau_force = 6.0;
+  RunFacts facts;
+  YAML::Node result = YAML::Load(result_yaml(results, facts));
+  EXPECT_TRUE(result["load_cell_error"].IsNull());
+  EXPECT_TRUE(result["plateau_load_cell_error"].IsNull());
+  EXPECT_EQ(result["warnings"].size(), 0u);
+  facts.load_cell.capacity = 1000.0;
+  facts.load_cell.accuracy = 0.005;
+  facts.load_cell.floor = 0.01;
+  facts.load_cell.overload = 1.5;
+  result = YAML::Load(result_yaml(results, facts));
+  EXPECT_DOUBLE_EQ(result["load_cell_error"].as<double>(), 0.005 * 2000.0);
+  EXPECT_DOUBLE_EQ(result["plateau_load_cell_error"].as<double>(), 0.01 * 1000.0);
+  EXPECT_THAT(result["warnings"].as<std::vector<std::string>>(),
+              ::testing::ElementsAre("the plateau force lies below the load cell's floor of 10 N",
+                                     "the load cell was overloaded: beyond 1500 N it reads its stop"));
+  results.peak_force = 9.0;
+  EXPECT_THAT(result_yaml(results, facts), HasSubstr("the peak force lies below"));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "knot_utm/rod/invalid_input.hpp"
 
@@ -11,9 +12,9 @@ namespace {
 
 TEST(LoadCell, ReadsTheTrueForceUnlessToldOtherwise) {
   LoadCell cell{LoadCellOptions()};
-  EXPECT_EQ(cell.read(12.345), 12.345);
-  cell.balance(2.0);
-  EXPECT_EQ(cell.read(12.5), 10.5);
+  EXPECT_EQ(cell.read(12.345, 0.0), 12.345);
+  cell.balance(2.0, 0.0);
+  EXPECT_EQ(cell.read(12.5, 0.0), 10.5);
   EXPECT_EQ(cell.balanced(2.0), 0.0);
 }
 
@@ -21,8 +22,8 @@ TEST(LoadCell, ResolutionRoundsToTheNearest) {
   LoadCellOptions options;
   options.resolution = 0.5;
   LoadCell cell(options);
-  EXPECT_EQ(cell.read(1.26), 1.5);
-  EXPECT_EQ(cell.read(-1.2), -1.0);
+  EXPECT_EQ(cell.read(1.26, 0.0), 1.5);
+  EXPECT_EQ(cell.read(-1.2, 0.0), -1.0);
 }
 
 TEST(LoadCell, NoiseHasItsDeviationAndFollowsFromTheSeed) {
@@ -37,9 +38,9 @@ TEST(LoadCell, NoiseHasItsDeviationAndFollowsFromTheSeed) {
   double squares = 0.0;
   int equal = 0;
   for (int i = 0; i < kReadings; ++i) {
-    const double reading = cell.read(5.0);
-    EXPECT_EQ(same.read(5.0), reading);
-    equal += other.read(5.0) == reading ? 1 : 0;
+    const double reading = cell.read(5.0, 0.0);
+    EXPECT_EQ(same.read(5.0, 0.0), reading);
+    equal += other.read(5.0, 0.0) == reading ? 1 : 0;
     sum += reading - 5.0;
     squares += (reading - 5.0) * (reading - 5.0);
   }
@@ -49,13 +50,89 @@ TEST(LoadCell, NoiseHasItsDeviationAndFollowsFromTheSeed) {
   EXPECT_LT(equal, 3);
 }
 
-TEST(LoadCell, TakesNoNonsense) {
+/// Of 400 cells of one class; and reading two forces tells the gain of each.
+TEST(LoadCell, AccuracyIsAnErrorOfTheGainWithinItsBoundsAndAllOverThem) {
+  constexpr int kCells = 400;
+  double sum = 0.0, squares = 0.0;
+  for (unsigned seed = 0; seed < kCells; ++seed) {
+    LoadCellOptions options;
+    options.accuracy = 0.005;
+    options.seed = seed;
+    LoadCell cell(options);
+    cell.balance(10.0, 0.0);
+    const double share = (cell.read(110.0, 0.0) - 100.0) / (100.0 * options.accuracy);
+    EXPECT_NEAR(cell.read(-190.0, 5.0), -2.0 * cell.read(110.0, 7.0), 1e-10);
+    EXPECT_EQ(cell.read(10.0, 0.0), 0.0);
+    EXPECT_LE(std::abs(share), 1.0);
+    sum += share;
+    squares += share * share;
+  }
+  // Five standard deviations of mean and mean square of a uniform distribution from -1 to 1.
+  EXPECT_NEAR(sum / kCells, 0.0, 5.0 * std::sqrt(1.0 / 3.0 / kCells));
+  EXPECT_NEAR(squares / kCells, 1.0 / 3.0, 5.0 * std::sqrt(4.0 / 45.0 / kCells));
+}
+
+TEST(LoadCell, ItsNoiseIsTheSameWhateverItsAccuracy) {
   LoadCellOptions options;
-  options.capacity = 0.0;
-  EXPECT_THROW(LoadCell{options}, InvalidInput);
-  options.capacity = 1.0;
-  options.noise = -1.0;
-  EXPECT_THROW(LoadCell{options}, InvalidInput);
+  options.noise = 0.1;
+  LoadCell exact(options);
+  options.accuracy = 0.01;
+  LoadCell other(options);
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(exact.read(0.0, 0.0), other.read(0.0, 0.0));
+}
+
+TEST(LoadCell, DriftsSinceItWasBalanced) {
+  LoadCellOptions options;
+  options.drift = -0.25;
+  LoadCell cell(options);
+  EXPECT_EQ(cell.read(1.0, 2.0), 0.5);
+  cell.balance(1.0, 4.0);
+  EXPECT_EQ(cell.read(1.0, 4.0), 0.0);
+  EXPECT_EQ(cell.read(1.0, 8.0), -1.0);
+}
+
+TEST(LoadCell, ReadsItsStopWhereItIsOverloaded) {
+  LoadCellOptions options;
+  options.capacity = 20.0;
+  EXPECT_EQ(LoadCell(options).read(1e3, 0.0), 1e3) << "no stop unless told";
+  options.overload = 1.5;
+  LoadCell cell(options);
+  cell.balance(2.0, 0.0);
+  EXPECT_EQ(cell.read(29.0, 0.0), 27.0);
+  EXPECT_EQ(cell.read(31.0, 0.0), 28.0);
+  EXPECT_EQ(cell.read(-1e3, 0.0), -32.0);
+}
+
+TEST(LoadCell, ItsClassSaysHowFarAReadingMayBeOff) {
+  LoadCellOptions cell;
+  cell.capacity = 1000.0;
+  EXPECT_FALSE(class_error(cell, 100.0));
+  cell.accuracy = 0.005;
+  EXPECT_DOUBLE_EQ(*class_error(cell, -100.0), 0.5);
+  cell.floor = 0.01;
+  EXPECT_DOUBLE_EQ(*class_error(cell, 10.0), 0.05);
+  EXPECT_DOUBLE_EQ(*class_error(cell, 9.9), 10.0);
+  EXPECT_TRUE(is_below_floor(cell, -9.9));
+  EXPECT_FALSE(is_below_floor(cell, 10.0));
+}
+
+TEST(LoadCell, TakesNoNonsense) {
+  const auto wrong = [](double LoadCellOptions::*option, double value) {
+    LoadCellOptions options;
+    options.*option = value;
+    try {
+      LoadCell{options};
+    } catch (const InvalidInput& invalid) {
+      return invalid.key;
+    }
+    return std::string();
+  };
+  EXPECT_EQ(wrong(&LoadCellOptions::capacity, 0.0), "machine.load_cell.capacity");
+  EXPECT_EQ(wrong(&LoadCellOptions::noise, -1.0), "machine.load_cell.noise");
+  EXPECT_EQ(wrong(&LoadCellOptions::accuracy, -0.1), "machine.load_cell.accuracy");
+  EXPECT_EQ(wrong(&LoadCellOptions::floor, 1.1), "machine.load_cell.floor");
+  EXPECT_EQ(wrong(&LoadCellOptions::overload, 0.9), "machine.load_cell.overload");
+  EXPECT_EQ(wrong(&LoadCellOptions::drift, std::nan("")), "machine.load_cell.drift");
 }
 
 }  // namespace

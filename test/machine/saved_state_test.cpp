@@ -58,6 +58,7 @@ std::vector<Bits> numbers(const Sample& s) {
           {s.numerical_dissipation},
           {s.reweighting_loss},
           {s.moment_imbalance},
+          {s.raw_extension},
           {static_cast<double>(s.steps)},
           {static_cast<double>(s.rejected_steps)},
           {static_cast<double>(s.newton_iterations)},
@@ -141,6 +142,7 @@ Scene straight() {
   out.specimen.edge_length = 0.005;
   out.machine.grips = GripKind::kClamps;
   out.machine.load_cell.noise = 3.0;
+  out.machine.load_cell.drift = 0.1;
   out.physics.accuracy = Accuracy::kDraft;
   return out;
 }
@@ -164,6 +166,13 @@ Scene broken() {
   out.name = "broken";
   out.material.breaking_force = 1000.0;
   out.every = 1;
+  return out;
+}
+
+Scene on_a_compliant_frame() {
+  Scene out = straight();
+  out.name = "compliantFrame";
+  out.machine.stiffness = 1e5;
   return out;
 }
 
@@ -249,7 +258,7 @@ TEST_P(SavedState, GoesOnToTheSameBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SavedState,
-                         testing::Values(straight(), programmed(), broken(),
+                         testing::Values(straight(), on_a_compliant_frame(), programmed(), broken(),
                                          overhand("overhandWithTwist", FrictionLaw::kMemory, ContactLaw::kSmooth),
                                          overhand("smoothedFriction", FrictionLaw::kSmoothed, ContactLaw::kSmooth),
                                          overhand("edgeContact", FrictionLaw::kMemory, ContactLaw::kEdge),

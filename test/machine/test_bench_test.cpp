@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "knot_utm/rod/invalid_input.hpp"
 #include "rod/materials.hpp"
@@ -20,9 +21,11 @@ SpecimenOptions straight_rod() {
   return out;
 }
 
-TestBench bench(const SpecimenOptions& specimen, GripKind grips = GripKind::kClamps) {
+TestBench bench(const SpecimenOptions& specimen, GripKind grips = GripKind::kClamps,
+                double stiffness = std::numeric_limits<double>::infinity()) {
   MachineOptions machine;
   machine.grips = grips;
+  machine.stiffness = stiffness;
   PhysicsOptions physics;
   physics.accuracy = Accuracy::kDraft;
   return TestBench(specimen, nylon(), machine, physics);
@@ -65,6 +68,59 @@ TEST(TestBench, AStraightRodIsASpringOfStiffnessOverLength) {
     extension = sample.extension;
   }
   EXPECT_NEAR(extension, 6.6e-3, 1e-12);
+}
+
+/// Two springs in series, F = D/(1/K + L/k_s), of a frame that is softer than the rod, as stiff and stiffer.
+TEST(TestBench, OnACompliantFrameAStraightRodIsOneOfTwoSpringsInSeries) {
+  const double rod = nylon().stretching_stiffness / 0.25;
+  for (const double frame : {0.1 * rod, rod, 10.0 * rod}) {
+    TestBench machine = bench(straight_rod(), GripKind::kClamps, frame);
+    machine.respond(Command{});
+    const double upper = machine.upper_grip()[2], speed = 3.3e-3, period = 0.1;
+    const double series = 1.0 / (1.0 / frame + 1.0 / rod);
+    // In motion the frame bears more than the rod, by Z + K tau times the speed of the grip, series/rod of the
+    // crosshead's: a rod of just the stiffness that the frame counts on adds nothing.
+    const double wave = std::sqrt(nylon().stretching_stiffness * nylon().density * M_PI) * nylon().radius;
+    const double lag = (wave + 3e-3 * frame) * speed * series / rod;
+    Command command;
+    for (std::uint64_t k = 1; k <= 20; ++k) {
+      command = pull(k, period * static_cast<double>(k), speed * period * static_cast<double>(k));
+      const Sample sample = machine.respond(command);
+      ASSERT_EQ(sample.status, BenchStatus::kRunning) << sample.message;
+      const double exact = series * sample.displacement;
+      EXPECT_LE(sample.force_upper, exact * (1.0 + 1e-5));
+      EXPECT_GE(sample.force_upper, exact * (1.0 - 1e-5) - lag);
+      // The rod's own curve does not know of the frame.
+      EXPECT_NEAR(sample.force_upper, rod * sample.extension, 1e-5 * sample.force_upper);
+      EXPECT_EQ(sample.raw_extension, sample.displacement);
+      EXPECT_DOUBLE_EQ(machine.upper_grip()[2], upper + sample.extension);
+    }
+    for (std::uint64_t k = 21; k <= 40; ++k) {
+      command.sequence = k;
+      command.time = period * static_cast<double>(k);
+      command.phase = Phase::kHold;
+      command.step = 2;
+      machine.respond(command);
+    }
+    command.sequence = 41;
+    command.time += period;
+    const Sample held = machine.respond(command);
+    EXPECT_NEAR(held.force_upper, series * held.displacement, 1e-5 * held.force_upper);
+    EXPECT_NEAR(held.extension, held.raw_extension - held.force_upper / frame, 1e-5 * held.extension);
+  }
+}
+
+TEST(TestBench, OnACompliantFrameBalanceZeroesBothExtensions) {
+  TestBench machine = bench(straight_rod(), GripKind::kClamps, 1e5);
+  machine.respond(Command{});
+  const Sample before = machine.respond(pull(1, 0.1, 3.3e-4));
+  Command command = pull(2, 0.2, 6.6e-4);
+  command.balance = true;
+  const Sample sample = machine.respond(command);
+  EXPECT_DOUBLE_EQ(sample.raw_extension, 3.3e-4);
+  EXPECT_NEAR(sample.extension, sample.end_to_end - before.end_to_end, 1e-16);
+  EXPECT_LT(sample.extension, sample.raw_extension);
+  EXPECT_TRUE(std::isnan(bench(straight_rod()).respond(Command{}).raw_extension));
 }
 
 TEST(TestBench, RefusesASpecimenThatDoesNotFit) {

@@ -85,6 +85,7 @@ TEST_F(CurveBag, OfASimulatedTestIsItsCurve) {
       record.command.phase = record.answer.phase = Phase::kPull;
       record.command.displacement = 0.3;
       record.answer.extension = 0.01 * static_cast<double>(i);
+      if (i == 3) record.answer.raw_extension = 0.035;  // of a compliant frame
       record.answer.load = 2.0 * static_cast<double>(i);
       record.answer.knot_distance = 0.15;
       bag.add(record);
@@ -94,7 +95,9 @@ TEST_F(CurveBag, OfASimulatedTestIsItsCurve) {
   const std::vector<CurveRow> rows = read_curve_bag(file("test.bag"));
   ASSERT_EQ(rows.size(), 2u);  // of readings alone
   EXPECT_EQ(rows[1].time, 1.5);
-  EXPECT_EQ(rows[1].extension, 0.03);
+  EXPECT_EQ(rows[0].extension, 0.01);
+  EXPECT_EQ(rows[1].extension, 0.035);
+  EXPECT_EQ(rows[1].corrected_extension, 0.03);
   EXPECT_EQ(rows[1].load, 6.0);
   EXPECT_EQ(rows[1].knot_distance, 0.15);
 }

@@ -40,7 +40,10 @@ class LateAndSlowTest(unittest.TestCase):
         try:
             tool = find_in_workspaces(['libexec'], 'knot_utm', 'tensile_test', first_match_only=True)[0]
             method = os.path.join(rospkg.RosPack().get_path('knot_utm'), 'config', 'straight.yaml')
-            subprocess.run([tool, method, '--out', headless, '--quiet'], check=True)
+            subprocess.run([tool, method, '--out', headless, '--quiet', '--set', 'machine.stiffness=1e6',
+                            '--set', 'machine.load_cell.accuracy=0.005'], check=True)
+            with open(os.path.join(headless, 'curve.csv'), encoding='utf-8') as curve:
+                self.assertTrue(curve.readline().endswith(',phase,corrected_extension\n'))
             for name in ['curve.csv', 'curve_full.csv', 'final_shape.csv', 'method.yaml', 'test.bag']:
                 self.assertTrue(filecmp.cmp(os.path.join(OUT, name), os.path.join(headless, name), shallow=False), name)
         finally:

@@ -29,6 +29,14 @@ struct EnergyParts {
 /// What happened between two samples.
 EnergyParts energy_between(const Sample& from, const Sample& to);
 
+/// What became of F while the crosshead stood still.
+struct Relaxation {
+  double from;  ///< F where the hold begins, which is positive [N]
+  double to;    ///< and where it ends [N]
+
+  double lost() const { return (from - to) / from; }  ///< share of F [-]
+};
+
 /// What a test says: every measured key of result.yaml. A value that the test does not have is empty.
 ///
 /// Symbols: s extension, F true force on the upper grip, s_l lock extension. F is not what the cell reads: balancing it
@@ -58,6 +66,20 @@ struct Results {
   std::optional<double> break_arclength;  ///< of the place where it did, from its first node [m]
   BreakPlace break_place = BreakPlace::kNone;
   std::string failure_mode;  ///< sliding then fracture, stretching then fracture, fracture, untangling; empty: none
+
+  // Of the pull, with the state that it began from as its origin (pull_readings.hpp).
+  std::optional<double> energy_to_peak;     ///< [J]
+  std::optional<double> energy_to_break;    ///< where the rod broke [J]
+  std::optional<double> chord_stiffness;    ///< from 10 % to 50 % of the peak [N/m]
+  std::optional<double> secant_stiffness;   ///< from the origin to the peak [N/m]
+  std::optional<double> tangent_stiffness;  ///< where the pull is steepest [N/m]
+
+  std::optional<Relaxation> relaxation;  ///< of the last hold under a load
+
+  // Of the last step that cycles (cycles.hpp).
+  std::size_t cycles = 0;            ///< that were closed
+  std::optional<double> hysteresis;  ///< of the last of them [J]
+
   std::optional<double> untangled_at;    ///< time [s], see MotionPatternTracker
   KnotType knot_type = KnotType::kKept;  ///< at the end, see KnotWatch
   std::string not_equilibrated;          ///< empty: tying and release ended at rest; else what still moved

@@ -14,22 +14,25 @@ namespace knot_utm {
 /// One row of curve.csv.
 struct CurveRow {
   double time = 0.0;                     ///< [s]
-  double extension = 0.0;                ///< s [m]
+  double extension = 0.0;                ///< as the crosshead travels since balance: s where the frame is rigid [m]
   double load = 0.0;                     ///< [N]
   double knot_distance = Sample::kNone;  ///< e [m]; NaN: no two knots
   double end_to_end = 0.0;               ///< L [m]
   double load_lower = 0.0;               ///< [N]
   Phase phase = Phase::kIdle;
+  double corrected_extension = Sample::kNone;  ///< s where the frame is compliant [m]; NaN: it is rigid, or not known
 };
 
 CurveRow curve_row(const Sample& sample);
 
 /// curve.csv and curve_full.csv: row 1 names, row 2 units, then one row a sample, comma between columns, every number
 /// in the shortest form that reads back to the same double, "nan" for what is not there. Each row is handed to the
-/// operating system before `write` returns, so a run that is killed keeps what it measured.
+/// operating system before `write` returns, so a run that is killed keeps what it measured. The last column,
+/// corrected_extension, is there only for a compliant frame.
 class CurveWriter {
  public:
-  explicit CurveWriter(const std::string& file);  ///< throws std::runtime_error where the file cannot be written
+  /// Throws std::runtime_error where the file cannot be written.
+  explicit CurveWriter(const std::string& file, bool compliant_frame = false);
 
   void write(const CurveRow& row);  ///< throws std::runtime_error (disk full)
   void write(const Sample& sample) { write(curve_row(sample)); }
@@ -39,10 +42,12 @@ class CurveWriter {
  private:
   std::string file_;
   std::ofstream out_;
+  bool compliant_frame_;
   std::size_t rows_ = 0;
 };
 
-/// Reads what CurveWriter wrote. Columns are found by name, in any order; others are passed over. Throws InvalidInput
+/// Reads what CurveWriter wrote, with corrected_extension or without. Columns are found by name, in any order; others
+/// are passed over. Throws InvalidInput
 /// where the file cannot be read, a column is missing, a unit differs, a row is not as it should be, or there are more
 /// than TextRows allows.
 std::vector<CurveRow> read_curve(const std::string& file);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knot_utm/machine/accuracy.hpp"
+#include "knot_utm/machine/options.hpp"
 #include "knot_utm/machine/sample.hpp"
 
 namespace knot_utm {
@@ -17,7 +18,7 @@ struct RunFacts {
   ReadingErrors errors;               ///< of the readings, as fractions of them
   double wall_time = 0.0;             ///< [s]
   std::uint64_t peak_memory = 0;      ///< of the process [bytes]; 0: not known
-  unsigned seed = 0;                  ///< of the load cell's noise
+  LoadCellOptions load_cell;          ///< that read the forces
   std::string version;                ///< of this package
 };
 

@@ -11,7 +11,8 @@
 namespace knot_utm {
 
 /// What the machine holds the specimen by: two rollers in the loop of a fisherman's knot, or nodes, which clamps hold
-/// two by two with their material frames. The lower grip stands; the upper one moves along +z by the displacement [m].
+/// two by two with their material frames. The lower grip stands; the upper one moves along +z by its displacement [m]:
+/// the crosshead's, less what a compliant frame gives (frame.hpp).
 class Grips {
  public:
   /// At displacement 0. `radius`: of the rod [m].

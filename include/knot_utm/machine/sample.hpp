@@ -90,6 +90,7 @@ struct Sample {
   KnotType knot_type = KnotType::kKept;
   BenchStatus status = BenchStatus::kRunning;
   std::string message;
+  double raw_extension = kNone;  ///< travel of the crosshead since balance [m]; NaN: a rigid frame, on which it is s
 
   void state(Archive& archive);
 };

@@ -13,7 +13,7 @@
 
 namespace knot_utm {
 
-/// The specimen on the machine: rod, grips, rollers, tying rig and load cell, stepped by commands.
+/// The specimen on the machine: rod, grips, rollers, tying rig, frame and load cell, stepped by commands.
 /// The same bench answers a test program headless and under ROS; the same commands give the same bits.
 ///
 /// Frame: z up and along the load axis, the lower grip's roller (or node, or clamp) near z = 0.

@@ -1,0 +1,85 @@
+"""Two curves overlaid, and their difference."""
+import matplotlib.pyplot as plt
+import numpy as np
+
+from few_points import few_points
+from quantities import number
+from style import BLUE, GREEN, GREY, INK, ORANGE, WIDTH, as_svg
+
+SMALL = 8.0  # a peak above this many plateaus hides the plateau: it gets axes of its own
+
+
+def overlay(comparison):
+    """Both curves, again where loads are small beside the peak, and B less A over the extensions that both have."""
+    closer = near_the_plateau(comparison)
+    heights = [3.6] + ([2.3] if closer else []) + [2.1]
+    tall = sum(heights) + 0.9
+    figure, all_axes = plt.subplots(len(heights), 1, figsize=(WIDTH, tall), sharex=True, squeeze=False,
+                                    gridspec_kw={"height_ratios": heights, "hspace": 0.12})
+    all_axes = list(all_axes[:, 0])
+    for axes in all_axes[:-1]:
+        draw_both(axes, comparison)
+    all_axes[0].legend(loc="upper left")
+    all_axes[0].set_ylabel("load F [N]")
+    if closer:
+        all_axes[1].set_ylim(*closer)
+        all_axes[1].set_ylabel("load F [N], small loads")
+    draw_difference(all_axes[-1], comparison)
+    low, high = (1e3 * s for s in comparison.facts["common_extension"])
+    for axes in all_axes:
+        for s in (low, high):
+            axes.axvline(s, color=GREY, lw=0.6, ls=":")
+    every = np.concatenate([comparison.a.extension, comparison.b.extension]) * 1e3
+    all_axes[-1].set_xlim(min(0.0, every.min()), every.max() + 0.015 * (np.ptp(every) or 1.0))
+    all_axes[-1].set_xlabel("extension s [mm]")
+    figure.align_ylabels(all_axes)
+    figure.subplots_adjust(left=0.085, right=0.985, bottom=0.55 / tall, top=1.0 - 0.15 / tall)
+    return as_svg(figure)
+
+
+def near_the_plateau(comparison):
+    plateaus = [value for value in readings(comparison, "plateau_force") if value]
+    peaks = [value for value in readings(comparison, "peak_force") if value]
+    if not plateaus or not peaks or max(peaks) < SMALL * max(plateaus):
+        return None
+    top = 3.0 * max(plateaus)
+    lowest = min(0.0, float(comparison.a.load.min()), float(comparison.b.load.min()))
+    return max(lowest, -top) - 0.05 * top, top
+
+
+def readings(comparison, key):
+    both = comparison.facts.get(key) or {}
+    return [both.get("a"), both.get("b")]
+
+
+def draw_both(axes, comparison):
+    for pull, colour, name in ((comparison.a, ORANGE, "A"), (comparison.b, BLUE, "B")):
+        rows = few_points(pull.load)
+        axes.plot(1e3 * pull.extension[rows], pull.load[rows], color=colour, lw=1.4,
+                  label=f"{name}: {short(comparison.facts[name.lower()])}")
+    for colour, lock in zip((ORANGE, BLUE), readings(comparison, "lock_extension")):
+        if lock is not None:
+            axes.axvline(1e3 * lock, color=colour, lw=0.9, ls=(0, (4, 3)), label="_lock")
+
+
+def short(file):
+    """The last two parts of a path, the last ones of a long name."""
+    text = "/".join(file.split("/")[-2:])
+    text = text if len(text) <= 60 else "…" + text[-59:]
+    return text.replace("$", r"\$")  # which begins a formula
+
+
+def draw_difference(axes, comparison):
+    s, difference = comparison.difference()
+    rows = few_points(difference)
+    s, difference = s[rows], difference[rows]
+    axes.axhline(0.0, color=INK, lw=0.8)
+    axes.fill_between(1e3 * s, difference, color=GREEN, alpha=0.25, lw=0)
+    axes.plot(1e3 * s, difference, color=GREEN, lw=1.2)
+    at, largest = comparison.number("largest_difference_at"), comparison.number("largest_difference")
+    if at is not None and largest is not None:
+        axes.plot(1e3 * at, largest, "o", ms=4, color=GREEN)
+        side = "right" if at > np.mean(comparison.facts["common_extension"]) else "left"
+        axes.annotate(f"largest: {number(largest)} N at {number(1e3 * at)} mm", (1e3 * at, largest), ha=side,
+                      va="center", xytext=(-8 if side == "right" else 8, 0), textcoords="offset points", fontsize=8.5, color=GREEN)
+    axes.set_ylabel("B – A [N]")

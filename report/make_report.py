@@ -1,0 +1,54 @@
+#!/usr/bin/python3
+"""Writes report.html and report.pdf into the folder of a test, or of a comparison.
+
+    make_report.py FOLDER [--command TEXT] [--version VERSION]
+
+The page names TEXT as the command that made it, and VERSION of knot_utm.
+"""
+import argparse
+import os
+import shlex
+import sys
+
+# Debian's name of what a module is in.
+PACKAGES = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy", "yaml": "python3-yaml",
+            "jinja2": "python3-jinja2", "weasyprint": "weasyprint"}
+
+
+def main():
+    parser = argparse.ArgumentParser(prog="report", description="Writes report.html and report.pdf into the folder of "
+                                     "a test, or of a comparison.")
+    parser.add_argument("folder", help="that tensile_test, a recorder or compare --report wrote")
+    parser.add_argument("--command", help="that the page names as the one that made it")
+    parser.add_argument("--version", help="of knot_utm, that made it", default="")
+    arguments = parser.parse_args()
+    command = arguments.command or "scripts/report " + shlex.quote(arguments.folder)
+    try:
+        make(arguments.folder, command, arguments.version)
+    except ModuleNotFoundError as missing:
+        package = PACKAGES.get((missing.name or "").split(".")[0])
+        sys.exit(f"report: {missing}" + (f": install Debian's package {package}" if package else ""))
+    except KeyboardInterrupt:
+        sys.exit("report: interrupted")
+    except Exception as error:  # one line, whatever it was
+        said = " ".join(str(error).split())
+        sys.exit("report: " + (said if type(error).__name__ == "CannotReport" else f"{type(error).__name__}: {said}"))
+
+
+def make(folder, command, version):
+    from failure import CannotReport
+
+    if os.path.exists(os.path.join(folder, "comparison.yaml")):
+        kind = "comparison"
+    elif os.path.exists(os.path.join(folder, "result.yaml")):
+        kind = "run"
+    else:
+        raise CannotReport(f"{folder}: neither result.yaml nor comparison.yaml is there")
+    import page
+
+    makers = {"run": page.report_on_run, "comparison": page.report_on_comparison}
+    page.write(folder, makers[kind](folder, command, version))
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,49 @@
+"""The points of a test that its curve and its pictures have in common: a, b, c …"""
+import numpy as np
+
+
+class Mark:
+    """`names`: what happened there; several where they fall together. Time [s], extension [m], load [N]."""
+
+    def __init__(self, names, time, extension, load):
+        self.names, self.time, self.extension, self.load = names, time, extension, load
+        self.letter = ""
+
+    def title(self):
+        return ", ".join(self.names)
+
+
+def time_of_break(marks):
+    """[s]; None: the rod is whole."""
+    return next((mark.time for mark in marks if "break" in mark.names), None)
+
+
+def marks_of(run):
+    """Start of the pull, lock, peak, break and end, in order of time; none where nothing was tested."""
+    tested = run.curve.tested()
+    if not len(tested):
+        return []
+    pull = run.pull()
+    begin = pull if len(pull) else tested
+    found = [("start of pull" if len(pull) else "start", begin, 0)]
+    for name, at in (("lock", run.value("lock_extension")), ("peak", None), ("break", run.value("break_extension"))):
+        if name == "peak":
+            found.append((name, tested, int(np.argmax(tested["load"]))))
+        elif at is not None and len(pull):
+            found.append((name, pull, int(np.argmin(np.abs(pull["extension"] - at)))))
+    found.append(("end", tested, len(tested) - 1))
+    return together([Mark([name], rows["time"][i], rows["extension"][i], rows["load"][i]) for name, rows, i in found],
+                    0.01 * (tested["time"][-1] - tested["time"][0]), 0.05 * float(np.abs(tested["load"]).max()))
+
+
+def together(marks, soon, near):
+    """Marks within `soon` [s] and `near` [N] of the one before become one with it, at the later time; a break lies
+    between others. Then they get their letters."""
+    merged = []
+    for mark in sorted(marks, key=lambda mark: mark.time):
+        if merged and mark.time - merged[-1].time <= soon and abs(mark.load - merged[-1].load) <= near:
+            mark.names = merged.pop().names + mark.names
+        merged.append(mark)
+    for number, mark in enumerate(merged):
+        mark.letter = chr(ord("a") + number)
+    return merged

@@ -1,0 +1,147 @@
+"""The rod at the marked points: a tube coloured by its tension."""
+import matplotlib.pyplot as plt
+import numpy as np
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import PolyCollection
+from matplotlib.colors import LinearSegmentedColormap, LogNorm, to_rgb
+from matplotlib.ticker import FuncFormatter, LogLocator
+
+from shapes import pieces
+from style import GREY, INK, WIDTH, as_png
+from tube import Tube, smooth, to_picture
+
+TENSION = LinearSegmentedColormap.from_list("tension", ["#ece5d3", "#e8bd6a", "#d9752f", "#b02a30", "#6e1540"])
+UNKNOWN = to_rgb("#9fb3c4")
+DPI = 170
+NEAR = 2.6      # strands whose centrelines are nearer than this many radii touch, or nearly so
+MARGIN = 4.0    # around what is shown [radii]
+LONGEST = 7.0   # a picture wider than this many of its heights shows the knot alone
+
+
+def pictures(run, marks, shapes):
+    """All of them in one picture, one below the other, with one scale of colours."""
+    radius = run.method["material"]["radius"]
+    norm = scale_of([shape.tension for shape in shapes if shape.tension is not None])
+    views = [view(run, shape, radius) for shape in shapes]
+    width = max(right - left for left, right, _, _ in views)
+    heights = [WIDTH * (top - bottom) / width + 0.25 for _, _, bottom, top in views]
+    scale_height = 0.75 if norm else 0.1
+    figure = plt.figure(figsize=(WIDTH, sum(heights) + scale_height))
+    grid = figure.add_gridspec(len(shapes) + 1, 1, height_ratios=[*heights, scale_height], left=0.0, right=1.0,
+                               bottom=0.0, top=1.0, hspace=0.0)
+    for row, (mark, shape, box) in enumerate(zip(marks, shapes, views)):
+        axes = figure.add_subplot(grid[row])
+        draw_rod(axes, shape, shapes[0], radius, norm)
+        draw_rollers(axes, run, shape)
+        frame(axes, box, width, heights[row])
+        label(axes, mark, shape, run)
+    if norm:
+        draw_scale(figure.add_subplot(grid[len(shapes)]), norm)
+    return as_png(figure, DPI)
+
+
+def scale_of(tensions):
+    """Logarithmic: a sliding knot carries a thousandth of a locked one. None where no tension is known."""
+    largest = max((float(np.percentile(tension, 99.5)) for tension in tensions), default=0.0)
+    if not largest > 0.0:
+        return None
+    usual = min(float(np.percentile(tension, 70.0)) for tension in tensions)
+    return LogNorm(min(max(0.3 * usual, 1e-4 * largest), 0.1 * largest), largest, clip=True)
+
+
+def draw_rod(axes, shape, whole, radius, norm):
+    tubes = [(part, Tube(smooth(to_picture(shape.points[part])), radius)) for part in pieces(shape, whole)]
+    colours = np.concatenate([tube.shaded(base_of(shape, part, tube.along, norm)) for part, tube in tubes])
+    depth = np.concatenate([tube.depth for _, tube in tubes])
+    # What is farther from the eye is paler.
+    away = (depth.max() - depth) / max(np.ptp(depth), 4.0 * radius)
+    colours = colours + 0.35 * away[:, None] * (0.93 - colours)
+    order = np.argsort(depth, kind="stable")
+    outlines = np.concatenate([tube.outlines for _, tube in tubes])[order]
+    axes.add_collection(PolyCollection(1e3 * outlines, facecolors=colours[order], edgecolors=colours[order],
+                                       linewidths=0.25, zorder=2))
+
+
+def base_of(shape, part, along, norm):
+    """Colours by tension at places along a part of the rod, 0 to 1."""
+    if shape.tension is None or norm is None:
+        return np.tile(UNKNOWN, (len(along), 1))
+    nodes = part.start + along * (part.stop - 1 - part.start)
+    tension = np.interp(nodes, np.arange(len(shape.tension)) + 0.5, shape.tension)
+    return TENSION(norm(np.maximum(tension, norm.vmin)))[:, :3]
+
+
+def rollers(run, shape):
+    """[(place along the load axis, radius)] [mm]"""
+    if run.method["specimen"]["knot"] != "fisherman" or run.method["machine"]["grips"] != "rollers":
+        return []
+    radius = 0.5e3 * run.method["machine"]["roller_diameter"]
+    return [(z, radius) for z in (0.0, 1e3 * float(np.interp(shape.time, run.curve["time"], run.curve["end_to_end"])))]
+
+
+def draw_rollers(axes, run, shape):
+    for z, radius in rollers(run, shape):
+        axes.add_patch(plt.Circle((z, 0.0), radius, facecolor="#e3e8ec", edgecolor="#b3bfc9", lw=0.8, zorder=1))
+        axes.add_patch(plt.Circle((z, 0.0), 0.15 * radius, facecolor="#b3bfc9", edgecolor="none", zorder=1))
+
+
+def view(run, shape, radius):
+    """Left, right, bottom, top [mm] of what is shown: rod and rollers, or the knot alone where it would be too small."""
+    shown = to_picture(shape.points)
+    ends = [[1e-3 * (z + side * r), 1e-3 * side * r] for z, r in rollers(run, shape) for side in (-1.0, 1.0)]
+    whole = box_around(np.vstack([shown[:, :2], *ends]), radius)
+    if whole[1] - whole[0] <= LONGEST * (whole[3] - whole[2]) * 1.6:
+        return whole
+    knot = touching(shape.points, radius)
+    if not knot.any():
+        return whole
+    left, right, bottom, top = box_around(shown[knot], radius)
+    wide = max(right - left, LONGEST * 0.5 * (top - bottom), 60.0 * 1e3 * radius)
+    middle = 0.5 * (left + right)
+    inside = (1e3 * shown[:, 0] > middle - 0.5 * wide) & (1e3 * shown[:, 0] < middle + 0.5 * wide)
+    _, _, bottom, top = box_around(shown[inside], radius)
+    return middle - 0.5 * wide, middle + 0.5 * wide, bottom, top
+
+
+def box_around(points, radius):
+    low, high = points.min(axis=0), points.max(axis=0)
+    margin = MARGIN * radius
+    return tuple(1e3 * np.array([low[0] - margin, high[0] + margin, low[1] - margin, high[1] + margin]))
+
+
+def touching(points, radius):
+    """Nodes near another strand: nearer through the air than half as far along the rod."""
+    along = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))])
+    near = np.zeros(len(points), dtype=bool)
+    for i, point in enumerate(points):
+        distance = np.linalg.norm(points - point, axis=1)
+        near[i] = bool(((distance < NEAR * radius) & (np.abs(along - along[i]) > 2.0 * NEAR * radius)).any())
+    return near
+
+
+def frame(axes, box, width, height):
+    middle = 0.5 * (box[0] + box[1])
+    axes.set_xlim(middle - 0.5 * width, middle + 0.5 * width)
+    tall = width * height / WIDTH
+    middle = 0.5 * (box[2] + box[3])
+    axes.set_ylim(middle - 0.5 * tall, middle + 0.5 * tall)
+    axes.axis("off")
+
+
+def label(axes, mark, shape, run):
+    at = float(np.interp(shape.time, run.curve["time"], run.curve["extension"]))
+    axes.text(0.012, 0.97, mark.letter, transform=axes.transAxes, va="top", fontsize=12, weight="bold", color=INK)
+    axes.text(0.03, 0.967, f"{mark.title()}: s = {1e3 * at:.1f} mm", transform=axes.transAxes, va="top", fontsize=9.5,
+              color=INK)
+
+
+def draw_scale(axes, norm):
+    axes.axis("off")
+    inset = axes.inset_axes([0.3, 0.55, 0.4, 0.16])
+    bar = plt.colorbar(ScalarMappable(norm, TENSION), cax=inset, orientation="horizontal", extend="min")
+    bar.set_label("tension of the rod [N]", fontsize=9)
+    bar.outline.set_edgecolor(GREY)
+    narrow = norm.vmax < 150.0 * norm.vmin
+    bar.ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if narrow else (1.0,)))
+    bar.ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    bar.ax.minorticks_off()

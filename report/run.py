@@ -1,0 +1,129 @@
+"""A test as tensile_test or the recorder left it in a folder."""
+import csv
+import os
+
+import numpy as np
+import yaml
+
+from failure import CannotReport
+
+# Phases in which the specimen is pulled further than before.
+PULLING = ("pull", "cycle", "follow")
+# What comes before the test proper: the specimen is made, mounted and zeroed.
+PREPARATION = ("idle", "tie", "release", "mount", "preload", "balance", "done")
+
+
+class Curve:
+    """curve.csv or curve_full.csv: columns by name, SI, and the phase of every row."""
+
+    def __init__(self, columns, phase):
+        self.columns, self.phase = columns, phase
+
+    def __getitem__(self, name):
+        return self.columns[name]
+
+    def __len__(self):
+        return len(self.phase)
+
+    def where(self, mask):
+        return Curve({name: column[mask] for name, column in self.columns.items()}, self.phase[mask])
+
+    def tested(self):
+        """The rows of the test proper."""
+        return self.where(~np.isin(self.phase, PREPARATION))
+
+    def pull(self):
+        """The rows that pull and reach a new largest extension: what the readings are of."""
+        pulled = self.where(np.isin(self.phase, PULLING))
+        if not len(pulled):
+            return pulled
+        before = np.concatenate([[-np.inf], np.maximum.accumulate(pulled["extension"])[:-1]])
+        return pulled.where(pulled["extension"] > before)
+
+    def has_compliant_frame(self):
+        return "crosshead_extension" in self.columns
+
+    def has_knot_distance(self):
+        return bool(np.isfinite(self["knot_distance"]).any())
+
+
+class Run:
+    def __init__(self, folder):
+        self.folder = folder
+        self.method = read_yaml(os.path.join(folder, "method.yaml"))
+        self.result = read_yaml(os.path.join(folder, "result.yaml"))
+        self.readings = read_curve(os.path.join(folder, "curve.csv"))
+        self.curve = read_curve(os.path.join(folder, "curve_full.csv"))
+
+    def value(self, key):
+        """A number of result.yaml; None where the test has none."""
+        value = self.result.get(key)
+        return value if is_number(value) else None
+
+    def pull(self):
+        """The pull, up to the break."""
+        pull, broke = self.curve.pull(), self.value("break_extension")
+        return pull if broke is None else pull.where(pull["extension"] <= broke)
+
+    def offset(self):
+        """True force less load [N]."""
+        return self.value("balance_offset") or 0.0
+
+    def load_cell_floor(self):
+        """Below this load the cell's error is no longer a share of the reading [N]; None: the method says nothing."""
+        cell = self.method.get("machine", {}).get("load_cell")
+        if not isinstance(cell, dict) or not is_number(cell.get("floor")) or not is_number(cell.get("capacity")):
+            return None
+        return cell["floor"] * cell["capacity"] or None
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and np.isfinite(value)
+
+
+def read_text(file):
+    try:
+        with open(file, encoding="utf-8", newline="") as text:
+            return text.read()
+    except (OSError, UnicodeDecodeError) as why:
+        raise CannotReport(f"{file}: cannot be read: {getattr(why, 'strerror', None) or why}") from why
+
+
+def read_yaml(file):
+    try:
+        content = yaml.safe_load(read_text(file))
+    except yaml.YAMLError as why:
+        raise CannotReport(f"{file}: not YAML: {' '.join(str(why).split())}") from why
+    if not isinstance(content, dict):
+        raise CannotReport(f"{file}: a map is needed")
+    return content
+
+
+def read_columns(file):
+    """Columns by name, as text; row 1 has names, row 2 units."""
+    rows = list(csv.reader(read_text(file).splitlines()))
+    if len(rows) < 2 or any(len(row) != len(rows[0]) for row in rows):
+        raise CannotReport(f"{file}: not a table with a row of names and a row of units")
+    columns = list(zip(*rows[2:])) if len(rows) > 2 else [()] * len(rows[0])
+    return dict(zip(rows[0], columns))
+
+
+def numbers(file, name, column):
+    try:
+        return np.array(column, dtype=float)
+    except ValueError as why:
+        raise CannotReport(f"{file}: {name}: {why}") from why
+
+
+def read_curve(file):
+    columns = read_columns(file)
+    for name in ("time", "extension", "load", "knot_distance", "end_to_end", "phase"):
+        if name not in columns:
+            raise CannotReport(f"{file}: no column {name}")
+    phase = np.array(columns.pop("phase"), dtype=str)
+    curve = Curve({name: numbers(file, name, column) for name, column in columns.items()}, phase)
+    if "corrected_extension" in columns:  # the frame is compliant: results are of the specimen's own extension
+        own = curve["corrected_extension"]
+        curve.columns["crosshead_extension"] = curve["extension"]
+        curve.columns["extension"] = np.where(np.isfinite(own), own, curve["extension"])
+    return curve

@@ -1,0 +1,70 @@
+#include "pull_integrals.hpp"
+
+namespace knot_utm {
+namespace {
+
+/// The first point from s on; at least the second, so that there is one before it.
+std::size_t next_point(const Pull& pull, std::size_t end, double s) {
+  const auto less = [](const PullPoint& point, double extension) { return point.extension < extension; };
+  return static_cast<std::size_t>(
+      std::lower_bound(pull.begin() + 1, pull.begin() + static_cast<std::ptrdiff_t>(end), s, less) - pull.begin());
+}
+
+}  // namespace
+
+Integrals integrate(const Pull& pull, const Range& range) {
+  Integrals out;
+  for (std::size_t i = 1; i < pull.size(); ++i) {
+    const PullPoint &a = pull[i - 1], &b = pull[i];
+    const Piece piece(a, b, range);
+    if (!(piece.width > 0.0)) continue;
+    out.width += piece.width;
+    out.force += piece.width * (piece.from + piece.to) / 2.0;
+    out.square += piece.width * (piece.from * piece.from + piece.from * piece.to + piece.to * piece.to) / 3.0;
+    out.distance_change += piece.share * (b.knot_distance - a.knot_distance);
+  }
+  return out;
+}
+
+double slope_over(const Pull& pull, const Range& range) {
+  const double length = range.high - range.low, middle = 0.5 * (range.low + range.high);
+  double moment = 0.0;  // integral of F (s - middle) ds
+  for (std::size_t i = next_point(pull, pull.size(), range.low); i < pull.size(); ++i) {
+    if (pull[i - 1].extension >= range.high) break;
+    const Piece piece(pull[i - 1], pull[i], range);
+    if (!(piece.width > 0.0)) continue;
+    const double arm = std::max(pull[i - 1].extension, range.low) - middle, rise = piece.to - piece.from;
+    moment += piece.width * (piece.from * (arm + piece.width / 2.0) + rise * (arm / 2.0 + piece.width / 3.0));
+  }
+  return 12.0 * moment / (length * length * length);
+}
+
+std::size_t peak_of(const Pull& pull) {
+  const auto less = [](const PullPoint& a, const PullPoint& b) { return a.force < b.force; };
+  return static_cast<std::size_t>(std::max_element(pull.begin(), pull.end(), less) - pull.begin());
+}
+
+WayToPeak::WayToPeak(const Pull& pull) : pull_(pull), peak_(peak_of(pull)), work_(peak_ + 1, 0.0), least_(peak_ + 1) {
+  for (std::size_t i = 1; i <= peak_; ++i)
+    work_[i] = work_[i - 1] + 0.5 * (pull[i].extension - pull[i - 1].extension) * (pull[i].force + pull[i - 1].force);
+  least_[peak_] = pull[peak_].force;
+  for (std::size_t i = peak_; i-- > 0;) least_[i] = std::min(least_[i + 1], pull[i].force);
+}
+
+double WayToPeak::last_rise_through(double force) const {
+  // The least F from a point on only grows from point to point.
+  const auto above = std::upper_bound(least_.begin(), least_.end(), force);
+  if (above == least_.end()) return end();
+  if (above == least_.begin()) return start();
+  const auto next = static_cast<std::size_t>(above - least_.begin());
+  const PullPoint &a = pull_[next - 1], &b = pull_[next];
+  return a.extension + (force - a.force) / (b.force - a.force) * (b.extension - a.extension);
+}
+
+double WayToPeak::work_to(double extension) const {
+  const std::size_t next = next_point(pull_, peak_, extension);
+  const Piece piece(pull_[next - 1], pull_[next], {pull_[next - 1].extension, extension});
+  return work_[next - 1] + piece.width * (piece.from + piece.to) / 2.0;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,166 @@
+#include "knot_utm/io/report.hpp"
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+#include <vector>
+
+#include "knot_utm/io/number.hpp"
+#include "knot_utm/io/run_facts.hpp"
+#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kPython = "/usr/bin/python3";  // Debian's, which has Debian's packages
+
+/// An installed executable looks beside itself first, as it does for materials.
+fs::path script() {
+  const fs::path name = fs::path("report") / "make_report.py";
+  std::error_code error;
+  const fs::path executable = fs::read_symlink("/proc/self/exe", error);
+  const fs::path installed = executable.parent_path() / ".." / ".." / "share" / "knot_utm" / name;
+  if (!error && fs::is_regular_file(installed, error)) return installed.lexically_normal();
+  return fs::path(KNOT_UTM_REPORT_DIR) / "make_report.py";
+}
+
+std::runtime_error cannot_run(int error) {
+  return std::runtime_error(std::string("report: ") + kPython +
+                            " cannot be run: " + std::generic_category().message(error));
+}
+
+/// One end is ours, one the program's.
+class Pipe {
+ public:
+  Pipe() {
+    if (pipe2(ends_.data(), O_CLOEXEC) != 0) throw cannot_run(errno);
+  }
+  ~Pipe() {
+    close(ends_[0]);
+    close_entrance();
+  }
+  Pipe(const Pipe&) = delete;
+  Pipe& operator=(const Pipe&) = delete;
+
+  int entrance() const { return ends_[1]; }
+  void close_entrance() {
+    if (ends_[1] >= 0) close(ends_[1]);
+    ends_[1] = -1;
+  }
+
+  /// Until nobody can write any more.
+  std::string read_all() const {
+    std::string all;
+    std::array<char, 4096> part{};
+    for (;;) {
+      const ssize_t size = ::read(ends_[0], part.data(), part.size());
+      if (size < 0 && errno == EINTR) continue;
+      if (size <= 0) return all;
+      all.append(part.data(), static_cast<std::size_t>(size));
+    }
+  }
+
+ private:
+  std::array<int, 2> ends_{};
+};
+
+/// What a program said, on whichever stream, and how it ended.
+struct Ended {
+  std::string said;
+  int status = 0;  ///< as waitpid gives it
+};
+
+/// Runs a program to its end, without a shell.
+Ended run(const std::vector<std::string>& words) {
+  std::vector<char*> arguments;
+  for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
+  arguments.push_back(nullptr);
+
+  Pipe pipe;
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, pipe.entrance(), STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, pipe.entrance(), STDERR_FILENO);
+  pid_t child = 0;
+  const int error = posix_spawn(&child, arguments[0], &actions, nullptr, arguments.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) throw cannot_run(error);
+
+  pipe.close_entrance();
+  Ended ended;
+  ended.said = pipe.read_all();
+  while (waitpid(child, &ended.status, 0) < 0 && errno == EINTR) continue;
+  return ended;
+}
+
+/// What went wrong stands in the last line, as of every Python that fails.
+std::string last_line(const std::string& text) {
+  const std::size_t end = text.find_last_not_of(" \n");
+  if (end == std::string::npos) return {};
+  const std::size_t before = text.rfind('\n', end);
+  const std::size_t begin = before == std::string::npos ? 0 : before + 1;
+  return text.substr(begin, end + 1 - begin);
+}
+
+std::string quoted(const std::string& word) {
+  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
+  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
+  std::string out = "'";
+  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
+  return out + "'";
+}
+
+std::string pull_csv(const Pull& pull) {
+  std::string text = "extension,load\nm,N\n";
+  for (const PullPoint& point : pull) text += format_number(point.extension) + "," + format_number(point.force) + "\n";
+  return text;
+}
+
+}  // namespace
+
+std::string command_line(int argc, const char* const* argv) {
+  std::string line;
+  for (int i = 0; i < argc; ++i) line += (i == 0 ? "" : " ") + quoted(argv[i]);
+  return line;
+}
+
+void write_report(const std::string& folder, const std::string& command) {
+  // -E, -s: what the user's own Python is made to find is not what Debian's packages were made for; -B: nothing is
+  // written beside the script. Where it succeeds what it says are warnings of libraries.
+  const Ended ended =
+      run({kPython, "-EsB", script().string(), "--command", command, "--version", version(), "--", folder});
+  if (WIFEXITED(ended.status) && WEXITSTATUS(ended.status) == 0) return;
+  const std::string line = last_line(ended.said);
+  throw std::runtime_error(line.empty() ? "report: " + std::string(kPython) + " ended without a word" : line);
+}
+
+void write_comparison(const std::string& folder, const std::string& yaml, const Pull& a, const Pull& b,
+                      const std::string& file_a, const std::string& file_b) {
+  const fs::path where(folder);
+  std::error_code error;
+  if (fs::exists(where / "result.yaml", error))
+    throw InvalidInput("--report", folder, "a folder that does not hold a run");
+  const std::vector<std::pair<std::string, std::string>> files = {
+      {"comparison.yaml", yaml}, {"a.csv", pull_csv(a)}, {"b.csv", pull_csv(b)}};
+  for (const auto& [name, text] : files) {
+    for (const std::string& compared : {file_a, file_b}) {
+      if (fs::equivalent(where / name, compared, error))
+        throw InvalidInput("--report", folder, "a folder in which " + name + " is not what is compared");
+    }
+  }
+  fs::create_directories(where, error);
+  if (!fs::is_directory(where, error)) throw InvalidInput("--report", folder, "a folder that can be made");
+  for (const auto& [name, text] : files) write_whole((where / name).string(), text);
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,92 @@
+#include "knot_utm/analysis/pull_readings.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace knot_utm {
+namespace {
+
+Pull pull(const std::function<double(double)>& force, double end = 0.1, int points = 1000) {
+  Pull out;
+  for (int i = 0; i <= points; ++i) {
+    const double s = end * i / points;
+    out.push_back({s / 3.3e-3, s, Sample::kNone, force(s)});
+  }
+  return out;
+}
+
+TEST(PullReadings, OfASpringAllStiffnessesAreItsOwn) {
+  const Pull spring = pull([](double s) { return 160.0 * s; });
+  EXPECT_NEAR(energy(spring), 0.5 * 160.0 * 0.1 * 0.1, 1e-12);
+  EXPECT_EQ(energy_to_peak(spring), energy(spring));
+  EXPECT_NEAR(*chord_stiffness(spring), 160.0, 1e-9);
+  EXPECT_NEAR(*secant_stiffness(spring), 160.0, 1e-9);
+  EXPECT_NEAR(*tangent_stiffness(spring), 160.0, 1e-9);
+}
+
+/// F = a s^2: s at a share of the peak is the root of it, and a tenth's least-squares slope is that in its middle.
+TEST(PullReadings, OfAParabolaTheyAreItsClosedForms) {
+  constexpr double kFactor = 3e4, kEnd = 0.1, kPeak = kFactor * kEnd * kEnd;
+  const Pull parabola = pull([](double s) { return kFactor * s * s; });
+  const double step = kEnd / 1000.0;
+  // A curve drawn straight from point to point is too high by no more than F'' step^2/8.
+  const double drawn = 2.0 * kFactor * step * step / 8.0;
+  EXPECT_NEAR(energy_to_peak(parabola), kFactor * std::pow(kEnd, 3) / 3.0, drawn * kEnd);
+  const double chord = 0.4 * kPeak / (kEnd * (std::sqrt(0.5) - std::sqrt(0.1)));
+  EXPECT_NEAR(*chord_stiffness(parabola), chord, chord * 10.0 * drawn / kPeak);
+  EXPECT_NEAR(*secant_stiffness(parabola), kFactor * kEnd, 1e-9);
+  EXPECT_NEAR(*tangent_stiffness(parabola), 2.0 * kFactor * 0.95 * kEnd, 3.0 * drawn / (0.1 * kEnd));
+}
+
+/// 6 N that slide, 2e5 N/m behind s = 0.08 m, and a breakaway above a tenth of the peak.
+TEST(PullReadings, OfAKnotThatLocksTheChordIsThatOfTheLock) {
+  const auto force = [](double s) {
+    return 6.0 * std::min(1.0, s / 1e-3) + 1000.0 * std::exp(-std::pow((s - 0.01) / 1e-3, 2)) +
+           2e5 * std::max(0.0, s - 0.08);
+  };
+  const Pull knot = pull(force);
+  EXPECT_NEAR(*chord_stiffness(knot), 2e5, 1e-6);
+  EXPECT_NEAR(*secant_stiffness(knot), force(0.1) / 0.1, 1e-6);
+  EXPECT_NEAR(*tangent_stiffness(knot), 2e5, 1e-4);
+}
+
+TEST(PullReadings, TheEnergyGoesOnBehindThePeakTheStiffnessesDoNot) {
+  const Pull tent = pull([](double s) { return s < 0.06 ? 100.0 * s : 6.0 - 1e3 * (s - 0.06); }, 0.062, 620);
+  EXPECT_NEAR(energy_to_peak(tent), 0.5 * 0.06 * 6.0, 1e-12);
+  EXPECT_NEAR(energy(tent), 0.5 * 0.06 * 6.0 + 0.002 * (6.0 + 4.0) / 2.0, 1e-12);
+  EXPECT_NEAR(*secant_stiffness(tent), 100.0, 1e-9);
+  EXPECT_NEAR(*tangent_stiffness(tent), 100.0, 1e-9);
+}
+
+TEST(PullReadings, TheSameLinesByMorePointsAreTheSame) {
+  const auto bent = [](double s) { return 50.0 * s + 1e3 * std::max(0.0, s - 0.05) + 1e4 * std::max(0.0, s - 0.08); };
+  Pull few;
+  for (const double s : {0.0, 0.05, 0.08, 0.1}) few.push_back({s, s, Sample::kNone, bent(s)});
+  EXPECT_NEAR(energy(few), energy(pull(bent)), 1e-12);
+  EXPECT_NEAR(*chord_stiffness(few), *chord_stiffness(pull(bent)), 1e-6);
+  EXPECT_NEAR(*tangent_stiffness(few), 50.0 + 1e3 + 1e4, 1e-6);
+  EXPECT_NEAR(*tangent_stiffness(pull(bent)), 50.0 + 1e3 + 1e4, 1e-6);
+}
+
+TEST(PullReadings, WhatAPullDoesNotHaveIsEmpty) {
+  const Pull one = {{0.0, 0.01, Sample::kNone, 5.0}};
+  for (const Pull& nothing : {Pull{}, one}) {
+    EXPECT_EQ(energy(nothing), 0.0);
+    EXPECT_EQ(energy_to_peak(nothing), 0.0);
+    EXPECT_FALSE(chord_stiffness(nothing));
+    EXPECT_FALSE(secant_stiffness(nothing));
+    EXPECT_FALSE(tangent_stiffness(nothing));
+  }
+  // Mounted under more than a tenth of the peak.
+  const Pull tight = pull([](double s) { return 5.0 + 100.0 * s; });
+  EXPECT_FALSE(chord_stiffness(tight));
+  EXPECT_NEAR(*secant_stiffness(tight), 100.0, 1e-9);
+  const Pull falling = pull([](double s) { return 5.0 - s; });
+  EXPECT_FALSE(secant_stiffness(falling));
+  EXPECT_FALSE(chord_stiffness(falling));
+}
+
+}  // namespace
+}  // namespace knot_utm

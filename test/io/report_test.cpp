@@ -1,0 +1,66 @@
+// What becomes a page, and what is said where none can be made. The page itself: test/report.
+
+#include "knot_utm/io/report.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <stdexcept>
+
+#include "io/own_folder.hpp"
+#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+TEST(CommandLine, IsOneThatAShellReads) {
+  const char* words[] = {"tensile_test", "--set", "program.pull.until={extension: 0.03}", "it's", ""};
+  EXPECT_EQ(command_line(5, words), R"(tensile_test --set 'program.pull.until={extension: 0.03}' 'it'\''s' '')");
+}
+
+class ReportIn : public OwnFolder {
+ protected:
+  void SetUp() override {
+    OwnFolder::SetUp();
+    fs::create_directories(folder());
+  }
+  static std::string file(const std::string& name) { return folder() + "/" + name; }
+
+  const Pull a_{{0.0, 0.0, 0.0, 1.5}, {1.0, 0.25, 0.0, 2.0}};
+};
+
+TEST_F(ReportIn, AFolderWithoutResultsIsRefusedInOneLine) {
+  try {
+    write_report(folder(), "no command");
+    FAIL() << "a report of nothing";
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("report: " + folder() + ": neither result.yaml nor comparison.yaml is there"));
+    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
+  }
+  EXPECT_FALSE(fs::exists(file("report.html")));
+}
+
+TEST_F(ReportIn, AComparisonIsItsYamlAndBothPulls) {
+  write_comparison(file("new/folder"), "a: x\n", a_, a_, "x", "y");
+  EXPECT_EQ(read_whole(file("new/folder/comparison.yaml")), "a: x\n");
+  EXPECT_EQ(read_whole(file("new/folder/b.csv")), "extension,load\nm,N\n0,1.5\n0.25,2\n");
+}
+
+TEST_F(ReportIn, AComparisonReplacesNoRunAndNothingThatItCompares) {
+  write_whole(file("b.csv"), "measured");
+  EXPECT_THROW(write_comparison(folder(), "", a_, a_, "x", file("./b.csv")), InvalidInput);
+  EXPECT_EQ(read_whole(file("b.csv")), "measured");
+  EXPECT_FALSE(fs::exists(file("a.csv")));
+  write_whole(file("result.yaml"), "");
+  EXPECT_THROW(write_comparison(folder(), "", a_, a_, "x", "y"), InvalidInput);
+  EXPECT_THROW(write_comparison(file("b.csv/below"), "", a_, a_, "x", "y"), InvalidInput);
+  EXPECT_THROW(write_comparison("", "", a_, a_, "x", "y"), InvalidInput);
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,137 @@
+#!/usr/bin/python3
+"""The report in a browser, and on paper: is everything drawn, does it fit, does it ask for anything."""
+import json
+import os
+import re
+import subprocess
+import tempfile
+import unittest
+
+from runs import FISHERMAN, Folders, read, tool, write
+
+import matplotlib.image
+import yaml
+
+WIDTH = 1200  # of the window [px]
+
+# What the page cannot hide from itself, said where --dump-dom shows it.
+PROBE = """<script>window.addEventListener("load", () => {
+  const seen = {
+    images: [...document.images].map(image => [image.complete, image.naturalWidth, image.clientWidth]),
+    requests: performance.getEntriesByType("resource").map(entry => entry.name),
+    overflow: document.documentElement.scrollWidth - window.innerWidth,
+    height: document.documentElement.scrollHeight,
+    keys: [...document.querySelectorAll("[data-key]")].map(element => element.dataset.key),
+    text: document.body.innerText };
+  document.body.innerHTML = "<pre id=seen></pre>";
+  document.getElementById("seen").textContent = btoa(unescape(encodeURIComponent(JSON.stringify(seen))));
+});</script>"""
+
+
+def setUpModule():
+    global folders, run, comparison
+    folders = Folders()
+    run = folders.run("run", FISHERMAN, "--report")
+    other = folders.run("other", [*FISHERMAN, "--set", "material.friction_coefficient=0.5"])
+    comparison = os.path.join(folders.path, "comparison")
+    done = tool("compare", f"{run}/curve.csv", f"{other}/curve.csv", "--report", comparison)
+    assert done.returncode == 0, done.stderr
+
+
+def tearDownModule():
+    folders.remove()
+
+
+def chromium(*arguments):
+    with tempfile.TemporaryDirectory(prefix="knot_utm_browser_") as profile:
+        done = subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
+                               "--disable-dev-shm-usage", f"--user-data-dir={profile}", "--enable-logging=stderr",
+                               *arguments], capture_output=True, text=True, check=False, timeout=120)
+    assert done.returncode == 0, done.stderr
+    return done
+
+
+def in_browser(html):
+    """What the page is like once loaded, and what the console says."""
+    file = os.path.join(folders.path, "probed.html")
+    write(html.replace("</body>", PROBE + "</body>"), file)
+    done = chromium(f"--window-size={WIDTH},1500", "--dump-dom", f"file://{file}")
+    seen = re.search(r'<pre id="seen">([^<]+)</pre>', done.stdout)
+    assert seen, done.stdout[-2000:] + done.stderr
+    decoded = subprocess.run(["base64", "-d"], input=seen.group(1), capture_output=True, text=True, check=True).stdout
+    return json.loads(decoded), [line for line in done.stderr.splitlines() if "CONSOLE" in line]
+
+
+class InABrowser(unittest.TestCase):
+    def is_whole(self, folder, images, keys):
+        seen, console = in_browser(read(folder, "report.html"))
+        self.assertEqual(console, [])
+        self.assertEqual(seen["requests"], [])
+        self.assertEqual(len(seen["images"]), images)
+        for complete, natural, drawn in seen["images"]:
+            self.assertTrue(complete and natural > 100 and drawn > 500, seen["images"])
+        self.assertLessEqual(seen["overflow"], 0)
+        self.assertEqual(set(keys) - set(seen["keys"]), set())
+        return seen
+
+    def test_the_page_of_a_run_is_whole(self):
+        result = yaml.safe_load(read(run, "result.yaml"))
+        seen = self.is_whole(run, 3, result)
+        self.assertIn(f"{1e3 * result['lock_extension']:.1f}", seen["text"])
+
+    def test_the_page_of_a_comparison_is_whole(self):
+        self.is_whole(comparison, 1, yaml.safe_load(read(comparison, "comparison.yaml")))
+
+    def test_what_is_not_whole_would_be_seen(self):
+        seen, console = in_browser('<html><body><img src="data:image/png;base64,AAAA">'
+                                   '<img src="http://127.0.0.1:9/x.png"><div style="width: 3000px">.</div>'
+                                   '<script>console.error("seen");</script>'
+                                   '</body></html>')
+        self.assertEqual([natural for _, natural, _ in seen["images"]], [0, 0])
+        self.assertIn("http://127.0.0.1:9/x.png", seen["requests"])
+        self.assertGreater(seen["overflow"], 0)
+        self.assertTrue(any("seen" in line for line in console), console)
+
+    def test_the_pictures_are_not_blank(self):
+        seen, _ = in_browser(read(run, "report.html"))
+        shot = os.path.join(folders.path, "shot.png")
+        chromium(f"--window-size={WIDTH},{seen['height']}", f"--screenshot={shot}", f"file://{run}/report.html")
+        pixels = matplotlib.image.imread(shot)[:, :, :3]
+        self.assertEqual(pixels.shape[:2], (seen["height"], WIDTH))
+        # The load in blue, the tension of the locked rod in dark red.
+        red, green, blue = (pixels[:, :, i] for i in range(3))
+        self.assertGreater(int(((blue > 0.5) & (red < 0.25) & (green < 0.5)).sum()), 500)
+        if os.path.exists(os.path.join(run, "test.bag")):  # built with ROS: tensions are known
+            self.assertGreater(int(((red > 1.6 * green) & (red > 1.2 * blue) & (red > 0.25)).sum()), 2000)
+
+
+class OnPaper(unittest.TestCase):
+    def pages(self, folder):
+        file = os.path.join(folder, "report.pdf")
+        facts = subprocess.run(["pdfinfo", file], capture_output=True, text=True, check=True).stdout
+        self.assertIn("(A4)", facts)
+        self.assertNotIn("CreationDate", facts)
+        text = subprocess.run(["pdftotext", "-layout", file, "-"], capture_output=True, text=True, check=True).stdout
+        pages = text.split("\f")[:-1]
+        self.assertEqual(len(pages), int(re.search(r"Pages:\s+(\d+)", facts).group(1)))
+        for number, page in enumerate(pages, 1):
+            self.assertRegex(page, rf"\b{number}\s*/\s*{len(pages)}\s*$")
+            self.assertGreater(len(page.split()), 20, f"page {number} is all but empty")
+        return text
+
+    def test_a_run(self):
+        text = self.pages(run)
+        for words in ("Fisherman's knot, polypropylene", "Force and extension", "The rod at the marked points",
+                      "Results", "Quality certificate", "What was tested, and how", "Where it comes from", "--report"):
+            self.assertIn(words, text)
+        lock = yaml.safe_load(read(run, "result.yaml"))["lock_extension"]
+        self.assertRegex(text, rf"lock_extension\s+{1e3 * lock:.1f}")
+
+    def test_a_comparison(self):
+        text = self.pages(comparison)
+        for words in ("Comparison of two curves", "locked_stiffness", "RMS difference", "simulated: Fisherman's knot"):
+            self.assertIn(words, text)
+
+
+if __name__ == "__main__":
+    unittest.main()

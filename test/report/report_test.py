@@ -1,0 +1,355 @@
+#!/usr/bin/python3
+"""The report: what is read from a run's folder, what is made of it, and what is said where it cannot be made."""
+import os
+import re
+import shutil
+import subprocess
+import unittest
+
+from runs import FISHERMAN, ROOT, STRAIGHT, Folders, page_of, put_into, read, script, tool, write
+
+import numpy as np
+import yaml
+
+import certificate
+import error_band
+import marks
+import page
+import quantities
+import shapes
+from few_points import few_points
+from run import Curve, Run
+
+
+def setUpModule():
+    global folders, straight, fisherman
+    folders = Folders()
+    straight = folders.run("straight", STRAIGHT)
+    fisherman = folders.run("fisherman", FISHERMAN, "--report")
+
+
+def tearDownModule():
+    folders.remove()
+
+
+def open_bytes(*parts):
+    with open(os.path.join(*parts), "rb") as content:
+        return content.read()
+
+
+def html_of(folder):
+    """The page as the script makes it, without the time that its PDF takes."""
+    return page.report_on_run(folder, "of the test", "")
+
+
+def keys_on(html):
+    return set(re.findall(r'data-key="(\w+)"', html))
+
+
+def row_of(html, key):
+    """Cells of the row of a key."""
+    row = next(row for row in re.findall(r"<tr>.*?</tr>", html, re.DOTALL) if f'data-key="{key}"' in row)
+    return [re.sub(r"<[^>]+>", "", cell).strip() for cell in re.findall(r"<td.*?</td>", row, re.DOTALL)]
+
+
+class PageOfARun(unittest.TestCase):
+    def test_has_every_key_of_the_result(self):
+        self.assertEqual(set(yaml.safe_load(read(fisherman, "result.yaml"))) - keys_on(page_of(fisherman)), set())
+
+    def test_has_a_key_that_it_never_heard_of(self):
+        folder = folders.copy(straight)
+        write(read(folder, "result.yaml") + "loop_energy: 2.5\nknots_of_loop: [1, 2]\n", folder, "result.yaml")
+        html = html_of(folder)
+        self.assertEqual(row_of(html, "loop_energy")[2:], ["2.5", "", "", "J"])
+        self.assertEqual(row_of(html, "knots_of_loop")[2], "1; 2")
+
+    def test_gives_readings_in_the_units_of_testers_with_their_errors(self):
+        html, result = page_of(fisherman), yaml.safe_load(read(fisherman, "result.yaml"))
+        row = row_of(html, "lock_extension")
+        self.assertAlmostEqual(float(row[2]), 1e3 * result["lock_extension"], delta=0.05)
+        self.assertAlmostEqual(float(row[3]), 1e3 * result["lock_extension_error"], delta=0.05)
+        self.assertEqual(row[5], "mm")
+
+    def test_names_the_command_that_made_it_and_every_file(self):
+        html = page_of(fisherman)
+        self.assertIn(f"tensile_test {' '.join(FISHERMAN)} --quiet --out {fisherman} --report<", html)
+        for name in os.listdir(fisherman):
+            self.assertIn(f"<code>{name}</code>", html)
+
+    def test_asks_for_nothing_from_elsewhere(self):
+        html = page_of(fisherman)
+        self.assertEqual([source[:5] for source in re.findall(r'src="([^"]*)"', html)], ["data:"] * 3)
+        for elsewhere in ("<link", "<script", "http://", "https://", "url(", "@import"):
+            self.assertNotIn(elsewhere, html)
+
+    def test_is_the_same_to_the_last_byte_when_made_again(self):
+        folder, made = folders.copy(fisherman), []
+        for _ in range(2):
+            self.assertEqual(script(folder).returncode, 0)
+            made.append([open_bytes(folder, name) for name in ("report.html", "report.pdf")])
+        self.assertTrue(made[0] == made[1])
+
+    def test_draws_the_floor_of_the_load_cell(self):
+        folder = folders.copy(straight)
+        method = yaml.safe_load(read(folder, "method.yaml"))
+        pages = []
+        for floor in (0.0, 0.002):
+            method["machine"]["load_cell"]["floor"] = floor
+            write(yaml.safe_dump(method), folder, "method.yaml")
+            pages.append(html_of(folder))
+        self.assertEqual(Run(folder).load_cell_floor(), 0.002 * method["machine"]["load_cell"]["capacity"])
+        self.assertEqual(["Hatched" in html for html in pages], [False, True])
+        curves = [re.search(r'src="(data:image/svg[^"]+)"', html).group(1) for html in pages]
+        self.assertTrue(curves[0] != curves[1])
+
+    def test_shows_the_final_shape_where_no_bag_can_be_read(self):
+        folder = folders.copy(straight)
+        bag = os.path.join(folder, "test.bag")
+        os.remove(bag) if os.path.exists(bag) else None
+        for remark in ("no test.bag", "test.bag cannot be read"):
+            html = html_of(folder)
+            self.assertTrue(remark in html)
+            self.assertTrue("image/png" in html)
+            write("#ROSBAG V2.0\n", bag)
+
+    def test_of_a_test_in_which_nothing_was_pulled(self):
+        folder = folders.copy(straight)
+        for name in ("curve.csv", "curve_full.csv"):
+            write("\n".join(read(folder, name).splitlines()[:2]) + "\n", folder, name)
+        self.assertEqual(script(folder).returncode, 0)
+        self.assertIn("there is no curve", page_of(folder))
+
+    def test_says_warnings_first(self):
+        folder = folders.copy(straight)
+        put_into(folder, "result.yaml", "warnings: []", 'warnings: ["a & b < c"]')
+        html = html_of(folder)
+        self.assertLess(html.index("<li>a &amp; b &lt; c</li>"), html.index("<h2>"))
+
+
+class Certificate(unittest.TestCase):
+    def test_limits_are_those_of_the_program(self):
+        source = read(ROOT, "src/io/run_writer.cpp")
+        for name, limit in certificate.LIMITS.items():
+            self.assertEqual(float(re.search(rf"constexpr double {name} = ([\d.]+);", source).group(1)), limit, name)
+        gate = re.search(r'"force_balance_error"\) .*?at_most\(([\d.]+)\)', read(ROOT, "bench/tighten.py"), re.DOTALL)
+        self.assertEqual(float(gate.group(1)), certificate.BENCH_FORCE_BALANCE)
+
+    def test_misses_where_the_program_warns(self):
+        good = yaml.safe_load(read(fisherman, "result.yaml"))
+        self.assertTrue(certificate.verdict(certificate.certificate(good))[1])
+        for key, bad in (("max_penetration", 0.06), ("fastest_node", 0.2), ("energy_balance_error", 0.02),
+                         ("force_balance_error", 0.02), ("knot_type_preserved", False), ("not_equilibrated", True),
+                         ("ended_by", "solver"), ("plateau_force_error", 0.2 * good["plateau_force"])):
+            missed = [check.keys for check in certificate.certificate({**good, key: bad}) if check.verdict == "miss"]
+            self.assertEqual(missed, [[key]])
+
+    def test_makes_up_no_limit(self):
+        checks = {check.keys[0]: check for check in certificate.certificate(
+            {"moment_balance_error": 0.5, "max_penetration": None, "knot_type_preserved": True})}
+        self.assertEqual((checks["moment_balance_error"].limit, checks["moment_balance_error"].verdict),
+                         ("none set", ""))
+        self.assertEqual((checks["max_penetration"].value, checks["max_penetration"].verdict), ("not known", ""))
+
+
+def a_pull(extension, load):
+    columns = {"time": 10.0 * extension, "extension": extension, "load": load,
+               "knot_distance": np.full(len(load), np.nan), "end_to_end": extension}
+    return Curve(columns, np.full(len(load), "pull"))
+
+
+class OfValues(Run):
+    """A run that is not in a folder."""
+
+    def __init__(self, curve, **result):
+        self.curve, self.result = curve, result
+
+
+class Band(unittest.TestCase):
+    def test_is_a_share_of_the_true_force_where_nothing_slid(self):
+        pull = a_pull(np.linspace(0.0, 0.01, 11), np.linspace(0.0, 50.0, 11))
+        low, high = error_band.error_band(OfValues(pull, locked_stiffness=4e3, locked_stiffness_error=400.0,
+                                                   balance_offset=10.0), pull)
+        np.testing.assert_allclose(low, 0.9 * (pull["load"] + 10.0) - 10.0)
+        np.testing.assert_allclose(high, 1.1 * (pull["load"] + 10.0) - 10.0)
+
+    def test_behind_the_lock_it_moves_along_the_extension(self):
+        s = np.linspace(0.0, 0.1, 1001)
+        load = np.where(s < 0.05, 2.0, 2.0 + 1e4 * (s - 0.05))
+        run = OfValues(a_pull(s, load), plateau_force=2.0, plateau_force_error=0.2, lock_extension=0.05,
+                       lock_extension_error=0.002, locked_stiffness=1e4, locked_stiffness_error=0.0)
+        low, high = error_band.error_band(run, run.curve)
+        np.testing.assert_allclose((low[200], high[200]), (1.8, 2.2))
+        # 2 mm at 1e4 N/m
+        np.testing.assert_allclose((low[800], high[800]), (load[800] - 20.0, load[800] + 20.0))
+
+    def test_is_not_drawn_where_no_error_is_known(self):
+        pull = a_pull(np.array([0.0, 1.0]), np.array([0.0, 1.0]))
+        self.assertIsNone(error_band.error_band(OfValues(pull, locked_stiffness=1.0, locked_stiffness_error=None),
+                                                pull))
+
+
+class FewPoints(unittest.TestCase):
+    def test_keep_the_first_the_last_and_every_extreme(self):
+        load = np.sin(np.linspace(0.0, 40.0, 300001))
+        load[123456], load[200001] = 7.0, -7.0
+        rows = few_points(load)
+        self.assertLess(len(rows), 10000)
+        self.assertEqual((rows[0], rows[-1], load[rows].max(), load[rows].min()), (0, 300000, 7.0, -7.0))
+        self.assertEqual(len(few_points(load[:500])), 500)
+
+
+class ABrokenRod(unittest.TestCase):
+    def test_is_drawn_in_its_pieces(self):
+        nodes = np.column_stack([np.zeros(10), np.zeros(10), np.linspace(0.0, 0.9, 10)])
+        whole = shapes.Shape(0.0, nodes, np.ones(9))
+        recoil = np.where(np.arange(10) >= 4, 0.5, 0.0)[:, None] * [0.0, 0.0, 1.0]
+        parted = shapes.Shape(1.0, nodes + recoil, np.zeros(9))
+        stretched = shapes.Shape(1.0, 3.0 * nodes, np.ones(9))
+        self.assertEqual(shapes.pieces(parted, whole), [slice(0, 4), slice(4, 10)])
+        self.assertEqual(shapes.pieces(stretched, whole), [slice(0, 10)])
+
+
+class ACompliantFrame(unittest.TestCase):
+    def test_readings_are_held_against_the_specimens_own_extension(self):
+        folder = folders.copy(straight)
+        for name in ("curve.csv", "curve_full.csv"):
+            rows = [row.split(",") for row in read(folder, name).splitlines()]
+            rows = [rows[0] + ["corrected_extension"], rows[1] + ["m"],
+                    *(row[:1] + [str(2.0 * float(row[1]))] + row[2:] + [row[1]] for row in rows[2:])]
+            write("\n".join(map(",".join, rows)) + "\n", folder, name)
+        own, rigid = Run(folder).curve, Run(straight).curve
+        np.testing.assert_array_equal(own["extension"], rigid["extension"])
+        np.testing.assert_array_equal(own["crosshead_extension"], 2.0 * rigid["extension"])
+        self.assertIn("without what the frame gives", html_of(folder))
+
+
+class Marks(unittest.TestCase):
+    def test_are_start_lock_peak_and_end(self):
+        s = np.linspace(0.0, 0.1, 101)
+        run = OfValues(a_pull(s, np.where(s < 0.09, 100.0 * s, 1.0)), lock_extension=0.05)
+        found = marks.marks_of(run)
+        self.assertEqual([(mark.letter, mark.title()) for mark in found],
+                         [("a", "start of pull"), ("b", "lock"), ("c", "peak"), ("d", "end")])
+        self.assertAlmostEqual(found[1].extension, 0.05)
+
+    def test_tell_what_was_before_a_break_from_what_was_behind(self):
+        s = np.linspace(0.0, 0.1, 101)
+        found = marks.marks_of(OfValues(a_pull(s, np.where(s < 0.0995, s, 0.0)), break_extension=0.0992))
+        self.assertEqual([mark.title() for mark in found], ["start of pull", "peak, break", "end"])
+        self.assertAlmostEqual(marks.time_of_break(found), 0.99)
+        seconds = np.array([0.0, 0.5, 0.98, 1.02, 1.3])
+        self.assertEqual([shapes.nearest(seconds, time, 1.01) for time in (0.4, 1.005, 1.01, 1.4)], [1, 2, 2, 4])
+
+    def test_that_fall_together_are_one(self):
+        s = np.linspace(0.0, 0.1, 101)
+        self.assertEqual([mark.title() for mark in marks.marks_of(OfValues(a_pull(s, s)))],
+                         ["start of pull", "peak, end"])
+
+
+class Numbers(unittest.TestCase):
+    def test_have_the_digits_that_their_error_leaves(self):
+        self.assertEqual(quantities.number(6.08745, 0.4664), "6.09")
+        self.assertEqual(quantities.number(0.0744, 0.0014), "0.0744")
+        self.assertEqual(quantities.number(-1.94937), "–1.949")
+        self.assertEqual(quantities.number(123456.7), "123457")
+        self.assertEqual(quantities.number(5.55e-8), "5.55 · 10⁻⁸")
+        self.assertEqual(quantities.shown(float("nan")), "–")
+
+
+class Failures(unittest.TestCase):
+    def one_line(self, done, code):
+        self.assertEqual(done.returncode, code)
+        self.assertEqual(done.stderr.count("\n"), 1, done.stderr)
+        return done.stderr
+
+    def test_a_folder_without_a_result(self):
+        for folder in (folders.path, os.path.join(folders.path, "not_there")):
+            self.assertIn("neither result.yaml nor comparison.yaml", self.one_line(script(folder), 1))
+            self.assertFalse(os.path.exists(os.path.join(folder, "report.html")))
+
+    def test_files_that_are_not_what_they_should_be(self):
+        for name, text in (("result.yaml", "a: [\n"), ("result.yaml", "1\n"), ("curve_full.csv", "time\ns\n1,2\n"),
+                           ("curve.csv", "time,load\ns,N\n"), ("method.yaml", None)):
+            folder = folders.copy(straight)
+            if text is None:
+                os.remove(os.path.join(folder, name))
+            else:
+                write(text, folder, name)
+            self.assertIn(name, self.one_line(script(folder), 1))
+            self.assertFalse(os.path.exists(os.path.join(folder, "report.html")))
+
+    def test_a_package_that_is_not_there_is_named(self):
+        for module, package in (("matplotlib", "python3-matplotlib"), ("weasyprint", "weasyprint"),
+                                ("jinja2", "python3-jinja2")):
+            blocked = (f"import sys; sys.modules['{module}'] = None; sys.argv[1:] = [{straight!r}]\n"
+                       f"sys.path.insert(0, {os.path.join(ROOT, 'report')!r})\nimport make_report; make_report.main()")
+            done = subprocess.run(["/usr/bin/python3", "-B", "-c", blocked], capture_output=True, text=True,
+                                  check=False)
+            self.assertIn(f"install Debian's package {package}\n", self.one_line(done, 1))
+
+    def test_a_report_that_cannot_be_written_leaves_the_results(self):
+        out = os.path.join(folders.path, "no_room")
+        os.makedirs(os.path.join(out, "report.html", "in_the_way"))
+        done = tool("tensile_test", *STRAIGHT, "--quiet", "--out", out, "--report")
+        self.assertIn("tensile_test: report: ", self.one_line(done, 1))
+        self.assertIn("report.html: cannot be written", done.stderr)
+        self.assertIn("ended_by: extension", read(out, "result.yaml"))
+
+    def test_a_new_run_takes_the_old_page_away(self):
+        out = folders.run("twice", STRAIGHT, "--report")
+        self.assertTrue(os.path.exists(os.path.join(out, "report.pdf")))
+        folders.run("twice", STRAIGHT)
+        self.assertFalse({"report.html", "report.pdf"} & set(os.listdir(out)))
+
+
+class PageOfAComparison(unittest.TestCase):
+    def compare(self, out, *more):
+        return tool("compare", f"{straight}/curve.csv", f"{straight}/curve_full.csv", "--report", out, *more)
+
+    def test_has_what_compare_prints(self):
+        out = os.path.join(folders.path, "comparison")
+        done = self.compare(out, "--balance")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertEqual(read(out, "comparison.yaml"), done.stdout)
+        html = page_of(out)
+        self.assertEqual(set(yaml.safe_load(done.stdout)) - keys_on(html), set())
+        self.assertIn(f"curve_full.csv --report {out} --balance<", html)
+        self.assertIn("simulated: Straight rod, nylon", html)
+        self.assertEqual(script(out).returncode, 0)
+
+    def test_takes_files_of_any_name(self):
+        odd = os.path.join(folders.path, "a$b$ <c> it's_ä.csv")
+        write(read(straight, "curve.csv"), odd)
+        out = os.path.join(folders.path, "odd")
+        self.assertEqual(tool("compare", odd, f"{straight}/curve.csv", "--report", out).stderr, "")
+        self.assertIn("a$b$ &lt;c&gt; it&#39;s_ä.csv", page_of(out))
+        bytes_only = os.fsencode(folders.path) + b"/\xff"
+        shutil.copytree(os.fsencode(straight), bytes_only)
+        self.assertEqual(script(bytes_only).stderr, "")
+
+    def test_is_written_beyond_the_tolerance_too(self):
+        out = os.path.join(folders.path, "beyond")
+        other = folders.copy(straight)
+        last = read(other, "curve.csv").splitlines()[-1].split(",")
+        put_into(other, "curve.csv", ",".join(last), ",".join([*last[:2], str(1.1 * float(last[2])), *last[3:]]))
+        done = tool("compare", f"{straight}/curve.csv", f"{other}/curve.csv", "--report", out, "--tolerance", "0.05")
+        self.assertEqual(done.returncode, 1)
+        self.assertTrue(os.path.exists(os.path.join(out, "report.pdf")))
+
+    def test_takes_no_run_and_no_file_that_it_compares(self):
+        before = set(os.listdir(straight))
+        done = self.compare(straight)
+        self.assertEqual((done.returncode, done.stdout, done.stderr.count("\n")), (2, "", 1))
+        self.assertEqual(set(os.listdir(straight)), before)
+        own = os.path.join(folders.path, "own")
+        os.makedirs(own)
+        write(read(straight, "curve.csv"), own, "a.csv")
+        done = tool("compare", f"{own}/a.csv", f"{straight}/curve.csv", "--report", own)
+        self.assertEqual((done.returncode, os.listdir(own)), (2, ["a.csv"]))
+        self.assertEqual(read(own, "a.csv"), read(straight, "curve.csv"))
+        for name in ("", f"{own}/a.csv/below"):
+            self.assertEqual(self.compare(name).returncode, 2)
+
+
+if __name__ == "__main__":
+    unittest.main()
