@@ -157,7 +157,10 @@ void ReplayNode::on_view_timer(const ros::SteadyTimerEvent& /*event*/) {
   const std::uint32_t viewers = markers_.getNumSubscribers();
   const bool somebody_is_new = viewers > viewers_;
   viewers_ = viewers;
-  const Vec3 upper_grip = bench_.upper_grip() + sample_.displacement * Vec3::UnitZ();
+  // On a compliant frame the grip goes less far than the crosshead.
+  const double way =
+      sample_.end_to_end > 0.0 ? sample_.end_to_end - (bench_.upper_grip() - bench_.lower_grip()).norm() : 0.0;
+  const Vec3 upper_grip = bench_.upper_grip() + way * Vec3::UnitZ();
   frames_.publish(now_, sample_.displacement, upper_grip);
   if (viewers == 0 || shape_.points.empty() || !(picture_is_old_ || somebody_is_new)) return;
   picture_is_old_ = false;
