@@ -16,14 +16,14 @@ class Shape:
 
 
 def pieces(shape, whole):
-    """Slices of the nodes between which the rod has parted, as far as they can be drawn. `whole`: a shape before that.
+    """Slices of the nodes between which the rod has parted; a lone node cannot be drawn. `whole`: a shape before that.
     An edge that has grown twice as much as the usual one is no longer there: a rod does not stretch so unevenly."""
     if len(shape.points) != len(whole.points):
         return [slice(0, len(shape.points))]
     growth = lengths(shape) / lengths(whole)
     gaps = np.flatnonzero(growth > 2.0 * np.median(growth)) + 1
     ends = [0, *gaps.tolist(), len(shape.points)]
-    return [slice(a, b) for a, b in zip(ends[:-1], ends[1:]) if b - a >= 3]
+    return [slice(a, b) for a, b in zip(ends[:-1], ends[1:]) if b - a >= 2]
 
 
 def lengths(shape):
