@@ -422,15 +422,33 @@ std::string method_yaml(const Method& method) {
   return std::string(out.c_str()) + "\n";
 }
 
+namespace {
+
+/// Half the windows within which a drop of the load counts as a break, so that they are resolved [s].
+double longest_period(const Method& method) {
+  const BreakDetection& breaks = method.ends.breaks;
+  double window = fields::kInfinity;
+  if (breaks.sharp_drop) window = breaks.sharp_drop_time;
+  if (breaks.drop)
+    for (const ProgramStep& step : method.program) window = std::min(window, breaks.drop_extension / step.speed);
+  return 0.5 * window;
+}
+
+}  // namespace
+
 TestProgram make_program(const Method& method, double longest_step) {
   TestProgram::Limits limits;
   const double capacity = method.machine.load_cell.capacity;
+  const MachineOptions& machine = method.machine;
+  const double h = method.material.radius;
   limits.load = method.ends.load.value_or(capacity);
+  limits.least_distance = (machine.grips == GripKind::kRollers ? machine.roller_diameter : 0.0) + 2.0 * h;
   limits.travel = method.machine.travel;
   limits.time = method.ends.time.value_or(limits.time);
   limits.breaks = method.ends.breaks;
   limits.breaks.arming_load = method.ends.arming_load.value_or(kArmingShare * capacity);
-  return TestProgram(method.program, method.machine.load_cell.sampling_rate, longest_step, limits);
+  return TestProgram(method.program, machine.load_cell.sampling_rate, std::min(longest_step, longest_period(method)),
+                     limits);
 }
 
 }  // namespace knot_utm

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <sstream>
 
+#include "knot_utm/machine/load_control.hpp"
+
 namespace knot_utm {
 
 namespace {
@@ -13,7 +15,7 @@ struct Fall {
   double from, to;
 
   Fall(double before, const Sample& sample) : from(before), to(sample.lowest_load) {
-    const double highest = std::max(before, sample.highest_load), end = sample.force_upper - sample.balance_offset;
+    const double highest = std::max(before, sample.highest_load), end = balanced_load(sample);
     if (highest - end > from - to) {
       from = highest;
       to = end;
@@ -31,47 +33,47 @@ struct Fall {
 
 }  // namespace
 
+double BreakDetector::Window::largest(double now, double width) const {
+  for (const Seen& seen : seen_)
+    if (now - seen.at <= width) return seen.load;
+  return 0.0;
+}
+
+void BreakDetector::Window::add(double now, double width, double load) {
+  while (!seen_.empty() && seen_.back().load <= load) seen_.pop_back();
+  seen_.push_back({now, load});
+  const auto inside = [&](const Seen& seen) { return now - seen.at <= width; };
+  seen_.erase(seen_.begin(), std::find_if(seen_.begin(), seen_.end(), inside));
+}
+
 void BreakDetector::begin() {
   peak_ = 0.0;
-  seen_.clear();
-}
-
-template <class Counts>
-double BreakDetector::largest(Counts counts) const {
-  double load = 0.0;
-  for (const Seen& seen : seen_)
-    if (counts(seen)) load = std::max(load, seen.load);
-  return load;
-}
-
-void BreakDetector::forget_what_is_past(const Sample& sample) {
-  const auto past = [&](const Seen& seen) {
-    return sample.time - seen.time > detection_.sharp_drop_time &&
-           sample.extension - seen.extension > detection_.drop_extension;
-  };
-  seen_.erase(seen_.begin(), std::find_if_not(seen_.begin(), seen_.end(), past));
+  in_time_.clear();
+  in_extension_.clear();
 }
 
 std::string BreakDetector::judge(const Sample& sample) {
   if (!detection_.on()) return {};
-  const auto at_once = [&](const Seen& seen) { return sample.time - seen.time <= detection_.sharp_drop_time; };
-  const auto nearby = [&](const Seen& seen) { return sample.extension - seen.extension <= detection_.drop_extension; };
-  const Fall from_peak(peak_, sample), sharp(largest(at_once), sample), short_way(largest(nearby), sample);
-  peak_ = std::max(peak_, sample.highest_load);
-  seen_.push_back({sample.time, sample.extension, sample.highest_load});
-  forget_what_is_past(sample);
+  const double time = sample.time, extension = sample.extension, highest = sample.highest_load;
+  const Fall from_peak(peak_, sample);
+  peak_ = std::max(peak_, highest);
+  std::string found;
+  const auto falls_within = [&](Window& window, double now, double width, double share, const char* how) {
+    const Fall fall(window.largest(now, width), sample);
+    window.add(now, width, highest);
+    if (found.empty() && fall.size() >= share * peak_) found = fall.text() + how;
+  };
+  if (detection_.sharp_drop)
+    falls_within(in_time_, time, detection_.sharp_drop_time, *detection_.sharp_drop, " at once");
+  if (detection_.drop)
+    falls_within(in_extension_, extension, detection_.drop_extension, *detection_.drop, " over a short way");
   if (peak_ <= 0.0 || peak_ < detection_.arming_load) return {};
   if (detection_.fraction_of_peak && from_peak.size() > 0.0 &&
       from_peak.to <= *detection_.fraction_of_peak * from_peak.from)
     return from_peak.text();
-  if (detection_.sharp_drop && sharp.size() >= *detection_.sharp_drop * peak_) return sharp.text() + " at once";
-  if (detection_.drop && short_way.size() >= *detection_.drop * peak_) return short_way.text() + " over a short way";
-  return {};
+  return found;
 }
 
-void BreakDetector::state(Archive& archive) {
-  archive(peak_);
-  archive.list(seen_);
-}
+void BreakDetector::state(Archive& archive) { archive(peak_, in_time_, in_extension_); }
 
 }  // namespace knot_utm

@@ -1,29 +1,46 @@
 #include "knot_utm/machine/load_control.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace knot_utm {
 
 namespace {
 
 constexpr double kCreep = 0.01;  // of the highest speed
+// Of the longest way of a command: over less, the slope is that of what Newton's method leaves unbalanced.
+constexpr double kCounts = 1e-5;
 
 }  // namespace
 
-void LoadControl::learn(const Sample& now) {
-  const double way = now.displacement - last_displacement_;
-  if (knows_last_ && way != 0.0) stiffness_ = std::max((now.load - last_load_) / way, 0.5 * stiffness_);
+void LoadControl::learn(const Sample& now, double way_that_counts) {
+  const double load = balanced_load(now), way = now.displacement - last_displacement_;
+  if (knows_last_ && std::abs(way) >= way_that_counts) {
+    slope_ = (load - last_load_) / way;
+    knows_slope_ = true;
+    stiffness_ = std::max(slope_, 0.5 * stiffness_);
+  } else {
+    stiffness_ *= 0.5;
+  }
   knows_last_ = true;
-  last_load_ = now.load;
+  last_load_ = load;
   last_displacement_ = now.displacement;
 }
 
-double LoadControl::speed(const Sample& now, double wanted_load, double period, double fastest) {
-  learn(now);
-  const double missing = wanted_load - now.load;
+double LoadControl::following(const Sample& now, double wanted_load, double period, double fastest) {
+  learn(now, kCounts * fastest * period);
+  const double missing = wanted_load - balanced_load(now);
   if (missing == 0.0) return 0.0;
-  if (stiffness_ <= 0.0) return missing > 0.0 ? kCreep * fastest : -kCreep * fastest;
-  return std::clamp(missing / (stiffness_ * period), -fastest, fastest);
+  if (!knows_slope_) return std::copysign(kCreep * fastest, missing);
+  const double least_stiffness = std::abs(missing) / (fastest * period);
+  return missing / (std::max(stiffness_, least_stiffness) * period);
+}
+
+double LoadControl::meeting(const Sample& now, double wanted_load, double period, double fastest, bool creeps) {
+  learn(now, kCounts * fastest * period);
+  if (!knows_slope_) return creeps ? kCreep * fastest : fastest;
+  const double way = fastest * period, missing = std::abs(wanted_load - balanced_load(now));
+  return slope_ * way > missing ? missing / (slope_ * period) : fastest;
 }
 
 }  // namespace knot_utm

@@ -8,7 +8,11 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kAtTurn = 1e-9;  // nearer to an extension it is met [m]
+constexpr double kMetLoad = 1e-3;       // nearer to a load it is met [of it]
+constexpr double kMetExtension = 1e-9;  // nearer to an extension it is met [m]
+constexpr double kMetByAFrame = 1e-3;   // on a compliant frame [of what one period moves]
+constexpr double kRigid = 1.0 - 1e-6;   // gain of a frame that gives nothing
+constexpr double kLeastGain = 1e-3;     // of a frame that gives nearly all
 
 /// Of the crosshead as a step begins [m/s].
 double first_velocity(const ProgramStep& step) {
@@ -71,6 +75,8 @@ Command TestProgram::next(const Sample& sample) {
     throw std::invalid_argument("the sample answers command " + std::to_string(sample.sequence) + ", not command " +
                                 std::to_string(last_.sequence));
   }
+  take_balance(sample);
+  learn_gain(sample);
   if (end_by_alarm(sample)) return command(last_.sequence);
 
   const EndedBy by = last_.sequence == 0 ? EndedBy::kNotYet : step_end(sample);
@@ -79,7 +85,6 @@ Command TestProgram::next(const Sample& sample) {
       end(by, "");
       return command(last_.sequence);
     }
-    if (step().phase == Phase::kPreload && step().balance) balance_next_ = true;
     ++step_;
   }
   if (by != EndedBy::kNotYet || last_.sequence == 0) begin_step(sample);
@@ -111,11 +116,13 @@ double TestProgram::time_left() const {
 }
 
 void TestProgram::state(Archive& archive) {
-  archive.section("PRG3");
+  archive.section("PRG4");
   archive.same("steps of the program", static_cast<std::int64_t>(program_.size()));
   int step = static_cast<int>(step_);
   archive.number("step of the program", step, 0, static_cast<int>(program_.size()) - 1);
   step_ = static_cast<std::size_t>(step);
+  archive(wanted_load_, balancing_, balance_offset_, gain_.extension, gain_.displacement, gain_.value);
+  archive.require(gain_.value >= kLeastGain && gain_.value <= 1.0, "gain of the frame", std::to_string(gain_.value));
   archive(step_begin_, step_begin_load_, leg_.begin, leg_.displacement, leg_.velocity, outwards_, turns_, load_control_,
           break_detector_, last_, balance_next_, reason_);
   archive.choice("end of the test", ended_by_, EndedBy::kTime);
@@ -171,6 +178,8 @@ bool TestProgram::end_by_alarm(const Sample& sample) {
     end(EndedBy::kLoad, phase + ": the load is beyond its limit, the load cell's capacity or ends.load");
   } else if (std::abs(last_.displacement) >= limits_.travel) {
     end(EndedBy::kTravel, phase + ": the crosshead is at the end of its way");
+  } else if (sample.end_to_end < limits_.least_distance) {
+    end(EndedBy::kTravel, phase + ": the grips meet");
   } else if (const std::string seen = break_seen(sample); !seen.empty()) {
     end(EndedBy::kBreak, phase + ": " + seen);
   } else if (last_.time >= limits_.time) {
@@ -180,16 +189,38 @@ bool TestProgram::end_by_alarm(const Sample& sample) {
 }
 
 std::string TestProgram::break_seen(const Sample& sample) {
-  switch (last_.phase) {
-    case Phase::kPreload:
-    case Phase::kPull:
-    case Phase::kHold:
-      return break_detector_.judge(sample);
-    case Phase::kCycle:
-      return outwards_ ? break_detector_.judge(sample) : "";
-    default:
-      return {};
+  const Phase phase = last_.phase;
+  if (phase != Phase::kPreload && phase != Phase::kPull && phase != Phase::kHold && phase != Phase::kCycle) return {};
+  // On a way inwards loads fall as they should.
+  if (leg_.velocity < 0.0) {
+    break_detector_.begin();
+    return {};
   }
+  return break_detector_.judge(sample);
+}
+
+/// What is remembered of loads is told from the new zero.
+void TestProgram::take_balance(const Sample& sample) {
+  const double shift = sample.balance_offset - balance_offset_;
+  balance_offset_ = sample.balance_offset;
+  if (shift == 0.0) return;
+  wanted_load_ -= shift;
+  step_begin_load_ -= shift;
+  load_control_.shift(shift);
+  break_detector_.begin();
+}
+
+void TestProgram::learn_gain(const Sample& sample) {
+  const double way = sample.displacement - gain_.displacement;
+  if (std::abs(way) > kMetExtension && !last_.balance)
+    gain_.value = std::clamp((sample.extension - gain_.extension) / way, kLeastGain, 1.0);
+  gain_.extension = sample.extension;
+  gain_.displacement = sample.displacement;
+}
+
+/// Whether a load rose (sense 1) or fell (-1) to its target.
+bool TestProgram::reached(double load, double target, double sense, double tolerance) const {
+  return sense * (load - target) >= -tolerance;
 }
 
 EndedBy TestProgram::step_end(const Sample& sample) {
@@ -197,6 +228,7 @@ EndedBy TestProgram::step_end(const Sample& sample) {
   // A time is over after as many whole periods as cover it; the slack is for times that are a multiple of the period.
   const auto over = [&](double time) { return static_cast<double>(commands) >= time * command_rate_ - 1e-6; };
   const ProgramStep& s = step();
+  const double load = balanced_load(sample);
   switch (s.phase) {
     case Phase::kTie:
     case Phase::kRelease:
@@ -205,18 +237,23 @@ EndedBy TestProgram::step_end(const Sample& sample) {
                  ? EndedBy::kProgram
                  : EndedBy::kNotYet;
     case Phase::kPreload:
-      return sample.load >= s.load ? EndedBy::kLoad : EndedBy::kNotYet;
+      if (!balancing_ && !reached(load, s.load, 1.0, kMetLoad * s.load)) return EndedBy::kNotYet;
+      if (balancing_ || !s.balance) return EndedBy::kLoad;
+      balancing_ = balance_next_ = true;
+      return EndedBy::kNotYet;
     case Phase::kPull:
       if (s.until.extension && sample.extension >= *s.until.extension) return EndedBy::kExtension;
-      if (s.until.load && sample.load >= *s.until.load) return EndedBy::kLoad;
+      if (s.until.load && reached(load, *s.until.load, 1.0, kMetLoad * *s.until.load)) return EndedBy::kLoad;
       return s.until.time && over(*s.until.time) ? EndedBy::kProgram : EndedBy::kNotYet;
     case Phase::kHold:
       return over(s.duration) ? EndedBy::kProgram : EndedBy::kNotYet;
     case Phase::kCycle:
       return cycles_over(sample) || (s.until.time && over(*s.until.time)) ? EndedBy::kProgram : EndedBy::kNotYet;
     case Phase::kReturn:
-      if (sample.extension <= s.return_extension + kAtTurn) return EndedBy::kExtension;
-      return s.until.load && sample.load <= *s.until.load ? EndedBy::kLoad : EndedBy::kNotYet;
+      if (sample.extension <= s.return_extension + met_extension()) return EndedBy::kExtension;
+      return s.until.load && reached(load, *s.until.load, -1.0, kMetLoad * std::abs(step_begin_load_))
+                 ? EndedBy::kLoad
+                 : EndedBy::kNotYet;
     case Phase::kFollow:
       return over(s.recorded.back().time) ? EndedBy::kProgram : EndedBy::kNotYet;
     case Phase::kIdle:
@@ -230,21 +267,29 @@ EndedBy TestProgram::step_end(const Sample& sample) {
 /// Turns round where a turning point is reached.
 bool TestProgram::cycles_over(const Sample& sample) {
   const ProgramStep& s = step();
-  const double sign = outwards_ ? 1.0 : -1.0;
-  const bool reached =
-      s.extension_turns
-          ? sign * (sample.extension - (outwards_ ? s.extension_turns->high : s.extension_turns->low)) >= -kAtTurn
-          : sign * (sample.load - (outwards_ ? s.load_turns->high : s.load_turns->low)) >= 0.0;
-  if (!reached) return false;
+  const double sense = outwards_ ? 1.0 : -1.0;
+  const TurningPoints& turns = s.extension_turns ? *s.extension_turns : *s.load_turns;
+  const double target = outwards_ ? turns.high : turns.low;
+  const bool turned = s.extension_turns
+                          ? reached(sample.extension, target, sense, met_extension())
+                          : reached(balanced_load(sample), target, sense, kMetLoad * (turns.high - turns.low));
+  if (!turned) return false;
   outwards_ = !outwards_;
+  load_control_.begin();
   if (outwards_) break_detector_.begin();
   ++turns_;
   return s.cycles > 0 && turns_ >= 2 * s.cycles;
 }
 
+double TestProgram::met_extension() const {
+  return gain_.value > kRigid ? kMetExtension : kMetByAFrame * step().speed * period();
+}
+
 void TestProgram::begin_step(const Sample& sample) {
   step_begin_ = last_.sequence;
-  step_begin_load_ = sample.load;
+  step_begin_load_ = wanted_load_ = balanced_load(sample);
+  if (step().hold_load) wanted_load_ = step().held_load.value_or(step_begin_load_);
+  balancing_ = false;
   outwards_ = true;
   turns_ = 0;
   load_control_.begin();
@@ -262,22 +307,32 @@ void TestProgram::begin_leg(double velocity) {
 void TestProgram::steer(const Sample& sample) {
   const ProgramStep& s = step();
   const double next_time = seconds(last_.sequence + 1 - step_begin_);
+  const auto meet = [&](double load, bool creeps) {
+    return load_control_.meeting(sample, load, period(), s.speed, creeps);
+  };
   switch (s.phase) {
     case Phase::kPreload:
-    case Phase::kPull:
-    case Phase::kHold:
-      if (s.load_rate || s.hold_load) begin_leg(load_control_.speed(sample, wanted_load(next_time), period(), s.speed));
+      begin_leg(balancing_ ? 0.0 : s.load_rate ? velocity_at_load_rate(sample) : meet(s.load, true));
       break;
-    case Phase::kCycle:
-      if (s.extension_turns) {
-        land((outwards_ ? s.extension_turns->high : s.extension_turns->low) - sample.extension);
-      } else {
-        begin_leg(outwards_ ? s.speed : -s.speed);
+    case Phase::kPull:
+      if (s.load_rate) {
+        begin_leg(velocity_at_load_rate(sample));
+      } else if (s.until.load) {
+        const double speed = meet(*s.until.load, false);
+        if (speed != leg_.velocity) begin_leg(speed);
       }
       break;
-    case Phase::kReturn:
-      land(s.return_extension - sample.extension);
+    case Phase::kHold:
+      if (s.hold_load) begin_leg(load_control_.following(sample, wanted_load_, period(), s.speed));
       break;
+    case Phase::kCycle:
+      begin_leg(velocity_of_cycle(sample));
+      break;
+    case Phase::kReturn: {
+      const double to_extension = std::min(0.0, velocity_to_extension(s.return_extension - sample.extension));
+      begin_leg(s.until.load ? std::max(to_extension, -meet(*s.until.load, true)) : to_extension);
+      break;
+    }
     case Phase::kFollow:
       begin_leg((recorded_way(next_time) - recorded_way(seconds(last_.sequence - step_begin_))) / period());
       break;
@@ -286,16 +341,28 @@ void TestProgram::steer(const Sample& sample) {
   }
 }
 
-/// Towards what is `left` to go [m], and no further.
-void TestProgram::land(double left) {
+/// Towards an extension that is `left` [m] away, and no further.
+double TestProgram::velocity_to_extension(double left) const {
   const double most = step().speed * period();
-  begin_leg(std::clamp(left, -most, most) / period());
+  return std::clamp(left / gain_.value, -most, most) / period();
 }
 
-/// Of the next command [N].
-double TestProgram::wanted_load(double time) const {
+double TestProgram::velocity_of_cycle(const Sample& sample) {
   const ProgramStep& s = step();
-  return s.hold_load ? s.held_load.value_or(step_begin_load_) : step_begin_load_ + *s.load_rate * time;
+  if (s.extension_turns)
+    return velocity_to_extension((outwards_ ? s.extension_turns->high : s.extension_turns->low) - sample.extension);
+  const double target = outwards_ ? s.load_turns->high : s.load_turns->low;
+  const double speed = load_control_.meeting(sample, target, period(), s.speed, true);
+  return outwards_ ? speed : -speed;
+}
+
+/// Where the crosshead could go no faster the course begins anew from the present load: it is a rate, not a time table.
+double TestProgram::velocity_at_load_rate(const Sample& sample) {
+  const ProgramStep& s = step();
+  if (leg_.velocity >= s.speed) wanted_load_ = balanced_load(sample);
+  wanted_load_ += *s.load_rate * period();
+  const double end = s.phase == Phase::kPreload ? s.load : s.until.load.value_or(wanted_load_);
+  return load_control_.following(sample, std::min(wanted_load_, end), period(), s.speed);
 }
 
 /// Of a record, linear between its rows [m].

@@ -16,8 +16,8 @@ struct Spring {
   LoadControl control = {};
 
   void step(double wanted) {
-    now.displacement += kPeriod * control.speed(now, wanted, kPeriod, kFastest);
-    now.load = stiffness * now.displacement;
+    now.displacement += kPeriod * control.following(now, wanted, kPeriod, kFastest);
+    now.force_upper = stiffness * now.displacement;
   }
 };
 
@@ -26,7 +26,7 @@ TEST(LoadControl, KnowsASpringAfterOneStepAndThenMeetsEveryLoad) {
   spring.step(1.0);
   for (int n = 2; n < 50; ++n) {
     spring.step(n);
-    EXPECT_NEAR(spring.now.load, n, 1e-12 * n);
+    EXPECT_NEAR(spring.now.force_upper, n, 1e-12 * n);
   }
 }
 
@@ -44,10 +44,10 @@ TEST(LoadControl, CatchesUpWithASpringThatTurnsSoft) {
   Spring spring{1e6};
   for (int n = 1; n < 10; ++n) spring.step(n);
   spring.stiffness = 1e4;
-  spring.now.displacement = spring.now.load / spring.stiffness;
+  spring.now.displacement = spring.now.force_upper / spring.stiffness;
   spring.control.begin();
   for (int n = 10; n < 40; ++n) spring.step(n);
-  EXPECT_NEAR(spring.now.load, 39.0, 1e-9);
+  EXPECT_NEAR(spring.now.force_upper, 39.0, 1e-9);
 }
 
 /// Where the load no longer rises with the crosshead the estimate halves at every step, until the crosshead goes as
@@ -55,12 +55,12 @@ TEST(LoadControl, CatchesUpWithASpringThatTurnsSoft) {
 TEST(LoadControl, RunsAfterALoadThatDoesNotRise) {
   LoadControl control;
   Sample now;
-  double speed = control.speed(now, 1.0, kPeriod, kFastest);
+  double speed = control.following(now, 1.0, kPeriod, kFastest);
   EXPECT_GT(speed, 0.0);
   now.displacement += kPeriod * speed;
-  now.load = 0.5;
+  now.force_upper = 0.5;
   for (int n = 0; n < 40; ++n) {
-    speed = control.speed(now, 1.0, kPeriod, kFastest);
+    speed = control.following(now, 1.0, kPeriod, kFastest);
     now.displacement += kPeriod * speed;
   }
   EXPECT_EQ(speed, kFastest);
@@ -70,7 +70,46 @@ TEST(LoadControl, GoesBackWhereTheLoadIsTooLarge) {
   Spring spring{1e4};
   for (int n = 1; n < 10; ++n) spring.step(n);
   spring.step(2.0);
-  EXPECT_NEAR(spring.now.load, 2.0, 1e-12);
+  EXPECT_NEAR(spring.now.force_upper, 2.0, 1e-12);
+}
+
+/// What comes from the balance is no force of the specimen.
+TEST(LoadControl, KnowsTheBalancedForce) {
+  Spring spring{1e4};
+  for (int n = 1; n < 10; ++n) spring.step(n);
+  spring.now.balance_offset = 5.0;
+  spring.control.shift(5.0);
+  spring.step(6.0);
+  EXPECT_NEAR(spring.now.force_upper, 11.0, 1e-12);
+}
+
+TEST(LoadControl, MeetsALoadThatOneCommandWouldPass) {
+  LoadControl control;
+  Sample now;
+  EXPECT_EQ(control.meeting(now, 10.0, kPeriod, kFastest, false), kFastest);
+  EXPECT_EQ(LoadControl().meeting(now, 10.0, kPeriod, kFastest, true), 0.01 * kFastest);
+  constexpr double kStiffness = 4e3;  // a command at full speed rises by 4 N
+  for (const double load : {4.0, 8.0}) {
+    now.displacement += kPeriod * control.meeting(now, 10.0, kPeriod, kFastest, false);
+    now.force_upper = kStiffness * now.displacement;
+    EXPECT_NEAR(now.force_upper, load, 1e-12);
+  }
+  now.displacement += kPeriod * control.meeting(now, 10.0, kPeriod, kFastest, false);
+  EXPECT_NEAR(kStiffness * now.displacement, 10.0, 1e-12);
+}
+
+/// Over a way that is none, the change of the load is rounding or what the solver left.
+TEST(LoadControl, LearnsNothingFromStandingStill) {
+  LoadControl control;
+  Sample now;
+  control.following(now, 1.0, kPeriod, kFastest);
+  now.displacement = 1e-4;
+  now.force_upper = 1.0;
+  control.following(now, 1.0, kPeriod, kFastest);
+  now.displacement += 1e-12;
+  now.force_upper = 0.9;
+  const double speed = control.following(now, 1.0, kPeriod, kFastest);
+  EXPECT_NEAR(speed, 0.1 / (0.5e4 * kPeriod), 1e-12);
 }
 
 }  // namespace

@@ -22,7 +22,8 @@ struct BreakDetection {
 };
 
 /// Watches the loads of one way outwards. It takes the largest and the least load of every time step of the physics
-/// (Sample::highest_load, lowest_load), not the cell's readings: a drop between two readings is seen.
+/// (Sample::highest_load, lowest_load), not the cell's readings: a drop between two readings is seen. Within a command
+/// nobody knows when; commands are no longer than the windows of a drop (make_program).
 class BreakDetector {
  public:
   explicit BreakDetector(const BreakDetection& detection) : detection_(detection) {}
@@ -35,18 +36,25 @@ class BreakDetector {
   void state(Archive& archive);
 
  private:
-  struct Seen {
-    double time, extension, load;  // the largest of a command [s], [m], [N]
-    void state(Archive& archive) { archive(time, extension, load); }
+  /// Largest load over the last so much of time, or of extension: of what was seen, all that may still become it.
+  class Window {
+   public:
+    void clear() { seen_.clear(); }
+    double largest(double now, double width) const;
+    void add(double now, double width, double load);
+    void state(Archive& archive) { archive.list(seen_); }
+
+   private:
+    struct Seen {
+      double at, load;
+      void state(Archive& archive) { archive(at, load); }
+    };
+    std::vector<Seen> seen_;  // the older, the larger the load
   };
-  /// Largest load of the commands since the first one that `counts`.
-  template <class Counts>
-  double largest(Counts counts) const;
-  void forget_what_is_past(const Sample& sample);
 
   BreakDetection detection_;
-  double peak_ = 0.0;       // [N]
-  std::vector<Seen> seen_;  // as far back as a drop may reach
+  double peak_ = 0.0;  // [N]
+  Window in_time_, in_extension_;
 };
 
 }  // namespace knot_utm

@@ -19,7 +19,7 @@ inline bool pulls(Phase phase) { return phase == Phase::kPull || phase == Phase:
 /// When a step ends: at the first condition that holds.
 struct Until {
   std::optional<double> extension;  ///< s reaches it [m]
-  std::optional<double> load;       ///< the cell's reading reaches it [N]
+  std::optional<double> load;       ///< the balanced force reaches it [N]
   std::optional<double> time;       ///< time since the step began reaches it [s]
   bool broken = false;              ///< `break: true`: by a break, which ends the whole test whatever stands here
 };

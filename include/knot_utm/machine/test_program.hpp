@@ -37,29 +37,32 @@ const char* ended_by_name(EndedBy end);  ///< "not yet", "break", "extension", "
 /// What the crosshead does in each step, and what ends it:
 ///   tie, release  stands still, until the bench answers kPhaseDone, or kNotEquilibrated: the results say so
 ///   mount         moves outwards at `speed` until the bench answers kPhaseDone
-///   preload       moves outwards at `speed`, or so that the load grows at `load_rate`, until the sample's load is at
-///                 least `load`; the next command balances if `balance` says so
+///   preload       moves outwards at `speed`, or so that the load grows at `load_rate`, until the load is `load`; then
+///                 balances, standing still for one command, if `balance` says so
 ///   balance       stands still for one command, which has `balance` set
 ///   pull          moves outwards at `speed`, or so that the load grows at `load_rate`, until the first sample that
-///                 meets one of `until`: extension and load are at least, so they may be passed by what one period
-///                 moves
+///                 meets one of `until`; an extension may be passed by what one period moves
 ///   hold          for `duration`, rounded up to whole periods: stands still, or keeps a load
 ///   cycle         out to the upper turning point, in to the lower one, and so on at `speed`; ends with the last of
-///                 `cycles`, or by `until.time`. Extensions are met, loads are passed by what one period moves
-///   return        moves inwards at `speed` until the extension is `return_extension`, or the sample's load at most
-///                 `until.load`
+///                 `cycles`, or by `until.time`
+///   return        moves inwards at `speed` until the extension is `return_extension`, or the load `until.load`
 ///   follow        goes as the record says from where it stands, until that ends
-/// A load is kept and followed by LoadControl, the crosshead never being faster than `speed`.
+/// Loads are true balanced forces (balanced_load), not readings. They are kept, followed and met by LoadControl, the
+/// crosshead never being faster than `speed`: a load is met within kMetLoad of it (of the range of a cycle), unless the
+/// specimen turns stiffer faster than it can know. A rate of load goes on from where the crosshead could not keep up.
+/// Extensions at which a cycle turns or a return ends are met exactly, on a compliant frame within a thousandth of what
+/// one period moves.
 ///
 /// The whole test ends when the last step has ended, or at once, whichever comes first: by a rod that parted, a load
 /// that falls as Limits::breaks says (judged in preload, pull, hold and on the ways out of a cycle), a bench that
-/// failed, a true force or a reading beyond Limits::load, the end of the crosshead's way, the time limit, or the
-/// operator.
+/// failed, a true force or a reading beyond Limits::load, the end of the crosshead's way, grips that meet, the time
+/// limit, or the operator.
 class TestProgram {
  public:
   struct Limits {
     double load = 50e3;                                     ///< ends the test: the cell's capacity, or less [N]
     double travel = 1.0;                                    ///< ends the test: |displacement| [m]
+    double least_distance = 0.0;                            ///< ends the test: the grips are nearer than that [m]
     double time = std::numeric_limits<double>::infinity();  ///< ends the test [s]
     BreakDetection breaks;
   };
@@ -97,12 +100,17 @@ class TestProgram {
   std::string break_seen(const Sample& sample);
   EndedBy step_end(const Sample& sample);  ///< kNotYet: the step goes on
   bool cycles_over(const Sample& sample);
+  bool reached(double load, double target, double sense, double tolerance) const;
+  void take_balance(const Sample& sample);
   void begin_step(const Sample& sample);
   void begin_leg(double velocity);
   void steer(const Sample& sample);
-  void land(double left);
+  double velocity_to_extension(double left) const;
+  double velocity_of_cycle(const Sample& sample);
+  double velocity_at_load_rate(const Sample& sample);
+  double met_extension() const;
+  void learn_gain(const Sample& sample);
   double recorded_way(double time) const;
-  double wanted_load(double time) const;
   Command command(std::uint64_t sequence) const;
 
   Program program_;
@@ -113,6 +121,14 @@ class TestProgram {
   std::size_t step_ = 0;
   std::uint64_t step_begin_ = 0;  ///< the last command before the step
   double step_begin_load_ = 0.0;  ///< [N]
+  double wanted_load_ = 0.0;      ///< kept, or followed at a rate [N]
+  bool balancing_ = false;        ///< preload: reached, and now balanced
+  double balance_offset_ = 0.0;   ///< of the last sample [N]
+  /// Growth of the extension over that of the displacement in the last command that moved: 1 on a rigid frame.
+  struct {
+    double extension = 0.0, displacement = 0.0;  ///< of the last sample [m]
+    double value = 1.0;
+  } gain_;
   /// A piece of a step in which the crosshead moves at one speed.
   struct {
     std::uint64_t begin = 0;    ///< the last command before it
