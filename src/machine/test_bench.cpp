@@ -235,7 +235,7 @@ struct TestBench::Impl {
     if (!can_part(material) || parted()) return;
     const Exposure now = most_exposed(stepper->rod(), stepper->state());
     if (now.share >= 1.0) {
-      part(now.edge);
+      part(now);
     } else if (now.share > exposure) {
       const double left = (1.0 - now.share) / (now.share - exposure) * dt;
       control.at_most(std::max(left, kNearBreak * tolerances(physics, specimen).longest_step));
@@ -243,14 +243,16 @@ struct TestBench::Impl {
     exposure = now.share;
   }
 
-  void part(int edge) {
+  void part(const Exposure& reached) {
+    const int edge = reached.edge;
     const Points& position = stepper->state().position;
     break_place = lies_in_knot(stepper->rod(), position, edge)      ? BreakPlace::kKnot
                   : grips.hold(grip, middle(edge), material.radius) ? BreakPlace::kGrip
                                                                     : BreakPlace::kStrand;
     std::ostringstream text;
     text << "the rod parted " << break_arclength(edge) << " m along it (" << break_place_name(break_place)
-         << ") at a tension of " << stepper->tension()[edge] << " N";
+         << (reached.limit == BreakLimit::kForce ? ") at a tension of " : ") at a strain of its outermost fibre of ")
+         << reached.value << (reached.limit == BreakLimit::kForce ? " N" : "");
     status = BenchStatus::kBroken;
     message = text.str();
     stepper->part(edge);
