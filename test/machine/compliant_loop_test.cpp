@@ -24,7 +24,9 @@ TEST_P(CompliantLoop, OnRollersIsTiedAndPulledWithinTheTyingForce) {
   TestBench bench(method.specimen, method.material, method.machine, method.physics);
   TestProgram program = make_program(method, bench.longest_step());
   double largest = 0.0;
-  run_test(bench, program, [&](const Command& command, const Sample&) {
+  bool rests = true;
+  run_test(bench, program, [&](const Command& command, const Sample& sample) {
+    rests &= sample.status != BenchStatus::kNotEquilibrated;
     for (const Sample& step : bench.substeps())
       largest = std::max({largest, std::abs(step.force_upper), std::abs(step.force_lower)});
     if (command.time > 300.0) program.stop();  // nothing in this test waits so long
@@ -32,9 +34,11 @@ TEST_P(CompliantLoop, OnRollersIsTiedAndPulledWithinTheTyingForce) {
   EXPECT_EQ(program.ended_by(), EndedBy::kProgram) << program.reason();
   EXPECT_LT(largest, *method.material.tying_preload);
   EXPECT_GT(largest, 0.0);
+  // On 1 N/m, a tenth of the loop's own stiffness, the rig does not wait long enough, and says so.
+  EXPECT_TRUE(rests || GetParam() < 10.0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Frame, CompliantLoop, testing::Values(1.0, 30.0, 1e4),
+INSTANTIATE_TEST_SUITE_P(Frame, CompliantLoop, testing::Values(1.0, 10.0, 1e4),
                          [](const auto& test) { return "K" + std::to_string(static_cast<int>(test.param)); });
 
 }  // namespace
