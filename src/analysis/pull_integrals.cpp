@@ -33,8 +33,7 @@ double slope_over(const Pull& pull, const Range& range) {
     if (pull[i - 1].extension >= range.high) break;
     const Piece piece(pull[i - 1], pull[i], range);
     if (!(piece.width > 0.0)) continue;
-    const double arm = std::max(pull[i - 1].extension, range.low) - middle, rise = piece.to - piece.from;
-    moment += piece.width * (piece.from * (arm + piece.width / 2.0) + rise * (arm / 2.0 + piece.width / 3.0));
+    moment += moment_of(std::max(pull[i - 1].extension, range.low) - middle, piece.width, piece.from, piece.to);
   }
   return 12.0 * moment / (length * length * length);
 }
@@ -44,9 +43,14 @@ std::size_t peak_of(const Pull& pull) {
   return static_cast<std::size_t>(std::max_element(pull.begin(), pull.end(), less) - pull.begin());
 }
 
-WayToPeak::WayToPeak(const Pull& pull) : pull_(pull), peak_(peak_of(pull)), work_(peak_ + 1, 0.0), least_(peak_ + 1) {
-  for (std::size_t i = 1; i <= peak_; ++i)
-    work_[i] = work_[i - 1] + 0.5 * (pull[i].extension - pull[i - 1].extension) * (pull[i].force + pull[i - 1].force);
+WayToPeak::WayToPeak(const Pull& pull)
+    : pull_(pull), peak_(peak_of(pull)), sums_(peak_ + 1, {0.0, 0.0}), least_(peak_ + 1) {
+  for (std::size_t i = 1; i <= peak_; ++i) {
+    const PullPoint &a = pull[i - 1], &b = pull[i];
+    const double width = b.extension - a.extension;
+    sums_[i].work = sums_[i - 1].work + 0.5 * width * (b.force + a.force);
+    sums_[i].moment = sums_[i - 1].moment + moment_of(a.extension - start(), width, a.force, b.force);
+  }
   least_[peak_] = pull[peak_].force;
   for (std::size_t i = peak_; i-- > 0;) least_[i] = std::min(least_[i + 1], pull[i].force);
 }
@@ -61,10 +65,18 @@ double WayToPeak::last_rise_through(double force) const {
   return a.extension + (force - a.force) / (b.force - a.force) * (b.extension - a.extension);
 }
 
-double WayToPeak::work_to(double extension) const {
+double WayToPeak::slope(const Range& range) const {
+  const Sums low = sums_to(range.low), high = sums_to(range.high);
+  const double length = range.high - range.low, arm = 0.5 * (range.low + range.high) - start();
+  return 12.0 * (high.moment - low.moment - arm * (high.work - low.work)) / (length * length * length);
+}
+
+WayToPeak::Sums WayToPeak::sums_to(double extension) const {
   const std::size_t next = next_point(pull_, peak_, extension);
   const Piece piece(pull_[next - 1], pull_[next], {pull_[next - 1].extension, extension});
-  return work_[next - 1] + piece.width * (piece.from + piece.to) / 2.0;
+  const double arm = pull_[next - 1].extension - start();
+  return {sums_[next - 1].work + piece.width * (piece.from + piece.to) / 2.0,
+          sums_[next - 1].moment + moment_of(arm, piece.width, piece.from, piece.to)};
 }
 
 }  // namespace knot_utm

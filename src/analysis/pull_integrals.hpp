@@ -8,6 +8,12 @@
 
 namespace knot_utm {
 
+/// Integral of F (s - place) ds over a piece of `width` that begins `arm` behind the place, F going from `from` to
+/// `to`.
+inline double moment_of(double arm, double width, double from, double to) {
+  return width * (from * (arm + width / 2.0) + (to - from) * (arm / 2.0 + width / 3.0));
+}
+
 /// What stands of the piece of a curve from a to b, straight between them, in a range of s.
 struct Piece {
   double width;     // of s; none where it is not positive
@@ -43,10 +49,13 @@ class WayToPeak {
 
   double start() const { return pull_.front().extension; }
   double end() const { return pull_[peak_].extension; }
-  double work() const { return work_.back(); }
+  double work() const { return sums_.back().work; }
   double mean_force(const Range& range) const {
     return (work_to(range.high) - work_to(range.low)) / (range.high - range.low);
   }
+
+  /// Least-squares slope of F over a range, as slope_over, for the rounding of sums from the start.
+  double slope(const Range& range) const;
 
   bool is_below(double force) const { return least_.front() <= force; }  ///< somewhere
 
@@ -54,11 +63,16 @@ class WayToPeak {
   double last_rise_through(double force) const;
 
  private:
-  double work_to(double extension) const;
+  /// Integrals from the start.
+  struct Sums {
+    double work, moment;  // of F [J], of F (s - start) [J m]
+  };
+  Sums sums_to(double extension) const;
+  double work_to(double extension) const { return sums_to(extension).work; }
 
   const Pull& pull_;
   std::size_t peak_;
-  std::vector<double> work_;   // integral of F from the first point to each [J]
+  std::vector<Sums> sums_;     // from the first point to each
   std::vector<double> least_;  // F from each point to the peak [N]
 };
 

@@ -35,9 +35,10 @@ std::optional<double> tangent_stiffness(const Pull& pull) {
   const std::size_t peak = peak_of(pull);
   if (pull.empty() || peak == 0) return std::nullopt;
   const double end = pull[peak].extension, window = kTangentWindow * (end - pull[0].extension);
-  double steepest = slope_over(pull, {end - window, end});
+  const WayToPeak way(pull);
+  double steepest = way.slope({end - window, end});
   for (std::size_t i = 0; pull[i].extension + window < end; ++i)
-    steepest = std::max(steepest, slope_over(pull, {pull[i].extension, pull[i].extension + window}));
+    steepest = std::max(steepest, way.slope({pull[i].extension, pull[i].extension + window}));
   return steepest;
 }
 

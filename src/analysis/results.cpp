@@ -35,11 +35,24 @@ std::string failure_mode(const Results& results) {
   }
 }
 
-/// With the state that it began from in front of it.
-Pull with_origin(const Pull& pull, const Sample* before) {
-  if (!before || pull.empty() || !(before->extension < pull.front().extension)) return pull;
-  Pull whole = {{before->time, before->extension, before->knot_distance, before->force_upper, before->normal_force}};
-  whole.insert(whole.end(), pull.begin(), pull.end());
+/// The state that a phase begins from: the sample before its first, balanced as that one is. A balance in between has
+/// left the specimen as it was: s = 0 and F = balance_offset by its definition.
+Sample origin_of(const Sample& first, Sample before) {
+  if (before.balance_offset == first.balance_offset) return before;
+  before.extension = 0.0;
+  before.force_upper = before.balance_offset = first.balance_offset;
+  return before;
+}
+
+PullPoint point_of(const Sample& sample) {
+  return {sample.time, sample.extension, sample.knot_distance, sample.force_upper, sample.normal_force};
+}
+
+/// With the state that it began from in front of it, and behind it where the rod parted as a load was held further out.
+Pull with_ends(const Pull& pull, const std::optional<Sample>& origin, const std::optional<Sample>& at_break) {
+  Pull whole = pull;
+  if (origin && origin->extension < pull.front().extension) whole.insert(whole.begin(), point_of(*origin));
+  if (at_break && at_break->extension > pull.back().extension) whole.push_back(point_of(*at_break));
   return whole;
 }
 
@@ -56,10 +69,11 @@ struct Stretch {
   std::size_t begin, end;
 };
 
-/// In order, those that have a sample before them.
+/// In order, those that have a sample before them; each to where the rod parts: its recoil says nothing.
 std::vector<Stretch> stretches(const std::vector<Sample>& samples, Phase phase) {
   std::vector<Stretch> out;
   for (std::size_t i = 1; i < samples.size(); ++i) {
+    if (samples[i - 1].status == BenchStatus::kBroken) break;
     if (samples[i].phase != phase) continue;
     if (out.empty() || out.back().end != i) out.push_back({i, i});
     out.back().end = i + 1;
@@ -86,8 +100,10 @@ std::vector<Cycle> last_cycles(const std::vector<Sample>& samples) {
   const std::vector<Stretch> steps = stretches(samples, Phase::kCycle);
   Path path;
   if (steps.empty()) return {};
-  for (std::size_t i = steps.back().begin - 1; i < steps.back().end; ++i)
-    path.push_back({samples[i].extension, samples[i].force_upper});
+  const Stretch& step = steps.back();
+  const Sample origin = origin_of(samples[step.begin], samples[step.begin - 1]);
+  path.push_back({origin.extension, origin.force_upper});
+  for (std::size_t i = step.begin; i < step.end; ++i) path.push_back({samples[i].extension, samples[i].force_upper});
   return closed_cycles(path);
 }
 
@@ -120,13 +136,20 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
   double energy_error = 0.0;
   double energy_scale = 0.0;
   bool broken = false;
+  std::optional<Sample> at_break;
   const Sample& first = samples.front();
   const Sample* before_pull = nullptr;
   const Sample* pull_begin = nullptr;
   const Sample* tied = nullptr;
   for (const Sample& sample : samples) {
+    const bool recoils = broken;  // says nothing about the test
+    if (sample.status == BenchStatus::kBroken && !broken) {
+      broken = true;
+      results.break_extension = sample.extension;
+      at_break = sample;
+    }
     tracker.add(sample);
-    if (!broken) results.max_penetration = std::max(results.max_penetration, sample.max_penetration);
+    if (!recoils) results.max_penetration = std::max(results.max_penetration, sample.max_penetration);
     if (sample.status == BenchStatus::kNotEquilibrated) results.not_equilibrated = sample.message;
     const EnergyParts parts = energy_between(first, sample);
     energy_error = std::max(energy_error, std::abs(parts.gap()));
@@ -141,9 +164,7 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
       pull_begin = &sample;
       results.energy = energy_between(before_pull ? *before_pull : sample, samples.back());
     }
-    if (broken) continue;  // the ends' recoil says nothing about the test
-    broken = sample.status == BenchStatus::kBroken;
-    if (broken) results.break_extension = sample.extension;
+    if (recoils) continue;
     imbalance = std::max(imbalance, std::abs(sample.force_upper - sample.force_lower));
     moment_imbalance = std::max(moment_imbalance, sample.moment_imbalance / sample.end_to_end);
   }
@@ -176,15 +197,21 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
   if (tied) results.tied_knot_distance = known(tied->knot_distance);
 
   const Pull& pull = tracker.pull();
-  if (pull.empty()) return results;
-  const double peak = peak_force(pull);
+  if (pull.empty()) {
+    if (at_break) results.peak_force = at_break->force_upper;
+    return results;
+  }
+  const double peak = std::max(peak_force(pull), at_break ? at_break->force_upper : 0.0);
   results.peak_force = peak;
   if (peak > 0.0) {
     results.force_balance_error = imbalance / peak;
     results.moment_balance_error = moment_imbalance / peak;
   }
 
-  read_pull(with_origin(pull, before_pull), results);
+  std::optional<Sample> origin;
+  if (before_pull) origin = origin_of(*pull_begin, *before_pull);
+  if (at_break && at_break->balance_offset != pull_begin->balance_offset) at_break.reset();  // another s
+  read_pull(with_ends(pull, origin, at_break), results);
   const double start = pull.front().extension;
   if (results.motion_pattern == MotionPattern::kSliding) {
     const double end = results.lock_extension.value_or(pull.back().extension);

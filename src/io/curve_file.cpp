@@ -1,9 +1,13 @@
 #include "knot_utm/io/curve_file.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
 
+#include "knot_utm/io/number.hpp"
 #include "knot_utm/io/raw_data.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {
@@ -19,6 +23,20 @@ bool is_own(const std::string& content) {
   return time && phase;
 }
 
+/// L less s, which nothing but a balance changes.
+double zero_of(const CurveRow& row) {
+  return row.end_to_end - (std::isfinite(row.corrected_extension) ? row.corrected_extension : row.extension);
+}
+
+constexpr double kSameZero = 1e-9;  // far above rounding, far below what anybody measures [m]
+
+/// Raw data have no L, and one zero.
+bool balanced_between(const CurveRow& a, const CurveRow& b) {
+  return a.end_to_end > 0.0 && std::abs(zero_of(b) - zero_of(a)) > kSameZero;
+}
+
+bool pulled(const CurveRow& row) { return pulls(row.phase); }
+
 }  // namespace
 
 std::vector<CurveRow> read_curve_file(const std::string& file) {
@@ -26,6 +44,26 @@ std::vector<CurveRow> read_curve_file(const std::string& file) {
   if (!is_own(content)) return read_raw_data(content, file);
   std::istringstream in(content);
   return read_curve(in, file);
+}
+
+std::vector<CurveRow> read_course(const std::string& file) {
+  std::vector<CurveRow> rows = read_curve_file(file);
+  const auto first = std::find_if(rows.begin(), rows.end(), pulled);
+  if (first == rows.end()) return {};
+  const auto begin = first == rows.begin() ? first : first - 1;
+  if (begin != first && balanced_between(*begin, *first)) begin->extension = 0.0;  // zero is where it stood
+  const auto end = std::find_if(rows.rbegin(), rows.rend(), pulled).base();
+  for (auto row = begin; row != end; ++row) {
+    const std::string reading = "reading " + std::to_string(row - rows.begin() + 1);
+    if (!std::isfinite(row->time) || !std::isfinite(row->extension))
+      throw InvalidInput(file, reading, "one that is not finite", "time and extension");
+    if (row == begin) continue;
+    if (row->time < (row - 1)->time)
+      throw InvalidInput(file, reading, format_number(row->time) + " s", "no time before that of the reading before");
+    if (row->phase == Phase::kBalance || (row - 1 != begin && balanced_between(*(row - 1), *row)))
+      throw InvalidInput(file, reading, "a balance", "one zero of extension from the first pull to the last");
+  }
+  return {begin, end};
 }
 
 Pull pull_of(const std::vector<CurveRow>& rows, bool balanced) {

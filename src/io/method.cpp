@@ -322,14 +322,9 @@ void read_record(const fs::path& folder, const std::string& key, ProgramStep& st
                        "a curve.csv, or raw data of a testing machine");
   step.record = file.string();
   step.recorded.clear();
-  CurveRow first;
-  for (const CurveRow& row : read_curve_file(step.record)) {
-    if (!pulls(row.phase)) continue;
-    if (step.recorded.empty()) first = row;
-    const RecordedPlace place{row.time - first.time, row.extension - first.extension};
-    if (!std::isfinite(place.time) || !std::isfinite(place.displacement))
-      throw InvalidInput(step.record, "reading " + std::to_string(step.recorded.size() + 1), "one that is not finite",
-                         "time and extension");
+  const std::vector<CurveRow> course = read_course(step.record);
+  for (const CurveRow& row : course) {
+    const RecordedPlace place{row.time - course.front().time, row.extension - course.front().extension};
     if (step.recorded.empty() || place.time > step.recorded.back().time) step.recorded.push_back(place);
   }
   if (step.recorded.size() < 2)

@@ -1,5 +1,6 @@
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <type_traits>
@@ -84,6 +85,11 @@ void check_specimen(const Method& m) {
     reject("specimen.edge_length", s.edge_length,
            "at most a quarter of length, " + format_number(s.length / 4.0) + " m");
   }
+  const std::optional<double>& breaking = m.material.breaking_force;
+  if (s.to_be_tied && s.preload && breaking && *breaking <= *s.preload) {
+    reject("material.breaking_force", *breaking,
+           "more than specimen.preload, " + format_number(*s.preload) + " N, by which it is tied");
+  }
   if (s.closed) throw InvalidInput("specimen.closed", "true", "false: the grips hold the rod's two ends");
   if (s.knot == KnotKind::kFile) {
     std::error_code error;
@@ -105,9 +111,9 @@ void check_machine(const Method& m) {
   }
 }
 
-void check_load(const std::string& key, double load, double capacity) {
-  if (std::abs(load) > capacity)
-    reject(key, load, "at most the load cell's capacity, " + format_number(capacity) + " N");
+void check_load(const std::string& key, double load, double highest, const char* what = "capacity") {
+  if (std::abs(load) > highest)
+    reject(key, load, std::string("at most the load cell's ") + what + ", " + format_number(highest) + " N");
 }
 
 /// Faster than any testing machine: a record in other units than it says, or not one.
@@ -133,7 +139,8 @@ void check_step(const ProgramStep& step, const std::string& key, double capacity
   }
   if (step.phase == Phase::kCycle) {
     if (step.extension_turns.has_value() == step.load_turns.has_value())
-      throw InvalidInput(key, step.load_turns ? "extension and load" : "nothing", "one of extension and load");
+      throw InvalidInput(key, step.load_turns ? "extension and load" : "neither extension nor load",
+                         "one of extension and load");
     if (step.load_turns) {
       check_load(key + ".load", step.load_turns->low, capacity);
       check_load(key + ".load", step.load_turns->high, capacity);
@@ -145,7 +152,9 @@ void check_step(const ProgramStep& step, const std::string& key, double capacity
 
 void check_ends(const Method& m) {
   const double capacity = m.machine.load_cell.capacity;
-  if (m.ends.load) check_load("ends.load", *m.ends.load, capacity);
+  const double overload = m.machine.load_cell.overload;
+  if (m.ends.load && std::isfinite(overload)) check_load("ends.load", *m.ends.load, overload * capacity, "stop");
+  if (m.ends.load && std::isinf(overload)) check_load("ends.load", *m.ends.load, capacity);
   if (m.ends.arming_load) check_load("ends.arming_load", *m.ends.arming_load, capacity);
   const BreakDetection& breaks = m.ends.breaks;
   const BreakDetection unset;

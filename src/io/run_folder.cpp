@@ -30,8 +30,16 @@ std::string method_file_text(const Method& method) {
   return "# Everything resolved: runs again to the same curve.\n" + method_yaml(own);
 }
 
+void require_no_record_in(const std::string& folder, const Method& method) {
+  std::error_code error;
+  for (const ProgramStep& step : method.program)
+    if (step.phase == Phase::kFollow && fs::equivalent(fs::path(step.record).parent_path(), folder, error))
+      throw InvalidInput("--out", folder, "another folder than that of " + step.record + ", which is followed");
+}
+
 void begin_run_folder(const std::string& folder, const Method& method) {
   std::error_code error;
+  require_no_record_in(folder, method);
   if (method.specimen.knot == KnotKind::kFile) {
     const fs::path copy = fs::path(folder) / "specimen.csv";
     // A run repeated from its own folder reads this very file.

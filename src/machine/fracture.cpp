@@ -32,14 +32,17 @@ Exposure most_exposed(const RodProperties& rod, const RodState& state) {
   for (Eigen::Index j = 0; j < rod.edges(); ++j) {
     const double tension = stretching_tension(material.stretching_stiffness, rod.rest_length[j],
                                               state.position.col(j + 1) - state.position.col(j));
-    double share = material.breaking_force ? tension / *material.breaking_force : 0.0;
+    Exposure edge;
+    if (material.breaking_force)
+      edge = {tension / *material.breaking_force, static_cast<int>(j), BreakLimit::kForce, tension};
     if (material.breaking_strain) {
       const double bend = curvature(rod, state.position, j + 1);
       const double strain = tension / material.stretching_stiffness + material.radius * std::max(bend, bend_before);
-      share = std::max(share, strain / *material.breaking_strain);
+      const double share = strain / *material.breaking_strain;
+      if (share > edge.share) edge = {share, static_cast<int>(j), BreakLimit::kStrain, strain};
       bend_before = bend;
     }
-    if (share > out.share) out = {share, static_cast<int>(j)};
+    if (edge.share > out.share) out = edge;
   }
   return out;
 }

@@ -11,20 +11,24 @@ namespace {
 
 constexpr double kFrameTime = 3e-3;  // tau: of 100 kg on 1e7 N/m [s]
 
+constexpr double kInertia = 3.0;  // m/m_a
+
 }  // namespace
 
-Frame::Frame(double stiffness, const Material& material, int strands, double length) : stiffness_(stiffness) {
+Frame::Frame(double stiffness, const Material& material, int strands, double around) : stiffness_(stiffness) {
   if (!(stiffness > 0.0)) throw InvalidInput("machine.stiffness", std::to_string(stiffness), "more than 0 N/m");
   const double line_density = material.density * M_PI * material.radius * material.radius;
-  specimen_ = strands * material.stretching_stiffness / length;
+  strands_ = strands * material.stretching_stiffness;
   damping_ = strands * std::sqrt(material.stretching_stiffness * line_density) + stiffness * kFrameTime;
+  mass_ = kInertia * line_density * around;
 }
 
 bool Frame::rigid() const { return std::isinf(stiffness_); }
 
-double Frame::grip_after(double grip, double displacement, double force, double dt) const {
+double Frame::grip_after(double grip, double displacement, double force, double length, double dt) const {
   if (rigid()) return displacement;
-  return grip + (stiffness_ * (displacement - grip) - force) / (stiffness_ + specimen_ + damping_ / dt);
+  const double resistance = strands_ / length + (damping_ + mass_ / dt) / dt;
+  return grip + (stiffness_ * (displacement - grip) - force) / (stiffness_ + resistance);
 }
 
 }  // namespace knot_utm

@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace knot_utm {
@@ -84,6 +85,8 @@ double Grips::end_to_end(double displacement) const {
   if (on_rollers()) return rollers_[1].centre[2] + displacement - rollers_[0].centre[2];
   return (upper(displacement) - lower()).norm();
 }
+
+double Grips::length_around(double radius) const { return on_rollers() ? M_PI * (rollers_[1].radius + radius) : 0.0; }
 
 double Grips::force_upper(const TimeStep& step) const {
   if (on_rollers()) return -step.roller_force(1)[2];

@@ -115,7 +115,8 @@ struct TestBench::Impl {
         physics(physics_),
         centreline(specimen_centreline(specimen_, material_, machine_, physics_)),
         grips(specimen_, machine_, centreline, material_.radius),
-        frame(machine_.stiffness, material_, specimen_.knot == KnotKind::kFisherman ? 2 : 1, grips.end_to_end(0.0)),
+        frame(machine_.stiffness, material_, specimen_.knot == KnotKind::kFisherman ? 2 : 1,
+              grips.length_around(material_.radius)),
         cell(machine_.load_cell) {
     const Eigen::Index nodes = centreline.points.cols();
     Eigen::VectorXd rest(nodes - 1);
@@ -172,13 +173,25 @@ struct TestBench::Impl {
     const double share = whole > 0.0 ? std::min(1.0, (to - start_time) / whole) : 1.0;
     const double travel = start_displacement + share * (command.displacement - start_displacement);
     // Of what was last accepted alone: a step that is tried again at another length begins from the same.
-    grip_tried = frame.grip_after(grip, travel, frame.rigid() ? 0.0 : grips.force_upper(*stepper), to - from);
+    grip_tried = frame.rigid()
+                     ? travel
+                     : frame.grip_after(grip, travel, grips.force_upper(*stepper), held_length(from, to), to - from);
     grips.set(grip_tried, boundary);
     boundary.forces.clear();
     boundary.grips.clear();
     boundary.extra_drag = settling_drag(to);
     if (rig && rig->stage() != TyingRig::Stage::kIdle) rig->hold(boundary, from, to);
     return boundary;
+  }
+
+  /// Of the strands below the upper grip, as far as the lower one or the rig's clamps, as mounted [m].
+  double held_length(double from, double to) const {
+    double length = grips.end_to_end(0.0);
+    if (!rig || rig->stage() == TyingRig::Stage::kIdle) return length;
+    Boundary held;
+    rig->hold(held, from, to);
+    for (const FixedNode& node : held.fixed_nodes) length = std::min(length, grips.upper(0.0)[2] - node.position[2]);
+    return length;
   }
 
   /// A drawn shape's stored energy is an artefact of the drawing, and would throw it about. A straight rod has none;
@@ -222,7 +235,7 @@ struct TestBench::Impl {
     if (!can_part(material) || parted()) return;
     const Exposure now = most_exposed(stepper->rod(), stepper->state());
     if (now.share >= 1.0) {
-      part(now.edge);
+      part(now);
     } else if (now.share > exposure) {
       const double left = (1.0 - now.share) / (now.share - exposure) * dt;
       control.at_most(std::max(left, kNearBreak * tolerances(physics, specimen).longest_step));
@@ -230,14 +243,16 @@ struct TestBench::Impl {
     exposure = now.share;
   }
 
-  void part(int edge) {
+  void part(const Exposure& reached) {
+    const int edge = reached.edge;
     const Points& position = stepper->state().position;
     break_place = lies_in_knot(stepper->rod(), position, edge)      ? BreakPlace::kKnot
                   : grips.hold(grip, middle(edge), material.radius) ? BreakPlace::kGrip
                                                                     : BreakPlace::kStrand;
     std::ostringstream text;
     text << "the rod parted " << break_arclength(edge) << " m along it (" << break_place_name(break_place)
-         << ") at a tension of " << stepper->tension()[edge] << " N";
+         << (reached.limit == BreakLimit::kForce ? ") at a tension of " : ") at a strain of its outermost fibre of ")
+         << reached.value << (reached.limit == BreakLimit::kForce ? " N" : "");
     status = BenchStatus::kBroken;
     message = text.str();
     stepper->part(edge);

@@ -4,9 +4,6 @@
 #include <ros/callback_queue.h>
 #include <std_srvs/Trigger.h>
 
-#include <algorithm>
-#include <iterator>
-
 #include "knot_utm/io/curve_file.hpp"
 #include "knot_utm/machine/program.hpp"
 #include "knot_utm/ros/conversions.hpp"
@@ -20,18 +17,11 @@ constexpr double kLook = 0.05;  // wall time between two looks at what has come 
 constexpr std::uint32_t kQueue = 1000;
 constexpr std::uint32_t kLargest = 16 * 1024;  // message to this node [bytes]
 
-std::vector<CurveRow> rows_that_pull(const std::string& file) {
-  std::vector<CurveRow> out;
-  const std::vector<CurveRow> all = read_curve_file(file);
-  std::copy_if(all.begin(), all.end(), std::back_inserter(out), [](const CurveRow& row) { return pulls(row.phase); });
-  return out;
-}
-
 }  // namespace
 
 ExperimentNode::ExperimentNode(const ros::NodeHandle& node, const std::string& file)
     : node_(node),
-      rows_(rows_that_pull(file)),
+      rows_(read_course(file)),
       load_cell_(node_.advertise<geometry_msgs::WrenchStamped>(names::kExperimentLoad, kQueue)),
       crosshead_(node_.advertise<Crosshead>(names::kExperimentCrosshead, kQueue)),
       commands_(subscribe_gated(node_, {names::kCrosshead, names::kUtmNode, kQueue, kLargest},

@@ -274,6 +274,7 @@ int run(const Arguments& arguments) {
   TestBench bench(method.specimen, method.material, method.machine, method.physics);
   TestProgram program = make_program(method, bench.longest_step());
   const std::string out = arguments.out.empty() ? "out/" + method.name : arguments.out;
+  require_no_record_in(out, method);  // before anything is written
   const Checkpoint checkpoint(out, method_file_text(method));
   Test test{method, out, bench, program, checkpoint, std::nullopt};
   if (resumes) test.past.emplace(out, method, checkpoint, bench, program);

@@ -70,6 +70,22 @@ TEST(PullReadings, TheSameLinesByMorePointsAreTheSame) {
   EXPECT_NEAR(*tangent_stiffness(pull(bent)), 50.0 + 1e3 + 1e4, 1e-6);
 }
 
+/// The same as that of each part by itself, whose sums begin with it.
+TEST(PullReadings, TheSteepestTenthIsThatOfAllParts) {
+  const Pull wild = pull([](double s) { return 1e3 * s + 20.0 * std::sin(300.0 * s) + 2e5 * std::max(0.0, s - 0.07); });
+  double steepest = 0.0;
+  for (std::size_t i = 0; i + 100 < wild.size(); ++i) {  // least squares of straight pieces, s from the part's middle
+    double moment = 0.0, middle = wild[i].extension + 0.005;
+    for (std::size_t k = i; k < i + 100; ++k) {
+      const double a = wild[k].extension - middle, b = wild[k + 1].extension - middle;
+      const double fa = wild[k].force, fb = wild[k + 1].force;
+      moment += (b - a) * (2.0 * a * fa + a * fb + b * fa + 2.0 * b * fb) / 6.0;
+    }
+    steepest = std::max(steepest, 12.0 * moment / std::pow(0.01, 3));
+  }
+  EXPECT_NEAR(*tangent_stiffness(wild), steepest, 1e-9 * steepest);  // sums of a thousand points, 1e3 times the part's
+}
+
 TEST(PullReadings, WhatAPullDoesNotHaveIsEmpty) {
   const Pull one = {{0.0, 0.01, Sample::kNone, 5.0}};
   for (const Pull& nothing : {Pull{}, one}) {

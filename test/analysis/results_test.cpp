@@ -252,6 +252,75 @@ TEST(Results, WhatIsReadOffThePullBeginsWhereThePullDoes) {
   EXPECT_DOUBLE_EQ(*results.energy_to_break, *results.energy_to_peak);
 }
 
+/// A spring of 500 N/m: pre-loaded to 5 N and balanced there with the first command of the pull, as a program does.
+TEST(Results, ABalanceBehindThePreloadIsTheOriginOfThePull) {
+  const auto sample = [](Phase phase, double displacement, double extension) {
+    Sample out;
+    out.phase = phase;
+    out.displacement = displacement;
+    out.extension = extension;
+    out.force_upper = out.force_lower = 500.0 * displacement;
+    out.end_to_end = 0.25 + displacement;
+    out.balance_offset = phase == Phase::kPreload || phase == Phase::kReturn ? 0.0 : 5.0;
+    return out;
+  };
+  for (const double way_back : {0.0, 0.02}) {  // a return before the pre-load leaves another s behind
+    std::vector<Sample> samples = {sample(Phase::kReturn, -way_back, -way_back),
+                                   sample(Phase::kPreload, 0.01, 0.01 + way_back), sample(Phase::kPull, 0.012, 0.002),
+                                   sample(Phase::kPull, 0.03, 0.02)};
+    samples.back().status = BenchStatus::kBroken;
+    const Results results = analyse(samples, EndedBy::kBreak);
+    EXPECT_NEAR(*results.energy_to_break, 0.02 * (5.0 + 15.0) / 2.0, 1e-12);
+    EXPECT_NEAR(*results.energy_to_peak, *results.energy_to_break, 1e-12);
+    EXPECT_NEAR(*results.secant_stiffness, 500.0, 1e-9);
+    EXPECT_NEAR(*results.tangent_stiffness, 500.0, 1e-9);
+  }
+  // Of cycles too: out and back once, around 2 N of friction.
+  std::vector<Sample> cycling = {sample(Phase::kPreload, 0.01, 0.01), sample(Phase::kCycle, 0.02, 0.01),
+                                 sample(Phase::kCycle, 0.02, 0.01), sample(Phase::kCycle, 0.01, 0.0)};
+  cycling[2].force_upper -= 2.0;
+  cycling[3].force_upper -= 2.0;
+  const Results results = analyse(cycling, EndedBy::kProgram);
+  EXPECT_EQ(results.cycles, 1u);
+  EXPECT_NEAR(*results.hysteresis, 2.0 * 0.01, 1e-12);
+}
+
+TEST(Results, ARodThatPartsWhereNothingPullsHasABreakToo) {
+  const auto sample = [](Phase phase, double displacement, double force) {
+    Sample out;
+    out.phase = phase;
+    out.displacement = out.extension = displacement;
+    out.force_upper = out.force_lower = force;
+    out.end_to_end = 0.25 + displacement;
+    return out;
+  };
+  // Held at a displacement, it parts and its end recoils.
+  std::vector<Sample> held = {sample(Phase::kBalance, 0.0, 0.0), sample(Phase::kPull, 0.01, 100.0),
+                              sample(Phase::kHold, 0.01, 90.0), sample(Phase::kHold, 0.01, 110.0),
+                              sample(Phase::kHold, 0.01, -30.0)};
+  held[3].status = held[4].status = BenchStatus::kBroken;
+  held[4].max_penetration = 9.0;
+  Results results = analyse(held, EndedBy::kBreak);
+  EXPECT_EQ(results.break_extension, 0.01);
+  EXPECT_EQ(results.peak_force, 110.0);
+  EXPECT_NEAR(*results.energy_to_break, 0.5, 1e-12);
+  EXPECT_EQ(results.relaxation->to, 110.0) << "not the recoil";
+  EXPECT_EQ(results.max_penetration, 0.0);
+  // Held at a load, it creeps on before.
+  held[3].extension = held[3].displacement = held[4].extension = held[4].displacement = 0.012;
+  results = analyse(held, EndedBy::kBreak);
+  EXPECT_EQ(results.break_extension, 0.012);
+  EXPECT_NEAR(*results.energy_to_break, 0.5 + 0.002 * (100.0 + 110.0) / 2.0, 1e-12);
+  for (const Phase phase : {Phase::kPreload, Phase::kMount}) {
+    std::vector<Sample> early = {sample(phase, 0.0, 0.0), sample(phase, 0.005, 50.0), sample(phase, 0.005, 60.0)};
+    early[1].status = early[2].status = BenchStatus::kBroken;
+    results = analyse(early, EndedBy::kBreak);
+    EXPECT_EQ(results.break_extension, 0.005);
+    EXPECT_EQ(results.peak_force, 50.0);
+    EXPECT_FALSE(results.energy_to_break);
+  }
+}
+
 TEST(Results, RelaxationIsThatOfTheLastHoldUnderALoad) {
   std::vector<Sample> samples;
   const auto add = [&](Phase phase, double displacement, double force) {

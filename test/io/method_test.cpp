@@ -151,6 +151,19 @@ TEST(Method, ARecordIsNoFasterThanACrosshead) {
   fs::remove(record);
 }
 
+TEST(Method, ACellWithAStopMayBeLoadedAsFarAsThat) {
+  const auto complaint = [](const std::string& load) -> std::string {
+    try {
+      load_method(kTighten, {"machine.load_cell={capacity: 1000, overload: 1.5}", "ends.load=" + load});
+    } catch (const InvalidInput& invalid) {
+      return invalid.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint("1500"), "");
+  EXPECT_THAT(complaint("1501"), HasSubstr("ends.load: 1501 is not allowed: at most the load cell's stop, 1500 N"));
+}
+
 TEST(Method, OverridesReachEveryKey) {
   const Method m = load_method(
       kTighten, {"program.pull.speed=0.001", "program.1.release.duration=5", "material.friction_coefficient=0.2",

@@ -178,9 +178,29 @@ TEST(Fracture, OfTwoLimitsTheNearerOneCounts) {
   const Exposure by_force = most_exposed(rod, state);
   EXPECT_EQ(by_force.edge, 2);
   EXPECT_NEAR(by_force.share, tension / 100.0, 1e-9);
+  EXPECT_EQ(by_force.limit, BreakLimit::kForce);
+  EXPECT_NEAR(by_force.value, tension, 1e-7);
   RodProperties strained = rod;
   strained.material.breaking_strain = 1e-4;
   EXPECT_NEAR(most_exposed(strained, state).share, 10.0, 1e-9);
+  EXPECT_EQ(most_exposed(strained, state).limit, BreakLimit::kStrain);
+  EXPECT_NEAR(most_exposed(strained, state).value, 1e-3, 1e-12);
+  state.position.row(2) *= 0.9;  // nothing is under tension
+  EXPECT_EQ(most_exposed(rod, state).edge, -1);
+}
+
+TEST(Fracture, ItsMessageNamesTheLimitThatWasReached) {
+  SpecimenOptions specimen;
+  specimen.knot = KnotKind::kStraight;
+  specimen.length = kLength;
+  specimen.edge_length = 0.005;
+  Material material = nylon();
+  material.breaking_force = 1e5;
+  material.breaking_strain = 0.0125;
+  PhysicsOptions physics;
+  physics.accuracy = Accuracy::kDraft;
+  const Pulled test = run(specimen, material, physics, {pull(0.02)});
+  EXPECT_THAT(test.program.reason(), testing::HasSubstr("at a strain of its outermost fibre of 0.0125"));
 }
 
 }  // namespace

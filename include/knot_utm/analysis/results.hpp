@@ -60,7 +60,7 @@ struct Results {
   /// F lies between half the peak and the peak, at least the last three. The middle one of the least-squares slopes in
   /// three parts of equal extension: strands that slip inside a locked knot let F fall at one place. [N/m]
   std::optional<double> locked_stiffness;
-  std::optional<double> peak_force;       ///< largest F of the pull [N]
+  std::optional<double> peak_force;       ///< largest F of the pull, and where the rod parted [N]
   std::optional<double> balance_offset;   ///< F that the cell reads as zero, once the pull begins [N]
   std::optional<double> break_extension;  ///< s where the rod parted [m]
   std::optional<double> break_arclength;  ///< of the place where it did, from its first node [m]

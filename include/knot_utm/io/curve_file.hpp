@@ -16,4 +16,9 @@ std::vector<CurveRow> read_curve_file(const std::string& file);
 /// first such row's. Simulated loads are balanced already; whether a machine's are, its operator knows.
 Pull pull_of(const std::vector<CurveRow>& rows, bool balanced = false);
 
+/// The readings of a test that another one follows: from the one before the first that pulls (pulls(phase)), where that
+/// begins, to the last that does, whatever their phases. Throws InvalidInput as read_curve_file, and, naming file and
+/// reading, where a number is not finite, a time goes back, or a balance between them leaves two zeros of extension.
+std::vector<CurveRow> read_course(const std::string& file);
+
 }  // namespace knot_utm

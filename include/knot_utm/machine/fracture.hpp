@@ -5,6 +5,8 @@
 
 namespace knot_utm {
 
+enum class BreakLimit { kForce, kStrain };  ///< breaking force, breaking strain
+
 /// How near a rod is to parting, and at which edge: at a share of 1 it parts there.
 ///
 /// Symbols: T tension [N], F_b breaking force [N], k_s stretching stiffness [N], h radius [m], kappa curvature at the
@@ -16,7 +18,9 @@ namespace knot_utm {
 /// feels. In a rope fibres slip past each other as it bends; it is given a breaking force only.
 struct Exposure {
   double share = 0.0;  ///< largest of all edges [-]
-  int edge = -1;       ///< whose it is; -1: no edge is under tension
+  int edge = -1;       ///< whose it is; -1: no share is positive, as where no edge is under tension or bent
+  BreakLimit limit = BreakLimit::kForce;  ///< of which it is the share
+  double value = 0.0;                     ///< what is held against it: tension [N], strain of the outermost fibre [-]
 };
 
 bool can_part(const Material& material);  ///< it has a limit

@@ -30,6 +30,9 @@ class Grips {
   /// How far these are apart [m].
   double end_to_end(double displacement) const;
 
+  /// Of the rod around a roller, half of it; 0 where nodes are held [m].
+  double length_around(double radius) const;
+
   /// Whether a point of the rod's centreline lies on a roller, or within two radii of a node that is held.
   bool hold(double displacement, const Vec3& point, double radius) const;
 
