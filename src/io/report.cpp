@@ -83,6 +83,7 @@ struct Ended {
 /// Runs a program to its end, without a shell.
 Ended run(const std::vector<std::string>& words) {
   std::vector<char*> arguments;
+  arguments.reserve(words.size() + 1);
   for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
 

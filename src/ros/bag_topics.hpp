@@ -19,7 +19,7 @@ std::string required_topic(const rosbag::Bag& bag, const std::string& file, cons
 /// A message of a bag. Throws InvalidInput where it is not of this type, or of another version of it.
 template <class Message>
 boost::shared_ptr<Message> message_of(const rosbag::MessageInstance& instance, const std::string& file) {
-  const boost::shared_ptr<Message> message = instance.instantiate<Message>();
+  boost::shared_ptr<Message> message = instance.instantiate<Message>();
   if (!message)
     throw InvalidInput(
         file, "topic " + instance.getTopic(), instance.getDataType() + " " + instance.getMD5Sum(),

@@ -118,7 +118,7 @@ void ReplayNode::play_what_is_due() {
 
 template <class Message>
 boost::shared_ptr<Message> ReplayNode::replay(const rosbag::MessageInstance& instance) {
-  const boost::shared_ptr<Message> message = message_of<Message>(instance, options_.bag);
+  boost::shared_ptr<Message> message = message_of<Message>(instance, options_.bag);
   publishers_.at(names_.at(instance.getTopic())).publish(*message);
   return message;
 }
