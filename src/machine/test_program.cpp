@@ -98,6 +98,11 @@ void TestProgram::stop() { end(EndedBy::kOperator, "stopped by the operator"); }
 
 void TestProgram::balance() { balance_next_ = true; }
 
+void TestProgram::fail(std::string why) {
+  ended_by_ = EndedBy::kSolver;
+  reason_ = std::move(why);
+}
+
 Phase TestProgram::phase() const { return ended() ? Phase::kDone : last_.phase; }
 
 double TestProgram::period() const { return 1.0 / command_rate_; }

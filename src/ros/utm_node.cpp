@@ -23,6 +23,7 @@ constexpr double kClockPeriod = 0.002;      // shortest wall time between two me
 constexpr double kIdleClockPeriod = 0.1;    // longest wall time between them [s]
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
 constexpr double kCatchUp = 0.1;            // wall time that is made up for after a slow step [s]
+constexpr double kLongestPause = 86400.0;   // between two commands, however slow the pace asked for [s]
 constexpr double kGapBetweenTests = 1.0;    // on /clock [s]
 constexpr double kGoodbye = 0.3;            // wall time for the last messages to leave before the node ends [s]
 constexpr std::uint32_t kQueue = 1000;
@@ -120,7 +121,7 @@ void UtmNode::physics_failed(const std::string& why) {
   sample_.sequence = command_.sequence;
   sample_.status = BenchStatus::kFailed;
   sample_.message = why;
-  program_->next(sample_);
+  program_->fail(why);
   // The last command that there will ever be an answer to.
   if (waiting_ && command_.sequence > 0) --command_.sequence;
   waiting_ = false;
@@ -199,7 +200,7 @@ void UtmNode::advance() {
   if (program_->ended()) return end();
   if (state_ == State::kPaused) --single_steps_;
   if (options_.real_time_factor > 0.0) {
-    const auto period = to_duration((next.time - command_.time) / options_.real_time_factor);
+    const auto period = to_duration(std::min((next.time - command_.time) / options_.real_time_factor, kLongestPause));
     due_ = std::max(due_ + period, steady_clock::now() - to_duration(kCatchUp));
   }
   send(next);

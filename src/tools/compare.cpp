@@ -66,10 +66,10 @@ int run(const Arguments& arguments) {
   if (arguments.report) write_comparison(*arguments.report, yaml, a, b, arguments.a, arguments.b);
   std::fputs(yaml.c_str(), stdout);
   if (std::fflush(stdout) != 0) throw CannotWrite("standard output");
-  if (arguments.report) write_report(*arguments.report, arguments.command);
-  if (!arguments.tolerance) return kDone;
-  const std::vector<std::string> beyond = beyond_tolerance(comparison, *arguments.tolerance);
+  std::vector<std::string> beyond;
+  if (arguments.tolerance) beyond = beyond_tolerance(comparison, *arguments.tolerance);
   for (const std::string& line : beyond) std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
+  if (arguments.report) write_report(*arguments.report, arguments.command);
   return beyond.empty() ? kDone : kFailed;
 }
 

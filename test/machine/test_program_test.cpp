@@ -531,5 +531,13 @@ TEST(TestProgram, MeetsExtensionsOnACompliantFrameAtSpeed) {
   EXPECT_NEAR(time, 4 * 0.002 / (0.5 * 0.001), 8 * program.period());
 }
 
+TEST(TestProgram, ALostBenchCountsBeforeAStopThatWasAskedFor) {
+  TestProgram program({pull(0.1)}, 3.0, 0.1, {});
+  program.stop();
+  program.fail("it died");
+  EXPECT_EQ(program.ended_by(), EndedBy::kSolver);
+  EXPECT_EQ(program.reason(), "it died");
+}
+
 }  // namespace
 }  // namespace knot_utm

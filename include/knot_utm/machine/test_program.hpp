@@ -79,6 +79,8 @@ class TestProgram {
 
   void stop();     ///< operator: the test ends now
   void balance();  ///< operator: the next command balances
+  /// The bench is lost: the test has ended by the solver, whatever was asked for before.
+  void fail(std::string why);
 
   bool ended() const { return ended_by_ != EndedBy::kNotYet; }
   EndedBy ended_by() const { return ended_by_; }

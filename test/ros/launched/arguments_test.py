@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """What is handed to scripts/tighten stays text: it names files, and commands nothing."""
 import os
+import re
 import shutil
+import subprocess
 import sys
 import unittest
 
@@ -30,6 +32,16 @@ class ArgumentsTest(unittest.TestCase):
             self.assertEqual(launch.end(60.0), 1)
             self.assertIn('is not allowed: a file whose name without ending is a name for a folder', launch.console())
             self.assertEqual(sorted(os.listdir(launch.folder)), ['...yaml', 'console', 'log'])
+
+    def test_every_parameter_of_a_test_is_set_anew(self):
+        # A master outlives a launch: what the one before has left there must not be taken for this one's.
+        said = subprocess.run(['roslaunch', '--dump-params', 'knot_utm', 'tighten.launch'], stdout=subprocess.PIPE,
+                              universal_newlines=True, check=True).stdout
+        with open(os.path.join(ROOT, 'src/ros/test_setup.cpp'), encoding='utf-8') as code:
+            read = set(re.findall(r'"(test/\w+)"', code.read()))
+        self.assertIn('test/data', read)
+        for name in read:
+            self.assertIn('/%s: ' % name, said)
 
 
 if __name__ == '__main__':
