@@ -38,10 +38,11 @@ def main():
 def make(folder, command, version):
     from failure import CannotReport
 
-    if os.path.exists(os.path.join(folder, "comparison.yaml")):
-        kind = "comparison"
-    elif os.path.exists(os.path.join(folder, "result.yaml")):
+    # A run that was put into the folder of a comparison is newer: `compare` takes no folder of a run.
+    if os.path.exists(os.path.join(folder, "result.yaml")):
         kind = "run"
+    elif os.path.exists(os.path.join(folder, "comparison.yaml")):
+        kind = "comparison"
     else:
         raise CannotReport(f"{folder}: neither result.yaml nor comparison.yaml is there")
     import page
