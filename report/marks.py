@@ -38,6 +38,13 @@ def marks_of(run):
                     0.01 * (tested["time"][-1] - tested["time"][0]), 0.05 * float(np.abs(tested["load"]).max()))
 
 
+def end_of(curve):
+    """The mark of a test that ended before anything was pulled."""
+    mark = Mark(["end"], curve["time"][-1], curve["extension"][-1], curve["load"][-1])
+    mark.letter = "a"
+    return mark
+
+
 def reached(pull, name, extension):
     """The row of the pull that is nearest to an extension; none where there is none."""
     if extension is None or not len(pull):

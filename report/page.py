@@ -11,7 +11,7 @@ from comparison_figures import overlay
 from curve_figures import course, force_extension
 from error_band import error_band
 from failure import CannotReport
-from marks import marks_of, time_of_break
+from marks import end_of, marks_of, time_of_break
 from method_facts import knot_of, method_facts, program
 from quantities import error_shown, number, quantity_of, shown
 from results_table import results_table
@@ -44,8 +44,9 @@ def report_on_run(folder, command, version):
     content = {"marks": marks, "curve": None, "course": None, "pictures": None, "note": ""}
     if marks:
         content["curve"] = force_extension(run, marks)
+    if len(run.curve) >= 2:
         content["course"] = course(run)
-        content["pictures"], content["note"] = drawn(run, marks)
+        content["pictures"], content["note"] = drawn(run, marks or [end_of(run.curve)])
     checks = certificate(run.result)
     words, good = verdict(checks)
     return render("run.html.j2", {

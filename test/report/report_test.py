@@ -129,6 +129,15 @@ class PageOfARun(unittest.TestCase):
         self.assertEqual(script(folder).returncode, 0)
         self.assertIn("there is no curve", page_of(folder))
 
+    def test_of_a_test_that_ended_while_it_was_prepared(self):
+        folder = folders.copy(straight)
+        for name in ("curve.csv", "curve_full.csv"):
+            rows = read(folder, name).splitlines()
+            write("\n".join(row for row in rows if not row.endswith(",pull")) + "\n", folder, name)
+        html = html_of(folder)
+        self.assertIn("there is no curve", html)
+        self.assertEqual(len(re.findall(r'src="data:image/(?:svg|png)', html)), 2)
+
     def test_says_warnings_first(self):
         folder = folders.copy(straight)
         put_into(folder, "result.yaml", "warnings: []", 'warnings: ["a & b < c"]')
@@ -323,9 +332,14 @@ class Failures(unittest.TestCase):
         return done.stderr
 
     def test_a_folder_without_a_result(self):
-        for folder in (folders.path, os.path.join(folders.path, "not_there")):
-            self.assertIn("neither result.yaml nor comparison.yaml", self.one_line(script(folder), 1))
-            self.assertFalse(os.path.exists(os.path.join(folder, "report.html")))
+        self.assertIn("neither result.yaml nor comparison.yaml", self.one_line(script(folders.path), 1))
+        self.assertFalse(os.path.exists(os.path.join(folders.path, "report.html")))
+
+    def test_no_folder(self):
+        self.assertIn("folder", self.one_line(script(), 2))
+        for folder in ("", os.path.join(folders.path, "not_there")):
+            self.assertEqual(self.one_line(script(folder), 2), f"report: {folder}: no such folder\n")
+            self.assertFalse(os.path.exists(os.path.join(folders.path, "not_there")))
 
     def test_files_that_are_not_what_they_should_be(self):
         for name, text in (("result.yaml", "a: [\n"), ("result.yaml", "1\n"), ("curve_full.csv", "time\ns\n1,2\n"),
