@@ -1,8 +1,10 @@
 #!/usr/bin/python3
 """The report: what is read from a run's folder, what is made of it, and what is said where it cannot be made."""
+import base64
 import os
 import re
 import shutil
+import struct
 import subprocess
 import unittest
 
@@ -230,9 +232,14 @@ class ABrokenRod(unittest.TestCase):
 
 class APicture(unittest.TestCase):
     def test_is_never_much_higher_than_wide(self):
-        views = [(0.0, 8.0, -600.0, 600.0), (0.0, 100.0, 0.0, 10.0)]
-        self.assertEqual(rod_pictures.width_of(views), 1200.0 / rod_pictures.HIGHEST)
-        self.assertEqual(rod_pictures.width_of(views[1:]), 100.0)
+        run = Run(straight)
+        across = np.column_stack([np.linspace(0.0, 1.2, 50), np.zeros(50), np.linspace(0.0, 0.008, 50)])
+        picture = rod_pictures.pictures(run, [marks.end_of(run.curve)], [shapes.Shape(0.0, across, None)])
+        width, height = struct.unpack(">II", base64.b64decode(picture.split(",")[1])[16:24])  # of a PNG's header
+        self.assertLess(height, width)
+
+    def test_is_as_wide_as_the_widest_view(self):
+        self.assertEqual(rod_pictures.width_of([(0.0, 50.0, 0.0, 10.0), (0.0, 100.0, 0.0, 10.0)]), 100.0)
 
 
 class ACompliantFrame(unittest.TestCase):
