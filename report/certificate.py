@@ -74,7 +74,7 @@ def convergence(result):
     checks = []
     for key, words, limit in (("plateau_force", "Convergence of the plateau force", LIMITS["kUnsure"]),
                               ("lock_extension", "Convergence of the lock extension", None),
-                              ("locked_stiffness", "Convergence of the locked stiffness", None)):
+                              ("locked_stiffness", "Convergence of the " + stiffness_name(result), None)):
         value, error = result.get(key), result.get(key + "_error")
         if not is_number(value):
             continue
@@ -84,6 +84,11 @@ def convergence(result):
         else:
             checks.append(at_most(words + ", share of it", key + "_error", share, limit))
     return checks
+
+
+def stiffness_name(result):
+    """Where nothing locks locked_stiffness is that of the whole pull."""
+    return "stiffness of the pull" if result.get("lock_extension") is None else "locked stiffness"
 
 
 def verdict(checks):

@@ -4,7 +4,7 @@ import os
 import numpy as np
 
 from failure import CannotReport
-from run import is_number, numbers, read_columns, read_yaml
+from run import is_number, numbers, printable, read_columns, read_yaml
 
 READINGS = ("peak_force", "plateau_force", "lock_extension", "locked_stiffness")
 
@@ -21,11 +21,13 @@ class Pull:
 class Comparison:
     def __init__(self, folder):
         self.folder = folder
-        self.facts = read_yaml(os.path.join(folder, "comparison.yaml"))
+        self.facts = read_yaml(os.path.join(folder, "comparison.yaml"), errors="surrogateescape")
         self.a, self.b = (Pull(os.path.join(folder, name)) for name in ("a.csv", "b.csv"))
         for key in ("a", "b", "common_extension"):
             if key not in self.facts:
                 raise CannotReport(f"{os.path.join(folder, 'comparison.yaml')}: no key {key}")
+        self.files = {name: str(self.facts[name]) for name in ("a", "b")}
+        self.facts.update({name: printable(file) for name, file in self.files.items()})
 
     def number(self, key):
         value = self.facts.get(key)

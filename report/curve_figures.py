@@ -84,13 +84,24 @@ def force_extension(run, marks):
         draw_knot_distance(all_axes[-1], run, marks)
     for axes in all_axes:
         shade_motion(axes, run, names=axes is all_axes[0])
-    s = 1e3 * tested["extension"]
-    all_axes[-1].set_xlim(min(0.0, s.min()), s.max() + 0.015 * (np.ptp(s) or 1.0))
+    all_axes[-1].set_xlim(*extension_limits(run))
     all_axes[-1].set_xlabel("extension s [mm]")
     figure.align_ylabels(all_axes)
     tall = sum(heights) + 0.9
     figure.subplots_adjust(left=0.085, right=0.985, bottom=0.55 / tall, top=1.0 - 0.25 / tall)
     return as_svg(figure)
+
+
+def extension_limits(run):
+    """[mm] All that is drawn. On a compliant frame that is the crosshead's extension too, and behind a break, where the
+    specimen has no extension of its own, that alone."""
+    tested = run.curve.tested()
+    drawn = [tested["extension"]]
+    if tested.has_compliant_frame():
+        pull = run.pull()
+        drawn = [pull["extension"] if len(pull) else tested["extension"], tested["crosshead_extension"]]
+    s = 1e3 * np.concatenate(drawn)
+    return min(0.0, 1e3 * tested["extension"].min()), s.max() + 0.015 * (np.ptp(s) or 1.0)
 
 
 def near_the_plateau(run):

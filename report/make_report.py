@@ -15,13 +15,26 @@ PACKAGES = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy", "yaml"
             "jinja2": "python3-jinja2", "weasyprint": "weasyprint"}
 
 
+class OneLineParser(argparse.ArgumentParser):
+    def error(self, message):
+        refuse(message)
+
+
+def refuse(message):
+    """Bad input."""
+    print("report:", message.encode("utf-8", "backslashreplace").decode("utf-8"), file=sys.stderr)
+    sys.exit(2)
+
+
 def main():
-    parser = argparse.ArgumentParser(prog="report", description="Writes report.html and report.pdf into the folder of "
+    parser = OneLineParser(prog="report", description="Writes report.html and report.pdf into the folder of "
                                      "a test, or of a comparison.")
     parser.add_argument("folder", help="that tensile_test, a recorder or compare --report wrote")
     parser.add_argument("--command", help="that the page names as the one that made it")
     parser.add_argument("--version", help="of knot_utm, that made it", default="")
     arguments = parser.parse_args()
+    if not os.path.isdir(arguments.folder):
+        refuse(f"{arguments.folder}: no such folder")
     command = arguments.command or "scripts/report " + shlex.quote(arguments.folder)
     try:
         make(arguments.folder, command, arguments.version)
@@ -38,10 +51,11 @@ def main():
 def make(folder, command, version):
     from failure import CannotReport
 
-    if os.path.exists(os.path.join(folder, "comparison.yaml")):
-        kind = "comparison"
-    elif os.path.exists(os.path.join(folder, "result.yaml")):
+    # A run that was put into the folder of a comparison is newer: `compare` takes no folder of a run.
+    if os.path.exists(os.path.join(folder, "result.yaml")):
         kind = "run"
+    elif os.path.exists(os.path.join(folder, "comparison.yaml")):
+        kind = "comparison"
     else:
         raise CannotReport(f"{folder}: neither result.yaml nor comparison.yaml is there")
     import page

@@ -1,6 +1,8 @@
 """The points of a test that its curve and its pictures have in common: a, b, c …"""
 import numpy as np
 
+from run import PULLING
+
 
 class Mark:
     """`names`: what happened there; several where they fall together. Time [s], extension [m], load [N]."""
@@ -26,14 +28,28 @@ def marks_of(run):
     pull = run.pull()
     begin = pull if len(pull) else tested
     found = [("start of pull" if len(pull) else "start", begin, 0)]
-    for name, at in (("lock", run.value("lock_extension")), ("peak", None), ("break", run.value("break_extension"))):
-        if name == "peak":
-            found.append((name, tested, int(np.argmax(tested["load"]))))
-        elif at is not None and len(pull):
-            found.append((name, pull, int(np.argmin(np.abs(pull["extension"] - at)))))
+    found += reached(pull, "lock", run.value("lock_extension"))
+    pulled = tested.where(np.isin(tested.phase, PULLING))
+    if run.value("peak_force") is not None and len(pulled):
+        found.append(("peak", pulled, int(np.argmax(pulled["load"]))))
+    found += reached(pull, "break", run.value("break_extension"))
     found.append(("end", tested, len(tested) - 1))
     return together([Mark([name], rows["time"][i], rows["extension"][i], rows["load"][i]) for name, rows, i in found],
                     0.01 * (tested["time"][-1] - tested["time"][0]), 0.05 * float(np.abs(tested["load"]).max()))
+
+
+def end_of(curve):
+    """The mark of a test that ended before anything was pulled."""
+    mark = Mark(["end"], curve["time"][-1], curve["extension"][-1], curve["load"][-1])
+    mark.letter = "a"
+    return mark
+
+
+def reached(pull, name, extension):
+    """The row of the pull that is nearest to an extension; none where there is none."""
+    if extension is None or not len(pull):
+        return []
+    return [(name, pull, int(np.argmin(np.abs(pull["extension"] - extension))))]
 
 
 def together(marks, soon, near):

@@ -19,12 +19,16 @@ KEYS = {
     "travel": ("Travel", "mm", 1e3), "capacity": ("Cell's capacity", "N", 1.0),
     "sampling_rate": ("Cell's readings", "Hz", 1.0), "resolution": ("Cell's resolution", "N", 1.0),
     "noise": ("Cell's noise, sd", "N", 1.0), "floor": ("Cell's floor, of capacity", "", 1.0),
-    "accuracy": ("Accuracy", "", 1.0), "speed": ("speed", "mm/s", 1e3),
+    "accuracy": ("Accuracy", "", 1.0), "cell_accuracy": ("Cell's accuracy", "of the reading", 1.0), "speed": ("speed", "mm/s", 1e3),
     "duration": ("duration", "s", 1.0), "extension": ("extension", "mm", 1e3), "load": ("load", "N", 1.0),
     "load_rate": ("load rate", "N/s", 1.0), "time": ("time", "s", 1.0),
     "drift": ("Cell's drift", "N/s", 1.0), "overload": ("Cell's stop, of capacity", "", 1.0),
     "breaking_strain": ("Breaking strain", "", 1.0), "arming_load": ("Armed from", "N", 1.0),
     "sharp_drop_time": ("Sharp drop within", "s", 1.0), "drop_extension": ("Drop within", "mm", 1e3),
+    "sharp_drop": ("Sharp drop by", "of the peak", 1.0), "drop": ("Drop by", "of the peak", 1.0),
+    "break_at_fraction_of_peak": ("Break at no more than", "of the peak", 1.0),
+    "gravity": ("Gravity", "m/s²", 1.0), "slip_tolerance": ("slip tolerance", "m/s", 1.0),
+    "presliding": ("presliding", "of the radius", 1.0), "tolerance": ("tolerance", "of the radius", 1.0),
     "drag": ("Drag", "N s/m²", 1.0), "max_step": ("Longest step", "s", 1.0),
     "residual": ("Residual", "k_b/h²", 1.0), "twist": ("Twist", "", 1.0)}
 OF_KNOT = {"fisherman": ("handedness", "knot_distance", "end_to_end", "tail", "preload", "edge_length", "refinement"),
@@ -49,8 +53,12 @@ def text_of(key, value):
         return ", ".join(f"{KEYS.get(name, (name.replace('_', ' '),))[0]} {text_of(name, part)}"
                          for name, part in value.items())
     if isinstance(value, list):
-        return ", ".join(text_of(key, part) for part in value)
+        return vector(value, unit, scale) if all(map(is_number, value)) else ", ".join(map(str, value))
     return "–" if value is None else str(value)
+
+
+def vector(values, unit, scale):
+    return f"[{', '.join(number(value * scale) for value in values)}] {unit}".strip()
 
 
 def facts(section, keys=None):
@@ -72,11 +80,13 @@ def method_facts(method):
     specimen, material, machine = method["specimen"], method["material"], method["machine"]
     cell = machine.get("load_cell")
     cell = cell if isinstance(cell, dict) else {}
+    # `accuracy` of the physics is another thing.
+    readings = {"cell_accuracy" if key == "accuracy" else key: value for key, value in cell.items()}
     return [
         ("Specimen", [("Knot", knot_of(method)), *facts(specimen, OF_KNOT.get(specimen["knot"]))], ""),
         ("Material", [("Name", str(material.get("name", "own"))), *facts(material)], material.get("notes") or ""),
         ("Machine", [*facts({key: value for key, value in machine.items() if key != "load_cell"}),
-                     ("Load cell", str(cell.get("name", "–"))), *facts(cell)], cell.get("notes") or ""),
+                     ("Load cell", str(cell.get("name", "–"))), *facts(readings)], cell.get("notes") or ""),
         ("Physics", facts(method.get("physics", {})), ""),
         *([("Ends of the test", facts(method["ends"]), "")] if method.get("ends") else []),
     ]

@@ -5,18 +5,18 @@ import re
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from certificate import certificate, verdict
+from certificate import certificate, stiffness_name, verdict
 from comparison import READINGS, Comparison, run_beside
 from comparison_figures import overlay
 from curve_figures import course, force_extension
 from error_band import error_band
 from failure import CannotReport
-from marks import marks_of, time_of_break
+from marks import end_of, marks_of, time_of_break
 from method_facts import knot_of, method_facts, program
 from quantities import error_shown, number, quantity_of, shown
 from results_table import results_table
 from rod_pictures import pictures
-from run import Run
+from run import Run, printable
 from shapes import shapes_at
 
 FILES = [
@@ -44,8 +44,9 @@ def report_on_run(folder, command, version):
     content = {"marks": marks, "curve": None, "course": None, "pictures": None, "note": ""}
     if marks:
         content["curve"] = force_extension(run, marks)
+    if len(run.curve) >= 2:
         content["course"] = course(run)
-        content["pictures"], content["note"] = drawn(run, marks)
+        content["pictures"], content["note"] = drawn(run, marks or [end_of(run.curve)])
     checks = certificate(run.result)
     words, good = verdict(checks)
     return render("run.html.j2", {
@@ -68,18 +69,22 @@ def headlines(result):
     for key in HEADLINES:
         if result.get(key) is not None:
             quantity, error = quantity_of(key), result.get(key + "_error")
-            found.append((key.replace("_", " ").capitalize(), shown(result[key], quantity.scale, error),
+            found.append((headline(result, key), shown(result[key], quantity.scale, error),
                           error_shown(error, quantity.scale), quantity.unit))
     return found
+
+
+def headline(result, key):
+    name = stiffness_name(result) if key == "locked_stiffness" else key.replace("_", " ")
+    return name[:1].upper() + name[1:]
 
 
 def report_on_comparison(folder, command, version):
     comparison = Comparison(folder)
     rows = [comparison_row(comparison, key) for key in READINGS if isinstance(comparison.facts.get(key), dict)]
-    files = {name.upper(): comparison.facts[name] for name in ("a", "b")}
     return render("comparison.html.j2", {
         "title": "Comparison of two curves", "facts": comparison.facts, "curves": overlay(comparison), "rows": rows,
-        "sides": [(name, file, *side_facts(run_beside(file))) for name, file in files.items()],
+        "sides": [(name.upper(), printable(file), *side_facts(run_beside(file))) for name, file in comparison.files.items()],
         "common": [shown(s, 1e3) for s in comparison.facts["common_extension"]],
         "rms": shown(comparison.number("rms_difference")), "largest": shown(comparison.number("largest_difference")),
         "share": percent(comparison.number("rms_difference_over_load")),
@@ -114,11 +119,6 @@ def files_of(folder):
             if name.startswith("report.") or os.path.exists(os.path.join(folder, name))]
 
 
-def printable(text):
-    """Names of files are bytes, which need not be text."""
-    return text.encode("utf-8", "backslashreplace").decode("utf-8")
-
-
 def render(template, content):
     environment = Environment(loader=FileSystemLoader(os.path.dirname(os.path.abspath(__file__))), autoescape=True,
                               undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
@@ -126,16 +126,21 @@ def render(template, content):
 
 
 def write(folder, html):
-    """Both files whole, or none of them anew."""
-    pdf = as_pdf(html)
-    for name, content in (("report.html", html.encode("utf-8")), ("report.pdf", pdf)):
-        file = os.path.join(folder, name)
-        try:
+    """Both files, whole: neither is touched before both could be written."""
+    contents = {os.path.join(folder, "report.html"): html.encode("utf-8"),
+                os.path.join(folder, "report.pdf"): as_pdf(html)}
+    try:
+        for file, content in contents.items():
             with open(file + ".part", "wb") as out:
                 out.write(content)
+        for file in contents:
             os.replace(file + ".part", file)
-        except OSError as why:
-            raise CannotReport(f"{file}: cannot be written: {why.strerror}") from why
+    except OSError as why:
+        raise CannotReport(f"{file}: cannot be written: {why.strerror}") from why
+    finally:
+        for part in (file + ".part" for file in contents):
+            if os.path.isfile(part):
+                os.remove(part)
 
 
 def as_pdf(html):

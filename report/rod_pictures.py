@@ -16,6 +16,7 @@ DPI = 170
 NEAR = 2.6      # strands whose centrelines are nearer than this many radii touch, or nearly so
 MARGIN = 4.0    # around what is shown [radii]
 LONGEST = 7.0   # a picture wider than this many of its heights shows the knot alone
+HIGHEST = 0.8   # a picture, of its width
 
 
 def pictures(run, marks, shapes):
@@ -23,7 +24,7 @@ def pictures(run, marks, shapes):
     radius = run.method["material"]["radius"]
     norm = scale_of([shape.tension for shape in shapes if shape.tension is not None])
     views = [view(run, shape, radius) for shape in shapes]
-    width = max(right - left for left, right, _, _ in views)
+    width = width_of(views)
     heights = [WIDTH * (top - bottom) / width + 0.25 for _, _, bottom, top in views]
     scale_height = 0.75 if norm else 0.1
     figure = plt.figure(figsize=(WIDTH, sum(heights) + scale_height))
@@ -38,6 +39,11 @@ def pictures(run, marks, shapes):
     if norm:
         draw_scale(figure.add_subplot(grid[len(shapes)]), norm)
     return as_png(figure, DPI)
+
+
+def width_of(views):
+    """[mm], of all of them: the widest has room, and none is too high."""
+    return max(max(right - left, (top - bottom) / HIGHEST) for left, right, bottom, top in views)
 
 
 def scale_of(tensions):

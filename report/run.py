@@ -81,17 +81,22 @@ def is_number(value):
     return isinstance(value, (int, float)) and not isinstance(value, bool) and np.isfinite(value)
 
 
-def read_text(file):
+def read_text(file, errors="strict"):
     try:
-        with open(file, encoding="utf-8", newline="") as text:
+        with open(file, encoding="utf-8", errors=errors, newline="") as text:
             return text.read()
     except (OSError, UnicodeDecodeError) as why:
         raise CannotReport(f"{file}: cannot be read: {getattr(why, 'strerror', None) or why}") from why
 
 
-def read_yaml(file):
+def printable(text):
+    """Names of files are bytes, which need not be text: such bytes as YAML too writes them, and reads them back."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
+def read_yaml(file, errors="strict"):
     try:
-        content = yaml.safe_load(read_text(file))
+        content = yaml.safe_load(printable(read_text(file, errors)))
     except yaml.YAMLError as why:
         raise CannotReport(f"{file}: not YAML: {' '.join(str(why).split())}") from why
     if not isinstance(content, dict):

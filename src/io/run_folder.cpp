@@ -16,6 +16,13 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFailedStep = "failed_step.bin";
 
+/// What `compare --report` left; curves a.csv and b.csv without its comparison.yaml are somebody else's.
+void remove_comparison(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::remove(folder / "comparison.yaml", error)) return;
+  for (const char* curve : {"a.csv", "b.csv"}) fs::remove(folder / curve, error);
+}
+
 }  // namespace
 
 void make_run_folder(const std::string& folder) {
@@ -52,6 +59,7 @@ void begin_run_folder(const std::string& folder, const Method& method) {
   for (const char* old :
        {"result.yaml", "final_shape.csv", "test.bag", "saved.bag", "report.html", "report.pdf", kFailedStep})
     fs::remove(fs::path(folder) / old, error);
+  remove_comparison(folder);
   try {
     write_whole((fs::path(folder) / "method.yaml").string(), method_file_text(method));
   } catch (const CannotWrite& why) {

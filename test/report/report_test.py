@@ -1,8 +1,10 @@
 #!/usr/bin/python3
 """The report: what is read from a run's folder, what is made of it, and what is said where it cannot be made."""
+import base64
 import os
 import re
 import shutil
+import struct
 import subprocess
 import unittest
 
@@ -12,11 +14,15 @@ import numpy as np
 import yaml
 
 import certificate
+import curve_figures
 import error_band
 import marks
+import method_facts
 import page
 import quantities
+import rod_pictures
 import shapes
+from failure import CannotReport
 from few_points import few_points
 from run import Curve, Run
 
@@ -125,6 +131,15 @@ class PageOfARun(unittest.TestCase):
         self.assertEqual(script(folder).returncode, 0)
         self.assertIn("there is no curve", page_of(folder))
 
+    def test_of_a_test_that_ended_while_it_was_prepared(self):
+        folder = folders.copy(straight)
+        for name in ("curve.csv", "curve_full.csv"):
+            rows = read(folder, name).splitlines()
+            write("\n".join(row for row in rows if not row.endswith(",pull")) + "\n", folder, name)
+        html = html_of(folder)
+        self.assertIn("there is no curve", html)
+        self.assertEqual(len(re.findall(r'src="data:image/(?:svg|png)', html)), 2)
+
     def test_says_warnings_first(self):
         folder = folders.copy(straight)
         put_into(folder, "result.yaml", "warnings: []", 'warnings: ["a & b < c"]')
@@ -215,7 +230,28 @@ class ABrokenRod(unittest.TestCase):
         self.assertEqual(shapes.pieces(stretched, whole), [slice(0, 10)])
 
 
+class APicture(unittest.TestCase):
+    def test_is_never_much_higher_than_wide(self):
+        run = Run(straight)
+        across = np.column_stack([np.linspace(0.0, 1.2, 50), np.zeros(50), np.linspace(0.0, 0.008, 50)])
+        picture = rod_pictures.pictures(run, [marks.end_of(run.curve)], [shapes.Shape(0.0, across, None)])
+        width, height = struct.unpack(">II", base64.b64decode(picture.split(",")[1])[16:24])  # of a PNG's header
+        self.assertLess(height, width)
+
+    def test_is_as_wide_as_the_widest_view(self):
+        self.assertEqual(rod_pictures.width_of([(0.0, 50.0, 0.0, 10.0), (0.0, 100.0, 0.0, 10.0)]), 100.0)
+
+
 class ACompliantFrame(unittest.TestCase):
+    def test_is_drawn_as_far_as_its_crosshead_went(self):
+        s = np.array([0.0, 1.0, 2.0, 9.0])
+        broken = a_pull(s, np.array([0.0, 1.0, 2.0, 0.0]))
+        self.assertGreater(curve_figures.extension_limits(OfValues(broken))[1], 9e3)
+        broken.columns["crosshead_extension"] = np.array([0.0, 2.0, 4.0, 4.0])
+        low, high = curve_figures.extension_limits(OfValues(broken, break_extension=2.0))
+        self.assertEqual(low, 0.0)
+        self.assertTrue(4e3 < high < 4.5e3, high)
+
     def test_readings_are_held_against_the_specimens_own_extension(self):
         folder = folders.copy(straight)
         for name in ("curve.csv", "curve_full.csv"):
@@ -232,7 +268,7 @@ class ACompliantFrame(unittest.TestCase):
 class Marks(unittest.TestCase):
     def test_are_start_lock_peak_and_end(self):
         s = np.linspace(0.0, 0.1, 101)
-        run = OfValues(a_pull(s, np.where(s < 0.09, 100.0 * s, 1.0)), lock_extension=0.05)
+        run = OfValues(a_pull(s, np.where(s < 0.09, 100.0 * s, 1.0)), lock_extension=0.05, peak_force=9.0)
         found = marks.marks_of(run)
         self.assertEqual([(mark.letter, mark.title()) for mark in found],
                          [("a", "start of pull"), ("b", "lock"), ("c", "peak"), ("d", "end")])
@@ -240,7 +276,8 @@ class Marks(unittest.TestCase):
 
     def test_tell_what_was_before_a_break_from_what_was_behind(self):
         s = np.linspace(0.0, 0.1, 101)
-        found = marks.marks_of(OfValues(a_pull(s, np.where(s < 0.0995, s, 0.0)), break_extension=0.0992))
+        found = marks.marks_of(OfValues(a_pull(s, np.where(s < 0.0995, s, 0.0)), break_extension=0.0992,
+                                          peak_force=0.099))
         self.assertEqual([mark.title() for mark in found], ["start of pull", "peak, break", "end"])
         self.assertAlmostEqual(marks.time_of_break(found), 0.99)
         seconds = np.array([0.0, 0.5, 0.98, 1.02, 1.3])
@@ -248,8 +285,41 @@ class Marks(unittest.TestCase):
 
     def test_that_fall_together_are_one(self):
         s = np.linspace(0.0, 0.1, 101)
-        self.assertEqual([mark.title() for mark in marks.marks_of(OfValues(a_pull(s, s)))],
+        self.assertEqual([mark.title() for mark in marks.marks_of(OfValues(a_pull(s, s), peak_force=0.1))],
                          ["start of pull", "peak, end"])
+
+    def test_have_a_peak_only_where_the_pull_has_one(self):
+        s = np.linspace(0.0, 0.1, 101)
+        held = a_pull(s, np.where(s < 0.05, s, 0.2 - s))
+        held.phase[50:] = "hold"
+        self.assertEqual([mark.title() for mark in marks.marks_of(OfValues(held, peak_force=None))],
+                         ["start of pull", "end"])
+        found = marks.marks_of(OfValues(held, peak_force=0.049))
+        self.assertEqual([(mark.title(), mark.load) for mark in found][1], ("peak", held["load"][49]))
+        held.phase[:] = "hold"
+        self.assertEqual([mark.title() for mark in marks.marks_of(OfValues(held, peak_force=1.0))], ["start", "end"])
+
+
+class Facts(unittest.TestCase):
+    def test_have_the_units_of_the_method(self):
+        method = {"specimen": {"knot": "straight"}, "material": {}, "machine": {"load_cell": {"accuracy": 0.005}},
+                  "physics": {"gravity": [0, 0, -9.81], "accuracy": "draft", "contact": {"tolerance": 0.02},
+                              "friction": {"slip_tolerance": 0.001, "presliding": 0.01}},
+                  "ends": {"sharp_drop": 0.5, "drop": 0.3, "break_at_fraction_of_peak": 0.2}}
+        found = {row for _, rows, _ in method_facts.method_facts(method) for row in rows}
+        self.assertLessEqual({
+            ("Cell's accuracy", "0.005 of the reading"), ("Accuracy", "draft"), ("Gravity", "[0, 0, –9.81] m/s²"),
+            ("Contact", "tolerance 0.02 of the radius"),
+            ("Friction", "slip tolerance 0.001 m/s, presliding 0.01 of the radius"),
+            ("Sharp drop by", "0.5 of the peak"), ("Drop by", "0.3 of the peak"),
+            ("Break at no more than", "0.2 of the peak")}, found)
+
+    def test_call_the_stiffness_of_the_whole_pull_so(self):
+        result = {"lock_extension": None, "locked_stiffness": 1.0, "locked_stiffness_error": 0.1}
+        for lock, name in ((None, "tiffness of the pull"), (0.05, "ocked stiffness")):
+            result["lock_extension"] = lock
+            self.assertTrue(any(label.endswith(name) for label, *_ in page.headlines(result)))
+            self.assertTrue(any(name in check.words for check in certificate.certificate(result)))
 
 
 class Numbers(unittest.TestCase):
@@ -269,9 +339,14 @@ class Failures(unittest.TestCase):
         return done.stderr
 
     def test_a_folder_without_a_result(self):
-        for folder in (folders.path, os.path.join(folders.path, "not_there")):
-            self.assertIn("neither result.yaml nor comparison.yaml", self.one_line(script(folder), 1))
-            self.assertFalse(os.path.exists(os.path.join(folder, "report.html")))
+        self.assertIn("neither result.yaml nor comparison.yaml", self.one_line(script(folders.path), 1))
+        self.assertFalse(os.path.exists(os.path.join(folders.path, "report.html")))
+
+    def test_no_folder(self):
+        self.assertIn("folder", self.one_line(script(), 2))
+        for folder in ("", os.path.join(folders.path, "not_there")):
+            self.assertEqual(self.one_line(script(folder), 2), f"report: {folder}: no such folder\n")
+            self.assertFalse(os.path.exists(os.path.join(folders.path, "not_there")))
 
     def test_files_that_are_not_what_they_should_be(self):
         for name, text in (("result.yaml", "a: [\n"), ("result.yaml", "1\n"), ("curve_full.csv", "time\ns\n1,2\n"),
@@ -308,6 +383,16 @@ class Failures(unittest.TestCase):
         self.assertFalse({"report.html", "report.pdf"} & set(os.listdir(out)))
 
 
+    def test_a_page_that_cannot_be_written_leaves_the_old_one_and_no_part(self):
+        out = os.path.join(folders.path, "parts")
+        os.makedirs(os.path.join(out, "report.pdf.part"))
+        write("old", out, "report.html")
+        with self.assertRaisesRegex(CannotReport, "report.pdf: cannot be written"):
+            page.write(out, "new")
+        self.assertEqual(sorted(os.listdir(out)), ["report.html", "report.pdf.part"])
+        self.assertEqual(read(out, "report.html"), "old")
+
+
 class PageOfAComparison(unittest.TestCase):
     def compare(self, out, *more):
         return tool("compare", f"{straight}/curve.csv", f"{straight}/curve_full.csv", "--report", out, *more)
@@ -332,6 +417,19 @@ class PageOfAComparison(unittest.TestCase):
         bytes_only = os.fsencode(folders.path) + b"/\xff"
         shutil.copytree(os.fsencode(straight), bytes_only)
         self.assertEqual(script(bytes_only).stderr, "")
+        self.assertEqual(tool("compare", bytes_only + b"/curve.csv", odd, "--report", out).stderr, "")
+        self.assertIn("/\\udcff/curve.csv", page_of(out))
+        self.assertIn("simulated: Straight rod, nylon", page_of(out))
+
+    def test_makes_room_for_a_run(self):
+        out = os.path.join(folders.path, "makes_room")
+        self.assertEqual(self.compare(out).returncode, 0)
+        for name in ("method.yaml", "result.yaml", "curve.csv", "curve_full.csv", "final_shape.csv"):
+            shutil.copy(os.path.join(straight, name), out)
+        self.assertEqual(script(out).returncode, 0)
+        self.assertIn("<h1>Straight rod, nylon</h1>", page_of(out))
+        folders.run("makes_room", STRAIGHT)
+        self.assertFalse({"comparison.yaml", "a.csv", "b.csv", "report.html"} & set(os.listdir(out)))
 
     def test_is_written_beyond_the_tolerance_too(self):
         out = os.path.join(folders.path, "beyond")

@@ -21,7 +21,7 @@ FISHERMAN = ["config/tighten.yaml", "--set", "material=polypropylene", "--set", 
 
 def tool(name, *arguments):
     return subprocess.run([os.path.join(TOOLS, name), *arguments], cwd=ROOT, capture_output=True, text=True,
-                          check=False)
+                          errors="surrogateescape", check=False)
 
 
 def script(*arguments):

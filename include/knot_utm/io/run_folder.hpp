@@ -17,8 +17,8 @@ std::string method_file_text(const Method& method);
 void require_no_record_in(const std::string& folder, const Method& method);
 
 /// Puts method.yaml and, where the specimen is a file, specimen.csv there, and takes away the results of an earlier
-/// run. Throws InvalidInput (key "--out") where the folder cannot be written to or holds a record that is followed,
-/// std::runtime_error where the copy cannot be written.
+/// run or comparison. Throws InvalidInput (key "--out") where the folder cannot be written to or holds a record that is
+/// followed, std::runtime_error where the copy cannot be written.
 void begin_run_folder(const std::string& folder, const Method& method);
 
 /// Whether the folder has the result of a test that ran to its end.
