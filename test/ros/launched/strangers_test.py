@@ -14,7 +14,7 @@ import xmlrpc.client
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
-from launched import ROOT, Headless, Launch, memory
+from launched import ROOT, Headless, Launch, memory, wait_for
 
 METHOD = os.path.join(ROOT, 'test/ros/many_samples.yaml')
 HOARD = 3e6  # less than what is published between the two looks [bytes]
@@ -67,6 +67,11 @@ class Stranger:
         self.kinds = topics
         self.spin = rospy
 
+    def wait_until_heard(self):
+        """By the nodes that run: knot_node and the recorder, and by itself."""
+        for topic, listeners in (('utm/crosshead', 2), ('utm/status', 3), ('knot/record', 2)):
+            wait_for(topic, lambda: self.publishers[topic].get_num_connections() >= listeners)
+
     def take(self, message, topic):
         if message._connection_header['callerid'] != '/stranger':
             self.latest[topic] = message
@@ -115,6 +120,7 @@ class StrangersTest(unittest.TestCase):
             # On a busy machine the test would be over before the stranger is there.
             os.kill(pids['utm_node'], signal.SIGSTOP)
             stranger = Stranger(launch.uri)
+            stranger.wait_until_heard()
             os.kill(pids['utm_node'], signal.SIGCONT)
             before = {}
             while launch.process.poll() is None:
