@@ -21,7 +21,7 @@ set_source_files_properties(
   test/rooms_test.cpp test/sim/failed_steps_test.cpp test/io/bad_input_test.cpp test/io/compare_test.cpp
   test/io/follow_test.cpp
   test/io/killed_run_test.cpp test/io/method_test.cpp test/io/raw_data_test.cpp test/io/recovery_test.cpp
-  test/io/replay_step_test.cpp test/io/resume_test.cpp test/io/run_writer_test.cpp test/machine/compliant_loop_test.cpp
+  test/io/replay_step_test.cpp test/io/resume_test.cpp test/io/run_writer_test.cpp
   PROPERTIES COMPILE_DEFINITIONS
              "KNOT_UTM_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\";KNOT_UTM_TOOLS_DIR=\"${KNOT_UTM_EXECUTABLE_DIR}\"")
 add_dependencies(core_tests compare tensile_test recover replay_step)
@@ -51,7 +51,7 @@ gtest_discover_tests(property_tests DISCOVERY_TIMEOUT 60
 file(GLOB validation_sources CONFIGURE_DEPENDS test/validation/*_test.cpp)
 if(validation_sources)
   add_executable(validation_tests ${validation_sources})
-  set_source_files_properties(test/validation/break_test.cpp
+  set_source_files_properties(test/validation/break_test.cpp test/validation/compliant_loop_test.cpp
                               PROPERTIES COMPILE_DEFINITIONS "KNOT_UTM_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\"")
   target_include_directories(validation_tests PRIVATE test)
   target_link_libraries(validation_tests PRIVATE knot_utm_core GTest::gtest_main)
