@@ -16,12 +16,12 @@ namespace knot_utm {
 enum class EndedBy {
   kNotYet,
   kBreak,      ///< the rod parted, or the load fell as it does in a break
-  kExtension,  ///< the last step, a pull, reached its extension
+  kExtension,  ///< the last step, a pull or a return, reached its extension
   kLoad,       ///< the last step reached its load, or the load its limit
   kTravel,     ///< the crosshead reached the end of its way
   kOperator,   ///< stopped
   kSolver,     ///< the physics gave up, or did not come to rest where it had to
-  kProgram,    ///< the last step's time was over
+  kProgram,    ///< the last step's time, cycles or record were over
   kTime        ///< the time limit of the test
 };
 
@@ -48,7 +48,7 @@ const char* ended_by_name(EndedBy end);  ///< "not yet", "break", "extension", "
 ///   return        moves inwards at `speed` until the extension is `return_extension`, or the load `until.load`
 ///   follow        goes as the record says from where it stands, until that ends
 /// Loads are true balanced forces (balanced_load), not readings. They are kept, followed and met by LoadControl, the
-/// crosshead never being faster than `speed`: a load is met within kMetLoad of it (of the range of a cycle), unless the
+/// crosshead never being faster than `speed`: a load is met within 0.1 % of it (of the range of a cycle), unless the
 /// specimen turns stiffer faster than it can know. A rate of load goes on from where the crosshead could not keep up.
 /// Extensions at which a cycle turns or a return ends are met exactly, on a compliant frame within a thousandth of what
 /// one period moves.
