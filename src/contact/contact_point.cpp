@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "knot_utm/solver/block.hpp"
+
 namespace knot_utm {
 
 void evaluate_force(const Friction& friction, double friction_scale, ContactPoint& contact) {
@@ -29,47 +31,50 @@ void linearise(const NormalLaw& normal, const Friction& friction, double frictio
   model.du_s = contact.inverse_g * contact.db;
   model.du_r = contact.inverse_g * contact.x;
 
-  const Vec3& n = contact.n;
-  const Vec3& axis = contact.axis;
-  const double p = contact.weight * model.pressure, slope = contact.weight * model.slope;
-  const Vec3 n_u = contact.db / -contact.d;  // dn/du
+  const Lanes n = to_lanes(contact.n), db = to_lanes(contact.db), axis = to_lanes(contact.axis);
+  const double over_d = 1.0 / contact.d;
+  const double p = contact.weight * contact.expected(model.pressure), slope = contact.weight * model.slope;
+  const Lanes n_u = -over_d * db;  // dn/du
   // With N = dn/dS = (P - axis axis^T)/d, P = 1 - n n^T (a roller's gap has no part along its axis), and dp/dS = -p' n,
-  //   dg/dS = p N - p' (n - mu z) n^T - s C Y,   s = mu p/scale,
+  //   dg/dS = p N - p' (n - mu z) n^T - s C Y,   s = mu p/scale,   p the expected pressure,
   //   Y = d(P r)/dS = P - (n.r) N - n (N r)^T.
   // z and u being tangential, C P = across P + along u u^T and C n = across n: all of it is multiples of the identity,
   // u u^T and columns times n^T, axis^T and (N r)^T.
-  double on_identity = p / contact.d, on_u = 0.0, on_pulled = 0.0;
-  Vec3 axis_column = -on_identity * axis;
-  Vec3 pressing = slope * n;  // p' (n - mu z)
-  Vec3 u = Vec3::Zero(), pulled = Vec3::Zero();
-  model.force = n;
-  model.slide = p * n_u;
+  double on_identity = p * over_d, on_u = 0.0, on_pulled = 0.0;
+  Lanes axis_column = -on_identity * axis;
+  Lanes pressing = slope * n;  // p' (n - mu z)
+  Lanes u = {}, pulled = {}, force = n, slide = p * n_u;
   if (friction.on()) {
-    model.force -= friction.coefficient * contact.z;
-    const Vec3& r = contact.slip;
-    const double away = n.dot(r), left = 1.0 - away / contact.d;
-    const Vec3 tangential = r - away * n;
+    const Lanes r = to_lanes(contact.slip), turn = to_lanes(contact.turn);
+    const double away = dot(n, r), left = 1.0 - away * over_d, over_scale = 1.0 / friction_scale;
+    const Lanes tangential = r - away * n;
     const FrictionDirection direction =
-        linearised_direction(friction.law, friction.secant, tangential / friction_scale);
-    const double s = friction.coefficient * p / friction_scale;
-    pressing -= (friction.coefficient * slope) * direction.z;
-    on_identity -= s * direction.across * left;
-    on_u = -s * direction.along * left;
-    on_pulled = s * direction.across / contact.d;
-    axis_column -= (s * away / contact.d) * direction.slope_times(axis);
-    u = direction.u;
-    pulled = tangential - axis * axis.dot(r);
-    const Vec3 turned = contact.turn - n * n.dot(contact.turn);
-    model.slide += s * direction.slope_times(turned + away * n_u + n * r.dot(n_u));
+        linearised_direction(friction.law, friction.secant, to_vec3(over_scale * tangential));
+    const Lanes z = to_lanes(direction.z);
+    u = to_lanes(direction.u);
+    const double s = friction.coefficient * p * over_scale;
+    const double across = s * direction.across, along = s * direction.along;
+    const auto slope_times = [&](const Lanes& v) { return across * v + (along * dot(u, v)) * u; };  // s C v
+    force -= friction.coefficient * z;
+    pressing -= (friction.coefficient * slope) * z;
+    on_identity -= across * left;
+    on_u = -along * left;
+    on_pulled = across * over_d;
+    pulled = tangential;
+    if (contact.on_roller()) {
+      axis_column -= (away * over_d) * slope_times(axis);
+      pulled -= dot(axis, r) * axis;
+    }
+    slide += slope_times(turn - dot(n, turn) * n + away * n_u + dot(r, n_u) * n);
   }
-  model.force *= p;
+  model.force = contact.weight * model.pressure * to_vec3(force);
+  model.slide = to_vec3(slide);
+  constexpr Lanes kAxis[3] = {{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}};
   for (int j = 0; j < 3; ++j) {
-    Vec3 column =
-        (on_pulled * pulled[j] - on_identity * n[j]) * n + (on_u * u[j]) * u + axis[j] * axis_column - n[j] * pressing;
-    column[j] += on_identity;
-    model.still.col(j).head<3>() = -column;
+    Lanes column = n[j] * pressing - (on_pulled * pulled[j] - on_identity * n[j]) * n - (on_u * u[j]) * u;
+    column -= axis[j] * axis_column + on_identity * kAxis[j];
+    std::copy_n(reinterpret_cast<const double*>(&column), 4, model.still.data() + 4 * j);
   }
-  model.still.row(3).setZero();
 }
 
 }  // namespace knot_utm

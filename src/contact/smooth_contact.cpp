@@ -27,16 +27,17 @@ struct Cubic {
   double value(double u) const { return c0 + u * (c1 + u * (c2 + u * c3)); }
   double slope(double u) const { return c1 + u * (2.0 * c2 + u * 3.0 * c3); }
 
-  /// The root in [low, high], where it rises from below zero to zero or above: Newton's method, kept inside. A step
-  /// of less than the root of double precision is the last: the error after it is its square.
+  /// The root in [low, high], where it rises from below zero to zero or above: Halley's method, kept inside. A step of
+  /// less than the cube root of double precision is the last: the error after it is its cube.
   double rising_root(double low, double high) const {
-    constexpr double kLastStep = 1e-8;
+    constexpr double kLastStep = 5e-6;
     const double begin = value(low), end = value(high);
     double u = low + (high - low) * begin / (begin - end);
     for (int i = 0; i < 40; ++i) {
       const double here = value(u), steepness = slope(u);
       (here < 0.0 ? low : high) = u;
-      double next = steepness > 0.0 ? u - here / steepness : 0.5 * (low + high);
+      const double eased = steepness * steepness - here * (c2 + u * 3.0 * c3);  // F'^2 - F F''/2
+      double next = steepness > 0.0 && eased > 0.0 ? u - here * steepness / eased : 0.5 * (low + high);
       if (!(next >= low && next <= high)) next = 0.5 * (low + high);
       const double step = std::abs(next - u);
       u = next;
@@ -68,14 +69,6 @@ struct RisingRoots {
     if (low < high && f.value(low) < 0.0 && f.value(high) >= 0.0) root[count++] = f.rising_root(low, high);
   }
 };
-
-/// Is all of m + t u + k u^2/2, 0 <= u <= 1, further than `reach` from m + r? The curve keeps within |k|/8 of its
-/// chord.
-bool beyond(double reach, const Vec3& r, const Vec3& t, const Vec3& k) {
-  const Vec3 chord = t + 0.5 * k;
-  const double chord2 = chord.squaredNorm(), along = r.dot(chord), farthest = reach + 0.125 * k.norm();
-  return (r.squaredNorm() - farthest * farthest) * chord2 >= along * along;
-}
 
 /// Number of a point of integration along the rod.
 std::size_t number(int segment, int point) {
@@ -126,6 +119,7 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
   iterate_ = accepted_;
   edge_middle_.resize(3, nodes - 1);
   edge_.resize(3, nodes - 1);
+  parabola_.resize(static_cast<std::size_t>(nodes));
   outwards_ = Eigen::VectorXd::Constant(nodes, PointWeights::kWholeShare);
 }
 
@@ -146,33 +140,38 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   edge_.noalias() = position.rightCols(edges) - position.leftCols(edges);
   edge_middle_.noalias() = 0.5 * (position.rightCols(edges) + position.leftCols(edges));
   sieve_.set_centreline(edge_middle_, edge_);
+  for (const int i : candidates_.segments())
+    parabola_[static_cast<std::size_t>(i)].set(edge_middle_.col(i - 1), edge_.col(i - 1), edge_.col(i));
   for (const int segment : candidates_.segments()) {
     const StrandPoint points[2] = {{segment, 0, outwards_[segment], position},
                                    {segment, 1, outwards_[segment], position}};
     sieve_.sieve(points[0].a, points[1].a, candidates_.begin(segment), candidates_.end(segment));
     for (const StrandPoint& point : points) {
       const std::size_t first = contacts_.size();
-      find_feet(point, position);
+      find_feet(point);
       recall(number(segment, point.point), first);
       for (std::size_t c = first; c < contacts_.size(); ++c) complete(contacts_[c], position, start);
     }
   }
 }
 
-void SmoothContact::find_feet(const StrandPoint& point, const Points& position) {
+void SmoothContact::find_feet(const StrandPoint& point) {
   for (const int* foot = sieve_.begin(point.point); foot != sieve_.end(point.point); ++foot) {
-    // On the segment c(u) = m + t u + k u^2/2, so F'(u) = -(a - c).c' is a cubic.
-    const Vec3 t = edge_.col(*foot - 1), k = edge_.col(*foot) - edge_.col(*foot - 1);
-    const Vec3 r = point.a - edge_middle_.col(*foot - 1);
-    if (beyond(reach_, r, t, k)) continue;
-    const RisingRoots feet({-r.dot(t), t.squaredNorm() - r.dot(k), 1.5 * t.dot(k), 0.5 * k.squaredNorm()});
-    for (int i = 0; i < feet.count; ++i) add_contact(point, *foot, feet.root[i], position);
+    const SegmentParabola& c = parabola_[static_cast<std::size_t>(*foot)];
+    const Vec3 r = point.a - c.m;
+    const double rt = r.dot(c.t), rk = r.dot(c.k);
+    // Further away from the chord than the segment and the reach together: all of it is beyond.
+    const double farthest = reach_ + c.bulge, along = rt + 0.5 * rk;
+    if ((r.squaredNorm() - farthest * farthest) * c.chord2 >= along * along) continue;
+    // F'(u) = -(a - c).c' is a cubic.
+    const RisingRoots feet({-rt, c.tt - rk, 1.5 * c.tk, 0.5 * c.kk});
+    for (int i = 0; i < feet.count; ++i) add_contact(point, *foot, feet.root[i], r);
   }
 }
 
-void SmoothContact::add_contact(const StrandPoint& point, int foot, double u, const Points& position) {
-  const SegmentWeights wb(u);
-  const Vec3 x = point.a - combine(wb.value, position, foot);
+void SmoothContact::add_contact(const StrandPoint& point, int foot, double u, const Vec3& r) {
+  const SegmentParabola& c = parabola_[static_cast<std::size_t>(foot)];
+  const Vec3 x = r - u * (c.t + 0.5 * u * c.k);
   const double d2 = x.squaredNorm();
   if (d2 >= reach_ * reach_) return;
   const double arclength_a = arclength_at(arclength_, point.segment, kIntegrationPoints[point.point]);
@@ -187,6 +186,7 @@ void SmoothContact::add_contact(const StrandPoint& point, int foot, double u, co
   contact.a0 = point.segment - 1;
   contact.point = point.point;
   contact.b0 = foot - 1;
+  const SegmentWeights wb(u);
   for (int k = 0; k < 3; ++k) {
     contact.c[k] = point.weights.value[k];
     contact.c[3 + k] = -wb.value[k];
@@ -195,10 +195,10 @@ void SmoothContact::add_contact(const StrandPoint& point, int foot, double u, co
   contact.n = contact.x / contact.d;
   contact.overlap = diameter_ - contact.d;
   contact.begins = normal_.begin();
-  contact.db = combine(wb.derivative, position, foot);
+  contact.db = c.t + u * c.k;
   const double length2 = contact.db.squaredNorm();
   // At a minimum G >= 0; it vanishes where the foot is about to jump, and there omega does too.
-  contact.inverse_g = 1.0 / std::max(length2 - contact.x.dot(second_difference(position, foot)), 1e-3 * length2);
+  contact.inverse_g = 1.0 / std::max(length2 - contact.x.dot(c.k), 1e-3 * length2);
 }
 
 void SmoothContact::recall(std::size_t q, std::size_t first) {

@@ -55,7 +55,7 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
   out.residual_from_step = kFullResidual * tolerance.longest_step;
   out.residual_of_tension = kResidualOfTension;
   out.residual_at_little_tension = kResidualAtLittleTension;
-  out.newton_cap = 0.1 * h;
+  out.newton_cap = 0.2 * h;
   out.motion_limit = 0.8 * h;
   out.overlap_limit = 0.5 * h;
   out.candidate_margin = 1.0 * h;
@@ -64,7 +64,7 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
 }
 
 constexpr double kNearBreak = 1e-3;      // steps are no shorter for a break that is near [longest step]
-constexpr double kRecoilTransits = 5.0;  // of the specimen, that the ends of a parted rod are followed for
+constexpr double kRecoilTransits = 1.0;  // of the specimen, that the ends of a parted rod are followed for
 
 /// In which a wave as long as the rod is thick bends to and fro, but for a factor: h^2 sqrt(rho A/k_b) [s].
 double bending_time(const Material& material) {
@@ -132,7 +132,8 @@ struct TestBench::Impl {
     options.longest = options.first = tolerances(physics, specimen).longest_step;
     // A drawn shape springs apart at once.
     if (specimen.knot != KnotKind::kStraight) options.first = std::min(bending_time(material), options.longest);
-    options.motion = 0.3 * material.radius;
+    options.motion = 0.6 * material.radius;
+    options.slip = 0.4 * material.radius;
     options.shortest = std::min(options.shortest, kShortestStep * bending_time(material));
     control = StepControl(options);
     if (!centreline.knots.empty()) {

@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/rod/stretching.hpp"
+
 namespace knot_utm {
 
 namespace {
 
 constexpr Lanes kZero = {0.0, 0.0, 0.0, 0.0};
 constexpr Lanes kAxis[3] = {{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}};
-
-double dot(const Lanes& a, const Lanes& b) {
-  const Lanes products = a * b;
-  return products[0] + products[1] + products[2];
-}
 
 }  // namespace
 
@@ -25,6 +22,7 @@ CentrelineTerms::CentrelineTerms(const RodProperties& rod, bool bends)
       tangent_(static_cast<std::size_t>(rod.edges())),
       inverse_length_(tangent_.size()),
       tension_(tangent_.size()),
+      expected_tension_(tangent_.size()),
       cosine_(static_cast<std::size_t>(rod.nodes())),
       inverse_1c_(cosine_.size()) {
   for (std::size_t i = 0; i < bending_stiffness_.size(); ++i)
@@ -34,6 +32,23 @@ CentrelineTerms::CentrelineTerms(const RodProperties& rod, bool bends)
 void CentrelineTerms::part(int edge) {
   const auto j = static_cast<std::size_t>(edge);
   stretching_stiffness_[j] = bending_stiffness_[j] = bending_stiffness_[j + 1] = 0.0;
+}
+
+void CentrelineTerms::expect(const Points& start) {
+  expects_ = true;
+  for (std::size_t j = 0; j < expected_tension_.size(); ++j) {
+    const auto edge = static_cast<Eigen::Index>(j);
+    expected_tension_[j] =
+        stretching_tension(stretching_stiffness_[j], rod_.rest_length[edge], start.col(edge + 1) - start.col(edge));
+  }
+}
+
+void CentrelineTerms::expect(const std::vector<Lanes>& change, double share) {
+  if (!expects_) return;
+  for (std::size_t j = 0; j < expected_tension_.size(); ++j)
+    expected_tension_[j] = tension_[j] + share * stretching_stiffness_[j] /
+                                             rod_.rest_length[static_cast<Eigen::Index>(j)] *
+                                             dot(tangent_[j], change[j + 1] - change[j]);
 }
 
 void CentrelineTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
@@ -118,6 +133,7 @@ CentrelineTerms::NodeHessian CentrelineTerms::bending_hessian(std::size_t node) 
 template <int D>
 void CentrelineTerms::set_stiffness(const std::vector<double>& diagonal, StepMatrix<D>& matrix) const {
   const std::size_t nodes = diagonal.size(), edges = tangent_.size();
+  const std::vector<double>& turning = expects_ ? expected_tension_ : tension_;
   // With A_j = d2E/de_j^2 and B_i = d2E/(de_{i-1} de_i), the latter of bending at node i, the nodes have
   //   (i,i)  A_{i-1} + A_i - B_i - B_i^T     (i,i+1)  B_i + B_{i+1} - A_i     (i,i+2)  -B_{i+1}
   NodeHessian here = {}, after = {};
@@ -128,7 +144,7 @@ void CentrelineTerms::set_stiffness(const std::vector<double>& diagonal, StepMat
     after = {};
     if (bends_ && i + 1 < edges) after = bending_hessian(i + 1);
     if (!last) {
-      const double across = tension_[i] * inverse_length_[i];
+      const double across = turning[i] * inverse_length_[i];
       const double along = stretching_stiffness_[i] / rod_.rest_length[static_cast<Eigen::Index>(i)] - across;
       const Lanes t = along * tangent_[i];
       for (int k = 0; k < 3; ++k) edge[k] = t * tangent_[i][k] + across * kAxis[k] + here.ff[k] + after.ee[k];

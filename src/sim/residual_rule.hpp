@@ -16,6 +16,7 @@ namespace knot_utm {
 ///
 /// What is left unbalanced shakes the rod, the more often the shorter the steps: it would keep them short. A node's own
 /// edges count: in a locked knot they bear kN, while next to it are tails that a trifle moves.
+/// While a shape settles, the drag holds what is left unbalanced, and nothing is read: r, whatever the step.
 class ResidualRule {
  public:
   explicit ResidualRule(const StepSettings& settings)
@@ -28,6 +29,7 @@ class ResidualRule {
     const double share = dt < from_step_ ? dt * dt / (from_step_ * from_step_) : 1.0;
     return std::max(share * loose(tension), kInShortSteps * residual_);
   }
+  double while_settling() const { return residual_; }
   double ease(double tension_at_node, double tolerance) const {
     return 1.0 + of_tension_ * tension_at_node / tolerance;
   }

@@ -12,9 +12,10 @@ constexpr double kGrowth = 1.2;
 constexpr double kFastGrowth = 1.6;  // after a step of hardly any work
 constexpr int kVeryEasy = 3;
 constexpr double kShrink = 0.7;
-// Secants are tried once so many steps have failed in a row, and in steps so short: where tangents fail at every other
-// one, the steps would stay short for ever.
-constexpr int kInARow = 3;
+// Patience and secants come once so many steps have failed in a row, and in steps so short: where tangents fail at
+// every other one, the steps would stay short for ever. A step that fails by hasty tangents costs some 5 iterations,
+// one by secants up to 8 times the limit of each.
+constexpr int kInARow = 6;
 constexpr double kShort = 1e-3;  // [longest step]
 // A run that so many iterations have led no further than this mean each is not going to end: usual are 0.01 to 1.
 constexpr std::uint64_t kPatience = 200'000;
@@ -23,7 +24,7 @@ constexpr double kLeastHeadway = 1e-5;  // [longest step]
 }  // namespace
 
 StepSummary StepControl::step(TimeStep& stepper, const Boundary& boundary, double dt, bool in_need) {
-  StepSummary summary = stepper.step(boundary, dt);
+  StepSummary summary = stepper.step(boundary, dt, in_need ? Solution::kTangents : Solution::kHastyTangents);
   counters_.iterations += static_cast<std::uint64_t>(summary.newton.iterations);
   if (!summary.accepted() && !summary.newton.converged() && in_need) {
     summary = stepper.step(boundary, dt, Solution::kSecants);
@@ -39,7 +40,9 @@ double StepControl::next_after(double dt, const StepSummary& summary) const {
     next = std::max(next, dt) * (summary.newton.iterations <= kVeryEasy ? kFastGrowth : kGrowth);
   else if (summary.newton.iterations >= options_.hard_iterations)
     next = dt * kShrink;
+  // The rod as a whole may move further than its strands against each other: that is no harder to solve.
   if (summary.largest_motion > 0.0) next = std::min(next, dt * options_.motion / summary.largest_motion);
+  if (summary.largest_slip > 0.0) next = std::min(next, dt * options_.slip / summary.largest_slip);
   return std::clamp(next, options_.shortest, options_.longest);
 }
 

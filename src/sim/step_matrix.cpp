@@ -51,9 +51,10 @@ void StepMatrix<D>::find_rooms(const std::vector<ContactPoint>& contacts) {
   for (const ContactPoint& contact : contacts) {
     // Those that stay apart need no room; those about to touch soon would.
     if (!contact.active() && contact.overlap < 2.0 * contact.begins) continue;
-    // A foot slides on to the segment that it is nearer to.
-    const bool backwards = contact.c[3] < contact.c[5];
-    const int first = contact.b0 - (backwards ? 1 : 0);
+    // A foot slides on the way it goes; one that does not, to the segment that it is nearer to.
+    const double way = contact.slip.dot(contact.db);
+    const bool backwards = way != 0.0 ? way < 0.0 : contact.c[3] < contact.c[5];
+    const int first = contact.b0 - (backwards ? kRoomNodes - 3 : 0);
     rooms_.push_back({contact.a0, std::max(first, 0), std::min(first + kRoomNodes, nodes_) - 1});
   }
 }

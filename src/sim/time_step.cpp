@@ -78,7 +78,7 @@ class ImplicitStep final : public TimeStep {
     boundary_ = &boundary;
     dt_ = dt;
     StepSummary summary;
-    summary.newton = solution == Solution::kTangents ? by_tangents() : by_secants();
+    summary.newton = solution == Solution::kSecants ? by_secants() : by_tangents(solution == Solution::kHastyTangents);
     examine(summary);
     if (summary.accepted())
       commit();
@@ -89,6 +89,7 @@ class ImplicitStep final : public TimeStep {
 
   void begin() {
     share_ = motion_ = 0.0;
+    centreline_.take_present_tensions();
     contact_.refresh(state_.position);
     predict();
     contact_.begin_step();
@@ -97,10 +98,11 @@ class ImplicitStep final : public TimeStep {
     matrix_.begin_step();
   }
 
-  NewtonSummary by_tangents() {
+  NewtonSummary by_tangents(bool hasty) {
     begin();
     use_secants(false);
-    return newton(*this, {settings_.max_iterations});
+    if (hasty) centreline_.expect(state_.position);
+    return newton(*this, {settings_.max_iterations, 1.0, hasty});
   }
 
   /// Secants creep up to the solution from afar, on a side of every kink; tangents from there find it in few
@@ -152,7 +154,10 @@ class ImplicitStep final : public TimeStep {
     return worst_.residual;
   }
 
-  double tolerance() const { return rule_.tolerance(centreline_.largest_tension(), dt_); }
+  double tolerance() const {
+    if (boundary_->extra_drag > 0.0) return rule_.while_settling();
+    return rule_.tolerance(centreline_.largest_tension(), dt_);
+  }
 
   bool solve() {
     matrix_.locate(contact_.contacts());
@@ -181,6 +186,7 @@ class ImplicitStep final : public TimeStep {
       frames_.move(change_, share);
     }
     for (int i = 0; i < nodes_; ++i) x_.col(i) += share * to_vec3(change_[at(i)]);
+    centreline_.expect(change_, share);
     share_ = share;
     motion_ = share * longest;
     std::size_t m = 0;
@@ -412,16 +418,28 @@ class ImplicitStep final : public TimeStep {
     }
     for (int i = 0; i < nodes_; ++i)
       summary.largest_motion = std::max(summary.largest_motion, (x_.col(i) - state_.position.col(i)).norm());
-    for (const ContactPoint& contact : contact_.contacts())
-      summary.largest_overlap = std::max(summary.largest_overlap, contact.overlap);
-    for (const ContactPoint& contact : rollers_.contacts())
-      summary.largest_overlap = std::max(summary.largest_overlap, contact.overlap);
+    for (const auto* contacts : {&contact_.contacts(), &rollers_.contacts()})
+      for (const ContactPoint& contact : *contacts) {
+        summary.largest_overlap = std::max(summary.largest_overlap, contact.overlap);
+        summary.largest_slip = std::max(summary.largest_slip, slip(contact).norm());
+      }
     if (summary.largest_motion > settings_.motion_limit)
       summary.reason = "a node moved further than a step may";
     else if (summary.largest_overlap > settings_.overlap_limit)
       summary.reason = "strands overlap more than a step may leave";
     else if (const std::optional<Passage> passage = passage_.find(state_.position, x_))
       summary.reason = reason(*passage);
+  }
+
+  /// Of point a against point b, or against where a roller ends up, in this step [m].
+  Vec3 slip(const ContactPoint& contact) const {
+    Vec3 out = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) {
+      out += contact.c[k] * (x_.col(contact.a0 + k) - state_.position.col(contact.a0 + k));
+      if (contact.on_roller()) continue;
+      out += contact.c[3 + k] * (x_.col(contact.b0 + k) - state_.position.col(contact.b0 + k));
+    }
+    return out;
   }
 
   StepDiagnosis of_the_fastest_node() {

@@ -14,7 +14,7 @@ namespace {
 constexpr double kStandingFromMiddle = 5.0;  // from the middle of the specimen, towards the own knot
 // The settling drag relaxes waves of this many radii in about a tenth of the settling time.
 constexpr double kSettlingTime = 0.3;  // [s]
-constexpr double kSettlingWave = 40.0;
+constexpr double kSettlingWave = 17.0;
 constexpr double kThreadedBeyondKnot = 18.0;  // beyond the middle of the loose knot: it ends 8 further out
 
 double fastest_node(const TimeStep& stepper) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <random>
 
 #include "knot_utm/rod/isotropic_bending.hpp"
@@ -110,6 +111,70 @@ TEST_P(CentrelineTermsOf, StiffnessIsThatOfEveryTerm) {
 
 INSTANTIATE_TEST_SUITE_P(Rods, CentrelineTermsOf, testing::Bool(),
                          [](const auto& bends) { return bends.param ? "bending" : "stretchingOnly"; });
+
+/// Two edges that a change turns: what they are expected to bear follows its linear model, not their new lengths.
+TEST(CentrelineTerms, ExpectsTheTensionOfTheLinearModelOfAChange) {
+  const Crumpled scene(false);
+  CentrelineTerms terms(scene.rod, false);
+  std::vector<Lanes> force(kNodes);
+  terms.expect(scene.position);
+  terms.add_forces(scene.position, force);
+  std::vector<Lanes> change(kNodes);
+  std::mt19937 random(5);
+  std::normal_distribution<double> noise(0.0, 0.1 * scene.rod.material.radius);
+  for (Lanes& each : change) each = Lanes{noise(random), noise(random), noise(random), 0.0};
+  constexpr double kShare = 0.7;
+  terms.expect(change, kShare);
+  std::vector<Lanes> moved_force(kNodes);
+  Points moved = scene.position;
+  for (int i = 0; i < kNodes; ++i) moved.col(i) += kShare * to_vec3(change[static_cast<std::size_t>(i)]);
+  terms.add_forces(moved, moved_force);
+  StepMatrix<3> matrix(kNodes);
+  matrix.locate({});
+  terms.set_stiffness(std::vector<double>(kNodes, 0.0), matrix);
+
+  const double k_s = scene.rod.material.stretching_stiffness;
+  for (int j = 0; j + 1 < kNodes; ++j) {
+    const double l0 = scene.rod.rest_length[j];
+    const Vec3 before = scene.edge(j), after = moved.col(j + 1) - moved.col(j);
+    const double tension = stretching_tension(k_s, l0, before) + k_s / l0 * before.normalized().dot(after - before);
+    const Vec3 t = after.normalized();
+    const Mat3 expected =
+        k_s / l0 * t * t.transpose() + tension / after.norm() * (Mat3::Identity() - t * t.transpose());
+    const Block<3>& block = matrix.block(matrix.values().pattern().index(j, j + 1));
+    for (int r = 0; r < 3; ++r)
+      for (int c = 0; c < 3; ++c) EXPECT_NEAR(block(r, c), -expected(r, c), 1e-12 * k_s / l0) << "edge " << j;
+  }
+}
+
+/// Iterations that one long step takes in which a taut string is plucked, its stretching stiffness so many times a
+/// rope's.
+int iterations_of_a_pluck(double times, Solution solution) {
+  constexpr int kEdges = 20;
+  constexpr double kTension = 10.0, kPluck = 2.0;  // [N]
+  Material material = braided_rope();
+  material.stretching_stiffness *= times;
+  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(kEdges, material.radius));
+  StepSettings settings = closed_form_settings(material);
+  settings.residual = 1e-4;
+  settings.residual_of_tension = 0.0;
+  settings.newton_cap = settings.motion_limit = rod.length();
+  RodState state = straight_state(rod);
+  state.position *= 1.0 + kTension / material.stretching_stiffness;
+  const std::unique_ptr<TimeStep> stepper = TimeStep::make(rod, state, settings);
+  Boundary boundary;
+  boundary.fixed_nodes = {{0, state.position.col(0)}};
+  boundary.forces = {{kEdges, Vec3(kTension, 0.0, 0.0)}, {kEdges / 2, Vec3(0.0, kPluck, 0.0)}};
+  const StepSummary summary = stepper->step(boundary, 10.0, solution);
+  EXPECT_TRUE(summary.accepted()) << summary.reason;
+  return summary.newton.iterations;
+}
+
+TEST(CentrelineTerms, AtExpectedTensionsIterationsDoNotGrowWithTheStretchingStiffness) {
+  const int rope = iterations_of_a_pluck(1.0, Solution::kHastyTangents);
+  EXPECT_LE(iterations_of_a_pluck(1e3, Solution::kHastyTangents), rope + 1);
+  EXPECT_LT(rope, iterations_of_a_pluck(1.0, Solution::kTangents)) << "at present tensions";
+}
 
 }  // namespace
 }  // namespace knot_utm

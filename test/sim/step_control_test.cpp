@@ -20,9 +20,10 @@ class ScriptedStep : public TimeStep {
   StepSummary step(const Boundary& /*boundary*/, double dt, Solution solution) override {
     StepSummary out;
     (solution == Solution::kSecants ? by_secants : by_tangents).push_back(dt);
-    if (solution == Solution::kTangents && only_secants) out.reason = "it ran in circles";
+    if (solution != Solution::kSecants && only_secants) out.reason = "it ran in circles";
     out.newton.iterations = iterations;
     out.largest_motion = speed * dt;
+    out.largest_slip = slip_speed * dt;
     if (dt > longest_good) out.reason = "it was too long";
     tried.push_back(dt);
     out.diagnosis = diagnosis();
@@ -46,6 +47,7 @@ class ScriptedStep : public TimeStep {
 
   double longest_good = 1.0;  // [s]
   double speed = 0.0;         // [m/s]
+  double slip_speed = 0.0;    // [m/s]
   int iterations = 3;
   bool only_secants = false;
   std::vector<double> tried, by_tangents, by_secants;
@@ -73,15 +75,31 @@ StepControl::Options options() {
   return out;
 }
 
+TEST(StepControl, AimsAtASlipOfStrandsAndALongerWayOfNodes) {
+  StepControl::Options from = options();
+  from.first = 1e-3;
+  from.slip = 0.5;
+  for (const bool together : {true, false}) {
+    StepControl control(from);
+    ScriptedStep step;
+    step.speed = 20.0;
+    step.slip_speed = together ? 0.0 : 20.0;
+    const Outcome run = advance(control, step, 1.0);
+    EXPECT_EQ(run.gave_up, "");
+    const double longest = *std::max_element(run.taken.begin(), run.taken.end());
+    EXPECT_NEAR(longest, (together ? from.motion : from.slip) / step.speed, 1e-3);
+  }
+}
+
 TEST(StepControl, TriesSecantsWhereStepsHaveFailedInARow) {
   StepControl control(options());
   ScriptedStep step;
   step.only_secants = true;
   const Outcome run = advance(control, step, 0.1);
   EXPECT_EQ(run.gave_up, "");
-  ASSERT_GE(step.by_tangents.size(), 4u);
-  // Three have failed before: the fourth, an eighth as long as the first, is solved.
-  EXPECT_NEAR(run.taken.front(), 0.1 / 8.0, 1e-15);
+  ASSERT_GE(step.by_tangents.size(), 7u);
+  // Six have failed before: the seventh, a 64th as long as the first, is solved.
+  EXPECT_NEAR(run.taken.front(), 0.1 / 64.0, 1e-15);
   EXPECT_EQ(step.by_secants.front(), run.taken.front());
   EXPECT_EQ(step.by_secants.size(), run.taken.size());
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cmath>
+
 #include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
@@ -14,6 +16,27 @@ struct SegmentWeights {
 
   explicit SegmentWeights(double u)
       : value{0.5 * (1.0 - u) * (1.0 - u), 0.5 + u * (1.0 - u), 0.5 * u * u}, derivative{u - 1.0, 1.0 - 2.0 * u, u} {}
+};
+
+/// A segment in powers of u: c(u) = m + t u + k u^2/2, m the middle of an edge, t the edge, k the second difference.
+struct SegmentParabola {
+  Vec3 m, t, k;       ///< [m]
+  Vec3 chord;         ///< c(1) - c(0) [m]
+  double tt, tk, kk;  ///< t.t, t.k, k.k [m^2]
+  double chord2;      ///< [m^2]
+  double bulge;       ///< |k|/8: no further from its chord is the segment [m]
+
+  void set(const Vec3& middle, const Vec3& edge, const Vec3& next_edge) {
+    m = middle;
+    t = edge;
+    k = next_edge - edge;
+    chord = t + 0.5 * k;
+    tt = t.squaredNorm();
+    tk = t.dot(k);
+    kk = k.squaredNorm();
+    chord2 = chord.squaredNorm();
+    bulge = 0.125 * std::sqrt(kk);
+  }
 };
 
 /// Contact is integrated along every segment by the midpoint rule on its halves.

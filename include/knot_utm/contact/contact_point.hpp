@@ -48,6 +48,9 @@ struct ContactPoint {
 
   bool on_roller() const { return roller >= 0; }
   bool touches() const { return overlap > begins; }
+  /// Of a linear model of it: the pressure that the change leads to. Where a prediction has drawn strands apart, the
+  /// tangent there would have them pull, and friction drive them on.
+  double expected(double of_tangent) const { return estimate > 0.0 ? estimate : of_tangent; }
   /// Takes part in the next linear solve.
   bool active() const { return overlap > begins || estimate > 0.0; }
 };
@@ -64,7 +67,9 @@ struct ContactMotion {
 ///
 /// taken at the overlap D^ whose pressure is the estimate that the last linear solve gave, and at the present overlap
 /// where there is none. The law starts with p' = 0: tangents at the present overlap only halve the overlap of a strand
-/// that was pushed in too far, while the estimate has it nearly right at once. At the solution both are the same.
+/// that was pushed in too far, while the estimate has it nearly right at once. As strands move, n and z turn too, and
+/// of the product (p + dp) (f + df) the part (p + dp) df takes the estimate for p + dp. At the solution all are the
+/// same.
 ///
 /// With g = g(S, u) it is the force's derivative where the foot stays, and where it slides on:
 ///

@@ -82,8 +82,9 @@ class SmoothContact {
 
   struct StrandPoint;
 
-  void find_feet(const StrandPoint& point, const Points& position);
-  void add_contact(const StrandPoint& point, int foot, double u, const Points& position);
+  void find_feet(const StrandPoint& point);
+  /// r: from the segment's first place to the point of integration [m]
+  void add_contact(const StrandPoint& point, int foot, double u, const Vec3& r);
   /// Gives the contacts of point q, from `first` on, what the last iterate remembers of them.
   void recall(std::size_t q, std::size_t first);
   /// Share, slip and force of a contact whose place is known; one that is not active has but a share.
@@ -104,10 +105,11 @@ class SmoothContact {
   Candidates candidates_;
   FootSieve sieve_;
   std::vector<ContactPoint> contacts_;
-  MemoryList accepted_;         // of the last accepted step
-  std::vector<char> recalled_;  // of iterate_: given to a contact
-  MemoryList iterate_;          // of the last evaluation; before the first of a step, the accepted ones
-  Points edge_middle_, edge_;   // of the evaluated position
+  MemoryList accepted_;                    // of the last accepted step
+  std::vector<char> recalled_;             // of iterate_: given to a contact
+  MemoryList iterate_;                     // of the last evaluation; before the first of a step, the accepted ones
+  Points edge_middle_, edge_;              // of the evaluated position
+  std::vector<SegmentParabola> parabola_;  // of the segments that have candidates
   double friction_scale_ = 0.0;
   double catch_up_time_;
   double catch_up_ = 1.0;  // by which the shares follow in this step

@@ -17,6 +17,13 @@ class CentrelineTerms {
   /// From now on the rod has parted at an edge: it has no tension, and does not bend at its ends.
   void part(int edge);
 
+  /// From now on the stiffness is that of the present tensions.
+  void take_present_tensions() { expects_ = false; }
+  /// From now on it is that of the expected ones: at first those at `start`, ...
+  void expect(const Points& start);
+  /// ... then what the stiffness, as it was set, says of that share of a change of the nodes [m].
+  void expect(const std::vector<Lanes>& change, double share);
+
   /// Adds the forces on every node [N]. The stiffness that is set later belongs to this position.
   void add_forces(const Points& position, std::vector<Lanes>& force);
 
@@ -39,6 +46,11 @@ class CentrelineTerms {
 
   /// Writes blocks (i, i) to (i, i+2) and their mirrors: the Hessian of both energies, and `diagonal` [N/m] of each
   /// node on the diagonal of its three positions. What stood there before is gone.
+  /// Where tensions are expected, it is these that turn with an edge, T/|e| (1 - t t^T): an edge that a change has
+  /// turned by theta is longer by theta^2/2 of its length, and in a rope the present tension, k_s theta^2/2 too large,
+  /// would stiffen it against the next change. Newton's method with tensions as unknowns beside the positions comes to
+  /// the same. Fast where strands pull; a rod that buckles takes the present tensions. Source: Magisano, Leonetti,
+  /// Garcea 2017 (mixed integration points).
   template <int D>
   void set_stiffness(const std::vector<double>& diagonal, StepMatrix<D>& matrix) const;
 
@@ -57,7 +69,9 @@ class CentrelineTerms {
   // As isotropic_bending.hpp names them.
   std::vector<Lanes> tangent_;                    // t of every edge
   std::vector<double> inverse_length_, tension_;  // 1/|e| [1/m], T [N]
-  std::vector<double> cosine_, inverse_1c_;       // c, 1/(1 + c) of every inner node
+  bool expects_ = false;
+  std::vector<double> expected_tension_;     // [N]
+  std::vector<double> cosine_, inverse_1c_;  // c, 1/(1 + c) of every inner node
 };
 
 }  // namespace knot_utm

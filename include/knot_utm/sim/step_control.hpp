@@ -3,25 +3,28 @@
 #include <algorithm>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 
 #include "knot_utm/sim/time_step.hpp"
 
 namespace knot_utm {
 
-/// Chooses the length of time steps: longer where Newton's method converges in few iterations and nodes move little,
-/// shorter where not; a step that was not accepted is tried again at half its length. What Newton's method still does
-/// not solve after some of these is first tried once more with secants (Solution). A run that very many iterations have
-/// led nowhere is given up.
+/// Chooses the length of time steps: longer where Newton's method converges in few iterations, nodes move little and
+/// strands in contact even less against each other, shorter where not; a step that was not accepted is tried again at
+/// half its length. What Newton's method still does not solve after some of these it is given more patience for, and
+/// tried once more with secants before it is halved again (Solution). A run that very many iterations have led nowhere
+/// is given up.
 class StepControl {
  public:
   struct Options {
-    double longest = 0.1;      ///< [s]
-    double first = 0.1;        ///< what is tried first [s]
-    double shortest = 1e-7;    ///< below it the run gives up [s]
-    double motion = 0.0;       ///< movement of the fastest node in a step that is aimed at [m]
-    int easy_iterations = 6;   ///< up to here the next step may be longer
-    int hard_iterations = 10;  ///< from here on it is shorter
+    double longest = 0.1;                                   ///< [s]
+    double first = 0.1;                                     ///< what is tried first [s]
+    double shortest = 1e-7;                                 ///< below it the run gives up [s]
+    double motion = 0.0;                                    ///< of the fastest node in a step, that is aimed at [m]
+    double slip = std::numeric_limits<double>::infinity();  ///< of strands in contact against each other, the same [m]
+    int easy_iterations = 6;                                ///< up to here the next step may be longer
+    int hard_iterations = 10;                               ///< from here on it is shorter
   };
   struct Counters {
     std::uint64_t steps = 0, rejected = 0, iterations = 0;

@@ -13,15 +13,17 @@
 
 namespace knot_utm {
 
-/// How a time step is solved: by Newton's method as it stands, or, where that runs in circles, with friction linearised
-/// by secants, then from there by tangents; if that fails too, anew with half of each change that secants make, three
+/// How a time step is solved: by Newton's method as it stands; in haste, with edges at their expected tensions, and
+/// given up where a shorter step is the cheaper way out; or, where it runs in circles, with friction linearised by
+/// secants, then from there by tangents; if that fails too, anew with half of each change that secants make, three
 /// times over. The equations and their tolerance are the same.
-enum class Solution { kTangents, kSecants };
+enum class Solution { kTangents, kHastyTangents, kSecants };
 
 /// How one time step went.
 struct StepSummary {
   NewtonSummary newton;
   double largest_motion = 0.0;   ///< of a node [m]
+  double largest_slip = 0.0;     ///< of the two points of a contact, touching or about to, against each other [m]
   double largest_overlap = 0.0;  ///< of two strands, or of strand and roller [m]
   std::string reason;            ///< why it was not accepted; empty: it was
   StepDiagnosis diagnosis;       ///< of one that was not

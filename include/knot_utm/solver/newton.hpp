@@ -8,11 +8,12 @@ namespace knot_utm {
 struct NewtonOptions {
   int max_iterations = 20;
   double largest_share = 1.0;  ///< of a change that is taken
+  bool gives_up = false;       ///< where the residual does not fall, instead of taking smaller shares
 };
 
 /// How a Newton solve went. Starts as a failure; only a residual within tolerance makes it a success.
 struct NewtonSummary {
-  enum class End { kNotRun, kConverged, kIterationLimit, kSingular, kNotFinite };
+  enum class End { kNotRun, kConverged, kIterationLimit, kNoHeadway, kSingular, kNotFinite };
   End end = End::kNotRun;
   int iterations = 0;      ///< linear solves
   double residual = 0.0;   ///< at the end, as the system measures it [N]
@@ -25,6 +26,8 @@ struct NewtonSummary {
         return "converged";
       case End::kIterationLimit:
         return "the residual did not fall below its tolerance within the iteration limit";
+      case End::kNoHeadway:
+        return "the residual did not fall";
       case End::kSingular:
         return "the Jacobian is singular";
       case End::kNotFinite:
@@ -44,13 +47,17 @@ struct NewtonSummary {
 /// A prediction that happens to lie within the tolerance is solved once all the same: what the tolerance leaves would
 /// otherwise drift on, step after step, and never come to rest. Only far below it is nothing left to do.
 /// There is no line search: along stiff, nearly inextensible rods the energy is no guide. Whoever calls guards the
-/// step by its size and halves it where this does not converge. Where
-/// the residual has not halved over two iterations after the first few, the iterates run in a cycle between two sides
-/// of a kink (a foot that jumps, a contact that sticks and slips): half the change breaks it.
+/// step by its size and halves it where this does not converge. Where the residual has not halved over two iterations
+/// after the first few, the iterates run in a cycle between two sides of a kink (a foot that jumps, a contact that
+/// sticks and slips): half the change breaks it. That takes iterations: where a shorter step is the cheaper way out,
+/// the solve is given up instead, once a residual well above its tolerance has hardly fallen over one iteration nor
+/// over two.
 template <typename System>
 NewtonSummary newton(System& system, const NewtonOptions& options) {
   constexpr int kUndamped = 5;
   constexpr double kUnsolved = 1e-3;
+  constexpr int kFirst = 4;  // iterations that are free to wander
+  constexpr double kHardly = 0.7, kWellAbove = 3.0;
   NewtonSummary summary;
   double last = 0.0, before = 0.0, share = options.largest_share;
   for (;;) {
@@ -66,6 +73,12 @@ NewtonSummary newton(System& system, const NewtonOptions& options) {
     }
     if (summary.iterations == options.max_iterations) {
       summary.end = NewtonSummary::End::kIterationLimit;
+      return summary;
+    }
+    const bool falls = summary.residual <= kHardly * std::max(last, before);
+    if (options.gives_up && summary.iterations >= kFirst && !falls &&
+        summary.residual > kWellAbove * summary.tolerance) {
+      summary.end = NewtonSummary::End::kNoHeadway;
       return summary;
     }
     if (!system.solve()) {
