@@ -8,7 +8,7 @@ namespace knot_utm {
 
 /// What Newton's method may leave unbalanced.
 ///
-///   tolerance  max(s clamp(l T, r/100, r), r/1000), s = min(1, (dt/t_r)^2)
+///   tolerance  max(s clamp(l T, r/100, r), r/1000), s = min(1, (dt/t_r)^2 (1 + c dt/m))
 ///   ease       of a node: 1 + a T_i / tolerance, the factor by which its residual may be larger
 ///
 /// Symbols: r residual [N], l residual_at_little_tension (0: r instead of the clamp), a residual_of_tension, t_r
@@ -16,7 +16,8 @@ namespace knot_utm {
 ///
 /// What is left unbalanced shakes the rod, the more often the shorter the steps: it would keep them short. A node's own
 /// edges count: in a locked knot they bear kN, while next to it are tails that a trifle moves.
-/// While a shape settles, the drag holds what is left unbalanced, and nothing is read: r, whatever the step.
+/// While a shape settles, its drag holds what is left unbalanced back by 1 + c dt/m, c the drag and m the mass per
+/// length [kg/m], and s is as much larger.
 class ResidualRule {
  public:
   explicit ResidualRule(const StepSettings& settings)
@@ -25,11 +26,12 @@ class ResidualRule {
         of_tension_(settings.residual_of_tension),
         at_little_tension_(settings.residual_at_little_tension) {}
 
-  double tolerance(double tension, double dt) const {
-    const double share = dt < from_step_ ? dt * dt / (from_step_ * from_step_) : 1.0;
+  /// `held_back`: c dt/m.
+  double tolerance(double tension, double dt, double held_back) const {
+    const double short2 = dt * dt * (1.0 + held_back), full2 = from_step_ * from_step_;
+    const double share = short2 < full2 ? short2 / full2 : 1.0;
     return std::max(share * loose(tension), kInShortSteps * residual_);
   }
-  double while_settling() const { return residual_; }
   double ease(double tension_at_node, double tolerance) const {
     return 1.0 + of_tension_ * tension_at_node / tolerance;
   }

@@ -155,8 +155,8 @@ class ImplicitStep final : public TimeStep {
   }
 
   double tolerance() const {
-    if (boundary_->extra_drag > 0.0) return rule_.while_settling();
-    return rule_.tolerance(centreline_.largest_tension(), dt_);
+    const double held_back = boundary_->extra_drag * dt_ * rod_.voronoi_length[1] / rod_.mass[1];
+    return rule_.tolerance(centreline_.largest_tension(), dt_, held_back);
   }
 
   bool solve() {

@@ -21,7 +21,7 @@ struct RodWithTail {
     return state;
   }
   std::unique_ptr<TimeStep> make(StepSettings settings) const {
-    settings.newton_cap = 0.05 * material.radius;  // so that one iteration does not get there
+    settings.newton_cap = 0.03 * material.radius;  // so that one iteration does not get there
     return TimeStep::make(rod, stretched(), settings);
   }
   /// A long step with that force across the end of the tail [N].
@@ -69,8 +69,8 @@ TEST(Residual, ADiagnosisIsOfTheNodeThatNewtonsMethodMeasuredTheLargestAt) {
   EXPECT_EQ(summary.diagnosis.residual, summary.newton.residual);
 }
 
-/// What is left unbalanced may shake a rod in short steps; not one that a strong drag holds while it settles.
-TEST(Residual, WhileAShapeSettlesItDoesNotShrinkWithTheStep) {
+/// What is left unbalanced may shake a rod in short steps; less so one that a drag holds back while it settles.
+TEST(Residual, WhileAShapeSettlesItShrinksLessWithTheStep) {
   const RodWithTail scene;
   StepSettings settings = closed_form_settings(scene.material);
   settings.residual_from_step = 1.0;
@@ -78,8 +78,12 @@ TEST(Residual, WhileAShapeSettlesItDoesNotShrinkWithTheStep) {
   Boundary boundary;
   boundary.fixed_nodes = {{0, scene.stretched().position.col(0)}};
   EXPECT_LT(stepper->step(boundary, 1e-3).newton.tolerance, 0.01 * settings.residual);
-  boundary.extra_drag = 1.0;
-  EXPECT_EQ(stepper->step(boundary, 1e-3).newton.tolerance, settings.residual);
+  const double mass = scene.rod.mass[1] / scene.rod.voronoi_length[1];  // [kg/m]
+  boundary.extra_drag = 4e4 * mass;                                     // 1 + c dt/m = 401
+  EXPECT_NEAR(stepper->step(boundary, 1e-2).newton.tolerance, 1e-4 * 401.0 * settings.residual,
+              1e-6 * settings.residual);
+  boundary.extra_drag = 1e9 * mass;
+  EXPECT_EQ(stepper->step(boundary, 1e-2).newton.tolerance, settings.residual);
 }
 
 }  // namespace
