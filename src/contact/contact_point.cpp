@@ -21,8 +21,8 @@ void evaluate_force(const NormalLaw& normal, const Friction& friction, double fr
   evaluate_force(friction, friction_scale, contact);
 }
 
-void linearise(const NormalLaw& normal, const Friction& friction, double friction_scale, const ContactPoint& contact,
-               ContactModel& model) {
+void linearise(const NormalLaw& normal, const Friction& friction, double friction_scale, bool expects,
+               const ContactPoint& contact, ContactModel& model) {
   // A contact that is new and deep: the depth where the rod stiffens is a better guess than a wall.
   const double tangent_at =
       contact.estimate > 0.0 ? normal.overlap_at(contact.estimate) : std::min(contact.overlap, normal.stiffening);
@@ -33,10 +33,11 @@ void linearise(const NormalLaw& normal, const Friction& friction, double frictio
 
   const Lanes n = to_lanes(contact.n), db = to_lanes(contact.db), axis = to_lanes(contact.axis);
   const double over_d = 1.0 / contact.d;
-  const double p = contact.weight * contact.expected(model.pressure), slope = contact.weight * model.slope;
+  const double p = contact.weight * (expects ? contact.expected(model.pressure) : model.pressure);
+  const double slope = contact.weight * model.slope;
   const Lanes n_u = -over_d * db;  // dn/du
   // With N = dn/dS = (P - axis axis^T)/d, P = 1 - n n^T (a roller's gap has no part along its axis), and dp/dS = -p' n,
-  //   dg/dS = p N - p' (n - mu z) n^T - s C Y,   s = mu p/scale,   p the expected pressure,
+  //   dg/dS = p N - p' (n - mu z) n^T - s C Y,   s = mu p/scale,   p that turns,
   //   Y = d(P r)/dS = P - (n.r) N - n (N r)^T.
   // z and u being tangential, C P = across P + along u u^T and C n = across n: all of it is multiples of the identity,
   // u u^T and columns times n^T, axis^T and (N r)^T.

@@ -189,7 +189,8 @@ void EdgeContact::linearise_contact(const ContactPoint& contact, double dt, Edge
     turned -= (friction_.coefficient / scale) * friction.slope() * tangential;
   }
   model.force = contact.weight * model.pressure * direction;
-  const Mat39 dg = contact.weight * (contact.expected(model.pressure) * turned - model.slope * direction * dd);
+  const double pressure = expects_ ? contact.expected(model.pressure) : model.pressure;
+  const Mat39 dg = contact.weight * (pressure * turned - model.slope * direction * dd);
 
   for (int k = 0; k < 6; ++k) {
     const int turning = k < 3 ? 3 : 6;

@@ -90,6 +90,8 @@ class ImplicitStep final : public TimeStep {
   void begin() {
     share_ = motion_ = 0.0;
     centreline_.take_present_tensions();
+    contact_.expect(false);
+    rollers_.expect(false);
     contact_.refresh(state_.position);
     predict();
     contact_.begin_step();
@@ -101,7 +103,7 @@ class ImplicitStep final : public TimeStep {
   NewtonSummary by_tangents(bool hasty) {
     begin();
     use_secants(false);
-    if (hasty) centreline_.expect(state_.position);
+    if (hasty) expect();
     return newton(*this, {settings_.max_iterations, 1.0, hasty});
   }
 
@@ -130,6 +132,12 @@ class ImplicitStep final : public TimeStep {
       if (out.end != NewtonSummary::End::kIterationLimit) break;
     }
     return out;
+  }
+
+  void expect() {
+    centreline_.expect(state_.position);
+    contact_.expect(true);
+    rollers_.expect(true);
   }
 
   void use_secants(bool secants) {

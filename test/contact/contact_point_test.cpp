@@ -33,12 +33,14 @@ TEST(ContactModel, FrictionOfADrawnApartContactThatIsExpectedToPressHoldsIt) {
   evaluate_force(normal, friction, friction.presliding, contact);
   EXPECT_EQ(contact.pressure, 0.0);
   ContactModel model;
-  linearise(normal, friction, friction.presliding, contact, model);
+  linearise(normal, friction, friction.presliding, true, contact, model);
   EXPECT_LT(model.pressure, 0.0) << "the tangent at the estimate, so far out";
   // Across both strands: what holds is mu w p/xi_s, what turns with n is w p/d.
   const Vec3 across = model.still.topRows<3>() * Vec3::UnitY();
   const double hold = friction.coefficient * contact.weight * contact.estimate / friction.presliding;
   EXPECT_NEAR(across.y(), hold, 0.02 * hold);
+  linearise(normal, friction, friction.presliding, false, contact, model);
+  EXPECT_LT(model.still(1, 1), 0.0) << "the tangent's pressure drives it on";
 }
 
 TEST(ContactModel, WithoutAnEstimateThePressureThatTurnsIsThatOfTheTangent) {

@@ -68,8 +68,8 @@ struct ContactMotion {
 /// taken at the overlap D^ whose pressure is the estimate that the last linear solve gave, and at the present overlap
 /// where there is none. The law starts with p' = 0: tangents at the present overlap only halve the overlap of a strand
 /// that was pushed in too far, while the estimate has it nearly right at once. As strands move, n and z turn too, and
-/// of the product (p + dp) (f + df) the part (p + dp) df takes the estimate for p + dp. At the solution all are the
-/// same.
+/// of the product (p + dp) (f + df) the part (p + dp) df takes the estimate for p + dp, or the tangent's p: the
+/// slower way, but where strands creep under `smoothed` friction the only one. At the solution all are the same.
 ///
 /// With g = g(S, u) it is the force's derivative where the foot stays, and where it slides on:
 ///
@@ -94,7 +94,8 @@ void evaluate_force(const Friction& friction, double friction_scale, ContactPoin
 void evaluate_force(const NormalLaw& normal, const Friction& friction, double friction_scale, ContactPoint& contact);
 
 /// The consistent linearisation of `evaluate_force`, movement of the foot included; weight w is held constant.
-void linearise(const NormalLaw& normal, const Friction& friction, double friction_scale, const ContactPoint& contact,
-               ContactModel& model);
+/// `expects`: it is the expected pressure that turns with n and z.
+void linearise(const NormalLaw& normal, const Friction& friction, double friction_scale, bool expects,
+               const ContactPoint& contact, ContactModel& model);
 
 }  // namespace knot_utm

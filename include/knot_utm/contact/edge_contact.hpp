@@ -72,6 +72,8 @@ class EdgeContact {
   const EdgeLaw& normal() const { return normal_; }
   /// Of friction, in place of tangents.
   void use_secants(bool secants) { friction_.secant = secants; }
+  /// From now on it is the expected pressure that turns with n and z, or that of the tangent (ContactModel).
+  void expect(bool pressures) { expects_ = pressures; }
 
   /// Of the last accepted step.
   void state(Archive& archive);
@@ -102,6 +104,7 @@ class EdgeContact {
 
   EdgeLaw normal_;
   Friction friction_;
+  bool expects_ = false;
   double diameter_;
   double window_;          // of arclengths within which a contact is the same one [m]
   double reach_;           // of centrelines within which contacts are kept [m]

@@ -33,7 +33,7 @@ class RollerContact {
   std::vector<ContactPoint>& contacts() { return contacts_; }
 
   void linearise_contact(const ContactPoint& contact, double dt, ContactModel& model) const {
-    linearise(normal_, friction_, friction_.scale(dt), contact, model);
+    linearise(normal_, friction_, friction_.scale(dt), expects_, contact, model);
   }
 
   /// From now on the rod has parted at an edge, and what reaches into it touches nothing.
@@ -51,6 +51,8 @@ class RollerContact {
   const NormalLaw& normal() const { return normal_; }
   /// Of friction, in place of tangents.
   void use_secants(bool secants) { friction_.secant = secants; }
+  /// From now on it is the expected pressure that turns with n and z, or that of the tangent (ContactModel).
+  void expect(bool pressures) { expects_ = pressures; }
 
   /// Of the last accepted step.
   void state(Archive& archive);
@@ -58,6 +60,7 @@ class RollerContact {
  private:
   NormalLaw normal_;
   Friction friction_;
+  bool expects_ = false;
   double radius_;
   int parted_ = -2;  // edge; no segment reaches into this one
   Eigen::VectorXd voronoi_;

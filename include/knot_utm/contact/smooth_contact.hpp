@@ -46,7 +46,7 @@ class SmoothContact {
   std::vector<ContactPoint>& contacts() { return contacts_; }
 
   void linearise_contact(const ContactPoint& contact, double dt, ContactModel& model) const {
-    linearise(normal_, friction_, friction_.scale(dt), contact, model);
+    linearise(normal_, friction_, friction_.scale(dt), expects_, contact, model);
   }
 
   /// Of one of `contacts()`; the overlap but for the third order of the way of its foot.
@@ -58,6 +58,8 @@ class SmoothContact {
   const NormalLaw& normal() const { return normal_; }
   /// Of friction, in place of tangents.
   void use_secants(bool secants) { friction_.secant = secants; }
+  /// From now on it is the expected pressure that turns with n and z, or that of the tangent (ContactModel).
+  void expect(bool pressures) { expects_ = pressures; }
 
   /// Of the last accepted step.
   void state(Archive& archive);
@@ -96,6 +98,7 @@ class SmoothContact {
 
   NormalLaw normal_;
   Friction friction_;
+  bool expects_ = false;
   double diameter_;
   double window_;              // of arclength within which a foot is the same one [m]
   double reach_;               // of centrelines within which contacts are kept [m]

@@ -13,7 +13,7 @@
 
 namespace knot_utm {
 
-/// How a time step is solved: by Newton's method as it stands; in haste, with edges at their expected tensions, and
+/// How a time step is solved: by Newton's method as it stands; in haste, with expected tensions and pressures, and
 /// given up where a shorter step is the cheaper way out; or, where it runs in circles, with friction linearised by
 /// secants, then from there by tangents; if that fails too, anew with half of each change that secants make, three
 /// times over. The equations and their tolerance are the same.
