@@ -28,7 +28,8 @@ struct Cubic {
   double slope(double u) const { return c1 + u * (2.0 * c2 + u * 3.0 * c3); }
 
   /// The root in [low, high], where it rises from below zero to zero or above: Halley's method, kept inside. A step of
-  /// less than the cube root of double precision is the last: the error after it is its cube.
+  /// less than the cube root of double precision is the last: the error after it is its cube. One that halves the
+  /// bracket never is: a foot by a joint of two segments would turn the force as it changes over.
   double rising_root(double low, double high) const {
     constexpr double kLastStep = 5e-6;
     const double begin = value(low), end = value(high);
@@ -37,11 +38,12 @@ struct Cubic {
       const double here = value(u), steepness = slope(u);
       (here < 0.0 ? low : high) = u;
       const double eased = steepness * steepness - here * (c2 + u * 3.0 * c3);  // F'^2 - F F''/2
-      double next = steepness > 0.0 && eased > 0.0 ? u - here * steepness / eased : 0.5 * (low + high);
-      if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+      double next = u - here * steepness / eased;
+      const bool halves = !(steepness > 0.0 && eased > 0.0 && next >= low && next <= high);
+      if (halves) next = 0.5 * (low + high);
       const double step = std::abs(next - u);
       u = next;
-      if (step < kLastStep) break;
+      if (!halves && step < kLastStep) break;
     }
     return u;
   }

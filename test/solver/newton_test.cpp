@@ -11,7 +11,7 @@ namespace {
 struct Equation {
   double (*f)(double);
   double (*slope)(double);
-  double x, change = 0.0;
+  double x, change = 0.0, still = 0.0;
 
   double residual() const { return std::abs(f(x)); }
   double tolerance() const { return 1e-9; }
@@ -20,6 +20,7 @@ struct Equation {
     return std::isfinite(change);
   }
   void move(double share) { x += share * change; }
+  bool stands_still() const { return std::abs(change) < still; }
 };
 
 /// |x|^(1/2) sign x: whole changes lead from x to -x for ever.
@@ -54,6 +55,17 @@ TEST(Newton, ACycleNearTheToleranceIsNotGivenUp) {
   Equation equation = circling();
   equation.x = 4e-18;  // residual 2e-9, twice the tolerance
   EXPECT_TRUE(newton(equation, {40, 1.0, true}).converged());
+}
+
+TEST(Newton, TwoSidesOfAJumpThatAreNotApartAreASolution) {
+  Equation equation{[](double x) { return x + std::copysign(1e-6, x); }, [](double) { return 1.0; }, 1.0};
+  EXPECT_FALSE(newton(equation, {12}).converged());
+  equation.x = 1.0;
+  equation.still = 1e-5;
+  const NewtonSummary summary = newton(equation, {12});
+  EXPECT_TRUE(summary.converged());
+  EXPECT_NEAR(equation.x, 0.0, 2e-6);
+  EXPECT_GT(summary.residual, summary.tolerance) << "it says what is left";
 }
 
 }  // namespace

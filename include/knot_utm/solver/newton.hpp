@@ -44,6 +44,7 @@ struct NewtonSummary {
 ///   double tolerance()    what that may be
 ///   bool solve()          assembles and factors the Jacobian, solves for the change; false where singular
 ///   void move(share)      takes that share of the change, capped as the system sees fit
+///   bool stands_still()   the whole of the last change was taken and is nothing: there is no better place next to here
 /// A prediction that happens to lie within the tolerance is solved once all the same: what the tolerance leaves would
 /// otherwise drift on, step after step, and never come to rest. Only far below it is nothing left to do.
 /// There is no line search: along stiff, nearly inextensible rods the energy is no guide. Whoever calls guards the
@@ -67,7 +68,8 @@ NewtonSummary newton(System& system, const NewtonOptions& options) {
       summary.end = NewtonSummary::End::kNotFinite;
       return summary;
     }
-    if (summary.residual <= (summary.iterations > 0 ? 1.0 : kUnsolved) * summary.tolerance) {
+    if (summary.residual <= (summary.iterations > 0 ? 1.0 : kUnsolved) * summary.tolerance ||
+        (summary.iterations > 0 && system.stands_still())) {
       summary.end = NewtonSummary::End::kConverged;
       return summary;
     }
