@@ -202,8 +202,8 @@ class ImplicitStep final : public TimeStep {
     estimate_pressures(rollers_, share, m);
   }
 
-  /// In the shortest steps the residual shrinks to a thousandth, and two sides of a trifling jump (a contact that finds
-  /// its foot on the next segment) may be as far apart as that: a change of 1e-9 h between them moves nothing.
+  /// In the shortest steps the residual shrinks to a thousandth, and two sides of a trifling jump (a foot that has two
+  /// places to be) may be as far apart as that: a change of 1e-9 h between them moves nothing.
   bool stands_still() const {
     constexpr double kStill = 1e-9;
     return share_ == 1.0 && motion_ <= kStill * rod_.material.radius && worst_.residual <= settings_.residual;
