@@ -255,10 +255,11 @@ void RecorderNode::finish_when_ready() {
 void RecorderNode::finish_early() {
   if (test_.state == TestStatus::ENDED && test_.run == run_number_) {
     finish(ended_by_from_name(test_.ended_by), test_.reason, "");
+  } else if (!master_answers()) {
+    // Its launch then ends the nodes in any order: that of the machine may be gone before this one.
+    finish(EndedBy::kOperator, "the ROS master died before the test had ended", "");
   } else if (machine_died_) {
     finish(EndedBy::kOperator, "utm_node died before the test had ended", "");
-  } else if (!master_answers()) {
-    finish(EndedBy::kOperator, "the ROS master died before the test had ended", "");
   } else {
     finish(EndedBy::kOperator, "ROS was shut down before the test had ended", "");
   }
