@@ -76,19 +76,21 @@ void Candidates::state(Archive& archive) {
   if (archive.loads() && built) build(built_at_);
 }
 
-void Candidates::find_rows_around(std::int64_t own) {
+Candidates::Rows Candidates::rows_around(std::int64_t own) const {
   const auto at = [&](std::int64_t key) {
     const auto found = std::lower_bound(entries_.begin(), entries_.end(), key,
                                         [](const Entry& e, std::int64_t wanted) { return e.key < wanted; });
     return entries_.data() + (found - entries_.begin());
   };
-  auto row = rows_.begin();
+  Rows rows;
+  auto row = rows.begin();
   for (int di = -1; di <= 1; ++di)
     for (int dj = -1; dj <= 1; ++dj) {
       // The three cells along the last direction have consecutive keys.
       const std::int64_t low = own + cell_key(di, dj, -1);
       *row++ = {at(low), at(low + 3)};
     }
+  return rows;
 }
 
 void Candidates::build(const Points& position) {
@@ -114,13 +116,14 @@ void Candidates::build(const Points& position) {
             [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.segment < b.segment; });
 
   std::int64_t around = -1;
+  Rows rows = {};
   for (int i = 1; i + 1 < nodes; ++i) {
     begin_[static_cast<std::size_t>(i)] = runs_.size();
     found_.clear();
     if (reaches_into_parted(i)) continue;
     // The next segment along the rod stands in the same cell as a rule.
-    if (const std::int64_t own = key_of(i); own != around) find_rows_around(around = own);
-    for (const auto& [first, last] : rows_) {
+    if (const std::int64_t own = key_of(i); own != around) rows = rows_around(around = own);
+    for (const auto& [first, last] : rows) {
       for (const Entry* entry = first; entry != last; ++entry) {
         const int j = entry->segment;
         if (std::abs(arclength_[i] - arclength_[j]) < exclusion_) continue;

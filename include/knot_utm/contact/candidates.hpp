@@ -56,8 +56,9 @@ class Candidates {
   bool reaches_into_parted(int segment) const { return segment == parted_ || segment == parted_ + 1; }
   void build(const Points& position);
   void measure(const Points& position);
-  /// Of the cells next to a cell, it included.
-  void find_rows_around(std::int64_t own);
+  /// Entries of the cells next to a cell, it included, three cells in a row; until the entries change.
+  using Rows = std::array<std::pair<const Entry*, const Entry*>, 9>;
+  Rows rows_around(std::int64_t own) const;
   /// Whether the rod is drawn out so far that it cannot come back to itself.
   bool is_taut(const Points& position) const;
 
@@ -71,7 +72,6 @@ class Candidates {
   std::vector<int> segments_;
   std::vector<std::pair<int, int>> pairs_;
   std::vector<Entry> entries_;  // segments by their cell; like found_ kept for its memory
-  std::array<std::pair<const Entry*, const Entry*>, 9> rows_ = {};  // of cells, each three in a row: their entries
   std::vector<int> found_;
 };
 
