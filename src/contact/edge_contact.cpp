@@ -155,6 +155,12 @@ const EdgeContact::Memory* EdgeContact::recall(std::pair<int, int> edges, double
   return found;
 }
 
+void EdgeContact::linearise(double dt, std::vector<EdgeContactModel>& models) const {
+  models.clear();
+  for (const ContactPoint& contact : contacts_)
+    if (contact.active()) linearise_contact(contact, dt, models.emplace_back());
+}
+
 void EdgeContact::linearise_contact(const ContactPoint& contact, double dt, EdgeContactModel& model) const {
   const Feet& feet = feet_[static_cast<std::size_t>(&contact - contacts_.data())];
   const double tangent_at = contact.estimate > 0.0 ? normal_.overlap_at(contact.estimate) : contact.overlap;
@@ -181,14 +187,15 @@ void EdgeContact::linearise_contact(const ContactPoint& contact, double dt, Edge
     const double scale = friction_.scale(dt);
     const Vec3& r = contact.slip;
     const double along = n.dot(r);
-    const FrictionDirection friction = linearised_direction(friction_.law, friction_.secant, (r - along * n) / scale);
+    const Vec3 y = (r - along * n) / scale;
+    const FrictionDirection friction = linearised_direction(friction_.law, friction_.secant, y);
     direction -= friction_.coefficient * friction.z;
     // d(P r) = -(n.r) dn - n (r.dn) + P dr
     const Mat39 dr = moved + feet.turn_a * t - contact.turn * u;
     const Mat39 tangential = dr - n * (n.transpose() * dr) - along * dn - n * (r.transpose() * dn);
     turned -= (friction_.coefficient / scale) * friction.slope() * tangential;
   }
-  model.force = contact.weight * model.pressure * direction;
+  model.force = to_lanes(contact.weight * model.pressure * direction);
   const double pressure = expects_ ? contact.expected(model.pressure) : model.pressure;
   const Mat39 dg = contact.weight * (pressure * turned - model.slope * direction * dd);
 

@@ -11,51 +11,57 @@ constexpr double kRounding = 1e-9;  // more than what rounding does to F' [fract
 
 }  // namespace
 
-FootSieve::FootSieve(Eigen::Index nodes)
-    : edges_(static_cast<std::size_t>(nodes + kLanes - 1) / kLanes),
-      least_begin_(Eigen::VectorXd::Zero(nodes)),
-      least_end_(Eigen::VectorXd::Zero(nodes)) {
-  for (int p = 0; p < 2; ++p) {
-    slope_[p].resize(edges_.size());
-    left_[p].resize(static_cast<std::size_t>(nodes));
-  }
+FootSieve::FootSieve(Eigen::Index nodes) : edges_(static_cast<std::size_t>(nodes / kLanes + 1)) {
+  for (std::vector<int>& left : left_) left.resize(static_cast<std::size_t>(nodes));
 }
 
-void FootSieve::set_centreline(const Points& edge_middle, const Points& edge) {
-  const int edges = static_cast<int>(edge.cols());
+void FootSieve::set_centreline(const Points& position) {
+  const int edges = static_cast<int>(position.cols()) - 1;
+  Lanes t = {};
+  double tt = 0.0;
   for (int j = 0; j < edges; ++j) {
+    const double* x = position.data() + 3 * j;
+    const Lanes here = to_lanes(x), next = to_lanes(x + 3), e = next - here;
     FourEdges& four = edges_[static_cast<std::size_t>(j / kLanes)];
-    for (int i = 0; i < 3; ++i) four.e[i][j % kLanes] = edge(i, j);
-    four.me[j % kLanes] = edge_middle.col(j).dot(edge.col(j));
-  }
-  for (int segment = 1; segment < edges; ++segment) {
-    const Vec3 t = edge.col(segment - 1), k = edge.col(segment) - t;
-    const double tk = t.dot(k), kk = k.squaredNorm(), rounding = kRounding * t.squaredNorm();
-    const double a = 1.5 * tk + 0.5 * kk, b = 1.5 * tk + kk;
-    least_begin_[segment] = std::max({0.5 * a, b, 0.0}) + rounding;
-    least_end_[segment] = std::min({a, 0.5 * b, 0.0}) - rounding;
+    const int lane = j % kLanes;
+    for (int i = 0; i < 3; ++i) four.e[i][lane] = e[i];
+    four.me[lane] = 0.5 * dot(here + next, e);
+    const double ee = dot(e, e);
+    if (j > 0) {
+      const Lanes k = e - t;
+      const double tk = dot(t, k), kk = dot(k, k), rounding = kRounding * tt;
+      const double a = 1.5 * tk + 0.5 * kk, b = 1.5 * tk + kk;
+      four.least_begin[lane] = std::max({0.5 * a, b, 0.0}) + rounding;
+      four.least_end[lane] = std::min({a, 0.5 * b, 0.0}) - rounding;
+    }
+    t = e;
+    tt = ee;
   }
 }
 
-void FootSieve::sieve(const Vec3& a0, const Vec3& a1, const Candidates::Run* begin, const Candidates::Run* end) {
-  const double* slope[2];
-  for (int p = 0; p < 2; ++p) slope[p] = reinterpret_cast<const double*>(slope_[p].data());
+void FootSieve::sieve(const Lanes& a0, const Lanes& a1, const Candidates::Run* begin, const Candidates::Run* end) {
+  const Lanes* a[2] = {&a0, &a1};
   std::size_t count[2] = {0, 0};
   for (const Candidates::Run* run = begin; run != end; ++run) {
-    const auto first = static_cast<std::size_t>((run->first - 1) / kLanes);
-    const auto last = static_cast<std::size_t>(run->last / kLanes);
-    for (std::size_t four = first; four <= last; ++four) {
-      slope_[0][four] = edges_[four].slope(a0);
-      slope_[1][four] = edges_[four].slope(a1);
-    }
-    // Whether a segment is left is hard to foretell: it is written down in any case and counted where it is.
-    for (int segment = run->first; segment <= run->last; ++segment)
+    const int first = run->first / kLanes, last = run->last / kLanes;
+    Lanes before[2] = {};
+    if (first > 0)
+      for (int p = 0; p < 2; ++p) before[p] = edges_[static_cast<std::size_t>(first - 1)].slope(*a[p]);
+    for (int i = first; i <= last; ++i) {
+      const FourEdges& four = edges_[static_cast<std::size_t>(i)];
+      LanesMask left[2];
       for (int p = 0; p < 2; ++p) {
-        const bool begins = slope[p][segment - 1] < least_begin_[segment],
-                   ends = slope[p][segment] >= least_end_[segment];
-        left_[p][count[p]] = segment;
-        count[p] += static_cast<std::size_t>(begins & ends);
+        const Lanes ends = four.slope(*a[p]);
+        const Lanes begins = __builtin_shufflevector(before[p], ends, 3, 4, 5, 6);
+        left[p] = (begins < four.least_begin) & (ends >= four.least_end);
+        before[p] = ends;
       }
+      if (!any(left[0] | left[1])) continue;
+      const int low = std::max(run->first - kLanes * i, 0), high = std::min(run->last - kLanes * i, kLanes - 1);
+      for (int lane = low; lane <= high; ++lane)
+        for (int p = 0; p < 2; ++p)
+          if (left[p][lane]) left_[p][count[p]++] = kLanes * i + lane;
+    }
   }
   std::copy_n(count, 2, count_);
 }

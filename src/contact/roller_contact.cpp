@@ -71,11 +71,11 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
           contact.c[k] = w.value[k];
           contact.slip += w.value[k] * (position.col(segment - 1 + k) - start.col(segment - 1 + k));
         }
-        evaluate_force(normal_, friction_, friction_.scale(dt), contact);
         contacts_.push_back(contact);
       }
     }
   }
+  evaluate_forces(normal_, friction_, friction_.scale(dt), contacts_);
 }
 
 Vec3 RollerContact::force_on(int roller) const {

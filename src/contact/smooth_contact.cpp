@@ -10,71 +10,15 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kUnknown = -1.0;     // share of a contact that recalls none yet
+constexpr double kUnknown = -1.0;     // share of a foot that recalls none yet
 constexpr double kSharpest = 1.0;     // turn of the centreline at a node that is no longer resolved [rad]
-constexpr double kReachMargin = 0.3;  // contacts are kept, forceless, up to this gap [fraction of radius]
+constexpr double kReachMargin = 0.3;  // feet are followed up to this gap [fraction of radius]
 
 /// Arclength at rest of parameter u on a segment: from the middle of one edge to the middle of the next.
 double arclength_at(const Eigen::VectorXd& arclength, int segment, double u) {
   const double begin = 0.5 * (arclength[segment - 1] + arclength[segment]);
   const double end = 0.5 * (arclength[segment] + arclength[segment + 1]);
   return begin + u * (end - begin);
-}
-
-/// A cubic c0 + c1 u + c2 u^2 + c3 u^3.
-struct Cubic {
-  double c0, c1, c2, c3;
-  double value(double u) const { return c0 + u * (c1 + u * (c2 + u * c3)); }
-  double slope(double u) const { return c1 + u * (2.0 * c2 + u * 3.0 * c3); }
-
-  /// The root in [low, high], where it rises from below zero to zero or above: Halley's method, kept inside. A step of
-  /// less than the cube root of double precision is the last: the error after it is its cube. One that halves the
-  /// bracket never is: a foot by a joint of two segments would turn the force as it changes over.
-  double rising_root(double low, double high) const {
-    constexpr double kLastStep = 5e-6;
-    const double begin = value(low), end = value(high);
-    double u = low + (high - low) * begin / (begin - end);
-    for (int i = 0; i < 40; ++i) {
-      const double here = value(u), steepness = slope(u);
-      (here < 0.0 ? low : high) = u;
-      const double eased = steepness * steepness - here * (c2 + u * 3.0 * c3);  // F'^2 - F F''/2
-      double next = u - here * steepness / eased;
-      const bool halves = !(steepness > 0.0 && eased > 0.0 && next >= low && next <= high);
-      if (halves) next = 0.5 * (low + high);
-      const double step = std::abs(next - u);
-      u = next;
-      if (!halves && step < kLastStep) break;
-    }
-    return u;
-  }
-};
-
-/// Where F' rises through zero in [0, 1): one place as a rule; two, or one more between places where it falls, on a
-/// segment that bends around the point. c3 >= 0, so F' rises, falls and rises at most.
-struct RisingRoots {
-  double root[2];
-  int count = 0;
-
-  explicit RisingRoots(const Cubic& f) {
-    const double discriminant = f.c2 * f.c2 - 3.0 * f.c1 * f.c3;
-    if (discriminant <= 0.0 || f.c3 <= 0.0) {
-      search(f, 0.0, 1.0);
-      return;
-    }
-    const double half = std::sqrt(discriminant) / (3.0 * f.c3), middle = -f.c2 / (3.0 * f.c3);
-    search(f, 0.0, std::min(middle - half, 1.0));
-    search(f, std::max(middle + half, 0.0), 1.0);
-  }
-
- private:
-  void search(const Cubic& f, double low, double high) {
-    if (low < high && f.value(low) < 0.0 && f.value(high) >= 0.0) root[count++] = f.rising_root(low, high);
-  }
-};
-
-/// Number of a point of integration along the rod.
-std::size_t number(int segment, int point) {
-  return 2 * static_cast<std::size_t>(segment) + static_cast<std::size_t>(point);
 }
 
 /// max(0, g) of x against the curve at parameter u of a segment: g = 1 - x.c''/|c'|^2 of the segment itself at its
@@ -90,19 +34,6 @@ double least_curvature_share(const Points& nodes, int segment, double u, const V
 
 }  // namespace
 
-/// A point of integration where it stands now.
-struct SmoothContact::StrandPoint {
-  int segment, point;
-  PointWeights weights;
-  Vec3 a;
-
-  StrandPoint(int segment_, int point_, double outwards, const Points& position)
-      : segment(segment_),
-        point(point_),
-        weights(kIntegrationPoints[point_], outwards),
-        a(combine(weights.value, position, segment_)) {}
-};
-
 SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,
                              double catch_up)
     : normal_(normal),
@@ -114,19 +45,18 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
       voronoi_(rod.voronoi_length),
       // Strands closer than a half turn around themselves (pi h) bend, they do not touch.
       candidates_(rod, reach_, margin, 5.0 * rod.material.radius),
-      sieve_(rod.nodes()),
+      search_(rod.nodes(), reach_),
       catch_up_time_(catch_up) {
   const Eigen::Index nodes = rod.nodes();
   accepted_.begin.assign(2 * static_cast<std::size_t>(nodes) + 1, 0);
   iterate_ = accepted_;
-  edge_middle_.resize(3, nodes - 1);
-  edge_.resize(3, nodes - 1);
-  parabola_.resize(static_cast<std::size_t>(nodes));
+  moved_.resize(static_cast<std::size_t>(nodes));
   outwards_ = Eigen::VectorXd::Constant(nodes, PointWeights::kWholeShare);
 }
 
 void SmoothContact::begin_step() {
   iterate_ = accepted_;
+  for (Memory& memory : iterate_.entries) memory.pressed = memory.pressure > 0.0;
   first_evaluation_ = true;
 }
 
@@ -134,115 +64,123 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   if (!first_evaluation_) remember(nullptr, iterate_);
   first_evaluation_ = false;
   contacts_.clear();
+  tracked_.clear();
   recalled_.assign(iterate_.entries.size(), 0);
-  friction_scale_ = friction_.scale(dt);
   catch_up_ = dt / (dt + catch_up_time_);
-  if (candidates_.segments().empty()) return;
-  const Eigen::Index edges = position.cols() - 1;
-  edge_.noalias() = position.rightCols(edges) - position.leftCols(edges);
-  edge_middle_.noalias() = 0.5 * (position.rightCols(edges) + position.leftCols(edges));
-  sieve_.set_centreline(edge_middle_, edge_);
-  for (const int i : candidates_.segments())
-    parabola_[static_cast<std::size_t>(i)].set(edge_middle_.col(i - 1), edge_.col(i - 1), edge_.col(i));
-  for (const int segment : candidates_.segments()) {
-    const StrandPoint points[2] = {{segment, 0, outwards_[segment], position},
-                                   {segment, 1, outwards_[segment], position}};
-    sieve_.sieve(points[0].a, points[1].a, candidates_.begin(segment), candidates_.end(segment));
-    for (const StrandPoint& point : points) {
-      const std::size_t first = contacts_.size();
-      find_feet(point);
-      recall(number(segment, point.point), first);
-      for (std::size_t c = first; c < contacts_.size(); ++c) complete(contacts_[c], position, start);
-    }
+  const std::vector<int>& segments = candidates_.segments();
+  if (segments.empty()) return;
+  for (std::size_t i = 0; i < moved_.size(); ++i) {
+    const auto node = static_cast<Eigen::Index>(i);
+    moved_[i] = to_lanes(position.col(node).data()) - to_lanes(start.col(node).data());
   }
+  search_.begin(position, segments);
+  for (const int segment : segments) {
+    const SegmentParabola& c = search_.parabola(segment);
+    const Lanes outwards = outwards_[segment] * c.k;
+    const auto point = [&](double u) { return c.m + u * c.t + (0.5 * u * u) * c.k - outwards; };
+    search_.look(point(kIntegrationPoints[0]), point(kIntegrationPoints[1]), candidates_.begin(segment),
+                 candidates_.end(segment));
+  }
+  search_.find();
+  for (std::size_t i = 0; i < search_.feet().size();) i = follow(i);
+  for (Tracked& foot : tracked_) {
+    if (foot.memory.share < 0.0) foot.memory.share = share(search_.feet()[foot.foot], position);
+    if (takes_part(foot)) add_contact(foot);
+  }
+  evaluate_forces(normal_, friction_, friction_.scale(dt), contacts_);
 }
 
-void SmoothContact::find_feet(const StrandPoint& point) {
-  for (const int* foot = sieve_.begin(point.point); foot != sieve_.end(point.point); ++foot) {
-    const SegmentParabola& c = parabola_[static_cast<std::size_t>(*foot)];
-    const Vec3 r = point.a - c.m;
-    const double rt = r.dot(c.t), rk = r.dot(c.k);
-    // Further away from the chord than the segment and the reach together: all of it is beyond.
-    const double farthest = reach_ + c.bulge, along = rt + 0.5 * rk;
-    if ((r.squaredNorm() - farthest * farthest) * c.chord2 >= along * along) continue;
-    // F'(u) = -(a - c).c' is a cubic.
-    const RisingRoots feet({-rt, c.tt - rk, 1.5 * c.tk, 0.5 * c.kk});
-    for (int i = 0; i < feet.count; ++i) add_contact(point, *foot, feet.root[i], r);
+std::size_t SmoothContact::follow(std::size_t foot) {
+  const std::vector<FootSearch::Foot>& feet = search_.feet();
+  const int point = feet[foot].point;
+  const double arclength_a = arclength_at(arclength_, segment_of(point), kIntegrationPoints[point % 2]);
+  const std::size_t first = tracked_.size();
+  for (; foot < feet.size() && feet[foot].point == point; ++foot) {
+    const double arclength_b = arclength_at(arclength_, feet[foot].segment, feet[foot].u);
+    if (std::abs(arclength_a - arclength_b) < candidates_.exclusion()) continue;
+    tracked_.push_back({{arclength_b, kUnknown, -1.0, Vec3::Zero(), false}, foot, kNone});
   }
+  recall(row_of(point), first);
+  return foot;
 }
 
-void SmoothContact::add_contact(const StrandPoint& point, int foot, double u, const Vec3& r) {
-  const SegmentParabola& c = parabola_[static_cast<std::size_t>(foot)];
-  const Vec3 x = r - u * (c.t + 0.5 * u * c.k);
-  const double d2 = x.squaredNorm();
-  if (d2 >= reach_ * reach_) return;
-  const double arclength_a = arclength_at(arclength_, point.segment, kIntegrationPoints[point.point]);
-  const double arclength_b = arclength_at(arclength_, foot, u);
-  if (std::abs(arclength_a - arclength_b) < candidates_.exclusion()) return;
-  ContactPoint& contact = contacts_.emplace_back();
-  contact.x = x;
-  contact.d = std::sqrt(d2);
-  contact.arclength_a = arclength_a;
-  contact.arclength_b = arclength_b;
-  contact.share = kUnknown;
-  contact.a0 = point.segment - 1;
-  contact.point = point.point;
-  contact.b0 = foot - 1;
-  const SegmentWeights wb(u);
-  for (int k = 0; k < 3; ++k) {
-    contact.c[k] = point.weights.value[k];
-    contact.c[3 + k] = -wb.value[k];
-    contact.beta[3 + k] = wb.derivative[k];
-  }
-  contact.n = contact.x / contact.d;
-  contact.overlap = diameter_ - contact.d;
-  contact.begins = normal_.begin();
-  contact.db = c.t + u * c.k;
-  const double length2 = contact.db.squaredNorm();
-  // At a minimum G >= 0; it vanishes where the foot is about to jump, and there omega does too.
-  contact.inverse_g = 1.0 / std::max(length2 - contact.x.dot(c.k), 1e-3 * length2);
-}
-
-void SmoothContact::recall(std::size_t q, std::size_t first) {
-  const int begin = iterate_.begin[q], end = iterate_.begin[q + 1];
-  // Nearest pairs first, each memory to one contact only: of two feet of a point one may be new.
+void SmoothContact::recall(std::size_t row, std::size_t first) {
+  const int begin = iterate_.begin[row], end = iterate_.begin[row + 1];
+  // Nearest pairs first, each memory to one foot only: of two feet of a point one may be new.
   for (int pass = begin; pass < end; ++pass) {
     double nearest = window_;
     const Memory* memory = nullptr;
-    ContactPoint* contact = nullptr;
+    Memory* own = nullptr;
     for (int m = begin; m < end; ++m) {
       const Memory& candidate = iterate_.entries[static_cast<std::size_t>(m)];
       if (recalled_[static_cast<std::size_t>(m)]) continue;
-      for (std::size_t c = first; c < contacts_.size(); ++c) {
-        const double away = std::abs(candidate.arclength_b - contacts_[c].arclength_b);
-        if (contacts_[c].share >= 0.0 || away >= nearest) continue;
+      for (std::size_t i = first; i < tracked_.size(); ++i) {
+        const double away = std::abs(candidate.arclength_b - tracked_[i].memory.arclength_b);
+        if (tracked_[i].memory.share >= 0.0 || away >= nearest) continue;
         nearest = away;
         memory = &candidate;
-        contact = &contacts_[c];
+        own = &tracked_[i].memory;
       }
     }
-    if (!contact) break;
+    if (!own) break;
     recalled_[static_cast<std::size_t>(memory - iterate_.entries.data())] = 1;
-    contact->share = memory->share;
-    contact->estimate = memory->pressure;
-    contact->memory = memory->slip;
+    const double here = own->arclength_b;
+    *own = *memory;
+    own->arclength_b = here;
   }
 }
 
-void SmoothContact::complete(ContactPoint& contact, const Points& position, const Points& start) {
-  if (contact.share < 0.0) contact.share = share(contact, position);
-  contact.weight = 0.5 * voronoi_[contact.a0 + 1] * contact.share;
-  if (!contact.active()) return;
-  if (friction_.on()) {
-    contact.slip = contact.memory;
-    for (int k = 0; k < 3; ++k) {
-      contact.slip += contact.c[k] * (position.col(contact.a0 + k) - start.col(contact.a0 + k));
-      const Vec3 moved = position.col(contact.b0 + k) - start.col(contact.b0 + k);
-      contact.slip += contact.c[3 + k] * moved;
-      contact.turn += contact.beta[3 + k] * moved;
-    }
+bool SmoothContact::takes_part(const Tracked& foot) const {
+  const double overlap = diameter_ - search_.feet()[foot.foot].x[3];
+  return foot.memory.pressed || foot.memory.pressure > 0.0 || overlap > 2.0 * normal_.begin();
+}
+
+void SmoothContact::add_contact(Tracked& tracked) {
+  const FootSearch::Foot& foot = search_.feet()[tracked.foot];
+  const int segment = segment_of(foot.point);
+  const double u = foot.u;
+  tracked.contact = contacts_.size();
+  ContactPoint& contact = contacts_.emplace_back();
+  contact.point = foot.point % 2;
+  contact.a0 = segment - 1;
+  contact.b0 = foot.segment - 1;
+  const PointWeights wa(kIntegrationPoints[contact.point], outwards_[segment]);
+  const SegmentWeights wb(u);
+  for (int k = 0; k < 3; ++k) {
+    contact.c[k] = wa.value[k];
+    contact.c[3 + k] = -wb.value[k];
+    contact.beta[3 + k] = wb.derivative[k];
   }
-  evaluate_force(normal_, friction_, friction_scale_, contact);
+  contact.arclength_a = arclength_at(arclength_, segment, kIntegrationPoints[contact.point]);
+  contact.arclength_b = tracked.memory.arclength_b;
+  contact.d = foot.x[3];
+  contact.x = to_vec3(foot.x);
+  contact.n = to_vec3((1.0 / contact.d) * foot.x);
+  contact.overlap = diameter_ - contact.d;
+  contact.begins = normal_.begin();
+  contact.share = tracked.memory.share;
+  contact.weight = 0.5 * voronoi_[segment] * contact.share;
+  contact.estimate = tracked.memory.pressure;
+  contact.memory = tracked.memory.slip;
+  const SegmentParabola& c = search_.parabola(foot.segment);
+  const Lanes db = c.t + u * c.k;
+  contact.db = to_vec3(db);
+  const double length2 = dot(db, db);
+  // At a minimum G >= 0; it vanishes where the foot is about to jump, and there omega does too.
+  contact.inverse_g = 1.0 / std::max(length2 - dot(foot.x, c.k), 1e-3 * length2);
+  if (contact.active() && friction_.on()) set_slip(contact);
+}
+
+void SmoothContact::set_slip(ContactPoint& contact) const {
+  Lanes slip = to_lanes(contact.memory), turn = {};
+  const Lanes *a = &moved_[static_cast<std::size_t>(contact.a0)], *b = &moved_[static_cast<std::size_t>(contact.b0)];
+  for (int k = 0; k < 3; ++k) {
+    slip += contact.c[k] * a[k];
+    slip += contact.c[3 + k] * b[k];
+    turn += contact.beta[3 + k] * b[k];
+  }
+  contact.slip = to_vec3(slip);
+  contact.turn = to_vec3(turn);
 }
 
 ContactMotion SmoothContact::motion(const ContactPoint& contact, const Points& position, const Points& start) const {
@@ -262,14 +200,14 @@ ContactMotion SmoothContact::motion(const ContactPoint& contact, const Points& p
   return out;
 }
 
-double SmoothContact::share(const ContactPoint& contact, const Points& position) const {
-  const int segment = contact.a0 + 1, foot = contact.b0 + 1;
-  // Of the weights' derivatives the last is the parameter itself.
-  const double ua = kIntegrationPoints[contact.point];
-  const double ub = contact.beta[5];
+double SmoothContact::share(const FootSearch::Foot& foot, const Points& position) const {
+  const int segment = segment_of(foot.point);
+  const double ua = kIntegrationPoints[foot.point % 2];
+  const Vec3 x = to_vec3(foot.x);
   const Vec3 da = combine(SegmentWeights(ua).derivative, position, segment);
-  const double g_b = least_curvature_share(position, foot, ub, contact.x, contact.db.squaredNorm());
-  const double g_a = least_curvature_share(position, segment, ua, -contact.x, da.squaredNorm());
+  const Vec3 db = combine(SegmentWeights(foot.u).derivative, position, foot.segment);
+  const double g_b = least_curvature_share(position, foot.segment, foot.u, x, db.squaredNorm());
+  const double g_a = least_curvature_share(position, segment, ua, -x, da.squaredNorm());
   const double a4 = g_a * g_a * g_a * g_a, b4 = g_b * g_b * g_b * g_b;
   // Where each strand stands in the other's centre of curvature neither side has a foot that means anything.
   constexpr double kBlind = 1e-4;
@@ -279,17 +217,19 @@ double SmoothContact::share(const ContactPoint& contact, const Points& position)
 void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
   list.entries.clear();
   std::size_t done = 0;
-  for (const ContactPoint& contact : contacts_) {
-    const std::size_t q = number(contact.a0 + 1, contact.point);
-    while (done <= q) list.begin[done++] = static_cast<int>(list.entries.size());
-    if (accepted) {
-      const bool sticks = friction_.on() && friction_.remembers() && contact.touches();
-      const double now = contact.share + catch_up_ * (share(contact, *accepted) - contact.share);
-      list.entries.push_back(
-          {contact.arclength_b, now, contact.pressure, sticks ? Vec3(friction_.presliding * contact.z) : Vec3::Zero()});
-    } else {
-      list.entries.push_back({contact.arclength_b, contact.share, contact.estimate, contact.memory});
+  for (const Tracked& tracked : tracked_) {
+    const FootSearch::Foot& foot = search_.feet()[tracked.foot];
+    while (done <= row_of(foot.point)) list.begin[done++] = static_cast<int>(list.entries.size());
+    Memory& memory = list.entries.emplace_back(tracked.memory);
+    const ContactPoint* contact = tracked.contact == kNone ? nullptr : &contacts_[tracked.contact];
+    if (!accepted) {
+      if (contact) memory.pressure = contact->estimate;
+      continue;
     }
+    memory.share += catch_up_ * (share(foot, *accepted) - memory.share);
+    memory.pressure = contact ? contact->pressure : 0.0;
+    const bool sticks = friction_.on() && friction_.remembers() && contact && contact->touches();
+    memory.slip = sticks ? Vec3(friction_.presliding * contact->z) : Vec3::Zero();
   }
   while (done < list.begin.size()) list.begin[done++] = static_cast<int>(list.entries.size());
 }

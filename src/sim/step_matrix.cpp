@@ -143,9 +143,10 @@ void StepMatrix<D>::set_zero_beyond_band() {
 
 template <int D>
 void StepMatrix<D>::add(const ContactPoint& contact, const ContactModel& model, std::size_t n) {
-  Lanes still[3];
-  for (int j = 0; j < 3; ++j) std::copy_n(model.still.data() + 4 * j, 4, reinterpret_cast<double*>(&still[j]));
-  const double* c = contact.c;
+  // Kept here, as blocks written to might be a part of the model for all that is known of them.
+  const Lanes still[3] = {model.still[0], model.still[1], model.still[2]};
+  double c[6];
+  std::copy_n(contact.c, 6, c);
   if (contact.on_roller()) {
     for (int k = 0; k < 3; ++k)
       for (int l = 0; l < 3; ++l) {
@@ -155,11 +156,11 @@ void StepMatrix<D>::add(const ContactPoint& contact, const ContactModel& model, 
     return;
   }
   Lanes pushed[6];  // beta_k g - c_k gamma
-  Vec3 du[6];       // du/dq_l
+  Lanes du[6];      // du/dq_l
+  const Lanes du_s = contact.inverse_g * to_lanes(contact.db), du_r = contact.inverse_g * to_lanes(contact.x);
   for (int k = 0; k < 6; ++k) {
-    const Vec3 push = contact.beta[k] * model.force - c[k] * model.slide;
-    pushed[k] = Lanes{push[0], push[1], push[2], 0.0};
-    du[k] = c[k] * model.du_s + contact.beta[k] * model.du_r;
+    pushed[k] = contact.beta[k] * model.force - c[k] * model.slide;
+    du[k] = c[k] * du_s + contact.beta[k] * du_r;
   }
   const auto add_pair = [&](Block<D>& block, int k, int l) {
     const double both = c[k] * c[l];

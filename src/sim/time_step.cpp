@@ -23,11 +23,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-/// Pressure of a contact's linear model at the present overlap, and its slope [N/m], [N/m^2].
-struct PressureTangent {
-  double pressure, slope;
-};
-
 /// The largest residual, and whose it is.
 struct Worst {
   double residual = 0.0;  // over the node's ease [N]
@@ -170,12 +165,11 @@ class ImplicitStep final : public TimeStep {
   bool solve() {
     matrix_.locate(contact_.contacts());
     matrix_.set_zero_beyond_band();
-    tangents_.clear();
     centreline_.set_stiffness(inertia_and_drag(), matrix_);
     if constexpr (D == 4) add_frame_stiffness();
     change_ = force_;
-    linearise_contacts(contact_);
-    linearise_contacts(rollers_);
+    linearise(contact_, models_);
+    linearise(rollers_, roller_models_);
     add_grip_stiffness();
     for (int node = 0; node < nodes_; ++node) hold(node);
     return matrix_.values().solve(change_);
@@ -197,9 +191,8 @@ class ImplicitStep final : public TimeStep {
     centreline_.expect(change_, share);
     share_ = share;
     motion_ = share * longest;
-    std::size_t m = 0;
-    estimate_pressures(contact_, share, m);
-    estimate_pressures(rollers_, share, m);
+    estimate_pressures(contact_, models_, share);
+    estimate_pressures(rollers_, roller_models_, share);
   }
 
   /// In the shortest steps the residual shrinks to a thousandth, and two sides of a trifling jump (a foot that has two
@@ -327,33 +320,33 @@ class ImplicitStep final : public TimeStep {
 
   /// Replaces the contacts' forces in the right-hand side by those of their linear models, and adds their stiffness.
   template <typename Contacts>
-  void linearise_contacts(const Contacts& contacts) {
-    std::size_t block = 0;
+  void linearise(const Contacts& contacts, std::vector<typename Contacts::Model>& models) {
+    contacts.linearise(dt_, models);
+    std::size_t n = 0;
     for (const ContactPoint& contact : contacts.contacts()) {
       if (!contact.active()) continue;
-      typename Contacts::Model model;
-      contacts.linearise_contact(contact, dt_, model);
-      tangents_.push_back({model.pressure, model.slope});
-      const Lanes difference = to_lanes(model.force - contact.force);
+      const typename Contacts::Model& model = models[n];
+      const Lanes difference = model.force - to_lanes(contact.force);
       for (int k = 0; k < 3; ++k) change_[at(contact.a0 + k)] += contact.c[k] * difference;
       if (!contact.on_roller())
         for (int k = 0; k < 3; ++k) change_[at(contact.b0 + k)] += contact.c[3 + k] * difference;
-      matrix_.add(contact, model, contact.on_roller() ? 0 : block++);
+      matrix_.add(contact, model, n++);
     }
   }
 
   /// What the linear models say of each contact's pressure after the change.
   template <typename Contacts>
-  void estimate_pressures(Contacts& contacts, double share, std::size_t& m) {
+  void estimate_pressures(Contacts& contacts, const std::vector<typename Contacts::Model>& models, double share) {
+    std::size_t n = 0;
     for (ContactPoint& contact : contacts.contacts()) {
       if (!contact.active()) continue;
-      const PressureTangent& tangent = tangents_[m++];
-      Vec3 moved = Vec3::Zero();
+      const typename Contacts::Model& model = models[n++];
+      Lanes moved = {};
       for (int k = 0; k < 3; ++k) {
-        moved += contact.c[k] * to_vec3(change_[at(contact.a0 + k)]);
-        if (!contact.on_roller()) moved += contact.c[3 + k] * to_vec3(change_[at(contact.b0 + k)]);
+        moved += contact.c[k] * change_[at(contact.a0 + k)];
+        if (!contact.on_roller()) moved += contact.c[3 + k] * change_[at(contact.b0 + k)];
       }
-      contact.estimate = tangent.pressure - share * tangent.slope * contact.n.dot(moved);
+      contact.estimate = model.pressure - share * model.slope * dot(to_lanes(contact.n), moved);
     }
   }
 
@@ -527,8 +520,10 @@ class ImplicitStep final : public TimeStep {
   Worst worst_;  // of force_
   std::vector<char> held_;
   StepReadings readings_;
-  Points way_;                             // of the step that is accepted or diagnosed [m]
-  std::vector<PressureTangent> tangents_;  // of the active contacts, in order
+  Points way_;  // of the step that is accepted or diagnosed [m]
+  // Of the active contacts, in order.
+  std::vector<typename StrandContact::Model> models_;
+  std::vector<ContactModel> roller_models_;
 };
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "contact/nodal_forces.hpp"
+
 namespace knot_utm {
 namespace {
 
@@ -28,19 +30,20 @@ TEST(ContactModel, FrictionOfADrawnApartContactThatIsExpectedToPressHoldsIt) {
   Friction friction;
   friction.coefficient = 0.5;
   friction.presliding = 1e-5;
-  ContactPoint contact = drawn_apart();
+  std::vector<ContactPoint> contacts = {drawn_apart()};
+  ContactPoint& contact = contacts[0];
   contact.estimate = 100.0;
-  evaluate_force(normal, friction, friction.presliding, contact);
+  evaluate_forces(normal, friction, friction.presliding, contacts);
   EXPECT_EQ(contact.pressure, 0.0);
-  ContactModel model;
-  linearise(normal, friction, friction.presliding, true, contact, model);
-  EXPECT_LT(model.pressure, 0.0) << "the tangent at the estimate, so far out";
+  std::vector<ContactModel> models;
+  linearise(normal, friction, friction.presliding, true, contacts, models);
+  EXPECT_LT(models[0].pressure, 0.0) << "the tangent at the estimate, so far out";
   // Across both strands: what holds is mu w p/xi_s, what turns with n is w p/d.
-  const Vec3 across = model.still.topRows<3>() * Vec3::UnitY();
+  const Vec3 across = to_vec3(models[0].still[1]);
   const double hold = friction.coefficient * contact.weight * contact.estimate / friction.presliding;
   EXPECT_NEAR(across.y(), hold, 0.02 * hold);
-  linearise(normal, friction, friction.presliding, false, contact, model);
-  EXPECT_LT(model.still(1, 1), 0.0) << "the tangent's pressure drives it on";
+  linearise(normal, friction, friction.presliding, false, contacts, models);
+  EXPECT_LT(models[0].still[1][1], 0.0) << "the tangent's pressure drives it on";
 }
 
 TEST(ContactModel, WithoutAnEstimateThePressureThatTurnsIsThatOfTheTangent) {
@@ -48,6 +51,47 @@ TEST(ContactModel, WithoutAnEstimateThePressureThatTurnsIsThatOfTheTangent) {
   EXPECT_EQ(contact.expected(7.0), 7.0);
   contact.estimate = 100.0;
   EXPECT_EQ(contact.expected(7.0), 100.0);
+}
+
+TEST(ContactModel, EachContactHasItsOwnHoweverManyThereAre) {
+  const NormalLaw normal{1e6, 0.02 * kRadius, 0.05 * kRadius};
+  Friction friction;
+  friction.coefficient = 0.5;
+  friction.presliding = 1e-5;
+  std::vector<ContactPoint> many;
+  for (int i = 0; i < 11; ++i) {
+    ContactPoint& contact = many.emplace_back(drawn_apart());
+    contact.d -= 1e-3 * kRadius * (4 * i - 5);  // some are apart and take no part
+    contact.x = contact.d * contact.n;
+    contact.overlap = 2.0 * kRadius - contact.d;
+    contact.begins = normal.begin();
+    contact.slip *= i;  // some stick, some slip
+    contact.turn = 1e-7 * i * Vec3::UnitX();
+    if (i % 3 == 0) contact.estimate = 10.0 * (i - 1);
+  }
+  std::vector<ContactModel> models;
+  evaluate_forces(normal, friction, friction.presliding, many);
+  linearise(normal, friction, friction.presliding, true, many, models);
+  std::size_t n = 0;
+  for (const ContactPoint& contact : many) {
+    if (!contact.active()) continue;
+    std::vector<ContactPoint> alone = {contact};
+    std::vector<ContactModel> own;
+    evaluate_forces(normal, friction, friction.presliding, alone);
+    linearise(normal, friction, friction.presliding, true, alone, own);
+    EXPECT_EQ(alone[0].force, contact.force);
+    // The overlap of an estimate is found to 1e-9 of the pressure, or better beside one that takes longer.
+    const double rounding = 1e-8 * (own[0].slope * kRadius + std::abs(own[0].pressure));
+    EXPECT_NEAR(own[0].pressure, models[n].pressure, rounding);
+    EXPECT_NEAR(own[0].slope, models[n].slope, rounding / kRadius);
+    EXPECT_NEAR((to_vec3(own[0].force) - to_vec3(models[n].force)).norm(), 0.0, contact.weight * rounding);
+    EXPECT_NEAR((to_vec3(own[0].slide) - to_vec3(models[n].slide)).norm(), 0.0, 1e-8 * to_vec3(own[0].slide).norm());
+    const Mat3 still = still_of(own[0]);
+    EXPECT_NEAR((still - still_of(models[n])).norm(), 0.0, 1e-8 * still.norm());
+    ++n;
+  }
+  EXPECT_GT(n, 4u);
+  EXPECT_LT(n, many.size());
 }
 
 }  // namespace

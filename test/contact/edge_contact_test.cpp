@@ -154,12 +154,14 @@ struct TwoEdges {
     contact.begin_step();
     contact.evaluate(x, start, dt);
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x.size(), x.size());
-    EdgeContactModel model;
-    for (ContactPoint& point : contact.contacts()) {
-      if (!point.touches()) continue;
-      point.estimate = -1.0;  // tangents at the present overlap
-      contact.linearise_contact(point, dt, model);
-      auto node = [&point = point](int k) { return k < 3 ? point.a0 + k : point.b0 + k - 3; };
+    for (ContactPoint& point : contact.contacts()) point.estimate = -1.0;  // tangents at the present overlap
+    std::vector<EdgeContactModel> models;
+    contact.linearise(dt, models);
+    std::size_t n = 0;
+    for (const ContactPoint& point : contact.contacts()) {
+      if (!point.active()) continue;
+      const EdgeContactModel& model = models[n++];
+      auto node = [&](int k) { return k < 3 ? point.a0 + k : point.b0 + k - 3; };
       for (int k = 0; k < 6; ++k)
         for (int l = 0; l < 6; ++l) out.block<3, 3>(3 * node(k), 3 * node(l)) += model.stiffness(k, l);
     }

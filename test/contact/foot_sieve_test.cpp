@@ -34,17 +34,15 @@ struct Look {
 
   Look(const Points& nodes, std::mt19937& random) {
     const Eigen::Index edges = nodes.cols() - 1;
-    const Points edge = nodes.rightCols(edges) - nodes.leftCols(edges);
-    const Points middle = 0.5 * (nodes.rightCols(edges) + nodes.leftCols(edges));
     const Candidates::Run runs[] = {{1, 1}, {2, 9}, {10, 12}, {13, 40}, {41, static_cast<int>(edges) - 1}};
     FootSieve sieve(nodes.cols());
-    sieve.set_centreline(middle, edge);
+    sieve.set_centreline(nodes);
     std::uniform_int_distribution<Eigen::Index> some(0, edges);
     std::normal_distribution<double> away(0.0, 1.0);
     for (int look = 0; look < 100; ++look) {
       Vec3 a[2];
       for (Vec3& point : a) point = nodes.col(some(random)) + Vec3(away(random), away(random), away(random));
-      sieve.sieve(a[0], a[1], std::begin(runs), std::end(runs));
+      sieve.sieve(to_lanes(a[0]), to_lanes(a[1]), std::begin(runs), std::end(runs));
       for (int p = 0; p < 2; ++p) {
         in_order = in_order && std::is_sorted(sieve.begin(p), sieve.end(p));
         left += static_cast<int>(sieve.end(p) - sieve.begin(p));

@@ -24,4 +24,11 @@ inline Eigen::VectorXd nodal_forces(const std::vector<ContactPoint>& contacts, E
   return flat(out);
 }
 
+/// M of a linear model [N/m]
+inline Mat3 still_of(const ContactModel& model) {
+  Mat3 m;
+  m << to_vec3(model.still[0]), to_vec3(model.still[1]), to_vec3(model.still[2]);
+  return m;
+}
+
 }  // namespace knot_utm

@@ -83,13 +83,14 @@ TEST_P(RollerContactJacobian, IsTheDerivativeOfTheForces) {
   RollerContact contact = scene.touch(friction, end);
   for (ContactPoint& point : contact.contacts()) point.estimate = point.pressure;  // tangents at the present overlap
   Eigen::MatrixXd analytic = Eigen::MatrixXd::Zero(end.size(), end.size());
+  std::vector<ContactModel> models;
+  contact.linearise(0.01, models);
+  std::size_t n = 0;
   for (const ContactPoint& point : contact.contacts()) {
-    ContactModel local;
-    contact.linearise_contact(point, 0.01, local);
+    const Mat3 still = still_of(models[n++]);
     for (int k = 0; k < 3; ++k)
       for (int l = 0; l < 3; ++l)
-        analytic.block<3, 3>(3 * (point.a0 + k), 3 * (point.a0 + l)) +=
-            point.c[k] * point.c[l] * local.still.topRows<3>();
+        analytic.block<3, 3>(3 * (point.a0 + k), 3 * (point.a0 + l)) += point.c[k] * point.c[l] * still;
   }
   const auto force = [&](const Eigen::VectorXd& x) {
     return nodal_forces(scene.touch(friction, unflat(x)).contacts(), end.cols());

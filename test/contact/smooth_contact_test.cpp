@@ -55,17 +55,20 @@ struct TwoStrands {
     contact.evaluate(x, start, dt);
     for (ContactPoint& point : contact.contacts()) point.estimate = point.pressure;  // tangents at the present overlap
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x.size(), x.size());
-    ContactModel local;
+    std::vector<ContactModel> models;
+    contact.linearise(dt, models);
+    std::size_t n = 0;
     for (const ContactPoint& point : contact.contacts()) {
-      if (!point.touches()) continue;
-      contact.linearise_contact(point, dt, local);
+      if (!point.active()) continue;
+      const ContactModel& local = models[n++];
+      const Mat3 still = still_of(local);
+      const Vec3 du_s = point.inverse_g * point.db, du_r = point.inverse_g * point.x;
       auto node = [&](int k) { return k < 3 ? point.a0 + k : point.b0 + k - 3; };
       for (int k = 0; k < 6; ++k)
         for (int l = 0; l < 6; ++l)
           out.block<3, 3>(3 * node(k), 3 * node(l)) +=
-              point.c[k] * point.c[l] * local.still.topRows<3>() +
-              (point.beta[k] * local.force - point.c[k] * local.slide) *
-                  (point.c[l] * local.du_s + point.beta[l] * local.du_r).transpose();
+              point.c[k] * point.c[l] * still + to_vec3(point.beta[k] * local.force - point.c[k] * local.slide) *
+                                                    (point.c[l] * du_s + point.beta[l] * du_r).transpose();
     }
     return out;
   }

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/solver/lanes.hpp"
 
 namespace knot_utm {
 
@@ -20,22 +21,16 @@ struct SegmentWeights {
 
 /// A segment in powers of u: c(u) = m + t u + k u^2/2, m the middle of an edge, t the edge, k the second difference.
 struct SegmentParabola {
-  Vec3 m, t, k;       ///< [m]
-  Vec3 chord;         ///< c(1) - c(0) [m]
-  double tt, tk, kk;  ///< t.t, t.k, k.k [m^2]
-  double chord2;      ///< [m^2]
-  double bulge;       ///< |k|/8: no further from its chord is the segment [m]
+  Lanes m, t, k;  ///< [m]
+  Lanes chord;    ///< c(1) - c(0) [m]
+  double bulge;   ///< |k|/8: no further from its chord is the segment [m]
 
-  void set(const Vec3& middle, const Vec3& edge, const Vec3& next_edge) {
-    m = middle;
-    t = edge;
-    k = next_edge - edge;
+  void set(const Lanes& before, const Lanes& node, const Lanes& after) {
+    m = 0.5 * (before + node);
+    t = node - before;
+    k = (after - node) - t;
     chord = t + 0.5 * k;
-    tt = t.squaredNorm();
-    tk = t.dot(k);
-    kk = k.squaredNorm();
-    chord2 = chord.squaredNorm();
-    bulge = 0.125 * std::sqrt(kk);
+    bulge = 0.125 * std::sqrt(dot(k, k));
   }
 };
 

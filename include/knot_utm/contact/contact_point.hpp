@@ -1,8 +1,11 @@
 #pragma once
 
+#include <vector>
+
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/contact/normal_law.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/solver/lanes.hpp"
 
 namespace knot_utm {
 
@@ -75,27 +78,27 @@ struct ContactMotion {
 ///
 ///     dg = -M S + gamma du,      -df_k/dq_l = c_k c_l M + (beta_k g - c_k gamma) (c_l du_s + beta_l du_r)^T   [N/m]
 ///
-/// M has four rows: the last is zero, so that a column fills a vector register.
+/// and du = (b'.S + x.R)/G as ContactPoint says. Vectors and the columns of M fill registers, their last lanes are
+/// zero.
 struct ContactModel {
-  using Padded = Eigen::Matrix<double, 4, 3>;
-  double pressure = 0.0;      ///< of the tangent at the present overlap [N/m]
-  double slope = 0.0;         ///< p'(D^) [N/m^2]
-  Vec3 force = Vec3::Zero();  ///< g with that pressure [N]
-  Padded still;               ///< M [N/m]
-  Vec3 slide = Vec3::Zero();  ///< gamma [N]
-  Vec3 du_s = Vec3::Zero();   ///< du = du_s.S + du_r.R [1/m]; zero against a roller
-  Vec3 du_r = Vec3::Zero();
+  double pressure = 0.0;  ///< of the tangent at the present overlap [N/m]
+  double slope = 0.0;     ///< p'(D^) [N/m^2]
+  Lanes force = {};       ///< g with that pressure [N]
+  Lanes still[3] = {};    ///< M [N/m]
+  Lanes slide = {};       ///< gamma [N]
 };
 
-/// Fills z and force from pressure, n, slip and weight.
+/// Fills z and force of a contact from pressure, n, slip and weight.
 void evaluate_force(const Friction& friction, double friction_scale, ContactPoint& contact);
 
-/// The same with the pressure from the overlap.
-void evaluate_force(const NormalLaw& normal, const Friction& friction, double friction_scale, ContactPoint& contact);
+/// Fills pressure, z and force of the active contacts from overlap, n, slip and weight.
+void evaluate_forces(const NormalLaw& normal, const Friction& friction, double friction_scale,
+                     std::vector<ContactPoint>& contacts);
 
-/// The consistent linearisation of `evaluate_force`, movement of the foot included; weight w is held constant.
+/// The consistent linearisation of `evaluate_forces`, movement of the foot included; weight w is held constant.
+/// `models`: of the active contacts, in order; some more may follow that mean nothing.
 /// `expects`: it is the expected pressure that turns with n and z.
 void linearise(const NormalLaw& normal, const Friction& friction, double friction_scale, bool expects,
-               const ContactPoint& contact, ContactModel& model);
+               const std::vector<ContactPoint>& contacts, std::vector<ContactModel>& models);
 
 }  // namespace knot_utm

@@ -18,16 +18,16 @@ namespace knot_utm {
 ///
 /// a foot at the end of its edge staying there. Pressure as in ContactModel.
 struct EdgeContactModel {
-  double pressure = 0.0;      ///< of the tangent at the present overlap [N/m]
-  double slope = 0.0;         ///< p'(D^) [N/m^2]
-  Vec3 force = Vec3::Zero();  ///< g with that pressure [N]
-  double c[6], moves[6];      ///< df_k = c_k dg + moves_k g (dt on a, du on b)
-  Mat3 force_by[6];           ///< dg/dq_l [N/m]
-  Vec3 t_by[6], u_by[6];      ///< dt/dq_l, du/dq_l [1/m]
+  double pressure = 0.0;  ///< of the tangent at the present overlap [N/m]
+  double slope = 0.0;     ///< p'(D^) [N/m^2]
+  Lanes force = {};       ///< g with that pressure [N]
+  double c[6], moves[6];  ///< df_k = c_k dg + moves_k g (dt on a, du on b)
+  Mat3 force_by[6];       ///< dg/dq_l [N/m]
+  Vec3 t_by[6], u_by[6];  ///< dt/dq_l, du/dq_l [1/m]
 
   /// -df_k/dq_l [N/m]
   Mat3 stiffness(int k, int l) const {
-    return -c[k] * force_by[l] - moves[k] * force * (k < 3 ? t_by[l] : u_by[l]).transpose();
+    return -c[k] * force_by[l] - moves[k] * to_vec3(force) * (k < 3 ? t_by[l] : u_by[l]).transpose();
   }
 };
 
@@ -60,8 +60,8 @@ class EdgeContact {
   const std::vector<ContactPoint>& contacts() const { return contacts_; }
   std::vector<ContactPoint>& contacts() { return contacts_; }
 
-  /// The consistent linearisation of one of `contacts()`.
-  void linearise_contact(const ContactPoint& contact, double dt, EdgeContactModel& model) const;
+  /// The consistent linearisation of the active contacts, in order.
+  void linearise(double dt, std::vector<EdgeContactModel>& models) const;
 
   /// Of one of `contacts()`.
   ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;
@@ -79,6 +79,8 @@ class EdgeContact {
   void state(Archive& archive);
 
  private:
+  void linearise_contact(const ContactPoint& contact, double dt, EdgeContactModel& model) const;
+
   /// What a contact between edges knows beside its ContactPoint.
   struct Feet {
     int pair;

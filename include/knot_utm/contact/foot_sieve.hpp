@@ -4,7 +4,7 @@
 
 #include "knot_utm/contact/candidates.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/solver/block.hpp"
+#include "knot_utm/solver/lanes.hpp"
 
 namespace knot_utm {
 
@@ -24,30 +24,30 @@ class FootSieve {
  public:
   explicit FootSieve(Eigen::Index nodes);
 
-  /// The centreline as it stands now: middles of its edges, and the edges [m].
-  void set_centreline(const Points& edge_middle, const Points& edge);
+  /// The centreline as it stands now.
+  void set_centreline(const Points& position);
 
   /// Sieves the segments of these runs for two points. As the points of a segment have their candidates in common, one
   /// walk serves both.
-  void sieve(const Vec3& a0, const Vec3& a1, const Candidates::Run* begin, const Candidates::Run* end);
+  void sieve(const Lanes& a0, const Lanes& a1, const Candidates::Run* begin, const Candidates::Run* end);
 
   /// What was left for point 0 or 1, in the order of the runs.
   const int* begin(int point) const { return left_[point].data(); }
   const int* end(int point) const { return left_[point].data() + count_[point]; }
 
  private:
-  /// Four edges side by side: g = -(a - m).e = m.e - a.e of all of them at once.
+  /// Four edges and the segments that end on them, side by side.
   struct FourEdges {
-    Lanes e[3];
-    Lanes me;
+    Lanes e[3] = {};         // [m]
+    Lanes me = {};           // m.e [m^2]
+    Lanes least_begin = {};  // no foot where F' begins here or above [m^2]
+    Lanes least_end = {};    // no foot where it ends below [m^2]
 
-    Lanes slope(const Vec3& a) const { return me - a[0] * e[0] - a[1] * e[1] - a[2] * e[2]; }
+    /// F' at the middles of the edges: -(a - m).e
+    Lanes slope(const Lanes& a) const { return me - a[0] * e[0] - a[1] * e[1] - a[2] * e[2]; }
   };
 
   std::vector<FourEdges> edges_;
-  Eigen::VectorXd least_begin_;  // of segment i: no foot where F' begins here or above [m^2]
-  Eigen::VectorXd least_end_;    // no foot where it ends below [m^2]
-  std::vector<Lanes> slope_[2];  // F' at the middles of the edges, four by four [m^2]
   std::vector<int> left_[2];
   std::size_t count_[2] = {0, 0};
 };

@@ -5,6 +5,7 @@
 
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/options.hpp"
+#include "knot_utm/solver/lanes.hpp"
 
 namespace knot_utm {
 
@@ -41,40 +42,49 @@ struct Friction {
   static constexpr double kLeastSlip = 1e-2;  ///< of xi_s, smoothed
 };
 
-/// z(y) and C = dz/dy = across 1 + along u u^T, u = y/|y|.
+/// z(y) and C = dz/dy = across 1 + along u u^T, u = y/|y|, of one contact or (FourVectors) of four.
+template <typename Vector>
 struct FrictionDirection {
-  Vec3 z;
-  Vec3 u;
-  double across, along;
+  using Real = decltype(dot(Vector(), Vector()));
+  Vector z;
+  Vector u;
+  Real across, along;
 
-  Vec3 slope_times(const Vec3& v) const { return across * v + (along * u.dot(v)) * u; }
+  Vector slope_times(const Vector& v) const { return across * v + (along * dot(u, v)) * u; }
   Mat3 slope() const { return across * Mat3::Identity() + along * u * u.transpose(); }
 };
 
-inline Vec3 friction_direction(FrictionLaw law, const Vec3& y) {
-  const double size = y.norm();
-  if (law == FrictionLaw::kMemory) return size < 1.0 ? y : Vec3(y / size);
-  return size > 1e-12 ? Vec3(y * (std::tanh(7.5 * size) / size)) : Vec3(7.5 * y);
+namespace friction {
+
+/// |z|/|y| at |y| = size.
+template <typename Real>
+Real secant(FrictionLaw law, const Real& size) {
+  if (law == FrictionLaw::kMemory) return select(size < 1.0, constant<Real>(1.0), 1.0 / size);
+  return select(size > 1e-12, tanh(7.5 * size) / size, constant<Real>(7.5));
+}
+
+}  // namespace friction
+
+template <typename Vector>
+Vector friction_direction(FrictionLaw law, const Vector& y) {
+  return friction::secant(law, square_root(dot(y, y))) * y;
 }
 
 /// z(y) with dz/dy, or in its place the secant |z|/|y| in every direction. Where a slip is beyond saturation the
 /// tangent along it vanishes, and Newton's method may leap from one saturated side to the other for ever; the secant
 /// bounds the law from above (Kacanov's method): slow, but it falls from anywhere.
-inline FrictionDirection linearised_direction(FrictionLaw law, bool secant, const Vec3& y) {
-  const double size = y.norm();
-  if (secant && size > 1e-12) {
-    const Vec3 z = friction_direction(law, y);
-    return {z, y / size, z.norm() / size, 0.0};
+template <typename Vector>
+FrictionDirection<Vector> linearised_direction(FrictionLaw law, bool secant, const Vector& y) {
+  using Real = decltype(dot(y, y));
+  const Real size = square_root(dot(y, y)), across = friction::secant(law, size);
+  Real along = Real{};  // d|z|/d|y| - |z|/|y|
+  if (!secant && law == FrictionLaw::kMemory) along = select(size < 1.0, along, -across);
+  if (!secant && law == FrictionLaw::kSmoothed) {
+    const Real value = across * size;
+    along = select(size > 1e-12, 7.5 * (1.0 - value * value) - across, along);
   }
-  if (law == FrictionLaw::kMemory) {
-    if (size < 1.0) return {y, Vec3::Zero(), 1.0, 0.0};
-    const Vec3 unit = y / size;
-    return {unit, unit, 1.0 / size, -1.0 / size};
-  }
-  if (size <= 1e-12) return {7.5 * y, Vec3::Zero(), 7.5, 0.0};
-  const Vec3 unit = y / size;
-  const double value = std::tanh(7.5 * size);
-  return {value * unit, unit, value / size, 7.5 * (1.0 - value * value) - value / size};
+  const Vector unit = select(size > 1e-12, 1.0 / size, Real{}) * y;
+  return {across * y, unit, across, along};
 }
 
 }  // namespace knot_utm

@@ -1,8 +1,9 @@
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
+
+#include "knot_utm/solver/lanes.hpp"
 
 namespace knot_utm {
 
@@ -25,28 +26,31 @@ struct NormalLaw {
   /// Overlap at which strands begin to feel each other, below zero [m].
   double begin() const { return -0.5 * tolerance; }
 
-  double pressure(double overlap) const {
-    if (overlap <= begin()) return 0.0;
-    const double s = squeeze(overlap);
-    return stiffness * s * (1.0 + fourth(s / stiffening));
+  /// `Real`: double, or Lanes for four contacts at once.
+  template <typename Real>
+  Real pressure(const Real& overlap) const {
+    const Real s = squeeze(overlap);
+    return select(overlap <= begin(), Real{}, stiffness * s * (1.0 + fourth(s / stiffening)));
   }
   /// dp/dD [N/m^2]
-  double slope(double overlap) const {
-    if (overlap <= begin()) return 0.0;
-    const double ds = std::min((overlap - begin()) / tolerance, 1.0);
-    return stiffness * ds * (1.0 + 5.0 * fourth(squeeze(overlap) / stiffening));
+  template <typename Real>
+  Real slope(const Real& overlap) const {
+    const Real rounded = (overlap - begin()) / tolerance;
+    const Real ds = select(rounded < 1.0, rounded, constant<Real>(1.0));
+    return select(overlap <= begin(), Real{}, stiffness * ds * (1.0 + 5.0 * fourth(squeeze(overlap) / stiffening)));
   }
   /// The overlap at which the law gives this pressure, p >= 0 [m]
-  double overlap_at(double line_pressure) const {
+  template <typename Real>
+  Real overlap_at(const Real& line_pressure) const {
     // Newton's method on s (1 + (s/c)^4) = p/K, which is convex: from above it falls to the root.
-    const double q = line_pressure / stiffness;
-    double s = q < stiffening ? q : stiffening * std::sqrt(std::sqrt(q / stiffening));
+    const Real q = line_pressure / stiffness;
+    Real s = select(q < stiffening, q, stiffening * square_root(square_root(q / stiffening)));
     for (int i = 0; i < 6; ++i) {
-      const double t4 = fourth(s / stiffening), excess = s * (1.0 + t4) - q;
+      const Real t4 = fourth(s / stiffening), excess = s * (1.0 + t4) - q;
       s -= excess / (1.0 + 5.0 * t4);
-      if (excess <= 1e-9 * q) break;
+      if (!any(excess > 1e-9 * q)) break;
     }
-    return s >= 0.5 * tolerance ? s : std::sqrt(2.0 * tolerance * s) + begin();
+    return select(s >= 0.5 * tolerance, s, square_root(2.0 * tolerance * s) + begin());
   }
   /// Energy per length, its derivative is p [N]
   double energy(double overlap) const {
@@ -62,10 +66,14 @@ struct NormalLaw {
   }
 
  private:
-  static double fourth(double x) { return x * x * x * x; }
-  double squeeze(double overlap) const {
-    const double w = overlap - begin();
-    return w < tolerance ? 0.5 * w * w / tolerance : overlap;
+  template <typename Real>
+  static Real fourth(const Real& x) {
+    return x * x * x * x;
+  }
+  template <typename Real>
+  Real squeeze(const Real& overlap) const {
+    const Real w = overlap - begin();
+    return select(w < tolerance, 0.5 * w * w / tolerance, overlap);
   }
 };
 

@@ -32,8 +32,9 @@ class RollerContact {
   const std::vector<ContactPoint>& contacts() const { return contacts_; }
   std::vector<ContactPoint>& contacts() { return contacts_; }
 
-  void linearise_contact(const ContactPoint& contact, double dt, ContactModel& model) const {
-    linearise(normal_, friction_, friction_.scale(dt), expects_, contact, model);
+  /// The consistent linearisation of the active contacts, in order; some more may follow that mean nothing.
+  void linearise(double dt, std::vector<ContactModel>& models) const {
+    knot_utm::linearise(normal_, friction_, friction_.scale(dt), expects_, contacts_, models);
   }
 
   /// From now on the rod has parted at an edge, and what reaches into it touches nothing.

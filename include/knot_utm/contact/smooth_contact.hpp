@@ -5,7 +5,7 @@
 #include "knot_utm/contact/candidates.hpp"
 #include "knot_utm/contact/centreline_curve.hpp"
 #include "knot_utm/contact/contact_point.hpp"
-#include "knot_utm/contact/foot_sieve.hpp"
+#include "knot_utm/contact/foot_search.hpp"
 
 namespace knot_utm {
 
@@ -42,11 +42,13 @@ class SmoothContact {
 
   /// All contacts at `position` in a step of length dt from `start`.
   void evaluate(const Points& position, const Points& start, double dt);
+  /// Of all feet within reach those that press, are expected to, did when the step began, or are about to.
   const std::vector<ContactPoint>& contacts() const { return contacts_; }
   std::vector<ContactPoint>& contacts() { return contacts_; }
 
-  void linearise_contact(const ContactPoint& contact, double dt, ContactModel& model) const {
-    linearise(normal_, friction_, friction_.scale(dt), expects_, contact, model);
+  /// The consistent linearisation of the active contacts, in order; some more may follow that mean nothing.
+  void linearise(double dt, std::vector<ContactModel>& models) const {
+    knot_utm::linearise(normal_, friction_, friction_.scale(dt), expects_, contacts_, models);
   }
 
   /// Of one of `contacts()`; the overlap but for the third order of the way of its foot.
@@ -65,16 +67,17 @@ class SmoothContact {
   void state(Archive& archive);
 
  private:
-  /// What a contact carries from iteration to iteration, and from step to step.
+  /// What a foot carries from iteration to iteration, and from step to step.
   struct Memory {
     double arclength_b;
-    double share;     // omega
-    double pressure;  // estimate of it; < 0: none
-    Vec3 slip;        // xi [m]
+    double share;          // omega
+    double pressure;       // estimate of it; < 0: none
+    Vec3 slip;             // xi [m]
+    bool pressed = false;  // at the beginning of the step
 
     void state(Archive& archive);
   };
-  /// Contacts of every point of integration 2 segment + point, as compressed rows.
+  /// Feet of every point of integration 2 segment + point, as compressed rows.
   struct MemoryList {
     std::vector<Memory> entries;
     std::vector<int> begin;
@@ -82,38 +85,48 @@ class SmoothContact {
     void state(Archive& archive);
   };
 
-  struct StrandPoint;
+  /// A foot within reach.
+  struct Tracked {
+    Memory memory;
+    std::size_t foot;     // number of it in search_
+    std::size_t contact;  // number of it; kNone where it takes no part
+  };
+  static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  void find_feet(const StrandPoint& point);
-  /// r: from the segment's first place to the point of integration [m]
-  void add_contact(const StrandPoint& point, int foot, double u, const Vec3& r);
-  /// Gives the contacts of point q, from `first` on, what the last iterate remembers of them.
-  void recall(std::size_t q, std::size_t first);
-  /// Share, slip and force of a contact whose place is known; one that is not active has but a share.
-  void complete(ContactPoint& contact, const Points& position, const Points& start);
+  /// Of a point of integration as search_ numbers them.
+  int segment_of(int point) const { return candidates_.segments()[static_cast<std::size_t>(point / 2)]; }
+  std::size_t row_of(int point) const { return static_cast<std::size_t>(2 * segment_of(point) + point % 2); }
+
+  /// Tracks this foot and the other ones of its point, but those too near along the rod; the first foot of the next.
+  std::size_t follow(std::size_t foot);
+  /// Gives the feet of a point, those tracked from `first` on, what the last iterate remembers of them.
+  void recall(std::size_t row, std::size_t first);
+  /// A foot takes part where it presses, is expected to or did when the step began, or is about to.
+  bool takes_part(const Tracked& foot) const;
+  void add_contact(Tracked& tracked);
+  void set_slip(ContactPoint& contact) const;
   void remember(const Points* position, MemoryList& list) const;
   /// Of the accepted position; where the rod is bent more sharply than its edges resolve, less and less.
   void put_outwards(const Points& position);
-  double share(const ContactPoint& contact, const Points& position) const;
+  double share(const FootSearch::Foot& foot, const Points& position) const;
 
   NormalLaw normal_;
   Friction friction_;
   bool expects_ = false;
   double diameter_;
   double window_;              // of arclength within which a foot is the same one [m]
-  double reach_;               // of centrelines within which contacts are kept [m]
+  double reach_;               // of centrelines within which feet are followed [m]
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd voronoi_;
   Eigen::VectorXd outwards_;  // share of the second difference by which points of a segment stand outwards
   Candidates candidates_;
-  FootSieve sieve_;
+  FootSearch search_;
+  std::vector<Tracked> tracked_;
   std::vector<ContactPoint> contacts_;
-  MemoryList accepted_;                    // of the last accepted step
-  std::vector<char> recalled_;             // of iterate_: given to a contact
-  MemoryList iterate_;                     // of the last evaluation; before the first of a step, the accepted ones
-  Points edge_middle_, edge_;              // of the evaluated position
-  std::vector<SegmentParabola> parabola_;  // of the segments that have candidates
-  double friction_scale_ = 0.0;
+  MemoryList accepted_;         // of the last accepted step
+  std::vector<char> recalled_;  // of iterate_: given to a contact
+  MemoryList iterate_;          // of the last evaluation; before the first of a step, the accepted ones
+  std::vector<Lanes> moved_;    // by which the nodes moved in this step [m]
   double catch_up_time_;
   double catch_up_ = 1.0;  // by which the shares follow in this step
   bool first_evaluation_ = true;

@@ -1,21 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cmath>
 
+#include "knot_utm/solver/lanes.hpp"
+
 namespace knot_utm {
-
-/// Four doubles the compiler keeps in one vector register (or two, without AVX).
-using Lanes = double __attribute__((vector_size(32)));
-
-inline Lanes to_lanes(const Eigen::Vector3d& v) { return Lanes{v[0], v[1], v[2], 0.0}; }
-inline Eigen::Vector3d to_vec3(const Lanes& v) { return {v[0], v[1], v[2]}; }
-
-/// Of the first three.
-inline double dot(const Lanes& a, const Lanes& b) {
-  const Lanes products = a * b;
-  return products[0] + products[1] + products[2];
-}
 
 /// Dense D x D block, D = 3 or 4, column-major, each column padded to four lanes: a product of two blocks is
 /// D^2 vector multiply-adds and no shuffles. Lane 3 of a 3 x 3 block is always zero.
