@@ -3,17 +3,65 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 namespace knot_utm {
 
 namespace {
 
-/// Cells of a uniform grid as one number each; 21 bits a direction. Neighbours along k have neighbouring numbers, and
-/// numbers add up as cells do.
-std::int64_t cell_key(std::int64_t i, std::int64_t j, std::int64_t k) {
-  constexpr std::int64_t kRow = std::int64_t{1} << 21;
-  return (i * kRow + j) * kRow + k;
-}
+constexpr std::size_t kLanes = 4;
+
+// More than what rounding does to a ball around others [fraction of its radius].
+constexpr double kRounding = 1e-12;
+
+const Vec3 kNowhere = Vec3::Constant(std::numeric_limits<double>::infinity());
+
+/// Puts numbers together to runs. They come four by four, ascending, and which of four are meant is hard to foretell:
+/// they are bits of a word, in which only the ends of runs are looked for.
+class RunCollector {
+ public:
+  explicit RunCollector(std::vector<Candidates::Run>& runs) : runs_(runs), before_(runs.size()) {}
+
+  /// Takes those of the numbers 4 four to 4 four + 3 that are meant.
+  template <typename Mask>
+  void take(int four, const Mask& meant) {
+    if (four / kFours != word_) {
+      write();
+      word_ = four / kFours;
+    }
+    const auto bits = meant & Mask{1, 2, 4, 8};
+    taken_ |= static_cast<std::uint64_t>(bits[0] | bits[1] | bits[2] | bits[3]) << 4 * (four % kFours);
+  }
+
+  /// Writes what was taken since; to be called at the end.
+  void write() {
+    const int begin = 4 * kFours * word_, end = begin + 4 * kFours;
+    bool runs_on = runs_.size() > before_ && runs_.back().last + 1 == begin;
+    // A number is taken and the one before is not, or the other way round.
+    std::uint64_t turns = taken_ ^ (taken_ << 1 | std::uint64_t{runs_on});
+    for (; turns != 0; turns &= turns - 1) {
+      const int number = begin + __builtin_ctzll(turns);
+      if (runs_on)
+        runs_.back().last = number - 1;
+      else
+        runs_.push_back({number, number});
+      runs_on = !runs_on;
+    }
+    if (runs_on) runs_.back().last = end - 1;
+    taken_ = 0;
+  }
+
+ private:
+  static constexpr int kFours = 16;  // of numbers in a word
+
+  std::vector<Candidates::Run>& runs_;
+  const std::size_t before_;  // runs that are others'
+  int word_ = 0;
+  std::uint64_t taken_ = 0;
+};
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
+std::size_t fours(std::size_t number) { return (number + kLanes - 1) / kLanes; }
 
 }  // namespace
 
@@ -24,11 +72,18 @@ Candidates::Candidates(const RodProperties& rod, double reach, double margin, do
       extent_(extent),
       arclength_(rod.arclength()),
       size_(Eigen::VectorXd::Zero(rod.nodes())) {
-  const Eigen::Index nodes = rod.nodes();
+  const auto nodes = static_cast<std::size_t>(rod.nodes());
+  levels_.emplace_back(fours(nodes));
+  do {
+    levels_.emplace_back(fours(levels_.back().size()));
+  } while (levels_.back().size() > 1);
+  four_arclengths_.resize(fours(nodes));
+  for (std::size_t i = 0; i < nodes; ++i)
+    four_arclengths_[i / kLanes][i % kLanes] = arclength_[static_cast<Eigen::Index>(i)];
   // None of these can hold more: a build takes no memory for them.
-  entries_.reserve(static_cast<std::size_t>(nodes));
-  found_.reserve(static_cast<std::size_t>(nodes));
-  segments_.reserve(static_cast<std::size_t>(nodes));
+  around_.reserve(fours(nodes));
+  larger_around_.reserve(fours(nodes));
+  segments_.reserve(nodes);
 }
 
 bool Candidates::refresh(const Points& position) {
@@ -76,73 +131,91 @@ void Candidates::state(Archive& archive) {
   if (archive.loads() && built) build(built_at_);
 }
 
-Candidates::Rows Candidates::rows_around(std::int64_t own) const {
-  const auto at = [&](std::int64_t key) {
-    const auto found = std::lower_bound(entries_.begin(), entries_.end(), key,
-                                        [](const Entry& e, std::int64_t wanted) { return e.key < wanted; });
-    return entries_.data() + (found - entries_.begin());
-  };
-  Rows rows;
-  auto row = rows.begin();
-  for (int di = -1; di <= 1; ++di)
-    for (int dj = -1; dj <= 1; ++dj) {
-      // The three cells along the last direction have consecutive keys.
-      const std::int64_t low = own + cell_key(di, dj, -1);
-      *row++ = {at(low), at(low + 3)};
-    }
-  return rows;
+void Candidates::Balls::set(std::size_t lane, const Ball& ball) {
+  for (int i = 0; i < 3; ++i) centre[i][lane] = ball.centre[i];
+  radius[lane] = ball.radius;
+}
+
+Candidates::Ball Candidates::Balls::get(std::size_t lane) const {
+  return {{centre[0][lane], centre[1][lane], centre[2][lane]}, radius[lane]};
+}
+
+Candidates::Ball Candidates::Balls::around() const {
+  Vec3 low = kNowhere, high = -kNowhere;
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const Ball ball = get(k);
+    if (ball.centre == kNowhere) continue;
+    low = low.cwiseMin(ball.centre);
+    high = high.cwiseMax(ball.centre);
+  }
+  if (low == kNowhere) return {kNowhere, 0.0};
+  Ball out{0.5 * (low + high), 0.0};
+  for (std::size_t k = 0; k < kLanes; ++k) {
+    const Ball ball = get(k);
+    if (ball.centre != kNowhere) out.radius = std::max(out.radius, (ball.centre - out.centre).norm() + ball.radius);
+  }
+  out.radius *= 1.0 + kRounding;
+  return out;
+}
+
+void Candidates::set_balls(const Points& position) {
+  const Ball nothing{kNowhere, 0.0};
+  const int nodes = static_cast<int>(position.cols());
+  for (std::size_t k = 0; k < kLanes * levels_[0].size(); ++k) {
+    const int i = static_cast<int>(k);
+    const bool touches = i > 0 && i + 1 < nodes && !reaches_into_parted(i);
+    levels_[0][k / kLanes].set(k % kLanes, touches ? Ball{position.col(i), size_[i]} : nothing);
+  }
+  for (std::size_t level = 1; level < levels_.size(); ++level) {
+    const std::vector<Balls>& small = levels_[level - 1];
+    std::vector<Balls>& large = levels_[level];
+    for (std::size_t k = 0; k < kLanes * large.size(); ++k)
+      large[k / kLanes].set(k % kLanes, k < small.size() ? small[k].around() : nothing);
+  }
+}
+
+void Candidates::find_around(int four) {
+  const Ball own = levels_[1][at(four) / kLanes].get(at(four) % kLanes);
+  around_.assign(1, {0, 0});
+  for (std::size_t level = levels_.size() - 1; level > 0; --level) {
+    larger_around_.swap(around_);
+    around_.clear();
+    RunCollector collector(around_);
+    for (const Run& run : larger_around_)
+      for (int k = run.first; k <= run.last; ++k)
+        collector.take(k, levels_[level][at(k)].within(reach_ + margin_ + own.radius, own.centre));
+    collector.write();
+  }
 }
 
 void Candidates::build(const Points& position) {
   built_at_ = position;
-  pairs_.clear();
   segments_.clear();
   runs_.clear();
   begin_.assign(static_cast<std::size_t>(position.cols()) + 1, 0);
   measure(position);
   if (parted_ == kWhole && is_taut(position)) return;
+  set_balls(position);
+
   const int nodes = static_cast<int>(position.cols());
-  const double cell = reach_ + margin_ + 2.0 * size_.maxCoeff();
-  const Vec3 origin = position.rowwise().minCoeff().array() - cell;
-
-  entries_.clear();
-  auto key_of = [&](int i) {
-    const Vec3 q = (position.col(i) - origin) / cell;
-    return cell_key(static_cast<std::int64_t>(q[0]), static_cast<std::int64_t>(q[1]), static_cast<std::int64_t>(q[2]));
-  };
-  for (int i = 1; i + 1 < nodes; ++i)
-    if (!reaches_into_parted(i)) entries_.push_back({key_of(i), i});
-  std::sort(entries_.begin(), entries_.end(),
-            [](const Entry& a, const Entry& b) { return a.key != b.key ? a.key < b.key : a.segment < b.segment; });
-
-  std::int64_t around = -1;
-  Rows rows = {};
+  int around = -1;
   for (int i = 1; i + 1 < nodes; ++i) {
-    begin_[static_cast<std::size_t>(i)] = runs_.size();
-    found_.clear();
+    begin_[at(i)] = runs_.size();
     if (reaches_into_parted(i)) continue;
-    // The next segment along the rod stands in the same cell as a rule.
-    if (const std::int64_t own = key_of(i); own != around) rows = rows_around(around = own);
-    for (const auto& [first, last] : rows) {
-      for (const Entry* entry = first; entry != last; ++entry) {
-        const int j = entry->segment;
-        if (std::abs(arclength_[i] - arclength_[j]) < exclusion_) continue;
-        const double limit = reach_ + margin_ + size_[i] + size_[j];
-        if ((position.col(i) - position.col(j)).squaredNorm() < limit * limit) found_.push_back(j);
+    // Four segments in a row look for theirs among the same.
+    if (const int own = i / static_cast<int>(kLanes); own != around) find_around(around = own);
+    const double limit = reach_ + margin_ + size_[i];
+    const Vec3 place = position.col(i);
+    RunCollector collector(runs_);
+    for (const Run& run : around_)
+      for (int k = run.first; k <= run.last; ++k) {
+        const Lanes along = four_arclengths_[at(k)] - arclength_[i];
+        collector.take(k, levels_[0][at(k)].within(limit, place) & ((along >= exclusion_) | (along <= -exclusion_)));
       }
-    }
-    if (found_.empty()) continue;
-    std::sort(found_.begin(), found_.end());
-    segments_.push_back(i);
-    for (const int j : found_) {
-      if (i < j) pairs_.push_back({i, j});
-      if (runs_.size() > begin_[static_cast<std::size_t>(i)] && runs_.back().last + 1 == j)
-        runs_.back().last = j;
-      else
-        runs_.push_back({j, j});
-    }
+    collector.write();
+    if (runs_.size() > begin_[at(i)]) segments_.push_back(i);
   }
-  for (int i = std::max(nodes - 1, 0); i <= nodes; ++i) begin_[static_cast<std::size_t>(i)] = runs_.size();
+  for (int i = std::max(nodes - 1, 0); i <= nodes; ++i) begin_[at(i)] = runs_.size();
 }
 
 }  // namespace knot_utm

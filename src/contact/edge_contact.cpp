@@ -46,10 +46,12 @@ void EdgeContact::find_pairs() {
   auto add = [this](int a, int b) {
     if (arclength_[b] - arclength_[a + 1] >= candidates_.exclusion()) pairs_.push_back({a, b});
   };
-  for (const auto& [i, j] : candidates_.pairs()) {
-    add(i - 1, j - 1);
-    if (j == last_node) add(i - 1, j);  // the last edge ends at no inner node
-  }
+  for (const int i : candidates_.segments())
+    for (const Candidates::Run* run = candidates_.begin(i); run != candidates_.end(i); ++run)
+      for (int j = std::max(run->first, i + 1); j <= run->last; ++j) {
+        add(i - 1, j - 1);
+        if (j == last_node) add(i - 1, j);  // the last edge ends at no inner node
+      }
 }
 
 void EdgeContact::begin_step() {

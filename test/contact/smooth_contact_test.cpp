@@ -7,6 +7,7 @@
 #include <limits>
 #include <random>
 
+#include "contact/candidate_pairs.hpp"
 #include "contact/nodal_forces.hpp"
 #include "knot_utm/contact/centreline_curve.hpp"
 #include "rod/finite_difference.hpp"
@@ -146,15 +147,20 @@ TEST(NormalLaw, SlopeAndEnergyAreThePressuresDerivativeAndIntegral) {
   }
 }
 
+constexpr int kWhole = -2;  // as parted edge: no segment reaches into it
+
 /// All pairs of segments of a rod of even edges that are apart by the exclusion along it, and whose nodes are nearer
-/// to each other than `near` and half of the longer edge at each.
-std::vector<std::pair<int, int>> near_pairs(const Points& x, double edge, double exclusion, double near) {
+/// to each other than `near` and half of the longer edge at each. None of them reaches into an edge that has parted.
+std::vector<std::pair<int, int>> near_pairs(const Points& x, double edge, double exclusion, double near,
+                                            int parted = kWhole) {
   std::vector<std::pair<int, int>> pairs;
   const int nodes = static_cast<int>(x.cols());
   auto half = [&](int i) { return 0.5 * std::max((x.col(i) - x.col(i - 1)).norm(), (x.col(i + 1) - x.col(i)).norm()); };
+  auto touches = [&](int i) { return i != parted && i != parted + 1; };
   for (int i = 1; i + 1 < nodes; ++i)
     for (int j = i + 1; j + 1 < nodes; ++j)
-      if (edge * (j - i) >= exclusion && (x.col(i) - x.col(j)).norm() < near + half(i) + half(j))
+      if (touches(i) && touches(j) && edge * (j - i) >= exclusion &&
+          (x.col(i) - x.col(j)).norm() < near + half(i) + half(j))
         pairs.push_back({i, j});
   return pairs;
 }
@@ -172,8 +178,45 @@ TEST(Candidates, FindEveryPairThatBruteForceFinds) {
   Candidates candidates(rod, reach, margin, exclusion);
   EXPECT_TRUE(candidates.refresh(x));
   EXPECT_FALSE(candidates.refresh(x.array() + 0.2 * margin));
-  EXPECT_EQ(candidates.pairs(), near_pairs(x, 2e-3, exclusion, reach + margin));
+  EXPECT_EQ(pairs_of(candidates), near_pairs(x, 2e-3, exclusion, reach + margin));
   EXPECT_TRUE(candidates.refresh(x.array() + 0.6 * margin));
+}
+
+TEST(Candidates, OfRodsOfAnyNumberOfNodesAreThoseOfBruteForceWhetherPartedOrNot) {
+  std::mt19937 random(7);
+  const double edge = 2e-3, reach = 6e-3, margin = 1e-3, exclusion = 9e-3;
+  std::vector<int> numbers = {255, 256, 257, 258, 259, 260, 300};
+  for (int nodes = 2; nodes <= 140; ++nodes) numbers.push_back(nodes);
+  std::size_t found = 0;
+  for (const int nodes : numbers)
+    for (const int parted : {kWhole, nodes / 2}) {
+      // A strand that wanders through a box which is the larger the longer it is, a part of it in any place.
+      std::uniform_real_distribution<double> step(-edge, edge);
+      const double box = 0.8 * edge * std::cbrt(64.0 * nodes);
+      Points x = Points::Zero(3, nodes);
+      for (int i = 1; i < nodes; ++i)
+        for (int k = 0; k < 3; ++k) x(k, i) = std::clamp(x(k, i - 1) + step(random), -0.5 * box, 0.5 * box);
+      const RodProperties rod = make_rod({}, Eigen::VectorXd::Constant(nodes - 1, edge));
+      Candidates candidates(rod, reach, margin, exclusion);
+      if (parted != kWhole) candidates.part(parted);
+      candidates.refresh(x);
+      auto expected = near_pairs(x, edge, exclusion, reach + margin, parted);
+      EXPECT_EQ(pairs_of(candidates), expected) << nodes << ' ' << parted;
+      for (std::size_t k = 0, pairs = expected.size(); k < pairs; ++k)
+        expected.emplace_back(expected[k].second, expected[k].first);
+      std::sort(expected.begin(), expected.end());
+      EXPECT_EQ(neighbours_of(candidates), expected) << nodes << ' ' << parted;
+      // Runs are as long as they can be, and segments without neighbours have none.
+      std::size_t listed = 0;
+      for (int i = 0; i < nodes; ++i)
+        for (const Candidates::Run* run = candidates.begin(i); run != candidates.end(i); ++run) {
+          listed += static_cast<std::size_t>(run->last - run->first + 1);
+          EXPECT_TRUE(run == candidates.begin(i) || run[-1].last + 1 < run->first) << nodes << ' ' << i;
+        }
+      EXPECT_EQ(listed, expected.size()) << nodes;
+      found += listed;
+    }
+  EXPECT_GT(found, 10000u);
 }
 
 TEST(Candidates, OfARodThatIsFoldedMoreAndMoreAreThoseOfBruteForce) {
@@ -194,8 +237,8 @@ TEST(Candidates, OfARodThatIsFoldedMoreAndMoreAreThoseOfBruteForce) {
       }
       Candidates candidates(rod, reach, margin, exclusion);
       candidates.refresh(x);
-      EXPECT_EQ(candidates.pairs(), near_pairs(x, edge, exclusion, reach + margin)) << fold << ' ' << stretch;
-      ++(candidates.pairs().empty() ? found_nothing : found_some);
+      EXPECT_EQ(pairs_of(candidates), near_pairs(x, edge, exclusion, reach + margin)) << fold << ' ' << stretch;
+      ++(pairs_of(candidates).empty() ? found_nothing : found_some);
     }
   EXPECT_GT(found_nothing, 20);
   EXPECT_GT(found_some, 20);
@@ -246,7 +289,7 @@ TEST(Candidates, OfARodStretchedToTwiceItsLengthLackNone) {
     candidates.refresh(before);
     ASSERT_FALSE(candidates.refresh(x));
     const auto near = segments_within(reach, x, edge, exclusion);
-    const auto& found = candidates.pairs();
+    const auto found = pairs_of(candidates);
     EXPECT_TRUE(std::includes(found.begin(), found.end(), near.begin(), near.end()));
     seen += static_cast<int>(near.size());
     for (const auto& [i, j] : near)

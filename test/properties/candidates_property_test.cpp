@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "contact/candidate_pairs.hpp"
 #include "knot_utm/contact/candidates.hpp"
 #include "properties/random.hpp"
 
@@ -70,13 +71,13 @@ RC_GTEST_PROP(CandidatesAgainstEveryPair, AreAllWithinReachAndMargin, ()) {
   const Wandering w;
   Candidates candidates(w.rod, w.reach, w.margin, w.exclusion);
   candidates.refresh(w.position);
-  w.expect_complete(candidates.pairs());
-  Pairs runs;
-  for (const int i : candidates.segments())
-    for (const Candidates::Run* run = candidates.begin(i); run != candidates.end(i); ++run)
-      for (int j = run->first; j <= run->last; ++j)
-        if (i < j) runs.emplace_back(i, j);
-  RC_ASSERT(runs == candidates.pairs());
+  const Pairs pairs = pairs_of(candidates);
+  w.expect_complete(pairs);
+  // A segment's neighbours have it for theirs.
+  Pairs both_ways = pairs;
+  for (const auto& [i, j] : pairs) both_ways.emplace_back(j, i);
+  std::sort(both_ways.begin(), both_ways.end());
+  RC_ASSERT(neighbours_of(candidates) == both_ways);
 }
 
 RC_GTEST_PROP(CandidatesAgainstEveryPair, StayValidWhileNodesMoveByHalfTheMargin, ()) {
@@ -86,7 +87,7 @@ RC_GTEST_PROP(CandidatesAgainstEveryPair, StayValidWhileNodesMoveByHalfTheMargin
   Points moved = w.position;
   for (Eigen::Index i = 0; i < moved.cols(); ++i) moved.col(i) += random_place(0.28 * w.margin);  // sqrt(3) of it < 1/2
   RC_ASSERT(!candidates.refresh(moved));
-  const Pairs listed = candidates.pairs();
+  const Pairs listed = pairs_of(candidates);
   for (const std::pair<int, int>& pair : w.all_pairs(moved, 0.0, true))
     RC_ASSERT(std::binary_search(listed.begin(), listed.end(), pair));
 }
@@ -102,9 +103,9 @@ RC_GTEST_PROP(CandidatesAgainstEveryPair, DoNotDependOnFrameOrEnd, ()) {
   other_end.refresh(w.position.rowwise().reverse());
   const int last = static_cast<int>(w.rod.nodes()) - 1;
   Pairs reversed;
-  for (const auto& [i, j] : other_end.pairs()) reversed.emplace_back(last - j, last - i);
+  for (const auto& [i, j] : pairs_of(other_end)) reversed.emplace_back(last - j, last - i);
   std::sort(reversed.begin(), reversed.end());
-  for (const Pairs& pairs : {here.pairs(), there.pairs(), reversed}) w.expect_complete(pairs);
+  for (const Pairs& pairs : {pairs_of(here), pairs_of(there), reversed}) w.expect_complete(pairs);
 }
 
 }  // namespace

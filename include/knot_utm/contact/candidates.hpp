@@ -1,11 +1,9 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
-#include <utility>
 #include <vector>
 
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/solver/block.hpp"
 
 namespace knot_utm {
 
@@ -34,8 +32,6 @@ class Candidates {
 
   /// Segments that have neighbours, ascending.
   const std::vector<int>& segments() const { return segments_; }
-  /// Pairs i < j.
-  const std::vector<std::pair<int, int>>& pairs() const { return pairs_; }
 
   double exclusion() const { return exclusion_; }
 
@@ -46,9 +42,24 @@ class Candidates {
   void state(Archive& archive);
 
  private:
-  struct Entry {
-    std::int64_t key;
-    int segment;
+  struct Ball {
+    Vec3 centre;
+    double radius;
+  };
+  /// Four balls side by side.
+  struct Balls {
+    Lanes centre[3];
+    Lanes radius;
+
+    void set(std::size_t lane, const Ball& ball);
+    Ball get(std::size_t lane) const;
+    /// One that all of them are in.
+    Ball around() const;
+    /// Which of them come nearer to a place than `limit`, all bits of a lane set; none that is infinitely far away.
+    auto within(double limit, const Vec3& from) const {
+      const Lanes x = centre[0] - from[0], y = centre[1] - from[1], z = centre[2] - from[2], far = limit + radius;
+      return x * x + y * y + z * z < far * far;
+    }
   };
 
   static constexpr int kWhole = -2;  // no segment reaches into it
@@ -56,9 +67,9 @@ class Candidates {
   bool reaches_into_parted(int segment) const { return segment == parted_ || segment == parted_ + 1; }
   void build(const Points& position);
   void measure(const Points& position);
-  /// Entries of the cells next to a cell, it included, three cells in a row; until the entries change.
-  using Rows = std::array<std::pair<const Entry*, const Entry*>, 9>;
-  Rows rows_around(std::int64_t own) const;
+  void set_balls(const Points& position);
+  /// Finds which fours of segments are near to one of them, down from the ball around all.
+  void find_around(int four);
   /// Whether the rod is drawn out so far that it cannot come back to itself.
   bool is_taut(const Points& position) const;
 
@@ -70,9 +81,12 @@ class Candidates {
   std::vector<std::size_t> begin_;
   std::vector<Run> runs_;
   std::vector<int> segments_;
-  std::vector<std::pair<int, int>> pairs_;
-  std::vector<Entry> entries_;  // segments by their cell; like found_ kept for its memory
-  std::vector<int> found_;
+  // Segments lie in balls about their nodes, four in a row of these in a larger ball, and so on up to one around all.
+  // What touches nothing is infinitely far away.
+  std::vector<std::vector<Balls>> levels_;  // [level][i]: the four that ball i of the next level is around
+  std::vector<Lanes> four_arclengths_;      // of the nodes
+  std::vector<Run> around_;                 // fours of segments near to the four at hand; kept for its memory, as is
+  std::vector<Run> larger_around_;          // that of the level above
 };
 
 }  // namespace knot_utm
