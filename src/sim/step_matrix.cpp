@@ -1,12 +1,14 @@
 #include "knot_utm/sim/step_matrix.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <string>
-#include <tuple>
 
 namespace knot_utm {
 
 namespace {
+
+std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr int kRoomNodes = 4;  // of the other strand: three of a segment, one that it may slide on to
 
@@ -14,8 +16,9 @@ constexpr int kRoomNodes = 4;  // of the other strand: three of a segment, one t
 
 template <int D>
 bool StepMatrix<D>::find(const std::vector<ContactPoint>& contacts) {
-  located_.swap(before_);
-  located_.clear();
+  std::vector<Located>& located = present_.located;
+  located.swap(before_);
+  located.clear();
   // Most contacts stand where they stood at the last look: both lists ascend, so one walk meets them.
   auto row = before_.cbegin();
   for (const ContactPoint& contact : contacts) {
@@ -24,11 +27,18 @@ bool StepMatrix<D>::find(const std::vector<ContactPoint>& contacts) {
     auto same = row;
     while (same != before_.cend() && same->a0 == contact.a0 && same->b0 != contact.b0) ++same;
     if (same != before_.cend() && same->a0 == contact.a0) {
-      located_.push_back(*same);
+      located.push_back(*same);
       continue;
     }
-    located_.push_back({contact.a0, contact.b0, {}});
-    if (!look_up(located_.back())) return false;
+    Located found = {contact.a0, contact.b0, {}};
+    // The segment's points that come one after the other are often between the same nodes.
+    if (!located.empty() && located.back().a0 == found.a0 && located.back().b0 == found.b0) {
+      found = located.back();
+    } else if (!look_up(found)) {
+      located.swap(before_);  // of use once more where the step is rejected
+      return false;
+    }
+    located.push_back(found);
   }
   return true;
 }
@@ -37,17 +47,18 @@ template <int D>
 bool StepMatrix<D>::look_up(Located& contact) const {
   for (int k = 0; k < 3; ++k)
     for (int l = 0; l < 3; ++l) {
-      const std::pair<int, int> stored = pattern_.indices(contact.a0 + k, contact.b0 + l);
+      const std::pair<int, int> stored = present_.blocks.indices(contact.a0 + k, contact.b0 + l);
       if (stored.first < 0) return false;
-      contact.blocks[static_cast<std::size_t>(3 * k + l)] = stored;
+      contact.blocks[at(3 * k + l)] = stored;
     }
   return true;
 }
 
 template <int D>
 void StepMatrix<D>::find_rooms(const std::vector<ContactPoint>& contacts) {
+  if (!rebuilt_) std::swap(present_, accepted_);
   rebuilt_ = true;
-  rooms_.clear();
+  present_.rooms.clear();
   for (const ContactPoint& contact : contacts) {
     // Those that stay apart need no room; those about to touch soon would.
     if (!contact.active() && contact.overlap < 2.0 * contact.begins) continue;
@@ -55,70 +66,101 @@ void StepMatrix<D>::find_rooms(const std::vector<ContactPoint>& contacts) {
     const double way = contact.slip.dot(contact.db);
     const bool backwards = way != 0.0 ? way < 0.0 : contact.c[3] < contact.c[5];
     const int first = contact.b0 - (backwards ? kRoomNodes - 3 : 0);
-    rooms_.push_back({contact.a0, std::max(first, 0), std::min(first + kRoomNodes, nodes_) - 1});
+    present_.rooms.push_back({contact.a0, std::max(first, 0), std::min(first + kRoomNodes, nodes_) - 1});
   }
 }
 
 template <int D>
 void StepMatrix<D>::build() {
-  located_.clear();
-  before_.clear();
-  pairs_.clear();
-  for (int i = 0; i + 1 < nodes_; ++i) pairs_.push_back({i, i + 1});
-  for (int i = 0; i + 2 < nodes_; ++i) pairs_.push_back({i, i + 2});
-  for (const Room& room : rooms_)
-    for (int a = room.a; a <= room.a + 2; ++a)
-      for (int b = room.first; b <= room.last; ++b)
-        if (a != b) pairs_.push_back({a, b});
-  pattern_.build(nodes_, pairs_);
-  matrix_.set_pattern(pattern_);
+  find_neighbours();
+  present_.blocks.build(neighbours_);
+  present_.located.clear();
   find_stencils();
-  find_blocks_beyond_band();
+  matrix_.set_pattern(present_.blocks);
+}
+
+template <int D>
+void StepMatrix<D>::SortedRooms::sort(const std::vector<Room>& of, int Room::*key, int nodes) {
+  begin.assign(at(nodes) + 1, 0);
+  for (const Room& room : of) ++begin[at(room.*key) + 1];
+  for (int i = 0; i < nodes; ++i) begin[at(i) + 1] += begin[at(i)];
+  rooms.resize(of.size());
+  filled.assign(begin.begin(), begin.end() - 1);
+  for (const Room& room : of) rooms[at(filled[at(room.*key)]++)] = room;
+}
+
+template <int D>
+void StepMatrix<D>::find_neighbours() {
+  // Row i has the runs of the rooms that begin at node a = i - 2 to i and, mirrored, nodes a to a + 2 of the rooms
+  // whose run it stands in. Put together row by row, it is sorted at once, and what rooms share costs nothing.
+  by_a_.sort(present_.rooms, &Room::a, nodes_);
+  by_first_.sort(present_.rooms, &Room::first, nodes_);
+  neighbours_.begin.assign(1, 0);
+  neighbours_.list.clear();
+  row_.reset(nodes_);
+  for (int i = 0; i < nodes_; ++i) {
+    row_.insert_run(std::max(i - 2, 0), std::min(i + 2, nodes_ - 1));
+    by_a_.visit(i - 2, i, [&](const Room& room) { row_.insert_run(room.first, room.last); });
+    by_first_.visit(i - kRoomNodes + 1, i, [&](const Room& room) {
+      if (room.last >= i) row_.insert_run(room.a, room.a + 2);
+    });
+    row_.erase(i);
+    row_.take(neighbours_.list);
+    neighbours_.begin.push_back(static_cast<int>(neighbours_.list.size()));
+  }
 }
 
 template <int D>
 void StepMatrix<D>::begin_step() {
   if (!rebuilt_) return;
   rebuilt_ = false;
-  rooms_ = accepted_rooms_;
-  build();
-}
-
-template <int D>
-void StepMatrix<D>::commit() {
-  if (!rebuilt_) return;
-  rebuilt_ = false;
-  accepted_rooms_ = rooms_;
+  std::swap(present_, accepted_);
+  matrix_.set_pattern(present_.blocks);
 }
 
 template <int D>
 void StepMatrix<D>::state(Archive& archive) {
   archive.section("ROOM");
-  archive.list(accepted_rooms_);
+  begin_step();  // what has been tried since then does not count
+  archive.list(present_.rooms);
   if (!archive.loads()) return;
-  for (const Room& room : accepted_rooms_) {
+  for (const Room& room : present_.rooms) {
     const bool there = room.a >= 0 && room.a < nodes_ - 2 && room.first >= 0 && room.last < nodes_ &&
                        room.first <= room.last && room.last - room.first < kRoomNodes;
     archive.require(there, "room for a contact at node", std::to_string(room.a));
   }
-  rebuilt_ = true;
-  begin_step();
+  build();
 }
 
 template <int D>
 void StepMatrix<D>::find_stencils() {
-  stencils_.resize(static_cast<std::size_t>(nodes_));
+  const BlockPattern& blocks = present_.blocks;
+  std::vector<Stencil>& stencils = present_.stencils;
+  Stencil none;
+  none.fill(-1);
+  stencils.assign(at(nodes_), none);
+  present_.beyond_band.clear();
+  for (int k = 0; k < nodes_; ++k) {
+    const int i = blocks.node(k), diagonal = blocks.diagonal(k);
+    stencils[at(i)][0] = diagonal;
+    for (int a = 0; a < blocks.below(k); ++a) {
+      const int j = blocks.node(blocks.rows(k)[a]), lower = diagonal + 1 + 2 * a, upper = lower + 1;
+      const int apart = std::abs(j - i);
+      if (apart > 2) {
+        present_.beyond_band.push_back(lower);
+        present_.beyond_band.push_back(upper);
+        continue;
+      }
+      Stencil& first = stencils[at(std::min(i, j))];
+      first[at(apart)] = i < j ? upper : lower;
+      first[at(3 * apart)] = i < j ? lower : upper;
+    }
+  }
   // What node i shares with the next one stands in both stencils.
-  for (int i = nodes_ - 1; i >= 0; --i) {
-    Stencil& here = stencils_[static_cast<std::size_t>(i)];
-    here.fill(-1);
-    here[0] = pattern_.diagonal(pattern_.position(i));
-    if (i + 1 == nodes_) continue;
-    const Stencil& next = stencils_[static_cast<std::size_t>(i) + 1];
-    std::tie(here[1], here[3]) = pattern_.indices(i, i + 1);
+  for (int i = nodes_ - 2; i >= 0; --i) {
+    Stencil& here = stencils[at(i)];
+    const Stencil& next = stencils[at(i) + 1];
     here[4] = next[0];
-    if (i + 2 == nodes_) continue;
-    std::tie(here[2], here[6]) = pattern_.indices(i, i + 2);
     here[5] = next[1];
     here[7] = next[3];
     here[8] = next[4];
@@ -126,19 +168,8 @@ void StepMatrix<D>::find_stencils() {
 }
 
 template <int D>
-void StepMatrix<D>::find_blocks_beyond_band() {
-  in_band_.assign(static_cast<std::size_t>(pattern_.blocks()), 0);
-  for (const Stencil& stencil : stencils_)
-    for (const int block : stencil)
-      if (block >= 0) in_band_[static_cast<std::size_t>(block)] = 1;
-  beyond_band_.clear();
-  for (int block = 0; block < pattern_.blocks(); ++block)
-    if (!in_band_[static_cast<std::size_t>(block)]) beyond_band_.push_back(block);
-}
-
-template <int D>
 void StepMatrix<D>::set_zero_beyond_band() {
-  for (const int index : beyond_band_) block(index).set_zero();
+  for (const int index : present_.beyond_band) block(index).set_zero();
 }
 
 template <int D>
@@ -169,7 +200,7 @@ void StepMatrix<D>::add(const ContactPoint& contact, const ContactModel& model, 
   const ContactBlocks& blocks = contact_blocks(n);
   for (int k = 0; k < 3; ++k)
     for (int l = 0; l < 3; ++l) {
-      const std::pair<int, int>& across = blocks[static_cast<std::size_t>(3 * k + l)];
+      const std::pair<int, int>& across = blocks[at(3 * k + l)];
       add_pair(band(contact.a0, k, l), k, l);
       add_pair(block(across.first), k, 3 + l);
       add_pair(block(across.second), 3 + l, k);
@@ -182,7 +213,7 @@ void StepMatrix<D>::add(const ContactPoint& contact, const EdgeContactModel& mod
   const ContactBlocks& blocks = contact_blocks(n);
   for (int k = 0; k < 3; ++k)
     for (int l = 0; l < 3; ++l) {
-      const std::pair<int, int>& across = blocks[static_cast<std::size_t>(3 * k + l)];
+      const std::pair<int, int>& across = blocks[at(3 * k + l)];
       knot_utm::add(band(contact.a0, k, l), model.stiffness(k, l), 1.0);
       knot_utm::add(band(contact.b0, k, l), model.stiffness(3 + k, 3 + l), 1.0);
       knot_utm::add(block(across.first), model.stiffness(k, 3 + l), 1.0);

@@ -3,6 +3,7 @@
 #include <suitesparse/amd.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace knot_utm {
 
@@ -51,39 +52,7 @@ class RowPair {
 
 }  // namespace
 
-void BlockPattern::find_neighbours(int nodes, const std::vector<std::pair<int, int>>& pairs) {
-  Workspace& w = work_;
-  w.row_begin.assign(at(nodes) + 1, 0);
-  for (const auto& [i, j] : pairs) {
-    ++w.row_begin[at(i) + 1];
-    ++w.row_begin[at(j) + 1];
-  }
-  for (int i = 0; i < nodes; ++i) w.row_begin[at(i) + 1] += w.row_begin[at(i)];
-  w.rows.resize(2 * pairs.size());
-  w.filled.assign(w.row_begin.begin(), w.row_begin.end() - 1);
-  for (const auto& [i, j] : pairs) {
-    w.rows[at(w.filled[at(i)]++)] = j;
-    w.rows[at(w.filled[at(j)]++)] = i;
-  }
-  // Transposed, a symmetric pattern is the same again, but now every row is sorted: it was appended to in ascending
-  // order, and what it has twice comes twice in a row.
-  w.sorted.resize(w.rows.size());
-  w.filled.assign(w.row_begin.begin(), w.row_begin.end() - 1);
-  for (int i = 0; i < nodes; ++i)
-    for (int a = w.row_begin[at(i)]; a < w.row_begin[at(i) + 1]; ++a) {
-      const std::size_t j = at(w.rows[at(a)]);
-      int& end = w.filled[j];
-      if (end == w.row_begin[j] || w.sorted[at(end) - 1] != i) w.sorted[at(end++)] = i;
-    }
-  w.begin.assign(1, 0);
-  w.list.clear();
-  for (int i = 0; i < nodes; ++i) {
-    w.list.insert(w.list.end(), w.sorted.begin() + w.row_begin[at(i)], w.sorted.begin() + w.filled[at(i)]);
-    w.begin.push_back(static_cast<int>(w.list.size()));
-  }
-}
-
-void BlockPattern::order_set(int set) {
+void BlockPattern::order_set(const Neighbours& neighbours, int set) {
   // amd_order would take its workspace from the heap at every call; this is what it makes of a symmetric pattern
   // whose rows are sorted and hold no diagonal, with the room that it leaves for elements.
   Workspace& w = work_;
@@ -95,8 +64,10 @@ void BlockPattern::order_set(int set) {
   w.row_length.clear();
   for (int i = 0; i < nodes; ++i) {
     w.row_begin.push_back(static_cast<int>(w.rows.size()));
-    for (int a = w.begin[at(node[i])]; a < w.begin[at(node[i]) + 1]; ++a)
-      if (sets_.of(w.list[at(a)]) == set) w.rows.push_back(w.filled[at(w.list[at(a)])]);
+    for (int a = neighbours.begin[at(node[i])]; a < neighbours.begin[at(node[i]) + 1]; ++a) {
+      const int neighbour = neighbours.list[at(a)];
+      if (sets_.of(neighbour) == set) w.rows.push_back(w.filled[at(neighbour)]);
+    }
     w.row_length.push_back(static_cast<int>(w.rows.size()) - w.row_begin.back());
   }
   const int entries = static_cast<int>(w.rows.size()), room = entries + entries / 5 + nodes;
@@ -105,102 +76,110 @@ void BlockPattern::order_set(int set) {
     each->resize(at(nodes));
   amd_2(nodes, w.row_begin.data(), w.rows.data(), w.row_length.data(), room, entries, w.size.data(), w.next.data(),
         w.last.data(), w.head.data(), w.element.data(), w.degree.data(), w.mark.data(), nullptr, nullptr);
-  for (const int i : w.last) w.order.push_back(node[i]);
+  for (const int i : w.last) node_.push_back(node[i]);
 }
 
-void BlockPattern::order_nodes(int nodes) {
-  sets_.build(work_.begin, work_.list);
-  work_.filled.resize(at(nodes));
-  work_.order.clear();
-  for (int set = 0; set < sets_.count(); ++set) order_set(set);
+void BlockPattern::order_nodes(const Neighbours& neighbours) {
+  sets_.build(neighbours);
+  work_.filled.resize(at(neighbours.nodes()));
+  node_.clear();
+  for (int set = 0; set < sets_.count(); ++set) order_set(neighbours, set);
+  position_.resize(at(neighbours.nodes()));
+  for (int k = 0; k < neighbours.nodes(); ++k) position_[at(node_[at(k)])] = k;
 }
 
-template <typename Visit>
-void BlockPattern::climb(int row, Visit visit) {
-  std::vector<int>&seen = work_.seen, &parent = work_.parent;
-  const std::size_t node = at(work_.order[at(row)]);
-  seen[at(row)] = row;
-  for (int a = work_.begin[node]; a < work_.begin[node + 1]; ++a) {
-    const int neighbour = position_[at(work_.list[at(a)])];
-    if (neighbour > row) continue;
-    for (int k = neighbour; seen[at(k)] != row; k = parent[at(k)]) {
-      if (parent[at(k)] < 0) parent[at(k)] = row;
-      seen[at(k)] = row;
-      visit(k);
-    }
+void BlockPattern::find_rows(const Neighbours& neighbours) {
+  const int nodes = neighbours.nodes(), *list = neighbours.list.data();
+  Workspace& w = work_;
+  w.row.reset(nodes);
+  w.child.assign(at(nodes), -1);
+  w.sibling.resize(at(nodes));
+  row_begin_.assign(1, 0);
+  rows_.clear();
+  for (int k = 0; k < nodes; ++k) {
+    // Earlier ones become k itself, which is no row of its own: which ones are is as good as random.
+    const std::size_t node = at(node_[at(k)]);
+    w.row.insert(list + neighbours.begin[node], list + neighbours.begin[node + 1],
+                 [&](int neighbour) { return std::max(position_[at(neighbour)], k); });
+    w.row.erase(k);
+    for (int child = w.child[at(k)]; child >= 0; child = w.sibling[at(child)])
+      w.row.insert(rows(child) + 1, rows(child) + below(child), [](int row) { return row; });
+    w.row.take(rows_);
+    row_begin_.push_back(static_cast<int>(rows_.size()));
+    if (below(k) > 0) w.sibling[at(k)] = std::exchange(w.child[at(parent(k))], k);
   }
 }
 
-void BlockPattern::find_rows(int nodes) {
-  work_.parent.assign(at(nodes), -1);
-  work_.seen.assign(at(nodes), -1);
-  row_begin_.assign(at(nodes) + 1, 0);
-  for (int row = 0; row < nodes; ++row) climb(row, [&](int k) { ++row_begin_[at(k) + 1]; });
-  for (int k = 0; k < nodes; ++k) row_begin_[at(k) + 1] += row_begin_[at(k)];
-
-  // Rows come in ascending order, and so does what each pivot gets of them.
-  work_.seen.assign(at(nodes), -1);
-  work_.filled.assign(row_begin_.begin(), row_begin_.end() - 1);
-  rows_.resize(at(row_begin_.back()));
-  lower_begin_.assign(1, 0);
-  lower_.clear();
-  for (int row = 0; row < nodes; ++row) {
-    climb(row, [&](int k) {
-      const int place = work_.filled[at(k)]++;
-      rows_[at(place)] = row;
-      lower_.push_back(k + 1 + 2 * place);
-    });
-    lower_begin_.push_back(static_cast<int>(lower_.size()));
-  }
+void BlockPattern::find_lower() {
+  lower_begin_.assign(at(nodes()) + 1, 0);
+  for (const int row : rows_) ++lower_begin_[at(row) + 1];
+  for (int row = 0; row < nodes(); ++row) lower_begin_[at(row) + 1] += lower_begin_[at(row)];
+  work_.filled.assign(lower_begin_.begin(), lower_begin_.end() - 1);
+  lower_.resize(rows_.size());
+  for (int k = 0; k < nodes(); ++k)
+    for (int a = 0; a < below(k); ++a) lower_[at(work_.filled[at(rows(k)[a])]++)] = diagonal(k) + 1 + 2 * a;
 }
 
-void BlockPattern::find_targets(int nodes) {
+void BlockPattern::find_targets() {
   target_begin_.clear();
   std::size_t size = 0;
-  for (int k = 0; k < nodes; ++k) {
+  for (int k = 0; k < nodes(); ++k) {
     target_begin_.push_back(size);
     size += at(below(k)) * at(below(k));
   }
   targets_.resize(size);
-  for (int k = 0; k < nodes; ++k) {
+  // Blocks that a pivot updates beyond its parent's row and column the parent updates too: from the last pivot on, they
+  // are in its list already.
+  for (int k = nodes() - 1; k >= 0; --k) {
     const int count = below(k);
+    if (count == 0) continue;
+    const int pivot = parent(k), above = below(pivot);
     int* target = targets_.data() + target_begin_[at(k)];
-    for (int a = 0; a < count; ++a) {
-      const int pivot = rows(k)[a];
-      target[a * count + a] = diagonal(pivot);
-      // Whatever a pivot touches beyond its first row, that row's pivot touches too: both lists ascend.
-      const int* stored = rows(pivot);
-      for (int b = a + 1; b < count; ++b) {
-        while (*stored != rows(k)[b]) ++stored;
-        const int lower = diagonal(pivot) + 1 + 2 * static_cast<int>(stored - rows(pivot));
-        target[b * count + a] = lower;
-        target[a * count + b] = lower + 1;
-      }
+    target[0] = diagonal(pivot);
+    // Where rows 1 and on of pivot k stand among the parent's: both lists ascend.
+    work_.filled.resize(at(count));
+    int* place = work_.filled.data();
+    const int* row = rows(pivot);
+    for (int b = 1; b < count; ++b) {
+      while (*row != rows(k)[b]) ++row;
+      place[b] = static_cast<int>(row - rows(pivot));
+      target[b] = diagonal(pivot) + 2 + 2 * place[b];
+      target[b * count] = diagonal(pivot) + 1 + 2 * place[b];
+    }
+    for (int a = 1; a < count; ++a) {
+      const int* of_parent = targets(pivot) + place[a] * above;
+      for (int b = 1; b < count; ++b) target[a * count + b] = of_parent[place[b]];
     }
   }
 }
 
-void BlockPattern::build(int nodes, const std::vector<std::pair<int, int>>& pairs) {
-  find_neighbours(nodes, pairs);
-  order_nodes(nodes);
-  position_.resize(at(nodes));
-  for (int k = 0; k < nodes; ++k) position_[at(work_.order[at(k)])] = k;
-  find_rows(nodes);
-  diagonal_.resize(at(nodes));
-  for (int k = 0; k < nodes; ++k) diagonal_[at(k)] = k + 2 * row_begin_[at(k)];
-  blocks_ = nodes + 2 * static_cast<int>(rows_.size());
-  find_targets(nodes);
+void BlockPattern::build(const Neighbours& neighbours) {
+  order_nodes(neighbours);
+  find_rows(neighbours);
+  diagonal_.resize(at(nodes()));
+  for (int k = 0; k < nodes(); ++k) diagonal_[at(k)] = k + 2 * row_begin_[at(k)];
+  blocks_ = nodes() + 2 * static_cast<int>(rows_.size());
+  find_lower();
+  find_targets();
 }
 
 std::pair<int, int> BlockPattern::indices(int row, int column) const {
   const int r = position(row), c = position(column);
-  if (r == c) return {diagonal(r), diagonal(r)};
   const int pivot = std::min(r, c), other = std::max(r, c);
-  const int* end = rows(pivot) + below(pivot);
-  const int* found = std::lower_bound(rows(pivot), end, other);
-  if (found == end || *found != other) return {-1, -1};
+  if (pivot == other) return {diagonal(r), diagonal(r)};
+  // Halved without branches: which way a search turns is as good as random.
+  const int* found = rows(pivot);
+  int left = below(pivot);
+  if (left == 0) return {-1, -1};
+  while (left > 1) {
+    const int half = left / 2;
+    found += half * (found[half - 1] < other);
+    left -= half;
+  }
+  if (*found != other) return {-1, -1};
   const int lower = diagonal(pivot) + 1 + 2 * static_cast<int>(found - rows(pivot));
-  return r > c ? std::make_pair(lower, lower + 1) : std::make_pair(lower + 1, lower);
+  const int is_upper = r < c;
+  return {lower + is_upper, lower + 1 - is_upper};
 }
 
 template <int D>
@@ -208,12 +187,6 @@ void BlockMatrix<D>::set_pattern(const BlockPattern& pattern) {
   pattern_ = &pattern;
   values_.resize(at(pattern.blocks()));
   work_.resize(at(pattern.nodes()));
-  set_zero();
-}
-
-template <int D>
-void BlockMatrix<D>::set_zero() {
-  for (Block<D>& block : values_) block.set_zero();
 }
 
 template <int D>
@@ -241,14 +214,12 @@ void BlockMatrix<D>::set_identity_row(int node, const Lanes& keep) {
 template <int D>
 void BlockMatrix<D>::multiply(const Vector& x, Vector& y) const {
   const int nodes = pattern_->nodes();
-  std::vector<int> node_at(at(nodes));
-  for (int i = 0; i < nodes; ++i) node_at[at(pattern_->position(i))] = i;
   y.assign(at(nodes), Lanes{0.0, 0.0, 0.0, 0.0});
   for (int k = 0; k < nodes; ++k) {
-    const int i = node_at[at(k)];
+    const int i = pattern_->node(k);
     y[at(i)] += product(block(pattern_->diagonal(k)), x[at(i)]);
     for (int a = 0; a < pattern_->below(k); ++a) {
-      const int j = node_at[at(pattern_->rows(k)[a])];
+      const int j = pattern_->node(pattern_->rows(k)[a]);
       y[at(j)] += product(block(pattern_->diagonal(k) + 1 + 2 * a), x[at(i)]);
       y[at(i)] += product(block(pattern_->diagonal(k) + 2 + 2 * a), x[at(j)]);
     }

@@ -11,14 +11,15 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-void EliminationSets::build(const std::vector<int>& begin, const std::vector<int>& list) {
-  find_pieces(begin, list);
-  join_pieces(begin, list);
+void EliminationSets::build(const Neighbours& neighbours) {
+  find_pieces(neighbours);
+  join_pieces(neighbours);
   list_nodes(find_sets());
 }
 
-void EliminationSets::find_pieces(const std::vector<int>& begin, const std::vector<int>& list) {
-  const int nodes = static_cast<int>(begin.size()) - 1;
+void EliminationSets::find_pieces(const Neighbours& neighbours) {
+  const int nodes = neighbours.nodes();
+  const std::vector<int>&begin = neighbours.begin, &list = neighbours.list;
   const auto free = [&](int i) {
     const int first = begin[at(i)], last = begin[at(i) + 1] - 1;
     return last < first || (list[at(first)] >= i - 2 && list[at(last)] <= i + 2);
@@ -33,14 +34,14 @@ void EliminationSets::find_pieces(const std::vector<int>& begin, const std::vect
   }
 }
 
-void EliminationSets::join_pieces(const std::vector<int>& begin, const std::vector<int>& list) {
+void EliminationSets::join_pieces(const Neighbours& neighbours) {
   joined_.clear();
   for (int piece = 0; piece < static_cast<int>(pieces_.size()); ++piece) joined_.push_back(piece);
-  for (int i = 0; i + 1 < static_cast<int>(begin.size()); ++i) {
+  for (int i = 0; i < neighbours.nodes(); ++i) {
     const int own = piece_of_[at(i)];
     if (pieces_[at(own)].straight) continue;
-    for (int a = begin[at(i)]; a < begin[at(i) + 1]; ++a) {
-      const int other = piece_of_[at(list[at(a)])];
+    for (int a = neighbours.begin[at(i)]; a < neighbours.begin[at(i) + 1]; ++a) {
+      const int other = piece_of_[at(neighbours.list[at(a)])];
       if (other == own || pieces_[at(other)].straight) continue;
       const int one = knot_of(own), two = knot_of(other);
       joined_[at(std::max(one, two))] = std::min(one, two);

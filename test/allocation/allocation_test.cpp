@@ -10,6 +10,7 @@
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/solver/block_matrix.hpp"
 #include "sim/drawn_overhand.hpp"
+#include "solver/coupled.hpp"
 
 namespace {
 std::size_t allocations = 0;
@@ -65,13 +66,13 @@ TEST(WarmBlockPattern, IsBuiltWithoutTheHeap) {
     for (int i = 0; i + 1 < kNodes; ++i) pairs.push_back({i, i + 1});
     for (int k = 0; k < 3; ++k)
       for (int l = 0; l < 3; ++l) pairs.push_back({a + k, b + l});
-    return pairs;
+    return coupled(kNodes, pairs);
   };
   const auto here = chain_with_contact(3, 40), there = chain_with_contact(12, 25);
   BlockPattern pattern;
   BlockMatrix<3> matrix;
-  const auto build = [&](const std::vector<std::pair<int, int>>& pairs) {
-    pattern.build(kNodes, pairs);
+  const auto build = [&](const Neighbours& neighbours) {
+    pattern.build(neighbours);
     matrix.set_pattern(pattern);
   };
   build(here);

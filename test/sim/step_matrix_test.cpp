@@ -47,6 +47,29 @@ TEST(StepMatrix, FindsTheBlocksOfContactsThatComeSlideAndGo) {
   expect_blocks_of(contacts, matrix);
 }
 
+TEST(StepMatrix, ForgetsWhatARejectedStepMadeOfThePattern) {
+  StepMatrix<3> matrix(kNodes);
+  const std::vector<ContactPoint> accepted = {pressed(2, 20), pressed(5, 17)};
+  matrix.locate(accepted);
+  matrix.commit();
+  const int blocks = matrix.values().pattern().blocks();
+  for (const int b0 : {12, 24}) {
+    matrix.begin_step();
+    const std::vector<ContactPoint> tried = {pressed(2, 20), pressed(5, b0), pressed(5, b0)};
+    matrix.locate(tried);
+    expect_blocks_of(tried, matrix);
+    EXPECT_EQ(matrix.values().pattern().index(5, 16), -1);
+    matrix.locate({pressed(2, 21), pressed(9, 26)});  // and once more in the same step
+    expect_blocks_of({pressed(2, 21), pressed(9, 26)}, matrix);
+  }
+  matrix.begin_step();
+  EXPECT_EQ(matrix.values().pattern().blocks(), blocks);
+  EXPECT_EQ(matrix.values().pattern().index(5, 12), -1);
+  EXPECT_EQ(matrix.values().pattern().index(9, 26), -1);
+  matrix.locate(accepted);
+  expect_blocks_of(accepted, matrix);
+}
+
 TEST(StepMatrix, HasRoomForContactsAboutToComeAndNotForThoseFarAway) {
   StepMatrix<3> matrix(kNodes);
   // Room is looked for where a contact has none.

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <random>
 
+#include "solver/coupled.hpp"
+
 namespace knot_utm {
 namespace {
 
@@ -31,8 +33,9 @@ struct Example {
       const int i = static_cast<int>(random() % kNodes), j = static_cast<int>(random() % kNodes);
       if (i != j) pairs.push_back({i, j});
     }
-    pattern.build(kNodes, pairs);
+    pattern.build(coupled(kNodes, pairs));
     matrix.set_pattern(pattern);
+    for (int block = 0; block < pattern.blocks(); ++block) matrix.block(block).set_zero();
     std::uniform_real_distribution<double> value(-1.0, 1.0);
     auto fill = [&](int i, int j, double diagonal) {
       Block<D>& block = matrix.block(pattern.index(i, j));
@@ -132,7 +135,7 @@ TEST(BlockPattern, IsThatOfEliminatingAFullMatrix) {
           }
       }
       std::shuffle(pairs.begin(), pairs.end(), random);
-      pattern.build(nodes, pairs);
+      pattern.build(coupled(nodes, pairs));
       expect_pattern_of(eliminated(pattern, pairs), pattern);
     }
   }
@@ -191,9 +194,10 @@ TYPED_TEST(BlockMatrixTest, SomeRowsOfANodeCanBeKept) {
 TYPED_TEST(BlockMatrixTest, ASingularPivotIsReported) {
   constexpr int D = TypeParam::value;
   BlockPattern pattern;
-  pattern.build(3, {{0, 1}});
+  pattern.build(coupled(3, {{0, 1}}));
   BlockMatrix<D> matrix;
   matrix.set_pattern(pattern);
+  for (int block = 0; block < pattern.blocks(); ++block) matrix.block(block).set_zero();
   typename BlockMatrix<D>::Vector b(3, Lanes{1.0, 1.0, 1.0, 0.0});
   EXPECT_FALSE(matrix.solve(b));
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "knot_utm/solver/block_matrix.hpp"
+#include "solver/coupled.hpp"
 
 namespace knot_utm {
 namespace {
@@ -25,19 +26,8 @@ Pairs rod(int nodes, const Pairs& contacts) {
 
 /// The set of every node.
 std::vector<int> sets_of(int nodes, const Pairs& pairs) {
-  std::vector<std::vector<bool>> coupled(static_cast<std::size_t>(nodes),
-                                         std::vector<bool>(static_cast<std::size_t>(nodes), false));
-  for (const auto& [i, j] : pairs)
-    coupled[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)] =
-        coupled[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)] = true;
-  std::vector<int> begin = {0}, list;
-  for (const std::vector<bool>& row : coupled) {
-    for (int j = 0; j < nodes; ++j)
-      if (row[static_cast<std::size_t>(j)]) list.push_back(j);
-    begin.push_back(static_cast<int>(list.size()));
-  }
   EliminationSets sets;
-  sets.build(begin, list);
+  sets.build(coupled(nodes, pairs));
   std::vector<int> found(static_cast<std::size_t>(nodes), -1);
   for (int set = 0; set < sets.count(); ++set) {
     EXPECT_LT(sets.begin(set), sets.end(set));
@@ -90,7 +80,7 @@ int blocks_of_row(int knots) {
     contacts.push_back({100 * knot + 43, 100 * knot + 55});
   }
   BlockPattern pattern;
-  pattern.build(100 * knots, rod(100 * knots, contacts));
+  pattern.build(coupled(100 * knots, rod(100 * knots, contacts)));
   return pattern.blocks();
 }
 

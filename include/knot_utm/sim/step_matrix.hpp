@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <utility>
 #include <vector>
@@ -35,7 +36,7 @@ class StepMatrix {
   /// Before a step: the pattern is that of the last accepted one.
   void begin_step();
   /// The step was accepted.
-  void commit();
+  void commit() { rebuilt_ = false; }
 
   /// Of the last accepted step: what the pattern has room for.
   void state(Archive& archive);
@@ -56,9 +57,9 @@ class StepMatrix {
   Block<D>& block(int stored_index) { return matrix_.block(stored_index); }
   /// Block (first + k, first + l), k, l < 3.
   Block<D>& band(int first, int k, int l) { return block(stencil(first)[static_cast<std::size_t>(3 * k + l)]); }
-  const Stencil& stencil(int node) const { return stencils_[static_cast<std::size_t>(node)]; }
+  const Stencil& stencil(int node) const { return present_.stencils[static_cast<std::size_t>(node)]; }
   /// Of the n-th active contact.
-  const ContactBlocks& contact_blocks(std::size_t n) const { return located_[n].blocks; }
+  const ContactBlocks& contact_blocks(std::size_t n) const { return present_.located[n].blocks; }
 
   /// Adds the stiffness of a contact, between strands the n-th active one.
   void add(const ContactPoint& contact, const ContactModel& model, std::size_t n);
@@ -74,23 +75,43 @@ class StepMatrix {
     int a, first, last;
     void state(Archive& archive) { archive(a, first, last); }
   };
+  /// What there is room for, and all that follows from it.
+  struct Pattern {
+    std::vector<Room> rooms;
+    BlockPattern blocks;
+    std::vector<Stencil> stencils;
+    std::vector<int> beyond_band;  // stored indices of blocks that are in no stencil
+    std::vector<Located> located;  // active contacts, ascending in a0
+  };
+  /// Rooms in the order of one of their nodes, the key.
+  struct SortedRooms {
+    std::vector<Room> rooms;
+    std::vector<int> begin, filled;  // key -> first of rooms
+
+    void sort(const std::vector<Room>& of, int Room::*key, int nodes);
+    /// Calls visit(room) for all that have a key of `first` to `last`.
+    template <typename Visit>
+    void visit(int first, int last, Visit visit) const {
+      const int end = begin[static_cast<std::size_t>(last) + 1];
+      for (int n = begin[static_cast<std::size_t>(std::max(first, 0))]; n < end; ++n)
+        visit(rooms[static_cast<std::size_t>(n)]);
+    }
+  };
 
   bool find(const std::vector<ContactPoint>& contacts);
   bool look_up(Located& contact) const;
   void find_rooms(const std::vector<ContactPoint>& contacts);
   void build();
-  void find_stencils();
-  void find_blocks_beyond_band();
+  void find_neighbours();
+  void find_stencils();  // and the blocks beyond the band
 
   int nodes_;
-  BlockPattern pattern_;
+  Pattern present_, accepted_;  // accepted_: of the last accepted step, where the pattern was rebuilt since
   BlockMatrix<D> matrix_;
-  std::vector<Stencil> stencils_;
-  std::vector<char> in_band_;              // of every stored block
-  std::vector<int> beyond_band_;           // stored indices of blocks that are in no stencil
-  std::vector<Located> located_, before_;  // ascending in a0; before_: what they were at the last look
-  std::vector<std::pair<int, int>> pairs_;
-  std::vector<Room> rooms_, accepted_rooms_;
+  std::vector<Located> before_;  // what Pattern::located was at the last look
+  SortedRooms by_a_, by_first_;
+  SortingSet row_;
+  Neighbours neighbours_;
   bool rebuilt_ = false;  // since the last accepted step
 };
 

@@ -5,6 +5,8 @@
 
 #include "knot_utm/solver/block.hpp"
 #include "knot_utm/solver/elimination_sets.hpp"
+#include "knot_utm/solver/neighbours.hpp"
+#include "knot_utm/solver/sorting_set.hpp"
 
 namespace knot_utm {
 
@@ -13,12 +15,12 @@ namespace knot_utm {
 /// only, no values. Built again, it keeps its memory.
 class BlockPattern {
  public:
-  /// `pairs` are the coupled nodes (i, j), i != j, in any order and number; the diagonal is always there.
-  void build(int nodes, const std::vector<std::pair<int, int>>& pairs);
+  void build(const Neighbours& neighbours);
 
-  int nodes() const { return static_cast<int>(position_.size()); }
+  int nodes() const { return static_cast<int>(node_.size()); }
   int blocks() const { return blocks_; }  ///< stored: diagonal, lower and upper
   int position(int node) const { return position_[static_cast<std::size_t>(node)]; }  ///< in elimination order
+  int node(int position) const { return node_[static_cast<std::size_t>(position)]; }
 
   /// Where block (row, column) is stored; -1 where the pattern has none.
   int index(int row, int column) const { return indices(row, column).first; }
@@ -40,27 +42,26 @@ class BlockPattern {
  private:
   /// What a build works with; its contents mean nothing afterwards.
   struct Workspace {
-    std::vector<int> begin, list;  // neighbours of every node, sorted, as compressed rows
-    std::vector<int> sorted;
-    std::vector<int> order;  // elimination position -> node
-    std::vector<int> parent, seen;
+    std::vector<int> child, sibling;  // of every pivot: its last child in the elimination tree, and the child before it
+    SortingSet row;
     std::vector<int> filled;
     std::vector<int> rows, row_begin, row_length, size, next, last, head, element, degree, mark;  // as amd_2 takes them
   };
 
-  void find_neighbours(int nodes, const std::vector<std::pair<int, int>>& pairs);
-  void order_nodes(int nodes);
-  void order_set(int set);
-  /// Calls visit(k) for every pivot k that touches `row`: the earlier neighbours of the row and all that follows from
-  /// them up the elimination tree, which grows on the way (Liu 1990).
-  template <typename Visit>
-  void climb(int row, Visit visit);
-  void find_rows(int nodes);
-  void find_targets(int nodes);
+  void order_nodes(const Neighbours& neighbours);
+  void order_set(const Neighbours& neighbours, int set);
+  /// A pivot touches the later ones of its neighbours and all that its children in the elimination tree touch beyond it
+  /// (Liu 1990).
+  void find_rows(const Neighbours& neighbours);
+  void find_lower();
+  void find_targets();
+  /// In the elimination tree, of a pivot that touches any row: the first of them.
+  int parent(int k) const { return rows(k)[0]; }
 
   Workspace work_;
   EliminationSets sets_;
   int blocks_ = 0;
+  std::vector<int> node_;         // elimination position -> node
   std::vector<int> position_;     // node -> elimination position
   std::vector<int> row_begin_;    // pivot -> first of rows_
   std::vector<int> rows_;         // positions later than the pivot, ascending
@@ -79,9 +80,8 @@ class BlockMatrix {
  public:
   using Vector = std::vector<Lanes>;  ///< one entry a node, in the caller's order; lanes beyond D are zero
 
-  /// Takes the pattern; all values zero. Keeps its memory from pattern to pattern.
+  /// Takes the pattern; the values are whatever they were. Keeps its memory from pattern to pattern.
   void set_pattern(const BlockPattern& pattern);
-  void set_zero();
 
   Block<D>& block(int stored_index) { return values_[static_cast<std::size_t>(stored_index)]; }
   const Block<D>& block(int stored_index) const { return values_[static_cast<std::size_t>(stored_index)]; }

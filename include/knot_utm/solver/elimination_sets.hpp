@@ -2,6 +2,8 @@
 
 #include <vector>
 
+#include "knot_utm/solver/neighbours.hpp"
+
 namespace knot_utm {
 
 /// Which nodes of a chain are best eliminated before which others. Where nothing touches the rod, a node is coupled to
@@ -12,8 +14,7 @@ namespace knot_utm {
 /// together in rings is left to the order of least degree, as one last set. Built again, it keeps its memory.
 class EliminationSets {
  public:
-  /// Neighbours of node i are list[begin[i]] to list[begin[i + 1] - 1], ascending.
-  void build(const std::vector<int>& begin, const std::vector<int>& list);
+  void build(const Neighbours& neighbours);
 
   int count() const { return static_cast<int>(begin_.size()) - 1; }
   /// Nodes of a set, ascending. Sets come in the order of elimination.
@@ -35,8 +36,8 @@ class EliminationSets {
     int set;        ///< -1 until it is known
   };
 
-  void find_pieces(const std::vector<int>& begin, const std::vector<int>& list);
-  void join_pieces(const std::vector<int>& begin, const std::vector<int>& list);
+  void find_pieces(const Neighbours& neighbours);
+  void join_pieces(const Neighbours& neighbours);
   int find_sets();
   void list_nodes(int sets);
 
