@@ -61,7 +61,7 @@ Centreline specimen_centreline(const SpecimenOptions& specimen, const Material& 
       shape.tail = specimen.tail;
       shape.handedness = specimen.handedness;
       shape.edge_length = specimen.edge_length;
-      shape.refinement = tolerances(physics, specimen).refinement;
+      shape.refinement = tolerances(physics, specimen, material).refinement;
       shape.coarsening = kCoarsening;
       return fisherman_loop(shape);
     }
@@ -72,7 +72,7 @@ Centreline specimen_centreline(const SpecimenOptions& specimen, const Material& 
       shape.length = specimen.length;
       shape.end_to_end = specimen.end_to_end;
       shape.edge_length = specimen.edge_length;
-      shape.refinement = tolerances(physics, specimen).refinement;
+      shape.refinement = tolerances(physics, specimen, material).refinement;
       return overhand(shape);
     }
     case KnotKind::kStraight:

@@ -39,7 +39,7 @@ constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth
 
 StepSettings step_settings(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                            const PhysicsOptions& physics) {
-  const Tolerances tolerance = tolerances(physics, specimen);
+  const Tolerances tolerance = tolerances(physics, specimen, material);
   const double h = material.radius;
   StepSettings out;
   out.contact_law = physics.contact_law;
@@ -129,7 +129,7 @@ struct TestBench::Impl {
     if (solves_for_twist(rod)) initialise_frames(&state);
     stepper = TimeStep::make(rod, state, step_settings(specimen, material, machine, physics));
     StepControl::Options options;
-    options.longest = options.first = tolerances(physics, specimen).longest_step;
+    options.longest = options.first = tolerances(physics, specimen, material).longest_step;
     // A drawn shape springs apart at once.
     if (specimen.knot != KnotKind::kStraight) options.first = std::min(bending_time(material), options.longest);
     options.motion = 0.6 * material.radius;
@@ -239,7 +239,7 @@ struct TestBench::Impl {
       part(now);
     } else if (now.share > exposure) {
       const double left = (1.0 - now.share) / (now.share - exposure) * dt;
-      control.at_most(std::max(left, kNearBreak * tolerances(physics, specimen).longest_step));
+      control.at_most(std::max(left, kNearBreak * tolerances(physics, specimen, material).longest_step));
     }
     exposure = now.share;
   }
@@ -448,7 +448,9 @@ const RodState& TestBench::state() const { return impl_->stepper->state(); }
 Vec3 TestBench::lower_grip() const { return impl_->grips.lower(); }
 Vec3 TestBench::upper_grip() const { return impl_->grips.upper(impl_->grip); }
 double TestBench::time() const { return impl_->time; }
-double TestBench::longest_step() const { return tolerances(impl_->physics, impl_->specimen).longest_step; }
+double TestBench::longest_step() const {
+  return tolerances(impl_->physics, impl_->specimen, impl_->material).longest_step;
+}
 Eigen::VectorXd TestBench::tension() const { return impl_->stepper->tension(); }
 std::vector<ContactForce> TestBench::contact_forces() const {
   // A step that could not be made leaves contacts that no accepted step has, of a recoil too.

@@ -14,7 +14,9 @@ struct Loop {
     specimen.to_be_tied = true;
     material.radius = 3e-3;
     material.bending_stiffness = 1e-4;
+    material.stretching_stiffness = 1e4;
   }
+  Tolerances tolerances() const { return knot_utm::tolerances(physics, specimen, material); }
   ReadingErrors errors() const { return reading_errors(specimen, material, physics); }
 };
 
@@ -42,6 +44,23 @@ TEST(ReadingErrors, GrowWithEdgesToleranceAndPreload) {
   hard.specimen.preload = 10.0 * default_preload(hard.material);
   loose.physics.residual = 1e-3;
   for (const Loop& loop : {coarse, soft, hard, loose}) EXPECT_GT(loop.errors().plateau_force.value(), plain);
+}
+
+TEST(Tolerances, EdgesInKnotsAreCoarserWhereTheLoopStretches) {
+  for (const Accuracy accuracy : {Accuracy::kDraft, Accuracy::kNormal, Accuracy::kFine}) {
+    Loop rope;
+    rope.physics.accuracy = accuracy;
+    Loop solid = rope, overhand = rope, chosen = rope;
+    const Material& rod = rope.material;
+    const double of_a_solid_rod = 4.0 * rod.bending_stiffness / (rod.radius * rod.radius);
+    for (Loop* loop : {&solid, &overhand, &chosen}) loop->material.stretching_stiffness = of_a_solid_rod;
+    overhand.specimen.knot = KnotKind::kOverhand;
+    chosen.specimen.refinement = 2.5;
+    EXPECT_LT(solid.tolerances().refinement, 0.7 * rope.tolerances().refinement);
+    EXPECT_EQ(overhand.tolerances().refinement, rope.tolerances().refinement);
+    EXPECT_EQ(chosen.tolerances().refinement, 2.5);
+    EXPECT_GT(solid.errors().locked_stiffness.value(), rope.errors().locked_stiffness.value());
+  }
 }
 
 TEST(ReadingErrors, AreNotGivenWhereNoStudySays) {

@@ -40,7 +40,7 @@ TEST_P(SmallPull, ClosesToNewtonsTolerance) {
   const Material material = polypropylene();
   TestBench bench(GetParam().specimen, material, GetParam().machine, GetParam().physics);
   const double nodes = static_cast<double>(bench.rod().nodes());
-  const double residual = tolerances(GetParam().physics, GetParam().specimen).residual * material.bending_stiffness /
+  const double residual = tolerances(GetParam().physics, GetParam().specimen, material).residual * material.bending_stiffness /
                           (material.radius * material.radius);
   constexpr double kResidualOfTension = 2e-6;
   std::vector<Sample> samples = {bench.respond(Command{})};
