@@ -16,8 +16,13 @@ std::size_t memory_index(Eigen::Index nodes, std::size_t roller, int segment, in
 
 }  // namespace
 
-RollerContact::RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction)
-    : normal_(normal), friction_(friction), radius_(rod.material.radius), voronoi_(rod.voronoi_length) {}
+RollerContact::RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction,
+                             double farthest)
+    : normal_(normal),
+      friction_(friction),
+      radius_(rod.material.radius),
+      farthest_(farthest),
+      voronoi_(rod.voronoi_length) {}
 
 std::size_t RollerContact::index_of(const ContactPoint& contact) const {
   return memory_index(voronoi_.size(), static_cast<std::size_t>(contact.roller), contact.a0 + 1, contact.point);
@@ -25,6 +30,7 @@ std::size_t RollerContact::index_of(const ContactPoint& contact) const {
 
 void RollerContact::begin_step() {
   contacts_.clear();
+  first_evaluation_ = true;
   estimate_ = committed_estimate_;
   // Before the first accepted step there is nowhere to come from: what a rejected one took for that does not count.
   if (committed_estimate_.empty()) start_.clear();
@@ -39,43 +45,61 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
     estimate_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), -1.0);
     memory_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), Vec3::Zero());
   }
-  const int last = static_cast<int>(position.cols()) - 2;
-  for (std::size_t r = 0; r < rollers.size(); ++r) {
-    const Roller& roller = rollers[r];
-    for (int segment = 1; segment <= last; ++segment) {
-      if (segment == parted_ || segment == parted_ + 1) continue;
-      Vec3 away = position.col(segment) - roller.centre;
-      away -= roller.axis * roller.axis.dot(away);
-      const double limit = roller.radius + radius_ + voronoi_[segment];
-      if (away.squaredNorm() > limit * limit) continue;
-      for (int point = 0; point < 2; ++point) {
-        const PointWeights w(kIntegrationPoints[point], PointWeights::kWholeShare);
-        ContactPoint contact;
-        contact.x = combine(w.value, position, segment) - roller.centre;
-        contact.x -= roller.axis * roller.axis.dot(contact.x);
-        contact.d = contact.x.norm();
-        contact.overlap = roller.radius + radius_ - contact.d;
-        contact.begins = normal_.begin();
-        contact.estimate = estimate_[memory_index(position.cols(), r, segment, point)];
-        if (!contact.active()) continue;
-        contact.a0 = segment - 1;
-        contact.point = point;
-        contact.roller = static_cast<int>(r);
-        contact.axis = roller.axis;
-        contact.n = contact.x / contact.d;
-        contact.weight = 0.5 * voronoi_[segment];
-        if (friction_.on() && friction_.remembers())
-          contact.memory = memory_[memory_index(position.cols(), r, segment, point)];
-        contact.slip = contact.memory - (roller.centre - start_[r].centre);
-        for (int k = 0; k < 3; ++k) {
-          contact.c[k] = w.value[k];
-          contact.slip += w.value[k] * (position.col(segment - 1 + k) - start.col(segment - 1 + k));
-        }
-        contacts_.push_back(contact);
-      }
-    }
-  }
+  if (first_evaluation_) find_near_segments(rollers, start);
+  first_evaluation_ = false;
+  for (const auto& [roller, segment] : near_)
+    if (distance(rollers[roller], position.col(segment)) <= limit(rollers[roller], segment))
+      add_contacts(rollers, roller, segment, position, start);
   evaluate_forces(normal_, friction_, friction_.scale(dt), contacts_);
+}
+
+double RollerContact::distance(const Roller& roller, const Vec3& x) {
+  const Vec3 away = x - roller.centre;
+  return (away - roller.axis * roller.axis.dot(away)).norm();
+}
+
+double RollerContact::limit(const Roller& roller, int segment) const {
+  return roller.radius + radius_ + voronoi_[segment];
+}
+
+void RollerContact::find_near_segments(const std::vector<Roller>& rollers, const Points& start) {
+  near_.clear();
+  for (std::size_t roller = 0; roller < rollers.size(); ++roller)
+    for (int segment = 1; segment + 1 < static_cast<int>(start.cols()); ++segment) {
+      if (segment == parted_ || segment == parted_ + 1) continue;
+      if (distance(rollers[roller], start.col(segment)) <= limit(rollers[roller], segment) + farthest_)
+        near_.push_back({roller, segment});
+    }
+}
+
+void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t number, int segment,
+                                 const Points& position, const Points& start) {
+  const Roller& roller = rollers[number];
+  for (int point = 0; point < 2; ++point) {
+    const PointWeights w(kIntegrationPoints[point], PointWeights::kWholeShare);
+    const std::size_t memory = memory_index(position.cols(), number, segment, point);
+    ContactPoint contact;
+    contact.x = combine(w.value, position, segment) - roller.centre;
+    contact.x -= roller.axis * roller.axis.dot(contact.x);
+    contact.d = contact.x.norm();
+    contact.overlap = roller.radius + radius_ - contact.d;
+    contact.begins = normal_.begin();
+    contact.estimate = estimate_[memory];
+    if (!contact.active()) continue;
+    contact.a0 = segment - 1;
+    contact.point = point;
+    contact.roller = static_cast<int>(number);
+    contact.axis = roller.axis;
+    contact.n = contact.x / contact.d;
+    contact.weight = 0.5 * voronoi_[segment];
+    if (friction_.on() && friction_.remembers()) contact.memory = memory_[memory];
+    contact.slip = contact.memory - (roller.centre - start_[number].centre);
+    for (int k = 0; k < 3; ++k) {
+      contact.c[k] = w.value[k];
+      contact.slip += w.value[k] * (position.col(segment - 1 + k) - start.col(segment - 1 + k));
+    }
+    contacts_.push_back(contact);
+  }
 }
 
 Vec3 RollerContact::force_on(int roller) const {

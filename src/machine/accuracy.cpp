@@ -9,7 +9,7 @@ constexpr Tolerances kNormal{0.17, 1e-4, 0.02, 2e-3, 2.0};
 constexpr Tolerances kFine{0.05, 1e-5, 0.01, 1e-3, 3.0};
 
 // Refinement of the loop of a rod that stretches as a solid one does.
-constexpr double kStretchingDraft = 1.0, kStretchingNormal = 1.2, kStretchingFine = 2.0;
+constexpr double kStretchingDraft = 1.0, kStretchingNormal = 1.0, kStretchingFine = 2.0;
 constexpr double kSolid = 10.0;  // k_s h^2/k_b; a solid rod's is 4, those of ropes are hundreds
 
 struct OfAccuracy {

@@ -55,7 +55,7 @@ class ImplicitStep final : public TimeStep {
   ImplicitStep(const RodProperties& rod, const RodState& state, const StepSettings& settings)
       : TimeStep(rod, state, settings),
         contact_(strand_contact<StrandContact>(rod, settings)),
-        rollers_(rod, settings.normal, settings.roller_friction),
+        rollers_(rod, settings.normal, settings.roller_friction, settings.motion_limit),
         passage_(rod.nodes()),
         centreline_(rod_, rod.natural_curvature.cols() == 0),
         frames_(rod_, settings_),

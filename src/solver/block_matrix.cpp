@@ -238,15 +238,18 @@ bool BlockMatrix<D>::solve(Vector& b) {
 
 template <int D>
 bool BlockMatrix<D>::eliminate() {
+  bool inverted = false;  // the next pivot is, already
+  Block<D> inverse;
   for (int k = 0; k < pattern_->nodes(); ++k) {
     Block<D>* own = &values_[at(pattern_->diagonal(k))];
-    Block<D> inverse;
-    if (!invert(own[0], inverse)) return false;
+    if (!inverted && !invert(own[0], inverse)) return false;
+    inverted = false;
     own[0] = inverse;
     const Lanes x = work_[at(k)];
     const int count = pattern_->below(k);
     const int *row = pattern_->rows(k), *target = pattern_->targets(k);
     int a = 0;
+    Block<D> next;
     for (; a + 1 < count; a += 2, target += 2 * count) {
       const Block<D> lower1 = product(own[1 + 2 * a], inverse), lower2 = product(own[3 + 2 * a], inverse);
       subtract_product(work_[at(row[a])], lower1, x);
@@ -254,11 +257,19 @@ bool BlockMatrix<D>::eliminate() {
       const RowPair<D> lower(lower1, lower2);
       for (int c = 0; c < count; ++c)
         lower.subtract_products(values_[at(target[c])], values_[at(target[count + c])], own[2 + 2 * c]);
+      // The next pivot is what it will be once the first row is done with: its inverse, a long chain of operations that
+      // wait for each other, is worked out beside the other rows.
+      if (a == 0 && row[0] == k + 1) {
+        if (!invert(values_[at(target[0])], next)) return false;
+        inverted = true;
+      }
     }
-    if (a == count) continue;
-    const Block<D> lower = product(own[1 + 2 * a], inverse);
-    subtract_product(work_[at(row[a])], lower, x);
-    for (int c = 0; c < count; ++c) subtract_product(values_[at(target[c])], lower, own[2 + 2 * c]);
+    if (a < count) {
+      const Block<D> lower = product(own[1 + 2 * a], inverse);
+      subtract_product(work_[at(row[a])], lower, x);
+      for (int c = 0; c < count; ++c) subtract_product(values_[at(target[c])], lower, own[2 + 2 * c]);
+    }
+    if (inverted) inverse = next;
   }
   return true;
 }
@@ -268,8 +279,15 @@ void BlockMatrix<D>::substitute_back() {
   for (int k = pattern_->nodes() - 1; k >= 0; --k) {
     const Block<D>* own = &values_[at(pattern_->diagonal(k))];
     const int* row = pattern_->rows(k);
+    // A sum for each column: none waits for the others.
+    Lanes sum[D] = {};
+    for (int a = 0; a < pattern_->below(k); ++a) {
+      const Block<D>& upper = own[2 + 2 * a];
+      const Lanes& x = work_[at(row[a])];
+      for (int j = 0; j < D; ++j) sum[j] += upper.column[j] * x[j];
+    }
     Lanes x = work_[at(k)];
-    for (int a = 0; a < pattern_->below(k); ++a) subtract_product(x, own[2 + 2 * a], work_[at(row[a])]);
+    for (const Lanes& part : sum) x -= part;
     work_[at(k)] = product(own[0], x);
   }
 }

@@ -28,7 +28,7 @@ struct Wound {
     }
   }
   RollerContact touch(const Friction& friction, const Points& end) const {
-    RollerContact contact(rod, normal, friction);
+    RollerContact contact(rod, normal, friction, rod.material.radius);
     contact.begin_step();
     contact.evaluate({roller}, end, position, 0.01);
     return contact;

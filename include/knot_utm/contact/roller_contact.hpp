@@ -21,7 +21,9 @@ class RollerContact {
  public:
   using Model = ContactModel;
 
-  RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction);
+  /// `farthest`: no node moves further in a step that is accepted [m]. What is further from all rollers when a step
+  /// begins is not looked at in it.
+  RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double farthest);
 
   /// Before the first evaluation of a step: estimates of the pressures are those of the last accepted step.
   void begin_step();
@@ -59,15 +61,31 @@ class RollerContact {
   void state(Archive& archive);
 
  private:
+  struct Near {
+    std::size_t roller;
+    int segment;
+  };
+
+  /// Of a place from a roller's axis [m].
+  static double distance(const Roller& roller, const Vec3& x);
+  /// Distance of a segment's node beyond which none of it touches [m].
+  double limit(const Roller& roller, int segment) const;
+  void find_near_segments(const std::vector<Roller>& rollers, const Points& start);
+  void add_contacts(const std::vector<Roller>& rollers, std::size_t number, int segment, const Points& position,
+                    const Points& start);
+  std::size_t index_of(const ContactPoint& contact) const;
+
   NormalLaw normal_;
   Friction friction_;
   bool expects_ = false;
   double radius_;
+  double farthest_;
+  bool first_evaluation_ = true;
+  std::vector<Near> near_;  // of this step
   int parted_ = -2;  // edge; no segment reaches into this one
   Eigen::VectorXd voronoi_;
   std::vector<Roller> start_;
   std::vector<ContactPoint> contacts_;
-  std::size_t index_of(const ContactPoint& contact) const;
   std::vector<double> estimate_, committed_estimate_;  // of the pressure, < 0: none; indexed as memory_
   std::vector<Vec3> memory_;  // xi of roller r at point q of segment i: [(r segments + i) 2 + q]
 };
