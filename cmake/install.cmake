@@ -1,7 +1,7 @@
 # Executables are installed where they are made (knot_utm_executable).
 set(libraries knot_utm_core)
 if(catkin_FOUND)
-  list(APPEND libraries knot_utm_ros)
+  list(APPEND libraries knot_utm_bags knot_utm_ros)
   if(KNOT_UTM_INSTALLS_SETUP)
     set(setup ${PROJECT_BINARY_DIR}/catkin_generated/installspace)
     # catkin writes _setup_util.py to installspace only where it installs the file itself; that of devel is the same.

@@ -1,11 +1,20 @@
+# What writes and reads bags is a library of its own: a tool that has no more to do with ROS loads no more of it.
+set(bag_sources bag_topics bag_writer conversions curve_bag journal_bag test_bag)
+list(TRANSFORM bag_sources REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/ros/\\1.cpp")
+add_library(knot_utm_bags ${bag_sources})
+target_link_options(knot_utm_bags PUBLIC LINKER:--as-needed)
 # The thin edge to ROS, and the nodes.
 file(GLOB ros_sources CONFIGURE_DEPENDS src/ros/*.cpp)
+list(REMOVE_ITEM ros_sources ${bag_sources})
 add_library(knot_utm_ros ${ros_sources})
-add_dependencies(knot_utm_ros ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
-target_include_directories(knot_utm_ros SYSTEM
-                           PUBLIC ${catkin_INCLUDE_DIRS}
-                                  $<BUILD_INTERFACE:${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION}>)
-target_link_libraries(knot_utm_ros PUBLIC knot_utm_core ${catkin_LIBRARIES})
+foreach(library knot_utm_bags knot_utm_ros)
+  add_dependencies(${library} ${${PROJECT_NAME}_EXPORTED_TARGETS} ${catkin_EXPORTED_TARGETS})
+  target_include_directories(${library} SYSTEM
+                             PUBLIC ${catkin_INCLUDE_DIRS}
+                                    $<BUILD_INTERFACE:${CATKIN_DEVEL_PREFIX}/${CATKIN_GLOBAL_INCLUDE_DESTINATION}>)
+  target_link_libraries(${library} PUBLIC knot_utm_core ${catkin_LIBRARIES})
+endforeach()
+target_link_libraries(knot_utm_ros PUBLIC knot_utm_bags)
 
 file(GLOB nodes CONFIGURE_DEPENDS src/nodes/*.cpp)
 foreach(source ${nodes})
