@@ -4,42 +4,39 @@ namespace knot_utm {
 
 namespace {
 
-constexpr Tolerances kDraft{0.34, 1e-4, 0.04, 4e-3, 1.5};
+constexpr Tolerances kDraft{0.34, 2e-4, 0.06, 4e-3, 1.3};
 constexpr Tolerances kNormal{0.17, 1e-4, 0.02, 2e-3, 2.0};
 constexpr Tolerances kFine{0.05, 1e-5, 0.01, 1e-3, 3.0};
 
-// Refinement of the loop of a rod that stretches as a solid one does.
-constexpr double kStretchingDraft = 1.0, kStretchingNormal = 1.0, kStretchingFine = 2.0;
-constexpr double kSolid = 10.0;  // k_s h^2/k_b; a solid rod's is 4, those of ropes are hundreds
+// For the loop of a rod that stretches.
+constexpr Tolerances kStretchingDraft{0.34, 3e-4, 0.12, 2e-2, 1.0};
+constexpr Tolerances kStretchingNormal{0.17, 2e-4, 0.08, 1e-2, 1.0};
+constexpr Tolerances kStretchingFine{0.05, 1e-5, 0.01, 1e-3, 2.0};
 
-struct OfAccuracy {
-  Tolerances tolerances;
-  double refinement_where_it_stretches;
-};
+constexpr double kSolid = 10.0;  // k_s h^2/k_b below which it does; a solid rod's is 4, those of ropes are hundreds
 
-OfAccuracy of(Accuracy accuracy) {
+bool stretches(const SpecimenOptions& specimen, const Material& material) {
+  const double h = material.radius;
+  return specimen.knot == KnotKind::kFisherman &&
+         material.stretching_stiffness * h * h < kSolid * material.bending_stiffness;
+}
+
+Tolerances of(Accuracy accuracy, bool stretches) {
   switch (accuracy) {
     case Accuracy::kDraft:
-      return {kDraft, kStretchingDraft};
+      return stretches ? kStretchingDraft : kDraft;
     case Accuracy::kNormal:
-      return {kNormal, kStretchingNormal};
+      return stretches ? kStretchingNormal : kNormal;
     case Accuracy::kFine:
       break;
   }
-  return {kFine, kStretchingFine};
-}
-
-bool stretches(const Material& material) {
-  return material.stretching_stiffness * material.radius * material.radius < kSolid * material.bending_stiffness;
+  return stretches ? kStretchingFine : kFine;
 }
 
 }  // namespace
 
 Tolerances tolerances(const PhysicsOptions& physics, const SpecimenOptions& specimen, const Material& material) {
-  const OfAccuracy chosen = of(physics.accuracy);
-  Tolerances out = chosen.tolerances;
-  if (specimen.knot == KnotKind::kFisherman && stretches(material))
-    out.refinement = chosen.refinement_where_it_stretches;
+  Tolerances out = of(physics.accuracy, stretches(specimen, material));
   out.longest_step = physics.max_step.value_or(out.longest_step);
   out.residual = physics.residual.value_or(out.residual);
   out.contact_tolerance = physics.contact_tolerance.value_or(out.contact_tolerance);

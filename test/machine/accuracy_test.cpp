@@ -46,7 +46,7 @@ TEST(ReadingErrors, GrowWithEdgesToleranceAndPreload) {
   for (const Loop& loop : {coarse, soft, hard, loose}) EXPECT_GT(loop.errors().plateau_force.value(), plain);
 }
 
-TEST(Tolerances, EdgesInKnotsAreCoarserWhereTheLoopStretches) {
+TEST(Tolerances, AreLooserWhereTheLoopStretches) {
   for (const Accuracy accuracy : {Accuracy::kDraft, Accuracy::kNormal, Accuracy::kFine}) {
     Loop rope;
     rope.physics.accuracy = accuracy;
@@ -56,8 +56,12 @@ TEST(Tolerances, EdgesInKnotsAreCoarserWhereTheLoopStretches) {
     for (Loop* loop : {&solid, &overhand, &chosen}) loop->material.stretching_stiffness = of_a_solid_rod;
     overhand.specimen.knot = KnotKind::kOverhand;
     chosen.specimen.refinement = 2.5;
-    EXPECT_LT(solid.tolerances().refinement, 0.7 * rope.tolerances().refinement);
+    EXPECT_LT(solid.tolerances().refinement, 0.8 * rope.tolerances().refinement);
+    EXPECT_GE(solid.tolerances().contact_tolerance, rope.tolerances().contact_tolerance);
+    EXPECT_GE(solid.tolerances().presliding, rope.tolerances().presliding);
+    EXPECT_EQ(solid.tolerances().longest_step, rope.tolerances().longest_step);
     EXPECT_EQ(overhand.tolerances().refinement, rope.tolerances().refinement);
+    EXPECT_EQ(overhand.tolerances().contact_tolerance, rope.tolerances().contact_tolerance);
     EXPECT_EQ(chosen.tolerances().refinement, 2.5);
     EXPECT_GT(solid.errors().locked_stiffness.value(), rope.errors().locked_stiffness.value());
   }
