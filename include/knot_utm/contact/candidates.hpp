@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/solver/block.hpp"
+#include "knot_utm/solver/lanes.hpp"
 
 namespace knot_utm {
 
