@@ -40,8 +40,8 @@ TEST_P(SmallPull, ClosesToNewtonsTolerance) {
   const Material material = polypropylene();
   TestBench bench(GetParam().specimen, material, GetParam().machine, GetParam().physics);
   const double nodes = static_cast<double>(bench.rod().nodes());
-  const double residual = tolerances(GetParam().physics, GetParam().specimen, material).residual * material.bending_stiffness /
-                          (material.radius * material.radius);
+  const double residual = tolerances(GetParam().physics, GetParam().specimen, material).residual *
+                          material.bending_stiffness / (material.radius * material.radius);
   constexpr double kResidualOfTension = 2e-6;
   std::vector<Sample> samples = {bench.respond(Command{})};
   double bound = 0.0, tension = 0.0, scale = 0.0;

@@ -82,7 +82,7 @@ class RollerContact {
   double farthest_;
   bool first_evaluation_ = true;
   std::vector<Near> near_;  // of this step
-  int parted_ = -2;  // edge; no segment reaches into this one
+  int parted_ = -2;         // edge; no segment reaches into this one
   Eigen::VectorXd voronoi_;
   std::vector<Roller> start_;
   std::vector<ContactPoint> contacts_;

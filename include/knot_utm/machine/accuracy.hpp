@@ -17,8 +17,8 @@ struct Tolerances {
   double refinement;         ///< edges in knots are shorter by this factor [-]
 };
 
-/// A rod with k_s h^2/k_b < 10 (a solid one has 4) that is tied to a fisherman's loop stretches where a rope slides. Its
-/// readings are those of the stretching, which looser contacts and coarser knots move by less than a per cent.
+/// A rod with k_s h^2/k_b < 10 (a solid one has 4) that is tied to a fisherman's loop stretches where a rope slides.
+/// Its readings are those of the stretching, which looser contacts and coarser knots move by less than a per cent.
 Tolerances tolerances(const PhysicsOptions& physics, const SpecimenOptions& specimen, const Material& material);
 
 /// How far readings may lie from those of ever finer tolerances, as fractions of the readings. Empty: no study says.
