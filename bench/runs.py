@@ -32,18 +32,31 @@ class Runner:
 
     def start(self, name, settings, method, core, cpu_limit=None):
         """`cpu_limit` [s]: more, and the run is ended by SIGXCPU, however busy the machine."""
+        return self.launch(self.tool, name, method, words_of("--set", settings, self.overrides), core, cpu_limit,
+                           ["--quiet"])
+
+    def bench_run(self, tool, name, method, settings, others):
+        """A small executable beside tensile_test that leaves what that leaves. `others`: option -> settings."""
+        words = words_of("--set", settings, self.overrides)
+        for option, more in others.items():
+            words += words_of(option, more)
+        return self.launch(self.beside(tool), name, method, words, self.core).wait()
+
+    def beside(self, tool):
+        path = os.path.join(os.path.dirname(os.path.abspath(self.tool)), tool)
+        if not os.access(path, os.X_OK):
+            sys.exit(f"scripts/bench: {tool} is not built; configure with -DKNOT_UTM_BENCH=ON")
+        return path
+
+    def launch(self, tool, name, method, words, core, cpu_limit=None, unsaid=()):
+        """`unsaid`: arguments that a reader of the log has no need of."""
         out = os.path.join(self.folder, name)
         shutil.rmtree(out, ignore_errors=True)
         os.makedirs(os.path.dirname(out), exist_ok=True)
-        # JSON is YAML too.
-        sets = [f"{key}={json.dumps(value)}" for key, value in settings.items()] + self.overrides
         # Relative to the root, so that no message names a folder of this machine.
-        command = [os.path.abspath(self.tool), method, "--quiet", "--out", os.path.relpath(out, self.root)]
-        for entry in sets:
-            command += ["--set", entry]
+        command = [os.path.abspath(tool), method, *unsaid, "--out", os.path.relpath(out, self.root), *words]
         if self.verbose:
-            print(f"{name}: tensile_test {method} " + " ".join(f"--set {shlex.quote(entry)}" for entry in sets),
-                  file=sys.stderr, flush=True)
+            print(f"{name}: {os.path.basename(tool)} {method} {shlex.join(words)}", file=sys.stderr, flush=True)
 
         def confine():
             if core is not None:
@@ -57,10 +70,7 @@ class Runner:
 
     def bench_tool(self, tool, arguments):
         """What a small executable beside tensile_test prints as YAML."""
-        path = os.path.join(os.path.dirname(os.path.abspath(self.tool)), tool)
-        if not os.access(path, os.X_OK):
-            sys.exit(f"scripts/bench: {tool} is not built; configure with -DKNOT_UTM_BENCH=ON")
-        command = [path] + [str(word) for word in arguments]
+        command = [self.beside(tool)] + [str(word) for word in arguments]
         print(" ".join([tool] + command[1:]), file=sys.stderr, flush=True)
         done = subprocess.run(SHELLS_CHILD + command, cwd=self.root, stdout=subprocess.PIPE, text=True, check=False,
                               preexec_fn=lambda: os.sched_setaffinity(0, {self.core}))
@@ -93,6 +103,12 @@ class Runner:
             pass
         return (f"{facts.get('Model name', 'CPU model missing')}, {os.cpu_count()} cores, {self.where()}; "
                 f"load average when written {os.getloadavg()[0]:.1f}")
+
+
+def words_of(option, settings, more=()):
+    """Of a command line, with the option before each; JSON is YAML too."""
+    entries = [f"{key}={json.dumps(value)}" for key, value in settings.items()] + list(more)
+    return [word for entry in entries for word in (option, entry)]
 
 
 class Started:

@@ -5,13 +5,16 @@ namespace knot_utm {
 namespace {
 
 constexpr Tolerances kDraft{0.34, 2e-4, 0.06, 4e-3, 1.3};
-constexpr Tolerances kNormal{0.17, 1e-4, 0.02, 2e-3, 2.0};
+constexpr Tolerances kNormal{0.17, 1e-4, 0.015, 2e-3, 2.0};
 constexpr Tolerances kFine{0.05, 1e-5, 0.01, 1e-3, 3.0};
 
 // For the loop of a rod that stretches.
 constexpr Tolerances kStretchingDraft{0.34, 3e-4, 0.12, 2e-2, 1.0};
 constexpr Tolerances kStretchingNormal{0.17, 2e-4, 0.08, 1e-2, 1.0};
 constexpr Tolerances kStretchingFine{0.05, 1e-5, 0.01, 1e-3, 2.0};
+
+// What the errors of readings are told in units of.
+constexpr double kStep = 0.17, kResidual = 1e-4, kContactTolerance = 0.02, kPresliding = 2e-3;
 
 constexpr double kSolid = 10.0;  // k_s h^2/k_b below which it does; a solid rod's is 4, those of ropes are hundreds
 
@@ -55,11 +58,10 @@ ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& ma
   const double h = material.radius;
   const double edges = 2.0 * specimen.edge_length / (tolerance.refinement * h);
   const double preload = specimen.preload.value_or(default_preload(material)) * h * h / material.bending_stiffness;
-  const double step = tolerance.longest_step / kNormal.longest_step;
+  const double step = tolerance.longest_step / kStep;
   out.plateau_force = (0.005 + 0.00125 * preload) * edges * edges +
-                      (0.005 + 0.00175 * preload) * tolerance.contact_tolerance / kNormal.contact_tolerance +
-                      0.01 * tolerance.presliding / kNormal.presliding + 0.005 * step +
-                      0.003 * tolerance.residual / kNormal.residual;
+                      (0.005 + 0.00175 * preload) * tolerance.contact_tolerance / kContactTolerance +
+                      0.01 * tolerance.presliding / kPresliding + 0.005 * step + 0.003 * tolerance.residual / kResidual;
   out.lock_extension = 0.004 + 0.006 * edges * edges + 0.002 * step;
   out.locked_stiffness = 0.005 + 0.006 * edges * edges;
   return out;
