@@ -59,7 +59,7 @@ ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& ma
   const double edges = 2.0 * specimen.edge_length / (tolerance.refinement * h);
   const double preload = specimen.preload.value_or(default_preload(material)) * h * h / material.bending_stiffness;
   const double step = tolerance.longest_step / kStep;
-  out.plateau_force = (0.005 + 0.00125 * preload) * edges * edges +
+  out.plateau_force = (0.005 + 0.002 * preload) * edges * edges +
                       (0.005 + 0.00175 * preload) * tolerance.contact_tolerance / kContactTolerance +
                       0.01 * tolerance.presliding / kPresliding + 0.005 * step + 0.003 * tolerance.residual / kResidual;
   out.lock_extension = 0.004 + 0.006 * edges * edges + 0.002 * step;

@@ -31,7 +31,7 @@ struct ReadingErrors {
 /// With edges of l in the knots, contact tolerance delta, presliding xi_s, longest step dt, residual r, and the
 /// pre-load in units of bending, P = F_p h^2/k_b:
 ///
-///     plateau    (0.005 + 0.00125 P) (2 l/h)^2 + (0.005 + 0.00175 P) delta/0.02h + 0.01 xi_s/0.002h
+///     plateau    (0.005 + 0.002 P) (2 l/h)^2 + (0.005 + 0.00175 P) delta/0.02h + 0.01 xi_s/0.002h
 ///                + 0.005 dt/0.17s + 0.003 r/(1e-4 k_b/h^2)
 ///     lock       0.004 + 0.006 (2 l/h)^2 + 0.002 dt/0.17s
 ///     stiffness  0.005 + 0.006 (2 l/h)^2
