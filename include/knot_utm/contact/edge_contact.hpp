@@ -18,9 +18,9 @@ namespace knot_utm {
 ///
 /// a foot at the end of its edge staying there. Pressure as in ContactModel.
 struct EdgeContactModel {
+  Lanes force = {};       ///< g with that pressure [N]
   double pressure = 0.0;  ///< of the tangent at the present overlap [N/m]
   double slope = 0.0;     ///< p'(D^) [N/m^2]
-  Lanes force = {};       ///< g with that pressure [N]
   double c[6], moves[6];  ///< df_k = c_k dg + moves_k g (dt on a, du on b)
   Mat3 force_by[6];       ///< dg/dq_l [N/m]
   Vec3 t_by[6], u_by[6];  ///< dt/dq_l, du/dq_l [1/m]
