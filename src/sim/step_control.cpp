@@ -12,8 +12,6 @@ constexpr double kGrowth = 1.2;
 constexpr double kFastGrowth = 1.6;  // after a step of hardly any work
 constexpr int kVeryEasy = 3;
 constexpr double kShrink = 0.7;
-// Where so little moves, what makes a step hard is no smaller in a shorter one.
-constexpr double kHardlyMoves = 0.1;  // [what is aimed at]
 // Patience and secants come once so many steps have failed in a row, and in steps so short: where tangents fail at
 // every other one, the steps would stay short for ever. A step that fails by hasty tangents costs some 5 iterations,
 // one by secants up to 8 times the limit of each.
@@ -35,16 +33,12 @@ StepSummary StepControl::step(TimeStep& stepper, const Boundary& boundary, doubl
   return summary;
 }
 
-bool StepControl::moves(const StepSummary& summary) const {
-  return summary.largest_motion > kHardlyMoves * options_.motion || summary.largest_slip > kHardlyMoves * options_.slip;
-}
-
 double StepControl::next_after(double dt, const StepSummary& summary) const {
   double next = next_;
   // Growth starts from what was wanted: the step taken may have been cut to meet an end.
   if (summary.newton.iterations <= options_.easy_iterations)
     next = std::max(next, dt) * (summary.newton.iterations <= kVeryEasy ? kFastGrowth : kGrowth);
-  else if (summary.newton.iterations >= options_.hard_iterations && moves(summary))
+  else if (summary.newton.iterations >= options_.hard_iterations)
     next = dt * kShrink;
   // The rod as a whole may move further than its strands against each other: that is no harder to solve.
   if (summary.largest_motion > 0.0) next = std::min(next, dt * options_.motion / summary.largest_motion);

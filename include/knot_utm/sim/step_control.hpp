@@ -56,7 +56,6 @@ class StepControl {
 
  private:
   StepSummary step(TimeStep& stepper, const Boundary& boundary, double dt, bool in_need);
-  bool moves(const StepSummary& summary) const;
   double next_after(double dt, const StepSummary& summary) const;
   std::string no_headway(double time);
 
