@@ -25,14 +25,14 @@ set_source_files_properties(
   PROPERTIES COMPILE_DEFINITIONS
              "KNOT_UTM_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\";KNOT_UTM_TOOLS_DIR=\"${KNOT_UTM_EXECUTABLE_DIR}\"")
 add_dependencies(core_tests compare tensile_test recover replay_step)
-gtest_discover_tests(core_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+gtest_discover_tests(core_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 
 # Counts what a step takes from the heap by a malloc of its own, where no sanitizer has one.
 if(NOT KNOT_UTM_SANITIZE)
   add_executable(allocation_test test/allocation/allocation_test.cpp)
   target_include_directories(allocation_test PRIVATE test)
   target_link_libraries(allocation_test PRIVATE knot_utm_core GTest::gtest_main)
-  gtest_discover_tests(allocation_test DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  gtest_discover_tests(allocation_test NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endif()
 
 # Symmetries on random scenes. The seed is fixed: the same scenes every time. For others, and more of them, run
@@ -44,7 +44,7 @@ add_executable(property_tests ${property_sources})
 set_source_files_properties(${property_sources} PROPERTIES COMPILE_OPTIONS -O1)
 target_include_directories(property_tests PRIVATE test)
 target_link_libraries(property_tests PRIVATE knot_utm_core rapidcheck GTest::gtest_main)
-gtest_discover_tests(property_tests DISCOVERY_TIMEOUT 60
+gtest_discover_tests(property_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
                      PROPERTIES TIMEOUT 300 ENVIRONMENT "RC_PARAMS=seed=1 max_success=25")
 
 # Physics that takes long. Label `long`: not under sanitizers.
@@ -55,7 +55,7 @@ if(validation_sources)
                               PROPERTIES COMPILE_DEFINITIONS "KNOT_UTM_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\"")
   target_include_directories(validation_tests PRIVATE test)
   target_link_libraries(validation_tests PRIVATE knot_utm_core GTest::gtest_main)
-  gtest_discover_tests(validation_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 LABELS long)
+  gtest_discover_tests(validation_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 LABELS long)
 endif()
 
 # What scripts/bench and scripts/stress make of their runs; README and doc/ against the code.
@@ -87,7 +87,7 @@ if(catkin_FOUND)
   target_include_directories(ros_tests PRIVATE test)
   target_link_libraries(ros_tests PRIVATE knot_utm_ros GTest::gtest_main GTest::gmock)
   target_compile_definitions(ros_tests PRIVATE KNOT_UTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(ros_tests DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 120)
+  gtest_discover_tests(ros_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 120)
 
   # The whole system, launched as a user does it: with the scripts, which take what stands in build/.
   set(launched_tests)

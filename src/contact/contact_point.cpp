@@ -72,7 +72,7 @@ void linearise(const NormalLaw& normal, const Friction& friction, double frictio
   const Lanes tangent_at = select(estimate > 0.0, normal.overlap_at(estimate), without);
   const Lanes slope = normal.slope(tangent_at);
   const Lanes pressure = normal.pressure(tangent_at) + slope * (overlap - tangent_at);
-  const Lanes p = weight * (expects ? select(estimate > 0.0, estimate, pressure) : pressure);
+  const Lanes p = weight * (expects ? expected_pressure(estimate, pressure) : pressure);
 
   const FourVectors n = four(&ContactPoint::n), db = four(&ContactPoint::db), axis = four(&ContactPoint::axis);
   const FourVectors n_u = -over_d * db;  // dn/du
@@ -145,8 +145,10 @@ void visit_active(Contacts& contacts, Visit visit) {
 
 }  // namespace
 
-void evaluate_force(const Friction& friction, double friction_scale, ContactPoint& contact) {
-  evaluate_forces(friction, friction_scale, {&contact, &contact, &contact, &contact});
+void evaluate_forces(const Friction& friction, double friction_scale, std::vector<ContactPoint>& contacts) {
+  visit_active(contacts, [&](const std::array<ContactPoint*, 4>& four, std::size_t) {
+    evaluate_forces(friction, friction_scale, four);
+  });
 }
 
 void evaluate_forces(const NormalLaw& normal, const Friction& friction, double friction_scale,

@@ -67,18 +67,18 @@ void EdgeContact::evaluate(const Points& position, const Points& start, double d
       estimate_[static_cast<std::size_t>(feet_[i].pair)] = contacts_[i].estimate;
   contacts_.clear();
   feet_.clear();
-  const double friction_scale = friction_.scale(dt);
   length_ = (position.rightCols(length_.size()) - position.leftCols(length_.size())).colwise().norm();
   for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
     const auto [a, b] = pairs_[pair];
     const Vec3 apart = position.col(a) + position.col(a + 1) - position.col(b) - position.col(b + 1);
     const double limit = 2.0 * reach_ + length_[a] + length_[b];
-    if (apart.squaredNorm() < limit * limit) add_contact(static_cast<int>(pair), position, start, friction_scale);
+    if (apart.squaredNorm() < limit * limit) add_contact(static_cast<int>(pair), position, start);
   }
+  evaluate_forces(friction_, friction_.scale(dt), contacts_);
   first_evaluation_ = false;
 }
 
-void EdgeContact::add_contact(int pair, const Points& position, const Points& start, double friction_scale) {
+void EdgeContact::add_contact(int pair, const Points& position, const Points& start) {
   const auto [a, b] = pairs_[static_cast<std::size_t>(pair)];
   const Vec3 da = position.col(a + 1) - position.col(a), db = position.col(b + 1) - position.col(b);
   const double r = kRegularisation * rest_length_[a] * rest_length_[b];
@@ -136,7 +136,6 @@ void EdgeContact::add_contact(int pair, const Points& position, const Points& st
     }
   }
   contact.pressure = normal_.pressure(contact.overlap);
-  evaluate_force(friction_, friction_scale, contact);
   contacts_.push_back(contact);
   feet_.push_back(feet);
 }
@@ -198,7 +197,7 @@ void EdgeContact::linearise_contact(const ContactPoint& contact, double dt, Edge
     turned -= (friction_.coefficient / scale) * friction.slope() * tangential;
   }
   model.force = to_lanes(contact.weight * model.pressure * direction);
-  const double pressure = expects_ ? contact.expected(model.pressure) : model.pressure;
+  const double pressure = expects_ ? expected_pressure(contact.estimate, model.pressure) : model.pressure;
   const Mat39 dg = contact.weight * (pressure * turned - model.slope * direction * dd);
 
   for (int k = 0; k < 6; ++k) {

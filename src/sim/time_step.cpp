@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <sstream>
 #include <type_traits>
 
 #include "diagnose_step.hpp"
+#include "examine_step.hpp"
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/contact/strand_passage.hpp"
@@ -74,11 +73,17 @@ class ImplicitStep final : public TimeStep {
     dt_ = dt;
     StepSummary summary;
     summary.newton = solution == Solution::kSecants ? by_secants() : by_tangents(solution == Solution::kHastyTangents);
-    examine(summary);
+    if (!summary.newton.converged()) {
+      summary.reason = summary.newton.reason();
+      summary.diagnosis = diagnosis(worst_.node, worst_.residual);
+      return summary;
+    }
+    const SolvedStep step = solved();
+    examine(rod_, settings_, step, {contact_.contacts(), rollers_.contacts()}, passage_, summary);
     if (summary.accepted())
-      commit();
+      commit(step);
     else
-      summary.diagnosis = summary.newton.converged() ? of_the_fastest_node() : diagnosis(worst_.node, worst_.residual);
+      summary.diagnosis = of_the_fastest_node();
     return summary;
   }
 
@@ -419,40 +424,9 @@ class ImplicitStep final : public TimeStep {
     }
   }
 
-  void examine(StepSummary& summary) {
-    if (!summary.newton.converged()) {
-      summary.reason = summary.newton.reason();
-      return;
-    }
-    for (int i = 0; i < nodes_; ++i)
-      summary.largest_motion = std::max(summary.largest_motion, (x_.col(i) - state_.position.col(i)).norm());
-    for (const auto* contacts : {&contact_.contacts(), &rollers_.contacts()})
-      for (const ContactPoint& contact : *contacts) {
-        summary.largest_overlap = std::max(summary.largest_overlap, contact.overlap);
-        summary.largest_slip = std::max(summary.largest_slip, slip(contact).norm());
-      }
-    if (summary.largest_motion > settings_.motion_limit)
-      summary.reason = "a node moved further than a step may";
-    else if (summary.largest_overlap > settings_.overlap_limit)
-      summary.reason = "strands overlap more than a step may leave";
-    else if (const std::optional<Passage> passage = passage_.find(state_.position, x_))
-      summary.reason = reason(*passage);
-  }
-
-  /// Of point a against point b, or against where a roller ends up, in this step [m].
-  Vec3 slip(const ContactPoint& contact) const {
-    Vec3 out = Vec3::Zero();
-    for (int k = 0; k < 3; ++k) {
-      out += contact.c[k] * (x_.col(contact.a0 + k) - state_.position.col(contact.a0 + k));
-      if (contact.on_roller()) continue;
-      out += contact.c[3 + k] * (x_.col(contact.b0 + k) - state_.position.col(contact.b0 + k));
-    }
-    return out;
-  }
-
   StepDiagnosis of_the_fastest_node() {
     Eigen::Index node = 0;
-    (x_ - state_.position).colwise().squaredNorm().maxCoeff(&node);
+    way_.colwise().squaredNorm().maxCoeff(&node);
     const int i = static_cast<int>(node);
     return diagnosis(i, held_[at(i)] ? 0.0 : to_vec3(force_[at(i)]).norm() / ease(i, tolerance()));
   }
@@ -462,24 +436,14 @@ class ImplicitStep final : public TimeStep {
     return diagnose(rod_, solved(), node, residual, {contact_.contacts(), rollers_.contacts()});
   }
 
-  std::string reason(const Passage& passage) const {
-    auto arclength = [&](int edge, double share) {
-      return rod_.rest_length.head(edge).sum() + share * rod_.rest_length[edge];
-    };
-    std::ostringstream out;
-    out << "strands would pass through each other at " << arclength(passage.edge_a, passage.on_a) << " m and "
-        << arclength(passage.edge_b, passage.on_b) << " m along the rod";
-    return out.str();
-  }
-
   /// As its unknowns stand now.
   SolvedStep solved() {
     way_.noalias() = x_ - state_.position;
     return {state_, x_, way_, *boundary_, dt_, force_, held_};
   }
 
-  void commit() {
-    read();
+  void commit(const SolvedStep& step) {
+    read(step);
     contact_.commit(x_);
     rollers_.commit(boundary_->rollers);
     matrix_.commit();
@@ -488,8 +452,7 @@ class ImplicitStep final : public TimeStep {
     state_.position = x_;
   }
 
-  void read() {
-    const SolvedStep step = solved();
+  void read(const SolvedStep& step) {
     readings_.begin(step, rollers_);
     FrameTerms::Energy frames;
     if constexpr (D == 4) frames = frames_.energy(way_, force_);

@@ -51,9 +51,6 @@ struct ContactPoint {
 
   bool on_roller() const { return roller >= 0; }
   bool touches() const { return overlap > begins; }
-  /// Of a linear model of it: the pressure that the change leads to. Where a prediction has drawn strands apart, the
-  /// tangent there would have them pull, and friction drive them on.
-  double expected(double of_tangent) const { return estimate > 0.0 ? estimate : of_tangent; }
   /// Takes part in the next linear solve.
   bool active() const { return overlap > begins || estimate > 0.0; }
 };
@@ -88,10 +85,18 @@ struct ContactModel {
   Lanes slide = {};       ///< gamma [N]
 };
 
-/// Fills z and force of a contact from pressure, n, slip and weight.
-void evaluate_force(const Friction& friction, double friction_scale, ContactPoint& contact);
+/// Of a linear model: the pressure that the change leads to, by its estimate, where there is one, or else by the
+/// tangent. Where a prediction has drawn strands apart, the tangent would have them pull, and friction drive them on.
+/// `Real`: double, or Lanes for four contacts at once.
+template <typename Real>
+Real expected_pressure(const Real& estimate, const Real& of_tangent) {
+  return select(estimate > 0.0, estimate, of_tangent);
+}
 
-/// Fills pressure, z and force of the active contacts from overlap, n, slip and weight.
+/// Fills z and force of the active contacts from pressure, n, slip and weight.
+void evaluate_forces(const Friction& friction, double friction_scale, std::vector<ContactPoint>& contacts);
+
+/// The same with the pressure from the overlap.
 void evaluate_forces(const NormalLaw& normal, const Friction& friction, double friction_scale,
                      std::vector<ContactPoint>& contacts);
 

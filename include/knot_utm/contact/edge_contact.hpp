@@ -100,7 +100,7 @@ class EdgeContact {
   void find_pairs();
   /// Between two edges, drawn a trifle to their middles.
   ClosestPoints closest(int a, int b, const Points& position) const;
-  void add_contact(int pair, const Points& position, const Points& start, double friction_scale);
+  void add_contact(int pair, const Points& position, const Points& start);
   /// What is remembered of these edges' contact, or else of the nearest one; null where there was none near.
   const Memory* recall(std::pair<int, int> edges, double arclength_a, double arclength_b) const;
 
