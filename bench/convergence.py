@@ -7,6 +7,7 @@ import runs
 import starts
 from table import REFERENCE, Gate, Report, Table, at_least, at_most, is_missing
 from tighten import SLIDES
+from tightness import TightnessLaw, excess_length
 
 MATERIALS = ["nylon", "polypropylene", "pink_vps", "green_vps"]
 CONTACT_STIFFNESS = 300.0             # [k_b/h^4] what `material.contact_stiffness: auto` stands for
@@ -32,6 +33,7 @@ def variants_of(material):
 HALVED = ("edges x1/2", "longest step halved", "contact tolerance halved", "presliding halved")
 FINE_RUN = {"physics.accuracy": "fine", "specimen.refinement": 4}
 PRELOADS = [0.7, 1.5]                 # of the material's own
+PRELOAD = "pre-load x"
 # Loops that no estimate of an error was chosen for.
 OTHER_LOOPS = {"opposite hands": {"specimen.handedness": "opposite"},
                "longer loop": {"specimen.end_to_end": 0.35, "specimen.tail": 0.04}}
@@ -56,7 +58,7 @@ def report(runner, materials, seeds=3):
     tables, curves, all_cases, failures = [], {}, [], []
     for material in materials:
         variants, cases = run_all(runner, material, seeds)
-        tables.append(table_of(material, variants))
+        tables.append(table_of(material, variants, tightness_law(variants, cases)))
         all_cases += cases
         failures += failures_of(material, variants, cases)
         curves[material] = {name: with_millimetres(starts[0]) for name, starts in variants.items()}
@@ -70,7 +72,9 @@ def report(runner, materials, seeds=3):
                   f"{1e3 * starts.SHIFT:g} mm further apart from one start to the next. Each run ties its own knot. Means and "
                   "changes of means are over the starts whose runs went to their end, changes over those that both "
                   "variants have; a gate also fails where a start is missing. Ripple, CPU time and real-time factor "
-                  "are the worst of the starts. Errors: the reading's true difference to a fine run "
+                  "are the worst of the starts. At the same excess length: the plateau against that as shipped at the "
+                  "pre-load that leaves as much rod in the knots (the parabola through three pre-loads; missing beyond them), "
+                  "so that what moves the sliding is told apart from what moves the tying. Errors: the reading's true difference to a fine run "
                   "(`physics.accuracy=fine`, `specimen.refinement=4`) of the same start, pre-load and loop, against the "
                   "error that the run itself gives; one that only one of them has counts as not within, what neither has does not count. "
                   f"No error was chosen after {', '.join(OTHER_LOOPS)} and friction x{FRICTION:g}. The picture has the "
@@ -119,8 +123,25 @@ def rougher(shipped):
 
 def other_preloads(shipped):
     preload = shipped.value("preload")
-    return {} if preload is None else {f"pre-load x{factor:g}": {"specimen.preload": factor * preload}
+    return {} if preload is None else {f"{PRELOAD}{factor:g}": {"specimen.preload": factor * preload}
                                        for factor in PRELOADS}
+
+
+def tightness_law(variants, cases):
+    """Of the runs as shipped at their three pre-loads."""
+    tied = [variants[SHIPPED]] + [case.starts for case in cases if case.name.startswith(PRELOAD)]
+    return TightnessLaw.through([(mean(excess_lengths(starts)), mean(readings(starts, "plateau_force")))
+                                 for starts in tied])
+
+
+def excess_lengths(starts):
+    """Of the runs that have a plateau."""
+    return [None if reading(run, "plateau_force") is None else excess_length(run) for run in starts]
+
+
+def change_at_same_tightness(law, starts):
+    return runs.relative_change(mean(readings(starts, "plateau_force")),
+                                law.force_at(mean(excess_lengths(starts))) if law else None)
 
 
 def reading(run, key):
@@ -173,7 +194,7 @@ def worst(choose, values):
     return choose(present(values), default=None)
 
 
-def table_of(material, variants):
+def table_of(material, variants, law):
     each = list(variants.values())
 
     def gates(bound, values_of, names):
@@ -195,6 +216,12 @@ def table_of(material, variants):
                   gates(CHANGE_GATES.get(key), lambda starts, k=key, s=shipped: (readings(starts, k), s), HALVED),
                   ".2g")
         if key == "plateau_force":
+            table.add("excess length of the tied knots", "m", [mean(excess_lengths(starts)) for starts in each],
+                      None, ".6f")
+            table.add("relative change of the plateau force at the same excess length", "-",
+                      [REFERENCE] + [change_at_same_tightness(law, starts) for starts in each[1:]],
+                      gates(CHANGE_GATES[key], lambda starts, s=shipped: (readings(starts, "plateau_force"), s), HALVED),
+                      ".2g")
             table.add("ripple of the plateau", "-", [worst(max, ripple(starts)) for starts in each],
                       gates(RIPPLE_GATE, lambda starts: (ripple(starts),), [SHIPPED, *HALVED]), ".2g")
     table.add("CPU time", "s", [worst(max, [run.cpu_time for run in starts if run.exit_code == 0]) for starts in each],

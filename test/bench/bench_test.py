@@ -16,6 +16,7 @@ import references  # noqa: E402
 import runs  # noqa: E402
 import scaling  # noqa: E402
 import tighten  # noqa: E402
+import tightness  # noqa: E402
 from table import Table, at_least, at_most, is_, within  # noqa: E402
 
 
@@ -141,6 +142,7 @@ class FakeRunner:
         run.method = {"material": {"radius": 0.003, "bending_stiffness": 1e-4, "friction_coefficient": 0.3}}
         run.result = {"motion_pattern": "sliding", "simulated_time": 60.0, "preload": 50.0, "plateau_force": 6.0,
                       "plateau_force_sd": 0.3, "lock_extension": 0.08, "locked_stiffness": 2e5, "peak_force": 7e3,
+                      "excess_length": [0.08, 0.08 - 0.002 * settings.get("specimen.preload", 50.0) / 50.0],
                       "plateau_force_error": 0.1, "lock_extension_error": 1e-3, "locked_stiffness_error": 1e3}
         run.settings = settings
         run.exit_code = self.change(name, run.result)
@@ -177,9 +179,32 @@ class Convergence(unittest.TestCase):
         def change(name, result):
             result["plateau_force"] *= 1.04 if "/edges_x1_2/" in name else 1.0
             return 0
-        line, = self.report(change).failed()
+        line, tied_alike = self.report(change).failed()
         self.assertIn("edges x1/2: relative change of the plateau force is 0.04", line)
+        self.assertIn("at the same excess length is 0.04", tied_alike)
         self.assertEqual(self.report(change, "nylon").failed(), [])
+
+    def test_a_halving_that_ties_tighter_is_told_apart_from_one_that_slides_at_another_force(self):
+        def change(name, result):
+            result["plateau_force"] = 1e3 * (0.08 - result["excess_length"][1])  # grows as knots are tied tighter
+            if "/edges_x1_2/" in name:
+                result["excess_length"] = [0.08, 0.0779]
+                result["plateau_force"] = 2.1
+            return 0
+        table = self.report(change).tables[0]
+        rows = {row[0]: dict(zip(table.columns, row[2])) for row in table.rows}
+        self.assertAlmostEqual(rows["relative change of the plateau force"]["edges x1/2"], 0.05)
+        here = rows["relative change of the plateau force at the same excess length"]
+        self.assertAlmostEqual(here["edges x1/2"], 0.0)
+        self.assertAlmostEqual(here["presliding halved"], 0.0)
+
+    def test_a_law_of_tightness_ends_with_its_points(self):
+        law = tightness.TightnessLaw.through([(2.0, 4.0), (1.0, 1.0), (3.0, 9.0)])
+        self.assertAlmostEqual(law.force_at(2.5), 6.25)
+        self.assertIsNone(law.force_at(3.1))
+        self.assertIsNone(law.force_at(None))
+        self.assertIsNone(tightness.TightnessLaw.through([(2.0, 4.0), (2.0, 1.0), (3.0, 9.0)]))
+        self.assertIsNone(tightness.TightnessLaw.through([(2.0, 4.0), (1.0, None), (3.0, 9.0)]))
 
     def test_what_is_no_halving_is_reported_only(self):
         def change(name, result):
@@ -199,7 +224,7 @@ class Convergence(unittest.TestCase):
             return 1 if name.endswith("presliding_halved/1") else 0
         report = self.report(change, seeds=3)
         failed = report.failed()
-        self.assertEqual(len(failed), 4)
+        self.assertEqual(len(failed), 5)
         self.assertTrue(all("presliding halved" in line and "of every start" in line for line in failed))
         self.assertEqual([row[0] for row in report.tables[-1].rows], ["polypropylene, presliding halved, start 1"])
         self.assertEqual(report.tables[-1].rows[0][2], [1, "no more steps"])
