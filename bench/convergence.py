@@ -130,8 +130,8 @@ def other_preloads(shipped):
 def tightness_law(variants, cases):
     """Of the runs as shipped at their three pre-loads."""
     tied = [variants[SHIPPED]] + [case.starts for case in cases if case.name.startswith(PRELOAD)]
-    return TightnessLaw.through([(mean(excess_lengths(starts)), mean(readings(starts, "plateau_force")))
-                                 for starts in tied])
+    return TightnessLaw([(mean(excess_lengths(starts)), mean(readings(starts, "plateau_force")))
+                         for starts in tied])
 
 
 def excess_lengths(starts):
@@ -141,7 +141,7 @@ def excess_lengths(starts):
 
 def change_at_same_tightness(law, starts):
     return runs.relative_change(mean(readings(starts, "plateau_force")),
-                                law.force_at(mean(excess_lengths(starts))) if law else None)
+                                law.force_at(mean(excess_lengths(starts))))
 
 
 def reading(run, key):
@@ -194,7 +194,8 @@ def worst(choose, values):
     return choose(present(values), default=None)
 
 
-def table_of(material, variants, law):
+def table_of(material, variants, law=None):
+    """`law`: of tightness; none where all variants are tied alike."""
     each = list(variants.values())
 
     def gates(bound, values_of, names):
@@ -215,13 +216,14 @@ def table_of(material, variants, law):
                   [REFERENCE] + [change_of_means(readings(starts, key), shipped) for starts in each[1:]],
                   gates(CHANGE_GATES.get(key), lambda starts, k=key, s=shipped: (readings(starts, k), s), HALVED),
                   ".2g")
-        if key == "plateau_force":
+        if key == "plateau_force" and law:
             table.add("excess length of the tied knots", "m", [mean(excess_lengths(starts)) for starts in each],
                       None, ".6f")
             table.add("relative change of the plateau force at the same excess length", "-",
                       [REFERENCE] + [change_at_same_tightness(law, starts) for starts in each[1:]],
                       gates(CHANGE_GATES[key], lambda starts, s=shipped: (readings(starts, "plateau_force"), s), HALVED),
                       ".2g")
+        if key == "plateau_force":
             table.add("ripple of the plateau", "-", [worst(max, ripple(starts)) for starts in each],
                       gates(RIPPLE_GATE, lambda starts: (ripple(starts),), [SHIPPED, *HALVED]), ".2g")
     table.add("CPU time", "s", [worst(max, [run.cpu_time for run in starts if run.exit_code == 0]) for starts in each],

@@ -5,20 +5,16 @@ import statistics
 class TightnessLaw:
     """The force at which a knot slides follows the length of rod that tying leaves in it, its excess length. What moves
     that length moves the force, as the pre-load does, however little it changes about the sliding itself: the law, the
-    parabola through three points (excess length, plateau force), tells the two apart."""
+    parabola through three points (excess length, plateau force), tells the two apart. Where a value is missing, or two
+    points are equally tight, there is none."""
 
     def __init__(self, points):
-        self.points = sorted(points)
-
-    @staticmethod
-    def through(points):
-        """None: a value is missing, or two are the same."""
-        known = [point for point in points if None not in point]
-        return TightnessLaw(known) if len({excess for excess, _ in known}) == 3 else None
+        known = sorted(point for point in points if None not in point)
+        self.points = known if len({excess for excess, _ in known}) == 3 else []
 
     def force_at(self, excess):
         """Lagrange's polynomial; None beyond its points."""
-        if excess is None or not self.points[0][0] <= excess <= self.points[-1][0]:
+        if excess is None or not self.points or not self.points[0][0] <= excess <= self.points[-1][0]:
             return None
         force = 0.0
         for i, (own, value) in enumerate(self.points):

@@ -199,12 +199,12 @@ class Convergence(unittest.TestCase):
         self.assertAlmostEqual(here["presliding halved"], 0.0)
 
     def test_a_law_of_tightness_ends_with_its_points(self):
-        law = tightness.TightnessLaw.through([(2.0, 4.0), (1.0, 1.0), (3.0, 9.0)])
+        law = tightness.TightnessLaw([(2.0, 4.0), (1.0, 1.0), (3.0, 9.0)])
         self.assertAlmostEqual(law.force_at(2.5), 6.25)
         self.assertIsNone(law.force_at(3.1))
         self.assertIsNone(law.force_at(None))
-        self.assertIsNone(tightness.TightnessLaw.through([(2.0, 4.0), (2.0, 1.0), (3.0, 9.0)]))
-        self.assertIsNone(tightness.TightnessLaw.through([(2.0, 4.0), (1.0, None), (3.0, 9.0)]))
+        self.assertIsNone(tightness.TightnessLaw([(2.0, 4.0), (2.0, 1.0), (3.0, 9.0)]).force_at(2.5))
+        self.assertIsNone(tightness.TightnessLaw([(2.0, 4.0), (1.0, None), (3.0, 9.0)]).force_at(2.5))
 
     def test_what_is_no_halving_is_reported_only(self):
         def change(name, result):
