@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/centreline_file.hpp"
@@ -27,16 +28,11 @@ struct Arguments {
 /// A soft solid rod with the radius of the ropes.
 Material soft_rod() { return table1(1170.0, 1.70, 4.34e-6, 4.34e-6, 0.54); }
 
+/// Those of a test of a shape from a file.
 StepSettings settings_of(const Material& material) {
-  const double h = material.radius;
-  StepSettings out = closed_form_settings(material);
-  out.normal = {default_contact_stiffness(material), 0.045 * h};
-  out.friction = {FrictionLaw::kMemory, material.friction_coefficient, 2e-3 * h, 0.0};
-  out.drag = 0.1;
-  out.residual = 1e-6 * material.bending_stiffness / (h * h);
-  out.residual_of_tension = 2e-6;
-  out.candidate_margin = h;
-  return out;
+  SpecimenOptions specimen;
+  specimen.knot = KnotKind::kFile;
+  return step_settings(specimen, material, MachineOptions(), PhysicsOptions());
 }
 
 struct Scene {

@@ -13,6 +13,7 @@
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
+#include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/sim/saved_step.hpp"
 #include "knot_utm/sim/step_control.hpp"
@@ -23,11 +24,7 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kStiffeningDepth = 0.015;   // c of the normal law: at the kN of a locked knot a rod gives 5 % [h]
-constexpr double kFullResidual = 0.1;        // of the longest step, below which the residual shrinks with the step
-constexpr double kResidualOfTension = 2e-6;  // of the largest tension, so that kN loads do not ask for more than digits
-constexpr double kResidualAtLittleTension = 1e-3;  // loose knots bear much less than k_b/h^2, and are read too
-constexpr double kGripStretch = 2.4;               // of a tail's grip when it slips [h]
+constexpr double kGripStretch = 2.4;   // of a tail's grip when it slips [h]
 constexpr double kTakeUpLoad = 0.02;   // slack is taken up once the load has risen by this much [k_b/h^2] ...
 constexpr double kTakeUpMotion = 0.3;  // ... or once the knots have moved by this much [h]
 
@@ -36,32 +33,6 @@ constexpr double kShortestStep = 0.01;  // below it the run gives up, where that
 // A shape that is pulled as it was drawn settles first, under a drag that fades as that of the tying rig does.
 constexpr double kSettlingTime = 1.0;   // [s]
 constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
-
-StepSettings step_settings(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
-                           const PhysicsOptions& physics) {
-  const Tolerances tolerance = tolerances(physics, specimen, material);
-  const double h = material.radius;
-  StepSettings out;
-  out.contact_law = physics.contact_law;
-  out.normal = {default_contact_stiffness(material), tolerance.contact_tolerance * h, kStiffeningDepth * h};
-  out.friction = {physics.friction_law, material.friction_coefficient, tolerance.presliding * h,
-                  physics.slip_tolerance};
-  out.roller_friction = out.friction;
-  out.roller_friction.coefficient = machine.roller_friction;
-  out.gravity = physics.gravity;
-  out.drag = physics.drag;
-  out.spin_inertia = false;  // a slow test; and a rod that is free to turn is then the same with twist and without
-  out.residual = tolerance.residual * material.bending_stiffness / (h * h);
-  out.residual_from_step = kFullResidual * tolerance.longest_step;
-  out.residual_of_tension = kResidualOfTension;
-  out.residual_at_little_tension = kResidualAtLittleTension;
-  out.newton_cap = 0.2 * h;
-  out.motion_limit = 0.8 * h;
-  out.overlap_limit = 0.5 * h;
-  out.candidate_margin = 1.0 * h;
-  out.max_iterations = 12;
-  return out;
-}
 
 constexpr double kNearBreak = 1e-3;      // steps are no shorter for a break that is near [longest step]
 constexpr double kRecoilTransits = 1.0;  // of the specimen, that the ends of a parted rod are followed for

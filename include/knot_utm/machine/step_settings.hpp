@@ -1,0 +1,15 @@
+#pragma once
+
+#include "knot_utm/machine/options.hpp"
+#include "knot_utm/rod/material.hpp"
+#include "knot_utm/sim/options.hpp"
+#include "knot_utm/sim/scene.hpp"
+#include "knot_utm/specimen/options.hpp"
+
+namespace knot_utm {
+
+/// How the steps of a test are solved: what its method says, in units of its rod.
+StepSettings step_settings(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
+                           const PhysicsOptions& physics);
+
+}  // namespace knot_utm

@@ -1,0 +1,42 @@
+#include "knot_utm/machine/step_settings.hpp"
+
+#include "knot_utm/machine/accuracy.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr double kStiffeningDepth = 0.015;   // c of the normal law: at the kN of a locked knot a rod gives 5 % [h]
+constexpr double kFullResidual = 0.1;        // of the longest step, below which the residual shrinks with the step
+constexpr double kResidualOfTension = 2e-6;  // of the largest tension, so that kN loads do not ask for more than digits
+constexpr double kResidualAtLittleTension = 1e-3;  // loose knots bear much less than k_b/h^2, and are read too
+
+}  // namespace
+
+StepSettings step_settings(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
+                           const PhysicsOptions& physics) {
+  const Tolerances tolerance = tolerances(physics, specimen, material);
+  const double h = material.radius;
+  StepSettings out;
+  out.contact_law = physics.contact_law;
+  out.normal = {default_contact_stiffness(material), tolerance.contact_tolerance * h, kStiffeningDepth * h};
+  out.friction = {physics.friction_law, material.friction_coefficient, tolerance.presliding * h,
+                  physics.slip_tolerance};
+  out.roller_friction = out.friction;
+  out.roller_friction.coefficient = machine.roller_friction;
+  out.gravity = physics.gravity;
+  out.drag = physics.drag;
+  out.spin_inertia = false;  // a slow test; and a rod that is free to turn is then the same with twist and without
+  out.residual = tolerance.residual * material.bending_stiffness / (h * h);
+  out.residual_from_step = kFullResidual * tolerance.longest_step;
+  out.residual_of_tension = kResidualOfTension;
+  out.residual_at_little_tension = kResidualAtLittleTension;
+  out.newton_cap = 0.2 * h;
+  out.motion_limit = 0.8 * h;
+  out.overlap_limit = 0.5 * h;
+  out.candidate_margin = 1.0 * h;
+  out.max_iterations = 12;
+  return out;
+}
+
+}  // namespace knot_utm
