@@ -23,16 +23,17 @@ struct Arguments {
   double step = 0.02;           // [s]
   double speed = 1e-3;          // [m/s]
   double duration = 10.0;       // [s]
+  PhysicsOptions physics;
 };
 
 /// A soft solid rod with the radius of the ropes.
 Material soft_rod() { return table1(1170.0, 1.70, 4.34e-6, 4.34e-6, 0.54); }
 
 /// Those of a test of a shape from a file.
-StepSettings settings_of(const Material& material) {
+StepSettings settings_of(const Material& material, const PhysicsOptions& physics) {
   SpecimenOptions specimen;
   specimen.knot = KnotKind::kFile;
-  return step_settings(specimen, material, MachineOptions(), PhysicsOptions());
+  return step_settings(specimen, material, MachineOptions(), physics);
 }
 
 struct Scene {
@@ -49,7 +50,7 @@ struct Scene {
     RodState state;
     state.position = x;
     state.velocity = Points::Zero(3, x.cols());
-    stepper = TimeStep::make(rod, state, settings_of(material));
+    stepper = TimeStep::make(rod, state, settings_of(material, arguments.physics));
     boundary.fixed_nodes = {{0, x.col(0)}, {static_cast<int>(x.cols()) - 1, x.rightCols(1)}};
   }
 
@@ -106,6 +107,7 @@ int main(int argc, char** argv) {
   app.add_option("--step", arguments.step, "[s]")->check(CLI::PositiveNumber);
   app.add_option("--speed", arguments.speed, "[m/s]")->check(CLI::NonNegativeNumber);
   app.add_option("--duration", arguments.duration, "[s]")->check(CLI::PositiveNumber);
+  app.add_option("--residual", arguments.physics.residual, "[k_b/h^2]; that of a test")->check(CLI::PositiveNumber);
   CLI11_PARSE(app, argc, argv);
   try {
     knot_utm::run(arguments);

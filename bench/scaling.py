@@ -28,11 +28,12 @@ KNOT = {"specimen.length": NODES_A_KNOT * EDGE, "specimen.end_to_end": NODES_A_K
 def report(runner, _):
     files = rows_of_knots(runner)
     curves = {}
-    tables = [steps(runner, files, curves), tests(runner, files, curves), at_once(runner)]
+    tables = [steps(runner, files, curves, RESIDUAL), steps(runner, files, curves), tests(runner, files, curves), at_once(runner)]
     return Report("Growth with nodes, and two tests at once",
                   "An overhand is tightened, its shape put end to end with itself up to 16 times, and the whole row "
                   "pulled in steps of equal length at a speed that grows with the number of knots: contacts a node, "
-                  "and what happens to each knot, are the same at every length. First the steps alone, timed inside a "
+                  "and what happens to each knot, are the same at every length. First the steps alone, to a residual that "
+                  "leaves every step something to solve and to that of a test, timed inside a "
                   f"process, the least of {ROUNDS} runs; then whole tests, which also watch the type of the knot, a "
                   "polynomial whose cost grows faster than the nodes. Wall times of two tests at once say something "
                   "only where the machine has two cores to spare: see the load average.", tables,
@@ -47,11 +48,13 @@ def rows_of_knots(runner):
     return files
 
 
-def steps(runner, files, curves):
-    """The physics alone."""
+def steps(runner, files, curves, residual=None):
+    """The physics alone; `residual`: none for that of a test."""
+    own = ["--residual", residual] if residual else []
+    words = f", residual {residual:g}" if residual else ""
     each = [min((runner.bench_tool("row_of_knots_bench",
                                    [os.path.relpath(file, runner.root), "--edge", ROOM * EDGE, "--step", STEP,
-                                    "--speed", knots * SPEED, "--duration", PULL]) for _ in range(ROUNDS)),
+                                    "--speed", knots * SPEED, "--duration", PULL, *own]) for _ in range(ROUNDS)),
                 key=lambda found: found.get("cpu_time", math.inf)) for knots, file in zip(KNOTS, files)]
 
     def per(key):
@@ -59,7 +62,7 @@ def steps(runner, files, curves):
 
     cost, memory = per("steps"), [found.get("peak_memory") for found in each]
     nodes = [found.get("nodes") for found in each]
-    table = Table("Steps: overhands in a row", [f"{knots}" for knots in KNOTS])
+    table = Table(f"Steps: overhands in a row{words}", [f"{knots}" for knots in KNOTS])
     table.add("nodes", "-", nodes)
     table.add("points of contact that touch", "-", [found.get("touching") for found in each])
     table.add("time steps", "-", [found.get("steps") for found in each])
@@ -68,10 +71,10 @@ def steps(runner, files, curves):
     table.add("CPU time a step", "ms", [one and 1e3 * one for one in cost], None, ".3g")
     table.add("CPU time an iteration", "ms", [one and 1e3 * one for one in per("newton_iterations")], None, ".3g")
     table.add("peak memory", "MB", [one and 1e-6 * one for one in memory], None, ".3g")
-    over_one(table, curves, "nodes", nodes, nodes)
-    over_one(table, curves, "CPU time a step", cost, nodes, at_most(GROWTH))
-    over_one(table, curves, "CPU time an iteration", per("newton_iterations"), nodes)
-    over_one(table, curves, "peak memory", memory, nodes, at_most(GROWTH))
+    over_one(table, curves, f"nodes{words}", nodes, nodes)
+    over_one(table, curves, f"CPU time a step{words}", cost, nodes, at_most(GROWTH))
+    over_one(table, curves, f"CPU time an iteration{words}", per("newton_iterations"), nodes)
+    over_one(table, curves, f"peak memory{words}", memory, nodes, at_most(GROWTH))
     return table
 
 

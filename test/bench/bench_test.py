@@ -2,6 +2,7 @@
 """What scripts/bench makes of runs and scripts/validate of test reports: gates, missing values, slopes."""
 import math
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -232,6 +233,20 @@ class Convergence(unittest.TestCase):
     def test_a_change_is_over_the_starts_that_both_have(self):
         self.assertAlmostEqual(convergence.change_of_means([1.1, None, 3.3], [1.0, 9.0, 3.0]), 0.1)
         self.assertIsNone(convergence.change_of_means([None], [1.0]))
+
+    def test_what_is_halved_is_what_is_shipped(self):
+        with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../src/machine/accuracy.cpp"),
+                  encoding="utf-8") as source:
+            text = source.read()
+        for material, name in (("nylon", "kNormal"), ("pink_vps", "kStretchingNormal")):
+            step, residual, contact_tolerance, presliding, _ = [
+                float(number) for number in re.search(name + r"\{(.*?)\}", text).group(1).split(",")]
+            variants = convergence.variants_of(material)
+            for variant, halved in (("longest step halved", {"physics.max_step": step / 2}),
+                                    ("residual /10", {"physics.residual": residual / 10}),
+                                    ("contact tolerance halved", {"physics.contact.tolerance": contact_tolerance / 2}),
+                                    ("presliding halved", {"physics.friction.presliding": presliding / 2})):
+                self.assertEqual(variants[variant], halved)
 
     def test_scatter(self):
         self.assertAlmostEqual(convergence.scatter([1.0, 2.0, None, 3.0]), 0.5)
