@@ -64,7 +64,8 @@ def in_browser(html):
 
 def in_mm(length):
     """As the page writes a length, with as many digits as its error leaves."""
-    return rf"({1e3 * length:.1f}|{1e3 * length:.2f})"
+    either = "|".join(re.escape(f"{1e3 * length:.{digits}f}") for digits in (1, 2))
+    return rf"(?<![\d.])({either})(?!\d)"
 
 
 class InABrowser(unittest.TestCase):
