@@ -4,6 +4,9 @@ import glob
 import os
 import re
 import unittest
+import xml.etree.ElementTree
+
+import yaml
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../..")
 SCREEN = 50  # lines
@@ -182,6 +185,52 @@ class Documents(unittest.TestCase):
         tests = [os.path.basename(file) for file in [*files("test", ""), *files("src/tools", "")]]
         for name in re.findall(r"`(\w+_test|\w+\.test)`", text("doc/reliability.md")):
             self.assertTrue(any(file in (name, name + ".py", name + ".cpp") for file in tests), name)
+
+
+class Sources(unittest.TestCase):
+    CITED = re.compile(r"\b([A-Z][a-z]+)(?:,? (?:[A-Z][\w'’]+|and|et al\.)(?=[ ,]))*,? (?:algorithm )?\(?((?:18|19|20)\d\d)\b")
+
+    def test_who_is_cited_stands_in_the_bibliography(self):
+        entries = text("doc/bibliography.md").split("\n")
+        cited = set()
+        for folder, ending in (("include", ".hpp"), ("src", "pp"), ("test", "pp"), ("bench", ".py"), ("config", ".yaml"), ("doc", ".md")):
+            for file in files(folder, ending):
+                if not file.endswith("bibliography.md"):
+                    words = re.sub(r"\n\s*(?:///?|#)?\s*", " ", text(file))  # a comment goes on in the next line
+                    cited.update((author, year, file) for author, year in self.CITED.findall(words))
+        self.assertGreater(len(cited), 10)
+        for author, year, file in cited:
+            self.assertTrue(any(author in entry and year in entry for entry in entries), f"{file}: {author} {year}")
+
+    def test_links_name_the_doi_that_they_lead_to(self):
+        dois = re.findall(r"\[doi:(\S+)\]\(https://doi\.org/(\S+)\)", text("doc/bibliography.md"))
+        self.assertGreater(len(dois), 5)
+        for said, led in dois:
+            self.assertEqual(said, led.replace("%28", "(").replace("%29", ")"))
+
+
+class Citation(unittest.TestCase):
+    citation = yaml.safe_load(text("CITATION.cff"))
+
+    def test_has_what_the_format_requires(self):
+        self.assertEqual(self.citation["cff-version"], "1.2.0")
+        for key in ("message", "title", "authors"):
+            self.assertTrue(self.citation[key], key)
+        for work in [self.citation, *self.citation["references"]]:
+            for author in work["authors"]:
+                self.assertTrue(set(author) in ({"name"}, {"given-names", "family-names"}), author)
+        for reference in self.citation["references"]:
+            self.assertTrue({"type", "title", "authors"} <= set(reference), reference)
+
+    def test_version_and_licence_are_the_packages(self):
+        package = xml.etree.ElementTree.parse(os.path.join(ROOT, "package.xml")).getroot()
+        self.assertEqual(self.citation["version"], package.find("version").text)
+        self.assertEqual(self.citation["license"], package.find("license").text)
+
+    def test_has_the_source_paper_as_the_bibliography_has_it(self):
+        paper = self.citation["references"][0]
+        for part in [paper["title"], paper["doi"], paper["start"], *(author["family-names"] for author in paper["authors"])]:
+            self.assertIn(part, " ".join(text("doc/bibliography.md").split()))
 
 
 if __name__ == "__main__":
