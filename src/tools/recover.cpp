@@ -43,7 +43,6 @@ int run(const Arguments& arguments) {
 /// Reads the command line; an exit code where that is all there is to do.
 std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::App app("Writes anew what a run left that was killed, from its method.yaml and journal.");
-  app.set_version_flag("--version", version());
   app.add_option("DIR", arguments.folder, "the run's folder")->required();
   app.add_option("--out", arguments.out, "the folder to write to; DIR unless given");
   return parse(app, kTool, argc, argv);
