@@ -20,7 +20,8 @@ ClaimedFolder claim_folder(const std::string& folder, const JournalHeader& heade
 }
 
 std::string moved_notice(const std::string& asked, const std::string& used) {
-  return asked + " holds a run already, which stays as it is; this one is written to " + used;
+  return asked + (holds_unfinished_run(asked) ? " holds a run that has not ended" : " holds a run already") +
+         ", which stays as it is; this one is written to " + used;
 }
 
 }  // namespace knot_utm

@@ -121,6 +121,20 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
+/// The lines that name the two files.
+std::string names_of(const std::string& yaml) { return yaml.substr(0, yaml.find('\n', yaml.find('\n') + 1)); }
+
+/// Whether something stands in the folder that a comparison would write over, but for what the same files left.
+bool holds_another_comparison(const fs::path& folder, const std::string& yaml) {
+  std::error_code error;
+  const fs::path before = folder / "comparison.yaml";
+  if (fs::exists(folder / "result.yaml", error)) return false;  // is refused
+  if (fs::is_regular_file(before, error)) return names_of(read_whole(before.string())) != names_of(yaml);
+  for (const char* name : {"a.csv", "b.csv", "report.html", "report.pdf"})
+    if (fs::is_regular_file(folder / name, error)) return true;
+  return false;
+}
+
 std::string pull_csv(const Pull& pull) {
   std::string text = "extension,load\nm,N\n";
   for (const PullPoint& point : pull) text += format_number(point.extension) + "," + format_number(point.force) + "\n";
@@ -145,8 +159,11 @@ void write_report(const std::string& folder, const std::string& command) {
   throw std::runtime_error(line.empty() ? "report: " + std::string(kPython) + " ended without a word" : line);
 }
 
-void write_comparison(const std::string& folder, const std::string& yaml, const Pull& a, const Pull& b,
-                      const std::string& file_a, const std::string& file_b) {
+std::string write_comparison(const std::string& asked, const std::string& yaml, const Pull& a, const Pull& b,
+                             const std::string& file_a, const std::string& file_b, bool overwrite) {
+  std::string folder = asked;
+  for (int number = 2; !overwrite && holds_another_comparison(folder, yaml); ++number)
+    folder = numbered_folder(asked, number);
   const fs::path where(folder);
   std::error_code error;
   if (fs::exists(where / "result.yaml", error))
@@ -162,6 +179,7 @@ void write_comparison(const std::string& folder, const std::string& yaml, const 
   fs::create_directories(where, error);
   if (!fs::is_directory(where, error)) throw InvalidInput("--report", folder, "a folder that can be made");
   for (const auto& [name, text] : files) write_whole((where / name).string(), text);
+  return folder;
 }
 
 }  // namespace knot_utm

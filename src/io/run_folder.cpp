@@ -98,6 +98,11 @@ bool holds_run(const std::string& folder) {
   return holds_results(folder) || fs::exists(journal_file(folder), error);
 }
 
+bool holds_unfinished_run(const std::string& folder) {
+  std::error_code error;
+  return fs::exists(journal_file(folder), error) && !has_complete_result(folder);
+}
+
 std::string numbered_folder(const std::string& folder, int number) {
   if (number == 1) return folder;
   fs::path path = fs::path(folder).lexically_normal();

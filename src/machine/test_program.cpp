@@ -16,15 +16,15 @@ constexpr double kRigid = 1.0 - 1e-6;   // gain of a frame that gives nothing
 constexpr double kLeastGain = 1e-3;     // of a frame that gives nearly all
 
 constexpr std::array<std::pair<EndedBy, const char*>, 10> kEndNames{{{EndedBy::kNotYet, "not yet"},
-                                                                    {EndedBy::kBreak, "break"},
-                                                                    {EndedBy::kExtension, "extension"},
-                                                                    {EndedBy::kLoad, "load"},
-                                                                    {EndedBy::kTravel, "travel"},
-                                                                    {EndedBy::kOperator, "operator"},
-                                                                    {EndedBy::kSolver, "solver"},
-                                                                    {EndedBy::kProgram, "program"},
-                                                                    {EndedBy::kTime, "time"},
-                                                                    {EndedBy::kUntangled, "untangled"}}};
+                                                                     {EndedBy::kBreak, "break"},
+                                                                     {EndedBy::kExtension, "extension"},
+                                                                     {EndedBy::kLoad, "load"},
+                                                                     {EndedBy::kTravel, "travel"},
+                                                                     {EndedBy::kOperator, "operator"},
+                                                                     {EndedBy::kSolver, "solver"},
+                                                                     {EndedBy::kProgram, "program"},
+                                                                     {EndedBy::kTime, "time"},
+                                                                     {EndedBy::kUntangled, "untangled"}}};
 
 /// Of the crosshead as a step begins [m/s].
 double first_velocity(const ProgramStep& step) {

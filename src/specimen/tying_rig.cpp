@@ -15,7 +15,7 @@ constexpr double kStandingFromMiddle = 5.0;  // from the middle of the specimen,
 // The settling drag relaxes waves of this many radii in about a tenth of the settling time.
 constexpr double kSettlingTime = 0.3;  // [s]
 constexpr double kSettlingWave = 17.0;
-constexpr double kLetGoTime = 1.0 / 3.0;  // [s]
+constexpr double kLetGoTime = 1.0 / 3.0;      // [s]
 constexpr double kThreadedBeyondKnot = 18.0;  // beyond the middle of the loose knot: it ends 8 further out
 
 double fastest_node(const TimeStep& stepper) {

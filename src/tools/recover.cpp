@@ -6,7 +6,7 @@
 #include <string>
 
 #include "knot_utm/io/recovery.hpp"
-#include "knot_utm/io/run_facts.hpp"
+#include "knot_utm/io/run_folder.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/journal_bag.hpp"
 #endif
@@ -25,6 +25,11 @@ struct Arguments {
 int run(const Arguments& arguments) {
   if (is_settled(arguments.folder)) {
     std::printf("%s is complete: there is nothing to recover\n", arguments.folder.c_str());
+    return kDone;
+  }
+  if (arguments.out.empty() && was_interrupted(arguments.folder)) {
+    std::printf("%s holds all that was measured until it was interrupted; tensile_test --resume goes on with it\n",
+                arguments.folder.c_str());
     return kDone;
   }
   Recovery recovery(arguments.folder, arguments.out.empty() ? arguments.folder : arguments.out);

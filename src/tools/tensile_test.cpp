@@ -306,8 +306,8 @@ ClaimedFolder folder_of_run(const Arguments& arguments, const std::string& asked
   if (arguments.overwrite) return {asked, JournalWriter(asked, journal_header(method))};
   ClaimedFolder claimed = claim_folder(asked, journal_header(method));
   if (claimed.folder != asked)
-    std::fprintf(stderr, "%s: %s (--overwrite writes over it)\n", kTool,
-                 moved_notice(asked, claimed.folder).c_str());
+    std::fprintf(stderr, "%s: %s (%s)\n", kTool, moved_notice(asked, claimed.folder).c_str(),
+                 holds_unfinished_run(asked) ? "--resume goes on with that one" : "--overwrite writes over that one");
   return claimed;
 }
 
@@ -348,8 +348,8 @@ InvalidInput with_place(const InvalidInput& invalid, const std::string& method) 
 /// Reads the command line; an exit code where that is all there is to do.
 std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::App app("Runs one whole test of a method, as fast as it goes.");
-  CLI::Option* method =
-      app.add_option("METHOD", arguments.method, "the method: a YAML file, or the name of one that comes with the package");
+  CLI::Option* method = app.add_option("METHOD", arguments.method,
+                                       "the method: a YAML file, or the name of one that comes with the package");
   // One value each, so that --set may stand before METHOD too.
   CLI::Option* set =
       app.add_option("--set", arguments.overrides, "dotted.key=YAML, over what the method says; may be repeated")
@@ -357,8 +357,9 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::Option* out =
       app.add_option("--out", arguments.out, "the folder to write to; out/ and the method's name unless given");
   CLI::Option* resume = app.add_option("--resume", arguments.resume, "the folder of a test that was cut off: goes on");
-  CLI::Option* overwrite = app.add_flag("--overwrite", arguments.overwrite,
-                                        "write over what the folder holds, instead of to the next free one, -2, -3, ...");
+  CLI::Option* overwrite =
+      app.add_flag("--overwrite", arguments.overwrite,
+                   "write over what the folder holds, instead of to the next free one, -2, -3, ...");
   resume->excludes(method)->excludes(set)->excludes(out)->excludes(overwrite);
   app.add_option("--checkpoint", arguments.checkpoint, "wall time between two checkpoints [s]; 0: none")
       ->check(CLI::NonNegativeNumber)

@@ -25,6 +25,8 @@ void begin_run_folder(const std::string& folder, const Method& method);
 /// a comparison. `holds_run` counts a journal too, which a run has from its beginning until its results are complete.
 bool holds_results(const std::string& folder);
 bool holds_run(const std::string& folder);
+/// One that goes on, was cut off or interrupted.
+bool holds_unfinished_run(const std::string& folder);
 
 /// The `number`th of `folder`, `folder-2`, `folder-3` and so on.
 std::string numbered_folder(const std::string& folder, int number);

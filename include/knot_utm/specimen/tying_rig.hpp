@@ -33,7 +33,18 @@ class TyingRig {
     double pull_patience = 90.0;  ///< grips that have not reached the pre-load by then: not to be tied [s] ...
     double pull_way = 300.0;      ///< ... and have gone this far [h]
   };
-  enum class Stage { kIdle, kSettling, kPulling, kTied, kTailsRamp, kTailsRest, kClampsRamp, kClampsRest, kReleased, kLettingGo };
+  enum class Stage {
+    kIdle,
+    kSettling,
+    kPulling,
+    kTied,
+    kTailsRamp,
+    kTailsRest,
+    kClampsRamp,
+    kClampsRest,
+    kReleased,
+    kLettingGo
+  };
 
   TyingRig(const Centreline& centreline, const RodProperties& rod, const Options& options);
 
