@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """experiment.launch: the crosshead goes as an experiment's did, and both curves are on topics, at the same times."""
 import os
+import shutil
 import sys
 import time
 import unittest
@@ -31,7 +32,7 @@ class ExperimentTest(unittest.TestCase):
         while not call('utm/start_test', Trigger).success and time.monotonic() < end:
             time.sleep(0.2)
         self.assertEqual(status.wait('ended', lambda s: s.state == TestStatus.ENDED, 40.0).ended_by, 'program')
-        recorder.wait('recorded', lambda r: r.complete)
+        self.addCleanup(shutil.rmtree, recorder.wait('recorded', lambda r: r.complete).directory)
 
         self.assertEqual([m.time for m in measured.messages], [row[0] for row in MEASURED])
         self.assertEqual([m.wrench.force.z for m in load.messages], [row[2] for row in MEASURED])
