@@ -58,9 +58,10 @@ if(validation_sources)
   gtest_discover_tests(validation_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800 LABELS long)
 endif()
 
-# What scripts/bench and scripts/stress make of their runs; README and doc/ against the code.
+# What scripts/bench and scripts/stress make of their runs; the scripts themselves; README and doc/ against the code.
 add_test(NAME bench_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/bench_test.py)
 add_test(NAME stress_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/stress_test.py)
+add_test(NAME scripts_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/scripts_test.py)
 add_test(NAME doc_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/doc_test.py)
 
 # The report: what is made of a run, and what a browser and a printer make of that. Label `long`: they run whole tests.
