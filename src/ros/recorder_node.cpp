@@ -3,7 +3,6 @@
 #include <ros/callback_queue.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <stdexcept>
 #include <utility>
@@ -46,12 +45,6 @@ bool has_journal_of(const std::string& folder, const std::string& test) {
 }
 
 EndedBy ended_by_from_name(const std::string& name) { return ended_by_named(name).value_or(EndedBy::kNotYet); }
-
-/// scripts/tighten asks for the folder that is really written to, which roslaunch would not tell it.
-void tell_script(const std::string& folder) {
-  const char* file = std::getenv("KNOT_UTM_WRITTEN");
-  if (file != nullptr) write_whole(file, fs::absolute(folder).string() + "\n");
-}
 
 }  // namespace
 
@@ -165,7 +158,6 @@ bool RecorderNode::go_on(const std::string& folder) {
 }
 
 void RecorderNode::watch(const std::string& folder) {
-  tell_script(folder);
   if (!keeper_.watch(fs::absolute(folder).string()))
     ROS_WARN("the keeper is gone: a recorder that is killed needs `recover`");
 }

@@ -2,6 +2,9 @@
 
 #include <ros/console.h>
 #include <ros/init.h>
+#include <ros/master.h>
+#include <ros/names.h>
+#include <ros/this_node.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -85,7 +88,8 @@ TestSetup read_test_setup(const ros::NodeHandle& node) {
 ros::NodeHandle join_ros(int argc, char** argv, const char* name) {
   prefer_loopback();
   ros::init(argc, argv, name);
-  ros::NodeHandle node;
+  ros::start();  // so that it goes on until `leave_ros`, and not until the last handle is gone
+  const ros::NodeHandle node;
   bool network = false;
   read_parameter(node, "test/network", &network, "true or false");
   if (!network) {
@@ -94,6 +98,19 @@ ros::NodeHandle join_ros(int argc, char** argv, const char* name) {
     ROS_WARN("network:=true: ROS 1 has no authentication, anyone who reaches this machine can command the test");
   }
   return node;
+}
+
+void leave_ros(const char* name, int code) {
+  if (!ros::isStarted()) return;
+  if (ros::ok()) {
+    // A master that died is not waited for.
+    XmlRpc::XmlRpcValue request, response, payload;
+    request[0] = ros::this_node::getName();
+    request[1] = ros::names::resolve(std::string(names::kExitCodes) + "/" + name);
+    request[2] = code;
+    ros::master::execute("setParam", request, response, payload, false);
+  }
+  ros::shutdown();
 }
 
 int report_failure(const char* name, const char* what, int code) {

@@ -32,7 +32,7 @@ class LateAndSlowTest(unittest.TestCase):
         rospy.Subscriber('knot/record', KnotRecord, slow, queue_size=1)
         rospy.Subscriber('knot/state', rospy.AnyMsg, slow, queue_size=1)
         recorder = Latest('recorder/status', RecorderStatus)
-        status = recorder.wait('complete', lambda r: r.complete, timeout=60.0)
+        status = recorder.wait('complete', lambda r: r.complete)
         self.assertEqual(status.dropped, 0)
         self.addCleanup(shutil.rmtree, status.directory)
         self.assertTrue(status.directory.startswith(OUT))
