@@ -182,7 +182,6 @@ constexpr const char* kLoopOnly = "needs specimen.knot: fisherman; begin the pro
 void check_program(const Method& m) {
   const bool loop = m.specimen.knot == KnotKind::kFisherman;
   bool pulled = false;
-  bool released = true;
   for (std::size_t i = 0; i < m.program.size(); ++i) {
     const ProgramStep& step = m.program[i];
     const std::string key = "program." + std::to_string(i);
@@ -191,11 +190,9 @@ void check_program(const Method& m) {
       case Phase::kTie:
         if (i != 0) misplaced(key, name, "can only be the first step");
         if (!loop) misplaced(key, name, kLoopOnly);
-        released = false;
         break;
       case Phase::kRelease:
         if (i != 1 || m.program[0].phase != Phase::kTie) misplaced(key, name, "can only stand right after tie");
-        released = true;
         break;
       case Phase::kMount:
         if (!loop) misplaced(key, name, kLoopOnly);
@@ -212,7 +209,6 @@ void check_program(const Method& m) {
       default:
         break;
     }
-    if (!released && i > 0) misplaced(key, name, "cannot follow tie: put release between them");
     if (step.phase == Phase::kPull && !step.until.extension && !step.until.load && !step.until.time &&
         !step.until.broken) {
       throw InvalidInput::missing(key + ".pull.until", "one or more of extension, load, time and break");
