@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "knot_utm/io/curve_file.hpp"
+#include "knot_utm/io/shipped.hpp"
 #include "method_fields.hpp"
 #include "method_reader.hpp"
 
@@ -68,10 +69,7 @@ class Library {
     add(method_folder);
     add(method_folder / "config");
     add(method_folder / ".." / "config");
-    std::error_code error;
-    const fs::path executable = fs::read_symlink("/proc/self/exe", error);
-    if (!error) add(executable.parent_path() / ".." / ".." / "share" / "knot_utm" / "config");
-    add(KNOT_UTM_CONFIG_DIR);
+    for (const std::string& folder : shipped_folders()) add(folder);
   }
 
   /// `kind`: the folder, "materials" or "load_cells". `key` is what named the file, for the message.

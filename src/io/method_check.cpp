@@ -168,7 +168,6 @@ void check_ends(const Method& m) {
 void check_program(const Method& m) {
   const bool loop = m.specimen.knot == KnotKind::kFisherman;
   bool pulled = false;
-  bool released = true;
   for (std::size_t i = 0; i < m.program.size(); ++i) {
     const ProgramStep& step = m.program[i];
     const std::string key = "program." + std::to_string(i);
@@ -177,11 +176,9 @@ void check_program(const Method& m) {
       case Phase::kTie:
         if (i != 0) throw InvalidInput(key, name, "the first step only");
         if (!loop) throw InvalidInput(key, name, "for knot: fisherman; start with another step");
-        released = false;
         break;
       case Phase::kRelease:
         if (i != 1 || m.program[0].phase != Phase::kTie) throw InvalidInput(key, name, "right after tie only");
-        released = true;
         break;
       case Phase::kMount:
         if (!loop) throw InvalidInput(key, name, "for knot: fisherman; start with another step");
@@ -198,7 +195,6 @@ void check_program(const Method& m) {
       default:
         break;
     }
-    if (!released && i > 0) throw InvalidInput(key, name, "release, which follows tie");
     if (step.phase == Phase::kPull && !step.until.extension && !step.until.load && !step.until.time &&
         !step.until.broken) {
       throw InvalidInput(key + ".pull.until", "nothing", "one or more of extension, load, time and break");

@@ -73,8 +73,8 @@ void Recovery::make_place() {
     place_.folder = (fs::path(folder_) / "recovering").string();
     place_.is_scratch = true;
     fs::remove_all(place_.folder, error);
-  } else if (fs::exists(journal_file(out_), error)) {
-    throw InvalidInput("--out", out_, "a folder without a journal of its own");
+  } else if (holds_run(out_)) {
+    throw InvalidInput("--out", out_, "a folder that does not hold a run");
   }
 }
 

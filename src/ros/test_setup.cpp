@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "knot_utm/io/shipped.hpp"
 #include "knot_utm/ros/loopback.hpp"
 #include "knot_utm/ros/names.hpp"
 
@@ -33,16 +34,12 @@ std::string text_parameter(const ros::NodeHandle& node, const std::string& name)
   throw InvalidInput(node.resolveName(name), value.toXml(), "a text or a number");
 }
 
-std::string find_method(const std::string& method, const fs::path& base, const fs::path& shipped) {
+/// The launch file knows the package's own methods, wherever the package is installed.
+std::string method_file(const ros::NodeHandle& node, const fs::path& base) {
+  const std::string method = text_parameter(node, "test/method");
   if (method.empty()) throw InvalidInput("test/method", "\"\"", "a method file");
-  std::vector<fs::path> places = {base / method};
-  // The launch file knows the package's own methods, wherever the package is installed.
-  places.push_back(shipped / method);
-  places.push_back(shipped / (method + ".yaml"));
-  for (const fs::path& place : places) {
-    if (fs::is_regular_file(place)) return place.lexically_normal().string();
-  }
-  return places.front().string();  // load_method says what is wrong with it
+  const std::string file = find_method(method, base.string(), {text_parameter(node, "test/shipped_methods")});
+  return fs::path(file).lexically_normal().string();
 }
 
 /// The override by which a program follows a record instead of its last pull.
@@ -71,8 +68,7 @@ TestSetup read_test_setup(const ros::NodeHandle& node) {
   overrides.insert(overrides.end(), more.begin(), more.end());
 
   TestSetup setup;
-  const std::string file =
-      find_method(text_parameter(node, "test/method"), base, text_parameter(node, "test/shipped_methods"));
+  const std::string file = method_file(node, base);
   setup.method = load_method(file, overrides);
   const std::string data = text_parameter(node, "test/data");
   if (!data.empty()) {

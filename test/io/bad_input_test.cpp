@@ -117,7 +117,6 @@ const std::vector<Wrong>& wrong_overrides() {
        "only with law: memory"},
       {"program=[{hold: {duration: 1}}, {tie: {}}]", "program.1", "tie", "the first step only"},
       {"program=[{release: {}}]", "program.0", "release", "right after tie"},
-      {"program=[{tie: {}}, {mount: {}}]", "program.1", "mount", "release"},
       {"program.pull.until.load=60000", "program.4.pull.until.load", "60000", "capacity, 50000 N"},
       {"program=[{cycle: {count: 1}}]", "program.0.cycle", "neither extension nor load", "one of extension and load"},
       {"material.breaking_force=150", "material.breaking_force", "150", "more than specimen.preload, 150 N"},

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """experiment.launch: the crosshead goes as an experiment's did, and both curves are on topics, at the same times."""
 import os
+import shutil
 import sys
 import unittest
 
@@ -27,7 +28,7 @@ class ExperimentTest(unittest.TestCase):
         status = Latest('utm/status', TestStatus)
         start_test()
         self.assertEqual(status.wait('ended', lambda s: s.state == TestStatus.ENDED).ended_by, 'program')
-        recorder.wait('recorded', lambda r: r.complete)
+        self.addCleanup(shutil.rmtree, recorder.wait('recorded', lambda r: r.complete).directory)
 
         self.assertEqual([m.time for m in measured.messages], [row[0] for row in MEASURED])
         self.assertEqual([m.wrench.force.z for m in load.messages], [row[2] for row in MEASURED])

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The machine is operated as a user does it: by services and with the tools of ROS."""
 import os
+import shutil
 import subprocess
 import sys
 import threading
@@ -46,6 +47,7 @@ class OperatorTest(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
+        shutil.rmtree(OUT, ignore_errors=True)
         rospy.init_node('operator_test')
         cls.status = Latest('utm/status', TestStatus)
         cls.state = Latest('knot/state', KnotState)
