@@ -4,7 +4,7 @@ The limits of trust are those at which the program itself warns (src/io/run_writ
 the balance of forces that of scripts/bench. Where nothing sets a limit none is made up here.
 """
 from quantities import number, quantity_of
-from numbers_of import is_number
+from is_number import is_number
 
 LIMITS = {
     "kDeep": 0.05,        # contact [of the radius]

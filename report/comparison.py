@@ -4,7 +4,7 @@ import os
 import numpy as np
 
 from failure import CannotReport
-from numbers_of import is_number
+from is_number import is_number
 from run import numbers, printable, read_columns, read_yaml
 
 READINGS = ("peak_force", "plateau_force", "lock_extension", "locked_stiffness")

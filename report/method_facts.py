@@ -1,6 +1,6 @@
 """A method as a person reads it: what was tested, on what, and how."""
 from quantities import number
-from numbers_of import is_number
+from is_number import is_number
 
 # (label, kind of its unit, as units.Units.of takes it); keys that are not here are shown as they stand.
 KEYS = {

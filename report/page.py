@@ -14,7 +14,7 @@ from failure import CannotReport
 from largest_load import largest_load
 from marks import end_of, marks_of, time_of_break
 from method_facts import knot_of, method_facts, program
-from numbers_of import is_number
+from is_number import is_number
 from quantities import error_shown, number, quantity_of, shown, with_unit
 from results_table import results_table
 from rod_pictures import pictures

@@ -1,7 +1,7 @@
 """Numbers as a person reads them: label, unit and digits of every key of result.yaml, also of those not known here."""
 import math
 
-from numbers_of import is_number
+from is_number import is_number
 
 
 class Quantity:

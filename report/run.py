@@ -6,7 +6,7 @@ import numpy as np
 import yaml
 
 from failure import CannotReport
-from numbers_of import is_number
+from is_number import is_number
 from units import units_of
 
 # Phases in which the specimen is pulled further than before.

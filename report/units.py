@@ -1,5 +1,5 @@
 """The units of a page: files are in SI, a page is in what its reader measures with."""
-from numbers_of import is_number
+from is_number import is_number
 
 FORCES = {"N": 1.0, "kN": 1e-3, "lbf": 1.0 / 4.4482216152605}
 LENGTHS = {"mm": 1e3, "in": 1.0 / 0.0254, "m": 1.0}
