@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -217,6 +218,18 @@ void check_program(const Method& m) {
   }
 }
 
+/// A page embeds its logo: larger than this it is a photograph [bytes].
+constexpr std::uintmax_t kLargestLogo = 2'000'000;
+
+void check_report(const Method& m) {
+  if (m.report.logo.empty()) return;
+  std::error_code error;
+  const std::string ending = fs::path(m.report.logo).extension().string();
+  const std::uintmax_t size = fs::file_size(m.report.logo, error);
+  if (error || size > kLargestLogo || (ending != ".png" && ending != ".svg"))
+    throw InvalidInput("report.logo", m.report.logo, "a .png or .svg file of at most 2 MB, its path counted from the method's folder");
+}
+
 }  // namespace
 
 void check_method(const Method& method) {
@@ -225,6 +238,7 @@ void check_method(const Method& method) {
   check_program(method);
   check_ends(method);
   check_effects(method);
+  check_report(method);
 }
 
 }  // namespace knot_utm

@@ -44,6 +44,16 @@ void remove_comparison(const fs::path& folder) {
   for (const char* curve : {"a.csv", "b.csv"}) fs::remove(folder / curve, error);
 }
 
+void put_copy(const fs::path& file, const fs::path& copy) {
+  std::error_code error;
+  // A run repeated from its own folder reads this very file.
+  if (fs::equivalent(file, copy, error)) return;
+  fs::copy_file(file, copy, fs::copy_options::overwrite_existing, error);
+  if (error) throw CannotWrite(copy.string(), error.value());
+}
+
+std::string logo_beside(const Method& method) { return "logo" + fs::path(method.report.logo).extension().string(); }
+
 }  // namespace
 
 void make_folder(const std::string& folder, const char* argument) {
@@ -59,6 +69,7 @@ void make_run_folder(const std::string& folder) { make_folder(folder, "--out"); 
 std::string method_file_text(const Method& method) {
   Method own = method;
   if (own.specimen.knot == KnotKind::kFile) own.specimen.file = "specimen.csv";
+  if (!own.report.logo.empty()) own.report.logo = logo_beside(method);
   return "# Everything resolved: runs again to the same curve.\n" + method_yaml(own);
 }
 
@@ -74,14 +85,8 @@ void require_no_record_in(const std::string& folder, const Method& method) {
 void begin_run_folder(const std::string& folder, const Method& method) {
   std::error_code error;
   require_no_record_in(folder, method);
-  if (method.specimen.knot == KnotKind::kFile) {
-    const fs::path copy = fs::path(folder) / "specimen.csv";
-    // A run repeated from its own folder reads this very file.
-    if (!fs::equivalent(method.specimen.file, copy, error)) {
-      fs::copy_file(method.specimen.file, copy, fs::copy_options::overwrite_existing, error);
-      if (error) throw CannotWrite(copy.string(), error.value());
-    }
-  }
+  if (method.specimen.knot == KnotKind::kFile) put_copy(method.specimen.file, fs::path(folder) / "specimen.csv");
+  if (!method.report.logo.empty()) put_copy(method.report.logo, fs::path(folder) / logo_beside(method));
   // Not before the specimen has been read: it may be the shape that the last run left here.
   for (const char* old : kOld) fs::remove(fs::path(folder) / old, error);
   remove_comparison(folder);

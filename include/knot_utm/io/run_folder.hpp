@@ -13,16 +13,17 @@ void make_folder(const std::string& folder, const char* argument);
 /// Makes the folder of a run. Throws InvalidInput (key "--out") where that cannot be done.
 void make_run_folder(const std::string& folder);
 
-/// The text of a run's method.yaml: a specimen from a file is the copy beside it, specimen.csv.
+/// The text of a run's method.yaml: a specimen from a file is the copy beside it, specimen.csv, and so is a logo,
+/// logo.png or logo.svg.
 std::string method_file_text(const Method& method);
 
 /// Throws InvalidInput (key "--out") where the folder holds a record that the method follows: the run would write over
 /// what it reads.
 void require_no_record_in(const std::string& folder, const Method& method);
 
-/// Puts method.yaml and, where the specimen is a file, specimen.csv there, and takes away the results of an earlier
-/// run or comparison. Throws InvalidInput (key "--out") where the folder cannot be written to or holds a record that is
-/// followed, std::runtime_error where the copy cannot be written.
+/// Puts method.yaml and copies of what it names there, specimen.csv and the logo, and takes away the results of an
+/// earlier run or comparison. Throws InvalidInput (key "--out") where the folder cannot be written to or holds a record
+/// that is followed, std::runtime_error where the copy cannot be written.
 void begin_run_folder(const std::string& folder, const Method& method);
 
 /// Whether something stands in the folder that a run there would write over or take away: results, a method, a report,
