@@ -27,7 +27,8 @@ ros::NodeHandle with_checked_parameters() {
     throw InvalidInput(own.resolveName("marker_rate"), format_number(set.marker_rate), rates);
   const char* colorings = "tension or curvature";
   read_parameter(own, "color_by", &set.color_by, colorings);
-  if (!is_coloring(set.color_by)) throw InvalidInput(own.resolveName("color_by"), set.color_by, colorings);
+  if (!is_coloring(set.color_by))
+    throw InvalidInput(own.resolveName("color_by"), "\"" + set.color_by + "\"", colorings);
   read_parameter(own, "contact_forces", &set.contact_forces, "true or false");
   return own;
 }

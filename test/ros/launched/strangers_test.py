@@ -144,7 +144,7 @@ class StrangersTest(unittest.TestCase):
             console = launch.console()
             self.assertEqual(launch.result('ended_by'), 'program', console)
             for topic in ('utm/crosshead', 'knot/state', 'knot/record', 'utm/status', 'recorder/status'):
-                self.assertIn(topic + ' from /stranger ignored: publisher: /stranger, allowed: /', console)
+                self.assertIn('a message on ' + topic + ' from /stranger was ignored: only /', console)
             self.assertNotIn('Exception', console)
             with Headless(METHOD) as headless:
                 self.assertEqual(headless.different(launch.out), ([], []))
