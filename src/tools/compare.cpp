@@ -24,6 +24,7 @@ constexpr const char* kTool = "compare";
 struct Arguments {
   std::string a, b;
   bool balance = false;
+  bool overwrite = false;
   std::optional<double> tolerance;
   std::optional<std::string> report;  // a folder
   std::string command;                // the whole line
@@ -69,13 +70,19 @@ int run(const Arguments& arguments) {
     throw InvalidInput::sentence("extensions", "none that both have",
                                  "the curves have no extension in common, so they cannot be compared");
   const std::string yaml = comparison_yaml(comparison, arguments.a, arguments.b);
-  if (arguments.report) write_comparison(*arguments.report, yaml, a, b, arguments.a, arguments.b);
+  std::string page;
+  if (arguments.report) {
+    page = write_comparison(*arguments.report, yaml, a, b, arguments.a, arguments.b, arguments.overwrite);
+    if (page != *arguments.report)
+      std::fprintf(stderr, "%s: %s holds another comparison or page, which stays as it is; this one is written to %s\n",
+                   kTool, arguments.report->c_str(), page.c_str());
+  }
   std::fputs(yaml.c_str(), stdout);
   if (std::fflush(stdout) != 0) throw CannotWrite("standard output");
   std::vector<std::string> beyond;
   if (arguments.tolerance) beyond = beyond_tolerance(comparison, *arguments.tolerance);
   for (const std::string& line : beyond) std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
-  if (arguments.report) write_report(*arguments.report, arguments.command);
+  if (arguments.report) write_report(page, arguments.command);
   return beyond.empty() ? kDone : kFailed;
 }
 
@@ -94,6 +101,8 @@ int main(int argc, char** argv) {
     app.add_option("--tolerance", arguments.tolerance, "exit code 1 where a relative difference is larger [-]")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--report", arguments.report, "a folder to write a page to: report.html and report.pdf");
+    app.add_flag("--overwrite", arguments.overwrite,
+                 "write the page over another comparison, instead of to the next free folder, -2, -3, ...");
     arguments.command = knot_utm::command_line(argc, argv);
     if (const auto code = knot_utm::parse(app, knot_utm::kTool, argc, argv)) return *code;
     return knot_utm::run(arguments);
