@@ -61,7 +61,8 @@ std::vector<std::string> warnings(const Results& results, const LoadCellOptions&
   }
   const double stop = cell.overload * cell.capacity;
   if (results.peak_force > stop) {
-    all.push_back("the load cell was overloaded: beyond " + format_number(stop) + " N it reads its stop");
+    all.push_back("the load cell was overloaded: above " + format_number(stop) +
+                  " N it reads the force at its mechanical stop");
   }
   return all;
 }
