@@ -73,8 +73,7 @@ int run(const std::string& file) {
 std::optional<int> read_arguments(int argc, char** argv, std::string& file) {
   CLI::App app(
       "Tries a saved time step again, and prints each iteration. The exit code is 0 where the step was accepted, 1 "
-      "where "
-      "it was not, and 2 where the file is wrong.");
+      "where it was not, and 2 where the file is wrong.");
   app.add_option("FILE", file, "a time step that tensile_test saved, failed_step.bin")->required();
   return parse(app, kTool, argc, argv);
 }
