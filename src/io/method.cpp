@@ -360,7 +360,7 @@ Specification read_specification(const YAML::Node& node, const std::string& file
   Specification specification;
   if (!node.IsDefined() || node.IsNull()) return specification;
   if (!node.IsMap())
-    throw InvalidInput(file, key, one_line(node), "a map such as {peak_force: {min: 100}}, of numbers of result.yaml");
+    throw InvalidInput(file, key, as_given(node), "a map such as {peak_force: {min: 100}}, of numbers of result.yaml");
   const std::vector<std::string> known = result_numbers();
   for (const auto& item : node) {
     Requirement required;
@@ -370,13 +370,14 @@ Specification read_specification(const YAML::Node& node, const std::string& file
     if (std::find(known.begin(), known.end(), required.key) == known.end())
       throw InvalidInput::unknown_key(key, required.key, one_line(item.second), known, "a specification").in_file(file);
     if (std::any_of(specification.begin(), specification.end(), is_it))
-      throw InvalidInput(file, path, one_line(item.second), "one value: the key stands twice");
+      throw InvalidInput::sentence(path, one_line(item.second), shown(path) + " stands twice; give it once")
+          .in_file(file);
     Reader reader(item.second, file, path);
     fields::requirement(reader, required);
     reader.finish();
-    if (!required.min && !required.max) throw InvalidInput(file, path, one_line(item.second), "min, max or both");
+    if (!required.min && !required.max) throw InvalidInput::missing(path, "min, max or both").in_file(file);
     if (required.min && required.max && *required.min > *required.max)
-      throw InvalidInput(file, path, one_line(item.second), "a min that is no larger than max");
+      throw InvalidInput(file, path, one_line(item.second), "a map whose min is no larger than its max");
     specification.push_back(required);
   }
   return specification;

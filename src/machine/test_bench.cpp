@@ -228,7 +228,7 @@ struct TestBench::Impl {
                   : grips.hold(grip, middle(edge), material.radius) ? BreakPlace::kGrip
                                                                     : BreakPlace::kStrand;
     std::ostringstream text;
-    text << "the rod parted " << break_arclength(edge) << " m along it (" << break_place_name(break_place)
+    text << "the rod parted " << break_arclength(edge) << " m along its length (" << break_place_name(break_place)
          << (reached.limit == BreakLimit::kForce ? ") at a tension of " : ") at a strain of its outermost fibre of ")
          << reached.value << (reached.limit == BreakLimit::kForce ? " N" : "");
     status = BenchStatus::kBroken;
@@ -386,7 +386,7 @@ struct TestBench::Impl {
     std::string gave_up = advance(command, {time, displacement}, command.time);
     if (parted()) {
       gave_up = advance(command, {time, displacement}, recoil_end);
-      if (!gave_up.empty()) message += "; the recoil of its ends could not be followed to its end";
+      if (!gave_up.empty()) message += "; the recoil of the broken ends could not be simulated to its end";
     } else if (!gave_up.empty()) {
       status = BenchStatus::kFailed;
       message = gave_up;

@@ -95,12 +95,12 @@ int main(int argc, char** argv) {
     CLI::App app(
         "Compares two force-extension curves: curve.csv, a bag, or raw data that Instron's Bluehill exported. Prints "
         "YAML.");
-    app.add_option("A", arguments.a, "the curve that B is held against")->required();
+    app.add_option("A", arguments.a, "the curve that B is compared with")->required();
     app.add_option("B", arguments.b, "the other curve")->required();
-    app.add_flag("--balance", arguments.balance, "the first load and extension of each pull are its zeros");
-    app.add_option("--tolerance", arguments.tolerance, "exit code 1 where a relative difference is larger [-]")
+    app.add_flag("--balance", arguments.balance, "take the first load and extension of each pull as its zeros");
+    app.add_option("--tolerance", arguments.tolerance, "end with exit code 1 where a relative difference is larger [-]")
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--report", arguments.report, "a folder to write a page to: report.html and report.pdf");
+    app.add_option("--report", arguments.report, "a folder to write the page to, report.html and report.pdf");
     app.add_flag("--overwrite", arguments.overwrite,
                  "write the page over another comparison, instead of to the next free folder, -2, -3, ...");
     arguments.command = knot_utm::command_line(argc, argv);
