@@ -135,12 +135,22 @@ void UtmNode::on_state(const KnotState::ConstPtr& answer) {
   if (!fault.empty()) return physics_failed(std::string(names::kKnotState) + ": " + fault);
   sample_ = from_message(state);
   motion_pattern_ = state.motion_pattern;
-  if (pulls(sample_.phase)) peak_force_ = std::max(peak_force_, sample_.force_upper);
+  take_reading();
   max_penetration_ = std::max(max_penetration_, sample_.max_penetration);
   waiting_ = false;
   now_ = state.header.stamp;
   publish_clock(false);
   if (joint_states_.getNumSubscribers() > 0) joint_states_.publish(to_joint_state(command_, sample_, now_));
+}
+
+/// As result.yaml does: of the readings of the load cell, and where the rod parts.
+void UtmNode::take_reading() {
+  const bool parted = sample_.status == BenchStatus::kBroken;
+  if (!command_.read_cell && !parted) return;
+  CurveRow row = curve_row(sample_);
+  if (parted) row.load = sample_.highest_load;  // of the command in which it did: now its ends recoil
+  readings_.push_back(row);
+  balance_offset_ = sample_.balance_offset;
 }
 
 void UtmNode::on_recorder(const RecorderStatus::ConstPtr& recorded) {
@@ -186,7 +196,8 @@ void UtmNode::start() {
   single_steps_ = 0;
   sample_ = Sample();
   motion_pattern_.clear();
-  peak_force_ = max_penetration_ = 0.0;
+  readings_.clear();
+  balance_offset_ = max_penetration_ = 0.0;
   state_ = State::kRunning;
   due_ = steady_clock::now();
   factor_measured_ = due_;
