@@ -104,8 +104,7 @@ CurveReadings curve_readings(const Pull& pull) {
     out.plateau_force_sd = level->force_sd;
     out.breakaway_force = breakaway_force(pull, end);
   }
-  if (lock || !out.plateau_force)
-    out.locked_stiffness = locked_stiffness(pull, lock.value_or(pull.front().extension));
+  if (lock || !out.plateau_force) out.locked_stiffness = locked_stiffness(pull, lock.value_or(pull.front().extension));
   return out;
 }
 

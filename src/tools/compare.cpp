@@ -27,6 +27,7 @@ struct Arguments {
   std::string a, b;
   bool balance = false;
   std::optional<double> begins_at;  // [m]
+  bool overwrite = false;
   std::optional<double> tolerance;
   std::optional<std::string> report;  // a folder
   std::string command;                // the whole line
@@ -38,7 +39,7 @@ std::vector<CurveRow> read(const std::string& file) {
 #ifdef KNOT_UTM_HAS_ROS
   return read_curve_bag(file);
 #else
-  throw InvalidInput("file", file, "a CSV: this was built without ROS, and reads no bags");
+  throw InvalidInput::sentence("file", file, "cannot read a bag: this program was built without ROS").in_file(file);
 #endif
 }
 
@@ -46,8 +47,9 @@ void require_finite(const std::vector<CurveRow>& rows, const std::string& file) 
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const CurveRow& row = rows[i];
     if (pulls(row.phase) && !(std::isfinite(row.time) && std::isfinite(row.extension) && std::isfinite(row.load)))
-      throw InvalidInput(file, "reading " + std::to_string(i + 1), "one that is not finite",
-                         "time, extension and load");
+      throw InvalidInput::sentence("reading", std::to_string(i + 1),
+                                   "reading " + std::to_string(i + 1) + " has no time, no extension or no load")
+          .in_file(file);
   }
 }
 
@@ -63,7 +65,11 @@ struct Side {
   }
 
   void require_readings(const Pull& pull) const {
-    if (pull.size() < 2) throw InvalidInput(file, "pull", std::to_string(pull.size()) + " readings", "at least 2");
+    if (pull.size() < 2)
+      throw InvalidInput::sentence(
+          "pull", std::to_string(pull.size()),
+          "the pull has " + std::to_string(pull.size()) + " readings, but must have at least 2")
+          .in_file(file);
   }
 
   /// Says what is done: what raw data do not tell is assumed.
@@ -71,10 +77,11 @@ struct Side {
     const RawZero zero = zero_at_rest(rows);
     const std::string place = format_number(zero.load) + " N at " + format_number(zero.extension) + " m";
     if (zero.readings > 1) {
-      note("its zero is " + place + ", the mean of its " + std::to_string(zero.readings) + " readings at rest");
+      note("zero is " + place + ", the mean of its " + std::to_string(zero.readings) +
+           " readings before the crosshead moves");
     } else {
-      note("it shows no rest before the pull: its first reading, " + place +
-           ", is taken for zero; of a record that was cut, --begins-at says where it begins");
+      note("the record shows no rest before the pull, so its first reading, " + place +
+           ", is taken for zero; if the record was cut, say with --begins-at where it begins");
     }
     rows = balanced(rows, zero);
     require_readings(pull_of(rows));
@@ -83,23 +90,27 @@ struct Side {
   void balance_cut(double begins_at, const Pull& other) {
     const std::optional<RawZero> zero = zero_of_cut(rows, begins_at, other);
     if (!zero)
-      throw InvalidInput("--begins-at", format_number(begins_at), "an extension that the other curve has [m]");
-    note("its first reading is taken to be " + format_number(begins_at) +
-         " m beyond zero, and its load there to be that of the other curve");
+      throw InvalidInput::sentence("--begins-at", format_number(begins_at),
+                                   "the other curve has no load at an extension of " + format_number(begins_at) + " m");
+    note("the first reading is taken to lie at an extension of " + format_number(begins_at) +
+         " m, where its load is set to that of the other curve");
     rows = balanced(rows, *zero);
   }
 
-  void note(const std::string& words) const { std::fprintf(stderr, "%s: %s: %s\n", kTool, file.c_str(), words.c_str()); }
+  void note(const std::string& words) const {
+    std::fprintf(stderr, "%s: %s: %s\n", kTool, file.c_str(), words.c_str());
+  }
 };
 
 /// Raw data alone: a curve of ours has its zero.
 void balance(const Arguments& arguments, Side& a, Side& b) {
   if (a.has_zero && b.has_zero)
-    std::fprintf(stderr, "%s: --balance changes nothing: both curves are of knot_utm, and have their zero\n", kTool);
+    std::fprintf(stderr, "%s: --balance changes nothing, since both curves are of knot_utm and have their zero\n",
+                 kTool);
   if (arguments.begins_at) {
     if (a.has_zero == b.has_zero)
-      throw InvalidInput("--begins-at", format_number(*arguments.begins_at),
-                         "a curve of raw data beside one of knot_utm, which has its zero");
+      throw InvalidInput::sentence("--begins-at", format_number(*arguments.begins_at),
+                                   "one of the curves must be raw data, and the other one a curve of knot_utm");
     (a.has_zero ? b : a).balance_cut(*arguments.begins_at, pull_of((a.has_zero ? a : b).rows, ExtensionOf::kMachine));
     return;
   }
@@ -109,23 +120,30 @@ void balance(const Arguments& arguments, Side& a, Side& b) {
 
 int run(const Arguments& arguments) {
   if (arguments.tolerance && !std::isfinite(*arguments.tolerance))
-    throw InvalidInput("--tolerance", std::to_string(*arguments.tolerance), "a number of at least 0");
+    throw InvalidInput("--tolerance", std::to_string(*arguments.tolerance), "a finite number of at least 0");
   Side side_a(arguments.a), side_b(arguments.b);
   if (arguments.balance) balance(arguments, side_a, side_b);
   // A machine knows the way of its crosshead alone: beside raw data that is what counts of ours, too.
-  const ExtensionOf extension =
-      side_a.has_zero && side_b.has_zero ? ExtensionOf::kSpecimen : ExtensionOf::kMachine;
+  const ExtensionOf extension = side_a.has_zero && side_b.has_zero ? ExtensionOf::kSpecimen : ExtensionOf::kMachine;
   const Pull a = pull_of(side_a.rows, extension), b = pull_of(side_b.rows, extension);
   const Comparison comparison = compare(a, b);
-  if (!comparison.difference) throw InvalidInput("extensions", "none that both have", "two curves that overlap");
+  if (!comparison.difference)
+    throw InvalidInput::sentence("extensions", "none that both have",
+                                 "the curves have no extension in common, so they cannot be compared");
   const std::string yaml = comparison_yaml(comparison, arguments.a, arguments.b);
-  if (arguments.report) write_comparison(*arguments.report, yaml, a, b, arguments.a, arguments.b);
+  std::string page;
+  if (arguments.report) {
+    page = write_comparison(*arguments.report, yaml, a, b, arguments.a, arguments.b, arguments.overwrite);
+    if (page != *arguments.report)
+      std::fprintf(stderr, "%s: %s holds another comparison or page, which stays as it is; this one is written to %s\n",
+                   kTool, arguments.report->c_str(), page.c_str());
+  }
   std::fputs(yaml.c_str(), stdout);
   if (std::fflush(stdout) != 0) throw CannotWrite("standard output");
   std::vector<std::string> beyond;
   if (arguments.tolerance) beyond = beyond_tolerance(comparison, *arguments.tolerance);
   for (const std::string& line : beyond) std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
-  if (arguments.report) write_report(*arguments.report, arguments.command);
+  if (arguments.report) write_report(page, arguments.command);
   return beyond.empty() ? kDone : kFailed;
 }
 
@@ -149,6 +167,8 @@ int main(int argc, char** argv) {
     app.add_option("--tolerance", arguments.tolerance, "exit code 1 where a relative difference is larger [-]")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--report", arguments.report, "a folder to write a page to: report.html and report.pdf");
+    app.add_flag("--overwrite", arguments.overwrite,
+                 "write the page over another comparison, instead of to the next free folder, -2, -3, ...");
     arguments.command = knot_utm::command_line(argc, argv);
     if (const auto code = knot_utm::parse(app, knot_utm::kTool, argc, argv)) return *code;
     return knot_utm::run(arguments);

@@ -49,7 +49,8 @@ struct Results {
   EndedBy ended_by = EndedBy::kNotYet;
 
   /// Of the load, by the cell's readings alone, as they stand in curve.csv: what `compare` says of that file. The peak
-  /// is also that of a rod that parted where nothing pulled. A knot that came undone, or that still slides, has no stiffness here.
+  /// is also that of a rod that parted where nothing pulled. A knot that came undone, or that still slides, has no
+  /// stiffness here.
   CurveReadings curve;
 
   // Of the true force, at the same readings and over the same extensions: these less balance_offset are those of the
@@ -58,8 +59,8 @@ struct Results {
   std::optional<double> true_breakaway_force;
   std::optional<double> true_peak_force;
 
-  std::optional<double> plateau_slope;   ///< de/ds over the plateau [-]; -2: rigid sliding
-  std::optional<double> lock_extension;  ///< s_l, where the knots' distance tells that sliding became stretching [m]
+  std::optional<double> plateau_slope;    ///< de/ds over the plateau [-]; -2: rigid sliding
+  std::optional<double> lock_extension;   ///< s_l, where the knots' distance tells that sliding became stretching [m]
   std::optional<double> balance_offset;   ///< F that the cell reads as zero, once the pull begins [N]
   std::optional<double> break_extension;  ///< s where the rod parted [m]
   std::optional<double> break_arclength;  ///< of the place where it did, from its first node [m]

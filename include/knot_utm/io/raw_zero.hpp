@@ -24,8 +24,8 @@ struct RawZero {
 /// it counts as zero, though the record may have been cut. Only rows that pull count; there must be one.
 RawZero zero_at_rest(const std::vector<CurveRow>& rows);
 
-/// Of a record that was cut where the extension was `begins_at` beyond zero: its load there is told by another pull that
-/// has its zero, so that both agree in that point. None where the other pull does not reach there.
+/// Of a record that was cut where the extension was `begins_at` beyond zero: its load there is told by another pull
+/// that has its zero, so that both agree in that point. None where the other pull does not reach there.
 std::optional<RawZero> zero_of_cut(const std::vector<CurveRow>& rows, double begins_at, const Pull& other);
 
 /// The rows that pull, from the reading of the zero on, less the zero.
