@@ -70,6 +70,10 @@ foreach(name report_test browser_test)
   set_tests_properties(${name} PROPERTIES TIMEOUT 1800 LABELS long ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
 endforeach()
 
+# README's numbers, method and lines, by running them.
+add_test(NAME readme_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/readme_test.py)
+set_tests_properties(readme_test PROPERTIES TIMEOUT 600 LABELS long ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
+
 # The tutorial, from a clone on, which gets what stands in build/.
 if(KNOT_UTM_EXECUTABLE_DIR STREQUAL "${PROJECT_SOURCE_DIR}/build/devel/lib/knot_utm")
   add_test(NAME tutorial_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/tutorial_test.py)

@@ -36,7 +36,7 @@ std::vector<CurveRow> read(const std::string& file) {
 #ifdef KNOT_UTM_HAS_ROS
   return read_curve_bag(file);
 #else
-  throw InvalidInput("file", file, "a CSV: this was built without ROS, and reads no bags");
+  throw InvalidInput::sentence("file", file, "cannot read a bag: this program was built without ROS").in_file(file);
 #endif
 }
 
@@ -44,8 +44,9 @@ void require_finite(const std::vector<CurveRow>& rows, const std::string& file) 
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const CurveRow& row = rows[i];
     if (pulls(row.phase) && !(std::isfinite(row.time) && std::isfinite(row.extension) && std::isfinite(row.load)))
-      throw InvalidInput(file, "reading " + std::to_string(i + 1), "one that is not finite",
-                         "time, extension and load");
+      throw InvalidInput::sentence("reading", std::to_string(i + 1),
+                                   "reading " + std::to_string(i + 1) + " has no time, no extension or no load")
+          .in_file(file);
   }
 }
 
@@ -53,16 +54,21 @@ Pull pull_from(const std::string& file, bool balanced) {
   const std::vector<CurveRow> rows = read(file);
   require_finite(rows, file);
   Pull pull = pull_of(rows, balanced);
-  if (pull.size() < 2) throw InvalidInput(file, "pull", std::to_string(pull.size()) + " readings", "at least 2");
+  if (pull.size() < 2)
+    throw InvalidInput::sentence("pull", std::to_string(pull.size()),
+                                 "the pull has " + std::to_string(pull.size()) + " readings, but must have at least 2")
+        .in_file(file);
   return pull;
 }
 
 int run(const Arguments& arguments) {
   if (arguments.tolerance && !std::isfinite(*arguments.tolerance))
-    throw InvalidInput("--tolerance", std::to_string(*arguments.tolerance), "a number of at least 0");
+    throw InvalidInput("--tolerance", std::to_string(*arguments.tolerance), "a finite number of at least 0");
   const Pull a = pull_from(arguments.a, arguments.balance), b = pull_from(arguments.b, arguments.balance);
   const Comparison comparison = compare(a, b);
-  if (!comparison.difference) throw InvalidInput("extensions", "none that both have", "two curves that overlap");
+  if (!comparison.difference)
+    throw InvalidInput::sentence("extensions", "none that both have",
+                                 "the curves have no extension in common, so they cannot be compared");
   const std::string yaml = comparison_yaml(comparison, arguments.a, arguments.b);
   std::string page;
   if (arguments.report) {

@@ -80,6 +80,13 @@ class Method(unittest.TestCase):
                     checked += 1
         self.assertGreater(checked, 20)
 
+    def test_lengths_of_texts_are_those_of_the_code(self):
+        found = re.findall(r'short_text\("(\w+)", [\w.]+, (\d+)\)', text("src/io/method_fields.hpp"))
+        self.assertGreater(len(found), 5)
+        for key, most in found:
+            if key != "logo":  # a path
+                self.assertTrue(any(f"at most {most} characters" in cells[1] for cells in self.rows[key]), key)
+
 
 class Results(unittest.TestCase):
     def test_has_every_key(self):

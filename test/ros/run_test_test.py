@@ -25,7 +25,8 @@ from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from dynamic_reconfigure.client import Client
 from knot_utm.msg import KnotState, RunTestAction, RunTestGoal, TestStatus
 from node_test import LAST_RESORT, Latest, call
-from rosgraph_msgs.msg import Clock
+from own_launch import wait_until
+from rosgraph_msgs.msg import Clock, Log
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -108,6 +109,7 @@ class RunTestTest(unittest.TestCase):
         cls.state = Latest('knot/state', KnotState)
         cls.status = Latest('utm/status', TestStatus)
         cls.markers = Latest('knot/markers', MarkerArray)
+        cls.console = Latest('/rosout', Log)
         cls.diagnostics = Latest('/diagnostics', DiagnosticArray)
 
     def diagnosis(self, name, what, condition):
@@ -119,6 +121,10 @@ class RunTestTest(unittest.TestCase):
             status = latest(message)
             return status is not None and condition(status)
         return latest(self.diagnostics.wait(name + ': ' + what, holds))
+
+    def said(self, line):
+        """By some node on its console, and so on /rosout."""
+        wait_until(line, lambda: any(line == m.msg for m in self.console.messages))
 
     def test_1_a_test_whose_pace_and_picture_are_changed_is_the_same_test(self):
         goal = start()
@@ -150,10 +156,14 @@ class RunTestTest(unittest.TestCase):
         self.assertEqual(changed['color_by'], 'curvature')
         self.markers.wait('curvature', lambda m: any('radii' in k.text for k in m.markers))
         self.assertEqual(view.update_configuration({'color_by': 'beauty'})['color_by'], 'curvature')
+        self.said('knot_node: color_by: beauty is refused: tension or curvature is allowed; it stays curvature')
+        self.assertEqual(view.update_configuration({'marker_rate': 1000.0})['marker_rate'], 50.0)
+        self.said('knot_node: marker_rate: 1000 is refused: 0.1 to 60 is allowed; it stays 50')
 
         machine = Client('utm_node', timeout=LAST_RESORT)
-        # The least that is allowed: as fast as it goes.
-        self.assertEqual(machine.update_configuration({'real_time_factor': -1.0})['real_time_factor'], 0.0)
+        self.assertEqual(machine.update_configuration({'real_time_factor': -1.0})['real_time_factor'], 0.2)
+        self.said('utm_node: real_time_factor: -1 is refused: 0 or more is allowed; it stays 0.2')
+        self.assertEqual(machine.update_configuration({'real_time_factor': 0.0})['real_time_factor'], 0.0)
         state, result, text = goal.wait()
         self.assertEqual(state, GoalStatus.SUCCEEDED, text)
         self.assertEqual((result.run, result.ended_by, result.directory), (1, 'program', OUT))

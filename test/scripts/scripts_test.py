@@ -142,7 +142,7 @@ class Commands(unittest.TestCase):
     def test_are_there_on_a_minimal_machine(self):
         words = "|".join(re.escape(word) for word in ABSENT)
         in_shell = re.compile(rf"(?:^|[|;&(]|\$\(|\b(?:then|do|exec|command|if|!))\s*({words})(?=\s|$)")
-        in_code = re.compile(rf"""(?<![\w)\]])\[\s*["']({words})["']|["'](?:/usr/bin/)?({words}) """)
+        in_code = re.compile(rf"""(?<![\w)\]])\[\s*["']({words})["']|["'](?:/usr/bin/)?({words}) -""")
         for folder in ("scripts", "test", "bench", "report", "cmake", ".ci", "launch"):
             for file in tree(os.path.join(ROOT, folder)):
                 if not os.path.isfile(file) or os.path.splitext(file)[1] not in ("", ".py", ".sh", ".cpp", ".hpp", ".cmake"):

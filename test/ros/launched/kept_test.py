@@ -27,12 +27,12 @@ class KeptTest(unittest.TestCase):
         def first(folder):
             out = os.path.join(folder, 'out')
             with Launch('method:=' + METHOD, 'rviz:=false', SHORT, command=SCRIPT) as launch:
-                self.assertEqual(launch.end(60.0), 0, launch.console())
+                self.assertEqual(launch.end(), 0, launch.console())
                 shutil.copytree(launch.out, out)
 
         with Launch('method:=' + METHOD, 'rviz:=false', SHORT, command=SCRIPT, prepare=first) as launch:
             before = content(launch.out, 'result.yaml')
-            self.assertEqual(launch.end(60.0), 0, launch.console())
+            self.assertEqual(launch.end(), 0, launch.console())
             self.assertEqual(content(launch.out, 'result.yaml'), before)
             self.assertEqual(content(launch.out, 'curve.csv'), content(launch.out + '-2', 'curve.csv'))
             self.assertIn(launch.out + ' holds a run already', launch.console())
@@ -42,7 +42,7 @@ class KeptTest(unittest.TestCase):
         for program, code in ('', 1), (", 'program=[{tie: {}}, {release: {}}]'", 0):
             with Launch('rviz:=false', 'real_time_factor:=0', 'overrides:=' + SLIPPERY + program,
                         command=SCRIPT) as launch:
-                self.assertEqual(launch.end(120.0), code, launch.console())
+                self.assertEqual(launch.end(), code, launch.console())
                 self.assertEqual(launch.result('ended_by'), 'untangled')
                 self.assertIn('a higher specimen.preload (now 20 N; auto is 50 N)', launch.console())
 
