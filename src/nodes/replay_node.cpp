@@ -8,7 +8,7 @@
 
 int main(int argc, char** argv) {
   namespace fs = std::filesystem;
-  return knot_utm::run_node(knot_utm::names::kReplayNode, [&] {
+  return knot_utm::run_node(argc, argv, knot_utm::names::kReplayNode, [&] {
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, knot_utm::names::kReplayNode);
     const ros::NodeHandle own("~");
     std::string bag, method, base;

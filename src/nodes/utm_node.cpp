@@ -4,7 +4,7 @@
 #include "knot_utm/ros/test_setup.hpp"
 
 int main(int argc, char** argv) {
-  return knot_utm::run_node("utm_node", [&] {
+  return knot_utm::run_node(argc, argv, "utm_node", [&] {
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, "utm_node");
     const ros::NodeHandle own("~");
     knot_utm::UtmOptions options;

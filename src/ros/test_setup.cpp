@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/ros/loopback.hpp"
 #include "knot_utm/ros/names.hpp"
@@ -117,6 +118,12 @@ void leave_ros(const char* name, int code) {
     ros::master::execute("setParam", request, response, payload, false);
   }
   ros::shutdown();
+}
+
+bool asks_for_version(int argc, char** argv) {
+  if (argc != 2 || argv[1] != std::string("--version")) return false;
+  std::puts(version().c_str());
+  return true;
 }
 
 int report_failure(const char* name, const char* what, int code) {
