@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "knot_utm/io/nearest.hpp"
 #include "knot_utm/io/run_writer.hpp"
 
 namespace knot_utm {
@@ -49,13 +48,6 @@ TEST(Specification, MayNameNumbersOfTheResultOnly) {
     EXPECT_THAT(numbers, Contains(key));
   for (const char* key : {"motion_pattern", "warnings", "knot_type_preserved", "excess_length", "version"})
     EXPECT_THAT(numbers, Not(Contains(key)));
-}
-
-TEST(Nearest, IsTheWordThatTakesTheFewestChanges) {
-  EXPECT_EQ(nearest("peek_force", {"plateau_force", "peak_force"}), "peak_force");
-  EXPECT_EQ(nearest("lock", {"work", "lock_extension"}), "lock_extension");
-  EXPECT_EQ(nearest("", {"a"}), "a");
-  EXPECT_EQ(nearest("a", {}), "");
 }
 
 }  // namespace
