@@ -14,9 +14,10 @@ struct Reading {
   std::optional<double> CurveReadings::*value;
 };
 
-constexpr std::array<Reading, 4> kReadings{{{"peak_force", &CurveReadings::peak_force},
+constexpr std::array<Reading, 5> kReadings{{{"peak_force", &CurveReadings::peak_force},
                                             {"plateau_force", &CurveReadings::plateau_force},
-                                            {"lock_extension", &CurveReadings::lock_extension},
+                                            {"breakaway_force", &CurveReadings::breakaway_force},
+                                            {"lock_extension_by_load", &CurveReadings::lock_extension_by_load},
                                             {"locked_stiffness", &CurveReadings::locked_stiffness}}};
 
 std::optional<double> difference(const std::optional<double>& a, const std::optional<double>& b) {

@@ -165,8 +165,8 @@ class OnPaper(unittest.TestCase):
         for words in ("Fisherman's knot, polypropylene", "Force and extension", "The rod at the marked points",
                       "Results", "Quality certificate", "What was tested, and how", "Where this page comes from", "--report"):
             self.assertIn(words, text)
-        lock = yaml.safe_load(read(run, "result.yaml"))["lock_extension"]
-        self.assertRegex(text, rf"lock_extension\s+{in_mm(lock)}")
+        lock = yaml.safe_load(read(run, "result.yaml"))["lock_extension_by_load"]
+        self.assertRegex(text, rf"lock_extension_by_load\s+{in_mm(lock)}")
 
     def test_a_comparison(self):
         text = self.pages(comparison)

@@ -11,7 +11,8 @@
 namespace knot_utm {
 
 /// test.bag: the topics of one test with the stamps of their headers, the same from a live and from a headless run.
-/// utm/crosshead, utm/joint_states and knot/state for every command; utm/load_cell and knot/shape for every reading.
+/// utm/crosshead, utm/joint_states and knot/state for every command; utm/load_cell and knot/shape for every reading. A
+/// rod that parts is read in the time step that parts it, of which there is a knot/state, too.
 class TestBag {
  public:
   /// Throws std::runtime_error where the file cannot be written, as all of it does.
@@ -22,8 +23,11 @@ class TestBag {
   std::uint64_t messages() const { return bag_.messages(); }  ///< written so far
 
  private:
+  void add_reading(const Sample& reading, const ros::Time& answered);
+
   BagWriter bag_;
   double radius_;  ///< [m]
+  bool broken_ = false;
   MotionPatternTracker motion_;
 };
 
