@@ -299,7 +299,7 @@ std::vector<Row> rows_of(const std::string& content, const std::string& file) {
   TextRows rows(text);
   std::vector<Row> out;
   while (rows.next()) out.push_back({rows.number(), rows.text()});
-  if (!rows.fault().empty()) throw InvalidInput(file, "row " + std::to_string(rows.number()), "more", rows.fault());
+  if (!rows.fault().empty()) throw InvalidInput::sentence("rows", "too many", rows.fault()).in_file(file);
   return out;
 }
 
@@ -312,8 +312,11 @@ class RawTable {
     for (std::size_t i = next_; i < rows_.size() && !mark_.is_told(); ++i)
       for (const std::string& cell : wanted(split(rows_[i].text, separator_))) mark_.look_at(cell);
     if (!mark_.unclear().empty())
-      throw InvalidInput(file_, "decimals", mark_.unclear(),
-                         "a file of which a number tells whether they have that mark");
+      throw InvalidInput::sentence("decimals", mark_.unclear(),
+                                   "the number " + shown(mark_.unclear()) +
+                                       " may have decimals or thousands behind its mark, and no other number of the "
+                                       "file tells which")
+          .in_file(file_);
   }
 
   std::vector<CurveRow> read() const {
@@ -323,13 +326,14 @@ class RawTable {
       const std::array<std::string, 3> cells = wanted(all);
       if (are_empty(cells.begin(), cells.end())) continue;
       require_named(all, rows_[i].number);
-      if (!has_digit(cells[0]) && find_columns(all)) refuse(rows_[i].number, "names", "once more", "one table");
+      if (!has_digit(cells[0]) && find_columns(all))
+        refuse(rows_[i].number, " names the columns once more, but the file must hold one table");
       const CurveRow row = row_of(cells, rows_[i].number);
       if (!out.empty() && row.time < out.back().time)
-        refuse(rows_[i].number, columns_[0].name, cells[0], "a time that does not go back");
+        refuse(rows_[i].number, ": " + shown(columns_[0].name) + " goes back to " + shown(cells[0]));
       if (out.empty() || !is_same(row, out.back())) out.push_back(row);
     }
-    if (out.empty()) throw InvalidInput(file_, "rows", "none", "a row of numbers behind the names");
+    if (out.empty()) throw InvalidInput::sentence("rows", "none", "no row of numbers follows the names").in_file(file_);
     return out;
   }
 
@@ -344,7 +348,7 @@ class RawTable {
           ++next_;
           return;
         }
-    throw InvalidInput(file_, "names", "none", "a row that names time, extension and load");
+    throw InvalidInput::sentence("names", "none", "no row names the columns time, extension and load").in_file(file_);
   }
 
   /// Those behind the names, or of the row below them.
@@ -366,18 +370,18 @@ class RawTable {
   void require_named(const Cells& cells, std::size_t row) const {
     const std::size_t named = std::min(names_, cells.size());
     if (!are_empty(cells.begin() + static_cast<std::ptrdiff_t>(named), cells.end()))
-      refuse(row, "cells", std::to_string(cells.size()),
-             std::to_string(names_) + ", as there are names; a comma of decimals must stand in quotes");
+      refuse(row, " has " + std::to_string(cells.size()) + " cells, but must have " + std::to_string(names_) +
+                      " as there are names; a number with a decimal comma must stand in quotes");
   }
 
   double si(const Column& column, const std::string& below) const {
     const std::string unit = column.unit.value_or(below);
-    const std::string key = "unit of column " + column.name, allowed = column.quantity->allowed;
-    if (unit.empty()) throw InvalidInput(file_, key, "none", allowed);
+    const std::string key = "the unit of column " + column.name, allowed = column.quantity->allowed;
+    if (unit.empty()) throw InvalidInput::missing(key, allowed).in_file(file_);
     const std::optional<double> si = si_of(*column.quantity, unit);
     if (!si) throw InvalidInput(file_, key, unit, allowed);
     if (!below.empty() && si_of(*column.quantity, below) != si)
-      throw InvalidInput(file_, key, below, "the same below the name as in it, " + unit);
+      throw InvalidInput(file_, key, below + " below the name", "the same as in the name, " + unit);
     return *si;
   }
 
@@ -393,8 +397,8 @@ class RawTable {
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const double value = number(cells[i], mark_.mark()).value_or(Sample::kNone) * si_[i];
       if (!std::isfinite(value))
-        refuse(row_number, columns_[i].name, cells[i],
-               std::string("a number with decimals behind \"") + mark_.mark() + "\"");
+        refuse(row_number, ": " + shown(columns_[i].name) + " is \"" + shown(cells[i]) +
+                               "\", but must be a number with \"" + mark_.mark() + "\" before its decimals");
       row.*columns_[i].quantity->value = value;
     }
     row.end_to_end = row.load_lower = Sample::kNone;
@@ -406,9 +410,10 @@ class RawTable {
     return a.time == b.time && a.extension == b.extension && a.load == b.load;
   }
 
-  [[noreturn]] void refuse(std::size_t row, const std::string& column, const std::string& value,
-                           const std::string& allowed) const {
-    throw InvalidInput(file_, "row " + std::to_string(row) + ": " + column, value, allowed);
+  /// `why` goes on with the sentence that begins with the row.
+  [[noreturn]] void refuse(std::size_t row, const std::string& why) const {
+    const std::string key = "row " + std::to_string(row);
+    throw InvalidInput::sentence(key, why, key + why).in_file(file_);
   }
 
   std::string file_;

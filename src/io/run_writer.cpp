@@ -6,6 +6,7 @@
 
 #include "knot_utm/io/number.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/io/verdict.hpp"
 #include "knot_utm/io/yaml_lines.hpp"
 #include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/load_cell.hpp"
@@ -95,6 +96,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
   known_.errors = reading_errors(method.specimen, method.material, method.physics);
   if (method.specimen.to_be_tied) known_.preload = method.specimen.preload.value_or(Sample::kNone);
   known_.load_cell = method.machine.load_cell;
+  known_.specification = method.specification;
   known_.version = version();
 }
 
@@ -128,7 +130,9 @@ void RunWriter::finish(const Results& results, const RunFacts& facts, const Poin
   write_whole((fs::path(folder_) / "result.yaml").string(), result_yaml(results, facts));
 }
 
-std::string result_yaml(const Results& r, const RunFacts& f) {
+namespace {
+
+YamlLines result_lines(const Results& r, const RunFacts& f) {
   const ReadingErrors errors = known_errors(r, f);
   YamlLines lines;
   lines.word("motion_pattern", motion_pattern_name(r.motion_pattern));
@@ -201,7 +205,22 @@ std::string result_yaml(const Results& r, const RunFacts& f) {
   }
   lines.count("seed", f.load_cell.seed);
   lines.word("version", f.version);
+  return lines;
+}
+
+}  // namespace
+
+std::string result_yaml(const Results& results, const RunFacts& facts) {
+  YamlLines lines = result_lines(results, facts);
+  const Verdict found = verdict(facts.specification, lines);
+  if (found.passed)
+    lines.flag("specification_passed", *found.passed);
+  else
+    lines.word("specification_passed", "null");
+  lines.list("specification_failed", found.failed);
   return lines.all();
 }
+
+std::vector<std::string> result_numbers() { return result_lines(Results{}, RunFacts{}).number_keys(); }
 
 }  // namespace knot_utm

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
     knot_utm::read_parameter(own, "method", &method, "a file");
     knot_utm::read_parameter(own, "working_directory", &base, "a folder");
     knot_utm::read_parameter(own, "rate", &options.rate, "a number, 0 or more");
+    knot_utm::read_parameter(own, "patience", &options.patience, "a number of seconds, 0 or more");
     knot_utm::read_parameter(own, "exit_at_end", &options.exit_at_end, "true or false");
     if (bag.empty()) throw knot_utm::InvalidInput("bag", "\"\"", "a bag of a test");
     if (!(options.rate >= 0.0)) throw knot_utm::InvalidInput("rate", std::to_string(options.rate), "0 or more");

@@ -21,7 +21,6 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kPatience = 5.0;         // wall time for somebody to look [s]
 constexpr double kClockPeriod = 0.002;    // shortest wall time between two messages on /clock [s]
 constexpr double kIdleClockPeriod = 0.1;  // longest wall time between them [s]
 constexpr double kGoodbye = 0.3;          // wall time for the last messages to leave before the node ends [s]
@@ -91,7 +90,7 @@ ReplayNode::ReplayNode(const ros::NodeHandle& node, const Method& method, const 
 int ReplayNode::spin() {
   while (ros::ok()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(until_due()));
-    if (!begun_ && (somebody_looks() || seconds_since(begin_) > kPatience)) begin();
+    if (!begun_ && (somebody_looks() || seconds_since(begin_) > options_.patience)) begin();
     if (begun_) play_what_is_due();
     if (seconds_since(clock_published_) > kIdleClockPeriod) publish_clock();
     if (options_.exit_at_end && next_ == view_->end()) {

@@ -2,12 +2,16 @@
 
 #include <ros/console.h>
 #include <ros/init.h>
+#include <ros/master.h>
+#include <ros/names.h>
+#include <ros/this_node.h>
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <vector>
 
+#include "knot_utm/io/shipped.hpp"
 #include "knot_utm/ros/loopback.hpp"
 #include "knot_utm/ros/names.hpp"
 
@@ -30,16 +34,12 @@ std::string text_parameter(const ros::NodeHandle& node, const std::string& name)
   throw InvalidInput(node.resolveName(name), value.toXml(), "a text or a number");
 }
 
-std::string find_method(const std::string& method, const fs::path& base, const fs::path& shipped) {
+/// The launch file knows the package's own methods, wherever the package is installed.
+std::string method_file(const ros::NodeHandle& node, const fs::path& base) {
+  const std::string method = text_parameter(node, "test/method");
   if (method.empty()) throw InvalidInput("test/method", "\"\"", "a method file");
-  std::vector<fs::path> places = {base / method};
-  // The launch file knows the package's own methods, wherever the package is installed.
-  places.push_back(shipped / method);
-  places.push_back(shipped / (method + ".yaml"));
-  for (const fs::path& place : places) {
-    if (fs::is_regular_file(place)) return place.lexically_normal().string();
-  }
-  return places.front().string();  // load_method says what is wrong with it
+  const std::string file = find_method(method, base.string(), {text_parameter(node, "test/shipped_methods")});
+  return fs::path(file).lexically_normal().string();
 }
 
 /// The override by which a program follows a record instead of its last pull.
@@ -68,8 +68,7 @@ TestSetup read_test_setup(const ros::NodeHandle& node) {
   overrides.insert(overrides.end(), more.begin(), more.end());
 
   TestSetup setup;
-  const std::string file =
-      find_method(text_parameter(node, "test/method"), base, text_parameter(node, "test/shipped_methods"));
+  const std::string file = method_file(node, base);
   setup.method = load_method(file, overrides);
   const std::string data = text_parameter(node, "test/data");
   if (!data.empty()) {
@@ -89,7 +88,8 @@ TestSetup read_test_setup(const ros::NodeHandle& node) {
 ros::NodeHandle join_ros(int argc, char** argv, const char* name) {
   prefer_loopback();
   ros::init(argc, argv, name);
-  ros::NodeHandle node;
+  ros::start();  // so that it goes on until `leave_ros`, and not until the last handle is gone
+  const ros::NodeHandle node;
   bool network = false;
   read_parameter(node, "test/network", &network, "true or false");
   if (!network) {
@@ -98,6 +98,19 @@ ros::NodeHandle join_ros(int argc, char** argv, const char* name) {
     ROS_WARN("network:=true: ROS 1 has no authentication, anyone who reaches this machine can command the test");
   }
   return node;
+}
+
+void leave_ros(const char* name, int code) {
+  if (!ros::isStarted()) return;
+  if (ros::ok()) {
+    // A master that died is not waited for.
+    XmlRpc::XmlRpcValue request, response, payload;
+    request[0] = ros::this_node::getName();
+    request[1] = ros::names::resolve(std::string(names::kExitCodes) + "/" + name);
+    request[2] = code;
+    ros::master::execute("setParam", request, response, payload, false);
+  }
+  ros::shutdown();
 }
 
 int report_failure(const char* name, const char* what, int code) {

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/validate.hpp"
@@ -95,8 +96,8 @@ int UtmNode::spin() {
       break;
     }
   }
-  const bool gave_up = program_ && program_->ended_by() == EndedBy::kSolver;
-  return gave_up || recorder_failed_ ? 1 : 0;
+  const bool failed = program_ && program_->failed();
+  return failed || recorder_failed_ ? 1 : 0;
 }
 
 double UtmNode::wait_time() const {
@@ -232,6 +233,8 @@ void UtmNode::end() {
   } else {
     ROS_INFO("the test ended by %s: %s", ended_by_name(program_->ended_by()), program_->reason().c_str());
   }
+  if (program_->ended_by() == EndedBy::kUntangled)
+    ROS_WARN("the knot came undone: %s", what_keeps_a_knot(method_).c_str());
   publish_clock(true);
   publish_status();
 }

@@ -1,4 +1,5 @@
 // What the operator asks of the machine.
+#include "knot_utm/io/number.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 
 namespace knot_utm {
@@ -69,7 +70,11 @@ void UtmNode::pause(bool paused) {
 }
 
 void UtmNode::set_pace(MachineConfig& wanted) {
-  if (!(wanted.real_time_factor >= 0.0)) wanted.real_time_factor = options_.real_time_factor;  // not-a-number
+  if (!(wanted.real_time_factor >= 0.0)) {  // not-a-number is none either
+    ROS_WARN("utm_node: real_time_factor: %s is refused: 0 or more is allowed; it stays %s",
+             format_number(wanted.real_time_factor).c_str(), format_number(options_.real_time_factor).c_str());
+    wanted.real_time_factor = options_.real_time_factor;
+  }
   options_.real_time_factor = wanted.real_time_factor;
   due_ = steady_clock::now();
 }

@@ -24,6 +24,7 @@ constexpr const char* kTool = "compare";
 struct Arguments {
   std::string a, b;
   bool balance = false;
+  bool overwrite = false;
   std::optional<double> tolerance;
   std::optional<std::string> report;  // a folder
   std::string command;                // the whole line
@@ -35,7 +36,7 @@ std::vector<CurveRow> read(const std::string& file) {
 #ifdef KNOT_UTM_HAS_ROS
   return read_curve_bag(file);
 #else
-  throw InvalidInput("file", file, "a CSV: this was built without ROS, and reads no bags");
+  throw InvalidInput::sentence("file", file, "cannot read a bag: this program was built without ROS").in_file(file);
 #endif
 }
 
@@ -43,8 +44,9 @@ void require_finite(const std::vector<CurveRow>& rows, const std::string& file) 
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const CurveRow& row = rows[i];
     if (pulls(row.phase) && !(std::isfinite(row.time) && std::isfinite(row.extension) && std::isfinite(row.load)))
-      throw InvalidInput(file, "reading " + std::to_string(i + 1), "one that is not finite",
-                         "time, extension and load");
+      throw InvalidInput::sentence("reading", std::to_string(i + 1),
+                                   "reading " + std::to_string(i + 1) + " has no time, no extension or no load")
+          .in_file(file);
   }
 }
 
@@ -52,24 +54,35 @@ Pull pull_from(const std::string& file, bool balanced) {
   const std::vector<CurveRow> rows = read(file);
   require_finite(rows, file);
   Pull pull = pull_of(rows, balanced);
-  if (pull.size() < 2) throw InvalidInput(file, "pull", std::to_string(pull.size()) + " readings", "at least 2");
+  if (pull.size() < 2)
+    throw InvalidInput::sentence("pull", std::to_string(pull.size()),
+                                 "the pull has " + std::to_string(pull.size()) + " readings, but must have at least 2")
+        .in_file(file);
   return pull;
 }
 
 int run(const Arguments& arguments) {
   if (arguments.tolerance && !std::isfinite(*arguments.tolerance))
-    throw InvalidInput("--tolerance", std::to_string(*arguments.tolerance), "a number of at least 0");
+    throw InvalidInput("--tolerance", std::to_string(*arguments.tolerance), "a finite number of at least 0");
   const Pull a = pull_from(arguments.a, arguments.balance), b = pull_from(arguments.b, arguments.balance);
   const Comparison comparison = compare(a, b);
-  if (!comparison.difference) throw InvalidInput("extensions", "none that both have", "two curves that overlap");
+  if (!comparison.difference)
+    throw InvalidInput::sentence("extensions", "none that both have",
+                                 "the curves have no extension in common, so they cannot be compared");
   const std::string yaml = comparison_yaml(comparison, arguments.a, arguments.b);
-  if (arguments.report) write_comparison(*arguments.report, yaml, a, b, arguments.a, arguments.b);
+  std::string page;
+  if (arguments.report) {
+    page = write_comparison(*arguments.report, yaml, a, b, arguments.a, arguments.b, arguments.overwrite);
+    if (page != *arguments.report)
+      std::fprintf(stderr, "%s: %s holds another comparison or page, which stays as it is; this one is written to %s\n",
+                   kTool, arguments.report->c_str(), page.c_str());
+  }
   std::fputs(yaml.c_str(), stdout);
   if (std::fflush(stdout) != 0) throw CannotWrite("standard output");
   std::vector<std::string> beyond;
   if (arguments.tolerance) beyond = beyond_tolerance(comparison, *arguments.tolerance);
   for (const std::string& line : beyond) std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
-  if (arguments.report) write_report(*arguments.report, arguments.command);
+  if (arguments.report) write_report(page, arguments.command);
   return beyond.empty() ? kDone : kFailed;
 }
 
@@ -88,6 +101,8 @@ int main(int argc, char** argv) {
     app.add_option("--tolerance", arguments.tolerance, "exit code 1 where a relative difference is larger [-]")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--report", arguments.report, "a folder to write a page to: report.html and report.pdf");
+    app.add_flag("--overwrite", arguments.overwrite,
+                 "write the page over another comparison, instead of to the next free folder, -2, -3, ...");
     arguments.command = knot_utm::command_line(argc, argv);
     if (const auto code = knot_utm::parse(app, knot_utm::kTool, argc, argv)) return *code;
     return knot_utm::run(arguments);

@@ -19,8 +19,7 @@ int main(int argc, char** argv) {
     app.add_option("BAG", bag, "the bag to be written")->required();
     app.add_flag("--quiet", quiet, "say nothing but what went wrong");
     if (const auto code = knot_utm::parse(app, kTool, argc, argv)) return *code;
-    const std::vector<knot_utm::CurveRow> rows =
-        knot_utm::read_raw_data(knot_utm::read_input(raw_data, "raw data of a testing machine"), raw_data);
+    const std::vector<knot_utm::CurveRow> rows = knot_utm::read_raw_data(knot_utm::read_input(raw_data), raw_data);
     knot_utm::write_curve_bag(bag, rows);
     if (!quiet)
       std::printf("%zu readings over %g s written to %s\n", rows.size(), rows.back().time - rows.front().time,

@@ -144,6 +144,31 @@ TEST_F(RunFolder, ItsMethodRunsAgainToTheSameBytes) {
   EXPECT_EQ(text_of(folder_ / "method.yaml"), method);
 }
 
+TEST_F(RunFolder, KeepsTheLogoOfItsReport) {
+  fs::create_directories(folder_);
+  const std::string logo = (folder_ / "ours.svg").string();
+  std::ofstream(logo) << "<svg/>";
+  run(load_method(kConfig + "straight.yaml", {"report.logo=" + logo}));
+  const std::string method = text_of(folder_ / "method.yaml");
+  EXPECT_THAT(method, HasSubstr("logo: logo.svg"));
+  EXPECT_EQ(text_of(folder_ / "logo.svg"), "<svg/>");
+  run(load_method((folder_ / "method.yaml").string()));
+  EXPECT_EQ(text_of(folder_ / "method.yaml"), method);
+}
+
+TEST_F(RunFolder, HoldsTheVerdictOnItsSpecification) {
+  const auto result = [this](const std::vector<std::string>& overrides) {
+    run(load_method(kConfig + "straight.yaml", overrides));
+    return YAML::LoadFile((folder_ / "result.yaml").string());
+  };
+  EXPECT_TRUE(result({})["specification_passed"].IsNull());
+  EXPECT_TRUE(result({"specification.peak_force.min=0"})["specification_passed"].as<bool>());
+  const YAML::Node failed = result({"specification={steps: {min: 1}, untangled_at: {max: 1}}"});
+  EXPECT_FALSE(failed["specification_passed"].as<bool>());
+  ASSERT_EQ(failed["specification_failed"].size(), 1u);
+  EXPECT_EQ(failed["specification_failed"][0].as<std::string>(), "untangled_at has no value in this test");
+}
+
 TEST_F(RunFolder, ARunThatGaveUpKeepsWhatItHadAndTheReason) {
   FakeBench bench;
   bench.fail_time = 8.0;

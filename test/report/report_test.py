@@ -379,7 +379,7 @@ class Failures(unittest.TestCase):
     def test_a_new_run_takes_the_old_page_away(self):
         out = folders.run("twice", STRAIGHT, "--report")
         self.assertTrue(os.path.exists(os.path.join(out, "report.pdf")))
-        folders.run("twice", STRAIGHT)
+        folders.run("twice", STRAIGHT, "--overwrite")
         self.assertFalse({"report.html", "report.pdf"} & set(os.listdir(out)))
 
 
@@ -428,7 +428,7 @@ class PageOfAComparison(unittest.TestCase):
             shutil.copy(os.path.join(straight, name), out)
         self.assertEqual(script(out).returncode, 0)
         self.assertIn("<h1>Straight rod, nylon</h1>", page_of(out))
-        folders.run("makes_room", STRAIGHT)
+        folders.run("makes_room", STRAIGHT, "--overwrite")
         self.assertFalse({"comparison.yaml", "a.csv", "b.csv", "report.html"} & set(os.listdir(out)))
 
     def test_is_written_beyond_the_tolerance_too(self):

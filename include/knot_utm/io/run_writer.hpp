@@ -53,4 +53,7 @@ std::string accuracy_warning(const Results& results, const ReadingErrors& errors
 /// result.yaml: the keys in a fixed order, SI units, null for what is not there; warnings of the results first.
 std::string result_yaml(const Results& results, const RunFacts& facts);
 
+/// The keys of result.yaml that are numbers, whether a test has a value of them or not: what a specification may name.
+std::vector<std::string> result_numbers();
+
 }  // namespace knot_utm

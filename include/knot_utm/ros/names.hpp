@@ -42,6 +42,8 @@ inline constexpr char kRunTest[] = "utm/run_test";  ///< RunTest: a test, from i
 
 // Parameters that the nodes set
 inline constexpr char kTestId[] = "test/id";              ///< by utm_node: no other utm_node has it
+inline constexpr char kFolderOfTest[] = "test/folder";    ///< by recorder_node: a test's id, a space, its folder
+inline constexpr char kExitCodes[] = "test/exit_codes";   ///< by each node, its own below it; -1: runs, or was killed
 inline constexpr char kRecordedTest[] = "test/recorded";  ///< by recorder_node: the last test it completed
 
 // Frames

@@ -26,11 +26,12 @@ struct ReplayOptions {
   std::string bag;           ///< a test.bag
   double rate = 1.0;         ///< time of the test over wall time; 0: as fast as it goes
   bool exit_at_end = false;  ///< `spin` returns when the bag has ended
+  double patience = 5.0;     ///< wall time for somebody to look at the pictures before it begins [s]
 };
 
 /// A recorded test, played without physics: its messages on their topics, /clock, frames and the pictures for rviz,
 /// made of the recorded shapes. The method says only what the machine looks like. It begins when somebody looks at the
-/// pictures, or after some seconds without.
+/// pictures, or after the patience is over.
 class ReplayNode {
  public:
   /// Throws InvalidInput where the bag cannot be read, or has no shapes and states.

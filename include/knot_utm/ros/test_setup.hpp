@@ -40,6 +40,9 @@ void read_parameter(const ros::NodeHandle& node, const std::string& name, Value*
 /// where other machines reach this node or the master and test/network is not true.
 ros::NodeHandle join_ros(int argc, char** argv, const char* name);
 
+/// Puts the node's exit code where watch_node looks for it, and ends ROS.
+void leave_ros(const char* name, int code);
+
 /// Runs `body` and says in one line what went wrong. Returns the exit code: 0, 1 failed, 2 wrong input.
 template <class Body>
 int run_node(const char* name, Body body);
@@ -49,13 +52,16 @@ int report_failure(const char* name, const char* what, int code);
 
 template <class Body>
 int run_node(const char* name, Body body) {
+  int code = 0;
   try {
-    return body();
+    code = body();
   } catch (const InvalidInput& error) {
-    return report_failure(name, error.what(), 2);
+    code = report_failure(name, error.what(), 2);
   } catch (const std::exception& error) {
-    return report_failure(name, error.what(), 1);
+    code = report_failure(name, error.what(), 1);
   }
+  leave_ros(name, code);
+  return code;
 }
 
 }  // namespace knot_utm
