@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -14,6 +15,7 @@
 #include <utility>
 
 #include "knot_utm/io/curve_file.hpp"
+#include "knot_utm/rod/known_names.hpp"
 #include "method_defaults.hpp"
 #include "method_fields.hpp"
 #include "method_reader.hpp"
@@ -22,6 +24,7 @@ namespace knot_utm {
 namespace {
 
 namespace fs = std::filesystem;
+using fields::as_given;
 using fields::one_line;
 using fields::Reader;
 using fields::Writer;
@@ -32,17 +35,40 @@ constexpr double kArmingShare = 0.02;  // of the cell's capacity
 /// Methods, materials and load cells are a few thousand characters long.
 constexpr std::size_t kLongestText = 65536;
 
+/// What is wrong with a text that is not YAML, where the parser's own words need knowledge of YAML's grammar.
+std::string yaml_fault(const YAML::Exception& fault) {
+  if (dynamic_cast<const YAML::DeepRecursion*>(&fault) != nullptr) return "maps and lists are nested too deeply";
+  namespace Said = YAML::ErrorMsg;
+  static const std::map<std::string, std::string> kPlain{
+      {Said::END_OF_SEQ_FLOW, "a list begins with \"[\" and has no \"]\""},
+      {Said::END_OF_MAP_FLOW, "a map begins with \"{\" and has no \"}\""},
+      {Said::FLOW_END, "a \"]\" or \"}\" has nothing that it ends"},
+      {Said::END_OF_MAP, "this line is neither a key of the map above it nor indented as a part of it"},
+      {Said::END_OF_SEQ, "this line is neither an entry of the list above it nor indented as a part of it"},
+      {Said::MAP_VALUE, "a colon stands where no value can begin; put text with a colon in quotes"},
+      {Said::MAP_KEY, "a key stands where none can begin"},
+      {Said::BLOCK_ENTRY, "a list begins with \"-\" where none can begin; put it on a line of its own"},
+      {Said::EOF_IN_SCALAR, "the file ends within a text in quotes; a quote is missing"},
+      {Said::TAB_IN_INDENTATION, "the line is indented by a tab; use blanks"},
+      {Said::UNKNOWN_TOKEN, "a character stands here that YAML does not know here; put the text in quotes"},
+      {Said::UNKNOWN_ANCHOR, "an alias (*name) has no anchor (&name) before it"}};
+  const auto plain = kPlain.find(fault.msg);
+  return plain == kPlain.end() ? shown(fault.msg) : plain->second;
+}
+
 YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   if (text.size() > kLongestText) {
-    throw InvalidInput("file", file, "a YAML file of at most " + std::to_string(kLongestText) + " characters");
+    const std::string most = std::to_string(kLongestText) + " characters";
+    throw InvalidInput::sentence("file", file,
+                                 "the file is longer than " + most + ", and no method, material or load cell is")
+        .in_file(file);
   }
   try {
     return YAML::Load(text);
   } catch (const YAML::ParserException& parser) {
-    const bool deep = dynamic_cast<const YAML::DeepRecursion*>(&parser) != nullptr;
-    throw InvalidInput(
-        file, "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1),
-        deep ? "maps and lists nested too deeply" : parser.msg, "well-formed YAML");
+    const std::string place =
+        "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1);
+    throw InvalidInput::sentence(place, parser.msg, place + ": " + yaml_fault(parser)).in_file(file);
   }
 }
 
@@ -50,7 +76,7 @@ std::string read_text(const fs::path& file) {
   std::error_code error;
   std::ifstream in;
   if (fs::is_regular_file(file, error)) in.open(file, std::ios::binary);
-  if (!in.is_open()) throw InvalidInput("file", file.string(), "a YAML file that can be read");
+  if (!in.is_open()) throw InvalidInput::cannot_read(file.string());
   std::string text(kLongestText + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
@@ -72,25 +98,30 @@ class Library {
     add(KNOT_UTM_CONFIG_DIR);
   }
 
-  /// `kind`: the folder, "materials" or "load_cells". `key` is what named the file, for the message.
-  fs::path find(const std::string& kind, const std::string& name, const std::string& key) const {
+  /// The names of the files of this kind, the folder "materials" or "load_cells", each once and in alphabetical order.
+  std::vector<std::string> names(const std::string& kind) const {
     std::error_code error;
     std::set<std::string> known;
     for (const fs::path& folder : folders_) {
-      for (const fs::path& candidate : {folder / kind / (name + ".yaml"), folder / name}) {
-        if (!name.empty() && fs::is_regular_file(candidate, error)) return candidate;
-      }
       for (fs::directory_iterator file(folder / kind, error), end; !error && file != end; file.increment(error)) {
         if (file->path().extension() == ".yaml") known.insert(file->path().stem().string());
       }
     }
-    std::string allowed = "a map, or the name of a file in config/" + kind;
-    const char* comma = ": ";
-    for (const std::string& stem : known) {
-      allowed += comma + stem;
-      comma = ", ";
+    return {known.begin(), known.end()};
+  }
+
+  /// "a name (20N, 50kN) or a map".
+  std::string allowed(const std::string& kind) const { return "a name (" + listed(names(kind), ", ") + ") or a map"; }
+
+  /// `key` is what named the file, for the message.
+  fs::path find(const std::string& kind, const std::string& name, const std::string& key) const {
+    std::error_code error;
+    for (const fs::path& folder : folders_) {
+      for (const fs::path& candidate : {folder / kind / (name + ".yaml"), folder / name}) {
+        if (!name.empty() && fs::is_regular_file(candidate, error)) return candidate;
+      }
     }
-    throw InvalidInput(key, name.empty() ? "\"\"" : name, allowed);
+    throw InvalidInput::unknown_name(key, name, allowed(kind), names(kind));
   }
 
  private:
@@ -149,19 +180,23 @@ struct Override {
 Override parse_override(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos) {
-    throw InvalidInput("--set", text.empty() ? "\"\"" : text, "key=value, such as specimen.preload=20");
+    throw InvalidInput::sentence(
+        "--set", text, "--set \"" + shown(text) + "\" sets no key: write key=value, such as specimen.preload=20");
   }
   Override set;
   set.key = text.substr(0, equals);
   set.path = split(set.key);
   set.text = text.substr(equals + 1);
   if (set.path.size() > kLongestPath) {
-    throw InvalidInput("--set", text, "a key of at most " + std::to_string(kLongestPath) + " parts");
+    const std::string most = std::to_string(kLongestPath) + " parts";
+    throw InvalidInput::sentence("--set", text,
+                                 "--set " + shown(set.key) + ": no key of a method has more than " + most);
   }
   try {
     set.value();
-  } catch (const YAML::Exception&) {
-    throw InvalidInput(set.key, set.text, "a YAML value");
+  } catch (const YAML::Exception& yaml) {
+    throw InvalidInput::sentence("--set", text,
+                                 "--set " + shown(text) + ": the value is not YAML: " + yaml_fault(yaml));
   }
   return set;
 }
@@ -206,10 +241,12 @@ void put(YAML::Node parent, const Override& set, std::size_t depth) {
   if (parent.IsSequence()) {
     const std::optional<std::size_t> index = entry(parent, part);
     if (!index) {
-      throw InvalidInput(set.key, one_line(set.value()),
-                         "after " + (depth == 0 ? "the list" : set.path[depth - 1]) + ", an entry's number from 0 to " +
-                             std::to_string(parent.size() == 0 ? 0 : parent.size() - 1) +
-                             " or the name of the only step of that name");
+      const std::string last_entry = std::to_string(parent.size() == 0 ? 0 : parent.size() - 1);
+      throw InvalidInput::sentence(set.key, one_line(set.value()),
+                                   shown(set.key) + ": \"" + shown(part) + "\" is no single entry of " +
+                                       (depth == 0 ? "the list" : shown(set.path[depth - 1])) +
+                                       ": give a number from 0 to " + last_entry +
+                                       ", or the name of a step that stands there once");
     }
     if (part != std::to_string(*index)) {
       put(parent[*index], set, depth);
@@ -221,7 +258,9 @@ void put(YAML::Node parent, const Override& set, std::size_t depth) {
     return;
   }
   if (!parent.IsMap() && !parent.IsNull()) {
-    throw InvalidInput(set.key, one_line(set.value()), "a key of the method: " + set.path[depth - 1] + " has no keys");
+    throw InvalidInput::sentence(set.key, one_line(set.value()),
+                                 shown(set.key) + " is no key of a method: " + shown(set.path[depth - 1]) +
+                                     " is a single value and has no keys");
   }
   if (last) {
     parent[part] = set.value();
@@ -247,11 +286,13 @@ void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides,
 Material read_material(const YAML::Node& node, const std::string& file, const Library& library) {
   Material material;
   if (!node.IsDefined() || node.IsNull()) {
-    throw InvalidInput(file, "material", "nothing", "a map, or the name of a file in config/materials");
+    throw InvalidInput::missing("material", library.allowed("materials")).in_file(file);
   }
+  if (!node.IsScalar() && !node.IsMap())
+    throw InvalidInput(file, "material", as_given(node), library.allowed("materials"));
   if (node.IsScalar()) {
     const fs::path path = library.find("materials", node.Scalar(), "material");
-    Reader reader(read_yaml(path), path.string(), "");
+    Reader reader(read_yaml(path), path.string(), "", "a material");
     fields::material(reader, material);
     reader.finish();
     if (material.name.empty()) material.name = path.stem().string();
@@ -268,6 +309,7 @@ LoadCellOptions read_load_cell(const YAML::Node& node, const std::string& file, 
                                const LoadCellOptions& by_default, const Library& library) {
   LoadCellOptions cell = by_default;
   const std::optional<std::string> name = load_cell_name(node, material.load_cell);
+  if (node.IsSequence()) throw InvalidInput(file, "machine.load_cell", as_given(node), library.allowed("load_cells"));
   if (node.IsDefined() && !node.IsNull() && !node.IsScalar()) {
     Reader reader(node, file, "machine.load_cell");
     fields::load_cell(reader, cell);
@@ -277,7 +319,7 @@ LoadCellOptions read_load_cell(const YAML::Node& node, const std::string& file, 
     cell.name = "auto";
   } else {
     const fs::path path = library.find("load_cells", *name, "machine.load_cell");
-    Reader reader(read_yaml(path), path.string(), "");
+    Reader reader(read_yaml(path), path.string(), "", "a load cell");
     fields::load_cell(reader, cell);
     reader.finish();
     if (cell.name.empty()) cell.name = path.stem().string();
@@ -295,19 +337,20 @@ ProgramStep default_step(Phase phase, double scale) {
 }
 
 Program read_program(const YAML::Node& node, const std::string& file, const fields::Defaults& defaults) {
-  constexpr const char* kSteps = "tie, release, mount, preload, balance, pull, hold, cycle, return or follow";
-  const std::string form = std::string("a list of steps, each {name: {...}} with the name ") + kSteps;
-  if (!node.IsDefined() || !node.IsSequence() || node.size() == 0) {
-    throw InvalidInput(file, "program", one_line(node), form);
-  }
+  const std::vector<std::string> steps{"tie",  "release", "mount", "preload", "balance",
+                                       "pull", "hold",    "cycle", "return",  "follow"};
+  const std::string form = "a list of steps, such as [{pull: {until: {break: true}}}]";
+  if (!node.IsDefined() || node.IsNull()) throw InvalidInput::missing("program", form).in_file(file);
+  if (!node.IsSequence() || node.size() == 0) throw InvalidInput(file, "program", as_given(node), form);
   Program program;
   for (std::size_t i = 0; i < node.size(); ++i) {
     const std::string path = "program." + std::to_string(i);
-    if (!node[i].IsMap() || node[i].size() != 1) throw InvalidInput(file, path, one_line(node[i]), form);
+    if (!node[i].IsMap() || node[i].size() != 1)
+      throw InvalidInput(file, path, as_given(node[i]), "one step, {NAME: {...}}, where NAME is " + listed(steps));
     const std::string name = one_line(node[i].begin()->first);
-    const std::optional<Phase> phase = phase_named(name);
-    if (!phase || *phase == Phase::kIdle || *phase == Phase::kDone) throw InvalidInput(file, path, name, kSteps);
-    ProgramStep step = default_step(*phase, defaults.scale);
+    if (std::find(steps.begin(), steps.end(), name) == steps.end())
+      throw InvalidInput::unknown_name(path, name, listed(steps), steps).in_file(file);
+    ProgramStep step = default_step(*phase_named(name), defaults.scale);
     Reader reader(node[i].begin()->second, file, path + "." + name);
     fields::step(reader, step, defaults.way);
     reader.finish();
@@ -317,21 +360,25 @@ Program read_program(const YAML::Node& node, const std::string& file, const fiel
 }
 
 /// The course of the crosshead in the record of another test, curve.csv or raw data.
-void read_record(const fs::path& folder, const std::string& key, ProgramStep& step) {
+void read_record(const fs::path& folder, const std::string& follow, ProgramStep& step) {
+  const std::string key = follow + ".record";
   std::error_code error;
   const fs::path file = fs::absolute(folder / step.record).lexically_normal();
-  if (step.record.empty() || !fs::is_regular_file(file, error))
-    throw InvalidInput(key, step.record.empty() ? "\"\"" : step.record,
-                       "a curve.csv, or raw data of a testing machine");
+  if (step.record.empty()) throw InvalidInput::missing(key, "a curve.csv, or raw data of a testing machine");
+  if (!fs::is_regular_file(file, error)) throw InvalidInput::cannot_read(file.string(), key);
   step.record = file.string();
   step.recorded.clear();
-  const std::vector<CurveRow> course = read_course(step.record);
+  RawColumns columns;
+  if (!step.columns.empty()) columns = parse_raw_columns(step.columns, follow + ".columns");
+  const std::vector<CurveRow> course = read_course(step.record, columns);
   for (const CurveRow& row : course) {
     const RecordedPlace place{row.time - course.front().time, row.extension - course.front().extension};
     if (step.recorded.empty() || place.time > step.recorded.back().time) step.recorded.push_back(place);
   }
   if (step.recorded.size() < 2)
-    throw InvalidInput(key, step.record, "a record of at least 2 readings at different times");
+    throw InvalidInput::sentence(
+        key, step.record,
+        key + ": " + shown(step.record) + " has fewer than 2 readings of the pull at different times");
 }
 
 /// The method over defaults that suit its knot and material, and, once it has been read with these, what is `known` of
@@ -372,7 +419,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
   try {
     const Library library(folder);
     if (!root.IsMap())
-      throw InvalidInput("the file", one_line(root), "a map with specimen, material, machine, program");
+      throw InvalidInput("the file", as_given(root), "a map with the keys specimen, material, machine and program");
     apply_overrides(root, overrides, library);
 
     const Method first = read_method(root, file, library, nullptr);
@@ -390,13 +437,13 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     }
     for (std::size_t i = 0; i < method.program.size(); ++i)
       if (method.program[i].phase == Phase::kFollow)
-        read_record(folder, "program." + std::to_string(i) + ".follow.record", method.program[i]);
+        read_record(folder, "program." + std::to_string(i) + ".follow", method.program[i]);
     check_method(method);
     return method;
   } catch (const InvalidInput& invalid) {
     throw invalid.in_file(file);
   } catch (const YAML::Exception& yaml) {
-    throw InvalidInput(file, "the file", yaml.msg, "a method");
+    throw InvalidInput::sentence("the file", yaml.msg, "the file is no method: " + yaml_fault(yaml)).in_file(file);
   }
 }
 

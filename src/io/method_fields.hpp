@@ -129,6 +129,7 @@ void step(Fields& f, ProgramStep& o, double way = 0.0) {
       break;
     case Phase::kFollow:
       f.text("record", o.record);
+      f.text("columns", o.columns);
       break;
     case Phase::kPull:
       f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});

@@ -35,8 +35,8 @@ fs::path script() {
 }
 
 std::runtime_error cannot_run(int error) {
-  return std::runtime_error(std::string("report: ") + kPython +
-                            " cannot be run: " + std::generic_category().message(error));
+  return std::runtime_error(std::string("the report cannot be written: cannot run ") + kPython + ": " +
+                            reason_of(error));
 }
 
 /// One end is ours, one the program's.
@@ -142,7 +142,8 @@ void write_report(const std::string& folder, const std::string& command) {
       run({kPython, "-EsB", script().string(), "--command", command, "--version", version(), "--", folder});
   if (WIFEXITED(ended.status) && WEXITSTATUS(ended.status) == 0) return;
   const std::string line = last_line(ended.said);
-  throw std::runtime_error(line.empty() ? "report: " + std::string(kPython) + " ended without a word" : line);
+  throw std::runtime_error(
+      line.empty() ? "the report was not written: " + std::string(kPython) + " failed without a message" : line);
 }
 
 void write_comparison(const std::string& folder, const std::string& yaml, const Pull& a, const Pull& b,
@@ -150,17 +151,20 @@ void write_comparison(const std::string& folder, const std::string& yaml, const 
   const fs::path where(folder);
   std::error_code error;
   if (fs::exists(where / "result.yaml", error))
-    throw InvalidInput("--report", folder, "a folder that does not hold a run");
+    throw InvalidInput::sentence(
+        "--report", folder,
+        "the folder " + shown(folder) + " holds a run: choose another folder for the report of the comparison");
   const std::vector<std::pair<std::string, std::string>> files = {
       {"comparison.yaml", yaml}, {"a.csv", pull_csv(a)}, {"b.csv", pull_csv(b)}};
   for (const auto& [name, text] : files) {
     for (const std::string& compared : {file_a, file_b}) {
       if (fs::equivalent(where / name, compared, error))
-        throw InvalidInput("--report", folder, "a folder in which " + name + " is not what is compared");
+        throw InvalidInput::sentence("--report", folder,
+                                     "the report would write over " + shown((where / name).string()) +
+                                         ", which is compared: choose another folder");
     }
   }
-  fs::create_directories(where, error);
-  if (!fs::is_directory(where, error)) throw InvalidInput("--report", folder, "a folder that can be made");
+  make_folder(folder, "--report");
   for (const auto& [name, text] : files) write_whole((where / name).string(), text);
 }
 

@@ -25,11 +25,15 @@ void remove_comparison(const fs::path& folder) {
 
 }  // namespace
 
-void make_run_folder(const std::string& folder) {
-  std::error_code error;
+void make_folder(const std::string& folder, const char* argument) {
+  std::error_code error, other;
   fs::create_directories(folder, error);
-  if (!fs::is_directory(folder, error)) throw InvalidInput("--out", folder, "a folder that can be made");
+  if (fs::is_directory(folder, other)) return;
+  throw InvalidInput::sentence(argument, folder,
+                               "cannot make the folder \"" + shown(folder) + "\": " + reason_of(error.value()));
 }
+
+void make_run_folder(const std::string& folder) { make_folder(folder, "--out"); }
 
 std::string method_file_text(const Method& method) {
   Method own = method;
@@ -41,7 +45,9 @@ void require_no_record_in(const std::string& folder, const Method& method) {
   std::error_code error;
   for (const ProgramStep& step : method.program)
     if (step.phase == Phase::kFollow && fs::equivalent(fs::path(step.record).parent_path(), folder, error))
-      throw InvalidInput("--out", folder, "another folder than that of " + step.record + ", which is followed");
+      throw InvalidInput::sentence("--out", folder,
+                                   "the method follows " + shown(step.record) + ", which stands in the folder " +
+                                       shown(folder) + " itself: choose another folder to write to");
 }
 
 void begin_run_folder(const std::string& folder, const Method& method) {
@@ -64,7 +70,7 @@ void begin_run_folder(const std::string& folder, const Method& method) {
     write_whole((fs::path(folder) / "method.yaml").string(), method_file_text(method));
   } catch (const CannotWrite& why) {
     if (why.out_of_room()) throw;
-    throw InvalidInput("--out", folder, "a folder that can be written to");
+    throw InvalidInput::cannot_write("--out", folder, why.error);
   }
 }
 
@@ -98,15 +104,15 @@ std::string read_whole(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream all;
   if (in.peek() != std::ifstream::traits_type::eof()) all << in.rdbuf();
-  if (!in) throw std::runtime_error(file + ": cannot be read");
+  if (!in) throw std::runtime_error(InvalidInput::cannot_read(file).what());
   return all.str();
 }
 
-std::string read_input(const std::string& file, const std::string& allowed) {
+std::string read_input(const std::string& file) {
   try {
     return read_whole(file);
   } catch (const std::runtime_error&) {
-    throw InvalidInput(file, "file", "one that cannot be read", allowed);
+    throw InvalidInput::cannot_read(file);
   }
 }
 

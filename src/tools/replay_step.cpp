@@ -55,7 +55,7 @@ class Table {
 };
 
 int run(const std::string& file) {
-  SavedStep step = load_step(read_input(file, "that of a time step"), file);
+  SavedStep step = load_step(read_input(file), file);
   print_scene(step);
   Table table;
   step.stepper->watch([&](const Iterate& iterate) { table.add(iterate); });

@@ -110,7 +110,7 @@ TEST_F(Compare, RefusesInOneLine) {
 
   const double nan = std::nan("");
   write_curve("nan.csv", nan);
-  EXPECT_THAT(compare("a.csv", "nan.csv").text, HasSubstr("nan.csv: reading 1: one that is not finite"));
+  EXPECT_THAT(compare("a.csv", "nan.csv").text, HasSubstr("nan.csv: reading 1 has no time, no extension or no load"));
 }
 
 }  // namespace

@@ -123,7 +123,7 @@ TEST_F(TestBagTest, WithoutRoomItNamesTheFileAndTheReason) {
   }
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
-  EXPECT_EQ(why, file("a.bag") + ": cannot be written: File too large");
+  EXPECT_EQ(why, "cannot write " + file("a.bag") + ": file too large");
 }
 
 }  // namespace

@@ -259,11 +259,11 @@ TEST(Overhand, SaysWhichExcessLengthFits) {
     return std::string();
   };
   // What one takes from the text is right: the two ends of the range differ, and what lies between them fits.
-  const std::regex range("such that specimen.length exceeds it by ([^ ]*) to ([^ ]*) m");
+  const std::regex range("shorter than specimen.length by ([^ ]*) to ([^ ]*) m, for a knot of this rod");
   for (const double above_least : {0.05, 1e-3, 1e-4}) {
     std::smatch least, ends;
     const std::string no_room = refusal(1.0, 0.01);
-    ASSERT_TRUE(std::regex_match(no_room, least, std::regex("above ([^ ]*) m, the room that .*"))) << no_room;
+    ASSERT_TRUE(std::regex_match(no_room, least, std::regex("more than ([^ ]*) m, the room that .*"))) << no_room;
     const double end_to_end = std::stod(least.str(1)) + above_least;
     const std::string text = refusal(1.0, end_to_end);
     ASSERT_TRUE(std::regex_match(text, ends, range)) << text;

@@ -6,6 +6,10 @@
 
 namespace knot_utm {
 
+/// Makes a folder that an argument of the command line, such as "--report", names. Throws InvalidInput where that
+/// cannot be done.
+void make_folder(const std::string& folder, const char* argument);
+
 /// Makes the folder of a run. Throws InvalidInput (key "--out") where that cannot be done.
 void make_run_folder(const std::string& folder);
 
@@ -32,7 +36,7 @@ void write_whole(const std::string& file, const std::string& text);
 
 /// Throws std::runtime_error where the file cannot be read.
 std::string read_whole(const std::string& file);
-/// The same of what a user names; throws InvalidInput, with what is allowed, where it cannot be read.
-std::string read_input(const std::string& file, const std::string& allowed);
+/// The same of what a user names; throws InvalidInput where it cannot be read.
+std::string read_input(const std::string& file);
 
 }  // namespace knot_utm
