@@ -111,7 +111,7 @@ std::optional<Column> column_named(const RawQuantity& quantity, const std::strin
 /// The one of the machine's own name; of two alike that with a unit of this quantity: the other may be a strain
 /// gauge's, "Displacement (Strain 1)".
 std::optional<Column> find(const RawQuantity& quantity, const std::string& given, const Cells& cells) {
-  std::vector<std::string> names(quantity.names.begin(), quantity.names.end());
+  std::vector<std::string> names = quantity.names;
   if (!given.empty()) names = {given};
   std::optional<Column> best;
   for (const std::string& known : names) {
@@ -150,8 +150,8 @@ std::string known_names(const Names& given) {
       continue;
     }
     const char* comma = "";
-    for (const char* name : raw_quantities()[i].names) {
-      out += std::string(comma) + name;
+    for (const std::string& name : raw_quantities()[i].names) {
+      out += comma + name;
       comma = ", ";
     }
   }

@@ -17,7 +17,7 @@ struct RawUnit {
 struct RawQuantity {
   const char* name;
   double CurveRow::*value;
-  std::vector<const char*> names;  ///< in lower case, UTF-8; of several in one file the first counts
+  std::vector<std::string> names;  ///< in lower case, UTF-8; of several in one file the first counts
   std::vector<RawUnit> units;
   const char* allowed;  ///< units, for the message
 };
