@@ -24,9 +24,10 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kGripStretch = 2.4;   // of a tail's grip when it slips [h]
-constexpr double kTakeUpLoad = 0.02;   // slack is taken up once the load has risen by this much [k_b/h^2] ...
-constexpr double kTakeUpMotion = 0.3;  // ... or once the knots have moved by this much [h]
+constexpr double kGripStretch = 2.4;       // of a tail's grip when it slips [h]
+constexpr double kPaperRadius = 0.003175;  // for which speeds of rest are meant; thinner rods rest at lower ones [m]
+constexpr double kTakeUpLoad = 0.02;       // slack is taken up once the load has risen by this much [k_b/h^2] ...
+constexpr double kTakeUpMotion = 0.3;      // ... or once the knots have moved by this much [h]
 
 constexpr double kShortestStep = 0.01;  // below it the run gives up, where that is less than usual [bending time]
 
@@ -110,6 +111,7 @@ struct TestBench::Impl {
     if (!centreline.knots.empty()) {
       TyingRig::Options tying;
       tying.preload = tying_load(specimen, material);
+      tying.rest_speed *= material.radius / kPaperRadius;
       // Smoothed friction holds nothing at rest: under any load it creeps, at up to about v_s.
       if (physics.friction_law == FrictionLaw::kSmoothed)
         tying.rest_speed = std::max(tying.rest_speed, physics.slip_tolerance);
