@@ -8,11 +8,13 @@ import socket
 import subprocess
 import tempfile
 import time
+import xmlrpc.client
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), '..'))
 METHOD = os.path.join(ROOT, 'test/ros/pull_and_hold.yaml')
 TOOL = os.path.join(ROOT, 'build/devel/lib/knot_utm/tensile_test')
 FILES = ['curve.csv', 'curve_full.csv', 'final_shape.csv', 'method.yaml', 'test.bag']
+LAST_RESORT = 180.0  # [s] on a machine however busy: whoever waits does so for what is to happen, not for time
 
 
 def free_port():
@@ -21,7 +23,7 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def wait_for(what, condition, timeout=30.0):
+def wait_for(what, condition, timeout=LAST_RESORT):
     """The first true value of condition()."""
     end = time.monotonic() + timeout
     while True:
@@ -96,7 +98,7 @@ class Launch:
             # roslaunch itself, not the script that started it.
             os.kill(self.roslaunch() or self.process.pid, signal.SIGINT)
             try:
-                self.process.wait(30.0)
+                self.process.wait(LAST_RESORT)
             except subprocess.TimeoutExpired:
                 os.killpg(self.process.pid, signal.SIGKILL)
                 self.process.wait()
@@ -124,6 +126,13 @@ class Launch:
     def pid(self, node):
         return wait_for(node, lambda: self.processes().get(node))
 
+    def answers(self, node):
+        """Whether the master is there and knows the node."""
+        try:
+            return xmlrpc.client.ServerProxy(self.uri).lookupNode('/test', '/' + node)[0] == 1
+        except OSError:
+            return False
+
     def rows(self):
         """Complete rows of the curve so far."""
         try:
@@ -133,9 +142,9 @@ class Launch:
             return 0
 
     def wait_for_rows(self, rows):
-        wait_for('%d rows; the console: %s' % (rows, self.console()), lambda: self.rows() >= rows, 60.0)
+        wait_for('%d rows; the console: %s' % (rows, self.console()), lambda: self.rows() >= rows)
 
-    def end(self, timeout):
+    def end(self, timeout=LAST_RESORT):
         """Waits for it to end by itself. Returns its exit code."""
         try:
             return self.process.wait(timeout)

@@ -17,7 +17,7 @@ foreach(source ${fuzz_sources})
     add_executable(${target} ${source} test/fuzz/entry.cpp test/fuzz/replay.cpp)
     add_test(NAME ${target} COMMAND ${target} ${PROJECT_SOURCE_DIR}/test/fuzz/corpus/${name}
                                     ${PROJECT_SOURCE_DIR}/test/fuzz/regressions/${name})
-    set_tests_properties(${target} PROPERTIES TIMEOUT 120)
+    set_tests_properties(${target} PROPERTIES TIMEOUT 1800)
   endif()
   target_include_directories(${target} PRIVATE test)
   target_link_libraries(${target} PRIVATE knot_utm_core ZLIB::ZLIB)

@@ -18,21 +18,21 @@ if(KNOT_UTM_SANITIZE)
 endif()
 # To these files only: what a file does not use need not compile it anew.
 set_source_files_properties(
-  test/rooms_test.cpp test/sim/failed_steps_test.cpp test/io/bad_input_test.cpp test/io/compare_test.cpp
-  test/io/follow_test.cpp
+  test/rooms_test.cpp test/sim/failed_steps_test.cpp test/io/bad_input_test.cpp test/io/claimed_folder_test.cpp
+  test/io/compare_test.cpp test/io/follow_test.cpp
   test/io/killed_run_test.cpp test/io/method_test.cpp test/io/raw_data_test.cpp test/io/recovery_test.cpp
-  test/io/replay_step_test.cpp test/io/resume_test.cpp test/io/run_writer_test.cpp
+  test/io/replay_step_test.cpp test/io/resume_test.cpp test/io/run_writer_test.cpp test/io/untangled_test.cpp
   PROPERTIES COMPILE_DEFINITIONS
              "KNOT_UTM_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\";KNOT_UTM_TOOLS_DIR=\"${KNOT_UTM_EXECUTABLE_DIR}\"")
 add_dependencies(core_tests compare tensile_test recover replay_step)
-gtest_discover_tests(core_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+gtest_discover_tests(core_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800)
 
 # Counts what a step takes from the heap by a malloc of its own, where no sanitizer has one.
 if(NOT KNOT_UTM_SANITIZE)
   add_executable(allocation_test test/allocation/allocation_test.cpp)
   target_include_directories(allocation_test PRIVATE test)
   target_link_libraries(allocation_test PRIVATE knot_utm_core GTest::gtest_main)
-  gtest_discover_tests(allocation_test NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  gtest_discover_tests(allocation_test NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800)
 endif()
 
 # Symmetries on random scenes. The seed is fixed: the same scenes every time. For others, and more of them, run
@@ -45,7 +45,7 @@ set_source_files_properties(${property_sources} PROPERTIES COMPILE_OPTIONS -O1)
 target_include_directories(property_tests PRIVATE test)
 target_link_libraries(property_tests PRIVATE knot_utm_core rapidcheck GTest::gtest_main)
 gtest_discover_tests(property_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
-                     PROPERTIES TIMEOUT 300 ENVIRONMENT "RC_PARAMS=seed=1 max_success=25")
+                     PROPERTIES TIMEOUT 1800 ENVIRONMENT "RC_PARAMS=seed=1 max_success=25")
 
 # Physics that takes long. Label `long`: not under sanitizers.
 file(GLOB validation_sources CONFIGURE_DEPENDS test/validation/*_test.cpp)
@@ -55,24 +55,32 @@ if(validation_sources)
                               PROPERTIES COMPILE_DEFINITIONS "KNOT_UTM_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\"")
   target_include_directories(validation_tests PRIVATE test)
   target_link_libraries(validation_tests PRIVATE knot_utm_core GTest::gtest_main)
-  gtest_discover_tests(validation_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600 LABELS long)
+  gtest_discover_tests(validation_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800 LABELS long)
 endif()
 
-# What scripts/bench and scripts/stress make of their runs; README and doc/ against the code.
+# What scripts/bench and scripts/stress make of their runs; the scripts themselves; README and doc/ against the code.
 add_test(NAME bench_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/bench_test.py)
 add_test(NAME stress_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/stress_test.py)
+add_test(NAME scripts_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/scripts_test.py)
 add_test(NAME doc_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/doc_test.py)
+
+# The panel beside the picture in rviz.
+add_test(NAME panel_test COMMAND ${PYTHON_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/test/panel/panel_test.py)
 
 # The report: what is made of a run, and what a browser and a printer make of that. Label `long`: they run whole tests.
 foreach(name report_test browser_test)
   add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/report/${name}.py)
-  set_tests_properties(${name} PROPERTIES TIMEOUT 600 LABELS long ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
+  set_tests_properties(${name} PROPERTIES TIMEOUT 1800 LABELS long ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
 endforeach()
+
+# README's numbers, method and lines, by running them.
+add_test(NAME readme_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/readme_test.py)
+set_tests_properties(readme_test PROPERTIES TIMEOUT 600 LABELS long ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
 
 # The tutorial, from a clone on, which gets what stands in build/.
 if(KNOT_UTM_EXECUTABLE_DIR STREQUAL "${PROJECT_SOURCE_DIR}/build/devel/lib/knot_utm")
   add_test(NAME tutorial_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/tutorial_test.py)
-  set_tests_properties(tutorial_test PROPERTIES TIMEOUT 600 LABELS long)
+  set_tests_properties(tutorial_test PROPERTIES TIMEOUT 1800 LABELS long)
 endif()
 
 # In a workspace, installing is the workspace's own business.
@@ -85,9 +93,9 @@ if(catkin_FOUND)
   file(GLOB ros_test_sources CONFIGURE_DEPENDS test/ros/*_test.cpp)
   add_executable(ros_tests ${ros_test_sources})
   target_include_directories(ros_tests PRIVATE test)
-  target_link_libraries(ros_tests PRIVATE knot_utm_ros GTest::gtest_main GTest::gmock)
+  target_link_libraries(ros_tests PRIVATE knot_utm_ros yaml-cpp GTest::gtest_main GTest::gmock)
   target_compile_definitions(ros_tests PRIVATE KNOT_UTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(ros_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 120)
+  gtest_discover_tests(ros_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800)
 
   # The whole system, launched as a user does it: with the scripts, which take what stands in build/.
   set(launched_tests)
@@ -98,7 +106,7 @@ if(catkin_FOUND)
     get_filename_component(name ${test} NAME_WE)
     add_test(NAME ${name} COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh ${PYTHON_EXECUTABLE} -B ${test})
     # One at a time: each is four processes already.
-    set_tests_properties(${name} PROPERTIES TIMEOUT 240 RESOURCE_LOCK launched_system)
+    set_tests_properties(${name} PROPERTIES TIMEOUT 1000 RESOURCE_LOCK launched_system)
   endforeach()
 
   if(CATKIN_ENABLE_TESTING)
@@ -112,7 +120,7 @@ if(catkin_FOUND)
     list(REMOVE_ITEM all ${before})
     if(all)
       # Each has a master of its own, but two at a time would compete for the cores.
-      set_tests_properties(${all} PROPERTIES ENVIRONMENT "ROS_HOSTNAME=localhost" TIMEOUT 240 RUN_SERIAL TRUE)
+      set_tests_properties(${all} PROPERTIES ENVIRONMENT "ROS_HOSTNAME=localhost" TIMEOUT 1000 RUN_SERIAL TRUE)
     endif()
   endif()
 endif()

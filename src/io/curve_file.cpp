@@ -23,18 +23,6 @@ bool is_own(const std::string& content) {
   return time && phase;
 }
 
-/// L less s, which nothing but a balance changes.
-double zero_of(const CurveRow& row) {
-  return row.end_to_end - (std::isfinite(row.corrected_extension) ? row.corrected_extension : row.extension);
-}
-
-constexpr double kSameZero = 1e-9;  // far above rounding, far below what anybody measures [m]
-
-/// Raw data have no L, and one zero.
-bool balanced_between(const CurveRow& a, const CurveRow& b) {
-  return a.end_to_end > 0.0 && std::abs(zero_of(b) - zero_of(a)) > kSameZero;
-}
-
 bool pulled(const CurveRow& row) { return pulls(row.phase); }
 
 }  // namespace
@@ -70,18 +58,6 @@ std::vector<CurveRow> read_course(const std::string& file, const RawColumns& col
           .in_file(file);
   }
   return {begin, end};
-}
-
-Pull pull_of(const std::vector<CurveRow>& rows, bool balanced) {
-  Pull pull;
-  CurveRow zero;
-  for (const CurveRow& row : rows) {
-    if (!pulls(row.phase)) continue;
-    if (pull.empty() && balanced) zero = row;
-    const PullPoint point = {row.time, row.extension - zero.extension, row.knot_distance, row.load - zero.load};
-    if (pull.empty() || point.extension > pull.back().extension) pull.push_back(point);
-  }
-  return pull;
 }
 
 }  // namespace knot_utm

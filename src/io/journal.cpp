@@ -93,13 +93,30 @@ JournalWriter::JournalWriter(const std::string& folder, int flags, double patien
 
 JournalWriter::JournalWriter(const std::string& folder, const JournalHeader& header)
     : JournalWriter((make_run_folder(folder), folder), O_CREAT, 0.0) {
-  if (!file_.is_open()) {
-    const CannotWrite why(path_);
-    if (why.out_of_room()) throw why;
-    if (why.error != EWOULDBLOCK) throw InvalidInput::cannot_write("--out", folder, why.error);
-    throw InvalidInput::sentence("--out", folder,
-                                 "another run is writing to the folder " + shown(folder) + ": choose another folder");
-  }
+  require_open(folder);
+  begin(header);
+}
+
+std::optional<JournalWriter> JournalWriter::begin_first(const std::string& folder, const JournalHeader& header) {
+  make_run_folder(folder);
+  JournalWriter writer(folder, O_CREAT, 0.0);
+  if (!writer.file_.is_open() && errno == EWOULDBLOCK) return std::nullopt;
+  writer.require_open(folder);
+  if (fs::file_size(writer.path_) > 0) return std::nullopt;
+  writer.begin(header);
+  return writer;
+}
+
+void JournalWriter::require_open(const std::string& folder) const {
+  if (file_.is_open()) return;
+  const CannotWrite why(path_);
+  if (why.out_of_room()) throw why;
+  if (why.error != EWOULDBLOCK) throw InvalidInput::cannot_write("--out", folder, why.error);
+  throw InvalidInput::sentence("--out", folder,
+                               "another run is writing to the folder " + shown(folder) + ": choose another folder");
+}
+
+void JournalWriter::begin(const JournalHeader& header) {
   truncate_to(0);
   try {
     write(beginning(header));

@@ -15,6 +15,8 @@
 #include <utility>
 
 #include "knot_utm/io/curve_file.hpp"
+#include "knot_utm/io/run_writer.hpp"
+#include "knot_utm/io/shipped.hpp"
 #include "knot_utm/rod/known_names.hpp"
 #include "method_defaults.hpp"
 #include "method_fields.hpp"
@@ -92,10 +94,7 @@ class Library {
     add(method_folder);
     add(method_folder / "config");
     add(method_folder / ".." / "config");
-    std::error_code error;
-    const fs::path executable = fs::read_symlink("/proc/self/exe", error);
-    if (!error) add(executable.parent_path() / ".." / ".." / "share" / "knot_utm" / "config");
-    add(KNOT_UTM_CONFIG_DIR);
+    for (const std::string& folder : shipped_folders()) add(folder);
   }
 
   /// The names of the files of this kind, the folder "materials" or "load_cells", each once and in alphabetical order.
@@ -359,6 +358,34 @@ Program read_program(const YAML::Node& node, const std::string& file, const fiel
   return program;
 }
 
+Specification read_specification(const YAML::Node& node, const std::string& file) {
+  const std::string key = "specification";
+  Specification specification;
+  if (!node.IsDefined() || node.IsNull()) return specification;
+  if (!node.IsMap())
+    throw InvalidInput(file, key, as_given(node), "a map such as {peak_force: {min: 100}}, of numbers of result.yaml");
+  const std::vector<std::string> known = result_numbers();
+  for (const auto& item : node) {
+    Requirement required;
+    required.key = one_line(item.first);
+    const std::string path = key + "." + required.key;
+    const auto is_it = [&](const Requirement& other) { return other.key == required.key; };
+    if (std::find(known.begin(), known.end(), required.key) == known.end())
+      throw InvalidInput::unknown_key(key, required.key, one_line(item.second), known, "a specification").in_file(file);
+    if (std::any_of(specification.begin(), specification.end(), is_it))
+      throw InvalidInput::sentence(path, one_line(item.second), shown(path) + " stands twice; give it once")
+          .in_file(file);
+    Reader reader(item.second, file, path);
+    fields::requirement(reader, required);
+    reader.finish();
+    if (!required.min && !required.max) throw InvalidInput::missing(path, "min, max or both").in_file(file);
+    if (required.min && required.max && *required.min > *required.max)
+      throw InvalidInput(file, path, one_line(item.second), "a map whose min is no larger than its max");
+    specification.push_back(required);
+  }
+  return specification;
+}
+
 /// The course of the crosshead in the record of another test, curve.csv or raw data.
 void read_record(const fs::path& folder, const std::string& follow, ProgramStep& step) {
   const std::string key = follow + ".record";
@@ -402,6 +429,8 @@ Method read_method(const YAML::Node& root, const std::string& file, const Librar
   method.program = read_program(top.take("program"), file, defaults);
   top.section("ends", [&](Reader& reader) { fields::ends(reader, method.ends); });
   top.section("physics", [&](Reader& reader) { fields::physics(reader, method.physics); });
+  top.section("report", [&](Reader& reader) { fields::report(reader, method.report); });
+  method.specification = read_specification(top.take("specification"), file);
   top.finish();
   return method;
 }
@@ -435,6 +464,8 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     if (method.specimen.knot == KnotKind::kFile && !method.specimen.file.empty()) {
       method.specimen.file = fs::absolute(folder / method.specimen.file).lexically_normal().string();
     }
+    if (!method.report.logo.empty())
+      method.report.logo = fs::absolute(folder / method.report.logo).lexically_normal().string();
     for (std::size_t i = 0; i < method.program.size(); ++i)
       if (method.program[i].phase == Phase::kFollow)
         read_record(folder, "program." + std::to_string(i) + ".follow", method.program[i]);
@@ -477,6 +508,16 @@ std::string method_yaml(const Method& method) {
   Writer physics;
   fields::physics(physics, m.physics);
   root["physics"] = physics.map();
+  Writer report;
+  fields::report(report, m.report);
+  root["report"] = report.map();
+  for (Requirement& required : m.specification) {
+    Writer limits;
+    fields::requirement(limits, required);
+    YAML::Node limits_map = limits.map();
+    limits_map.SetStyle(YAML::EmitterStyle::Flow);
+    root["specification"][required.key] = limits_map;
+  }
   YAML::Emitter out;
   out << root;
   return std::string(out.c_str()) + "\n";

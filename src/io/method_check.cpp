@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -182,7 +183,6 @@ constexpr const char* kLoopOnly = "needs specimen.knot: fisherman; begin the pro
 void check_program(const Method& m) {
   const bool loop = m.specimen.knot == KnotKind::kFisherman;
   bool pulled = false;
-  bool released = true;
   for (std::size_t i = 0; i < m.program.size(); ++i) {
     const ProgramStep& step = m.program[i];
     const std::string key = "program." + std::to_string(i);
@@ -191,11 +191,9 @@ void check_program(const Method& m) {
       case Phase::kTie:
         if (i != 0) misplaced(key, name, "can only be the first step");
         if (!loop) misplaced(key, name, kLoopOnly);
-        released = false;
         break;
       case Phase::kRelease:
         if (i != 1 || m.program[0].phase != Phase::kTie) misplaced(key, name, "can only stand right after tie");
-        released = true;
         break;
       case Phase::kMount:
         if (!loop) misplaced(key, name, kLoopOnly);
@@ -212,13 +210,25 @@ void check_program(const Method& m) {
       default:
         break;
     }
-    if (!released && i > 0) misplaced(key, name, "cannot follow tie: put release between them");
     if (step.phase == Phase::kPull && !step.until.extension && !step.until.load && !step.until.time &&
         !step.until.broken) {
       throw InvalidInput::missing(key + ".pull.until", "one or more of extension, load, time and break");
     }
     check_step(step, key + "." + name, m.machine.load_cell.capacity);
   }
+}
+
+/// A page embeds its logo: larger than this it is a photograph [bytes].
+constexpr std::uintmax_t kLargestLogo = 2'000'000;
+
+void check_report(const Method& m) {
+  if (m.report.logo.empty()) return;
+  std::error_code error;
+  const std::string ending = fs::path(m.report.logo).extension().string();
+  const std::uintmax_t size = fs::file_size(m.report.logo, error);
+  if (error || size > kLargestLogo || (ending != ".png" && ending != ".svg"))
+    throw InvalidInput("report.logo", "\"" + m.report.logo + "\"",
+                       "a .png or .svg file of at most 2 MB, its path counted from the method's folder");
 }
 
 }  // namespace
@@ -229,6 +239,7 @@ void check_method(const Method& method) {
   check_program(method);
   check_ends(method);
   check_effects(method);
+  check_report(method);
 }
 
 }  // namespace knot_utm

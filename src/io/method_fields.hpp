@@ -12,6 +12,7 @@
 ///   number(key, double&, Range)                 optional_number(key, optional<double>&, Range, word[, automatic])
 ///   scaled_number(key, double&, Range)
 ///   integer(key, Integer&, min, max)            text(key, string&)          flag(key, bool&)
+///   short_text(key, string&, most characters)
 ///   choice(key, Enum&, names in enum order)     vector(key, Vector3d&, Range)
 ///   turns(key, optional<TurningPoints>&, Range)
 ///   section(key, [](Fields&) {...})
@@ -177,6 +178,30 @@ void physics(Fields& f, PhysicsOptions& o) {
   f.number("drag", o.drag, Range{0.0, 100.0, "N s/m2"});
   f.optional_number("max_step", o.max_step, Range{1e-6, 0.5, "s"}, "auto");
   f.optional_number("residual", o.residual, Range{1e-12, 0.1, "of k_b/h2"}, "auto");
+}
+
+/// What stands in the head and the foot of a report.
+template <class Fields>
+void report(Fields& f, ReportOptions& o) {
+  f.short_text("specimen_id", o.specimen_id, 80);
+  f.short_text("operator", o.operator_name, 80);
+  f.short_text("customer", o.customer, 200);
+  f.short_text("date", o.date, 80);
+  f.short_text("standard", o.standard, 200);
+  f.short_text("notes", o.notes, 4000);
+  f.short_text("logo", o.logo, 4000);
+  f.short_text("signature", o.signature, 80);
+  f.section("units", [&o](auto& units) {
+    units.choice("force", o.force, std::array{"N", "kN", "lbf"});
+    units.choice("length", o.length, std::array{"mm", "in", "m"});
+  });
+}
+
+/// The limits of one number of result.yaml, in the unit of that file.
+template <class Fields>
+void requirement(Fields& f, Requirement& o) {
+  f.optional_number("min", o.min, Range{-1e12, 1e12, "-"}, "none");
+  f.optional_number("max", o.max, Range{-1e12, 1e12, "-"}, "none");
 }
 
 }  // namespace knot_utm::fields

@@ -150,6 +150,14 @@ class Reader {
     value = node.IsNull() ? "" : node.Scalar();
   }
 
+  /// Characters are counted, not bytes.
+  void short_text(const char* key, std::string& value, std::size_t most) {
+    text(key, value);
+    const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; };
+    const auto characters = static_cast<std::size_t>(std::count_if(value.begin(), value.end(), begins));
+    if (characters > most) fail(key, YAML::Node(value), "a text of at most " + std::to_string(most) + " characters");
+  }
+
   void flag(const char* key, bool& value) {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
@@ -290,6 +298,7 @@ class Writer {
   void text(const char* key, const std::string& value) {
     if (!value.empty()) map_[key] = value;
   }
+  void short_text(const char* key, const std::string& value, std::size_t) { text(key, value); }
   void flag(const char* key, const bool& value) { map_[key] = value ? "true" : "false"; }
   template <class Enum, std::size_t n>
   void choice(const char* key, const Enum& value, const std::array<const char*, n>& names) {

@@ -77,9 +77,9 @@ void Recovery::make_place() {
     place_.folder = (fs::path(folder_) / "recovering").string();
     place_.is_scratch = true;
     fs::remove_all(place_.folder, error);
-  } else if (fs::exists(journal_file(out_), error)) {
+  } else if (holds_run(out_)) {
     throw InvalidInput::sentence("--out", out_,
-                                 "the folder " + shown(out_) + " has a journal of its own: choose another folder");
+                                 "the folder " + shown(out_) + " holds a run already: choose another folder");
   }
 }
 

@@ -121,6 +121,39 @@ std::string quoted(const std::string& word) {
   return out + "'";
 }
 
+/// The lines that name the two files.
+std::string names_of(const std::string& yaml) { return yaml.substr(0, yaml.find('\n', yaml.find('\n') + 1)); }
+
+constexpr std::array<const char*, 3> kOfComparison{"comparison.yaml", "a.csv", "b.csv"};
+
+/// Whether something stands in the folder that a comparison would write over, but for what the same files left, or a
+/// run, whose page it would take.
+bool holds_another(const fs::path& folder, const std::string& yaml) {
+  std::error_code error;
+  const fs::path before = folder / kOfComparison.front();
+  if (fs::is_regular_file(before, error)) return names_of(read_whole(before.string())) != names_of(yaml);
+  for (const char* name : {"a.csv", "b.csv", "report.html", "report.pdf", "result.yaml", "journal"})
+    if (fs::is_regular_file(folder / name, error)) return true;
+  return false;
+}
+
+void require_room_for_comparison(const std::string& folder, const std::string& file_a, const std::string& file_b) {
+  const fs::path where(folder);
+  std::error_code error;
+  if (fs::exists(where / "result.yaml", error))
+    throw InvalidInput::sentence(
+        "--report", folder,
+        "the folder " + shown(folder) + " holds a run: choose another folder for the report of the comparison");
+  for (const char* name : kOfComparison) {
+    for (const std::string& compared : {file_a, file_b}) {
+      if (fs::equivalent(where / name, compared, error))
+        throw InvalidInput::sentence("--report", folder,
+                                     "the report would write over " + shown((where / name).string()) +
+                                         ", which is compared: choose another folder");
+    }
+  }
+}
+
 std::string pull_csv(const Pull& pull) {
   std::string text = "extension,load\nm,N\n";
   for (const PullPoint& point : pull) text += format_number(point.extension) + "," + format_number(point.force) + "\n";
@@ -146,26 +179,17 @@ void write_report(const std::string& folder, const std::string& command) {
       line.empty() ? "the report was not written: " + std::string(kPython) + " failed without a message" : line);
 }
 
-void write_comparison(const std::string& folder, const std::string& yaml, const Pull& a, const Pull& b,
-                      const std::string& file_a, const std::string& file_b) {
+std::string write_comparison(const std::string& asked, const std::string& yaml, const Pull& a, const Pull& b,
+                             const std::string& file_a, const std::string& file_b, bool overwrite) {
+  require_room_for_comparison(asked, file_a, file_b);
+  std::string folder = asked;
+  for (int number = 2; !overwrite && holds_another(folder, yaml); ++number) folder = numbered_folder(asked, number);
+  require_room_for_comparison(folder, file_a, file_b);
   const fs::path where(folder);
-  std::error_code error;
-  if (fs::exists(where / "result.yaml", error))
-    throw InvalidInput::sentence(
-        "--report", folder,
-        "the folder " + shown(folder) + " holds a run: choose another folder for the report of the comparison");
-  const std::vector<std::pair<std::string, std::string>> files = {
-      {"comparison.yaml", yaml}, {"a.csv", pull_csv(a)}, {"b.csv", pull_csv(b)}};
-  for (const auto& [name, text] : files) {
-    for (const std::string& compared : {file_a, file_b}) {
-      if (fs::equivalent(where / name, compared, error))
-        throw InvalidInput::sentence("--report", folder,
-                                     "the report would write over " + shown((where / name).string()) +
-                                         ", which is compared: choose another folder");
-    }
-  }
   make_folder(folder, "--report");
-  for (const auto& [name, text] : files) write_whole((where / name).string(), text);
+  const std::array<std::string, 3> texts{yaml, pull_csv(a), pull_csv(b)};
+  for (std::size_t i = 0; i < texts.size(); ++i) write_whole((where / kOfComparison[i]).string(), texts[i]);
+  return folder;
 }
 
 }  // namespace knot_utm

@@ -1,12 +1,16 @@
 #include "knot_utm/io/run_folder.hpp"
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <system_error>
 
 #include "knot_utm/io/cannot_write.hpp"
+#include "knot_utm/io/journal.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
 
 namespace knot_utm {
@@ -16,12 +20,39 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFailedStep = "failed_step.bin";
 
+/// What a run writes from its beginning; its checkpoint is of no use without the journal.
+constexpr std::array<const char*, 5> kWritten{"method.yaml", "specimen.csv", "curve.csv", "curve_full.csv",
+                                              "comparison.yaml"};
+/// What it takes away when it begins.
+constexpr std::array<const char*, 7> kOld{"result.yaml", "final_shape.csv", "test.bag", "saved.bag",
+                                          "report.html", "report.pdf",      kFailedStep};
+
+/// The value of a key in result.yaml, as it stands there.
+std::optional<std::string> result_of(const std::string& folder, const std::string& key) {
+  std::ifstream result(fs::path(folder) / "result.yaml");
+  const std::string begin = key + ": ";
+  for (std::string line; std::getline(result, line);) {
+    if (line.rfind(begin, 0) == 0) return line.substr(begin.size());
+  }
+  return std::nullopt;
+}
+
 /// What `compare --report` left; curves a.csv and b.csv without its comparison.yaml are somebody else's.
 void remove_comparison(const fs::path& folder) {
   std::error_code error;
   if (!fs::remove(folder / "comparison.yaml", error)) return;
   for (const char* curve : {"a.csv", "b.csv"}) fs::remove(folder / curve, error);
 }
+
+void put_copy(const fs::path& file, const fs::path& copy) {
+  std::error_code error;
+  // A run repeated from its own folder reads this very file.
+  if (fs::equivalent(file, copy, error)) return;
+  fs::copy_file(file, copy, fs::copy_options::overwrite_existing, error);
+  if (error) throw CannotWrite(copy.string(), error.value());
+}
+
+std::string logo_beside(const Method& method) { return "logo" + fs::path(method.report.logo).extension().string(); }
 
 }  // namespace
 
@@ -38,6 +69,7 @@ void make_run_folder(const std::string& folder) { make_folder(folder, "--out"); 
 std::string method_file_text(const Method& method) {
   Method own = method;
   if (own.specimen.knot == KnotKind::kFile) own.specimen.file = "specimen.csv";
+  if (!own.report.logo.empty()) own.report.logo = logo_beside(method);
   return "# Everything resolved: runs again to the same curve.\n" + method_yaml(own);
 }
 
@@ -53,18 +85,10 @@ void require_no_record_in(const std::string& folder, const Method& method) {
 void begin_run_folder(const std::string& folder, const Method& method) {
   std::error_code error;
   require_no_record_in(folder, method);
-  if (method.specimen.knot == KnotKind::kFile) {
-    const fs::path copy = fs::path(folder) / "specimen.csv";
-    // A run repeated from its own folder reads this very file.
-    if (!fs::equivalent(method.specimen.file, copy, error)) {
-      fs::copy_file(method.specimen.file, copy, fs::copy_options::overwrite_existing, error);
-      if (error) throw CannotWrite(copy.string(), error.value());
-    }
-  }
+  if (method.specimen.knot == KnotKind::kFile) put_copy(method.specimen.file, fs::path(folder) / "specimen.csv");
+  if (!method.report.logo.empty()) put_copy(method.report.logo, fs::path(folder) / logo_beside(method));
   // Not before the specimen has been read: it may be the shape that the last run left here.
-  for (const char* old :
-       {"result.yaml", "final_shape.csv", "test.bag", "saved.bag", "report.html", "report.pdf", kFailedStep})
-    fs::remove(fs::path(folder) / old, error);
+  for (const char* old : kOld) fs::remove(fs::path(folder) / old, error);
   remove_comparison(folder);
   try {
     write_whole((fs::path(folder) / "method.yaml").string(), method_file_text(method));
@@ -74,13 +98,39 @@ void begin_run_folder(const std::string& folder, const Method& method) {
   }
 }
 
+bool holds_results(const std::string& folder) {
+  std::error_code error;
+  const auto stands = [&](const char* name) { return fs::is_regular_file(fs::path(folder) / name, error); };
+  return std::any_of(kWritten.begin(), kWritten.end(), stands) || std::any_of(kOld.begin(), kOld.end(), stands);
+}
+
+bool holds_run(const std::string& folder) {
+  std::error_code error;
+  return holds_results(folder) || fs::exists(journal_file(folder), error);
+}
+
+bool holds_unfinished_run(const std::string& folder) {
+  std::error_code error;
+  return fs::exists(journal_file(folder), error) && !has_complete_result(folder);
+}
+
+std::string numbered_folder(const std::string& folder, int number) {
+  if (number == 1) return folder;
+  fs::path path = fs::path(folder).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  std::error_code error;
+  if (path == "." || path.filename() == "..") path = fs::weakly_canonical(path, error);
+  return path.string() + "-" + std::to_string(number);
+}
+
 bool has_complete_result(const std::string& folder) {
-  std::ifstream result(fs::path(folder) / "result.yaml");
-  const std::string key = "ended_by: ";
-  for (std::string line; std::getline(result, line);) {
-    if (line.rfind(key, 0) == 0) return line.substr(key.size()) != ended_by_name(EndedBy::kNotYet);
-  }
-  return false;
+  const std::optional<std::string> ended_by = result_of(folder, "ended_by");
+  return ended_by && *ended_by != ended_by_name(EndedBy::kNotYet) && !was_interrupted(folder);
+}
+
+bool was_interrupted(const std::string& folder) {
+  const std::optional<std::string> reason = result_of(folder, "reason");
+  return reason && *reason == '"' + std::string(kInterrupted) + '"';
 }
 
 std::string failed_step_file(const std::string& folder) { return (fs::path(folder) / kFailedStep).string(); }

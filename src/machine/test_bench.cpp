@@ -183,11 +183,17 @@ struct TestBench::Impl {
     status = BenchStatus::kRunning;
     if (!rig) return;
     if (phase == Phase::kTie) rig->tie(command.speed, time, stepper->state().position);
-    if (phase == Phase::kMount) {
-      mount_distance = knot_distance();
-      mount_load = std::min(grips.force_upper(*stepper), grips.force_lower(*stepper));
+    if (phase == Phase::kRelease) {
+      rig->release(command.duration, time);
+    } else if (rig->tied()) {
+      rig->let_go(*stepper, time);
     }
-    if (phase == Phase::kRelease) rig->release(command.duration, time);
+    if (phase == Phase::kMount) begin_mounting();
+  }
+
+  void begin_mounting() {
+    mount_distance = knot_distance();
+    mount_load = std::min(grips.force_upper(*stepper), grips.force_lower(*stepper));
   }
 
   bool slack_taken_up() const {
@@ -224,7 +230,7 @@ struct TestBench::Impl {
                   : grips.hold(grip, middle(edge), material.radius) ? BreakPlace::kGrip
                                                                     : BreakPlace::kStrand;
     std::ostringstream text;
-    text << "the rod parted " << break_arclength(edge) << " m along it (" << break_place_name(break_place)
+    text << "the rod parted " << break_arclength(edge) << " m along its length (" << break_place_name(break_place)
          << (reached.limit == BreakLimit::kForce ? ") at a tension of " : ") at a strain of its outermost fibre of ")
          << reached.value << (reached.limit == BreakLimit::kForce ? " N" : "");
     status = BenchStatus::kBroken;
@@ -256,7 +262,7 @@ struct TestBench::Impl {
         done = !rig || rig->released();
         break;
       case Phase::kMount:
-        done = !rig || slack_taken_up();
+        done = !rig || (!rig->lets_go() && slack_taken_up());
         break;
       default:
         break;
@@ -378,10 +384,11 @@ struct TestBench::Impl {
       extension_zero = grips.end_to_end(grip);
       raw_extension_zero = displacement;
     }
+    const bool let_go = rig && rig->lets_go();
     std::string gave_up = advance(command, {time, displacement}, command.time);
     if (parted()) {
       gave_up = advance(command, {time, displacement}, recoil_end);
-      if (!gave_up.empty()) message += "; the recoil of its ends could not be followed to its end";
+      if (!gave_up.empty()) message += "; the recoil of the broken ends could not be simulated to its end";
     } else if (!gave_up.empty()) {
       status = BenchStatus::kFailed;
       message = gave_up;
@@ -389,6 +396,8 @@ struct TestBench::Impl {
     } else {
       displacement = command.displacement;
       if (frame.rigid()) grip = displacement;
+      // What the knots and the load do while they are let go is not the slack's.
+      if (let_go && !rig->lets_go()) begin_mounting();
       judge_phase();
     }
     if (watch && !parted()) watch->follow(stepper->state().position);

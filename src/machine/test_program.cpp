@@ -1,6 +1,7 @@
 #include "knot_utm/machine/test_program.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -13,6 +14,17 @@ constexpr double kMetExtension = 1e-9;  // nearer to an extension it is met [m]
 constexpr double kMetByAFrame = 1e-3;   // on a compliant frame [of what one period moves]
 constexpr double kRigid = 1.0 - 1e-6;   // gain of a frame that gives nothing
 constexpr double kLeastGain = 1e-3;     // of a frame that gives nearly all
+
+constexpr std::array<std::pair<EndedBy, const char*>, 10> kEndNames{{{EndedBy::kNotYet, "not yet"},
+                                                                     {EndedBy::kBreak, "break"},
+                                                                     {EndedBy::kExtension, "extension"},
+                                                                     {EndedBy::kLoad, "load"},
+                                                                     {EndedBy::kTravel, "travel"},
+                                                                     {EndedBy::kOperator, "operator"},
+                                                                     {EndedBy::kSolver, "solver"},
+                                                                     {EndedBy::kProgram, "program"},
+                                                                     {EndedBy::kTime, "time"},
+                                                                     {EndedBy::kUntangled, "untangled"}}};
 
 /// Of the crosshead as a step begins [m/s].
 double first_velocity(const ProgramStep& step) {
@@ -33,27 +45,17 @@ double first_velocity(const ProgramStep& step) {
 }  // namespace
 
 const char* ended_by_name(EndedBy end) {
-  switch (end) {
-    case EndedBy::kNotYet:
-      return "not yet";
-    case EndedBy::kBreak:
-      return "break";
-    case EndedBy::kExtension:
-      return "extension";
-    case EndedBy::kLoad:
-      return "load";
-    case EndedBy::kTravel:
-      return "travel";
-    case EndedBy::kOperator:
-      return "operator";
-    case EndedBy::kSolver:
-      return "solver";
-    case EndedBy::kProgram:
-      return "program";
-    case EndedBy::kTime:
-      return "time";
+  for (const auto& [value, name] : kEndNames) {
+    if (value == end) return name;
   }
-  return "not yet";
+  return kEndNames.front().second;
+}
+
+std::optional<EndedBy> ended_by_named(const std::string& name) {
+  for (const auto& [value, text] : kEndNames) {
+    if (name == text) return value;
+  }
+  return std::nullopt;
 }
 
 TestProgram::TestProgram(Program program, double sampling_rate, double longest_period, Limits limits)
@@ -82,7 +84,8 @@ Command TestProgram::next(const Sample& sample) {
   const EndedBy by = last_.sequence == 0 ? EndedBy::kNotYet : step_end(sample);
   if (by != EndedBy::kNotYet) {
     if (step_ + 1 == program_.size()) {
-      end(by, "");
+      // What only ties has done what it is for; that the knot is gone is how it ended all the same.
+      end(came_undone(sample) ? EndedBy::kUntangled : by, "");
       return command(last_.sequence);
     }
     ++step_;
@@ -101,6 +104,10 @@ void TestProgram::balance() { balance_next_ = true; }
 void TestProgram::fail(std::string why) {
   ended_by_ = EndedBy::kSolver;
   reason_ = std::move(why);
+}
+
+bool TestProgram::failed() const {
+  return ended_by_ == EndedBy::kSolver || (ended_by_ == EndedBy::kUntangled && !only_ties());
 }
 
 Phase TestProgram::phase() const { return ended() ? Phase::kDone : last_.phase; }
@@ -130,7 +137,7 @@ void TestProgram::state(Archive& archive) {
   archive.require(gain_.value >= kLeastGain && gain_.value <= 1.0, "gain of the frame", std::to_string(gain_.value));
   archive(step_begin_, step_begin_load_, leg_.begin, leg_.displacement, leg_.velocity, outwards_, turns_, load_control_,
           break_detector_, last_, balance_next_, reason_);
-  archive.choice("end of the test", ended_by_, EndedBy::kTime);
+  archive.choice("end of the test", ended_by_, EndedBy::kUntangled);
 }
 
 double TestProgram::seconds(std::uint64_t commands) const { return static_cast<double>(commands) / command_rate_; }
@@ -179,6 +186,8 @@ bool TestProgram::end_by_alarm(const Sample& sample) {
     end(EndedBy::kSolver, sample.message.empty() ? phase + ": the physics gave up" : sample.message);
   } else if (sample.status == BenchStatus::kBroken) {
     end(EndedBy::kBreak, sample.message);
+  } else if (came_undone(sample) && !only_ties()) {
+    end(EndedBy::kUntangled, phase + ": the knot came undone");
   } else if (std::abs(sample.load) > limits_.load || std::abs(sample.force_upper) > limits_.load) {
     end(EndedBy::kLoad, phase + ": the load is beyond its limit, the load cell's capacity or ends.load");
   } else if (std::abs(last_.displacement) >= limits_.travel) {
@@ -191,6 +200,20 @@ bool TestProgram::end_by_alarm(const Sample& sample) {
     end(EndedBy::kTime, phase + ": the test's time is over");
   }
   return ended();
+}
+
+bool TestProgram::only_ties() const {
+  return std::all_of(program_.begin(), program_.end(), [](const ProgramStep& step) {
+    return step.phase == Phase::kTie || step.phase == Phase::kRelease || step.phase == Phase::kHold ||
+           step.phase == Phase::kBalance;
+  });
+}
+
+/// Before anything has pulled at it.
+bool TestProgram::came_undone(const Sample& sample) const {
+  const auto here = program_.begin() + static_cast<std::ptrdiff_t>(step_) + 1;
+  return sample.knot_type == KnotType::kChanged &&
+         std::none_of(program_.begin(), here, [](const ProgramStep& step) { return pulls(step.phase); });
 }
 
 std::string TestProgram::break_seen(const Sample& sample) {

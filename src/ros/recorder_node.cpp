@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "knot_utm/io/claimed_folder.hpp"
 #include "knot_utm/io/recovery.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/conversions.hpp"
@@ -43,13 +44,7 @@ bool has_journal_of(const std::string& folder, const std::string& test) {
   }
 }
 
-EndedBy ended_by_from_name(const std::string& name) {
-  for (const EndedBy end : {EndedBy::kBreak, EndedBy::kExtension, EndedBy::kLoad, EndedBy::kTravel, EndedBy::kOperator,
-                            EndedBy::kSolver, EndedBy::kProgram}) {
-    if (name == ended_by_name(end)) return end;
-  }
-  return EndedBy::kNotYet;
-}
+EndedBy ended_by_from_name(const std::string& name) { return ended_by_named(name).value_or(EndedBy::kNotYet); }
 
 }  // namespace
 
@@ -113,19 +108,33 @@ void RecorderNode::begin_run(const Crosshead& first) {
   run_.reset();
   const std::uint32_t run = first.run;
   run_number_ = run;
-  const std::string folder = run == 1 ? setup_.out : setup_.out + "-" + std::to_string(run);
   test_id_.clear();
   if (node_.getParam(names::kTestId, test_id_)) test_id_ += "/" + std::to_string(run);
   std::string recorded;
   node_.getParam(names::kRecordedTest, recorded);
   completed_before_ = !test_id_.empty() && recorded == test_id_;
-  if (completed_before_ || go_on(folder)) return;
-  if (first.sequence > 0 && has_complete_result(folder)) {
-    throw std::runtime_error(folder +
-                             ": holds a result, which the rest of a test would write over: its recorder was stopped");
+  if (completed_before_) return;
+  const std::string before = folder_before();
+  if (!before.empty()) {
+    if (go_on(before)) return;
+    if (first.sequence > 0 && has_complete_result(before)) {
+      throw std::runtime_error("the recorder of this test was stopped; " + before +
+                               " holds a result, which the rest of the test would write over");
+    }
   }
-  run_ = std::make_unique<Run>(folder, setup_.method, JournalWriter(folder, journal_header(setup_.method, test_id_)));
-  watch(folder);
+  require_no_record_in(setup_.out, setup_.method);
+  ClaimedFolder claimed = claim_folder(setup_.out, journal_header(setup_.method, test_id_));
+  if (claimed.folder != setup_.out) ROS_WARN("%s", moved_notice(setup_.out, claimed.folder).c_str());
+  if (!test_id_.empty()) tell_master(names::kFolderOfTest, test_id_ + " " + claimed.folder);
+  run_ = std::make_unique<Run>(claimed.folder, setup_.method, std::move(claimed.journal));
+  watch(claimed.folder);
+}
+
+std::string RecorderNode::folder_before() const {
+  std::string told;
+  node_.getParam(names::kFolderOfTest, told);
+  const std::string begin = test_id_ + " ";
+  return !test_id_.empty() && told.rfind(begin, 0) == 0 ? told.substr(begin.size()) : "";
 }
 
 bool RecorderNode::go_on(const std::string& folder) {
@@ -144,13 +153,14 @@ bool RecorderNode::go_on(const std::string& folder) {
   run_->journal.truncate_to(reader.good_bytes());
   run_->dropped = run_->next - run_->recorded;
   run_->begin -= std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(record.wall_time));
-  ROS_WARN("goes on with %s after %llu commands", folder.c_str(), static_cast<unsigned long long>(run_->recorded));
+  ROS_WARN("the recorder goes on with %s after %llu commands", folder.c_str(),
+           static_cast<unsigned long long>(run_->recorded));
   return true;
 }
 
 void RecorderNode::watch(const std::string& folder) {
   if (!keeper_.watch(fs::absolute(folder).string()))
-    ROS_WARN("the keeper is gone: a recorder that is killed needs `recover`");
+    ROS_WARN("the keeper has died: should the recorder be killed, too, write its results by `rosrun knot_utm recover`");
 }
 
 void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
@@ -273,29 +283,31 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
     facts.reason = reason;
     facts.wall_time = seconds_since(run.begin);
     if (!warning.empty()) facts.warnings.push_back(warning);
-    if (run.dropped > 0) facts.warnings.push_back(std::to_string(run.dropped) + " commands were not recorded");
+    if (run.dropped > 0)
+      facts.warnings.push_back(std::to_string(run.dropped) + " commands of the test were not recorded");
     run.writer.finish(run.writer.results(ended_by), facts, run.shape);
     // Whoever begins anew from here on has nothing left to do.
-    if (ros::ok() && !test_id_.empty()) tell_master_of_completion();
+    if (ros::ok() && !test_id_.empty()) tell_master(names::kRecordedTest, test_id_);
     run.journal.remove();
     keeper_.release();
     run.complete = true;
     const std::string failed_step = failed_step_file(run.folder);
     if (fs::exists(failed_step))
-      ROS_WARN("the step that could not be made: scripts/replay-step %s", failed_step.c_str());
-    ROS_INFO("written to %s: %zu rows, %llu commands dropped", run.folder.c_str(), run.writer.rows(),
-             static_cast<unsigned long long>(run.dropped));
+      ROS_WARN("the time step that failed can be looked at by: scripts/replay-step %s", failed_step.c_str());
+    if (run.dropped > 0)
+      ROS_WARN("%llu commands of the test were not recorded", static_cast<unsigned long long>(run.dropped));
+    ROS_INFO("%zu readings were written to %s", run.writer.rows(), run.folder.c_str());
   } catch (const std::exception& error) {
     fail(error.what());
   }
 }
 
-void RecorderNode::tell_master_of_completion() const {
+void RecorderNode::tell_master(const char* parameter, const std::string& text) const {
   // A master that died is not waited for, as setParam would for ever; nobody is started anew without one.
   XmlRpc::XmlRpcValue request, response, payload;
   request[0] = ros::this_node::getName();
-  request[1] = node_.resolveName(names::kRecordedTest);
-  request[2] = test_id_;
+  request[1] = node_.resolveName(parameter);
+  request[2] = text;
   ros::master::execute("setParam", request, response, payload, false);
 }
 
@@ -361,7 +373,7 @@ void RecorderNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   } else if (is_complete()) {
     status.summary(DiagnosticStatus::OK, "complete");
   } else {
-    status.summary(DiagnosticStatus::OK, run_ ? "records" : "nothing to record yet");
+    status.summary(DiagnosticStatus::OK, run_ ? "recording" : "nothing to record yet");
   }
   if (!run_) return;
   status.add("folder", run_->folder);

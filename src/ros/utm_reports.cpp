@@ -1,6 +1,7 @@
 // What the machine tells of itself: its status, the action's feedback and result, its health.
 #include <limits>
 
+#include "knot_utm/analysis/results.hpp"
 #include "knot_utm/io/number.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 
@@ -72,10 +73,13 @@ void UtmNode::finish_goal() {
   result.motion_pattern = motion_pattern_;
   result.time = sample_.time;
   result.extension = sample_.extension;
-  result.peak_force = peak_force_;
+  const Results results = analyse(readings_, ended_by);
+  result.peak_force = results.curve.peak_force.value_or(Sample::kNone);
+  result.true_peak_force = results.true_peak_force.value_or(Sample::kNone);
+  result.balance_offset = results.balance_offset.value_or(Sample::kNone);
   result.max_penetration = max_penetration_;
   result.directory = directory_;
-  run_test_.finish(ended_by, ended_by == EndedBy::kSolver || recorder_failed_, result);
+  run_test_.finish(ended_by, program_->failed() || recorder_failed_, result);
 }
 
 void UtmNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -84,8 +88,9 @@ void UtmNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   const bool late = state_ == State::kRunning && asked > 0.0 && factor_ < kKeepsPace * asked;
   if (recorder_failed_) {
     status.summary(DiagnosticStatus::ERROR, "the recorder failed");
-  } else if (program_ && program_->ended_by() == EndedBy::kSolver) {
-    status.summary(DiagnosticStatus::ERROR, "the test ended by solver: " + program_->reason());
+  } else if (program_ && program_->failed()) {
+    status.summary(DiagnosticStatus::ERROR,
+                   std::string("the test ended by ") + ended_by_name(program_->ended_by()) + ": " + program_->reason());
   } else if (late) {
     status.summary(DiagnosticStatus::WARN, "slower than asked for: a real-time factor of " + format_number(factor_));
   } else if (state_ == State::kEnded) {

@@ -1,4 +1,5 @@
 // What the operator asks of the machine.
+#include "knot_utm/io/number.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 
 namespace knot_utm {
@@ -33,7 +34,7 @@ std::string UtmNode::start_if_possible() {
 bool UtmNode::on_start(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
   const std::string why_not = start_if_possible();
   if (!why_not.empty()) return refuse(response, why_not);
-  return accept(response, "test " + std::to_string(run_) + " runs");
+  return accept(response, "test " + std::to_string(run_) + " is running");
 }
 
 bool UtmNode::on_stop(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
@@ -45,7 +46,7 @@ bool UtmNode::on_stop(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger
 bool UtmNode::on_balance(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
   if (!active()) return refuse(response, "no test is running");
   program_->balance();
-  return accept(response, "the next command balances");
+  return accept(response, "the load cell is balanced with the next command");
 }
 
 bool UtmNode::on_pause(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
@@ -69,7 +70,11 @@ void UtmNode::pause(bool paused) {
 }
 
 void UtmNode::set_pace(MachineConfig& wanted) {
-  if (!(wanted.real_time_factor >= 0.0)) wanted.real_time_factor = options_.real_time_factor;  // not-a-number
+  if (!(wanted.real_time_factor >= 0.0)) {  // not-a-number is none either
+    ROS_WARN("utm_node: real_time_factor: %s is refused: 0 or more is allowed; it stays %s",
+             format_number(wanted.real_time_factor).c_str(), format_number(options_.real_time_factor).c_str());
+    wanted.real_time_factor = options_.real_time_factor;
+  }
   options_.real_time_factor = wanted.real_time_factor;
   due_ = steady_clock::now();
 }
@@ -77,7 +82,7 @@ void UtmNode::set_pace(MachineConfig& wanted) {
 bool UtmNode::on_step(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
   if (state_ != State::kPaused) return refuse(response, "the test is not paused");
   ++single_steps_;
-  return accept(response, "one command");
+  return accept(response, "the test went on by one command");
 }
 
 }  // namespace knot_utm

@@ -15,6 +15,7 @@ constexpr double kStandingFromMiddle = 5.0;  // from the middle of the specimen,
 // The settling drag relaxes waves of this many radii in about a tenth of the settling time.
 constexpr double kSettlingTime = 0.3;  // [s]
 constexpr double kSettlingWave = 17.0;
+constexpr double kLetGoTime = 1.0 / 3.0;      // [s]
 constexpr double kThreadedBeyondKnot = 18.0;  // beyond the middle of the loose knot: it ends 8 further out
 
 double fastest_node(const TimeStep& stepper) {
@@ -92,6 +93,13 @@ void TyingRig::release(double duration, double time) {
   enter(Stage::kTailsRamp, time);
 }
 
+void TyingRig::let_go(const TimeStep& stepper, double time) {
+  ramp_time_ = kLetGoTime;
+  ramp_from_ = tail_force_;
+  for (Clamp& clamp : clamps_) clamp.reaction = stepper.reaction(clamp.node);
+  enter(Stage::kLettingGo, time);
+}
+
 void TyingRig::hold(Boundary& boundary, double from, double to) const {
   const double ramp = std::clamp(1.0 - (to - stage_begin_) / ramp_time_, 0.0, 1.0);
   if (stage_ == Stage::kReleased) return;
@@ -99,7 +107,7 @@ void TyingRig::hold(Boundary& boundary, double from, double to) const {
   for (const Clamp& clamp : clamps_) {
     if (clamped)
       boundary.fixed_nodes.push_back({clamp.node, clamp.position});
-    else if (stage_ == Stage::kClampsRamp)
+    else if (stage_ == Stage::kClampsRamp || stage_ == Stage::kLettingGo)
       boundary.forces.push_back({clamp.node, ramp * clamp.reaction});
   }
   if (stage_ == Stage::kSettling) {
@@ -111,7 +119,7 @@ void TyingRig::hold(Boundary& boundary, double from, double to) const {
       if (stage_ == Stage::kPulling) grip.place += speed_ * (to - from);
       boundary.grips.push_back(grip);
     }
-  } else if (stage_ == Stage::kTailsRamp) {
+  } else if (stage_ == Stage::kTailsRamp || stage_ == Stage::kLettingGo) {
     for (std::size_t k = 0; k < knots_.size(); ++k)
       boundary.forces.push_back({knots_[k].tail_node, ramp * ramp_from_[k] * knots_[k].outwards});
   }
@@ -164,6 +172,9 @@ void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
         enter(Stage::kReleased, time);
       }
       break;
+    case Stage::kLettingGo:
+      if (elapsed >= ramp_time_) enter(Stage::kReleased, time);
+      break;
     case Stage::kIdle:
     case Stage::kTied:
     case Stage::kReleased:
@@ -176,8 +187,8 @@ bool TyingRig::waited_for_rest(const TimeStep& stepper, double time, double begi
   if (rested_ >= options_.rest_time) return true;
   if (time - begin <= options_.patience) return false;
   std::ostringstream message;
-  message << "not equilibrated: " << options_.patience << " s after " << since << " the fastest node still moved at "
-          << fastest_node(stepper) << " m/s (rest is " << options_.rest_speed << " m/s)";
+  message << "not equilibrated: " << options_.patience << " s after " << since << ", the fastest node still moved at "
+          << fastest_node(stepper) << " m/s; at rest it moves at less than " << options_.rest_speed << " m/s";
   not_equilibrated_ = message.str();
   return true;
 }
@@ -187,15 +198,15 @@ void TyingRig::judge_pull(double time) {
   if (stage_ != Stage::kPulling || reached_ >= 0.0 || elapsed <= options_.pull_patience) return;
   if (speed_ * elapsed <= options_.pull_way * radius_) return;
   std::ostringstream message;
-  message << "not tied: after " << elapsed << " s the tail grips hold";
-  for (const double force : tail_force_) message << ' ' << force;
-  message << " N and have not reached the pre-load, " << options_.preload << " N";
+  message << "not tied: after " << elapsed << " s the tail grips pull with";
+  for (std::size_t i = 0; i < tail_force_.size(); ++i) message << (i == 0 ? " " : " and ") << tail_force_[i];
+  message << " N and have not reached the pre-load of " << options_.preload << " N";
   not_tied_ = message.str();
 }
 
 void TyingRig::state(Archive& archive) {
   archive.section("TIES");
-  archive.choice("stage of tying", stage_, Stage::kReleased);
+  archive.choice("stage of tying", stage_, Stage::kLettingGo);
   archive(speed_, ramp_time_, stage_begin_, rested_, reached_, not_equilibrated_, tail_force_, ramp_from_);
   for (Clamp& clamp : clamps_) archive(clamp.reaction);
   bool pulls = !grips_.empty();

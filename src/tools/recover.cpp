@@ -6,7 +6,7 @@
 #include <string>
 
 #include "knot_utm/io/recovery.hpp"
-#include "knot_utm/io/run_facts.hpp"
+#include "knot_utm/io/run_folder.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/journal_bag.hpp"
 #endif
@@ -27,6 +27,11 @@ int run(const Arguments& arguments) {
     std::printf("%s is complete: there is nothing to recover\n", arguments.folder.c_str());
     return kDone;
   }
+  if (arguments.out.empty() && was_interrupted(arguments.folder)) {
+    std::printf("%s holds all that was measured until it was interrupted; tensile_test --resume goes on with it\n",
+                arguments.folder.c_str());
+    return kDone;
+  }
   Recovery recovery(arguments.folder, arguments.out.empty() ? arguments.folder : arguments.out);
 #ifdef KNOT_UTM_HAS_ROS
   recover_with_bag(recovery);
@@ -42,10 +47,9 @@ int run(const Arguments& arguments) {
 
 /// Reads the command line; an exit code where that is all there is to do.
 std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
-  CLI::App app("Writes anew what a run left that was killed, from its method.yaml and journal.");
-  app.set_version_flag("--version", version());
+  CLI::App app("Writes the results of a run that was killed, from its method.yaml and its journal.");
   app.add_option("DIR", arguments.folder, "the run's folder")->required();
-  app.add_option("--out", arguments.out, "the folder to write to; DIR unless given");
+  app.add_option("--out", arguments.out, "the folder to write to; unless given, DIR itself");
   return parse(app, kTool, argc, argv);
 }
 

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -13,13 +14,16 @@
 #include <vector>
 
 #include "knot_utm/io/checkpoint.hpp"
+#include "knot_utm/io/claimed_folder.hpp"
 #include "knot_utm/io/journal.hpp"
+#include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/locked_file.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/recovery.hpp"
 #include "knot_utm/io/report.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/run_writer.hpp"
+#include "knot_utm/io/shipped.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/test_bench.hpp"
 #include "knot_utm/machine/test_program.hpp"
@@ -37,7 +41,7 @@ volatile std::sig_atomic_t stop_asked = 0;
 
 void ask_to_stop(int /*signal*/) { stop_asked = 1; }
 
-/// The first Ctrl-C stops the test as the operator does, the second one the program.
+/// The first Ctrl-C interrupts the test, which `--resume` takes up again; the second one ends the program.
 void set_signals() {
   struct sigaction action {};
   action.sa_handler = ask_to_stop;
@@ -94,6 +98,7 @@ struct Arguments {
   std::string out;
   std::string resume;       // a folder; empty: a new test
   double checkpoint = 5.0;  // wall time between two [s]; 0: none
+  bool overwrite = false;
   bool quiet = false;
   bool report = false;
   std::string command;  // the whole line
@@ -140,15 +145,19 @@ class Past {
       : folder_(folder) {
     JournalReader journal = reader();
     if (!(journal.header() == journal_header(method)))
-      throw InvalidInput(journal_file(folder), "method", "that of another run", "that of method.yaml");
+      throw InvalidInput::sentence("method", folder, "the journal belongs to another method than method.yaml beside it")
+          .in_file(journal_file(folder));
     bytes_ = journal.good_bytes();
     if (!checkpoint.is_there()) return;
     bytes_ = checkpoint.load(bench, program);
     Record record;
     while (journal.good_bytes() < bytes_ && journal.next(record)) continue;
     if (journal.good_bytes() != bytes_ || journal.records() != program.last().sequence)
-      throw InvalidInput(checkpoint.file(), "journal", std::to_string(journal.good_bytes()) + " whole bytes",
-                         "at least the " + std::to_string(bytes_) + " of this checkpoint");
+      throw InvalidInput::sentence("journal", folder,
+                                   "the checkpoint needs " + std::to_string(bytes_) +
+                                       " bytes of the journal, of which only " + std::to_string(journal.good_bytes()) +
+                                       " are whole")
+          .in_file(checkpoint.file());
   }
 
   /// Writes everything anew; the wall time that had passed [s].
@@ -213,58 +222,99 @@ struct Test {
   std::optional<Past> past;  ///< none: it is new
 };
 
+/// What becomes of a test that has ended, or was interrupted.
+Results write_results(const Test& test, Writers& writers, const WallClock& clock, bool interrupted) {
+  writers.close();
+  if (!test.bench.failed_step().empty()) write_whole(failed_step_file(test.out), test.bench.failed_step());
+  RunFacts facts = writers.run.facts();
+  facts.reason = interrupted ? kInterrupted : test.program.reason();
+  facts.wall_time = clock.seconds();
+  const Results results = writers.run.results(test.program.ended_by());
+  writers.run.finish(results, facts, test.bench.state().position);
+  const std::string unsure = accuracy_warning(results, facts.errors);
+  if (!unsure.empty()) std::fprintf(stderr, "%s: %s\n", kTool, unsure.c_str());
+  return results;
+}
+
+/// Says how the test ended; the exit code.
+int tell_end(const Test& test, const Results& results, double wall_time, bool quiet) {
+  const TestProgram& program = test.program;
+  const char* out = test.out.c_str();
+  if (program.ended_by() == EndedBy::kSolver) {
+    std::fprintf(stderr, "%s: the physics gave up: %s; what was measured until then is in %s\n", kTool,
+                 program.reason().c_str(), out);
+    if (!test.bench.failed_step().empty())
+      std::fprintf(stderr, "%s: the time step that failed can be looked at by: scripts/replay-step %s\n", kTool,
+                   failed_step_file(test.out).c_str());
+  } else if (!quiet) {
+    std::printf("the test ended by %s after %.1f s, at %.1f times real time; its results are in %s\n",
+                ended_by_name(program.ended_by()), results.simulated_time, results.simulated_time / wall_time, out);
+  }
+  if (program.ended_by() == EndedBy::kUntangled)
+    std::fprintf(stderr, "%s: the knot came undone: %s\n", kTool, what_keeps_a_knot(test.method).c_str());
+  return program.failed() ? kFailed : kDone;
+}
+
+/// Leaves what `--resume` needs beside what was measured; the exit code.
+int leave_for_resume(const Test& test, Writers& writers, const WallClock& clock) {
+  test.program.stop();
+  const Results results = write_results(test, writers, clock, true);
+  const std::array<const char*, 3> go_on{kTool, "--resume", test.out.c_str()};
+  std::fprintf(stderr, "%s: the test was interrupted after %.1f s; what was measured is in %s; go on with: %s\n", kTool,
+               results.simulated_time, test.out.c_str(), command_line(go_on.size(), go_on.data()).c_str());
+  return kFailed;
+}
+
 int run_to_end(const Test& test, JournalWriter& journal, double checkpoint_period, bool quiet) {
   TestBench& bench = test.bench;
   TestProgram& program = test.program;
-  const std::string& out = test.out;
   if (!test.past) test.checkpoint.remove();
-  Writers writers(out, test.method);
+  Writers writers(test.out, test.method);
   const WallClock clock(test.past ? test.past->write(writers, journal) : 0.0);
   {
     ProgressLine progress(quiet);
     Record record;
     CheckedBench checked{bench, program, journal, test.checkpoint, clock, checkpoint_period};
-    run_test(checked, program, [&](const Command& command, const Sample& sample) {
-      take(command, sample, bench, clock.seconds(), record);
-      journal.append(record);
-      writers.add(record);
-      if (stop_asked != 0) program.stop();
-      progress.show(sample, program, clock.seconds());
-    });
+    run_test(
+        checked, program,
+        [&](const Command& command, const Sample& sample) {
+          take(command, sample, bench, clock.seconds(), record);
+          journal.append(record);
+          writers.add(record);
+          progress.show(sample, program, clock.seconds());
+        },
+        [] { return stop_asked != 0; });
   }
-  writers.close();
-  const std::string failed_step = failed_step_file(out);
-  if (!bench.failed_step().empty()) write_whole(failed_step, bench.failed_step());
-  RunFacts facts = writers.run.facts();
-  facts.reason = program.reason();
-  facts.wall_time = clock.seconds();
-  const Results results = writers.run.results(program.ended_by());
-  writers.run.finish(results, facts, bench.state().position);
+  if (!program.ended()) {
+    // Before anything that takes long: a second Ctrl-C ends the program.
+    if (checkpoint_period > 0.0) test.checkpoint.write(bench, program, journal.bytes());
+    return leave_for_resume(test, writers, clock);
+  }
+  const Results results = write_results(test, writers, clock, false);
   test.checkpoint.remove();
   journal.remove();
-
-  const std::string unsure = accuracy_warning(results, facts.errors);
-  if (!unsure.empty()) std::fprintf(stderr, "tensile_test: %s\n", unsure.c_str());
-  const bool gave_up = program.ended_by() == EndedBy::kSolver;
-  if (gave_up) {
-    std::fprintf(stderr, "tensile_test: the physics gave up: %s; what was measured is in %s\n",
-                 program.reason().c_str(), out.c_str());
-    if (!bench.failed_step().empty())
-      std::fprintf(stderr, "tensile_test: the step that could not be made: scripts/replay-step %s\n",
-                   failed_step.c_str());
-  } else if (!quiet) {
-    std::printf("ended by %s after %.1f s, %.1f times real time; written to %s\n", ended_by_name(program.ended_by()),
-                results.simulated_time, results.simulated_time / facts.wall_time, out.c_str());
-  }
-  return gave_up ? kFailed : kDone;
+  return tell_end(test, results, clock.seconds(), quiet);
 }
 
 /// Throws InvalidInput where there is nothing to take up. Reads nothing of a run that goes on.
 void require_cut_off(const std::string& folder) {
-  if (is_settled(folder)) throw InvalidInput("--resume", folder, "a test that was cut off; this one has ended");
+  if (is_settled(folder))
+    throw InvalidInput::sentence("--resume", folder,
+                                 "cannot resume " + shown(folder) + ": its test has ended, and was not cut off");
   const LockedFile journal(journal_file(folder), O_RDONLY, 0.0);
   if (!journal.is_open() && errno == EWOULDBLOCK)
-    throw InvalidInput("--resume", folder, "a test that was cut off; this one goes on");
+    throw InvalidInput::sentence("--resume", folder, "cannot resume " + shown(folder) + ": its test is still running");
+}
+
+/// Says where the run goes to where it goes elsewhere than asked.
+ClaimedFolder folder_of_run(const Arguments& arguments, const std::string& asked, const Method& method) {
+  if (!arguments.resume.empty()) return {asked, JournalWriter::go_on(asked, 0.0)};
+  if (arguments.overwrite) return {asked, JournalWriter(asked, journal_header(method))};
+  ClaimedFolder claimed = claim_folder(asked, journal_header(method));
+  if (claimed.folder != asked)
+    std::fprintf(stderr, "%s: %s (%s)\n", kTool, moved_notice(asked, claimed.folder).c_str(),
+                 holds_unfinished_run(asked) ? "--resume goes on with that one" : "--overwrite writes over that one");
+  return claimed;
 }
 
 int run(const Arguments& arguments) {
@@ -273,15 +323,17 @@ int run(const Arguments& arguments) {
   const Method method = load_method(arguments.method, arguments.overrides);
   TestBench bench(method.specimen, method.material, method.machine, method.physics);
   TestProgram program = make_program(method, bench.longest_step());
-  const std::string out = arguments.out.empty() ? "out/" + method.name : arguments.out;
-  require_no_record_in(out, method);  // before anything is written
+  const std::string asked = arguments.out.empty() ? "out/" + method.name : arguments.out;
+  require_no_record_in(asked, method);  // before anything is written
+  std::optional<Past> past;
+  if (resumes) past.emplace(asked, method, Checkpoint(asked, method_file_text(method)), bench, program);
+  ClaimedFolder claimed = folder_of_run(arguments, asked, method);
+  const std::string& out = claimed.folder;
   const Checkpoint checkpoint(out, method_file_text(method));
-  Test test{method, out, bench, program, checkpoint, std::nullopt};
-  if (resumes) test.past.emplace(out, method, checkpoint, bench, program);
-  JournalWriter journal = resumes ? JournalWriter::go_on(out, 0.0) : JournalWriter(out, journal_header(method));
+  const Test test{method, out, bench, program, checkpoint, past};
   int code = kDone;
   try {
-    code = run_to_end(test, journal, arguments.checkpoint, arguments.quiet);
+    code = run_to_end(test, claimed.journal, arguments.checkpoint, arguments.quiet);
   } catch (const InvalidInput&) {
     throw;
   } catch (const std::runtime_error& error) {
@@ -289,38 +341,42 @@ int run(const Arguments& arguments) {
   }
   if (arguments.report) {
     write_report(out, arguments.command);
-    if (!arguments.quiet) std::printf("report: %s/report.html and %s/report.pdf\n", out.c_str(), out.c_str());
+    if (!arguments.quiet) std::printf("the report is in %s/report.html and %s/report.pdf\n", out.c_str(), out.c_str());
   }
   return code;
 }
 
-/// What is wrong with an argument stands in no file.
-InvalidInput with_place(const InvalidInput& invalid, const std::string& method) {
-  return invalid.key.rfind("--", 0) == 0 ? invalid : invalid.in_file(method);
-}
-
 /// Reads the command line; an exit code where that is all there is to do.
 std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
-  CLI::App app("Runs one whole test of a method, as fast as it goes.");
-  app.set_version_flag("--version", version());
-  CLI::Option* method = app.add_option("METHOD", arguments.method, "the method, a YAML file");
+  CLI::App app("Runs the whole test that a method describes, as fast as the computer can.");
+  CLI::Option* method = app.add_option("METHOD", arguments.method,
+                                       "the method: a YAML file, or the name of one that comes with the package");
   // One value each, so that --set may stand before METHOD too.
-  CLI::Option* set =
-      app.add_option("--set", arguments.overrides, "dotted.key=YAML, over what the method says; may be repeated")
-          ->allow_extra_args(false);
+  CLI::Option* set = app.add_option("--set", arguments.overrides,
+                                    "dotted.key=YAML, instead of what the method says; may be given more than once")
+                         ->allow_extra_args(false);
   CLI::Option* out =
-      app.add_option("--out", arguments.out, "the folder to write to; out/ and the method's name unless given");
-  CLI::Option* resume = app.add_option("--resume", arguments.resume, "the folder of a test that was cut off: goes on");
-  resume->excludes(method)->excludes(set)->excludes(out);
-  app.add_option("--checkpoint", arguments.checkpoint, "wall time between two checkpoints [s]; 0: none")
+      app.add_option("--out", arguments.out, "the folder to write to; unless given, out/ and the method's name");
+  CLI::Option* resume =
+      app.add_option("--resume", arguments.resume, "the folder of a test that was cut off, which goes on");
+  CLI::Option* overwrite =
+      app.add_flag("--overwrite", arguments.overwrite,
+                   "write over what the folder holds, instead of to the next free one, -2, -3, ...");
+  resume->excludes(method)->excludes(set)->excludes(out)->excludes(overwrite);
+  app.add_option("--checkpoint", arguments.checkpoint,
+                 "the time between two checkpoints, of the clock on the wall [s]; 0 for none")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_flag("--quiet", arguments.quiet, "say nothing but what went wrong");
-  app.add_flag("--report", arguments.report, "write report.html and report.pdf too");
+  app.add_flag("--quiet", arguments.quiet, "say only what went wrong");
+  app.add_flag("--report", arguments.report, "also write report.html and report.pdf");
   const std::optional<int> code = parse(app, kTool, argc, argv, [&] {
     if (method->empty() && resume->empty()) throw CLI::RequiredError("METHOD");
   });
-  if (code || resume->empty()) return code;
+  if (code) return code;
+  if (resume->empty()) {
+    arguments.method = find_method(arguments.method);
+    return std::nullopt;
+  }
   arguments.method = arguments.resume + "/method.yaml";
   arguments.out = arguments.resume;
   return std::nullopt;
@@ -338,7 +394,7 @@ int main(int argc, char** argv) {
     try {
       return knot_utm::run(arguments);
     } catch (const knot_utm::InvalidInput& invalid) {
-      throw knot_utm::with_place(invalid, arguments.method);
+      throw invalid.in_file(arguments.method);
     }
   });
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "command_line_fault.hpp"
+#include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
 
 namespace knot_utm {
@@ -20,9 +21,11 @@ inline int complain(const char* tool, const std::string& why, ExitCode code) {
   return code;
 }
 
-/// Reads the command line; an exit code where that is all there is to do. `check` may throw a CLI::ParseError too.
+/// Reads the command line, --version among it; an exit code where that is all there is to do. `check` may throw a
+/// CLI::ParseError too.
 template <class Check>
 std::optional<int> parse(CLI::App& app, const char* tool, int argc, char** argv, Check check) {
+  app.set_version_flag("--version", version());
   try {
     app.parse(argc, argv);
     check();

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <random>
 
 #include "knot_utm/specimen/fisherman.hpp"
@@ -272,10 +272,10 @@ TEST_P(K7_Loop, IsReadInMilliseconds) {
   shape.edge_length = 0.7 * shape.radius;
   const Centreline line = fisherman_loop(shape);
   LoopTopology topology = topology_of(line, shape.radius);
-  const auto begin = std::chrono::steady_clock::now();
+  const std::clock_t begin = std::clock();  // CPU time: what others run beside it does not count
   for (int n = 0; n < 10; ++n) topology.read(line.points, Vec3::UnitZ());
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-  EXPECT_LT(taken.count() / 10.0, 0.1);  // 20 ms promised, with room for a busy machine
+  const double taken = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  EXPECT_LT(taken / 10.0, 0.1);  // 20 ms promised, with room for a slower machine
 }
 
 INSTANTIATE_TEST_SUITE_P(Hands, K7_Loop, testing::Values(Handedness::kSame, Handedness::kOpposite),

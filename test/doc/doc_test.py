@@ -1,10 +1,15 @@
 #!/usr/bin/python3
-"""README.md and doc/ against the code: keys and their ranges, launch arguments, names, tests, files."""
+"""README.md and doc/ against the code: keys and their ranges, launch arguments, names, tests, files, links."""
+import glob
 import os
 import re
 import unittest
+import xml.etree.ElementTree
+
+import yaml
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../..")
+SCREEN = 50  # lines
 
 
 def text(path):
@@ -12,10 +17,10 @@ def text(path):
         return file.read()
 
 
-def rows(readme):
+def rows(page):
     """Rows of its tables, by the words in backticks in the first cell."""
     found = {}
-    for line in readme.splitlines():
+    for line in page.splitlines():
         if line.startswith("|"):
             cells = [cell.strip() for cell in line.strip("|").split("|")]
             for word in re.findall(r"`([^`]+)`", cells[0]):
@@ -34,13 +39,32 @@ def files(folder, ending):
         yield from (os.path.join(where, name) for name in names if name.endswith(ending))
 
 
-class Readme(unittest.TestCase):
-    readme = text("README.md")
-    rows = rows(readme)
+def documents():
+    """README.md and every page of doc/."""
+    return ["README.md"] + sorted(os.path.relpath(page, ROOT) for page in glob.glob(os.path.join(ROOT, "doc/*.md")))
 
-    def test_has_every_key_of_a_method(self):
+
+def prose(page):
+    """Its lines without blocks of code, in which a # begins a comment and brackets are no links."""
+    return [line for line in page.splitlines() if not line.startswith("    ")]
+
+
+def headings(page):
+    return [match.group(1) for match in (re.match(r"#+ (.+)", line) for line in prose(page)) if match]
+
+
+def anchor(heading):
+    """Where a link to a heading leads, as GitHub and GitLab name it."""
+    return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
+
+
+class Method(unittest.TestCase):
+    page = text("doc/method.md")
+    rows = rows(page)
+
+    def test_has_every_key(self):
         for key in re.findall(r'(?:number|integer|text|flag|choice|vector)\("(\w+)"', text("src/io/method_fields.hpp")):
-            self.assertTrue(re.search(rf"`(\w+\.)*{key}`", self.readme), key)
+            self.assertTrue(re.search(rf"`(\w+\.)*{key}`", self.page), key)
 
     def test_ranges_are_those_of_the_code(self):
         allowed = {}  # a name may stand in two sections, with a range in each
@@ -56,9 +80,26 @@ class Readme(unittest.TestCase):
                     checked += 1
         self.assertGreater(checked, 20)
 
-    def test_has_every_key_of_a_result(self):
-        for key in re.findall(r'lines\.\w+\("(\w+)"', text("src/io/run_writer.cpp")):
-            self.assertTrue(key in self.rows, key)
+    def test_lengths_of_texts_are_those_of_the_code(self):
+        found = re.findall(r'short_text\("(\w+)", [\w.]+, (\d+)\)', text("src/io/method_fields.hpp"))
+        self.assertGreater(len(found), 5)
+        for key, most in found:
+            if key != "logo":  # a path
+                self.assertTrue(any(f"at most {most} characters" in cells[1] for cells in self.rows[key]), key)
+
+
+class Results(unittest.TestCase):
+    def test_has_every_key(self):
+        keys = re.findall(r'lines\.\w+\("(\w+)"', text("src/io/run_writer.cpp"))
+        said = rows(text("doc/results.md"))
+        self.assertGreater(len(keys), 20)
+        for key in keys:
+            self.assertTrue(key in said, key)
+
+
+class Ros(unittest.TestCase):
+    page = text("doc/ros.md")
+    rows = rows(page)
 
     def test_has_every_launch_argument_and_its_default(self):
         for name, default in re.findall(r'<arg name="(\w+)" default="([^"]*)"', text("launch/tighten.launch")):
@@ -75,26 +116,58 @@ class Readme(unittest.TestCase):
 
     def test_has_every_name_of_the_nodes(self):
         for name in re.findall(r'= "([^"]+)";', text("include/knot_utm/ros/names.hpp")):
-            self.assertTrue(f"`{name}`" in self.readme, name)
+            self.assertTrue(f"`{name}`" in self.page, name)
 
     def test_has_every_message(self):
         for file in [*files("msg", ".msg"), *files("action", ".action")]:
             name = os.path.splitext(os.path.basename(file))[0]
-            self.assertTrue(f"knot_utm/{name}`" in self.readme, name)
+            self.assertTrue(f"knot_utm/{name}`" in self.page, name)
 
     def test_has_every_dynamic_parameter(self):
         for file in files("cfg", ".cfg"):
             for name in re.findall(r"\.add\('(\w+)'", text(file)):
-                self.assertTrue(f"`~{name}` (dynamic)" in self.readme, name)
+                self.assertTrue(f"`~{name}` (dynamic)" in self.page, name)
+
+
+class Readme(unittest.TestCase):
+    def test_is_read_in_one_go(self):
+        self.assertLessEqual(len(text("README.md").splitlines()), 150)
+
+    def test_leads_to_every_page(self):
+        for document in documents()[1:]:
+            self.assertIn(f"]({document})", text("README.md"))
 
 
 class Documents(unittest.TestCase):
-    def test_links_and_files_are_there(self):
-        for document in ("README.md", "doc/model.md", "doc/performance.md", "doc/references.md", "doc/reliability.md",
-                         "doc/terminology.md", "doc/tutorial.md"):
-            folder = os.path.dirname(document)
-            for target in re.findall(r"\]\(([^)#]+)\)", text(document)):
-                self.assertTrue(os.path.exists(os.path.join(ROOT, folder, target)), f"{document}: {target}")
+    def test_links_lead_to_files_and_headings_that_are_there(self):
+        for document in documents():
+            for link in re.findall(r"\]\(([^)\s]+)\)", "\n".join(prose(text(document)))):
+                if re.match(r"\w+:", link):
+                    continue  # of the web
+                target, _, place = link.partition("#")
+                file = os.path.normpath(os.path.join(os.path.dirname(document), target)) if target else document
+                self.assertTrue(os.path.exists(os.path.join(ROOT, file)), f"{document}: {link}")
+                if place:
+                    self.assertIn(place, [anchor(heading) for heading in headings(text(file))], f"{document}: {link}")
+
+    def test_pages_longer_than_a_screen_have_a_table_of_contents(self):
+        for document in documents():
+            page = text(document)
+            if len(page.splitlines()) <= SCREEN:
+                continue
+            sections = re.findall(r"^## (.+)$", "\n".join(prose(page)), re.MULTILINE)
+            self.assertGreater(len(sections), 1, f"{document} is long and has no sections")
+            contents = re.findall(r"^- \[([^\]]+)\]\(#([^)]+)\)$", page[:page.index("\n## ")], re.MULTILINE)
+            self.assertEqual(contents, [(section, anchor(section)) for section in sections], document)
+
+    def test_every_script_is_explained(self):
+        pages = "".join(text(document) for document in documents())
+        for file in glob.glob(os.path.join(ROOT, "scripts/*")):
+            if os.path.isfile(file):
+                self.assertIn(f"scripts/{os.path.basename(file)}", pages)
+
+    def test_named_sources_are_there(self):
+        for document in documents():
             for header in re.findall(r"`([\w/]+\.(?:hpp|cpp))`", text(document)):
                 places = [header, "include/knot_utm/" + header]
                 beside = any(file.endswith("/" + header) for file in files("include", ".hpp"))
@@ -125,6 +198,52 @@ class Documents(unittest.TestCase):
         tests = [os.path.basename(file) for file in [*files("test", ""), *files("src/tools", "")]]
         for name in re.findall(r"`(\w+_test|\w+\.test)`", text("doc/reliability.md")):
             self.assertTrue(any(file in (name, name + ".py", name + ".cpp") for file in tests), name)
+
+
+class Sources(unittest.TestCase):
+    CITED = re.compile(r"\b([A-Z][a-z]+)(?:,? (?:[A-Z][\w'’]+|and|et al\.)(?=[ ,]))*,? (?:algorithm )?\(?((?:18|19|20)\d\d)\b")
+
+    def test_who_is_cited_stands_in_the_bibliography(self):
+        entries = text("doc/bibliography.md").split("\n")
+        cited = set()
+        for folder, ending in (("include", ".hpp"), ("src", "pp"), ("test", "pp"), ("bench", ".py"), ("config", ".yaml"), ("doc", ".md")):
+            for file in files(folder, ending):
+                if not file.endswith("bibliography.md"):
+                    words = re.sub(r"\n\s*(?:///?|#)?\s*", " ", text(file))  # a comment goes on in the next line
+                    cited.update((author, year, file) for author, year in self.CITED.findall(words))
+        self.assertGreater(len(cited), 10)
+        for author, year, file in cited:
+            self.assertTrue(any(author in entry and year in entry for entry in entries), f"{file}: {author} {year}")
+
+    def test_links_name_the_doi_that_they_lead_to(self):
+        dois = re.findall(r"\[doi:(\S+)\]\(https://doi\.org/(\S+)\)", text("doc/bibliography.md"))
+        self.assertGreater(len(dois), 5)
+        for said, led in dois:
+            self.assertEqual(said, led.replace("%28", "(").replace("%29", ")"))
+
+
+class Citation(unittest.TestCase):
+    citation = yaml.safe_load(text("CITATION.cff"))
+
+    def test_has_what_the_format_requires(self):
+        self.assertEqual(self.citation["cff-version"], "1.2.0")
+        for key in ("message", "title", "authors"):
+            self.assertTrue(self.citation[key], key)
+        for work in [self.citation, *self.citation["references"]]:
+            for author in work["authors"]:
+                self.assertTrue(set(author) in ({"name"}, {"given-names", "family-names"}), author)
+        for reference in self.citation["references"]:
+            self.assertTrue({"type", "title", "authors"} <= set(reference), reference)
+
+    def test_version_and_licence_are_the_packages(self):
+        package = xml.etree.ElementTree.parse(os.path.join(ROOT, "package.xml")).getroot()
+        self.assertEqual(self.citation["version"], package.find("version").text)
+        self.assertEqual(self.citation["license"], package.find("license").text)
+
+    def test_has_the_source_paper_as_the_bibliography_has_it(self):
+        paper = self.citation["references"][0]
+        for part in [paper["title"], paper["doi"], paper["start"], *(author["family-names"] for author in paper["authors"])]:
+            self.assertIn(part, " ".join(text("doc/bibliography.md").split()))
 
 
 if __name__ == "__main__":

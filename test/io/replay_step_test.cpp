@@ -51,9 +51,9 @@ TEST_F(ReplayStep, FailsForTheReasonThatTheTestGave) {
   EXPECT_THAT(again.text, HasSubstr("not accepted: " + found.str(1)));
   EXPECT_THAT(again.text, HasSubstr(found.str(2)));
 
-  // The next run into the same folder does not leave it.
+  // A run that may write over this one does not leave it.
   const std::string straight = std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml";
-  const std::string shorter = " --set 'program=[{hold: {duration: 0.1}}]' --quiet --out '" + out + "'";
+  const std::string shorter = " --set 'program=[{hold: {duration: 0.1}}]' --quiet --overwrite --out '" + out + "'";
   EXPECT_EQ(answer_of(tool("tensile_test", "'" + straight + "'" + shorter)).code, 0);
   EXPECT_FALSE(std::filesystem::exists(out + "/failed_step.bin"));
 }

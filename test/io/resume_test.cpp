@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <random>
 #include <regex>
 #include <set>
@@ -90,6 +91,12 @@ class Resume : public OwnFolder {
 
   /// Kills a run once its journal has grown by so many bytes; false: it ended before.
   bool kill_after(const std::vector<std::string>& arguments, std::uintmax_t bytes) const {
+    return end_after(arguments, bytes, SIGKILL) == -1;
+  }
+
+  /// Sends a signal to a run once its journal has grown by so many bytes. Its exit code, -1: it was killed; none: it
+  /// ended before.
+  std::optional<int> end_after(const std::vector<std::string>& arguments, std::uintmax_t bytes, int by) const {
     const fs::path journal = cut() + "/journal";
     std::error_code error;
     const auto size = [&] {
@@ -101,14 +108,14 @@ class Resume : public OwnFolder {
     const pid_t process = launch(arguments);
     for (;;) {
       int status = 0;
-      if (waitpid(process, &status, WNOHANG) == process) return false;
+      if (waitpid(process, &status, WNOHANG) == process) return std::nullopt;
       const std::uintmax_t now = size();
       least = std::min(least, now);
       if (now >= least + bytes) break;
       usleep(500);
     }
-    kill(process, SIGKILL);
-    return wait_for(process) == -1;
+    kill(process, by);
+    return wait_for(process);
   }
 
   void expect_same_files() const {
@@ -161,6 +168,45 @@ TEST_F(Resume, WithoutACheckpointItBeginsAnew) {
   expect_same_files();
 }
 
+TEST_F(Resume, InterruptedAgainAndAgainItLeavesWhatWasMeasuredAndThenTheSameFiles) {
+  ASSERT_EQ(run(kTest, unbroken()), 0);
+  const auto expect_interrupted = [&] {
+    EXPECT_THAT(text_of(cut() + "/result.yaml"), HasSubstr("ended_by: operator\nreason: \"interrupted\"\n"));
+    for (const char* name : {"/journal", "/checkpoint", "/curve.csv", "/final_shape.csv"})
+      EXPECT_TRUE(fs::exists(cut() + name)) << name;
+    EXPECT_EQ(text_of(unbroken() + "/curve_full.csv").find(text_of(cut() + "/curve_full.csv")), 0u);
+  };
+  // Checkpoints that never fall due: that of the interruption is the only one.
+  ASSERT_EQ(end_after(in_cut({"--checkpoint", "1e6"}), 60000, SIGINT), 1);
+  expect_interrupted();
+  // On a slow machine it may come to its end before the signal does.
+  if (end_after(resumed("1e6"), 20000, SIGTERM) == 1) {
+    expect_interrupted();
+    ASSERT_EQ(wait_for(launch(resumed("1e6"))), 0);
+  }
+  expect_same_files();
+}
+
+TEST_F(Resume, InterruptedWithoutACheckpointItBeginsAnew) {
+  ASSERT_EQ(run(kTest, unbroken()), 0);
+  ASSERT_EQ(end_after(in_cut({"--checkpoint", "0"}), 60000, SIGINT), 1);
+  EXPECT_FALSE(fs::exists(cut() + "/checkpoint"));
+  ASSERT_EQ(wait_for(launch(resumed("0"))), 0);
+  expect_same_files();
+}
+
+TEST_F(Resume, WhatWasInterruptedIsLostNeitherToANewRunNorToARecovery) {
+  ASSERT_EQ(run(kTest, unbroken()), 0);
+  ASSERT_EQ(end_after(in_cut({}), 60000, SIGINT), 1);
+  const Answer recovered = answer_of(tool("recover", "'" + cut() + "'"));
+  EXPECT_EQ(recovered.code, 0);
+  EXPECT_THAT(recovered.text, HasSubstr("--resume"));
+  ASSERT_EQ(run({"straight", "--set", "program=[{hold: {duration: 0.1}}]", "--quiet"}, cut()), 0);
+  EXPECT_TRUE(fs::exists(cut() + "-2/result.yaml"));
+  ASSERT_EQ(wait_for(launch(resumed("5"))), 0);
+  expect_same_files();
+}
+
 /// What tensile_test says in its one line about wrong input.
 std::string complaint(const std::string& arguments) {
   const Answer answer = answer_of(tool("tensile_test", arguments));
@@ -186,7 +232,7 @@ TEST_F(Resume, IsRefusedWhileTheTestGoesOnAndDisturbsNothing) {
     return all;
   };
   const auto before = contents();
-  EXPECT_THAT(complaint("--resume '" + cut() + "'"), HasSubstr("a test that was cut off; this one goes on"));
+  EXPECT_THAT(complaint("--resume '" + cut() + "'"), HasSubstr(": its test is still running"));
   EXPECT_TRUE(contents() == before);
   kill(process, SIGCONT);
   ASSERT_EQ(wait_for(process), 0);

@@ -16,8 +16,9 @@ struct FakeBench {
   double break_force = std::numeric_limits<double>::infinity();
   double fail_time = std::numeric_limits<double>::infinity();  ///< [s] when the physics gives up
   bool comes_to_rest = true;
-  double weak_from = std::numeric_limits<double>::infinity();  ///< displacement, beyond which it bears ... [m]
-  double weakness = 0.3;                                       ///< ... this share
+  double undone_from = std::numeric_limits<double>::infinity();  ///< [s] when the knot has come undone
+  double weak_from = std::numeric_limits<double>::infinity();    ///< displacement, beyond which it bears ... [m]
+  double weakness = 0.3;                                         ///< ... this share
 
   Sample respond(const Command& command) {
     if (command.step != step_) {
@@ -45,6 +46,7 @@ struct FakeBench {
       sample.balance_offset = balanced_force_;
       sample.highest_load = sample.lowest_load = sample.load;
       sample.steps = ++steps_;
+      if (sample.time >= undone_from) sample.knot_type = KnotType::kChanged;
       substeps.push_back(sample);
       if (command.sequence == 0) break;
     }

@@ -167,6 +167,68 @@ TEST(TestProgram, EndsByBreakOverloadTravelAndSolver) {
   EXPECT_THAT(by_solver.reason(), HasSubstr("converged"));
 }
 
+/// FakeBench ties for half a second, releases for one, mounts for half a second.
+TEST(TestProgram, AKnotThatComesUndoneBeforeItIsPulledEndsTheTest) {
+  struct Case {
+    double undone_from;
+    const char* phase;
+  };
+  for (const Case& one : {Case{0.3, "tie"}, Case{1.2, "release"}, Case{1.8, "mount"}}) {
+    FakeBench bench;
+    bench.undone_from = one.undone_from;
+    TestProgram program({step(Phase::kTie), step(Phase::kRelease, 0.0033, 1.0), step(Phase::kMount), pull(0.1)}, 3.0,
+                        0.1, {});
+    const Record result = run(bench, program);
+    EXPECT_EQ(program.ended_by(), EndedBy::kUntangled);
+    EXPECT_EQ(program.reason(), std::string(one.phase) + ": the knot came undone");
+    EXPECT_TRUE(program.failed());
+    EXPECT_LT(result.samples.back().time, one.undone_from + program.period()) << "at once";
+  }
+}
+
+TEST(TestProgram, WhatComesUndoneWhilePulledIsPulledOn) {
+  FakeBench bench;
+  bench.undone_from = 2.5;
+  TestProgram program({step(Phase::kTie), step(Phase::kRelease, 0.0033, 1.0), step(Phase::kMount), pull(0.01)}, 3.0,
+                      0.1, {});
+  run(bench, program);
+  EXPECT_EQ(program.ended_by(), EndedBy::kExtension);
+  EXPECT_FALSE(program.failed());
+}
+
+/// So that one may watch how the knot comes open.
+TEST(TestProgram, AProgramThatOnlyTiesGoesOnToItsEnd) {
+  FakeBench bench;
+  bench.undone_from = 0.3;
+  TestProgram program({step(Phase::kTie), step(Phase::kRelease, 0.0033, 1.0)}, 3.0, 0.1, {});
+  const Record result = run(bench, program);
+  EXPECT_GT(result.samples.back().time, 1.4);
+  EXPECT_EQ(program.ended_by(), EndedBy::kUntangled);
+  EXPECT_EQ(program.reason(), "");
+  EXPECT_FALSE(program.failed());
+}
+
+TEST(TestProgram, EveryEndHasANameOfItsOwn) {
+  for (int i = 0; i <= static_cast<int>(EndedBy::kUntangled); ++i) {
+    const auto end = static_cast<EndedBy>(i);
+    EXPECT_EQ(ended_by_named(ended_by_name(end)), end);
+  }
+  EXPECT_EQ(ended_by_named("never"), std::nullopt);
+}
+
+/// What interrupts a test comes between two commands, where it can go on.
+TEST(TestProgram, AnInterruptedTestGoesOnAsIfItWasNot) {
+  TestProgram whole(paper_program(), 3.0, 0.1, {}), cut(paper_program(), 3.0, 0.1, {});
+  const Record unbroken = run(FakeBench(), whole);
+  FakeBench bench;
+  std::vector<double> forces;
+  const auto observe = [&](const Command&, const Sample& sample) { forces.push_back(sample.force_upper); };
+  for (std::size_t most = 10; !cut.ended(); most += 10)
+    run_test(bench, cut, observe, [&] { return forces.size() >= most; });
+  ASSERT_EQ(forces.size(), unbroken.samples.size());
+  for (std::size_t i = 0; i < forces.size(); ++i) EXPECT_EQ(forces[i], unbroken.samples[i].force_upper);
+}
+
 TEST(TestProgram, OverloadCountsTheTrueForceInBothDirections) {
   TestProgram::Limits limits;
   limits.load = 20.0;

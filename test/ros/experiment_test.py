@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """experiment.launch: the crosshead goes as an experiment's did, and both curves are on topics, at the same times."""
 import os
+import shutil
 import sys
-import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
@@ -11,8 +11,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import WrenchStamped
 from knot_utm.msg import Crosshead, RecorderStatus, TestStatus
-from node_test import Latest, call
-from std_srvs.srv import Trigger
+from node_test import Latest, start_test
 
 MEASURED = [(0.0, 0.10e-3, 3.0), (0.5, 0.60e-3, 150.0), (1.0, 1.20e-3, 310.0), (1.5, 1.50e-3, 402.0),
             (2.0, 1.40e-3, 371.0)]
@@ -27,11 +26,9 @@ class ExperimentTest(unittest.TestCase):
         load = Latest('experiment/load_cell', WrenchStamped)
         recorder = Latest('recorder/status', RecorderStatus)
         status = Latest('utm/status', TestStatus)
-        end = time.monotonic() + 20.0
-        while not call('utm/start_test', Trigger).success and time.monotonic() < end:
-            time.sleep(0.2)
-        self.assertEqual(status.wait('ended', lambda s: s.state == TestStatus.ENDED, 40.0).ended_by, 'program')
-        recorder.wait('recorded', lambda r: r.complete)
+        start_test()
+        self.assertEqual(status.wait('ended', lambda s: s.state == TestStatus.ENDED).ended_by, 'program')
+        self.addCleanup(shutil.rmtree, recorder.wait('recorded', lambda r: r.complete).directory)
 
         self.assertEqual([m.time for m in measured.messages], [row[0] for row in MEASURED])
         self.assertEqual([m.wrench.force.z for m in load.messages], [row[2] for row in MEASURED])

@@ -32,9 +32,10 @@ class LateAndSlowTest(unittest.TestCase):
         rospy.Subscriber('knot/record', KnotRecord, slow, queue_size=1)
         rospy.Subscriber('knot/state', rospy.AnyMsg, slow, queue_size=1)
         recorder = Latest('recorder/status', RecorderStatus)
-        status = recorder.wait('complete', lambda r: r.complete, timeout=60.0)
+        status = recorder.wait('complete', lambda r: r.complete)
         self.assertEqual(status.dropped, 0)
-        self.assertEqual(status.directory, OUT)
+        self.addCleanup(shutil.rmtree, status.directory)
+        self.assertTrue(status.directory.startswith(OUT))
 
         headless = tempfile.mkdtemp()
         try:
@@ -45,7 +46,7 @@ class LateAndSlowTest(unittest.TestCase):
             with open(os.path.join(headless, 'curve.csv'), encoding='utf-8') as curve:
                 self.assertTrue(curve.readline().endswith(',phase,corrected_extension\n'))
             for name in ['curve.csv', 'curve_full.csv', 'final_shape.csv', 'method.yaml', 'test.bag']:
-                self.assertTrue(filecmp.cmp(os.path.join(OUT, name), os.path.join(headless, name), shallow=False), name)
+                self.assertTrue(filecmp.cmp(os.path.join(status.directory, name), os.path.join(headless, name), shallow=False), name)
         finally:
             shutil.rmtree(headless)
 

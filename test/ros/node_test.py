@@ -3,6 +3,9 @@ import threading
 import time
 
 import rospy
+from std_srvs.srv import Trigger
+
+LAST_RESORT = 180.0  # [s] on a machine however busy: a test waits for what is to happen, not for time
 
 
 class Latest:
@@ -22,7 +25,10 @@ class Latest:
     def last(self):
         return self.messages[-1] if self.messages else None
 
-    def wait(self, what, condition, timeout=20.0):
+    def connected(self):
+        return self._subscriber.get_num_connections() > 0
+
+    def wait(self, what, condition, timeout=LAST_RESORT):
         """The first message from now on, or the latest, for which condition(message) holds."""
         end = time.monotonic() + timeout
         with self._changed:
@@ -32,7 +38,21 @@ class Latest:
                     raise AssertionError('timed out: %s; last: %s' % (what, self.last))
             return self.messages[-1]
 
+    def wait_for_more(self, number):
+        """The latest message, once so many more have come."""
+        known = len(self.messages)
+        return self.wait('%d more messages' % number, lambda _: len(self.messages) >= known + number)
+
+
+def start_test():
+    """By the service, which refuses as long as the physics is not there."""
+    end = time.monotonic() + LAST_RESORT
+    while not call('utm/start_test', Trigger).success:
+        if time.monotonic() > end:
+            raise AssertionError('the test does not start')
+        time.sleep(0.05)
+
 
 def call(service, kind):
-    rospy.wait_for_service(service, timeout=10.0)
+    rospy.wait_for_service(service, timeout=LAST_RESORT)
     return rospy.ServiceProxy(service, kind)()

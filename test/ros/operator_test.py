@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 """The machine is operated as a user does it: by services and with the tools of ROS."""
 import os
+import shutil
 import subprocess
 import sys
 import threading
-import time
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
@@ -13,7 +13,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import WrenchStamped
 from knot_utm.msg import KnotState, RecorderStatus, SpecimenInfo, TestStatus
-from node_test import Latest, call
+from node_test import LAST_RESORT, Latest, call, start_test
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
@@ -21,13 +21,13 @@ from visualization_msgs.msg import Marker, MarkerArray
 OUT = '/tmp/knot_utm_operator_test'
 
 
-def tool(*command, timeout=30):
+def tool(*command, timeout=LAST_RESORT):
     """Output of a tool that ends by itself."""
     return subprocess.run(command, timeout=timeout, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
                           universal_newlines=True, check=False).stdout
 
 
-def printed(what, *command, timeout=20):
+def printed(what, *command, timeout=LAST_RESORT):
     """Whether a tool that goes on for ever prints a text; it is ended when it has, or when the time is over."""
     tool = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True,
                             env=dict(os.environ, PYTHONUNBUFFERED='1'))
@@ -47,6 +47,7 @@ class OperatorTest(unittest.TestCase):
 
     @classmethod
     def setUpClass(cls):
+        shutil.rmtree(OUT, ignore_errors=True)
         rospy.init_node('operator_test')
         cls.status = Latest('utm/status', TestStatus)
         cls.state = Latest('knot/state', KnotState)
@@ -59,9 +60,7 @@ class OperatorTest(unittest.TestCase):
         self.assertFalse(call('utm/balance', Trigger).success)
 
     def test_2_start(self):
-        end = time.monotonic() + 10.0
-        while not call('utm/start_test', Trigger).success and time.monotonic() < end:
-            time.sleep(0.2)
+        start_test()
         self.status.wait('running', lambda s: s.state == TestStatus.RUNNING)
         self.state.wait('holds', lambda s: s.phase == 'hold')
         self.assertGreater(self.state.last.load, 1.0)
@@ -76,14 +75,13 @@ class OperatorTest(unittest.TestCase):
     def test_4_pause_and_step(self):
         self.assertFalse(call('utm/step', Trigger).success)
         self.assertTrue(call('utm/pause', Trigger).success)
-        self.status.wait('paused', lambda s: s.state == TestStatus.PAUSED)
-        time.sleep(0.5)
-        before = self.state.last.sequence
-        time.sleep(0.7)
+        before = self.status.wait('paused', lambda s: s.state == TestStatus.PAUSED).sequence
+        self.state.wait('the answer that was under way', lambda s: s.sequence == before)
+        self.assertEqual(self.status.wait_for_more(3).sequence, before)
         self.assertEqual(self.state.last.sequence, before)
         self.assertTrue(call('utm/step', Trigger).success)
         self.state.wait('one step', lambda s: s.sequence == before + 1)
-        time.sleep(0.5)
+        self.assertEqual(self.status.wait_for_more(3).sequence, before + 1)
         self.assertEqual(self.state.last.sequence, before + 1)
         self.assertTrue(call('utm/resume', Trigger).success)
         self.state.wait('goes on', lambda s: s.sequence > before + 3)

@@ -6,6 +6,8 @@ import subprocess
 import time
 import xmlrpc.client
 
+LAST_RESORT = 180.0  # [s] on a machine however busy: a test waits for what is to happen, not for time
+
 
 def free_port():
     with socket.socket() as one:
@@ -41,10 +43,10 @@ class OwnLaunch:
 
     def tool(self, *command):
         """What a tool of ROS says that ends by itself."""
-        return subprocess.run(command, env=self._environment, check=True, stdout=subprocess.PIPE, timeout=60.0,
+        return subprocess.run(command, env=self._environment, check=True, stdout=subprocess.PIPE, timeout=LAST_RESORT,
                               universal_newlines=True).stdout
 
-    def end(self, timeout=60.0):
+    def end(self, timeout=LAST_RESORT):
         """What it said until it ended by itself."""
         try:
             return self._process.communicate(timeout=timeout)[0]
@@ -55,10 +57,10 @@ class OwnLaunch:
     def stop(self):
         if self._process.poll() is None:
             self._process.send_signal(signal.SIGINT)
-            self._process.communicate(timeout=40.0)
+            self._process.communicate(timeout=LAST_RESORT)
 
 
-def wait_until(what, condition, timeout=30.0):
+def wait_until(what, condition, timeout=LAST_RESORT):
     end = time.monotonic() + timeout
     while not condition():
         if time.monotonic() > end:

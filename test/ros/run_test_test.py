@@ -24,8 +24,9 @@ from catkin.find_in_workspaces import find_in_workspaces
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from dynamic_reconfigure.client import Client
 from knot_utm.msg import KnotState, RunTestAction, RunTestGoal, TestStatus
-from node_test import Latest, call
-from rosgraph_msgs.msg import Clock
+from node_test import LAST_RESORT, Latest, call
+from own_launch import wait_until
+from rosgraph_msgs.msg import Clock, Log
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
 
@@ -48,13 +49,13 @@ class Goal:
 
     def wait_for_feedback(self):
         self._heard.clear()
-        if not self._heard.wait(20.0):
+        if not self._heard.wait(LAST_RESORT):
             raise AssertionError('no feedback: ' + self.client.get_goal_status_text())
         return self.feedback[-1]
 
     def wait(self):
         """State, result and text at the end."""
-        end = time.monotonic() + 40.0
+        end = time.monotonic() + LAST_RESORT
         while not self.client.wait_for_result(rospy.Duration(0.01)):
             if time.monotonic() > end:
                 raise AssertionError('the goal goes on')
@@ -64,7 +65,7 @@ class Goal:
 
 def start():
     """A goal that runs: the physics may not be there yet."""
-    end = time.monotonic() + 20.0
+    end = time.monotonic() + LAST_RESORT
     while True:
         goal = Goal()
         while goal.client.get_state() == GoalStatus.PENDING and time.monotonic() < end:
@@ -108,6 +109,7 @@ class RunTestTest(unittest.TestCase):
         cls.state = Latest('knot/state', KnotState)
         cls.status = Latest('utm/status', TestStatus)
         cls.markers = Latest('knot/markers', MarkerArray)
+        cls.console = Latest('/rosout', Log)
         cls.diagnostics = Latest('/diagnostics', DiagnosticArray)
 
     def diagnosis(self, name, what, condition):
@@ -119,6 +121,10 @@ class RunTestTest(unittest.TestCase):
             status = latest(message)
             return status is not None and condition(status)
         return latest(self.diagnostics.wait(name + ': ' + what, holds))
+
+    def said(self, line):
+        """By some node on its console, and so on /rosout."""
+        wait_until(line, lambda: any(line == m.msg for m in self.console.messages))
 
     def test_1_a_test_whose_pace_and_picture_are_changed_is_the_same_test(self):
         goal = start()
@@ -145,15 +151,19 @@ class RunTestTest(unittest.TestCase):
         self.diagnosis('recorder_node: files', 'records', lambda s: s.message == 'records')
 
         self.markers.wait('a picture', lambda m: any(' N in the rod' in k.text for k in m.markers))
-        view = Client('knot_node', timeout=10.0)
+        view = Client('knot_node', timeout=LAST_RESORT)
         changed = view.update_configuration({'color_by': 'curvature', 'marker_rate': 50.0})
         self.assertEqual(changed['color_by'], 'curvature')
         self.markers.wait('curvature', lambda m: any('radii' in k.text for k in m.markers))
         self.assertEqual(view.update_configuration({'color_by': 'beauty'})['color_by'], 'curvature')
+        self.said('knot_node: color_by: beauty is refused: tension or curvature is allowed; it stays curvature')
+        self.assertEqual(view.update_configuration({'marker_rate': 1000.0})['marker_rate'], 50.0)
+        self.said('knot_node: marker_rate: 1000 is refused: 0.1 to 60 is allowed; it stays 50')
 
-        machine = Client('utm_node', timeout=10.0)
-        # The least that is allowed: as fast as it goes.
-        self.assertEqual(machine.update_configuration({'real_time_factor': -1.0})['real_time_factor'], 0.0)
+        machine = Client('utm_node', timeout=LAST_RESORT)
+        self.assertEqual(machine.update_configuration({'real_time_factor': -1.0})['real_time_factor'], 0.2)
+        self.said('utm_node: real_time_factor: -1 is refused: 0 or more is allowed; it stays 0.2')
+        self.assertEqual(machine.update_configuration({'real_time_factor': 0.0})['real_time_factor'], 0.0)
         state, result, text = goal.wait()
         self.assertEqual(state, GoalStatus.SUCCEEDED, text)
         self.assertEqual((result.run, result.ended_by, result.directory), (1, 'program', OUT))
@@ -162,7 +172,7 @@ class RunTestTest(unittest.TestCase):
         self.assertEqual(difference(OUT), [])
 
     def test_2_slower_than_asked_for_is_said(self):
-        Client('utm_node', timeout=10.0).update_configuration({'real_time_factor': 0.2})
+        Client('utm_node', timeout=LAST_RESORT).update_configuration({'real_time_factor': 0.2})
         goal = start()
         goal.wait_for_feedback()
         physics = process('knot_node')

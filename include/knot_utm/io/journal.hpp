@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <fstream>
+#include <optional>
 #include <string>
 
 #include "knot_utm/io/locked_file.hpp"
@@ -48,6 +49,9 @@ class JournalWriter {
   /// another run writes there.
   JournalWriter(const std::string& folder, const JournalHeader& header);
 
+  /// The same, but none where there is a journal already, of a run that goes on or was cut off.
+  static std::optional<JournalWriter> begin_first(const std::string& folder, const JournalHeader& header);
+
   /// Goes on behind what is there; `truncate_to` the end that a JournalReader found before appending. Waits up to
   /// `patience` [s] for another to let go. Throws std::runtime_error where there is none or it is still held.
   static JournalWriter go_on(const std::string& folder, double patience);
@@ -67,6 +71,8 @@ class JournalWriter {
 
  private:
   JournalWriter(const std::string& folder, int flags, double patience);
+  void require_open(const std::string& folder) const;
+  void begin(const JournalHeader& header);
   void write(const std::string& bytes);
 
   std::string path_;

@@ -30,7 +30,7 @@ bool is_settled(const std::string& folder);
 class Recovery {
  public:
   /// From `folder` to `out`, which may be the same. Throws InvalidInput where there is no journal, it is that of
-  /// another method, or `out` has one of its own; std::runtime_error where the run is still being written.
+  /// another method, or `out` holds another run; std::runtime_error where the run is still being written.
   Recovery(const std::string& folder, const std::string& out);
 
   const Method& method() const { return method_; }

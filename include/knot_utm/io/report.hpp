@@ -15,9 +15,11 @@ std::string command_line(int argc, const char* const* argv);
 void write_report(const std::string& folder, const std::string& command);
 
 /// What a report on a comparison is made of: comparison.yaml, as printed, and the two curves as compared, a.csv and
-/// b.csv. Makes the folder. Throws InvalidInput (key "--report") where that cannot be done, where it holds a run, or
-/// where one of these files would replace a file that was compared; then nothing is written.
-void write_comparison(const std::string& folder, const std::string& yaml, const Pull& a, const Pull& b,
-                      const std::string& file_a, const std::string& file_b);
+/// b.csv. Goes to `folder`, or, where another comparison or other curves and pages stand there, to the first of
+/// `folder-2`, `folder-3` and so on where none do, unless it may overwrite them; the same files compared again replace
+/// what they left. Makes the folder, and returns it. Throws InvalidInput (key "--report") where that cannot be done,
+/// where it holds a run, or where one of these files would replace a file that was compared; then nothing is written.
+std::string write_comparison(const std::string& folder, const std::string& yaml, const Pull& a, const Pull& b,
+                             const std::string& file_a, const std::string& file_b, bool overwrite = false);
 
 }  // namespace knot_utm

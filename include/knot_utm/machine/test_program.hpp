@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,10 +23,12 @@ enum class EndedBy {
   kOperator,   ///< stopped
   kSolver,     ///< the physics gave up, or did not come to rest where it had to
   kProgram,    ///< the last step's time, cycles or record were over
-  kTime        ///< the time limit of the test
+  kTime,       ///< the time limit of the test
+  kUntangled   ///< the knot came undone before it was pulled
 };
 
 const char* ended_by_name(EndedBy end);  ///< "not yet", "break", "extension", "load", "travel", ...
+std::optional<EndedBy> ended_by_named(const std::string& name);  ///< the other way; nothing for a name that is none
 
 /// The test program as a state machine: sees samples, gives commands, knows nothing else.
 ///
@@ -56,7 +59,8 @@ const char* ended_by_name(EndedBy end);  ///< "not yet", "break", "extension", "
 /// The whole test ends when the last step has ended, or at once, whichever comes first: by a rod that parted, a load
 /// that falls as Limits::breaks says (judged in preload, pull, hold and on the ways out of a cycle), a bench that
 /// failed, a true force or a reading beyond Limits::load, the end of the crosshead's way, grips that meet, the time
-/// limit, or the operator.
+/// limit, or the operator; and by a knot that comes undone before the first step that pulls it. A program that neither
+/// mounts nor pulls, so that one may watch the knot, goes on to its end all the same.
 class TestProgram {
  public:
   struct Limits {
@@ -84,6 +88,8 @@ class TestProgram {
 
   bool ended() const { return ended_by_ != EndedBy::kNotYet; }
   EndedBy ended_by() const { return ended_by_; }
+  /// It ended before it could do what it is for: the physics gave up, or the knot that it would pull came undone.
+  bool failed() const;
   const std::string& reason() const { return reason_; }  ///< one line, when it ended otherwise than as programmed
 
   Phase phase() const;       ///< of the last command; done once the test has ended
@@ -99,6 +105,8 @@ class TestProgram {
   double estimated_duration(const ProgramStep& step) const;
   void end(EndedBy by, std::string reason);
   bool end_by_alarm(const Sample& sample);
+  bool only_ties() const;
+  bool came_undone(const Sample& sample) const;
   std::string break_seen(const Sample& sample);
   EndedBy step_end(const Sample& sample);  ///< kNotYet: the step goes on
   bool cycles_over(const Sample& sample);

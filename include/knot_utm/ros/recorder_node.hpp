@@ -24,9 +24,9 @@
 namespace knot_utm {
 
 /// Writes every command and its answer in order, by the code that writes them headless. What is missing it waits for,
-/// as the machine asks for it again; what does not come it counts as dropped. The first test of a launch goes to the
-/// folder given, the second one to the folder beside it with "-2", and so on. The service recorder/save leaves
-/// result.yaml as of now and saved.bag, the bag so far.
+/// as the machine asks for it again; what does not come it counts as dropped. A test goes to the
+/// folder given, or, where that holds a run, to the one beside it with "-2", "-3" and so on. The service recorder/save
+/// leaves result.yaml as of now and saved.bag, the bag so far.
 ///
 /// A record is acknowledged once the journal has it. Started anew in the midst of a test it goes on from the journal of
 /// that test, as the machine and the physics hold what is not acknowledged; the files are those of one recorder.
@@ -67,6 +67,7 @@ class RecorderNode {
   bool on_save(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   void begin_run(const Crosshead& first);
+  std::string folder_before() const;  ///< that a recorder before this one wrote the test to; empty: none did
   bool go_on(const std::string& folder);
   void watch(const std::string& folder);
   void write(const KnotRecord& record);
@@ -78,7 +79,7 @@ class RecorderNode {
   void finish_early();
   void wait_for_messages();
   void finish(EndedBy ended_by, const std::string& reason, const std::string& warning);
-  void tell_master_of_completion() const;
+  void tell_master(const char* parameter, const std::string& text) const;
   void fail(const std::string& why);
   bool is_complete() const { return run_ ? run_->complete : completed_before_; }
   void publish_status();

@@ -10,7 +10,8 @@
 namespace knot_utm {
 
 /// What a node's own parameters ~marker_rate, ~color_by and ~contact_forces say of its picture, also while it runs, by
-/// dynamic_reconfigure. A value that is none leaves the one before.
+/// dynamic_reconfigure. A value that is not allowed is refused: the one before stays, whoever asked gets it, and a line
+/// says what is allowed.
 class ViewParameters {
  public:
   /// `on_change` gets the wall time between two pictures [s], now and whenever a parameter has changed. Throws

@@ -19,6 +19,9 @@ namespace knot_utm {
 /// Release: the tails' pull goes to zero linearly, everything comes to rest; then each clamp is replaced by its
 /// reaction, which goes to zero linearly, and everything comes to rest again. What does not come to rest in time, as a
 /// knot that creeps open does, is not kept from going on; `not_equilibrated` says so.
+///
+/// Letting go, for a knot that is pulled as it was tied: the tails' pull and the clamps' reactions go to zero linearly,
+/// together and within a third of a second, and nothing is waited for.
 class TyingRig {
  public:
   struct Options {
@@ -30,12 +33,24 @@ class TyingRig {
     double pull_patience = 90.0;  ///< grips that have not reached the pre-load by then: not to be tied [s] ...
     double pull_way = 300.0;      ///< ... and have gone this far [h]
   };
-  enum class Stage { kIdle, kSettling, kPulling, kTied, kTailsRamp, kTailsRest, kClampsRamp, kClampsRest, kReleased };
+  enum class Stage {
+    kIdle,
+    kSettling,
+    kPulling,
+    kTied,
+    kTailsRamp,
+    kTailsRest,
+    kClampsRamp,
+    kClampsRest,
+    kReleased,
+    kLettingGo
+  };
 
   TyingRig(const Centreline& centreline, const RodProperties& rod, const Options& options);
 
   void tie(double speed, double time, const Points& position);
   void release(double duration, double time);
+  void let_go(const TimeStep& stepper, double time);
 
   /// Adds its clamps and grips, as they stand at `to`, to the boundary of a step.
   void hold(Boundary& boundary, double from, double to) const;
@@ -46,6 +61,7 @@ class TyingRig {
   Stage stage() const { return stage_; }
   bool tied() const { return stage_ == Stage::kTied; }
   bool released() const { return stage_ == Stage::kReleased; }
+  bool lets_go() const { return stage_ == Stage::kLettingGo; }
   /// Empty, or what had not come to rest when it went on.
   const std::string& not_equilibrated() const { return not_equilibrated_; }
   /// Empty, or why the knots cannot be tied.

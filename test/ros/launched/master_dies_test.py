@@ -11,7 +11,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..
 from dying import Dying
 from launched import METHOD, Headless, Launch, free_port
 
-HOLD = 'program.hold.duration=4'
+HOLD = 'program.hold.duration=10'
 
 
 class MasterDiesTest(Dying):
@@ -29,7 +29,7 @@ class MasterDiesTest(Dying):
                 with Launch('method:=' + METHOD, "overrides:='" + HOLD + "'", port=port) as launch:
                     launch.wait_for_rows(3)
                     master.kill()
-                    launch.end(60.0)
+                    launch.end()
                     self.assertEqual(launch.result('ended_by'), 'program')
                     with Headless(METHOD, HOLD) as headless:
                         self.assertEqual(headless.different(launch.out), ([], []))

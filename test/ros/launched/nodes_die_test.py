@@ -23,7 +23,7 @@ class NodesDieTest(Dying):
         with Launch('method:=' + METHOD) as launch:
             launch.wait_for_rows(3)
             os.kill(launch.process.pid, signal.SIGINT)
-            launch.end(30.0)
+            launch.end()
             self.assertEqual(launch.result('reason'), 'ROS was shut down before the test had ended')
 
 

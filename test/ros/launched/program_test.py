@@ -15,7 +15,7 @@ class ProgramTest(unittest.TestCase):
 
     def test_same_files_as_headless(self):
         with Launch('method:=' + PROGRAM) as launch, Headless(PROGRAM) as headless:
-            launch.end(60.0)
+            launch.end()
             self.assertEqual(launch.result('ended_by'), 'break', launch.console())
             self.assertIn('the rod parted', launch.result('reason'))
             self.assertEqual(headless.different(launch.out), ([], []))

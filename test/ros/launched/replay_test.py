@@ -11,7 +11,7 @@ import unittest
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..'))
 
-from launched import ROOT, TOOL, Headless, free_port, wait_for
+from launched import LAST_RESORT, ROOT, TOOL, Headless, free_port, wait_for
 
 METHOD = os.path.join(ROOT, 'test/ros/pull_for_seconds.yaml')
 
@@ -35,7 +35,7 @@ class Replay:
     def __exit__(self, *_):
         if self.process.poll() is None:
             self.process.send_signal(signal.SIGINT)
-            self.process.wait(30.0)
+            self.process.wait(LAST_RESORT)
         shutil.rmtree(self.log)
 
     def console(self):
@@ -53,7 +53,7 @@ class Replay:
 class ReplayTest(unittest.TestCase):
 
     def test_all_of_it_is_played(self):
-        with Headless(METHOD) as run, Replay('bag:=' + run.folder + '/test.bag', 'rate:=4') as replay:
+        with Headless(METHOD) as run, Replay('bag:=' + run.folder + '/test.bag', 'rate:=4', 'patience:=600') as replay:
             wait_for('the node', replay.answers)
             os.environ['ROS_MASTER_URI'] = replay.uri
             # Not before: they take the master's address when they are loaded.
@@ -67,16 +67,16 @@ class ReplayTest(unittest.TestCase):
             heard = {'/knot/state': Latest('knot/state', KnotState), '/knot/shape': Latest('knot/shape', KnotShape),
                      '/utm/crosshead': Latest('utm/crosshead', Crosshead)}
             clock = Latest('/clock', Clock)
+            for latest in [*heard.values(), clock]:
+                wait_for('a connection', lambda one=latest: one.connected())
             pictures = Latest('knot/markers', MarkerArray)  # the last one: it begins when somebody looks
-            self.assertEqual(replay.process.wait(60.0), 0, replay.console())
+            self.assertEqual(replay.process.wait(LAST_RESORT), 0, replay.console())
 
             with rosbag.Bag(run.folder + '/test.bag') as bag:
                 for topic, latest in heard.items():
                     recorded = [message for _, message, _ in bag.read_messages(topics=[topic])]
                     sequences = [message.sequence for message in latest.messages]
-                    # Those of the first moment, before all are connected, may be missed; none after that.
-                    self.assertEqual(sequences, list(range(sequences[0], recorded[-1].sequence + 1)), topic)
-                    self.assertLess(sequences[0], 40, topic)
+                    self.assertEqual(sequences, [message.sequence for message in recorded], topic)
                     latest.last.header.seq = recorded[-1].header.seq  # counted anew by whoever publishes
                     self.assertEqual(str(latest.last), str(recorded[-1]))  # NaN is no number, but a text
                 end = bag.get_end_time()
@@ -90,12 +90,11 @@ class ReplayTest(unittest.TestCase):
                 nodes = [getattr(point, axis) for point in shape.points]
                 self.assertAlmostEqual(min(rod), min(nodes), delta=1.001 * shape.radius)
                 self.assertAlmostEqual(max(rod), max(nodes), delta=1.001 * shape.radius)
-            self.assertIn('%.4g N' % heard['/knot/state'].last.load, markers['reading'].text)
             self.assertGreater(len(pictures.messages), 10)
 
     def refused(self, *words):
         with Replay(*words) as replay:
-            replay.process.wait(30.0)
+            replay.process.wait(LAST_RESORT)
             self.assertIn('exit code 2', replay.console())
             return replay.console()
 

@@ -15,7 +15,7 @@ class SoakTest(unittest.TestCase):
 
     def soak(self, *words):
         return subprocess.run([sys.executable, '-B', SOAK] + list(words), check=False, universal_newlines=True,
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=180)
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=900)
 
     def test_ten_resets(self):
         with tempfile.TemporaryDirectory() as folder:

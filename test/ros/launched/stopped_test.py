@@ -13,7 +13,7 @@ from launched import METHOD, Headless, Launch
 
 NODES = ['utm_node', 'knot_node', 'recorder_node']
 STANDSTILL = 20.0
-HOLD = 'program.hold.duration=4'
+HOLD = 'program.hold.duration=10'
 
 
 class StoppedTest(unittest.TestCase):
@@ -23,15 +23,19 @@ class StoppedTest(unittest.TestCase):
         try:
             for node in NODES:
                 launches[node] = Launch('method:=' + METHOD, "overrides:='" + HOLD + "'")
-            for node, launch in launches.items():
-                launch.wait_for_rows(3)
-                os.kill(launch.pid(node), signal.SIGSTOP)
+            # Each as soon as its test is under way: that of the first is over before the last has begun.
+            running = set(NODES)
+            while running:
+                for node in [node for node in running if launches[node].rows() >= 3]:
+                    os.kill(launches[node].pid(node), signal.SIGSTOP)
+                    running.remove(node)
+                time.sleep(0.05)
             time.sleep(STANDSTILL)
             for node, launch in launches.items():
                 os.kill(launch.pid(node), signal.SIGCONT)
             with Headless(METHOD, HOLD) as headless:
                 for node, launch in launches.items():
-                    launch.end(60.0)
+                    launch.end()
                     self.assertEqual(launch.result('ended_by'), 'program', node)
                     self.assertEqual(headless.different(launch.out), ([], []), node)
         finally:

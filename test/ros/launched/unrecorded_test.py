@@ -21,15 +21,24 @@ class UnrecordedTest(unittest.TestCase):
         with Launch('method:=' + method, 'rviz:=false', 'record:=false', *arguments, command=SCRIPT) as launch:
             if do:
                 do(launch)
-            self.assertEqual(launch.end(60.0), code, launch.console())
+            self.assertEqual(launch.end(), code, launch.console())
             self.assertFalse(os.path.exists(launch.out))
             return launch.console()
 
     def test_ended_as_programmed(self):
-        self.assertIn('the test ended by program', self.ends(0, METHOD, SHORT))
+        console = self.ends(0, METHOD, SHORT)
+        self.assertEqual(console.count('the test ended by program'), 1)
+        self.assertIn('[utm_node-3] process has finished cleanly', console)
+        for word in ('died', 'REQUIRED', 'ERROR', 'Shutdown errors'):
+            self.assertNotIn(word, console)
 
     def test_the_physics_gave_up(self):
-        self.assertIn('the test ended by solver', self.ends(1, IMPOSSIBLE))
+        self.assertEqual(self.ends(1, IMPOSSIBLE).count('the test ended by solver'), 1)
+
+    def test_wrong_input(self):
+        console = self.ends(2, 'nosuch.yaml')
+        self.assertIn('nosuch.yaml', console)
+        self.assertNotIn('REQUIRED', console)
 
     def test_the_physics_died(self):
         self.ends(1, METHOD, do=lambda launch: os.kill(launch.pid('knot_node'), signal.SIGKILL))

@@ -1,0 +1,19 @@
+#include "knot_utm/io/knot_advice.hpp"
+
+#include "knot_utm/io/number.hpp"
+
+namespace knot_utm {
+
+std::string what_keeps_a_knot(const Method& method) {
+  const std::string friction =
+      "a higher material.friction_coefficient (now " + format_number(method.material.friction_coefficient) + ")";
+  const SpecimenOptions& specimen = method.specimen;
+  if (specimen.knot == KnotKind::kOverhand) return friction + " or a larger specimen.end_to_end would keep it";
+  if (!specimen.to_be_tied) return friction + " would keep it";
+  const double usual = default_preload(method.material), preload = specimen.preload.value_or(usual);
+  std::string now = format_number(preload) + " N";
+  if (preload < usual) now += "; auto is " + format_number(usual) + " N";
+  return "a higher specimen.preload (now " + now + ") or " + friction + " would keep it";
+}
+
+}  // namespace knot_utm

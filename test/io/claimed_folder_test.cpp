@@ -1,0 +1,143 @@
+// Nothing that was measured is written over without being asked for.
+
+#include "knot_utm/io/claimed_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "io/command.hpp"
+#include "io/own_folder.hpp"
+#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/io/shipped.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class ClaimedFolderOf : public OwnFolder {
+ protected:
+  static std::string in(const std::string& name) { return folder() + "/" + name; }
+  static std::string claimed(const std::string& asked) { return claim_folder(asked, JournalHeader()).folder; }
+};
+
+TEST_F(ClaimedFolderOf, ARunIsTheOneAskedForWhereNothingWouldBeLost) {
+  fs::create_directories(in("there/curve.csv"));
+  write_whole(in("there/notes.txt"), "mine");
+  EXPECT_EQ(claimed(in("new/folder")), in("new/folder"));
+  EXPECT_EQ(claimed(in("there")), in("there"));
+}
+
+TEST_F(ClaimedFolderOf, ARunIsTheNextFreeOneWhereSomethingWould) {
+  for (const char* name :
+       {"result.yaml", "curve.csv", "curve_full.csv", "method.yaml", "specimen.csv", "test.bag", "saved.bag",
+        "final_shape.csv", "journal", "comparison.yaml", "report.html", "report.pdf", "failed_step.bin"}) {
+    const std::string asked = in(std::string(name) + "_is_there");
+    fs::create_directories(asked);
+    write_whole(asked + "/" + name, "measured");
+    EXPECT_EQ(claimed(asked), asked + "-2") << name;
+    EXPECT_EQ(claimed(asked + "/"), asked + "-3") << name;
+    EXPECT_EQ(read_whole(asked + "/" + name), "measured");
+    EXPECT_EQ(std::distance(fs::directory_iterator(asked), fs::directory_iterator()), 1) << name;
+  }
+}
+
+TEST_F(ClaimedFolderOf, TwoRunsAtOnceAreTwoFolders) {
+  const ClaimedFolder first = claim_folder(in("run"), JournalHeader());
+  const ClaimedFolder second = claim_folder(in("run"), JournalHeader());
+  EXPECT_EQ(first.folder, in("run"));
+  EXPECT_EQ(second.folder, in("run-2"));
+  EXPECT_THAT(moved_notice(in("run"), second.folder),
+              AllOf(HasSubstr(in("run") + " holds a run that has not ended"), HasSubstr(in("run-2"))));
+}
+
+TEST_F(ClaimedFolderOf, AFolderThatCannotBeMadeIsRefused) {
+  fs::create_directories(folder());
+  write_whole(in("file"), "");
+  EXPECT_THROW(claimed(in("file/below")), InvalidInput);
+}
+
+TEST(NumberedFolder, StandsBesideTheFirst) {
+  EXPECT_EQ(numbered_folder("out/nylon", 1), "out/nylon");
+  EXPECT_EQ(numbered_folder("out/nylon//", 3), "out/nylon-3");
+  EXPECT_EQ(numbered_folder(".", 2), fs::current_path().string() + "-2");
+}
+
+/// The commands, as a user has them.
+class KeptRun : public ClaimedFolderOf {
+ protected:
+  void SetUp() override {
+    OwnFolder::SetUp();
+    fs::create_directories(folder());
+  }
+  static Answer test(const std::string& more) {
+    return answer_of("cd '" + folder() + "' && " +
+                     tool("tensile_test",
+                          "straight --set 'program=[{pull: {until: {extension: 0.001}}}]' "
+                          "--set physics.accuracy=draft " +
+                              more));
+  }
+};
+
+TEST_F(KeptRun, IsLeftAsItIsUnlessItMayBeOverwritten) {
+  for (const char* out : {"", "--out own"}) {
+    const std::string first = *out == '\0' ? "out/straight" : "own";
+    ASSERT_EQ(test(out).code, 0);
+    const std::string result = read_whole(in(first + "/result.yaml"));
+    const Answer again = test(std::string("--quiet ") + out);
+    EXPECT_EQ(again.code, 0);
+    EXPECT_THAT(again.text, AllOf(HasSubstr(first + " holds a run already"), HasSubstr("written to " + first + "-2"),
+                                  HasSubstr("--overwrite")));
+    EXPECT_EQ(read_whole(in(first + "/result.yaml")), result);
+    EXPECT_EQ(read_whole(in(first + "/curve.csv")), read_whole(in(first + "-2/curve.csv")));
+    EXPECT_EQ(test(std::string("--quiet --overwrite ") + out).text, "");
+    EXPECT_NE(read_whole(in(first + "/result.yaml")), result) << "its wall time is another one";
+    EXPECT_FALSE(fs::exists(in(first + "-3")));
+  }
+  EXPECT_EQ(test("--overwrite --resume own").code, 2);
+}
+
+TEST_F(KeptRun, NoRecoveryGoesOverIt) {
+  ASSERT_EQ(test("--quiet --out own").code, 0);
+  { const ClaimedFolder cut = claim_folder(in("cut"), JournalHeader()); }
+  const std::string result = read_whole(in("own/result.yaml"));
+  EXPECT_EQ(answer_of(tool("recover", "'" + in("cut") + "' --out '" + in("own") + "'")).code, 2);
+  EXPECT_EQ(read_whole(in("own/result.yaml")), result);
+}
+
+TEST(Tools, TellTheSameVersion) {
+  const std::string version = answer_of(tool("tensile_test", "--version")).text;
+  EXPECT_THAT(version, ::testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  for (const fs::directory_entry& file : fs::directory_iterator(fs::path(KNOT_UTM_SOURCE_DIR) / "src/tools")) {
+    const std::string name = file.path().stem().string();
+    // Without ROS not every tool is built.
+    if (file.path().extension() != ".cpp" || !fs::exists(fs::path(KNOT_UTM_TOOLS_DIR) / name)) continue;
+    const Answer answer = answer_of(tool(name, "--version"));
+    EXPECT_EQ(answer.code, 0) << name;
+    EXPECT_EQ(answer.text, version) << name;
+  }
+}
+
+TEST_F(KeptRun, AMethodThatComesWithThePackageIsKnownByItsName) {
+  EXPECT_EQ(find_method("straight"), std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml");
+  EXPECT_EQ(find_method("straight.yaml"), find_method("straight"));
+  EXPECT_EQ(find_method("nowhere/straight.yaml"), "nowhere/straight.yaml") << "a path is a path";
+  write_whole(in("straight"), "a file of this name comes first");
+  EXPECT_EQ(find_method("straight", folder()), in("straight"));
+  fs::remove(in("straight"));
+
+  const Answer refused = answer_of(tool("tensile_test", "strait --out '" + in("out") + "'"));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.text, AllOf(HasSubstr("strait"), HasSubstr("from_file, overhand, straight, tighten")));
+  EXPECT_FALSE(fs::exists(in("out")));
+}
+
+}  // namespace
+}  // namespace knot_utm

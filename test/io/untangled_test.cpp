@@ -1,0 +1,76 @@
+// A knot that comes undone before it is pulled, and one that is pulled as it was tied.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "io/command.hpp"
+#include "io/own_folder.hpp"
+#include "knot_utm/io/knot_advice.hpp"
+#include "knot_utm/io/run_folder.hpp"
+
+namespace knot_utm {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class Untangled : public OwnFolder {
+ protected:
+  static Answer test(const std::string& more) {
+    return answer_of(tool("tensile_test", "tighten --quiet --out '" + folder() + "' --set specimen.edge_length=0.005 " +
+                                              "--set physics.accuracy=draft --set material=polypropylene " + more));
+  }
+  static std::string result() { return read_whole(folder() + "/result.yaml"); }
+};
+
+constexpr const char* kSlippery = "--set specimen.preload=20 --set material.friction_coefficient=0.05 ";
+
+TEST_F(Untangled, BeforeItIsPulledItEndsTheTestAndSaysWhatWouldKeepIt) {
+  const Answer answer = test(kSlippery);
+  EXPECT_EQ(answer.code, 1) << answer.text;
+  EXPECT_THAT(answer.text, AllOf(HasSubstr("the knot came undone: a higher specimen.preload (now 20 N"),
+                                 HasSubstr("a higher material.friction_coefficient (now 0.05)")));
+  EXPECT_THAT(result(), AllOf(HasSubstr("motion_pattern: untangling\n"), HasSubstr("ended_by: untangled\n"),
+                              HasSubstr(": the knot came undone\"\n"), HasSubstr("knot_type_preserved: false\n")));
+  EXPECT_THAT(read_whole(folder() + "/curve.csv"), Not(HasSubstr("pull")));
+}
+
+TEST_F(Untangled, ToBeWatchedItIsNoFailure) {
+  const Answer answer = test(std::string(kSlippery) + "--set 'program=[{tie: {}}, {release: {}}]'");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  EXPECT_THAT(answer.text, HasSubstr("the knot came undone"));
+  EXPECT_THAT(result(), AllOf(HasSubstr("motion_pattern: untangling\n"), HasSubstr("ended_by: untangled\n"),
+                              HasSubstr("reason: null\n")));
+}
+
+TEST_F(Untangled, NotWhatIsMountedAndPulledAsItWasTied) {
+  const Answer answer = test(
+      "--set specimen.preload=20 --set 'program=[{tie: {}}, {mount: {}}, {balance: {}}, {pull: {until: "
+      "{extension: 0.005}}}]'");
+  EXPECT_EQ(answer.code, 0) << answer.text;
+  EXPECT_THAT(result(), AllOf(HasSubstr("ended_by: extension\n"), HasSubstr("knot_type_preserved: true\n"),
+                              HasSubstr("motion_pattern: sliding\n")));
+}
+
+TEST(KnotAdvice, NamesKeysThatHaveAnEffect) {
+  Method method;
+  method.material.friction_coefficient = 0.3;
+  method.material.tying_preload = 50.0;
+  method.specimen.preload = 20.0;
+  method.specimen.to_be_tied = true;
+  EXPECT_EQ(what_keeps_a_knot(method),
+            "a higher specimen.preload (now 20 N; auto is 50 N) or a higher material.friction_coefficient (now 0.3) "
+            "would keep it");
+  method.specimen.preload = 60.0;
+  EXPECT_THAT(what_keeps_a_knot(method), HasSubstr("(now 60 N)"));
+  method.specimen.to_be_tied = false;
+  EXPECT_EQ(what_keeps_a_knot(method), "a higher material.friction_coefficient (now 0.3) would keep it");
+  method.specimen.knot = KnotKind::kOverhand;
+  EXPECT_THAT(what_keeps_a_knot(method), HasSubstr("a larger specimen.end_to_end"));
+}
+
+}  // namespace
+}  // namespace knot_utm
