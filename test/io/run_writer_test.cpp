@@ -97,6 +97,10 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
                           "final_excess_length",
                           "plateau_slope",
                           "breakaway_force",
+                          "lock_extension_by_load",
+                          "true_plateau_force",
+                          "true_breakaway_force",
+                          "true_peak_force",
                           "balance_offset",
                           "fastest_node",
                           "preload",
@@ -233,8 +237,8 @@ TEST(ResultYaml, WarnsOfWhatTheResultsShow) {
 
 TEST(ResultYaml, SaysHowFarTheLoadCellMayBeOff) {
   Results results;
-  results.peak_force = 2000.0;
-  results.plateau_force = 6.0;
+  results.true_peak_force = 2000.0;
+  results.true_plateau_force = 6.0;
   RunFacts facts;
   YAML::Node result = YAML::Load(result_yaml(results, facts));
   EXPECT_TRUE(result["load_cell_error"].IsNull());
@@ -247,10 +251,11 @@ TEST(ResultYaml, SaysHowFarTheLoadCellMayBeOff) {
   result = YAML::Load(result_yaml(results, facts));
   EXPECT_DOUBLE_EQ(result["load_cell_error"].as<double>(), 0.005 * 2000.0);
   EXPECT_DOUBLE_EQ(result["plateau_load_cell_error"].as<double>(), 0.01 * 1000.0);
-  EXPECT_THAT(result["warnings"].as<std::vector<std::string>>(),
-              ::testing::ElementsAre("the plateau force lies below the load cell's floor of 10 N",
-                                     "the load cell was overloaded: beyond 1500 N it reads its stop"));
-  results.peak_force = 9.0;
+  EXPECT_THAT(
+      result["warnings"].as<std::vector<std::string>>(),
+      ::testing::ElementsAre("the plateau force lies below the load cell's floor of 10 N",
+                             "the load cell was overloaded: above 1500 N it reads the force at its mechanical stop"));
+  results.true_peak_force = 9.0;
   EXPECT_THAT(result_yaml(results, facts), HasSubstr("the peak force lies below"));
 }
 

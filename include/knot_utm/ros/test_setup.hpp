@@ -2,6 +2,7 @@
 
 #include <ros/node_handle.h>
 
+#include <sstream>
 #include <string>
 
 #include "knot_utm/io/method.hpp"
@@ -32,7 +33,11 @@ TestSetup read_test_setup(const ros::NodeHandle& node);
 template <class Value>
 void read_parameter(const ros::NodeHandle& node, const std::string& name, Value* value, const char* allowed) {
   if (node.hasParam(name) && !node.getParam(name, *value)) {
-    throw InvalidInput(node.resolveName(name), "what it is set to", allowed);
+    XmlRpc::XmlRpcValue given;
+    node.getParam(name, given);
+    std::ostringstream text;
+    given.write(text);
+    throw InvalidInput(node.resolveName(name), text.str(), allowed);
   }
 }
 
