@@ -64,6 +64,9 @@ add_test(NAME stress_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tes
 add_test(NAME scripts_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/scripts_test.py)
 add_test(NAME doc_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/doc_test.py)
 
+# The panel beside the picture in rviz.
+add_test(NAME panel_test COMMAND ${PYTHON_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/test/panel/panel_test.py)
+
 # The report: what is made of a run, and what a browser and a printer make of that. Label `long`: they run whole tests.
 foreach(name report_test browser_test)
   add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/report/${name}.py)
@@ -90,7 +93,7 @@ if(catkin_FOUND)
   file(GLOB ros_test_sources CONFIGURE_DEPENDS test/ros/*_test.cpp)
   add_executable(ros_tests ${ros_test_sources})
   target_include_directories(ros_tests PRIVATE test)
-  target_link_libraries(ros_tests PRIVATE knot_utm_ros GTest::gtest_main GTest::gmock)
+  target_link_libraries(ros_tests PRIVATE knot_utm_ros yaml-cpp GTest::gtest_main GTest::gmock)
   target_compile_definitions(ros_tests PRIVATE KNOT_UTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   gtest_discover_tests(ros_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800)
 
