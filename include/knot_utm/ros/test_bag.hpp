@@ -11,8 +11,9 @@
 namespace knot_utm {
 
 /// test.bag: the topics of one test with the stamps of their headers, the same from a live and from a headless run.
-/// utm/crosshead, utm/joint_states and knot/state for every command; utm/load_cell for every reading (cell_reading), knot/shape at sampling instants. A
-/// rod that parts is read in the time step that parts it, of which there is a knot/state, too.
+/// utm/crosshead, utm/joint_states and knot/state for every command; utm/load_cell for every reading (cell_reading),
+/// knot/shape at sampling instants. A rod that parts is read in the time step that parts it, of which there is a
+/// knot/state, too.
 class TestBag {
  public:
   /// Throws std::runtime_error where the file cannot be written, as all of it does.
