@@ -1,10 +1,10 @@
-"""How far a result may be trusted: each check with its value, its limit, and whether it keeps it.
+"""How far a result may be trusted, and whether it is what the user asked for: each check with value, limit and verdict.
 
-The limits are those at which the program itself warns (src/io/run_writer.cpp, whose names they bear), and for the
-balance of forces that of scripts/bench. Where nothing sets a limit none is made up here: the value stands for itself.
+The limits of trust are those at which the program itself warns (src/io/run_writer.cpp, whose names they bear), and for
+the balance of forces that of scripts/bench. Where nothing sets a limit none is made up here.
 """
-from quantities import number
-from run import is_number
+from quantities import number, quantity_of
+from is_number import is_number
 
 LIMITS = {
     "kDeep": 0.05,        # contact [of the radius]
@@ -20,69 +20,72 @@ CERTIFIED = ("knot_type_preserved", "not_equilibrated", "max_penetration", "fast
 
 
 class Check:
-    """`verdict`: "pass", "miss", or "" where no limit is set or no value known. `keys`: of result.yaml."""
+    """`kept`: whether the limit is; None: no limit is set, or no value is known. `keys`: of result.yaml.
+    `value`: empty where the test has none."""
 
     def __init__(self, words, keys, value, limit, kept):
         self.words, self.keys, self.value, self.limit = words, keys, value, limit
-        self.verdict = "" if kept is None else "pass" if kept else "miss"
+        self.verdict = "" if kept is None else "pass" if kept else "fail"
 
 
 def at_most(words, key, value, limit, unit=""):
     unit = " " + unit if unit else ""
     if not is_number(value):
-        return Check(words, [key], "not known", f"≤ {limit:g}{unit}", None)
-    return Check(words, [key], number(value) + unit, f"≤ {limit:g}{unit}", value <= limit)
+        return Check(words, [key], "", f"at most {limit:g}{unit}", None)
+    return Check(words, [key], number(value) + unit, f"at most {limit:g}{unit}", value <= limit)
 
 
-def unlimited(words, keys, value, unit=""):
-    text = f"{number(value)} {unit}".strip() if is_number(value) else "not known"
-    return Check(words, keys, text, "none set", None)
+def unlimited(words, keys, value):
+    return Check(words, keys, number(value) if is_number(value) else "", "no limit is set", None)
 
 
 def must_be(words, key, value, wanted, yes, no):
-    return Check(words, [key], yes if value is True else no if value is False else "not known", yes if wanted else no,
+    return Check(words, [key], yes if value is True else no if value is False else "", yes if wanted else no,
                  None if value is None else value is wanted)
 
 
 def certificate(result):
+    """What is known of this test."""
+    return [check for check in checks_of(result) if check.value]
+
+
+def checks_of(result):
     def value(key):
         return result.get(key)
 
     ended_by = value("ended_by")
     return [
-        Check("The physics made every time step", ["ended_by"], f"ended by {ended_by}", "not by solver",
+        Check("The physics solved every time step", ["ended_by"],
+              "" if ended_by is None else "no" if ended_by == "solver" else "yes", "yes",
               None if ended_by is None else ended_by != "solver"),
-        must_be("The knot stayed the one it began as", "knot_type_preserved", value("knot_type_preserved"), True,
-                "preserved", "changed"),
-        must_be("Tied and released to rest", "not_equilibrated", value("not_equilibrated"), False, "still moving",
-                "at rest"),
-        at_most("Deepest contact", "max_penetration", value("max_penetration"), LIMITS["kDeep"], "radii"),
-        at_most("Fastest node while pulled, until the lock", "fastest_node", value("fastest_node"), LIMITS["kJump"],
+        must_be("The knot remained the same knot", "knot_type_preserved", value("knot_type_preserved"), True, "yes",
+                "no"),
+        must_be("The specimen was at rest before it was pulled", "not_equilibrated", value("not_equilibrated"), False,
+                "no", "yes"),
+        at_most("Deepest contact, in radii", "max_penetration", value("max_penetration"), LIMITS["kDeep"]),
+        at_most("Largest speed of a node while the knots slid", "fastest_node", value("fastest_node"), LIMITS["kJump"],
                 "m/s"),
-        at_most("Energy balance: work less losses, stored and kinetic", "energy_balance_error",
+        at_most("Error of the energy balance, as a share of the largest energy", "energy_balance_error",
                 value("energy_balance_error"), LIMITS["kUnbalanced"]),
-        at_most("Force balance: upper less lower grip, of the peak", "force_balance_error",
+        at_most("Difference of the forces at both grips, as a share of the largest force", "force_balance_error",
                 value("force_balance_error"), BENCH_FORCE_BALANCE),
-        unlimited("Moment balance at the grips, of peak force times L", ["moment_balance_error"],
-                  value("moment_balance_error")),
-        *convergence(result),
+        unlimited("Error of the moment balance at the grips, as a share of the largest force times L",
+                  ["moment_balance_error"], value("moment_balance_error")),
+        *numerical_errors(result),
     ]
 
 
-def convergence(result):
-    """What finer tolerances would still move, as a share of the reading."""
+def numerical_errors(result):
+    """Each as a share of its reading, of a force as a share of the true one."""
     checks = []
-    for key, words, limit in (("plateau_force", "Convergence of the plateau force", LIMITS["kUnsure"]),
-                              ("lock_extension", "Convergence of the lock extension", None),
-                              ("locked_stiffness", "Convergence of the " + stiffness_name(result), None)):
-        value, error = result.get(key), result.get(key + "_error")
-        if not is_number(value):
-            continue
-        share = abs(error / value) if is_number(error) and value else None
-        if limit is None:
-            checks.append(unlimited(words + ", share of it", [key + "_error"], share))
-        else:
-            checks.append(at_most(words + ", share of it", key + "_error", share, limit))
+    for key, words, limit in (("plateau_force", "plateau force", LIMITS["kUnsure"]),
+                              ("lock_extension", "lock extension", None),
+                              ("locked_stiffness", stiffness_name(result), None)):
+        value, error = result.get("true_" + key) or result.get(key), result.get(key + "_error")
+        words = f"Estimated numerical error of the {words}, as a share of it"
+        share = abs(error / value) if is_number(value) and is_number(error) and value else None
+        checks.append(unlimited(words, [key + "_error"], share) if limit is None
+                      else at_most(words, key + "_error", share, limit))
     return checks
 
 
@@ -93,9 +96,34 @@ def stiffness_name(result):
 
 def verdict(checks):
     limited = [check for check in checks if check.verdict]
-    missed = [check for check in limited if check.verdict == "miss"]
-    words = f"{len(limited) - len(missed)} of {len(limited)} limits kept"
-    open_ones = len(checks) - len(limited)
-    if open_ones:
-        words += f"; {open_ones} value{'s' if open_ones > 1 else ''} without a limit or not known"
+    missed = [check for check in limited if check.verdict == "fail"]
+    words = f"{len(limited) - len(missed)} of {len(limited)} limits are kept."
     return words, not missed
+
+
+def specification_checks(method, result, units):
+    """The requirements of the user, in the order of the method."""
+    return [requirement(key, limits or {}, result.get(key), units)
+            for key, limits in (method.get("specification") or {}).items()]
+
+
+def requirement(key, limits, value, units):
+    quantity = quantity_of(key)
+    unit = units.of(quantity.kind)
+    least, most = limits.get("min"), limits.get("max")
+    ends = [f"{words} {number(end * unit.scale)}" for words, end in (("at least", least), ("at most", most))
+            if is_number(end)]
+    kept = is_number(value) and not (is_number(least) and value < least) and not (is_number(most) and value > most)
+    shown = f"{number(value * unit.scale)} {unit.name}".strip() if is_number(value) else "not measured"
+    return Check(quantity.label.split(",")[0], [key], shown, f"{' and '.join(ends)} {unit.name}".strip(), kept)
+
+
+def specification_verdict(result, checks):
+    """(words, whether it passed) as result.yaml says it; None where nothing was asked for."""
+    passed = result.get("specification_passed")
+    if passed is None:
+        return None
+    missed = sum(check.verdict == "fail" for check in checks)
+    if passed:
+        return "The test meets its specification.", True
+    return f"The test does not meet its specification: {missed} of {len(checks)} requirements are not met.", False

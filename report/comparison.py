@@ -4,9 +4,10 @@ import os
 import numpy as np
 
 from failure import CannotReport
-from run import is_number, numbers, printable, read_columns, read_yaml
+from is_number import is_number
+from run import numbers, printable, read_columns, read_yaml
 
-READINGS = ("peak_force", "plateau_force", "lock_extension", "locked_stiffness")
+READINGS = ("peak_force", "plateau_force", "breakaway_force", "lock_extension_by_load", "locked_stiffness")
 
 
 class Pull:
@@ -32,6 +33,11 @@ class Comparison:
     def number(self, key):
         value = self.facts.get(key)
         return value if is_number(value) else None
+
+    def ends_at_its_largest_load(self, name):
+        """Whether the curve has no peak: its load was still rising where it ends."""
+        load = {"a": self.a, "b": self.b}[name].load
+        return int(np.argmax(load)) >= len(load) - 2
 
     def difference(self):
         """Extensions that both have, and load of B less that of A there: both straight from point to point."""

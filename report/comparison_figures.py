@@ -4,26 +4,26 @@ import numpy as np
 
 from few_points import few_points
 from quantities import number
-from style import BLUE, GREEN, GREY, INK, ORANGE, WIDTH, as_svg
+from style import BLUE, GREEN, GREY, INK, ORANGE, SMALL, as_svg
 
-SMALL = 8.0  # a peak above this many plateaus hides the plateau: it gets axes of its own
+MANY = 8.0  # a peak above this many plateaus hides the plateau: it gets axes of its own
 
 
-def overlay(comparison):
+def overlay(comparison, look):
     """Both curves, again where loads are small beside the peak, and B less A over the extensions that both have."""
     closer = near_the_plateau(comparison)
-    heights = [3.6] + ([2.3] if closer else []) + [2.1]
+    heights = [2.9] + ([1.8] if closer else []) + [1.6]
     tall = sum(heights) + 0.9
-    figure, all_axes = plt.subplots(len(heights), 1, figsize=(WIDTH, tall), sharex=True, squeeze=False,
+    figure, all_axes = plt.subplots(len(heights), 1, figsize=(look.width, tall), sharex=True, squeeze=False,
                                     gridspec_kw={"height_ratios": heights, "hspace": 0.12})
     all_axes = list(all_axes[:, 0])
     for axes in all_axes[:-1]:
-        draw_both(axes, comparison)
+        draw_both(axes, comparison, 34 if look.is_narrow else 60)
     all_axes[0].legend(loc="upper left")
     all_axes[0].set_ylabel("load F [N]")
     if closer:
         all_axes[1].set_ylim(*closer)
-        all_axes[1].set_ylabel("load F [N], small loads")
+        all_axes[1].set_ylabel("small loads [N]")
     draw_difference(all_axes[-1], comparison)
     low, high = (1e3 * s for s in comparison.facts["common_extension"])
     for axes in all_axes:
@@ -33,14 +33,14 @@ def overlay(comparison):
     all_axes[-1].set_xlim(min(0.0, every.min()), every.max() + 0.015 * (np.ptp(every) or 1.0))
     all_axes[-1].set_xlabel("extension s [mm]")
     figure.align_ylabels(all_axes)
-    figure.subplots_adjust(left=0.085, right=0.985, bottom=0.55 / tall, top=1.0 - 0.15 / tall)
+    figure.subplots_adjust(**look.room(tall, 0.5, 0.15))
     return as_svg(figure)
 
 
 def near_the_plateau(comparison):
     plateaus = [value for value in readings(comparison, "plateau_force") if value]
     peaks = [value for value in readings(comparison, "peak_force") if value]
-    if not plateaus or not peaks or max(peaks) < SMALL * max(plateaus):
+    if not plateaus or not peaks or max(peaks) < MANY * max(plateaus):
         return None
     top = 3.0 * max(plateaus)
     lowest = min(0.0, float(comparison.a.load.min()), float(comparison.b.load.min()))
@@ -52,20 +52,20 @@ def readings(comparison, key):
     return [both.get("a"), both.get("b")]
 
 
-def draw_both(axes, comparison):
+def draw_both(axes, comparison, letters):
     for pull, colour, name in ((comparison.a, ORANGE, "A"), (comparison.b, BLUE, "B")):
         rows = few_points(pull.load)
         axes.plot(1e3 * pull.extension[rows], pull.load[rows], color=colour, lw=1.4,
-                  label=f"{name}: {short(comparison.facts[name.lower()])}")
-    for colour, lock in zip((ORANGE, BLUE), readings(comparison, "lock_extension")):
+                  label=f"{name}: {short(comparison.facts[name.lower()], letters)}")
+    for colour, lock in zip((ORANGE, BLUE), readings(comparison, "lock_extension_by_load")):
         if lock is not None:
             axes.axvline(1e3 * lock, color=colour, lw=0.9, ls=(0, (4, 3)), label="_lock")
 
 
-def short(file):
-    """The last two parts of a path, the last ones of a long name."""
+def short(file, letters):
+    """The last two parts of a path, the last letters of a long name."""
     text = "/".join(file.split("/")[-2:])
-    text = text if len(text) <= 60 else "…" + text[-59:]
+    text = text if len(text) <= letters else "…" + text[1 - letters:]
     return text.replace("$", r"\$")  # which begins a formula
 
 
@@ -81,5 +81,5 @@ def draw_difference(axes, comparison):
         axes.plot(1e3 * at, largest, "o", ms=4, color=GREEN)
         side = "right" if at > np.mean(comparison.facts["common_extension"]) else "left"
         axes.annotate(f"largest: {number(largest)} N at {number(1e3 * at)} mm", (1e3 * at, largest), ha=side,
-                      va="center", xytext=(-8 if side == "right" else 8, 0), textcoords="offset points", fontsize=8.5, color=GREEN)
+                      va="center", xytext=(-8 if side == "right" else 8, 0), textcoords="offset points", fontsize=SMALL, color=GREEN)
     axes.set_ylabel("B – A [N]")

@@ -5,10 +5,11 @@ from matplotlib.ticker import MaxNLocator
 
 from error_band import error_band
 from few_points import few_points
-from style import BLUE, GREEN, GREY, INK, ORANGE, PHASES, VIOLET, WIDTH, as_svg
+from quantities import shown, with_unit
+from style import BLUE, GOLD, GREEN, GREY, INK, ORANGE, PHASES, RED, SMALL, USUAL, VIOLET, as_svg
 
-SMALL = 8.0       # a peak above this many plateaus hides the plateau: it gets axes of its own
-FEW = 250         # readings of the cell that are drawn as points
+MANY = 8.0  # a peak above this many plateaus hides the plateau: it gets axes of its own
+FEW = 250   # readings of the cell that are drawn as points
 
 
 def phases_of(curve):
@@ -18,207 +19,233 @@ def phases_of(curve):
     return [(str(curve.phase[a]), a, min(b, len(curve) - 1)) for a, b in zip(edges[:-1], edges[1:])]
 
 
-def named_spans(curve):
-    """[(names, begin, end)] [s]: phases in a row that are too short for a name each share one place."""
+def named_spans(curve, letters):
+    """[(names, begin, end)] [s]: phases in a row that are too short for a name each share one place. `letters`: as many
+    as the whole width has room for."""
     time, spans = curve["time"], []
-    enough = 0.07 * (time[-1] - time[0])
     for name, a, b in phases_of(curve):
-        short = time[b] - time[a] < enough
+        short = time[b] - time[a] < (len(name) + 2) / letters * (time[-1] - time[0])
         if name in ("idle", "done"):
             continue
         if short and spans and spans[-1][3]:
             names, begin = spans[-1][0], spans[-1][1]
-            names = names if names.endswith(name) or names.endswith("…") else names + ", " + name
-            spans[-1] = (names if len(names) < 40 else names + " …", begin, time[b], True)
+            if not names.endswith((name, "…")):
+                names = names + ", " + name if len(names + name) < 0.4 * letters else names + " …"
+            spans[-1] = (names, begin, time[b], True)
         else:
             spans.append((name, time[a], time[b], short))
     return [span[:3] for span in spans]
 
 
-def course(run):
+def course(run, look):
     """Load and extension over time, with every phase of the program."""
-    curve = run.curve
-    figure, axes = plt.subplots(figsize=(WIDTH, 2.1))
+    curve, force, length = run.curve, run.units.force, run.units.length
+    tall = 2.2
+    figure, axes = plt.subplots(figsize=(look.width, tall))
     time = curve["time"]
     for name, a, b in phases_of(curve):
         axes.axvspan(time[a], time[b], color=PHASES.get(name, "#eeeeee"), lw=0, zorder=0)
-    for names, begin, end in named_spans(curve):
-        axes.text(0.5 * (begin + end), 1.04, names, ha="center", fontsize=8.5, color=GREY,
-                  transform=axes.get_xaxis_transform())
+    name_phases(axes, curve, look)
     tested = ~np.isin(curve.phase, ("tie", "release"))
     rows = few_points(curve["load"], curve["extension"])
-    axes.plot(time[rows], np.where(tested, curve["load"], np.nan)[rows], color=BLUE, lw=1.3)
+    axes.plot(time[rows], force.scale * np.where(tested, curve["load"], np.nan)[rows], color=BLUE, lw=1.3)
     axes.set_xlabel("time [s]")
-    axes.set_ylabel("load F [N]", color=BLUE)
+    axes.set_ylabel(f"load F [{force.name}]", color=BLUE)
     axes.grid(False)
     if time[-1] > time[0]:
         axes.set_xlim(time[0], time[-1])
     second = axes.twinx()
-    second.plot(time[rows], 1e3 * np.where(tested, curve["extension"], np.nan)[rows], color=ORANGE, lw=1.1)
-    second.set_ylabel("extension s [mm]", color=ORANGE)
+    second.plot(time[rows], length.scale * np.where(tested, curve["extension"], np.nan)[rows], color=ORANGE, lw=1.1)
+    second.set_ylabel(f"extension s [{length.name}]", color=ORANGE)
     second.spines["right"].set_visible(True)
     second.grid(False)
-    figure.subplots_adjust(left=0.085, right=0.925, bottom=0.22, top=0.87)
+    figure.subplots_adjust(**look.room(tall, 0.5, 0.3, right=0.6))
     return as_svg(figure)
 
 
-def force_extension(run, marks):
+def name_phases(axes, curve, look):
+    """Above the axes, each in the middle of its phases, or behind the name before it where that is in the way."""
+    time, taken = curve["time"], 0.0
+    letters = 15.0 * (look.width - 1.3)
+    whole = (time[-1] - time[0]) or 1.0
+    for names, begin, end in named_spans(curve, letters):
+        half = 0.5 * (len(names) + 1) / letters
+        place = max(0.5 * (begin + end - 2.0 * time[0]) / whole, taken + half)
+        taken = place + half
+        axes.text(place, 1.04, names, ha="center", fontsize=SMALL, color=GREY, transform=axes.transAxes)
+
+
+def force_extension(run, marks, look):
     """Load over extension; again where the load is small beside its peak; knot distance where there are two knots."""
     tested = run.curve.tested()
     closer = near_the_plateau(run)
     knots = tested.has_knot_distance()
-    heights = [3.6] + ([2.3] if closer else []) + ([1.8] if knots else [])
-    figure, all_axes = plt.subplots(len(heights), 1, figsize=(WIDTH, sum(heights) + 0.9), sharex=True, squeeze=False,
+    heights = [2.8] + ([1.7] if closer else []) + ([1.4] if knots else [])
+    tall = sum(heights) + 0.9
+    figure, all_axes = plt.subplots(len(heights), 1, figsize=(look.width, tall), sharex=True, squeeze=False,
                                     gridspec_kw={"height_ratios": heights, "hspace": 0.12})
     all_axes = list(all_axes[:, 0])
     draw_load(all_axes[0], run, marks)
-    all_axes[0].legend(loc="upper left", bbox_to_anchor=(0.01, 0.93))
+    all_axes[0].legend(loc="upper left", bbox_to_anchor=(0.0, 0.93), borderpad=0.2)
     if closer:
         draw_load(all_axes[1], run, [])
         all_axes[1].set_ylim(*closer)
-        all_axes[1].set_ylabel("load F [N], small loads")
-        draw_plateau(all_axes[1], run)
-    else:
-        draw_plateau(all_axes[0], run)
+        all_axes[1].set_ylabel(f"small loads [{run.units.force.name}]")
+    draw_plateau(all_axes[1 if closer else 0], run)
     if knots:
         draw_knot_distance(all_axes[-1], run, marks)
     for axes in all_axes:
-        shade_motion(axes, run, names=axes is all_axes[0])
+        shade_motion(axes, run)
+    name_motion(all_axes[0], run, look)
     all_axes[-1].set_xlim(*extension_limits(run))
-    all_axes[-1].set_xlabel("extension s [mm]")
+    all_axes[-1].set_xlabel(f"extension s [{run.units.length.name}]")
     figure.align_ylabels(all_axes)
-    tall = sum(heights) + 0.9
-    figure.subplots_adjust(left=0.085, right=0.985, bottom=0.55 / tall, top=1.0 - 0.25 / tall)
+    figure.subplots_adjust(**look.room(tall, 0.5, 0.42 if look.is_narrow else 0.28))
     return as_svg(figure)
 
 
 def extension_limits(run):
-    """[mm] All that is drawn. On a compliant frame that is the crosshead's extension too, and behind a break, where the
-    specimen has no extension of its own, that alone."""
+    """All that is drawn, in the unit of the page. On a compliant frame that is the crosshead's extension too, and behind
+    a break, where the specimen has no extension of its own, that alone."""
     tested = run.curve.tested()
     drawn = [tested["extension"]]
     if tested.has_compliant_frame():
         pull = run.pull()
         drawn = [pull["extension"] if len(pull) else tested["extension"], tested["crosshead_extension"]]
-    s = 1e3 * np.concatenate(drawn)
-    return min(0.0, 1e3 * tested["extension"].min()), s.max() + 0.015 * (np.ptp(s) or 1.0)
+    scale = run.units.length.scale
+    s = scale * np.concatenate(drawn)
+    return min(0.0, scale * tested["extension"].min()), s.max() + 0.015 * (np.ptp(s) or scale)
 
 
 def near_the_plateau(run):
     """Loads to show once more: those of sliding, where they are small beside the peak; else None."""
     plateau, peak = run.value("plateau_force"), run.value("peak_force")
-    if plateau is None or peak is None or peak < SMALL * plateau:
+    if plateau is None or peak is None or peak < MANY * plateau:
         return None
-    top = max(2.5 * plateau, 1.3 * (run.value("breakaway_force") or 0.0)) - run.offset()
+    top = max(2.5 * plateau, 1.3 * (run.value("breakaway_force") or 0.0))
     lowest = min(0.0, float(run.curve.tested()["load"].min()))
-    return max(lowest, -0.5 * top) - 0.05 * top, top
+    scale = run.units.force.scale
+    return scale * (max(lowest, -0.5 * top) - 0.05 * top), scale * top
 
 
 def draw_load(axes, run, marks):
-    tested, pull = run.curve.tested(), run.pull()
+    tested, force, length = run.curve.tested(), run.units.force, run.units.length
     draw_floor(axes, run, tested)
-    band = error_band(run, pull)
-    if band:
-        rows = few_points(*band)
-        axes.fill_between(1e3 * pull["extension"][rows], band[0][rows], band[1][rows], color=BLUE, alpha=0.22, lw=0,
-                          label="error of the pull")
+    draw_band(axes, run)
     for number, (name, a, b) in enumerate(phases_of(tested) if len(tested) else []):
         colour = {"hold": VIOLET, "return": GREEN}.get(name, BLUE)
         first = name not in [other for other, _, _ in phases_of(tested)[:number]]
         rows = a + few_points(tested["extension"][a:b + 1], tested["load"][a:b + 1])
-        axes.plot(1e3 * tested["extension"][rows], tested["load"][rows], color=colour, lw=1.4,
+        axes.plot(length.scale * tested["extension"][rows], force.scale * tested["load"][rows], color=colour, lw=1.4,
                   label=name if first else None)
     cell = run.readings.tested()
     if len(cell) <= FEW:
-        axes.plot(1e3 * cell["extension"], cell["load"], "o", ms=2.6, mfc="white", mec=BLUE, mew=0.7,
-                  label="as the cell reads it")
+        axes.plot(length.scale * cell["extension"], force.scale * cell["load"], "o", ms=2.6, mfc="white", mec=BLUE,
+                  mew=0.7, label="as the cell reads it")
     if tested.has_compliant_frame():
         rows = few_points(tested["crosshead_extension"], tested["load"])
-        axes.plot(1e3 * tested["crosshead_extension"][rows], tested["load"][rows], color=GREY, lw=0.9, ls=(0, (5, 2)),
-                  label="over the crosshead's extension")
-    axes.set_ylabel("load F [N]")
+        axes.plot(length.scale * tested["crosshead_extension"][rows], force.scale * tested["load"][rows], color=GREY,
+                  lw=0.9, ls=(0, (5, 2)), label="over the crosshead's extension")
+    axes.set_ylabel(f"load F [{force.name}]")
     axes.yaxis.set_major_locator(MaxNLocator(6))
     if tested["load"].min() >= 0.0:
         axes.set_ylim(bottom=0.0)
-    put_marks(axes, [(mark, mark.load) for mark in marks])
+    put_marks(axes, run, [(mark, force.scale * mark.load) for mark in marks])
+
+
+def draw_band(axes, run):
+    pull = run.pull()
+    band = error_band(run, pull)
+    if not band:
+        return
+    rows, force = few_points(*band), run.units.force.scale
+    axes.fill_between(run.units.length.scale * pull["extension"][rows], force * band[0][rows], force * band[1][rows],
+                      color=BLUE, alpha=0.22, lw=0, label="numerical error")
 
 
 def draw_floor(axes, run, tested):
     """Below its floor the cell's error is as large as that of the floor."""
-    floor = run.load_cell_floor()
+    floor, unit = run.load_cell_floor(), run.units.force
     if floor:
         low = -floor if tested["load"].min() < 0.0 else 0.0
-        axes.axhspan(low, floor, facecolor="none", edgecolor=GREY, alpha=0.45, hatch="////", lw=0.0,
-                     label=f"below the load cell's floor, {floor:.4g} N")
-        axes.axhline(floor, color=GREY, lw=0.8)
+        axes.axhspan(unit.scale * low, unit.scale * floor, facecolor="none", edgecolor=GREY, alpha=0.45, hatch="////",
+                     lw=0.0, label=f"cell's floor, {with_unit(floor, unit)}")
+        axes.axhline(unit.scale * floor, color=GREY, lw=0.8)
 
 
 def draw_plateau(axes, run):
-    plateau, lock = run.value("plateau_force"), run.value("lock_extension")
+    plateau, lock = run.value("plateau_force"), run.value("lock_extension_by_load")
     if plateau is None:
         return
-    pull = run.pull()
-    end = lock if lock is not None else pull["extension"][-1]
-    level = plateau - run.offset()
-    axes.plot([0.3e3 * end, 0.8e3 * end], [level, level], color=ORANGE, lw=1.6, zorder=4)
-    sd = run.value("plateau_force_sd")
-    words = f"plateau {plateau:.4g} N" + (f", sd {sd:.2g} N" if sd is not None else "")
-    if run.offset():
-        words += f" (true force: load + {run.offset():.3g} N)"
-    axes.text(0.55e3 * end, 0.85, words, ha="center", fontsize=8.5, color=ORANGE,
-              transform=axes.get_xaxis_transform())
+    force, length = run.units.force, run.units.length
+    end = length.scale * (lock if lock is not None else run.pull()["extension"][-1])
+    level = force.scale * plateau
+    axes.plot([0.3 * end, 0.8 * end], [level, level], color=ORANGE, lw=1.6, zorder=4)
+    axes.text(0.55 * end, 0.85, "plateau " + with_unit(plateau, force, run.value("plateau_force_error")), ha="center",
+              fontsize=SMALL, color=ORANGE, transform=axes.get_xaxis_transform())
 
 
 def draw_knot_distance(axes, run, marks):
-    tested = run.curve.tested()
-    s, e = 1e3 * tested["extension"], 1e3 * tested["knot_distance"]
+    tested, length = run.curve.tested(), run.units.length
+    s, e = length.scale * tested["extension"], length.scale * tested["knot_distance"]
     rows = few_points(s, e)
     axes.plot(s[rows], e[rows], color=VIOLET, lw=1.4, label="e")
     known = np.flatnonzero(np.isfinite(e))
     lock = run.value("lock_extension")
     if lock is not None or run.result.get("motion_pattern") == "sliding":
-        end = 1e3 * lock if lock is not None else s[-1]
+        end = length.scale * lock if lock is not None else s[-1]
         axes.plot([s[known[0]], end], [e[known[0]], e[known[0]] - 2.0 * (end - s[known[0]])], color=GREY, lw=0.9,
                   ls=(0, (4, 3)), label="de/ds = –2: rigid sliding")
-        axes.legend(loc="upper right")
-    axes.set_ylabel("knot distance e [mm]")
-    put_marks(axes, [(mark, float(np.interp(mark.time, tested["time"], e))) for mark in marks])
+        axes.legend(loc="lower left", borderpad=0.2)
+    axes.set_ylabel(f"knot distance e [{length.name}]")
+    put_marks(axes, run, [(mark, float(np.interp(mark.time, tested["time"], e))) for mark in marks])
 
 
-def put_marks(axes, places):
+def put_marks(axes, run, places):
     for mark, y in places:
         if np.isfinite(y):
-            at = (1e3 * mark.extension, y)
+            at = (run.units.length.scale * mark.extension, y)
             axes.plot(*at, "o", ms=10.5, mfc="white", mec=INK, mew=0.9, clip_on=False, zorder=6)
-            axes.annotate(mark.letter, at, ha="center", va="center_baseline", fontsize=8.5, zorder=7,
+            axes.annotate(mark.letter, at, ha="center", va="center_baseline", fontsize=SMALL, zorder=7,
                           annotation_clip=False)
 
 
-def shade_motion(axes, run, names):
+def end_of_test(run):
+    return run.units.length.scale * float(run.curve.tested()["extension"].max())
+
+
+def shade_motion(axes, run):
     """Up to the lock the knots slide, behind it the rod stretches; the break ends it."""
-    lock, broke = run.value("lock_extension"), run.value("break_extension")
-    end = 1e3 * float(run.curve.tested()["extension"].max())
+    lock, broke, scale = run.value("lock_extension"), run.value("break_extension"), run.units.length.scale
     if lock is not None:
-        axes.axvspan(0.0, 1e3 * lock, color=PHASES["mount"], alpha=0.45, lw=0, zorder=0)
-        axes.axvspan(1e3 * lock, end, color=PHASES["tie"], alpha=0.5, lw=0, zorder=0)
-        axes.axvline(1e3 * lock, color=INK, lw=0.9, ls=(0, (4, 3)))
+        axes.axvspan(0.0, scale * lock, color=PHASES["mount"], alpha=0.45, lw=0, zorder=0)
+        axes.axvspan(scale * lock, end_of_test(run), color=PHASES["tie"], alpha=0.5, lw=0, zorder=0)
+        axes.axvline(scale * lock, color=INK, lw=0.9, ls=(0, (4, 3)))
         error = run.value("lock_extension_error")
         if error:
-            axes.axvspan(1e3 * (lock - error), 1e3 * (lock + error), color=GREY, alpha=0.2, lw=0, zorder=0)
+            axes.axvspan(scale * (lock - error), scale * (lock + error), color=GREY, alpha=0.2, lw=0, zorder=0)
     if broke is not None:
-        axes.axvline(1e3 * broke, color="#a02020", lw=1.1)
-    if not names:
-        return
+        axes.axvline(scale * broke, color=RED, lw=1.1)
+
+
+def name_motion(axes, run, look):
+    """What happened where; what a narrow figure has no room for the caption says."""
+    lock, broke, length = run.value("lock_extension"), run.value("break_extension"), run.units.length
+    end, pattern = end_of_test(run), run.result.get("motion_pattern")
     above = axes.get_xaxis_transform()
-    pattern = run.result.get("motion_pattern")
     if lock is not None:
-        axes.text(0.5e3 * lock, 0.955, "the knots slide", ha="center", color=GREEN, transform=above)
-        axes.text(1e3 * lock, 1.015, f"lock {1e3 * lock:.4g} mm", ha="center", color=INK, fontsize=8.5, transform=above)
-        if end - 1e3 * lock > 0.15 * end:
-            axes.text(0.5 * (1e3 * lock + end), 0.955, "the rod stretches", ha="center", color="#8a6d1d",
+        at, words = length.scale * lock, "lock " + with_unit(lock, length, run.value("lock_extension_error"))
+        axes.text(0.5 * at, 0.955, "the knots slide", ha="center", color=GREEN, fontsize=USUAL, transform=above)
+        axes.text(at, 1.015, words, ha="center", color=INK, fontsize=SMALL, transform=above)
+        if end - at > (0.45 if look.is_narrow else 0.2) * end:
+            axes.text(0.5 * (at + end), 0.955, "the rod stretches", ha="center", color=GOLD, fontsize=USUAL,
                       transform=above)
     elif pattern not in (None, "none"):
-        axes.text(0.5 * end, 0.955, f"motion pattern: {pattern}", ha="center", color=GREEN, transform=above)
+        axes.text(0.5 * end, 0.955, f"motion pattern: {pattern}", ha="center", color=GREEN, fontsize=USUAL,
+                  transform=above)
     if broke is not None:
-        axes.text(1e3 * broke, 1.015, f"break {1e3 * broke:.4g} mm", ha="right", color="#a02020", fontsize=8.5,
+        # One line higher where it would stand on the name of the lock.
+        near = lock is not None and broke - lock < (0.6 if look.is_narrow else 0.3) * broke
+        axes.text(length.scale * broke, 1.07 if near and look.is_narrow else 1.015,
+                  f"break {shown(broke, length.scale)} {length.name}", ha="right", color=RED, fontsize=SMALL,
                   transform=above)

@@ -1,7 +1,7 @@
 """The points of a test that its curve and its pictures have in common: a, b, c …"""
 import numpy as np
 
-from run import PULLING
+from largest_load import largest_load
 
 
 class Mark:
@@ -21,26 +21,26 @@ def time_of_break(marks):
 
 
 def marks_of(run):
-    """Start of the pull, lock, peak, break and end, in order of time; none where nothing was tested."""
+    """Start of the pull, lock, largest load, break and end, in order of time; none where nothing was tested."""
     tested = run.curve.tested()
     if not len(tested):
         return []
     pull = run.pull()
     begin = pull if len(pull) else tested
-    found = [("start of pull" if len(pull) else "start", begin, 0)]
+    found = [("start of the pull" if len(pull) else "start", begin, 0)]
     found += reached(pull, "lock", run.value("lock_extension"))
-    pulled = tested.where(np.isin(tested.phase, PULLING))
-    if run.value("peak_force") is not None and len(pulled):
-        found.append(("peak", pulled, int(np.argmax(pulled["load"]))))
+    largest = largest_load(run)
+    if largest:
+        found.append((largest.name, largest.rows, largest.row))
     found += reached(pull, "break", run.value("break_extension"))
-    found.append(("end", tested, len(tested) - 1))
+    found.append(("end of the test", tested, len(tested) - 1))
     return together([Mark([name], rows["time"][i], rows["extension"][i], rows["load"][i]) for name, rows, i in found],
                     0.01 * (tested["time"][-1] - tested["time"][0]), 0.05 * float(np.abs(tested["load"]).max()))
 
 
 def end_of(curve):
     """The mark of a test that ended before anything was pulled."""
-    mark = Mark(["end"], curve["time"][-1], curve["extension"][-1], curve["load"][-1])
+    mark = Mark(["end of the test"], curve["time"][-1], curve["extension"][-1], curve["load"][-1])
     mark.letter = "a"
     return mark
 

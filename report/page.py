@@ -5,35 +5,41 @@ import re
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from certificate import certificate, stiffness_name, verdict
+from certificate import certificate, specification_checks, specification_verdict, stiffness_name, verdict
 from comparison import READINGS, Comparison, run_beside
 from comparison_figures import overlay
 from curve_figures import course, force_extension
 from error_band import error_band
 from failure import CannotReport
+from largest_load import largest_load
 from marks import end_of, marks_of, time_of_break
 from method_facts import knot_of, method_facts, program
-from quantities import error_shown, number, quantity_of, shown
+from is_number import is_number
+from quantities import error_shown, number, quantity_of, shown, with_unit
 from results_table import results_table
 from rod_pictures import pictures
 from run import Run, printable
 from shapes import shapes_at
+from style import LOOKS, embedded
+from units import Units
 
 FILES = [
     ("curve.csv", "load, extension and knot distance at every reading of the load cell"),
     ("curve_full.csv", "the same at every time step"),
     ("result.yaml", "every result in full precision"),
-    ("method.yaml", "the method, everything resolved: it runs again to the same curve"),
+    ("method.yaml", "the method with every value, which gives the same curve when it is run again"),
     ("final_shape.csv", "the rod at the end"),
     ("test.bag", "the topics of the test"),
     ("saved.bag", "the bag as it was when recorder/save was called"),
     ("specimen.csv", "the shape that was tested"),
-    ("failed_step.bin", "the time step that could not be made"),
+    ("logo.png", "the logo of this report"),
+    ("logo.svg", "the logo of this report"),
+    ("failed_step.bin", "the time step that could not be solved"),
     ("comparison.yaml", "the comparison in full precision"),
     ("a.csv", "curve A as compared"),
     ("b.csv", "curve B as compared"),
     ("report.html", "this page"),
-    ("report.pdf", "the same on paper"),
+    ("report.pdf", "this page for paper"),
 ]
 HEADLINES = ("plateau_force", "lock_extension", "locked_stiffness", "peak_force", "break_extension")
 
@@ -41,75 +47,137 @@ HEADLINES = ("plateau_force", "lock_extension", "locked_stiffness", "peak_force"
 def report_on_run(folder, command, version):
     run = Run(folder)
     marks = marks_of(run)
-    content = {"marks": marks, "curve": None, "course": None, "pictures": None, "note": ""}
-    if marks:
-        content["curve"] = force_extension(run, marks)
-    if len(run.curve) >= 2:
-        content["course"] = course(run)
-        content["pictures"], content["note"] = drawn(run, marks or [end_of(run.curve)])
-    checks = certificate(run.result)
+    largest = largest_load(run)
+    checks, asked = certificate(run.result), specification_checks(run.method, run.result, run.units)
     words, good = verdict(checks)
+    results, unmeasured = results_table(run.result, run.units, words_of_largest(largest))
     return render("run.html.j2", {
-        **content, "run": run, "title": f"{knot_of(run.method)}, {run.method['material'].get('name', 'own material')}",
-        "result": run.result, "headlines": headlines(run.result), "facts": method_facts(run.method),
-        "program": program(run.method), "results": results_table(run.result), "checks": checks, "verdict": words,
-        "good": good, "band": error_band(run, run.pull()) is not None, "floor": run.load_cell_floor(),
-        "compliant": run.curve.has_compliant_frame(),
+        **figures_of(run, marks), "marks": marks, "largest": largest, "run": run, "result": run.result,
+        "title": f"{knot_of(run.method)}, {run.method['material'].get('name', 'own material')}",
+        "head": head_of(run.report), "report": run.report, "logo": logo_of(run), "headlines": headlines(run, largest),
+        "facts": method_facts(run.method, run.units), "program": program(run.method, run.units),
+        "gave_up": run.result.get("ended_by") == "solver", "results": results, "unmeasured": unmeasured,
+        "checks": checks, "verdict": words, "good": good,
+        "asked": asked, "asked_verdict": specification_verdict(run.result, asked),
+        "band": error_band(run, run.pull()) is not None, "floor": run.load_cell_floor(),
+        "compliant": run.curve.has_compliant_frame(), "si": run.units.are_default,
+        "largest_load": with_unit(run.value("peak_force"), run.units.force),
         "files": files_of(folder), "command": printable(command), "version": version, "folder": printable(folder)})
 
 
-def drawn(run, marks):
-    shapes, note = shapes_at(run, [mark.time for mark in marks], time_of_break(marks))
-    return pictures(run, marks[-len(shapes):], shapes), note
-
-
-def headlines(result):
-    """[(label, value, error, unit)] of what a reader looks for first."""
-    found = []
-    for key in HEADLINES:
-        if result.get(key) is not None:
-            quantity, error = quantity_of(key), result.get(key + "_error")
-            found.append((headline(result, key), shown(result[key], quantity.scale, error),
-                          error_shown(error, quantity.scale), quantity.unit))
+def figures_of(run, marks):
+    """Each for a wide page and for a narrow one; None where there is nothing to draw."""
+    found = {"curve": None, "course": None, "pictures": None, "note": ""}
+    if marks:
+        found["curve"] = [force_extension(run, marks, look) for look in LOOKS]
+    if len(run.curve) >= 2:
+        found["course"] = [course(run, look) for look in LOOKS]
+        shown_at = marks or [end_of(run.curve)]
+        shapes, found["note"] = shapes_at(run, [mark.time for mark in shown_at], time_of_break(shown_at))
+        found["pictures"] = [pictures(run, shown_at[-len(shapes):], shapes, look) for look in LOOKS]
     return found
 
 
-def headline(result, key):
+def words_of_largest(largest):
+    """What the row of the largest load is called."""
+    if largest is None:
+        return "Largest load"
+    return f"{'Peak force' if largest.is_peak else 'Largest load'}, {largest.where}"
+
+
+HEAD = (("specimen_id", "Specimen"), ("operator", "Operator"), ("customer", "Customer"), ("date", "Date"),
+        ("standard", "Standard"))
+
+
+def head_of(report):
+    """[(key, label, text)] of what the user gave."""
+    return [(key, label, report[key]) for key, label in HEAD if report.get(key)]
+
+
+LOGOS = {".png": "image/png", ".svg": "image/svg+xml"}
+
+
+def logo_of(run):
+    """The logo as a data: URI; None where there is none."""
+    name = run.report.get("logo")
+    if not name:
+        return None
+    file = os.path.join(run.folder, name)
+    try:
+        with open(file, "rb") as content:
+            return embedded(LOGOS[os.path.splitext(name)[1]], content.read())
+    except (OSError, KeyError) as why:
+        raise CannotReport(f"{file}: the logo cannot be read: {getattr(why, 'strerror', None) or why}") from why
+
+
+class Headline:
+    """What a reader looks for first."""
+
+    def __init__(self, label, value, error, unit, remark):
+        self.label, self.value, self.error, self.unit, self.remark = label, value, error, unit, remark
+
+
+def headlines(run, largest):
+    found = []
+    for key in HEADLINES:
+        value, error = run.value(key), run.value(key + "_error")
+        if value is not None:
+            unit = run.units.of(quantity_of(key).kind)
+            remark = largest.where if key == "peak_force" and largest else ""
+            found.append(Headline(headline(run.result, key, largest), shown(value, unit.scale, error),
+                                  error_shown(error, unit.scale), unit.name, remark))
+    return found
+
+
+def headline(result, key, largest):
+    if key == "peak_force" and largest and not largest.is_peak:
+        return "Largest load"
     name = stiffness_name(result) if key == "locked_stiffness" else key.replace("_", " ")
     return name[:1].upper() + name[1:]
 
 
 def report_on_comparison(folder, command, version):
-    comparison = Comparison(folder)
-    rows = [comparison_row(comparison, key) for key in READINGS if isinstance(comparison.facts.get(key), dict)]
+    comparison, units = Comparison(folder), Units()
+    rising = [name.upper() for name in ("a", "b") if comparison.ends_at_its_largest_load(name)]
+    rows = [comparison_row(comparison, key, units) for key in READINGS if has_either(comparison.facts.get(key))]
+    length = units.length.scale
     return render("comparison.html.j2", {
-        "title": "Comparison of two curves", "facts": comparison.facts, "curves": overlay(comparison), "rows": rows,
-        "sides": [(name.upper(), printable(file), *side_facts(run_beside(file))) for name, file in comparison.files.items()],
-        "common": [shown(s, 1e3) for s in comparison.facts["common_extension"]],
+        "title": "Comparison of two curves", "facts": comparison.facts,
+        "curves": [overlay(comparison, look) for look in LOOKS], "rows": rows,
+        "rising": rising, "sides": [(name.upper(), printable(file), *side_facts(run_beside(file)))
+                                    for name, file in comparison.files.items()],
+        "unmeasured": [key for key in READINGS if key in comparison.facts and not has_either(comparison.facts[key])],
+        "common": [shown(s, length) for s in comparison.facts["common_extension"]],
         "rms": shown(comparison.number("rms_difference")), "largest": shown(comparison.number("largest_difference")),
         "share": percent(comparison.number("rms_difference_over_load")),
-        "largest_at": shown(comparison.number("largest_difference_at"), 1e3), "files": files_of(folder),
+        "largest_at": shown(comparison.number("largest_difference_at"), length), "files": files_of(folder),
         "command": printable(command), "version": version, "folder": printable(folder)})
 
 
-def comparison_row(comparison, key):
+def has_either(both):
+    return isinstance(both, dict) and any(is_number(both.get(name)) for name in ("a", "b"))
+
+
+def comparison_row(comparison, key, units):
     both, quantity = comparison.facts[key], quantity_of(key)
-    return (key, re.split("[,;]", quantity.label)[0], quantity.unit,
-            *(shown(both.get(part), quantity.scale) for part in ("a", "b", "difference")),
-            percent(both.get("relative")))
+    unit = units.of(quantity.kind)
+    rises = key == "peak_force" and any(map(comparison.ends_at_its_largest_load, ("a", "b")))
+    return (key, "Largest load" if rises else re.split("[,;]", quantity.label)[0], unit.name,
+            *(shown(both[part], unit.scale) if is_number(both.get(part)) else "none" if part != "difference" else ""
+              for part in ("a", "b", "difference")), percent(both.get("relative")))
 
 
 def percent(share):
-    return "–" if share is None else number(float(f"{100.0 * share:.3g}")) + " %"
+    return number(float(f"{100.0 * share:.3g}")) + " %" if is_number(share) else ""
 
 
 def side_facts(beside):
     """What a curve is from, and what its run warns of."""
     if beside is None:
-        return "a file of its own: no run of knot_utm stands beside it", []
+        return "This curve is a file of its own: no run of knot_utm stands beside it.", []
     method, result = beside
-    words = (f"simulated: {knot_of(method)}, {method['material'].get('name', 'own material')}, knot_utm "
-             f"{result.get('version')}, ended by {result.get('ended_by')}")
+    words = (f"This curve was simulated: {knot_of(method)}, {method['material'].get('name', 'own material')}, knot_utm "
+             f"{result.get('version')}, ended by {result.get('ended_by')}.")
     return words, result.get("warnings") or []
 
 

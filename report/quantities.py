@@ -1,26 +1,26 @@
 """Numbers as a person reads them: label, unit and digits of every key of result.yaml, also of those not known here."""
 import math
 
-from run import is_number
+from is_number import is_number
 
 
 class Quantity:
-    """How a key is shown: its value times `scale` has `unit`."""
+    """How a key is shown. `kind`: of its unit, as units.Units.of takes it."""
 
-    def __init__(self, label, unit="", scale=1.0):
-        self.label, self.unit, self.scale = label, unit, scale
+    def __init__(self, label, kind=""):
+        self.label, self.kind = label, kind
 
 
 def force(label):
-    return Quantity(label, "N")
+    return Quantity(label, "force")
 
 
 def length(label):
-    return Quantity(label, "mm", 1e3)
+    return Quantity(label, "length")
 
 
 def stiffness(label):
-    return Quantity(label, "N/mm", 1e-3)
+    return Quantity(label, "stiffness")
 
 
 def energy(label):
@@ -31,60 +31,64 @@ def energy(label):
 GROUPS = [
     ("What happened", {
         "motion_pattern": Quantity("Motion pattern"),
-        "motion_pattern_confidence": Quantity("Confidence in it, 0 to 1"),
+        "motion_pattern_confidence": Quantity("Confidence in the motion pattern, from 0 to 1"),
         "failure_mode": Quantity("Failure mode"),
-        "ended_by": Quantity("Ended by"),
-        "reason": Quantity("Reason"),
-        "untangled_at": Quantity("Untangled at", "s"),
+        "ended_by": Quantity("What ended the test"),
+        "untangled_at": Quantity("Time at which the knot came undone", "s"),
     }),
     ("Force and extension", {
-        "plateau_force": force("Plateau force, mean while the knots slide"),
-        "plateau_slope": Quantity("Slope de/ds of the knot distance there; –2: rigid sliding"),
-        "breakaway_force": force("Breakaway force, largest before the plateau"),
-        "lock_extension": length("Lock extension, where sliding turns into stretching"),
-        "locked_stiffness": stiffness("Locked stiffness; of the whole pull where nothing locks"),
+        "plateau_force": force("Plateau force, the mean while the knots slide"),
+        "plateau_force_sd": force("Standard deviation of the plateau force"),
+        "plateau_force_low": force("Smallest force within the plateau"),
+        "plateau_force_high": force("Largest force within the plateau"),
+        "plateau_slope": Quantity("Slope de/ds of the knot distance within the plateau; –\u20602 is rigid sliding"),
+        "breakaway_force": force("Breakaway force, the largest before the plateau"),
+        "lock_extension": length("Lock extension, where the motion of the knots shows that they lock"),
+        "lock_extension_by_load": length("Lock extension by the load alone, where it last rises through twice the plateau"),
+        "locked_stiffness": stiffness("Locked stiffness"),
         "peak_force": force("Peak force"),
-        "load_cell_error": force("How far the cell may be off at the peak"),
-        "plateau_load_cell_error": force("How far the cell may be off in the plateau"),
+        "balance_offset": force("Balance offset, by which the true force is larger than the load"),
+        "load_cell_error": force("Error of the load cell at the largest load, by its class"),
+        "plateau_load_cell_error": force("Error of the load cell within the plateau, by its class"),
         "break_force": force("Force at break"),
         "break_extension": length("Extension at break"),
         "break_edge": Quantity("Edge that broke, counted along the rod"),
-        "break_arclength": length("Place of the break, along the rod"),
-        "break_place": Quantity("What that place touched"),
-        "energy_to_peak": energy("Energy to the peak"),
-        "energy_to_break": energy("Energy to break"),
+        "break_arclength": length("Place of the break, measured along the rod"),
+        "break_place": Quantity("What touched the rod at the place of the break"),
+        "energy_to_peak": energy("Energy up to the largest load"),
+        "energy_to_break": energy("Energy up to the break"),
         "chord_stiffness": stiffness("Chord stiffness"),
         "secant_stiffness": stiffness("Secant stiffness"),
         "tangent_stiffness": stiffness("Tangent stiffness"),
-        "hysteresis": energy("Hysteresis of a cycle"),
-        "hold_force_begin": force("Force where the last hold begins"),
-        "hold_force_end": force("Force where it ends"),
-        "relaxation": Quantity("Relaxation: share of the force lost in it"),
-        "balance_offset": force("Balance offset: true force = load + this"),
+        "cycles": Quantity("Cycles that were completed"),
+        "hysteresis": energy("Energy lost in one cycle (hysteresis)"),
+        "hold_force_begin": force("Force at the beginning of the last hold"),
+        "hold_force_end": force("Force at the end of the last hold"),
+        "relaxation": Quantity("Relaxation, the share of the force that the last hold lost"),
     }),
     ("The knots", {
-        "preload": force("Pre-load on each overhand"),
+        "preload": force("Pre-load by which each overhand was tied"),
         "tied_knot_distance": length("Knot distance once tied"),
-        "excess_length": length("Rod hidden in each knot once tied"),
-        "final_excess_length": length("Rod hidden in each knot at the end"),
+        "excess_length": length("Length of rod within each knot once tied"),
+        "final_excess_length": length("Length of rod within each knot at the end"),
     }),
     ("Energy of the pull", {
         "work": energy("Work of the grips"),
-        "stored_energy": energy("Stored in rod and contacts"),
-        "kinetic_energy": energy("Kinetic"),
-        "friction_loss": energy("Lost to friction"),
-        "drag_loss": energy("Lost to drag"),
-        "numerical_dissipation": energy("Lost in the time steps"),
-        "reweighting_loss": energy("Lost as weights of contacts change"),
+        "stored_energy": energy("Energy stored in rod and contacts"),
+        "kinetic_energy": energy("Kinetic energy"),
+        "friction_loss": energy("Energy lost to friction"),
+        "drag_loss": energy("Energy lost to drag"),
+        "numerical_dissipation": energy("Energy lost in the time steps (numerical dissipation)"),
+        "reweighting_loss": energy("Energy lost as the weights of contacts change"),
     }),
     ("The computation", {
         "steps": Quantity("Time steps"),
-        "rejected_steps": Quantity("Time steps thrown away"),
+        "rejected_steps": Quantity("Time steps that were made again, shorter"),
         "newton_iterations": Quantity("Iterations of Newton's method"),
-        "simulated_time": Quantity("Time of the test", "s"),
-        "wall_time": Quantity("Time of the machine", "s"),
-        "real_time_factor": Quantity("Their ratio"),
-        "peak_memory": Quantity("Memory at most", "MB", 1e-6),
+        "simulated_time": Quantity("Duration of the test", "s"),
+        "wall_time": Quantity("Duration of the computation", "s"),
+        "real_time_factor": Quantity("Duration of the test over that of the computation"),
+        "peak_memory": Quantity("Largest memory in use", "memory"),
         "seed": Quantity("Seed of the load cell's noise"),
         "version": Quantity("Version of knot_utm"),
     }),
@@ -92,23 +96,23 @@ GROUPS = [
 KNOWN = {key: quantity for _, group in GROUPS for key, quantity in group.items()}
 
 # The unit of a key that is not known here, by how it ends: names of quantities are the field's.
-ENDINGS = [("_force", "N", 1.0), ("_load", "N", 1.0), ("_extension", "mm", 1e3), ("_distance", "mm", 1e3),
-           ("_length", "mm", 1e3), ("_displacement", "mm", 1e3), ("_stiffness", "N/mm", 1e-3), ("_energy", "J", 1.0),
-           ("_work", "J", 1.0), ("_loss", "J", 1.0), ("_time", "s", 1.0), ("_at", "s", 1.0), ("_duration", "s", 1.0)]
+ENDINGS = [("_force", "force"), ("_load", "force"), ("_extension", "length"), ("_distance", "length"),
+           ("_length", "length"), ("_displacement", "length"), ("_stiffness", "stiffness"), ("_energy", "J"),
+           ("_work", "J"), ("_loss", "J"), ("_time", "s"), ("_at", "s"), ("_duration", "s")]
 
 
 def quantity_of(key):
     if key in KNOWN:
         return KNOWN[key]
     label = key.replace("_", " ").capitalize()
-    for ending, unit, scale in ENDINGS:
+    for ending, kind in ENDINGS:
         if ("_" + key).endswith(ending):
-            return Quantity(label, unit, scale)
+            return Quantity(label, kind)
     return Quantity(label)
 
 
 def shown(value, scale=1.0, error=None):
-    """A value of any kind as text. Of a number four digits, or as many as its error leaves sense to."""
+    """A value of any kind as text. A number has four digits, or as many as its error leaves meaningful."""
     if value is None:
         return "–"
     if isinstance(value, bool):
@@ -118,8 +122,7 @@ def shown(value, scale=1.0, error=None):
     if isinstance(value, (int, float)):
         return number(value * scale, None if error is None else error * scale)
     if isinstance(value, dict):
-        return ", ".join(f"{name.replace('_', ' ')} {shown(part, quantity_of(name).scale)} "
-                         f"{quantity_of(name).unit}".strip() for name, part in value.items()) or "–"
+        return ", ".join(f"{name.replace('_', ' ')} {shown(part)}" for name, part in value.items()) or "–"
     if isinstance(value, (list, tuple)):
         return "; ".join(shown(part, scale) for part in value) or "–"
     return str(value)
@@ -146,5 +149,9 @@ def superscript(exponent):
 
 
 def error_shown(error, scale):
-    """Two digits."""
+    """With two digits."""
     return number(float(f"{error * scale:.1e}")) if is_number(error) else ""
+
+
+def with_unit(value, unit, error=None):
+    return f"{shown(value, unit.scale, error)} {unit.name}".strip()

@@ -1,35 +1,59 @@
-"""result.yaml as a table: every key has its place, also those that this file has never heard of."""
-from certificate import CERTIFIED
+"""result.yaml as a table: every key that has a value has its place, also those that this file has never heard of."""
+from certificate import CERTIFIED, stiffness_name
 from quantities import GROUPS, error_shown, quantity_of, shown
 
-ELSEWHERE = ("warnings",)  # the page says them above
+# The page says them elsewhere.
+ELSEWHERE = ("reason", "warnings", "specification_passed", "specification_failed")
 
 
 class Row:
-    """`keys`: of result.yaml, that this row shows."""
+    """`keys`: of result.yaml, that this row shows: a reading, its numerical error, and the true force beside it."""
 
-    def __init__(self, result, key):
-        quantity = quantity_of(key)
-        self.label, self.unit = quantity.label, quantity.unit
-        self.is_text = isinstance(result[key], str)
-        self.keys = [key] + [key + "_" + part for part in ("error", "sd") if key + "_" + part in result]
-        error = result.get(key + "_error")
-        self.value = shown(result[key], quantity.scale, error)
-        self.error = error_shown(error, quantity.scale)
-        self.sd = error_shown(result.get(key + "_sd"), quantity.scale)
-        if result[key] is None or isinstance(result[key], (str, bool, dict)):
-            self.unit = ""
+    def __init__(self, result, key, units, label):
+        quantity, error, true = quantity_of(key), result.get(key + "_error"), "true_" + key
+        unit = units.of(quantity.kind)
+        self.label, self.is_text = label or quantity.label, isinstance(result[key], str)
+        self.keys = [name for name in (key, key + "_error", true) if name in result]
+        self.value, self.error = shown(result[key], unit.scale, error), error_shown(error, unit.scale)
+        self.true = shown(result[true], unit.scale, error) if result.get(true) is not None else ""
+        self.unit = "" if isinstance(result[key], (str, bool, dict)) else unit.name
 
 
-def results_table(result):
-    """[(group, rows)]; first those with a label, in their order, then the rest."""
+class Group:
+    def __init__(self, title, rows):
+        self.title, self.rows = title, rows
+        self.has_errors = any(row.error for row in rows)
+        self.has_true_forces = any(row.true for row in rows)
+        self.columns = 2 + self.has_errors + self.has_true_forces  # without the label's
+        self.kind = "told" if any(row.is_text for row in rows) and self.columns == 2 else \
+            "plain" if self.columns == 2 else ""
+
+
+# What stands for no value where it is not null.
+NOTHING = {"break_place": "none", "cycles": 0}
+
+
+def has_value(result, key):
+    return key in result and result[key] is not None and result[key] != [] and NOTHING.get(key) != result[key]
+
+
+def labels_of(result, peak):
+    """Labels that are of this test: where nothing locks locked_stiffness is that of the whole pull, and the largest load
+    is no peak where the test was stopped while it rose. `peak`: what the largest load is called."""
+    name = stiffness_name(result)
+    return {"locked_stiffness": name[:1].upper() + name[1:], "peak_force": peak}
+
+
+def results_table(result, units, peak):
+    """Groups of rows, those with a label first, and the keys of which this test has no value."""
+    labels = labels_of(result, peak)
     placed = set(ELSEWHERE) | set(CERTIFIED)
     groups = []
     for title, known in GROUPS:
-        rows = [Row(result, key) for key in known if key in result]
-        groups.append((title, rows))
+        rows = [Row(result, key, units, labels.get(key)) for key in known if has_value(result, key)]
+        groups.append(Group(title, rows))
         placed.update(key for row in rows for key in row.keys)
-    folded = {key + "_" + part for key in result for part in ("error", "sd")}
-    rest = [Row(result, key) for key in result if key not in placed and key not in folded]
-    groups.append(("Further", rest))
-    return [(title, rows) for title, rows in groups if rows]
+    folded = {name for key in result for name in (key + "_error", "true_" + key) if has_value(result, key)}
+    rest = [key for key in result if key not in placed and key not in folded]
+    groups.append(Group("Further", [Row(result, key, units, None) for key in rest if has_value(result, key)]))
+    return [group for group in groups if group.rows], [key for key in rest if not has_value(result, key)]

@@ -6,39 +6,41 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap, LogNorm, to_rgb
 from matplotlib.ticker import FuncFormatter, LogLocator
 
+from quantities import number, with_unit
 from shapes import pieces
-from style import GREY, INK, WIDTH, as_png
+from style import GREY, HUB, INK, ROLLER, SMALL, USUAL, as_png
 from tube import Tube, smooth, to_picture
 
 TENSION = LinearSegmentedColormap.from_list("tension", ["#ece5d3", "#e8bd6a", "#d9752f", "#b02a30", "#6e1540"])
 UNKNOWN = to_rgb("#9fb3c4")
-DPI = 170
+PIXELS = 1500   # across a picture
 NEAR = 2.6      # strands whose centrelines are nearer than this many radii touch, or nearly so
 MARGIN = 4.0    # around what is shown [radii]
 LONGEST = 7.0   # a picture wider than this many of its heights shows the knot alone
 HIGHEST = 0.8   # a picture, of its width
+NAME = 0.24     # of a name above its picture [in]
 
 
-def pictures(run, marks, shapes):
+def pictures(run, marks, shapes, look):
     """All of them in one picture, one below the other, with one scale of colours."""
     radius = run.method["material"]["radius"]
     norm = scale_of([shape.tension for shape in shapes if shape.tension is not None])
     views = [view(run, shape, radius) for shape in shapes]
     width = width_of(views)
-    heights = [WIDTH * (top - bottom) / width + 0.25 for _, _, bottom, top in views]
+    heights = [look.width * (top - bottom) / width + NAME for _, _, bottom, top in views]
     scale_height = 0.75 if norm else 0.1
-    figure = plt.figure(figsize=(WIDTH, sum(heights) + scale_height))
+    figure = plt.figure(figsize=(look.width, sum(heights) + scale_height))
     grid = figure.add_gridspec(len(shapes) + 1, 1, height_ratios=[*heights, scale_height], left=0.0, right=1.0,
                                bottom=0.0, top=1.0, hspace=0.0)
     for row, (mark, shape, box) in enumerate(zip(marks, shapes, views)):
         axes = figure.add_subplot(grid[row])
         draw_rod(axes, shape, shapes[0], radius, norm)
         draw_rollers(axes, run, shape)
-        frame(axes, box, width, heights[row])
+        frame(axes, box, (width, width * heights[row] / look.width), 0.5 * NAME * width / look.width)
         label(axes, mark, shape, run)
     if norm:
-        draw_scale(figure.add_subplot(grid[len(shapes)]), norm)
-    return as_png(figure, DPI)
+        draw_scale(figure.add_subplot(grid[len(shapes)]), norm, run.units.force)
+    return as_png(figure, PIXELS / look.width)
 
 
 def width_of(views):
@@ -87,8 +89,8 @@ def rollers(run, shape):
 
 def draw_rollers(axes, run, shape):
     for z, radius in rollers(run, shape):
-        axes.add_patch(plt.Circle((z, 0.0), radius, facecolor="#e3e8ec", edgecolor="#b3bfc9", lw=0.8, zorder=1))
-        axes.add_patch(plt.Circle((z, 0.0), 0.15 * radius, facecolor="#b3bfc9", edgecolor="none", zorder=1))
+        axes.add_patch(plt.Circle((z, 0.0), radius, facecolor=ROLLER, edgecolor=HUB, lw=0.8, zorder=1))
+        axes.add_patch(plt.Circle((z, 0.0), 0.15 * radius, facecolor=HUB, edgecolor="none", zorder=1))
 
 
 def view(run, shape, radius):
@@ -125,29 +127,30 @@ def touching(points, radius):
     return near
 
 
-def frame(axes, box, width, height):
+def frame(axes, box, size, lower):
+    """A view in the middle of a place of a size [mm], a bit `lower`, so that there is room for a name."""
     middle = 0.5 * (box[0] + box[1])
-    axes.set_xlim(middle - 0.5 * width, middle + 0.5 * width)
-    tall = width * height / WIDTH
-    middle = 0.5 * (box[2] + box[3])
-    axes.set_ylim(middle - 0.5 * tall, middle + 0.5 * tall)
+    axes.set_xlim(middle - 0.5 * size[0], middle + 0.5 * size[0])
+    middle = 0.5 * (box[2] + box[3]) + lower
+    axes.set_ylim(middle - 0.5 * size[1], middle + 0.5 * size[1])
     axes.axis("off")
 
 
 def label(axes, mark, shape, run):
     at = float(np.interp(shape.time, run.curve["time"], run.curve["extension"]))
-    axes.text(0.012, 0.97, mark.letter, transform=axes.transAxes, va="top", fontsize=12, weight="bold", color=INK)
-    axes.text(0.03, 0.967, f"{mark.title()}: s = {1e3 * at:.1f} mm", transform=axes.transAxes, va="top", fontsize=9.5,
-              color=INK)
+    place = {"xy": (0.0, 1.0), "xycoords": "axes fraction", "textcoords": "offset points", "va": "baseline", "color": INK}
+    axes.annotate(mark.letter, xytext=(3, -11), fontsize=USUAL + 2.0, weight="bold", **place)
+    axes.annotate(f"{mark.title()}: s = {with_unit(at, run.units.length)}", xytext=(16, -11), fontsize=USUAL, **place)
 
 
-def draw_scale(axes, norm):
+def draw_scale(axes, norm, force):
     axes.axis("off")
-    inset = axes.inset_axes([0.3, 0.55, 0.4, 0.16])
-    bar = plt.colorbar(ScalarMappable(norm, TENSION), cax=inset, orientation="horizontal", extend="min")
-    bar.set_label("tension of the rod [N]", fontsize=9)
+    inset = axes.inset_axes([0.25, 0.62, 0.5, 0.16])
+    shown = LogNorm(force.scale * norm.vmin, force.scale * norm.vmax)
+    bar = plt.colorbar(ScalarMappable(shown, TENSION), cax=inset, orientation="horizontal", extend="min")
+    bar.set_label(f"tension of the rod [{force.name}]", fontsize=SMALL)
     bar.outline.set_edgecolor(GREY)
     narrow = norm.vmax < 150.0 * norm.vmin
     bar.ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if narrow else (1.0,)))
-    bar.ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    bar.ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: number(value)))
     bar.ax.minorticks_off()

@@ -6,6 +6,8 @@ import numpy as np
 import yaml
 
 from failure import CannotReport
+from is_number import is_number
+from units import units_of
 
 # Phases in which the specimen is pulled further than before.
 PULLING = ("pull", "cycle", "follow")
@@ -51,6 +53,8 @@ class Run:
     def __init__(self, folder):
         self.folder = folder
         self.method = read_yaml(os.path.join(folder, "method.yaml"))
+        self.report = texts_of(os.path.join(folder, "method.yaml"), "report")
+        self.units = units_of(self.report)
         self.result = read_yaml(os.path.join(folder, "result.yaml"))
         self.readings = read_curve(os.path.join(folder, "curve.csv"))
         self.curve = read_curve(os.path.join(folder, "curve_full.csv"))
@@ -77,10 +81,6 @@ class Run:
         return cell["floor"] * cell["capacity"] or None
 
 
-def is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and np.isfinite(value)
-
-
 def read_text(file, errors="strict"):
     try:
         with open(file, encoding="utf-8", errors=errors, newline="") as text:
@@ -102,6 +102,12 @@ def read_yaml(file, errors="strict"):
     if not isinstance(content, dict):
         raise CannotReport(f"{file}: a map is needed")
     return content
+
+
+def texts_of(file, key):
+    """A map of a YAML file with every value as it is written: a specimen's name may be 0012, a date is what it says."""
+    found = yaml.load(printable(read_text(file)), Loader=yaml.BaseLoader).get(key)
+    return found if isinstance(found, dict) else {}
 
 
 def read_columns(file):

@@ -1,4 +1,4 @@
-"""How every figure looks, and how it becomes a part of the page: the same bytes for the same run."""
+"""How every figure looks, and how it becomes a part of a page: the same bytes for the same run."""
 import base64
 import io
 import logging
@@ -8,23 +8,42 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 
-INK, GREY, FAINT = "#22303c", "#6b7a88", "#d9e0e6"
-BLUE, ORANGE, GREEN, VIOLET = "#1f5f99", "#c8641b", "#2f7d5b", "#6d4a9c"
+INK, GREY, FAINT = "#22303c", "#5f6e7b", "#d9e0e6"
+BLUE, ORANGE, GREEN, VIOLET, RED, GOLD = "#1f5f99", "#b95a15", "#2a7554", "#6d4a9c", "#a02020", "#806416"
 PHASES = {"tie": "#f3e6c8", "release": "#e9efd2", "mount": "#d8eee3", "preload": "#d6e9ee", "balance": "#c9ced3",
           "pull": "#dfe6f3", "hold": "#ece0f1", "cycle": "#f4dfe3", "return": "#e6e6e6",
           "follow": "#dcecf2"}
-WIDTH = 9.6  # [in]
+ROLLER, HUB = "#e3e8ec", "#b3bfc9"
+SMALL, USUAL = 8.5, 9.5  # letters [pt]; none is smaller than SMALL
+
+
+class Look:
+    """A figure for a page of a certain width. `width`: of the figure [in]; `left`, `right`: of its axes [in]."""
+
+    def __init__(self, width, left, right):
+        self.width, self.left, self.right = width, left, right
+        self.is_narrow = width < 5.0
+
+    def room(self, height, bottom, top, right=None):
+        """The place of the axes in a figure of a height [in], as matplotlib takes it."""
+        return {"left": self.left / self.width, "right": 1.0 - (self.right if right is None else right) / self.width,
+                "bottom": bottom / height, "top": 1.0 - top / height}
+
+
+WIDE = Look(8.0, 0.72, 0.12)    # a screen, and a sheet of A4
+NARROW = Look(3.5, 0.62, 0.12)  # a telephone
+LOOKS = (WIDE, NARROW)
 
 # A typeface that is not there is replaced by the next one: no news.
 logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
 plt.rcParams.update({
     "svg.hashsalt": "knot_utm", "svg.fonttype": "path",
-    "font.family": ["Liberation Sans", "Arial", "DejaVu Sans"], "font.size": 9.5, "mathtext.fontset": "dejavusans",
+    "font.family": ["Liberation Sans", "Arial", "DejaVu Sans"], "font.size": USUAL, "mathtext.fontset": "dejavusans",
     "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": GREY, "axes.linewidth": 0.7,
     "xtick.color": GREY, "ytick.color": GREY, "xtick.labelcolor": INK, "ytick.labelcolor": INK,
     "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": FAINT,
-    "grid.linewidth": 0.6, "axes.axisbelow": True, "legend.frameon": False, "legend.fontsize": 8.5,
-    "axes.labelsize": 9.5, "xtick.labelsize": 8.5, "ytick.labelsize": 8.5})
+    "grid.linewidth": 0.6, "axes.axisbelow": True, "legend.frameon": False, "legend.fontsize": SMALL,
+    "axes.labelsize": USUAL, "xtick.labelsize": SMALL, "ytick.labelsize": SMALL, "axes.titlesize": USUAL})
 
 
 def as_svg(figure):
@@ -40,4 +59,9 @@ def data_uri(figure, kind, **how):
     out = io.BytesIO()
     figure.savefig(out, **how)
     plt.close(figure)
-    return f"data:{kind};base64," + base64.b64encode(out.getvalue()).decode("ascii")
+    return embedded(kind, out.getvalue())
+
+
+def embedded(kind, content):
+    """Bytes as a data: URI, so that a page needs no other file."""
+    return f"data:{kind};base64," + base64.b64encode(content).decode("ascii")

@@ -49,30 +49,18 @@ std::vector<std::string_view> cells(std::string_view line) {
 std::size_t place(const std::string& file, const std::vector<std::string_view>& names,
                   const std::vector<std::string_view>& units, const char* name, const char* unit) {
   const auto found = std::find(names.begin(), names.end(), name);
-  if (found == names.end()) throw InvalidInput(file, "row 1", "no column " + std::string(name), "a curve.csv");
+  if (found == names.end())
+    throw InvalidInput::sentence("row 1", name,
+                                 "row 1 names no column " + std::string(name) + ", which a curve.csv has")
+        .in_file(file);
   const std::size_t index = static_cast<std::size_t>(found - names.begin());
-  const std::string given = index < units.size() ? std::string(units[index]) : "nothing";
-  if (given != unit) throw InvalidInput(file, "row 2: unit of " + std::string(name), given, unit);
+  const std::string given = index < units.size() ? "\"" + std::string(units[index]) + "\"" : "missing";
+  if (index >= units.size() || units[index] != unit)
+    throw InvalidInput(file, "row 2: the unit of " + std::string(name), given, unit);
   return index;
 }
 
 }  // namespace
-
-CurveRow curve_row(const Sample& sample) {
-  CurveRow row;
-  row.time = sample.time;
-  row.extension = sample.extension;
-  if (!std::isnan(sample.raw_extension)) {
-    row.extension = sample.raw_extension;
-    row.corrected_extension = sample.extension;
-  }
-  row.load = sample.load;
-  row.knot_distance = sample.knot_distance;
-  row.end_to_end = sample.end_to_end;
-  row.load_lower = sample.force_lower;
-  row.phase = sample.phase;
-  return row;
-}
 
 CurveWriter::CurveWriter(const std::string& file, bool compliant_frame)
     : file_(file), compliant_frame_(compliant_frame) {
@@ -105,6 +93,7 @@ void CurveWriter::write(const CurveRow& row) {
 
 std::vector<CurveRow> read_curve(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
+  if (!in) throw InvalidInput::cannot_read(file);
   return read_curve(in, file);
 }
 
@@ -112,7 +101,9 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
   TextRows text(in);
   std::array<std::string, 2> head;  // names and units
   for (std::string& row : head) {
-    if (!text.next()) throw InvalidInput("file", file, "a curve.csv that can be read");
+    if (!text.next())
+      throw InvalidInput::sentence("rows", "fewer than 2", "a curve.csv begins with a row of names and a row of units")
+          .in_file(file);
     row = text.text();
   }
   const std::vector<std::string_view> names = cells(head[0]);
@@ -128,22 +119,26 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
     const std::string key = "row " + std::to_string(text.number());
     const std::vector<std::string_view> values = cells(text.text());
     if (values.size() != names.size()) {
-      throw InvalidInput(file, key, std::to_string(values.size()) + " columns",
-                         std::to_string(names.size()) + " columns");
+      throw InvalidInput::sentence(key, text.text(),
+                                   key + " has " + std::to_string(values.size()) + " columns, but must have " +
+                                       std::to_string(names.size()) + " as row 1 has")
+          .in_file(file);
     }
     CurveRow row;
     for (std::size_t i = 0; i < columns.size(); ++i) {
       const std::optional<double> value = parse_number(values[places[i]]);
-      if (!value) throw InvalidInput(file, key + ": " + columns[i].name, std::string(values[places[i]]), "a number");
+      if (!value)
+        throw InvalidInput(file, key + ": " + columns[i].name, "\"" + std::string(values[places[i]]) + "\"",
+                           "a number");
       row.*columns[i].value = *value;
     }
     const std::string phase(values[phase_place]);
     const std::optional<Phase> known = phase_named(phase);
-    if (!known) throw InvalidInput(file, key + ": phase", phase, "a phase of a test");
+    if (!known) throw InvalidInput(file, key + ": phase", "\"" + phase + "\"", "a phase of a test, such as pull");
     row.phase = *known;
     rows.push_back(row);
   }
-  if (!text.fault().empty()) throw InvalidInput(file, "row " + std::to_string(text.number()), "more", text.fault());
+  if (!text.fault().empty()) throw InvalidInput::sentence("rows", "too many", text.fault()).in_file(file);
   return rows;
 }
 

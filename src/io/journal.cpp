@@ -51,7 +51,8 @@ void append_frame(std::string& buffer, const T& kept) {
   buffer.append(kFrameHead, '\0');
   Archive::to(buffer).save(kept);
   const std::size_t length = buffer.size() - head - kFrameHead;
-  if (length > std::numeric_limits<std::uint32_t>::max()) throw std::length_error("a record beyond 4 GiB");
+  if (length > std::numeric_limits<std::uint32_t>::max())
+    throw std::length_error("a record of the test is larger than 4 GiB");
   put_word(&buffer[head], static_cast<std::uint32_t>(length));
   put_word(&buffer[head + kWord], checksum(&buffer[head], std::string_view(buffer).substr(head + kFrameHead)));
 }
@@ -110,9 +111,9 @@ void JournalWriter::require_open(const std::string& folder) const {
   if (file_.is_open()) return;
   const CannotWrite why(path_);
   if (why.out_of_room()) throw why;
-  throw InvalidInput(
-      "--out", folder,
-      why.error == EWOULDBLOCK ? "a folder that no other run is writing to" : "a folder that can be written to");
+  if (why.error != EWOULDBLOCK) throw InvalidInput::cannot_write("--out", folder, why.error);
+  throw InvalidInput::sentence("--out", folder,
+                               "another run is writing to the folder " + shown(folder) + ": choose another folder");
 }
 
 void JournalWriter::begin(const JournalHeader& header) {
@@ -128,7 +129,7 @@ void JournalWriter::begin(const JournalHeader& header) {
 JournalWriter JournalWriter::go_on(const std::string& folder, double patience) {
   JournalWriter writer(folder, 0, patience);
   if (!writer.file_.is_open()) {
-    if (errno == EWOULDBLOCK) throw std::runtime_error(writer.path_ + ": another run is writing it");
+    if (errno == EWOULDBLOCK) throw std::runtime_error("another run is writing " + writer.path_);
     throw CannotWrite(writer.path_);
   }
   writer.bytes_ = fs::file_size(writer.path_);
@@ -137,7 +138,7 @@ JournalWriter JournalWriter::go_on(const std::string& folder, double patience) {
 
 void JournalWriter::append(const Record& record) {
   // What goes to a file without a name is lost with the process.
-  if (!file_.has_name()) throw std::runtime_error(path_ + ": was removed");
+  if (!file_.has_name()) throw std::runtime_error("the journal " + path_ + " was removed while the test was running");
   buffer_.clear();
   append_frame(buffer_, record);
   write(buffer_);
@@ -172,18 +173,20 @@ void JournalWriter::remove() {
 JournalReader::JournalReader(const std::string& folder) : file_(journal_file(folder)), in_(file_, std::ios::binary) {
   std::error_code error;
   bytes_ = fs::file_size(file_, error);
-  if (!in_ || error) throw InvalidInput("file", file_, "a journal that can be read");
+  if (!in_ || error) throw InvalidInput::cannot_read(file_);
   std::array<char, kMagic.size() + kWord> begin{};
   in_.read(begin.data(), begin.size());
   if (!in_ || std::string_view(begin.data(), kMagic.size()) != kMagic) {
-    throw InvalidInput("file", file_, "a journal of knot_utm");
+    throw InvalidInput::sentence("file", file_, "the file is no journal of knot_utm").in_file(file_);
   }
   const std::uint32_t version = word(begin.data() + kMagic.size());
   if (version != kVersion) {
-    throw InvalidInput(file_, "version", std::to_string(version), std::to_string(kVersion));
+    throw InvalidInput(file_, "the journal's version", std::to_string(version),
+                       std::to_string(kVersion) + ", that of this program");
   }
   good_bytes_ = begin.size();
-  if (!read_frame() || !load(header_)) throw InvalidInput("file", file_, "a journal whose header is whole");
+  if (!read_frame() || !load(header_))
+    throw InvalidInput::sentence("file", file_, "the beginning of the journal is damaged").in_file(file_);
   good_bytes_ += kFrameHead + payload_.size();
 }
 

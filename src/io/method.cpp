@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -14,7 +15,10 @@
 #include <utility>
 
 #include "knot_utm/io/curve_file.hpp"
+#include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/io/shipped.hpp"
+#include "knot_utm/rod/known_names.hpp"
+#include "method_defaults.hpp"
 #include "method_fields.hpp"
 #include "method_reader.hpp"
 
@@ -22,12 +26,10 @@ namespace knot_utm {
 namespace {
 
 namespace fs = std::filesystem;
+using fields::as_given;
 using fields::one_line;
 using fields::Reader;
 using fields::Writer;
-
-/// The paper's machine has this cell for all but the softest material.
-constexpr const char* kDefaultLoadCell = "50kN";
 
 /// From which load on a fall may be a break, unless the method says so: testing machines have such a share.
 constexpr double kArmingShare = 0.02;  // of the cell's capacity
@@ -35,17 +37,40 @@ constexpr double kArmingShare = 0.02;  // of the cell's capacity
 /// Methods, materials and load cells are a few thousand characters long.
 constexpr std::size_t kLongestText = 65536;
 
+/// What is wrong with a text that is not YAML, where the parser's own words need knowledge of YAML's grammar.
+std::string yaml_fault(const YAML::Exception& fault) {
+  if (dynamic_cast<const YAML::DeepRecursion*>(&fault) != nullptr) return "maps and lists are nested too deeply";
+  namespace Said = YAML::ErrorMsg;
+  static const std::map<std::string, std::string> kPlain{
+      {Said::END_OF_SEQ_FLOW, "a list begins with \"[\" and has no \"]\""},
+      {Said::END_OF_MAP_FLOW, "a map begins with \"{\" and has no \"}\""},
+      {Said::FLOW_END, "a \"]\" or \"}\" has nothing that it ends"},
+      {Said::END_OF_MAP, "this line is neither a key of the map above it nor indented as a part of it"},
+      {Said::END_OF_SEQ, "this line is neither an entry of the list above it nor indented as a part of it"},
+      {Said::MAP_VALUE, "a colon stands where no value can begin; put text with a colon in quotes"},
+      {Said::MAP_KEY, "a key stands where none can begin"},
+      {Said::BLOCK_ENTRY, "a list begins with \"-\" where none can begin; put it on a line of its own"},
+      {Said::EOF_IN_SCALAR, "the file ends within a text in quotes; a quote is missing"},
+      {Said::TAB_IN_INDENTATION, "the line is indented by a tab; use blanks"},
+      {Said::UNKNOWN_TOKEN, "a character stands here that YAML does not know here; put the text in quotes"},
+      {Said::UNKNOWN_ANCHOR, "an alias (*name) has no anchor (&name) before it"}};
+  const auto plain = kPlain.find(fault.msg);
+  return plain == kPlain.end() ? shown(fault.msg) : plain->second;
+}
+
 YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   if (text.size() > kLongestText) {
-    throw InvalidInput("file", file, "a YAML file of at most " + std::to_string(kLongestText) + " characters");
+    const std::string most = std::to_string(kLongestText) + " characters";
+    throw InvalidInput::sentence("file", file,
+                                 "the file is longer than " + most + ", and no method, material or load cell is")
+        .in_file(file);
   }
   try {
     return YAML::Load(text);
   } catch (const YAML::ParserException& parser) {
-    const bool deep = dynamic_cast<const YAML::DeepRecursion*>(&parser) != nullptr;
-    throw InvalidInput(
-        file, "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1),
-        deep ? "maps and lists nested too deeply" : parser.msg, "well-formed YAML");
+    const std::string place =
+        "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1);
+    throw InvalidInput::sentence(place, parser.msg, place + ": " + yaml_fault(parser)).in_file(file);
   }
 }
 
@@ -53,7 +78,7 @@ std::string read_text(const fs::path& file) {
   std::error_code error;
   std::ifstream in;
   if (fs::is_regular_file(file, error)) in.open(file, std::ios::binary);
-  if (!in.is_open()) throw InvalidInput("file", file.string(), "a YAML file that can be read");
+  if (!in.is_open()) throw InvalidInput::cannot_read(file.string());
   std::string text(kLongestText + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(in.gcount()));
@@ -72,25 +97,30 @@ class Library {
     for (const std::string& folder : shipped_folders()) add(folder);
   }
 
-  /// `kind`: the folder, "materials" or "load_cells". `key` is what named the file, for the message.
-  fs::path find(const std::string& kind, const std::string& name, const std::string& key) const {
+  /// The names of the files of this kind, the folder "materials" or "load_cells", each once and in alphabetical order.
+  std::vector<std::string> names(const std::string& kind) const {
     std::error_code error;
     std::set<std::string> known;
     for (const fs::path& folder : folders_) {
-      for (const fs::path& candidate : {folder / kind / (name + ".yaml"), folder / name}) {
-        if (!name.empty() && fs::is_regular_file(candidate, error)) return candidate;
-      }
       for (fs::directory_iterator file(folder / kind, error), end; !error && file != end; file.increment(error)) {
         if (file->path().extension() == ".yaml") known.insert(file->path().stem().string());
       }
     }
-    std::string allowed = "a map, or the name of a file in config/" + kind;
-    const char* comma = ": ";
-    for (const std::string& stem : known) {
-      allowed += comma + stem;
-      comma = ", ";
+    return {known.begin(), known.end()};
+  }
+
+  /// "a name (20N, 50kN) or a map".
+  std::string allowed(const std::string& kind) const { return "a name (" + listed(names(kind), ", ") + ") or a map"; }
+
+  /// `key` is what named the file, for the message.
+  fs::path find(const std::string& kind, const std::string& name, const std::string& key) const {
+    std::error_code error;
+    for (const fs::path& folder : folders_) {
+      for (const fs::path& candidate : {folder / kind / (name + ".yaml"), folder / name}) {
+        if (!name.empty() && fs::is_regular_file(candidate, error)) return candidate;
+      }
     }
-    throw InvalidInput(key, name.empty() ? "\"\"" : name, allowed);
+    throw InvalidInput::unknown_name(key, name, allowed(kind), names(kind));
   }
 
  private:
@@ -114,11 +144,11 @@ YAML::Node named_map(const fs::path& file) {
   return map;
 }
 
-/// The cell's name behind `auto`, or behind no entry at all.
-std::string load_cell_name(const YAML::Node& node, const std::string& of_material) {
+/// The cell's name behind `auto`, or behind no entry at all; none where the material names no cell.
+std::optional<std::string> load_cell_name(const YAML::Node& node, const std::string& of_material) {
   std::string given = node.IsDefined() && node.IsScalar() ? node.Scalar() : "auto";
   if (given != "auto") return given;
-  return of_material.empty() ? kDefaultLoadCell : of_material;
+  return of_material.empty() ? std::nullopt : std::optional<std::string>(of_material);
 }
 
 std::vector<std::string> split(const std::string& path) {
@@ -149,19 +179,23 @@ struct Override {
 Override parse_override(const std::string& text) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos) {
-    throw InvalidInput("--set", text.empty() ? "\"\"" : text, "key=value, such as specimen.preload=20");
+    throw InvalidInput::sentence(
+        "--set", text, "--set \"" + shown(text) + "\" sets no key: write key=value, such as specimen.preload=20");
   }
   Override set;
   set.key = text.substr(0, equals);
   set.path = split(set.key);
   set.text = text.substr(equals + 1);
   if (set.path.size() > kLongestPath) {
-    throw InvalidInput("--set", text, "a key of at most " + std::to_string(kLongestPath) + " parts");
+    const std::string most = std::to_string(kLongestPath) + " parts";
+    throw InvalidInput::sentence("--set", text,
+                                 "--set " + shown(set.key) + ": no key of a method has more than " + most);
   }
   try {
     set.value();
-  } catch (const YAML::Exception&) {
-    throw InvalidInput(set.key, set.text, "a YAML value");
+  } catch (const YAML::Exception& yaml) {
+    throw InvalidInput::sentence("--set", text,
+                                 "--set " + shown(text) + ": the value is not YAML: " + yaml_fault(yaml));
   }
   return set;
 }
@@ -180,9 +214,10 @@ void expand(YAML::Node root, const Override& set, const Library& library) {
       material = read_yaml(library.find("materials", material_name(root), "material"));
     }
     const YAML::Node of_material = material.IsDefined() && material.IsMap() ? material["load_cell"] : YAML::Node();
-    const std::string name =
+    const std::optional<std::string> name =
         load_cell_name(cell, of_material.IsDefined() && of_material.IsScalar() ? of_material.Scalar() : "");
-    root["machine"]["load_cell"] = named_map(library.find("load_cells", name, "machine.load_cell"));
+    root["machine"]["load_cell"] =
+        name ? named_map(library.find("load_cells", *name, "machine.load_cell")) : YAML::Node(YAML::NodeType::Map);
   }
 }
 
@@ -205,10 +240,12 @@ void put(YAML::Node parent, const Override& set, std::size_t depth) {
   if (parent.IsSequence()) {
     const std::optional<std::size_t> index = entry(parent, part);
     if (!index) {
-      throw InvalidInput(set.key, one_line(set.value()),
-                         "after " + (depth == 0 ? "the list" : set.path[depth - 1]) + ", an entry's number from 0 to " +
-                             std::to_string(parent.size() == 0 ? 0 : parent.size() - 1) +
-                             " or the name of the only step of that name");
+      const std::string last_entry = std::to_string(parent.size() == 0 ? 0 : parent.size() - 1);
+      throw InvalidInput::sentence(set.key, one_line(set.value()),
+                                   shown(set.key) + ": \"" + shown(part) + "\" is no single entry of " +
+                                       (depth == 0 ? "the list" : shown(set.path[depth - 1])) +
+                                       ": give a number from 0 to " + last_entry +
+                                       ", or the name of a step that stands there once");
     }
     if (part != std::to_string(*index)) {
       put(parent[*index], set, depth);
@@ -220,7 +257,9 @@ void put(YAML::Node parent, const Override& set, std::size_t depth) {
     return;
   }
   if (!parent.IsMap() && !parent.IsNull()) {
-    throw InvalidInput(set.key, one_line(set.value()), "a key of the method: " + set.path[depth - 1] + " has no keys");
+    throw InvalidInput::sentence(set.key, one_line(set.value()),
+                                 shown(set.key) + " is no key of a method: " + shown(set.path[depth - 1]) +
+                                     " is a single value and has no keys");
   }
   if (last) {
     parent[part] = set.value();
@@ -246,11 +285,13 @@ void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides,
 Material read_material(const YAML::Node& node, const std::string& file, const Library& library) {
   Material material;
   if (!node.IsDefined() || node.IsNull()) {
-    throw InvalidInput(file, "material", "nothing", "a map, or the name of a file in config/materials");
+    throw InvalidInput::missing("material", library.allowed("materials")).in_file(file);
   }
+  if (!node.IsScalar() && !node.IsMap())
+    throw InvalidInput(file, "material", as_given(node), library.allowed("materials"));
   if (node.IsScalar()) {
     const fs::path path = library.find("materials", node.Scalar(), "material");
-    Reader reader(read_yaml(path), path.string(), "");
+    Reader reader(read_yaml(path), path.string(), "", "a material");
     fields::material(reader, material);
     reader.finish();
     if (material.name.empty()) material.name = path.stem().string();
@@ -264,16 +305,20 @@ Material read_material(const YAML::Node& node, const std::string& file, const Li
 }
 
 LoadCellOptions read_load_cell(const YAML::Node& node, const std::string& file, const Material& material,
-                               const Library& library) {
-  LoadCellOptions cell;
+                               const LoadCellOptions& by_default, const Library& library) {
+  LoadCellOptions cell = by_default;
+  const std::optional<std::string> name = load_cell_name(node, material.load_cell);
+  if (node.IsSequence()) throw InvalidInput(file, "machine.load_cell", as_given(node), library.allowed("load_cells"));
   if (node.IsDefined() && !node.IsNull() && !node.IsScalar()) {
     Reader reader(node, file, "machine.load_cell");
     fields::load_cell(reader, cell);
     reader.finish();
     if (cell.name.empty()) cell.name = "own";
+  } else if (!name) {
+    cell.name = "auto";
   } else {
-    const fs::path path = library.find("load_cells", load_cell_name(node, material.load_cell), "machine.load_cell");
-    Reader reader(read_yaml(path), path.string(), "");
+    const fs::path path = library.find("load_cells", *name, "machine.load_cell");
+    Reader reader(read_yaml(path), path.string(), "", "a load cell");
     fields::load_cell(reader, cell);
     reader.finish();
     if (cell.name.empty()) cell.name = path.stem().string();
@@ -281,52 +326,113 @@ LoadCellOptions read_load_cell(const YAML::Node& node, const std::string& file, 
   return cell;
 }
 
-ProgramStep default_step(Phase phase) {
+ProgramStep default_step(Phase phase, double scale) {
   ProgramStep step;
   step.phase = phase;
-  if (phase == Phase::kTie) step.speed = 0.01;
+  step.speed *= scale;
+  if (phase == Phase::kTie) step.speed = 0.01 * scale;
   if (phase == Phase::kRelease) step.duration = 3.0;
   return step;
 }
 
-Program read_program(const YAML::Node& node, const std::string& file) {
-  constexpr const char* kSteps = "tie, release, mount, preload, balance, pull, hold, cycle, return or follow";
-  const std::string form = std::string("a list of steps, each {name: {...}} with the name ") + kSteps;
-  if (!node.IsDefined() || !node.IsSequence() || node.size() == 0) {
-    throw InvalidInput(file, "program", one_line(node), form);
-  }
+Program read_program(const YAML::Node& node, const std::string& file, const fields::Defaults& defaults) {
+  const std::vector<std::string> steps{"tie",  "release", "mount", "preload", "balance",
+                                       "pull", "hold",    "cycle", "return",  "follow"};
+  const std::string form = "a list of steps, such as [{pull: {until: {break: true}}}]";
+  if (!node.IsDefined() || node.IsNull()) throw InvalidInput::missing("program", form).in_file(file);
+  if (!node.IsSequence() || node.size() == 0) throw InvalidInput(file, "program", as_given(node), form);
   Program program;
   for (std::size_t i = 0; i < node.size(); ++i) {
     const std::string path = "program." + std::to_string(i);
-    if (!node[i].IsMap() || node[i].size() != 1) throw InvalidInput(file, path, one_line(node[i]), form);
+    if (!node[i].IsMap() || node[i].size() != 1)
+      throw InvalidInput(file, path, as_given(node[i]), "one step, {NAME: {...}}, where NAME is " + listed(steps));
     const std::string name = one_line(node[i].begin()->first);
-    const std::optional<Phase> phase = phase_named(name);
-    if (!phase || *phase == Phase::kIdle || *phase == Phase::kDone) throw InvalidInput(file, path, name, kSteps);
-    ProgramStep step = default_step(*phase);
+    if (std::find(steps.begin(), steps.end(), name) == steps.end())
+      throw InvalidInput::unknown_name(path, name, listed(steps), steps).in_file(file);
+    ProgramStep step = default_step(*phase_named(name), defaults.scale);
     Reader reader(node[i].begin()->second, file, path + "." + name);
-    fields::step(reader, step);
+    fields::step(reader, step, defaults.way);
     reader.finish();
     program.push_back(step);
   }
   return program;
 }
 
+Specification read_specification(const YAML::Node& node, const std::string& file) {
+  const std::string key = "specification";
+  Specification specification;
+  if (!node.IsDefined() || node.IsNull()) return specification;
+  if (!node.IsMap())
+    throw InvalidInput(file, key, as_given(node), "a map such as {peak_force: {min: 100}}, of numbers of result.yaml");
+  const std::vector<std::string> known = result_numbers();
+  for (const auto& item : node) {
+    Requirement required;
+    required.key = one_line(item.first);
+    const std::string path = key + "." + required.key;
+    const auto is_it = [&](const Requirement& other) { return other.key == required.key; };
+    if (std::find(known.begin(), known.end(), required.key) == known.end())
+      throw InvalidInput::unknown_key(key, required.key, one_line(item.second), known, "a specification").in_file(file);
+    if (std::any_of(specification.begin(), specification.end(), is_it))
+      throw InvalidInput::sentence(path, one_line(item.second), shown(path) + " stands twice; give it once")
+          .in_file(file);
+    Reader reader(item.second, file, path);
+    fields::requirement(reader, required);
+    reader.finish();
+    if (!required.min && !required.max) throw InvalidInput::missing(path, "min, max or both").in_file(file);
+    if (required.min && required.max && *required.min > *required.max)
+      throw InvalidInput(file, path, one_line(item.second), "a map whose min is no larger than its max");
+    specification.push_back(required);
+  }
+  return specification;
+}
+
 /// The course of the crosshead in the record of another test, curve.csv or raw data.
-void read_record(const fs::path& folder, const std::string& key, ProgramStep& step) {
+void read_record(const fs::path& folder, const std::string& follow, ProgramStep& step) {
+  const std::string key = follow + ".record";
   std::error_code error;
   const fs::path file = fs::absolute(folder / step.record).lexically_normal();
-  if (step.record.empty() || !fs::is_regular_file(file, error))
-    throw InvalidInput(key, step.record.empty() ? "\"\"" : step.record,
-                       "a curve.csv, or raw data of a testing machine");
+  if (step.record.empty()) throw InvalidInput::missing(key, "a curve.csv, or raw data of a testing machine");
+  if (!fs::is_regular_file(file, error)) throw InvalidInput::cannot_read(file.string(), key);
   step.record = file.string();
   step.recorded.clear();
-  const std::vector<CurveRow> course = read_course(step.record);
+  RawColumns columns;
+  if (!step.columns.empty()) columns = parse_raw_columns(step.columns, follow + ".columns");
+  const std::vector<CurveRow> course = read_course(step.record, columns);
   for (const CurveRow& row : course) {
     const RecordedPlace place{row.time - course.front().time, row.extension - course.front().extension};
     if (step.recorded.empty() || place.time > step.recorded.back().time) step.recorded.push_back(place);
   }
   if (step.recorded.size() < 2)
-    throw InvalidInput(key, step.record, "a record of at least 2 readings at different times");
+    throw InvalidInput::sentence(
+        key, step.record,
+        key + ": " + shown(step.record) + " has fewer than 2 readings of the pull at different times");
+}
+
+/// The method over defaults that suit its knot and material, and, once it has been read with these, what is `known` of
+/// the rest.
+Method read_method(const YAML::Node& root, const std::string& file, const Library& library, const Method* known) {
+  Method method;
+  Reader top(root, file, "");
+  method.material = read_material(top.take("material"), file, library);
+  Reader specimen(top.take("specimen"), file, "specimen");
+  fields::knot(specimen, method.specimen.knot);
+  const fields::Defaults defaults = fields::defaults(method.specimen.knot, method.material, known);
+  method.specimen = defaults.specimen;
+  fields::specimen(specimen, method.specimen);
+  specimen.finish();
+  method.machine = defaults.machine;
+  top.section("machine", [&](Reader& reader) {
+    fields::machine(reader, method.machine);
+    method.machine.load_cell =
+        read_load_cell(reader.take("load_cell"), file, method.material, defaults.machine.load_cell, library);
+  });
+  method.program = read_program(top.take("program"), file, defaults);
+  top.section("ends", [&](Reader& reader) { fields::ends(reader, method.ends); });
+  top.section("physics", [&](Reader& reader) { fields::physics(reader, method.physics); });
+  top.section("report", [&](Reader& reader) { fields::report(reader, method.report); });
+  method.specification = read_specification(top.take("specification"), file);
+  top.finish();
+  return method;
 }
 
 }  // namespace
@@ -342,24 +448,14 @@ Method parse_method(const std::string& text, const std::string& file, const std:
   try {
     const Library library(folder);
     if (!root.IsMap())
-      throw InvalidInput("the file", one_line(root), "a map with specimen, material, machine, program");
+      throw InvalidInput("the file", as_given(root), "a map with the keys specimen, material, machine and program");
     apply_overrides(root, overrides, library);
 
-    Method method;
+    const Method first = read_method(root, file, library, nullptr);
+    Method method = read_method(root, file, library, &first);
     method.name = path.stem().string();
-    Reader top(root, file, "");
-    top.section("specimen", [&](Reader& reader) { fields::specimen(reader, method.specimen); });
-    method.material = read_material(top.take("material"), file, library);
-    top.section("machine", [&](Reader& reader) {
-      fields::machine(reader, method.machine);
-      method.machine.load_cell = read_load_cell(reader.take("load_cell"), file, method.material, library);
-    });
-    method.program = read_program(top.take("program"), file);
     method.specimen.to_be_tied = std::any_of(method.program.begin(), method.program.end(),
                                              [](const ProgramStep& step) { return step.phase == Phase::kTie; });
-    top.section("ends", [&](Reader& reader) { fields::ends(reader, method.ends); });
-    top.section("physics", [&](Reader& reader) { fields::physics(reader, method.physics); });
-    top.finish();
 
     const Material& material = method.material;
     if (!method.specimen.preload && method.specimen.knot == KnotKind::kFisherman) {
@@ -368,15 +464,17 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     if (method.specimen.knot == KnotKind::kFile && !method.specimen.file.empty()) {
       method.specimen.file = fs::absolute(folder / method.specimen.file).lexically_normal().string();
     }
+    if (!method.report.logo.empty())
+      method.report.logo = fs::absolute(folder / method.report.logo).lexically_normal().string();
     for (std::size_t i = 0; i < method.program.size(); ++i)
       if (method.program[i].phase == Phase::kFollow)
-        read_record(folder, "program." + std::to_string(i) + ".follow.record", method.program[i]);
+        read_record(folder, "program." + std::to_string(i) + ".follow", method.program[i]);
     check_method(method);
     return method;
   } catch (const InvalidInput& invalid) {
     throw invalid.in_file(file);
   } catch (const YAML::Exception& yaml) {
-    throw InvalidInput(file, "the file", yaml.msg, "a method");
+    throw InvalidInput::sentence("the file", yaml.msg, "the file is no method: " + yaml_fault(yaml)).in_file(file);
   }
 }
 
@@ -410,6 +508,16 @@ std::string method_yaml(const Method& method) {
   Writer physics;
   fields::physics(physics, m.physics);
   root["physics"] = physics.map();
+  Writer report;
+  fields::report(report, m.report);
+  root["report"] = report.map();
+  for (Requirement& required : m.specification) {
+    Writer limits;
+    fields::requirement(limits, required);
+    YAML::Node limits_map = limits.map();
+    limits_map.SetStyle(YAML::EmitterStyle::Flow);
+    root["specification"][required.key] = limits_map;
+  }
   YAML::Emitter out;
   out << root;
   return std::string(out.c_str()) + "\n";

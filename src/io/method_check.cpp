@@ -1,4 +1,5 @@
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -21,11 +22,19 @@ namespace fs = std::filesystem;
 template <class Value>
 void has_effect(bool has, const char* key, const Value& value, const Value& unset, const std::string& where) {
   if (has || value == unset) return;
+  std::string given;
   if constexpr (std::is_arithmetic_v<Value>) {
-    reject(key, value, "only " + where);
+    given = format_number(value);
   } else {
-    throw InvalidInput(key, value, "only " + where);
+    given = value;
   }
+  throw InvalidInput::sentence(
+      key, given, std::string(key) + " is " + shown(given) + ", but has an effect only " + where + "; leave it out");
+}
+
+/// A step of the program that cannot stand where it stands, and why not.
+[[noreturn]] void misplaced(const std::string& key, const std::string& name, const std::string& why) {
+  throw InvalidInput::sentence(key, name, key + ": " + name + " " + why);
 }
 
 void check_effects(const Method& m) {
@@ -46,7 +55,7 @@ void check_effects(const Method& m) {
              "for knot: fisherman or overhand");
   has_effect(straight || overhand, "specimen.length", s.length, unset.length, "for knot: straight or overhand");
   has_effect(loop, "specimen.tail", s.tail, unset.tail, "for knot: fisherman");
-  has_effect(loop, "specimen.preload", s.preload.value_or(0.0), 0.0, "for knot: fisherman, which is tied");
+  has_effect(loop, "specimen.preload", s.preload.value_or(0.0), 0.0, "for knot: fisherman, whose knots are tied");
 
   const MachineOptions& machine = m.machine;
   const MachineOptions bare;
@@ -76,7 +85,7 @@ void check_specimen(const Method& m) {
   }
   if (loop && s.end_to_end < s.knot_distance + 12.0 * h) {
     reject("specimen.end_to_end", s.end_to_end,
-           "at least knot_distance and 12 radii, " + format_number(s.knot_distance + 12.0 * h) + " m");
+           "at least knot_distance plus 12 radii, " + format_number(s.knot_distance + 12.0 * h) + " m");
   }
   if (s.knot == KnotKind::kOverhand && s.end_to_end >= s.length) {
     reject("specimen.end_to_end", s.end_to_end, "less than length, " + format_number(s.length) + " m");
@@ -88,14 +97,13 @@ void check_specimen(const Method& m) {
   const std::optional<double>& breaking = m.material.breaking_force;
   if (s.to_be_tied && s.preload && breaking && *breaking <= *s.preload) {
     reject("material.breaking_force", *breaking,
-           "more than specimen.preload, " + format_number(*s.preload) + " N, by which it is tied");
+           "more than specimen.preload, " + format_number(*s.preload) + " N, the force that ties the knots");
   }
-  if (s.closed) throw InvalidInput("specimen.closed", "true", "false: the grips hold the rod's two ends");
+  if (s.closed) throw InvalidInput("specimen.closed", "true", "false, since the grips hold the rod's two ends");
   if (s.knot == KnotKind::kFile) {
     std::error_code error;
-    if (s.file.empty() || !fs::is_regular_file(s.file, error)) {
-      throw InvalidInput("specimen.file", s.file.empty() ? "\"\"" : s.file, "a CSV file of x,y,z in m");
-    }
+    if (s.file.empty()) throw InvalidInput::missing("specimen.file", "a CSV file with the columns x,y,z in m");
+    if (!fs::is_regular_file(s.file, error)) throw InvalidInput::cannot_read(s.file, "specimen.file");
   }
 }
 
@@ -107,7 +115,7 @@ void check_machine(const Method& m) {
   }
   const bool loop = m.specimen.knot == KnotKind::kFisherman;
   if (m.machine.grips == GripKind::kRollers && !loop) {
-    throw InvalidInput("machine.grips", "rollers", "nodes or clamps: rollers hold nothing but a loop");
+    throw InvalidInput("machine.grips", "rollers", "nodes or clamps: rollers hold only a loop, knot: fisherman");
   }
 }
 
@@ -124,8 +132,10 @@ void check_record(const ProgramStep& step, const std::string& key) {
     const RecordedPlace &from = step.recorded[i - 1], &to = step.recorded[i];
     const double speed = std::abs(to.displacement - from.displacement) / (to.time - from.time);
     if (speed > kFastest)
-      throw InvalidInput(key, format_number(speed) + " m/s at " + format_number(from.time) + " s",
-                         "a record no faster than " + format_number(kFastest) + " m/s");
+      throw InvalidInput::sentence(key, step.record,
+                                   key + ": the crosshead of " + shown(step.record) + " moves at " +
+                                       format_number(speed) + " m/s at " + format_number(from.time) +
+                                       " s, but must be no faster than " + format_number(kFastest) + " m/s");
   }
 }
 
@@ -134,18 +144,21 @@ void check_step(const ProgramStep& step, const std::string& key, double capacity
   if (step.phase == Phase::kPull && step.until.load) check_load(key + ".until.load", *step.until.load, capacity);
   if (step.phase == Phase::kReturn && step.until.load) check_load(key + ".load", *step.until.load, capacity);
   if (step.phase == Phase::kHold && step.held_load) {
-    if (!step.hold_load) reject(key + ".load", *step.held_load, "only with control: load");
+    has_effect(step.hold_load, (key + ".load").c_str(), *step.held_load, Sample::kNone, "with control: load");
     check_load(key + ".load", *step.held_load, capacity);
   }
   if (step.phase == Phase::kCycle) {
     if (step.extension_turns.has_value() == step.load_turns.has_value())
-      throw InvalidInput(key, step.load_turns ? "extension and load" : "neither extension nor load",
-                         "one of extension and load");
+      throw InvalidInput::sentence(key, step.load_turns ? "extension and load" : "neither extension nor load",
+                                   key + " has " +
+                                       (step.load_turns ? "both extension and load" : "neither extension nor load") +
+                                       ": give one of them");
     if (step.load_turns) {
       check_load(key + ".load", step.load_turns->low, capacity);
       check_load(key + ".load", step.load_turns->high, capacity);
     }
-    if (step.cycles == 0 && !step.until.time) throw InvalidInput(key, "nothing", "count, time, or both");
+    if (step.cycles == 0 && !step.until.time)
+      throw InvalidInput::sentence(key, "no end", key + " has no end: give count, time or both");
   }
   if (step.phase == Phase::kFollow) check_record(step, key + ".record");
 }
@@ -165,6 +178,8 @@ void check_ends(const Method& m) {
   has_effect(breaks.drop.has_value(), "ends.drop_extension", breaks.drop_extension, unset.drop_extension, "with drop");
 }
 
+constexpr const char* kLoopOnly = "needs specimen.knot: fisherman; begin the program with another step";
+
 void check_program(const Method& m) {
   const bool loop = m.specimen.knot == KnotKind::kFisherman;
   bool pulled = false;
@@ -174,15 +189,15 @@ void check_program(const Method& m) {
     const std::string name = phase_name(step.phase);
     switch (step.phase) {
       case Phase::kTie:
-        if (i != 0) throw InvalidInput(key, name, "the first step only");
-        if (!loop) throw InvalidInput(key, name, "for knot: fisherman; start with another step");
+        if (i != 0) misplaced(key, name, "can only be the first step");
+        if (!loop) misplaced(key, name, kLoopOnly);
         break;
       case Phase::kRelease:
-        if (i != 1 || m.program[0].phase != Phase::kTie) throw InvalidInput(key, name, "right after tie only");
+        if (i != 1 || m.program[0].phase != Phase::kTie) misplaced(key, name, "can only stand right after tie");
         break;
       case Phase::kMount:
-        if (!loop) throw InvalidInput(key, name, "for knot: fisherman; start with another step");
-        if (pulled) throw InvalidInput(key, name, "before the crosshead has moved only");
+        if (!loop) misplaced(key, name, kLoopOnly);
+        if (pulled) misplaced(key, name, "can only stand before the first step that moves the crosshead");
         pulled = true;
         break;
       case Phase::kPreload:
@@ -197,10 +212,23 @@ void check_program(const Method& m) {
     }
     if (step.phase == Phase::kPull && !step.until.extension && !step.until.load && !step.until.time &&
         !step.until.broken) {
-      throw InvalidInput(key + ".pull.until", "nothing", "one or more of extension, load, time and break");
+      throw InvalidInput::missing(key + ".pull.until", "one or more of extension, load, time and break");
     }
     check_step(step, key + "." + name, m.machine.load_cell.capacity);
   }
+}
+
+/// A page embeds its logo: larger than this it is a photograph [bytes].
+constexpr std::uintmax_t kLargestLogo = 2'000'000;
+
+void check_report(const Method& m) {
+  if (m.report.logo.empty()) return;
+  std::error_code error;
+  const std::string ending = fs::path(m.report.logo).extension().string();
+  const std::uintmax_t size = fs::file_size(m.report.logo, error);
+  if (error || size > kLargestLogo || (ending != ".png" && ending != ".svg"))
+    throw InvalidInput("report.logo", "\"" + m.report.logo + "\"",
+                       "a .png or .svg file of at most 2 MB, its path counted from the method's folder");
 }
 
 }  // namespace
@@ -211,6 +239,7 @@ void check_method(const Method& method) {
   check_program(method);
   check_ends(method);
   check_effects(method);
+  check_report(method);
 }
 
 }  // namespace knot_utm

@@ -3,14 +3,18 @@
 #include <yaml-cpp/yaml.h>
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <locale>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "knot_utm/io/number.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/rod/known_names.hpp"
 #include "method_fields.hpp"
 
 namespace knot_utm::fields {
@@ -47,18 +51,47 @@ inline std::string one_line(const YAML::Node& node) {
   return line;
 }
 
-inline std::string allowed_numbers(const Range& range, const std::string& word = "") {
-  std::string text = "a number from " + format_yaml_number(range.min) + " to " + format_yaml_number(range.max);
-  if (std::string(range.unit) != "-") text += std::string(" ") + range.unit;
-  return word.empty() ? text : word + ", or " + text;
+/// The same where it is said what a key is: a text in quotes, so that it is seen where it begins and ends.
+inline std::string as_given(const YAML::Node& node) {
+  if (!node.IsDefined() || node.IsNull()) return "empty";
+  const bool text = node.IsScalar() && !node.Scalar().empty() && !parse_number(node.Scalar());
+  return text ? "\"" + shown(node.Scalar()) + "\"" : one_line(node);
+}
+
+/// A bound of a range as one writes it: 100000 and 1e8, not 1e+05 and 1e+08.
+inline std::string plain_number(double value) {
+  std::ostringstream out;
+  out.imbue(std::locale::classic());
+  out << value;
+  std::string text = out.str();
+  const std::size_t exponent = text.find('e');
+  if (exponent == std::string::npos) return text;
+  return text.substr(0, exponent) + "e" + std::to_string(std::stoi(text.substr(exponent + 1)));
+}
+
+inline std::string with_unit(const std::string& text, const Range& range) {
+  return std::string(range.unit) == "-" ? text : text + " " + range.unit;
+}
+
+/// "0.0001 to 100000 N".
+inline std::string range_text(const Range& range) {
+  if (std::isinf(range.max)) return "at least " + with_unit(plain_number(range.min), range);
+  return with_unit(plain_number(range.min) + " to " + plain_number(range.max), range);
+}
+
+/// "a number from 0.0001 to 100000 (in N)".
+inline std::string number_text(const Range& range) {
+  const std::string unit = std::string(range.unit) == "-" ? "" : std::string(" (in ") + range.unit + ")";
+  if (std::isinf(range.max)) return "a number of at least " + plain_number(range.min) + unit;
+  return "a number from " + plain_number(range.min) + " to " + plain_number(range.max) + unit;
 }
 
 /// Reads one map of a method; what the map does not have keeps its value. `finish` complains of keys nobody asked for.
 class Reader {
  public:
-  /// `path`: dotted path of the map, empty for a file's top.
-  Reader(const YAML::Node& map, std::string file, std::string path)
-      : map_(map), file_(std::move(file)), path_(std::move(path)) {
+  /// `path`: dotted path of the map, empty for a file's top. `of`: what the file describes, for the message.
+  Reader(const YAML::Node& map, std::string file, std::string path, std::string of = "a method")
+      : map_(map), file_(std::move(file)), path_(std::move(path)), of_(std::move(of)) {
     if (map_.IsDefined() && !map_.IsNull() && !map_.IsMap()) fail_here(map_, "a map of keys and values");
   }
 
@@ -67,9 +100,15 @@ class Reader {
     if (node.IsDefined()) value = checked(key, node, range, "");
   }
 
+  /// `auto` stands for what the value is already.
+  void scaled_number(const char* key, double& value, const Range& range) {
+    const YAML::Node node = take(key);
+    if (node.IsDefined() && !node.IsNull() && !is_auto(node)) value = checked(key, node, range, "auto");
+  }
+
   void required_number(const char* key, double& value, const Range& range) {
     const YAML::Node node = take(key);
-    if (!node.IsDefined()) fail(key, node, allowed_numbers(range));
+    if (!node.IsDefined()) throw InvalidInput::missing(path_of(key), number_text(range)).in_file(file_);
     value = checked(key, node, range, "");
   }
 
@@ -83,11 +122,20 @@ class Reader {
     }
   }
 
+  /// `auto` stands for the value `automatic`.
+  void optional_number(const char* key, std::optional<double>& value, const Range& range, const char* word,
+                       double automatic) {
+    if (const YAML::Node node = take(key); node.IsDefined() && is_auto(node))
+      value = automatic;
+    else
+      optional_number(key, value, range, word);
+  }
+
   template <class Integer>
   void integer(const char* key, Integer& value, Integer min, Integer max) {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
-    const std::optional<double> number = node.IsScalar() ? parse_number(node.Scalar()) : std::nullopt;
+    const std::optional<double> number = number_in(node);
     if (!number || !(*number >= static_cast<double>(min) && *number <= static_cast<double>(max)) ||
         *number != std::floor(*number)) {
       fail(key, node, "a whole number from " + std::to_string(min) + " to " + std::to_string(max));
@@ -102,6 +150,14 @@ class Reader {
     value = node.IsNull() ? "" : node.Scalar();
   }
 
+  /// Characters are counted, not bytes.
+  void short_text(const char* key, std::string& value, std::size_t most) {
+    text(key, value);
+    const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; };
+    const auto characters = static_cast<std::size_t>(std::count_if(value.begin(), value.end(), begins));
+    if (characters > most) fail(key, YAML::Node(value), "a text of at most " + std::to_string(most) + " characters");
+  }
+
   void flag(const char* key, bool& value) {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
@@ -114,24 +170,22 @@ class Reader {
   void choice(const char* key, Enum& value, const std::array<const char*, n>& names) {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
-    std::string all;
     for (std::size_t i = 0; i < n; ++i) {
       if (node.IsScalar() && node.Scalar() == names[i]) {
         value = static_cast<Enum>(i);
         return;
       }
-      all += (i == 0 ? "" : i + 1 == n ? " or " : ", ") + std::string(names[i]);
     }
-    fail(key, node, all);
+    fail_name(key, node, {names.begin(), names.end()});
   }
 
   void vector(const char* key, Eigen::Vector3d& value, const Range& range) {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
-    const std::string allowed = "[x, y, z], each " + allowed_numbers(range);
+    const std::string allowed = "a list [x, y, z], each " + number_text(range);
     if (!node.IsSequence() || node.size() != 3) fail(key, node, allowed);
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::optional<double> number = node[i].IsScalar() ? parse_number(node[i].Scalar()) : std::nullopt;
+      const std::optional<double> number = number_in(node[i]);
       if (!number || !(*number >= range.min && *number <= range.max)) fail(key, node, allowed);
       value[static_cast<Eigen::Index>(i)] = *number;
     }
@@ -140,11 +194,11 @@ class Reader {
   void turns(const char* key, std::optional<TurningPoints>& value, const Range& range) {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
-    const std::string allowed = "[low, high], low below high, each " + allowed_numbers(range);
+    const std::string allowed = "a list [low, high] with low below high, each " + number_text(range);
     if (!node.IsSequence() || node.size() != 2) fail(key, node, allowed);
     double numbers[2];
     for (std::size_t i = 0; i < 2; ++i) {
-      const std::optional<double> number = node[i].IsScalar() ? parse_number(node[i].Scalar()) : std::nullopt;
+      const std::optional<double> number = number_in(node[i]);
       if (!number || !(*number >= range.min && *number <= range.max)) fail(key, node, allowed);
       numbers[i] = *number;
     }
@@ -155,19 +209,21 @@ class Reader {
   template <class Body>
   void section(const char* key, Body body) {
     const YAML::Node node = take(key);
-    Reader inner(node.IsDefined() ? node : YAML::Node(), file_, path_of(key));
+    Reader inner(node.IsDefined() ? node : YAML::Node(), file_, path_of(key), of_);
     body(inner);
     inner.finish();
   }
 
   /// The value of a key as it stands, for what is more than a value; undefined where the map does not have it.
   YAML::Node take(const char* key) {
-    known_.emplace_back(key);
+    if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
     YAML::Node found(YAML::NodeType::Undefined);
     if (!map_.IsDefined() || !map_.IsMap()) return found;
     for (const auto& item : map_) {
       if (!item.first.IsScalar() || item.first.Scalar() != key) continue;
-      if (found.IsDefined()) fail(key, item.second, "one value: the key stands twice");
+      if (found.IsDefined())
+        throw InvalidInput::sentence(path_of(key), one_line(item.second), path_of(key) + " stands twice; give it once")
+            .in_file(file_);
       found.reset(item.second);
     }
     return found;
@@ -177,37 +233,48 @@ class Reader {
     if (!map_.IsDefined() || !map_.IsMap()) return;
     for (const auto& item : map_) {
       const std::string key = one_line(item.first);
-      bool known = false;
-      std::string all;
-      for (const std::string& name : known_) {
-        known = known || name == key;
-        all += (all.empty() ? "" : ", ") + name;
-      }
-      if (!known) fail(key, item.second, all.empty() ? "this takes no keys" : "the keys here are " + all);
+      if (std::find(known_.begin(), known_.end(), key) == known_.end())
+        throw InvalidInput::unknown_key(path_, key, one_line(item.second), known_, of_).in_file(file_);
     }
   }
 
   [[noreturn]] void fail(const std::string& key, const YAML::Node& value, const std::string& allowed) const {
-    throw InvalidInput(file_, path_of(key), one_line(value), allowed);
+    throw InvalidInput(file_, path_of(key), as_given(value), allowed);
+  }
+
+  /// The same for a name that is none of the known ones.
+  [[noreturn]] void fail_name(const std::string& key, const YAML::Node& value,
+                              const std::vector<std::string>& names) const {
+    if (!value.IsScalar()) fail(key, value, listed(names));
+    throw InvalidInput::unknown_name(path_of(key), value.Scalar(), listed(names), names).in_file(file_);
   }
 
  private:
+  static bool is_auto(const YAML::Node& node) { return node.IsScalar() && node.Scalar() == "auto"; }
+
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
 
   [[noreturn]] void fail_here(const YAML::Node& value, const std::string& allowed) const {
-    throw InvalidInput(file_, path_.empty() ? "the file" : path_, one_line(value), allowed);
+    throw InvalidInput(file_, path_.empty() ? "the file" : path_, as_given(value), allowed);
+  }
+
+  static std::optional<double> number_in(const YAML::Node& node) {
+    return node.IsScalar() ? parse_number(node.Scalar()) : std::nullopt;
   }
 
   double checked(const char* key, const YAML::Node& node, const Range& range, const std::string& word) const {
-    const std::optional<double> number = node.IsScalar() ? parse_number(node.Scalar()) : std::nullopt;
+    const std::optional<double> number = number_in(node);
+    const std::string or_word = word.empty() ? "" : ", or " + word;
+    if (!number) fail(key, node, number_text(range) + or_word);
     // Written so that not-a-number fails.
-    if (!number || !(*number >= range.min && *number <= range.max)) fail(key, node, allowed_numbers(range, word));
+    if (!(*number >= range.min && *number <= range.max)) fail(key, node, range_text(range) + or_word);
     return *number;
   }
 
   YAML::Node map_;
   std::string file_;
   std::string path_;
+  std::string of_;
   std::vector<std::string> known_;
 };
 
@@ -215,9 +282,14 @@ class Reader {
 class Writer {
  public:
   void number(const char* key, const double& value, const Range&) { map_[key] = format_yaml_number(value); }
+  void scaled_number(const char* key, const double& value, const Range& range) { number(key, value, range); }
   void required_number(const char* key, const double& value, const Range&) { map_[key] = format_yaml_number(value); }
   void optional_number(const char* key, const std::optional<double>& value, const Range&, const char*) {
     if (value) map_[key] = format_yaml_number(*value);
+  }
+  void optional_number(const char* key, const std::optional<double>& value, const Range& range, const char* word,
+                       double) {
+    optional_number(key, value, range, word);
   }
   template <class Integer>
   void integer(const char* key, const Integer& value, Integer, Integer) {
@@ -226,6 +298,7 @@ class Writer {
   void text(const char* key, const std::string& value) {
     if (!value.empty()) map_[key] = value;
   }
+  void short_text(const char* key, const std::string& value, std::size_t) { text(key, value); }
   void flag(const char* key, const bool& value) { map_[key] = value ? "true" : "false"; }
   template <class Enum, std::size_t n>
   void choice(const char* key, const Enum& value, const std::array<const char*, n>& names) {

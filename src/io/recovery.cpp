@@ -19,8 +19,9 @@ LockedFile lock(const std::string& folder) {
   const std::string file = journal_file(folder);
   LockedFile lock(file, O_RDONLY, 0.0);
   if (lock.is_open()) return lock;
-  if (errno == EWOULDBLOCK) throw std::runtime_error(file + ": a run is still writing it");
-  throw InvalidInput("file", file, "a journal that can be read");
+  if (errno == EWOULDBLOCK)
+    throw std::runtime_error("a run is still writing " + file + "; there is nothing to recover yet");
+  throw InvalidInput::cannot_read(file);
 }
 
 }  // namespace
@@ -29,7 +30,9 @@ Method journalled_method(const std::string& folder, const JournalHeader& header)
   const std::string file = (fs::path(folder) / "method.yaml").string();
   Method method = load_method(file);
   if (read_whole(file) != header.method) {
-    throw InvalidInput("file", journal_file(folder), "the journal of the method beside it, " + file);
+    throw InvalidInput::sentence("file", journal_file(folder),
+                                 "the journal belongs to another method than " + shown(file) + " beside it")
+        .in_file(journal_file(folder));
   }
   return method;
 }
@@ -37,7 +40,8 @@ Method journalled_method(const std::string& folder, const JournalHeader& header)
 std::string how_to_recover(const std::string& folder) {
   std::error_code error;
   if (!fs::exists(journal_file(folder), error)) return "";
-  return "; what was recorded is in the journal: recover " + folder + " --out ANOTHER_FOLDER";
+  return "; what was recorded until then is in the journal, write it out with: recover " + folder +
+         " --out ANOTHER_FOLDER";
 }
 
 bool is_settled(const std::string& folder) {
@@ -74,7 +78,8 @@ void Recovery::make_place() {
     place_.is_scratch = true;
     fs::remove_all(place_.folder, error);
   } else if (holds_run(out_)) {
-    throw InvalidInput("--out", out_, "a folder that does not hold a run");
+    throw InvalidInput::sentence("--out", out_,
+                                 "the folder " + shown(out_) + " holds a run already: choose another folder");
   }
 }
 
@@ -92,9 +97,9 @@ void Recovery::finish() {
   facts.reason = journal_.header().test.empty() ? "the program was killed" : "the recorder died";
   facts.wall_time = wall_time_;
   facts.peak_memory = 0;
-  facts.warnings.push_back("rebuilt from the journal: the test goes no further than what was recorded");
+  facts.warnings.push_back("these results were rebuilt from the journal and end where the recording ended");
   const std::uint64_t dropped = next_ - journal_.records();
-  if (dropped > 0) facts.warnings.push_back(std::to_string(dropped) + " commands were not recorded");
+  if (dropped > 0) facts.warnings.push_back(std::to_string(dropped) + " commands of the test were not recorded");
   // No journal has it: a recorder writes it as it comes.
   const std::string step = failed_step_file(folder_);
   if (!place_.is_scratch && fs::exists(step)) write_whole(failed_step_file(out_), read_whole(step));
@@ -115,9 +120,10 @@ void Recovery::move_into_place() const {
 }
 
 std::string Recovery::summary() const {
-  std::string line = std::to_string(journal_.records()) + " commands written to " + out_;
+  std::string line = std::to_string(journal_.records()) + " commands of the test were written to " + out_;
   const std::uint64_t left = journal_.bytes_left();
-  if (left > 0) line += "; the last " + std::to_string(left) + " bytes of the journal were cut or damaged";
+  if (left > 0)
+    line += "; the last " + std::to_string(left) + " bytes of the journal were cut off or damaged and are left out";
   return line;
 }
 

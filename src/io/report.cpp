@@ -35,8 +35,8 @@ fs::path script() {
 }
 
 std::runtime_error cannot_run(int error) {
-  return std::runtime_error(std::string("report: ") + kPython +
-                            " cannot be run: " + std::generic_category().message(error));
+  return std::runtime_error(std::string("the report cannot be written: cannot run ") + kPython + ": " +
+                            reason_of(error));
 }
 
 /// One end is ours, one the program's.
@@ -141,11 +141,15 @@ void require_room_for_comparison(const std::string& folder, const std::string& f
   const fs::path where(folder);
   std::error_code error;
   if (fs::exists(where / "result.yaml", error))
-    throw InvalidInput("--report", folder, "a folder that does not hold a run");
+    throw InvalidInput::sentence(
+        "--report", folder,
+        "the folder " + shown(folder) + " holds a run: choose another folder for the report of the comparison");
   for (const char* name : kOfComparison) {
     for (const std::string& compared : {file_a, file_b}) {
       if (fs::equivalent(where / name, compared, error))
-        throw InvalidInput("--report", folder, std::string("a folder in which ") + name + " is not what is compared");
+        throw InvalidInput::sentence("--report", folder,
+                                     "the report would write over " + shown((where / name).string()) +
+                                         ", which is compared: choose another folder");
     }
   }
 }
@@ -171,7 +175,8 @@ void write_report(const std::string& folder, const std::string& command) {
       run({kPython, "-EsB", script().string(), "--command", command, "--version", version(), "--", folder});
   if (WIFEXITED(ended.status) && WEXITSTATUS(ended.status) == 0) return;
   const std::string line = last_line(ended.said);
-  throw std::runtime_error(line.empty() ? "report: " + std::string(kPython) + " ended without a word" : line);
+  throw std::runtime_error(
+      line.empty() ? "the report was not written: " + std::string(kPython) + " failed without a message" : line);
 }
 
 std::string write_comparison(const std::string& asked, const std::string& yaml, const Pull& a, const Pull& b,
@@ -181,9 +186,7 @@ std::string write_comparison(const std::string& asked, const std::string& yaml, 
   for (int number = 2; !overwrite && holds_another(folder, yaml); ++number) folder = numbered_folder(asked, number);
   require_room_for_comparison(folder, file_a, file_b);
   const fs::path where(folder);
-  std::error_code error;
-  fs::create_directories(where, error);
-  if (!fs::is_directory(where, error)) throw InvalidInput("--report", folder, "a folder that can be made");
+  make_folder(folder, "--report");
   const std::array<std::string, 3> texts{yaml, pull_csv(a), pull_csv(b)};
   for (std::size_t i = 0; i < texts.size(); ++i) write_whole((where / kOfComparison[i]).string(), texts[i]);
   return folder;

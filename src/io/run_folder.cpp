@@ -44,17 +44,32 @@ void remove_comparison(const fs::path& folder) {
   for (const char* curve : {"a.csv", "b.csv"}) fs::remove(folder / curve, error);
 }
 
+void put_copy(const fs::path& file, const fs::path& copy) {
+  std::error_code error;
+  // A run repeated from its own folder reads this very file.
+  if (fs::equivalent(file, copy, error)) return;
+  fs::copy_file(file, copy, fs::copy_options::overwrite_existing, error);
+  if (error) throw CannotWrite(copy.string(), error.value());
+}
+
+std::string logo_beside(const Method& method) { return "logo" + fs::path(method.report.logo).extension().string(); }
+
 }  // namespace
 
-void make_run_folder(const std::string& folder) {
-  std::error_code error;
+void make_folder(const std::string& folder, const char* argument) {
+  std::error_code error, other;
   fs::create_directories(folder, error);
-  if (!fs::is_directory(folder, error)) throw InvalidInput("--out", folder, "a folder that can be made");
+  if (fs::is_directory(folder, other)) return;
+  throw InvalidInput::sentence(argument, folder,
+                               "cannot make the folder \"" + shown(folder) + "\": " + reason_of(error.value()));
 }
+
+void make_run_folder(const std::string& folder) { make_folder(folder, "--out"); }
 
 std::string method_file_text(const Method& method) {
   Method own = method;
   if (own.specimen.knot == KnotKind::kFile) own.specimen.file = "specimen.csv";
+  if (!own.report.logo.empty()) own.report.logo = logo_beside(method);
   return "# Everything resolved: runs again to the same curve.\n" + method_yaml(own);
 }
 
@@ -62,20 +77,16 @@ void require_no_record_in(const std::string& folder, const Method& method) {
   std::error_code error;
   for (const ProgramStep& step : method.program)
     if (step.phase == Phase::kFollow && fs::equivalent(fs::path(step.record).parent_path(), folder, error))
-      throw InvalidInput("--out", folder, "another folder than that of " + step.record + ", which is followed");
+      throw InvalidInput::sentence("--out", folder,
+                                   "the method follows " + shown(step.record) + ", which stands in the folder " +
+                                       shown(folder) + " itself: choose another folder to write to");
 }
 
 void begin_run_folder(const std::string& folder, const Method& method) {
   std::error_code error;
   require_no_record_in(folder, method);
-  if (method.specimen.knot == KnotKind::kFile) {
-    const fs::path copy = fs::path(folder) / "specimen.csv";
-    // A run repeated from its own folder reads this very file.
-    if (!fs::equivalent(method.specimen.file, copy, error)) {
-      fs::copy_file(method.specimen.file, copy, fs::copy_options::overwrite_existing, error);
-      if (error) throw CannotWrite(copy.string(), error.value());
-    }
-  }
+  if (method.specimen.knot == KnotKind::kFile) put_copy(method.specimen.file, fs::path(folder) / "specimen.csv");
+  if (!method.report.logo.empty()) put_copy(method.report.logo, fs::path(folder) / logo_beside(method));
   // Not before the specimen has been read: it may be the shape that the last run left here.
   for (const char* old : kOld) fs::remove(fs::path(folder) / old, error);
   remove_comparison(folder);
@@ -83,7 +94,7 @@ void begin_run_folder(const std::string& folder, const Method& method) {
     write_whole((fs::path(folder) / "method.yaml").string(), method_file_text(method));
   } catch (const CannotWrite& why) {
     if (why.out_of_room()) throw;
-    throw InvalidInput("--out", folder, "a folder that can be written to");
+    throw InvalidInput::cannot_write("--out", folder, why.error);
   }
 }
 
@@ -143,15 +154,15 @@ std::string read_whole(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
   std::ostringstream all;
   if (in.peek() != std::ifstream::traits_type::eof()) all << in.rdbuf();
-  if (!in) throw std::runtime_error(file + ": cannot be read");
+  if (!in) throw std::runtime_error(InvalidInput::cannot_read(file).what());
   return all.str();
 }
 
-std::string read_input(const std::string& file, const std::string& allowed) {
+std::string read_input(const std::string& file) {
   try {
     return read_whole(file);
   } catch (const std::runtime_error&) {
-    throw InvalidInput(file, "file", "one that cannot be read", allowed);
+    throw InvalidInput::cannot_read(file);
   }
 }
 

@@ -1,5 +1,6 @@
 #include "knot_utm/io/yaml_lines.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -20,6 +21,7 @@ std::string quoted(const std::string& value) {
 }  // namespace
 
 void YamlLines::number(const char* key, double value) {
+  numbers_.emplace_back(key, std::isnan(value) ? std::nullopt : std::optional<double>(value));
   word(key, std::isnan(value) ? "null" : format_yaml_number(value));
 }
 
@@ -27,7 +29,23 @@ void YamlLines::number(const char* key, const std::optional<double>& value) {
   number(key, value.value_or(std::numeric_limits<double>::quiet_NaN()));
 }
 
-void YamlLines::count(const char* key, std::uint64_t value) { word(key, std::to_string(value)); }
+void YamlLines::count(const char* key, std::uint64_t value) {
+  numbers_.emplace_back(key, static_cast<double>(value));
+  word(key, std::to_string(value));
+}
+
+std::vector<std::string> YamlLines::number_keys() const {
+  std::vector<std::string> keys;
+  keys.reserve(numbers_.size());
+  for (const auto& [key, value] : numbers_) keys.push_back(key);
+  return keys;
+}
+
+std::optional<double> YamlLines::value(const std::string& key) const {
+  const auto found =
+      std::find_if(numbers_.begin(), numbers_.end(), [&](const auto& number) { return number.first == key; });
+  return found == numbers_.end() ? std::nullopt : found->second;
+}
 
 void YamlLines::flag(const char* key, bool value) { word(key, value ? "true" : "false"); }
 

@@ -23,11 +23,13 @@ double outward_shift(const SpecimenOptions& specimen, const Material& material) 
 
 /// The grips hold its ends, the last of them in the upper grip, which moves along +z.
 Centreline centreline_from_file(const SpecimenOptions& specimen, const Material& material) {
-  if (specimen.closed) throw InvalidInput("specimen.closed", "true", "false: the grips hold the rod's two ends");
+  if (specimen.closed) throw InvalidInput("specimen.closed", "true", "false, since the grips hold the rod's two ends");
   const Points points = read_centreline(specimen.file);
   Centreline out = from_points(points, false, material.radius, specimen.edge_length, specimen.file);
   if (!(out.points.rightCols(1)(2) > out.points.leftCols(1)(2))) {
-    throw InvalidInput("specimen.file", specimen.file, "a line whose last point is above its first, along z");
+    throw InvalidInput::sentence(
+        "specimen.file", specimen.file,
+        "specimen.file " + shown(specimen.file) + ": the last point must be higher than the first one, along z");
   }
   return out;
 }

@@ -55,7 +55,7 @@ Archive::Archive(const std::string& kind, std::string bytes, const std::string& 
     complain("length", std::to_string(own_.size()) + " bytes", std::to_string(around + length) + " bytes, as it says");
   const std::size_t end = own_.size() - kSumBytes;
   if (own_.compare(end, kSumBytes, checksum(own_, end)) != 0)
-    complain("checksum", "that of a damaged file", "that of its bytes");
+    complain("checksum", "another one", "that of its bytes, so the file is damaged");
   from_ = std::string_view(own_).substr(begin, end - begin);
 }
 
@@ -79,7 +79,7 @@ void Archive::visit(int& value) {
 void Archive::visit(bool& value) {
   if (!loads()) return put(value ? 1 : 0);
   const std::uint64_t given = take();
-  if (given > 1) refuse("yes or no", std::to_string(given));
+  if (given > 1) refuse("0 or 1", std::to_string(given));
   value = given == 1;
 }
 
@@ -102,7 +102,7 @@ void Archive::number(const char* what, int& value, int low, int high) {
 void Archive::same(const char* what, std::int64_t value) {
   if (!loads()) return put(static_cast<std::uint64_t>(value));
   const auto given = static_cast<std::int64_t>(take());
-  if (given != value) complain(what, std::to_string(given), std::to_string(value) + ", as here");
+  if (given != value) complain(what, std::to_string(given), std::to_string(value));
 }
 
 void Archive::require(bool right, const char* what, const std::string& value) const {
@@ -122,11 +122,13 @@ void Archive::end() const {
 }
 
 void Archive::refuse(const char* what, const std::string& value) const {
-  complain(what, value, "the " + kind_ + " of what it is loaded into");
+  complain(what, value, "what belongs to this rod and this method");
 }
 
 void Archive::complain(const std::string& what, const std::string& value, const std::string& allowed) const {
-  throw InvalidInput(file_, what, value, allowed);
+  throw InvalidInput::sentence(
+      what, value, "the " + kind_ + " cannot be loaded: " + what + ": found " + value + ", expected " + allowed)
+      .in_file(file_);
 }
 
 }  // namespace knot_utm

@@ -14,7 +14,10 @@ namespace {
 bool has_frame(const RodState& state) { return state.twist.size() > 0; }
 
 void expect_size(const char* key, Eigen::Index size, Eigen::Index expected) {
-  if (size != expected) throw InvalidInput(key, std::to_string(size) + " values", std::to_string(expected));
+  if (size != expected)
+    throw InvalidInput::sentence(
+        key, std::to_string(size),
+        std::string(key) + " has " + std::to_string(size) + " values, but must have " + std::to_string(expected));
 }
 
 void check(const RodProperties& rod, const RodState& state) {
@@ -27,7 +30,7 @@ void check(const RodProperties& rod, const RodState& state) {
     expect_size("state.reference_director", state.reference_director.cols(), rod.edges());
     expect_size("state.reference_twist", state.reference_twist.size(), inner);
   } else if (rod.natural_curvature.cols() > 0 || rod.natural_twist.size() > 0) {
-    throw InvalidInput("state.twist", "empty", "a rod of natural curvature or twist needs a frame");
+    throw InvalidInput("state.twist", "empty", "given for a rod with natural curvature or twist");
   }
 }
 

@@ -13,12 +13,12 @@ bool TextRows::next() {
     const char character = Traits::to_char_type(c);
     if (character == '\n') break;
     if (text_.size() == kLongest) {
-      fault_ = "rows of at most " + std::to_string(kLongest) + " characters";
+      fault_ = "row " + std::to_string(number_) + " is longer than " + std::to_string(kLongest) + " characters";
       return false;
     }
     text_ += character;
   }
-  if (number_ > kMost) fault_ = "at most " + std::to_string(kMost) + " rows";
+  if (number_ > kMost) fault_ = "there are more than " + std::to_string(kMost) + " rows";
   return fault_.empty();
 }
 

@@ -31,10 +31,11 @@ void check_no_overlap(const Centreline& centreline, double radius, const char* k
   const Points& points = centreline.points;
   const NearestPlaces nearest = nearest_places(points, 1.5 * M_PI * radius, centreline.closed);
   if (nearest.distance < 2.0 * radius) {
-    throw InvalidInput(key, value,
-                       "a shape whose strands keep a diameter apart (" + text(2.0 * radius) + " m); here " +
-                           text(nearest.distance) + " m, at " + text(nearest.first) + " m and " + text(nearest.second) +
-                           " m along it");
+    throw InvalidInput::sentence(key, value,
+                                 std::string(key) + " " + shown(value) + ": strands overlap at " + text(nearest.first) +
+                                     " m and " + text(nearest.second) + " m along the rod, where they are " +
+                                     text(nearest.distance) + " m apart, but must be at least a diameter apart, " +
+                                     text(2.0 * radius) + " m");
   }
   if (const std::optional<Passage> passage = StrandPassage(points.cols()).find(points, points)) {
     const std::vector<double> at = arclengths(points);
@@ -42,10 +43,10 @@ void check_no_overlap(const Centreline& centreline, double radius, const char* k
       const auto i = static_cast<std::size_t>(edge);
       return text(at[i] + share * (at[i + 1] - at[i]));
     };
-    throw InvalidInput(key, value,
-                       "a shape that does not run through itself; here it does, at " +
-                           place(passage->edge_a, passage->on_a) + " m and " + place(passage->edge_b, passage->on_b) +
-                           " m along it");
+    throw InvalidInput::sentence(key, value,
+                                 std::string(key) + " " + shown(value) + ": the rod runs through itself at " +
+                                     place(passage->edge_a, passage->on_a) + " m and " +
+                                     place(passage->edge_b, passage->on_b) + " m along it");
   }
 }
 
@@ -53,7 +54,7 @@ Centreline straight(double length, double radius, double edge_length) {
   check_radius(radius);
   check_edge_length(edge_length, radius);
   if (!(length >= 4.0 * edge_length && length <= 100.0)) {
-    throw InvalidInput("specimen.length", text(length), text(4.0 * edge_length) + " to 100 m (at least four edges)");
+    throw InvalidInput("specimen.length", text(length), text(4.0 * edge_length) + " to 100 m: at least four edges");
   }
   const auto edges = static_cast<Eigen::Index>(std::round(length / edge_length));
   Centreline centreline;
@@ -65,10 +66,13 @@ Centreline straight(double length, double radius, double edge_length) {
 Centreline from_points(const Points& points, bool closed, double radius, double edge_length, const std::string& name) {
   check_radius(radius);
   check_edge_length(edge_length, radius);
-  if (!points.allFinite()) throw InvalidInput("specimen.file", "a point that is not finite", "finite numbers [m]");
+  if (!points.allFinite())
+    throw InvalidInput::sentence("specimen.file", name,
+                                 "specimen.file " + shown(name) + " has a point that is not finite");
   if (points.cols() < (closed ? 3 : 2)) {
-    throw InvalidInput("specimen.file", std::to_string(points.cols()) + " points",
-                       closed ? "three or more" : "two or more");
+    throw InvalidInput::sentence("specimen.file", name,
+                                 "specimen.file " + shown(name) + " has " + std::to_string(points.cols()) +
+                                     " points, but must have " + (closed ? "three or more" : "two or more"));
   }
   const bool add_first = closed && points.leftCols(1) != points.rightCols(1);
   Points way(3, points.cols() + (add_first ? 1 : 0));
@@ -76,18 +80,22 @@ Centreline from_points(const Points& points, bool closed, double radius, double 
   if (add_first) way.rightCols(1) = points.leftCols(1);
   for (Eigen::Index i = 1; i < way.cols(); ++i) {
     if (way.col(i) == way.col(i - 1)) {
-      throw InvalidInput("specimen.file", "points " + std::to_string(i) + " and " + std::to_string(i + 1) + " coincide",
-                         "points that differ from their neighbours");
+      throw InvalidInput::sentence("specimen.file", name,
+                                   "specimen.file " + shown(name) + ": points " + std::to_string(i) + " and " +
+                                       std::to_string(i + 1) + " are the same; leave one of them out");
     }
   }
   const double length = (way.rightCols(way.cols() - 1) - way.leftCols(way.cols() - 1)).colwise().norm().sum();
   if (!(length >= 4.0 * edge_length)) {
-    throw InvalidInput("specimen.file", "a line of " + text(length) + " m",
-                       "at least four edges (" + text(4.0 * edge_length) + " m)");
+    throw InvalidInput::sentence("specimen.file", name,
+                                 "specimen.file " + shown(name) + " is a rod of " + text(length) +
+                                     " m, but must be at least four edges long, " + text(4.0 * edge_length) + " m");
   }
   if (!(length <= kMostEdges * edge_length)) {
-    throw InvalidInput("specimen.file", "a line of " + text(length) + " m",
-                       "at most " + text(kMostEdges) + " edges (" + text(kMostEdges * edge_length) + " m)");
+    throw InvalidInput::sentence("specimen.file", name,
+                                 "specimen.file " + shown(name) + " is a rod of " + text(length) +
+                                     " m, but must be at most " + text(kMostEdges) + " edges long, " +
+                                     text(kMostEdges * edge_length) + " m");
   }
   Centreline centreline;
   centreline.closed = closed;

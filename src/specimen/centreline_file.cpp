@@ -49,14 +49,17 @@ std::optional<Vec3> to_point(std::string_view line) {
 
 Points read_centreline(const std::string& file) {
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw InvalidInput(kKey, file, "a CSV file of x,y,z in m that can be read");
+  if (!in) throw InvalidInput::cannot_read(file, kKey);
   return read_centreline(in, file);
 }
 
 Points read_centreline(std::istream& in, const std::string& file) {
   std::vector<Vec3> points;
   TextRows rows(in);
-  const auto place = [&] { return file + " row " + std::to_string(rows.number()); };
+  const auto refuse = [&](const std::string& why) {
+    const std::string row = "row " + std::to_string(rows.number());
+    throw InvalidInput::sentence(kKey, file, std::string(kKey) + " " + shown(file) + ": " + row + " " + why);
+  };
   int headings = 0;
   while (rows.next()) {
     const std::string& line = rows.text();
@@ -67,15 +70,17 @@ Points read_centreline(std::istream& in, const std::string& file) {
       ++headings;
       continue;
     }
-    if (!point) throw InvalidInput(kKey, place(), "three numbers x,y,z from -1000 to 1000 m");
+    if (!point) refuse("is \"" + shown(line) + "\", but must be three numbers x,y,z from -1000 to 1000 m");
     if (!points.empty() && !((points.back() - *point).norm() >= kLeastDistance)) {
-      throw InvalidInput(kKey, place(), "another point than the one before it");
+      refuse("is the same point as the one before it; leave it out");
     }
     points.push_back(*point);
   }
-  if (!rows.fault().empty()) throw InvalidInput(kKey, place(), rows.fault());
+  const std::string whole = std::string(kKey) + " " + shown(file);
+  if (!rows.fault().empty()) throw InvalidInput::sentence(kKey, file, whole + ": " + rows.fault());
   if (points.size() < 4) {
-    throw InvalidInput(kKey, file + " with " + std::to_string(points.size()) + " points", "four points or more");
+    throw InvalidInput::sentence(
+        kKey, file, whole + " has " + std::to_string(points.size()) + " points, but must have four or more");
   }
   Points result(3, static_cast<Eigen::Index>(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) result.col(static_cast<Eigen::Index>(i)) = points[i];

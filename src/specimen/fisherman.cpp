@@ -65,13 +65,13 @@ void check_fisherman(const FishermanShape& shape) {
   check_radius(shape.radius);
   check_edge_length(shape.edge_length, shape.radius);
   if (!(shape.looseness >= 3.9 && shape.looseness <= 8.0)) {
-    throw InvalidInput("specimen.looseness", text(shape.looseness), "3.9 to 8 (radius of the coil over the rod's)");
+    throw InvalidInput("specimen.looseness", text(shape.looseness), "3.9 to 8 radii of the rod");
   }
   if (!(shape.tail >= 2.0 * shape.radius && shape.tail <= 10.0)) {
     throw InvalidInput("specimen.tail", text(shape.tail), text(2.0 * shape.radius) + " to 10 m");
   }
   if (!(shape.end_to_end > 0.0 && shape.end_to_end <= 100.0)) {
-    throw InvalidInput("specimen.end_to_end", text(shape.end_to_end), "above 0, up to 100 m");
+    throw InvalidInput("specimen.end_to_end", text(shape.end_to_end), "above 0 and at most 100 m");
   }
 }
 

@@ -61,10 +61,10 @@ Centreline overhand(const OverhandShape& shape) {
   check_edge_length(shape.edge_length, shape.radius);
   if (shape.turns < 1 || shape.turns > 4) throw InvalidInput("specimen.turns", std::to_string(shape.turns), "1 to 4");
   if (!(shape.length > 0.0 && shape.length <= 100.0)) {
-    throw InvalidInput("specimen.length", text(shape.length), "above 0, up to 100 m");
+    throw InvalidInput("specimen.length", text(shape.length), "above 0 and at most 100 m");
   }
   if (!(shape.end_to_end > 0.0 && shape.end_to_end < shape.length)) {
-    throw InvalidInput("specimen.end_to_end", text(shape.end_to_end), "above 0, below specimen.length");
+    throw InvalidInput("specimen.end_to_end", text(shape.end_to_end), "above 0 and less than specimen.length");
   }
   const double h = shape.radius;
   const double spacing = drawing_spacing(h, shape.edge_length);
@@ -81,7 +81,7 @@ Centreline overhand(const OverhandShape& shape) {
   if (!(room(smallest) > 0.0)) {
     throw InvalidInput(
         "specimen.end_to_end", text(shape.end_to_end),
-        "above " + text(shape.end_to_end - room(smallest)) + " m, the room that the smallest knot takes up");
+        "more than " + text(shape.end_to_end - room(smallest)) + " m, the room that the smallest knot takes up");
   }
   const double shortest = rod_length(smallest) - shape.end_to_end;
   double high = smallest;
@@ -90,8 +90,9 @@ Centreline overhand(const OverhandShape& shape) {
   }
   const double longest = rod_length(high) - shape.end_to_end;
   if (!(shape.length - shape.end_to_end >= shortest) || shape.length - shape.end_to_end > longest) {
-    throw InvalidInput("specimen.end_to_end", text(shape.end_to_end),
-                       "such that specimen.length exceeds it by " + range_text(shortest, longest) + " m");
+    throw InvalidInput(
+        "specimen.end_to_end", text(shape.end_to_end),
+        "shorter than specimen.length by " + range_text(shortest, longest) + " m, for a knot of this rod");
   }
   // The rod's length grows smoothly with the loop's radius: false position with a bracket (Illinois).
   double low = smallest;

@@ -4,7 +4,9 @@
 #include <cstdio>
 #include <exception>
 #include <optional>
+#include <string>
 
+#include "command_line_fault.hpp"
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
 
@@ -14,8 +16,8 @@ namespace knot_utm {
 enum ExitCode { kDone = 0, kFailed = 1, kWrongInput = 2 };
 
 /// Says in one line why a tool ends with this code.
-inline int complain(const char* tool, const std::exception& error, ExitCode code) {
-  std::fprintf(stderr, "%s: %s\n", tool, error.what());
+inline int complain(const char* tool, const std::string& why, ExitCode code) {
+  std::fprintf(stderr, "%s: %s\n", tool, why.c_str());
   return code;
 }
 
@@ -28,7 +30,8 @@ std::optional<int> parse(CLI::App& app, const char* tool, int argc, char** argv,
     app.parse(argc, argv);
     check();
   } catch (const CLI::ParseError& error) {
-    return error.get_exit_code() == 0 ? app.exit(error) : complain(tool, error, kWrongInput);
+    return error.get_exit_code() == 0 ? app.exit(error)
+                                      : complain(tool, command_line_fault(app, tool, error), kWrongInput);
   }
   return std::nullopt;
 }
@@ -42,9 +45,9 @@ int run_tool(const char* tool, Body body) {
   try {
     return body();
   } catch (const InvalidInput& error) {
-    return complain(tool, error, kWrongInput);
+    return complain(tool, error.what(), kWrongInput);
   } catch (const std::exception& error) {
-    return complain(tool, error, kFailed);
+    return complain(tool, error.what(), kFailed);
   }
 }
 

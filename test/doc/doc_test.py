@@ -80,6 +80,13 @@ class Method(unittest.TestCase):
                     checked += 1
         self.assertGreater(checked, 20)
 
+    def test_lengths_of_texts_are_those_of_the_code(self):
+        found = re.findall(r'short_text\("(\w+)", [\w.]+, (\d+)\)', text("src/io/method_fields.hpp"))
+        self.assertGreater(len(found), 5)
+        for key, most in found:
+            if key != "logo":  # a path
+                self.assertTrue(any(f"at most {most} characters" in cells[1] for cells in self.rows[key]), key)
+
 
 class Results(unittest.TestCase):
     def test_has_every_key(self):
@@ -152,6 +159,12 @@ class Documents(unittest.TestCase):
             self.assertGreater(len(sections), 1, f"{document} is long and has no sections")
             contents = re.findall(r"^- \[([^\]]+)\]\(#([^)]+)\)$", page[:page.index("\n## ")], re.MULTILINE)
             self.assertEqual(contents, [(section, anchor(section)) for section in sections], document)
+
+    def test_every_script_is_explained(self):
+        pages = "".join(text(document) for document in documents())
+        for file in glob.glob(os.path.join(ROOT, "scripts/*")):
+            if os.path.isfile(file):
+                self.assertIn(f"scripts/{os.path.basename(file)}", pages)
 
     def test_named_sources_are_there(self):
         for document in documents():

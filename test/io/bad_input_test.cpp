@@ -15,6 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::AllOf;
+using ::testing::Eq;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -31,21 +32,22 @@ struct Wrong {
 const std::vector<Wrong>& wrong_overrides() {
   static const std::vector<Wrong> kTable{
       // Keys
-      {"specimen.nots=3", "specimen.nots", "3", "the keys here are knot, handedness"},
-      {"speciment.knot=overhand", "speciment", "{knot: overhand}",
-       "specimen, material, machine, program, ends, physics"},
-      {"physics.friction.mu=0.3", "physics.friction.mu", "0.3", "law, slip_tolerance, presliding"},
-      {"material.colour=red", "material.colour", "red", "radius, density"},
-      {"machine.load_cell.range=20", "machine.load_cell.range", "20", "capacity, sampling_rate"},
-      {"program.pull.until.strain=0.1", "program.4.pull.until.strain", "0.1", "extension, load, time, break"},
-      {"program.0.tie.force=3", "program.0.tie.force", "3", "speed"},
-      {"program.balance={now: true}", "program.3.balance.now", "true", "takes no keys"},
-      {"specimen.preload.value=3", "specimen.preload.value", "3", "preload has no keys"},
-      {"program.9.pull.speed=1", "program.9.pull.speed", "1", "from 0 to 4"},
+      {"specimen.nots=3", "specimen.nots is no key of a method", "", "the keys of specimen are knot, handedness"},
+      {"speciment.knot=overhand", "speciment is no key of a method", "", "did you mean specimen?"},
+      {"specimen.prelaod=3", "specimen.prelaod is no key of a method", "", "did you mean specimen.preload?"},
+      {"report_=3", "report_", "", "specimen, material, machine, program, ends"},
+      {"physics.friction.mu=0.3", "physics.friction.mu", "", "law, slip_tolerance and presliding"},
+      {"material.colour=red", "material.colour", "", "radius, density"},
+      {"machine.load_cell.range=20", "machine.load_cell.range", "", "capacity, sampling_rate"},
+      {"program.pull.until.strain=0.1", "program.4.pull.until.strain", "", "extension, load, time and break"},
+      {"program.0.tie.force=3", "program.0.tie.force", "", "speed"},
+      {"program.balance={now: true}", "program.3.balance.now", "", "takes no keys"},
+      {"specimen.preload.value=3", "specimen.preload.value", "", "preload is a single value and has no keys"},
+      {"program.9.pull.speed=1", "program.9.pull.speed", "9", "from 0 to 4"},
       {"nonsense", "--set", "nonsense", "key=value"},
       {"=3", "--set", "=3", "key=value"},
-      {"specimen.turns=[1", "specimen.turns", "[1", "a YAML value"},
-      {"specimen={turns: 1, turns: 2}", "specimen.turns", "2", "stands twice"},
+      {"specimen.turns=[1", "--set specimen.turns=[1", "", "a list begins with"},
+      {"specimen={turns: 1, turns: 2}", "specimen.turns", "", "stands twice"},
       // Types
       {"specimen=3", "specimen", "3", "a map"},
       {"specimen.turns=one", "specimen.turns", "one", "a whole number from 1 to 4"},
@@ -56,9 +58,9 @@ const std::vector<Wrong>& wrong_overrides() {
       {"physics.gravity=[0, 0]", "physics.gravity", "[0, 0]", "[x, y, z]"},
       {"program={}", "program", "{}", "a list of steps"},
       {"program=[]", "program", "[]", "a list of steps"},
-      {"program=[pull]", "program.0", "pull", "each {name: {...}}"},
-      {"material=", "material", "nothing", "a map, or the name of a file"},
-      {"material=[nylon]", "material", "[nylon]", "a map"},
+      {"program=[pull]", "program.0", "pull", "one step, {NAME: {...}}"},
+      {"material=", "material is missing", "", "give a name (green_vps, nylon"},
+      {"material=[nylon]", "material", "[nylon]", "a name (green_vps"},
       // Values, among them those of a wrong unit
       {"specimen.knot=granny", "specimen.knot", "granny", "fisherman, overhand, straight or file"},
       {"specimen.turns=5", "specimen.turns", "5", "1 to 4"},
@@ -66,30 +68,30 @@ const std::vector<Wrong>& wrong_overrides() {
       {"specimen.end_to_end=250 mm", "specimen.end_to_end", "250 mm", "m"},
       {"specimen.end_to_end=0,25", "specimen.end_to_end", "0,25", "m"},
       {"specimen.end_to_end=.nan", "specimen.end_to_end", ".nan", "m"},
-      {"specimen.preload=-1", "specimen.preload", "-1", "auto, or a number from"},
-      {"specimen.preload=much", "specimen.preload", "much", "auto, or a number from"},
+      {"specimen.preload=-1", "specimen.preload", "-1", "0.0001 to 100000 N, or auto"},
+      {"specimen.preload=much", "specimen.preload", "much", "a number from 0.0001 to 100000 (in N), or auto"},
       {"specimen.edge_length=0", "specimen.edge_length", "0", "m"},
       {"specimen.refinement=9", "specimen.refinement", "9", "1 to 8"},
       {"material=rubber", "material", "rubber", "green_vps, nylon, pink_vps, polypropylene"},
       {"material.radius=3.175", "material.radius", "3.175", "0.05 m"},
       {"material.density=-1", "material.density", "-1", "kg/m3"},
       {"material.friction_coefficient=46", "material.friction_coefficient", "46", "0 to 5"},
-      {"material={radius: 0.003}", "material.density", "nothing", "kg/m3"},
+      {"material={radius: 0.003}", "material.density is missing", "", "kg/m3"},
       {"machine.grips=hooks", "machine.grips", "hooks", "rollers, nodes or clamps"},
-      {"machine.stiffness=-5", "machine.stiffness", "-5", "1 to .inf N/m"},
+      {"machine.stiffness=-5", "machine.stiffness", "-5", "at least 1 N/m"},
       {"machine.load_cell=1MN", "machine.load_cell", "1MN", "20N, 50kN"},
       {"machine.load_cell={capacity: 0}", "machine.load_cell.capacity", "0", "N"},
       {"machine.load_cell.sampling_rate=0", "machine.load_cell.sampling_rate", "0", "Hz"},
       {"machine.load_cell.accuracy=0.5", "machine.load_cell.accuracy", "0.5", "0 to 0.1 of the reading"},
       {"machine.load_cell.floor=2", "machine.load_cell.floor", "2", "0 to 1 of capacity"},
       {"machine.load_cell.drift=.inf", "machine.load_cell.drift", ".inf", "-1000 to 1000 N/s"},
-      {"machine.load_cell.overload=0.5", "machine.load_cell.overload", "0.5", "1 to .inf of capacity"},
+      {"machine.load_cell.overload=0.5", "machine.load_cell.overload", "0.5", "at least 1 of capacity"},
       {"machine.load_cell.seed=-1", "machine.load_cell.seed", "-1", "a whole number"},
       {"program=[{push: {}}]", "program.0", "push",
        "tie, release, mount, preload, balance, pull, hold, cycle, return or follow"},
       {"program.pull.speed=3.3", "program.4.pull.speed", "3.3", "0.5 m/s"},
       {"program.pull.until.break=yes", "program.4.pull.until.break", "yes", "true or false"},
-      {"program=[{hold: {}}]", "program.0.hold.duration", "nothing", "s"},
+      {"program=[{hold: {}}]", "program.0.hold.duration is missing", "", "(in s)"},
       {"physics.friction.law=coulomb", "physics.friction.law", "coulomb", "memory or smoothed"},
       {"physics.contact.law=soft", "physics.contact.law", "soft", "smooth or edge"},
       {"physics.contact.tolerance=5", "physics.contact.tolerance", "5", "of the radius"},
@@ -97,17 +99,36 @@ const std::vector<Wrong>& wrong_overrides() {
       {"physics.accuracy=best", "physics.accuracy", "best", "draft, normal or fine"},
       {"physics.max_step=0", "physics.max_step", "0", "s"},
       {"physics.residual=1", "physics.residual", "1", "of k_b/h2"},
+      {"report.units.force=kg", "report.units.force", "kg", "N, kN or lbf"},
+      {"report.units.length=cm", "report.units.length", "cm", "mm, in or m"},
+      {"report.operator=[a, b]", "report.operator", "[a, b]", "a text"},
+      {"report.signature=111111111111111111111111111111111111111111111111111111111111111111111111111111111",
+       "report.signature", "111111111111111111111111111111111111111111111111111111111111111111111111111111111",
+       "at most 80 characters"},
+      {"report.logo=nowhere.png", "report.logo", "nowhere.png", ".png or .svg file of at most 2 MB"},
+      {"report.logo=tighten.yaml", "report.logo", "tighten.yaml", ".png or .svg file of at most 2 MB"},
+      {"specification=good", "specification", "good", "a map such as {peak_force: {min: 100}}"},
+      {"specification.peek_force.min=3", "specification.peek_force", "{min: 3}",
+       "did you mean specification.peak_force?"},
+      {"specification.ended_by.min=3", "specification.ended_by", "{min: 3}", "a number of result.yaml"},
+      {"specification.peak_force=3", "specification.peak_force", "3", "a map"},
+      {"specification.peak_force={}", "specification.peak_force", "{}", "min, max or both"},
+      {"specification.peak_force={least: 3}", "specification.peak_force.least", "3", "the keys here are min, max"},
+      {"specification.peak_force={min: 3, max: 2}", "specification.peak_force", "{min: 3, max: 2}",
+       "no larger than max"},
+      {"specification={peak_force: {min: 3}, peak_force: {max: 4}}", "specification.peak_force", "{max: 4}",
+       "one value: the key stands twice"},
       // Values that do not go together
       {"specimen.edge_length=0.0064", "specimen.edge_length", "0.0064", "twice the radius"},
-      {"specimen.knot_distance=0.24", "specimen.end_to_end", "0.25", "knot_distance and 12 radii"},
+      {"specimen.knot_distance=0.24", "specimen.end_to_end", "0.25", "knot_distance plus 12 radii"},
       {"specimen.knot_distance=0.02", "specimen.knot_distance", "0.02", "12 radii"},
-      {"specimen.knot=overhand", "machine.grips", "rollers", "nothing but a loop"},
-      {"specimen.knot=file", "specimen.file", "\"\"", "a CSV file"},
-      {"specimen={knot: file, file: nowhere.csv}", "specimen.file", "nowhere.csv", "a CSV file"},
+      {"specimen.knot=overhand", "machine.grips", "rollers", "rollers hold only a loop"},
+      {"specimen.knot=file", "specimen.file is missing", "", "a CSV file"},
+      {"specimen={knot: file, file: nowhere.csv}", "specimen.file: cannot read", "nowhere.csv", "no such file"},
       {"machine.load_cell.resolution=60000", "machine.load_cell.resolution", "60000", "less than capacity"},
-      {"program=[{pull: {}}]", "program.0.pull.until", "nothing", "extension, load, time and break"},
-      {"program=[{pull: {until: {break: false}}}]", "program.0.pull.until", "nothing", "one or more of"},
-      {"specimen.closed=true", "specimen.closed", "true", "false: the grips hold"},
+      {"program=[{pull: {}}]", "program.0.pull.until is missing", "", "extension, load, time and break"},
+      {"program=[{pull: {until: {break: false}}}]", "program.0.pull.until is missing", "", "one or more of"},
+      {"specimen.closed=true", "specimen.closed", "true", "false, since the grips hold"},
       {"specimen.turns=2", "specimen.turns", "2", "only for knot: overhand"},
       {"specimen.length=0.5", "specimen.length", "0.5", "only for knot: straight or overhand"},
       {"specimen.file=shape.csv", "specimen.file", "shape.csv", "only for knot: file"},
@@ -115,21 +136,22 @@ const std::vector<Wrong>& wrong_overrides() {
       {"physics.friction.slip_tolerance=0.01", "physics.friction.slip_tolerance", "0.01", "only with law: smoothed"},
       {"physics.friction={law: smoothed, presliding: 0.01}", "physics.friction.presliding", "0.01",
        "only with law: memory"},
-      {"program=[{hold: {duration: 1}}, {tie: {}}]", "program.1", "tie", "the first step only"},
+      {"program=[{hold: {duration: 1}}, {tie: {}}]", "program.1", "tie", "can only be the first step"},
       {"program=[{release: {}}]", "program.0", "release", "right after tie"},
       {"program.pull.until.load=60000", "program.4.pull.until.load", "60000", "capacity, 50000 N"},
-      {"program=[{cycle: {count: 1}}]", "program.0.cycle", "neither extension nor load", "one of extension and load"},
+      {"program=[{cycle: {count: 1}}]", "program.0.cycle", "neither extension nor load", "give one of them"},
       {"material.breaking_force=150", "material.breaking_force", "150", "more than specimen.preload, 150 N"},
-      {"program=[{cycle: {extension: [0, 1], load: [0, 1], count: 1}}]", "program.0.cycle", "extension and load",
-       "one of extension and load"},
-      {"program=[{cycle: {extension: [0.01, 0.02]}}]", "program.0.cycle", "nothing", "count, time, or both"},
+      {"program=[{cycle: {extension: [0, 1], load: [0, 1], count: 1}}]", "program.0.cycle", "both extension and load",
+       "give one of them"},
+      {"program=[{cycle: {extension: [0.01, 0.02]}}]", "program.0.cycle", "", "count, time or both"},
       {"program=[{cycle: {extension: [0.02, 0.01], count: 1}}]", "program.0.cycle.extension", "[0.02, 0.01]",
        "low below high"},
       {"program=[{cycle: {load: [0, 6e4], count: 1}}]", "program.0.cycle.load", "60000", "capacity"},
       {"program=[{hold: {duration: 1, load: 3}}]", "program.0.hold.load", "3", "only with control: load"},
-      {"program=[{hold: {duration: 1, speed: 0.1}}]", "program.0.hold.speed", "0.1", "the keys here are"},
-      {"program=[{follow: {}}]", "program.0.follow.record", "\"\"", "a curve.csv, or raw data"},
-      {"program=[{follow: {record: nowhere.csv}}]", "program.0.follow.record", "nowhere.csv", "a curve.csv"},
+      {"program=[{hold: {duration: 1, speed: 0.1}}]", "program.0.hold.speed", "", "the keys of program.0.hold are"},
+      {"program=[{follow: {}}]", "program.0.follow.record is missing", "", "a curve.csv, or raw data"},
+      {"program=[{follow: {record: nowhere.csv}}]", "program.0.follow.record: cannot read", "nowhere.csv",
+       "no such file"},
       {"ends.load=60000", "ends.load", "60000", "capacity, 50000 N"},
       {"ends.break_at_fraction_of_peak=40", "ends.break_at_fraction_of_peak", "40", "0 to 0.99"},
       {"ends.arming_load=5", "ends.arming_load", "5", "only with break_at_fraction_of_peak, sharp_drop or drop"},
@@ -151,8 +173,8 @@ std::string complaint(const std::string& file, const std::vector<std::string>& o
 TEST(BadInput, IsNamedOnOneLineWithFileKeyValueAndWhatIsAllowed) {
   for (const Wrong& wrong : wrong_overrides()) {
     EXPECT_THAT(complaint(kTighten, {wrong.set}),
-                AllOf(HasSubstr("tighten.yaml: "), HasSubstr(std::string(wrong.key) + ": "), HasSubstr(wrong.value),
-                      HasSubstr(std::string(" is not allowed: ")), HasSubstr(wrong.allowed), Not(HasSubstr("\n"))))
+                AllOf(HasSubstr(std::string(wrong.key).rfind("--", 0) == 0 ? "" : "tighten.yaml: "),
+                      HasSubstr(wrong.key), HasSubstr(wrong.value), HasSubstr(wrong.allowed), Not(HasSubstr("\n"))))
         << wrong.set;
   }
 }
@@ -170,20 +192,21 @@ class BadFile : public ::testing::Test {
 };
 
 TEST_F(BadFile, MissingEmptyBrokenOrNoMap) {
-  EXPECT_THAT(complaint("/nowhere/method.yaml"), HasSubstr("/nowhere/method.yaml is not allowed: a YAML file"));
-  EXPECT_THAT(complaint(folder_.string()), HasSubstr("a YAML file that can be read"));
-  EXPECT_THAT(complaint(write("long.yaml", std::string(70000, '#'))), HasSubstr("at most 65536 characters"));
-  EXPECT_THAT(complaint(write("empty.yaml", "")), HasSubstr("empty.yaml: the file: nothing"));
-  EXPECT_THAT(complaint(write("list.yaml", "[1, 2]")), HasSubstr("list.yaml: the file: [1, 2]"));
+  EXPECT_THAT(complaint("/nowhere/method.yaml"), Eq("cannot read /nowhere/method.yaml: no such file"));
+  EXPECT_THAT(complaint(folder_.string()), Eq("cannot read " + folder_.string() + ": is a directory"));
+  EXPECT_THAT(complaint(write("long.yaml", std::string(70000, '#'))), HasSubstr("longer than 65536 characters"));
+  EXPECT_THAT(complaint(write("empty.yaml", "")), HasSubstr("empty.yaml: the file is empty, but must be a map"));
+  EXPECT_THAT(complaint(write("list.yaml", "[1, 2]")), HasSubstr("list.yaml: the file is [1, 2], but must be a map"));
   EXPECT_THAT(complaint(write("broken.yaml", "specimen:\n  knot: [\nmaterial: x")),
-              AllOf(HasSubstr("broken.yaml: line "), HasSubstr("well-formed YAML"), Not(HasSubstr("\n"))));
+              AllOf(HasSubstr("broken.yaml: line "), HasSubstr("a list begins with \"[\" and has no \"]\""),
+                    Not(HasSubstr("\n"))));
   EXPECT_THAT(complaint(write("binary.yaml", std::string("\x00\x01\xff\xfe: {", 7))), HasSubstr("binary.yaml: "));
 }
 
 TEST_F(BadFile, AWrongMaterialFileIsNamedItself) {
   write("materials/odd.yaml", "radius: 3.175");
   const std::string text = complaint(write("method.yaml", "material: odd\nprogram: [{hold: {duration: 1}}]"));
-  EXPECT_THAT(text, AllOf(HasSubstr("odd.yaml: radius: 3.175"), HasSubstr("0.05 m")));
+  EXPECT_THAT(text, AllOf(HasSubstr("odd.yaml: radius is 3.175"), HasSubstr("0.05 m")));
 }
 
 /// Each of these once ended the process, or would take its memory.
@@ -198,20 +221,21 @@ TEST(BadInput, WhatHasNoEndIsRefused) {
   };
   const std::string rest = "\nmaterial: nylon\nprogram: [{hold: {duration: 1}}]\n";
   const std::string itself = complaint_of("specimen: &a {knot: *a}" + rest);
-  EXPECT_THAT(itself, AllOf(HasSubstr("endless.yaml: specimen.knot: {knot: {knot:"), HasSubstr("fisherman")));
+  EXPECT_THAT(itself, AllOf(HasSubstr("endless.yaml: specimen.knot is {knot: {knot:"), HasSubstr("fisherman")));
   std::string bomb = "a0: &a0 [x, x, x, x, x, x, x, x]\n";
   for (int i = 1; i < 15; ++i) {
     const std::string name = "a" + std::to_string(i), list = "*a" + std::to_string(i - 1);
     bomb += name + ": &" + name + " [" + list + "," + list + "," + list + "," + list + "," + list + "]\n";
   }
-  EXPECT_THAT(complaint_of(bomb + "specimen: {knot: *a14}" + rest), HasSubstr("specimen.knot: [["));
+  EXPECT_THAT(complaint_of(bomb + "specimen: {knot: *a14}" + rest), HasSubstr("specimen.knot is [["));
   EXPECT_THAT(complaint_of("specimen: " + std::string(1000, '[')), HasSubstr("nested too deeply"));
   EXPECT_THAT(complaint_of("specimen: {}" + rest, {"specimen.turns=" + std::string(1000, '[')}),
-              HasSubstr("a YAML value"));
+              AllOf(HasSubstr("the value is not YAML"), HasSubstr("nested too deeply")));
   std::string key;
   for (int i = 0; i < 30000; ++i) key += "a.";
-  EXPECT_THAT(complaint_of("specimen: {}" + rest, {key + "b=1"}), HasSubstr("a key of at most 8 parts"));
-  EXPECT_THAT(complaint_of("# " + std::string(70000, 'x') + rest), HasSubstr("at most 65536 characters"));
+  EXPECT_THAT(complaint_of("specimen: {}" + rest, {key + "b=1"}),
+              HasSubstr("no key of a method has more than 8 parts"));
+  EXPECT_THAT(complaint_of("# " + std::string(70000, 'x') + rest), HasSubstr("longer than 65536 characters"));
   for (const std::string& line : {itself, complaint_of("specimen: {knot: " + std::string(5000, 'x') + "}" + rest)}) {
     EXPECT_LT(line.size(), 1000u);
   }
@@ -222,7 +246,7 @@ TEST(BadInput, ForeignTextLeavesTheLineWhole) {
   EXPECT_EQ(shown(std::string("a\0b", 3)), "a b");
   EXPECT_EQ(shown(std::string(501, 'x')), std::string(500, 'x') + "...");
   EXPECT_EQ(InvalidInput("file\n", "key\n", "value\n", "more").what(),
-            std::string("file : key : value  is not allowed: more"));
+            std::string("file : key  is value , but must be more"));
 }
 
 /// Keys that tell nothing about a specimen that is pulled as it is drawn.
@@ -236,12 +260,12 @@ TEST(BadInput, WhatHasNoEffectOnAStraightRod) {
       {"specimen.preload=20", "specimen.preload", "20", "only for knot: fisherman"},
       {"machine.roller_diameter=0.05", "machine.roller_diameter", "0.05", "only for knot: fisherman"},
       {"machine.roller_friction=0.1", "machine.roller_friction", "0.1", "only with grips: rollers"},
-      {"program.0={tie: {}}", "program.0", "tie", "for knot: fisherman"},
-      {"program.0={mount: {}}", "program.0", "mount", "for knot: fisherman"},
+      {"program.0={tie: {}}", "program.0", "tie", "needs specimen.knot: fisherman"},
+      {"program.0={mount: {}}", "program.0", "mount", "needs specimen.knot: fisherman"},
   };
   for (const Wrong& wrong : table) {
     EXPECT_THAT(complaint(straight, {wrong.set}),
-                AllOf(HasSubstr(std::string(wrong.key) + ": "), HasSubstr(wrong.value), HasSubstr(wrong.allowed)))
+                AllOf(HasSubstr(wrong.key), HasSubstr(wrong.value), HasSubstr(wrong.allowed)))
         << wrong.set;
   }
 }

@@ -91,21 +91,22 @@ TEST_F(Csv, OfACompliantFrameTheCorrectedExtensionIsTheLastColumn) {
   EXPECT_EQ(rows[0].corrected_extension, 0.01);
   EXPECT_TRUE(std::isnan(curve_row(Sample()).corrected_extension));
   const std::string names = "time,extension,load,knot_distance,end_to_end,load_lower,phase,corrected_extension\n";
-  EXPECT_THAT(complaint(names + "s,m,N,m,m,N,-,mm\n"), HasSubstr("unit of corrected_extension: mm"));
-  EXPECT_THAT(complaint(names + "s,m,N,m,m,N,-,m\n0,0,0,0,0,0,pull,x\n"), HasSubstr("corrected_extension: x"));
+  EXPECT_THAT(complaint(names + "s,m,N,m,m,N,-,mm\n"),
+              HasSubstr("row 2: the unit of corrected_extension is \"mm\", but must be m"));
+  EXPECT_THAT(complaint(names + "s,m,N,m,m,N,-,m\n0,0,0,0,0,0,pull,x\n"),
+              HasSubstr("corrected_extension is \"x\", but must be a number"));
 }
 
 TEST_F(Csv, WrongCurvesAreNamed) {
-  EXPECT_THAT(complaint(""), HasSubstr("can be read"));
+  EXPECT_THAT(complaint(""), HasSubstr("a curve.csv begins with a row of names"));
   EXPECT_THAT(complaint("time,load\ns,N\n"), HasSubstr("no column extension"));
   const std::string names = "time,extension,load,knot_distance,end_to_end,load_lower,phase\n";
-  EXPECT_THAT(complaint(names + "s,mm,N,m,m,N,-\n"), HasSubstr("unit of extension: mm"));
+  EXPECT_THAT(complaint(names + "s,mm,N,m,m,N,-\n"), HasSubstr("the unit of extension is \"mm\""));
   const std::string head = names + "s,m,N,m,m,N,-\n";
-  EXPECT_THAT(complaint(head + "0,0,0,0,0,0,pull\n0,0,0\n"), HasSubstr("row 4: 3 columns"));
-  EXPECT_THAT(complaint(head + "0,0,x,0,0,0,pull\n"), HasSubstr("row 3: load: x"));
-  EXPECT_THAT(complaint(head + "0,0,0,0,0,0,push\n"), HasSubstr("row 3: phase: push"));
-  EXPECT_THAT(complaint(head + std::string(5000, '0') + "\n"),
-              HasSubstr("row 3: more is not allowed: rows of at most"));
+  EXPECT_THAT(complaint(head + "0,0,0,0,0,0,pull\n0,0,0\n"), HasSubstr("row 4 has 3 columns, but must have 7"));
+  EXPECT_THAT(complaint(head + "0,0,x,0,0,0,pull\n"), HasSubstr("row 3: load is \"x\""));
+  EXPECT_THAT(complaint(head + "0,0,0,0,0,0,push\n"), HasSubstr("row 3: phase is \"push\""));
+  EXPECT_THAT(complaint(head + std::string(5000, '0') + "\n"), HasSubstr("row 3 is longer than 4096 characters"));
 }
 
 TEST_F(Csv, FinalShapeIsACentrelineFile) {

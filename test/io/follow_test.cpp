@@ -99,11 +99,12 @@ TEST_F(Follow, ARecordWithTwoZerosOrATimeThatGoesBackIsRefused) {
   const std::string start = "0,0,0,nan,0.25,0,idle\n1,0.001,1,nan,0.251,1,pull\n";
   EXPECT_EQ(refusal(start + "2,0.002,2,nan,0.252,2,pull\n"), "");
   EXPECT_THAT(refusal(start + "0.5,0.002,2,nan,0.252,2,pull\n"),
-              testing::AllOf(HasSubstr("record.csv: reading 3: 0.5 s is not allowed"), HasSubstr("no time before")));
+              HasSubstr("record.csv: time goes back at reading 3, from 1 s to 0.5 s"));
   EXPECT_THAT(refusal(start + "2,0.001,1,nan,0.251,1,balance\n3,0.002,2,nan,0.252,2,pull\n"),
-              HasSubstr("record.csv: reading 3: a balance is not allowed"));
+              HasSubstr("record.csv: the test was balanced at reading 3"));
   // Between two readings of the cell: L grows on, s begins anew.
-  EXPECT_THAT(refusal(start + "2,0.001,1,nan,0.252,1,pull\n"), HasSubstr("record.csv: reading 3: a balance"));
+  EXPECT_THAT(refusal(start + "2,0.001,1,nan,0.252,1,pull\n"),
+              HasSubstr("record.csv: the test was balanced at reading 3"));
   EXPECT_EQ(refusal(start + "2,0.002,2,nan,0.252,2,pull\n3,0,0,nan,0.252,0,balance\n"), "") << "behind the last pull";
 }
 
@@ -120,7 +121,8 @@ TEST_F(Follow, TheFolderOfTheRecordIsNotWrittenTo) {
   const std::string before = content();
   const Answer answer = test("[{follow: {record: " + in("source/curve.csv") + "}}]", "source/../source");
   EXPECT_EQ(answer.code, 2);
-  EXPECT_THAT(answer.text, testing::AllOf(HasSubstr("--out: "), HasSubstr("another folder"), HasSubstr("curve.csv")));
+  EXPECT_THAT(answer.text, testing::AllOf(HasSubstr("the method follows "), HasSubstr("choose another folder"),
+                                          HasSubstr("curve.csv")));
   EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
   EXPECT_EQ(content(), before);
 }

@@ -256,9 +256,9 @@ TEST_F(Journal, CutAtAnyByteOfTheHeaderItIsNone) {
 TEST_F(Journal, RefusesAForeignFile) {
   fs::create_directories(folder());
   put("time,extension,load\ns,m,N\n0,0,0\n");
-  EXPECT_THAT(invalid(), HasSubstr("a journal of knot_utm"));
+  EXPECT_THAT(invalid(), HasSubstr("the file is no journal of knot_utm"));
   fs::remove_all(folder());
-  EXPECT_THAT(invalid(), HasSubstr("that can be read"));
+  EXPECT_THAT(invalid(), HasSubstr("cannot read "));
 }
 
 TEST_F(Journal, RefusesAnotherVersion) {
@@ -266,7 +266,7 @@ TEST_F(Journal, RefusesAnotherVersion) {
   std::string all = bytes();
   all[all.find('\n') + 1] = 1;
   put(all);
-  EXPECT_THAT(invalid(), HasSubstr("journal: version: 1 is not allowed: 2"));
+  EXPECT_THAT(invalid(), HasSubstr("the journal's version is 1, but must be 2"));
 }
 
 TEST_F(Journal, GoesOnFromARecord) {
@@ -326,7 +326,7 @@ TEST_F(Journal, WithoutRoomItEndsWithTheRecordBefore) {
   }
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
-  EXPECT_EQ(why, journal_file(folder()) + ": cannot be written: File too large");
+  EXPECT_EQ(why, "cannot write " + journal_file(folder()) + ": file too large");
   EXPECT_EQ(fs::file_size(journal_file(folder())), ends[1]);
   writer.append(records_[1]);
   JournalReader reader(folder());

@@ -93,7 +93,8 @@ TEST_F(KilledRun, WhoseFolderIsRemovedSaysSoAtOnce) {
   const int status = status_of(test);
   EXPECT_TRUE(WIFEXITED(status));
   EXPECT_EQ(WEXITSTATUS(status), 1);
-  EXPECT_EQ(read_whole(in("said")), "tensile_test: " + in("removed/journal") + ": was removed\n");
+  EXPECT_EQ(read_whole(in("said")),
+            "tensile_test: the journal " + in("removed/journal") + " was removed while the test was running\n");
 }
 
 TEST_F(KilledRun, WithoutRoomSaysSoInOneLineAndIsRecoveredElsewhere) {
@@ -101,7 +102,7 @@ TEST_F(KilledRun, WithoutRoomSaysSoInOneLineAndIsRecoveredElsewhere) {
   const std::string blocks = std::to_string(kSomeRecords / 512);
   EXPECT_EQ(shell("ulimit -f " + blocks + "; exec " + kTest + in("full")), 1);
   const std::string said = read_whole(in("said"));
-  EXPECT_THAT(said, AllOf(HasSubstr("cannot be written: File too large"), HasSubstr("recover " + in("full"))));
+  EXPECT_THAT(said, AllOf(HasSubstr("journal: file too large"), HasSubstr("recover " + in("full"))));
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
   EXPECT_FALSE(fs::exists(in("full/result.yaml")));
 

@@ -97,6 +97,10 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
                           "final_excess_length",
                           "plateau_slope",
                           "breakaway_force",
+                          "lock_extension_by_load",
+                          "true_plateau_force",
+                          "true_breakaway_force",
+                          "true_peak_force",
                           "balance_offset",
                           "fastest_node",
                           "preload",
@@ -128,7 +132,14 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
 TEST_F(RunFolder, CurveHasTheSamplingInstantsAndTheFullCurveEveryStep) {
   run(load_method(kConfig + "tighten.yaml"));
   const std::vector<CurveRow> curve = read_curve((folder_ / "curve.csv").string());
-  for (std::size_t i = 0; i < curve.size(); ++i) EXPECT_EQ(curve[i].time, static_cast<double>(i * 4) / 12.0);
+  std::size_t sampled = 0, balanced = 0;
+  for (const CurveRow& row : curve) {
+    if (row.phase == Phase::kBalance && row.time != static_cast<double>(sampled * 4) / 12.0)
+      ++balanced;
+    else
+      EXPECT_EQ(row.time, static_cast<double>(sampled++ * 4) / 12.0);
+  }
+  EXPECT_EQ(balanced, 1u);
   const std::vector<CurveRow> full = read_curve((folder_ / "curve_full.csv").string());
   EXPECT_GE(full.size(), 8 * (curve.size() - 1) + 1);
   for (std::size_t i = 1; i < full.size(); ++i) EXPECT_GT(full[i].time, full[i - 1].time);
@@ -142,6 +153,31 @@ TEST_F(RunFolder, ItsMethodRunsAgainToTheSameBytes) {
   run(load_method((folder_ / "method.yaml").string()));
   EXPECT_EQ(text_of(folder_ / "curve.csv"), curve);
   EXPECT_EQ(text_of(folder_ / "method.yaml"), method);
+}
+
+TEST_F(RunFolder, KeepsTheLogoOfItsReport) {
+  fs::create_directories(folder_);
+  const std::string logo = (folder_ / "ours.svg").string();
+  std::ofstream(logo) << "<svg/>";
+  run(load_method(kConfig + "straight.yaml", {"report.logo=" + logo}));
+  const std::string method = text_of(folder_ / "method.yaml");
+  EXPECT_THAT(method, HasSubstr("logo: logo.svg"));
+  EXPECT_EQ(text_of(folder_ / "logo.svg"), "<svg/>");
+  run(load_method((folder_ / "method.yaml").string()));
+  EXPECT_EQ(text_of(folder_ / "method.yaml"), method);
+}
+
+TEST_F(RunFolder, HoldsTheVerdictOnItsSpecification) {
+  const auto result = [this](const std::vector<std::string>& overrides) {
+    run(load_method(kConfig + "straight.yaml", overrides));
+    return YAML::LoadFile((folder_ / "result.yaml").string());
+  };
+  EXPECT_TRUE(result({})["specification_passed"].IsNull());
+  EXPECT_TRUE(result({"specification.peak_force.min=0"})["specification_passed"].as<bool>());
+  const YAML::Node failed = result({"specification={steps: {min: 1}, untangled_at: {max: 1}}"});
+  EXPECT_FALSE(failed["specification_passed"].as<bool>());
+  ASSERT_EQ(failed["specification_failed"].size(), 1u);
+  EXPECT_EQ(failed["specification_failed"][0].as<std::string>(), "untangled_at has no value in this test");
 }
 
 TEST_F(RunFolder, ARunThatGaveUpKeepsWhatItHadAndTheReason) {
@@ -208,8 +244,8 @@ TEST(ResultYaml, WarnsOfWhatTheResultsShow) {
 
 TEST(ResultYaml, SaysHowFarTheLoadCellMayBeOff) {
   Results results;
-  results.peak_force = 2000.0;
-  results.plateau_force = 6.0;
+  results.true_peak_force = 2000.0;
+  results.true_plateau_force = 6.0;
   RunFacts facts;
   YAML::Node result = YAML::Load(result_yaml(results, facts));
   EXPECT_TRUE(result["load_cell_error"].IsNull());
@@ -222,10 +258,11 @@ TEST(ResultYaml, SaysHowFarTheLoadCellMayBeOff) {
   result = YAML::Load(result_yaml(results, facts));
   EXPECT_DOUBLE_EQ(result["load_cell_error"].as<double>(), 0.005 * 2000.0);
   EXPECT_DOUBLE_EQ(result["plateau_load_cell_error"].as<double>(), 0.01 * 1000.0);
-  EXPECT_THAT(result["warnings"].as<std::vector<std::string>>(),
-              ::testing::ElementsAre("the plateau force lies below the load cell's floor of 10 N",
-                                     "the load cell was overloaded: beyond 1500 N it reads its stop"));
-  results.peak_force = 9.0;
+  EXPECT_THAT(
+      result["warnings"].as<std::vector<std::string>>(),
+      ::testing::ElementsAre("the plateau force lies below the load cell's floor of 10 N",
+                             "the load cell was overloaded: above 1500 N it reads the force at its mechanical stop"));
+  results.true_peak_force = 9.0;
   EXPECT_THAT(result_yaml(results, facts), HasSubstr("the peak force lies below"));
 }
 

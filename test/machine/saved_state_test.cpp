@@ -278,7 +278,7 @@ std::string complaint(const Scene& scene, const std::string& bytes) {
 TEST(SavedBench, OfAnotherSpecimenIsRefused) {
   Scene coarse = straight();
   coarse.specimen.edge_length = 0.0063;
-  EXPECT_THAT(complaint(straight(), coarse.begin().saved()), testing::HasSubstr("here: nodes: 43 is not allowed: 53"));
+  EXPECT_THAT(complaint(straight(), coarse.begin().saved()), testing::HasSubstr("nodes: found 43, expected 53"));
   const Scene twisted = overhand("", FrictionLaw::kMemory, ContactLaw::kSmooth);
   Scene without = twisted, edge = twisted;
   without.physics.twist = TwistMode::kOff;

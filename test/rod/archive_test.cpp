@@ -126,13 +126,13 @@ TEST(Archive, TellsEveryDamage) {
       EXPECT_NE(complaint(damaged), "") << "byte " << i << ", bit " << bit;
     }
   }
-  EXPECT_THAT(complaint(whole + "x"), testing::HasSubstr("file: length: "));
+  EXPECT_THAT(complaint(whole + "x"), testing::HasSubstr("file: the test cannot be loaded: length: found "));
 }
 
 TEST(Archive, TellsAForeignFileAndAnotherKind) {
-  EXPECT_THAT(complaint("time,extension\ns,m\n"), testing::HasSubstr("first line: that of a foreign file"));
+  EXPECT_THAT(complaint("time,extension\ns,m\n"), testing::HasSubstr("first line: found that of a foreign file"));
   EXPECT_THAT(complaint(saved(some(), "dream")),
-              testing::ContainsRegex("first line: \"knot_utm dream, version .*\" is not allowed: \"knot_utm test, "));
+              testing::ContainsRegex("first line: found \"knot_utm dream, version .*\", expected \"knot_utm test, "));
   std::string older = saved(some());
   const std::size_t version = older.find("version ") + 8;
   older[version] = static_cast<char>(older[version] + 1);
@@ -146,15 +146,17 @@ TEST(Archive, TellsWhatDoesNotFit) {
     change(things);
     return complaint(saved(things));
   };
-  EXPECT_THAT(complaint_of([](Things& t) { t.points.setZero(3, 5); }), testing::HasSubstr("columns: 5"));
-  EXPECT_THAT(complaint_of([](Things& t) { t.fixed.resize(3); }), testing::HasSubstr("length: 3"));
-  EXPECT_THAT(complaint_of([](Things& t) { t.node = 10; }), testing::HasSubstr("node: 10"));
-  EXPECT_THAT(complaint_of([](Things& t) { t.node = -1; }), testing::HasSubstr("node: -1"));
-  EXPECT_THAT(complaint_of([](Things& t) { t.colour = static_cast<Colour>(3); }), testing::HasSubstr("colour: 3"));
+  EXPECT_THAT(complaint_of([](Things& t) { t.points.setZero(3, 5); }),
+              testing::HasSubstr("columns: found 5, expected 2"));
+  EXPECT_THAT(complaint_of([](Things& t) { t.fixed.resize(3); }), testing::HasSubstr("length: found 3, expected 2"));
+  EXPECT_THAT(complaint_of([](Things& t) { t.node = 10; }), testing::HasSubstr("node: found 10"));
+  EXPECT_THAT(complaint_of([](Things& t) { t.node = -1; }), testing::HasSubstr("node: found -1"));
+  EXPECT_THAT(complaint_of([](Things& t) { t.colour = static_cast<Colour>(3); }),
+              testing::HasSubstr("colour: found 3"));
 
   Archive other("test");
   other.section("NONE");
-  EXPECT_THAT(complaint(other.bytes()), testing::HasSubstr("section: not \"ALL \""));
+  EXPECT_THAT(complaint(other.bytes()), testing::HasSubstr("section: found not \"ALL \""));
   EXPECT_THAT(complaint(Archive("test").bytes()), testing::HasSubstr("section: "));
   Archive two("test");
   Things things = some();

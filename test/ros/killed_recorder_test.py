@@ -127,7 +127,7 @@ class KilledRecorderTest(unittest.TestCase):
         self.assertIn('commands of the test never arrived', said)
         result = content(self.out, 'result.yaml')
         self.assertIn(b'ended_by: program\n', result)
-        self.assertRegex(result, rb'warnings: \["\d+ commands were not recorded"')
+        self.assertRegex(result, rb'warnings: \["\d+ commands of the test were not recorded"')
         self.assertGreater(self.rows(), 100)
         self.assertTrue(content(self.headless, 'curve.csv').endswith(content(self.out, 'curve.csv').split(b'\n', 3)[3]))
         self.assertEqual(messages(self.out + '/test.bag'), 5 * self.rows())
@@ -135,7 +135,7 @@ class KilledRecorderTest(unittest.TestCase):
     def test_without_room_it_says_so_and_the_journal_has_what_was_measured(self):
         launch = self.launch('full', real_time_factor='0', recorder_prefix='prlimit --fsize=60000')
         said = launch.end()
-        self.assertIn('cannot be written: File too large; what was recorded is in the journal: recover', said)
+        self.assertIn('file too large; what was recorded until then is in the journal, write it out with: recover', said)
         self.assertFalse(self.has('result.yaml'))
         here, elsewhere = self.out, os.path.join(self.folder, 'elsewhere')
         # Once there is room, in place too: the bag that ran out of it has no index.

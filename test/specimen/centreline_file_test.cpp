@@ -42,16 +42,25 @@ TEST_F(CentrelineFile, HeadingsCommentsAndEmptyRowsArePassedOver) {
 TEST_F(CentrelineFile, WrongRowsAreNamed) {
   EXPECT_THAT(complaint("0,0,0\n0,0\n0,0,2\n0,0,3\n0,0,4\n"), HasSubstr("row 2"));
   EXPECT_THAT(complaint("0,0,0\n0,0,nan\n"), HasSubstr("row 2"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,0\n"), HasSubstr("another point"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,1\n0,0,2\n"), HasSubstr("four points or more"));
+  EXPECT_THAT(complaint("0,0,0\n0,0,0\n"), HasSubstr("row 2 is the same point as the one before it"));
+  EXPECT_THAT(complaint("0,0,0\n0,0,1\n0,0,2\n"), HasSubstr("has 3 points, but must have four or more"));
   EXPECT_THAT(complaint("a\nb\nc\n0,0,0\n"), HasSubstr("row 3"));
   EXPECT_THAT(complaint("0,0,0\n0,0,+-1\n"), HasSubstr("row 2"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,1001\n"), HasSubstr("row 2 is not allowed: three numbers x,y,z from -1000"));
-  EXPECT_THAT(complaint("0,0,0\n0,0,1e-200\n"), HasSubstr("another point"));
-  EXPECT_THAT(complaint("0,0,0\n" + std::string(5000, '0') + ",0,0\n"), HasSubstr("rows of at most 4096"));
+  EXPECT_THAT(complaint("0,0,0\n0,0,1001\n"),
+              HasSubstr("row 2 is \"0,0,1001\", but must be three numbers x,y,z from -1000"));
+  EXPECT_THAT(complaint("0,0,0\n0,0,1e-200\n"), HasSubstr("row 2 is the same point as the one before it"));
+  EXPECT_THAT(complaint("0,0,0\n" + std::string(5000, '0') + ",0,0\n"),
+              HasSubstr("row 2 is longer than 4096 characters"));
 }
 
-TEST_F(CentrelineFile, MissingFile) { EXPECT_THROW(read_centreline("/nowhere/shape.csv"), InvalidInput); }
+TEST_F(CentrelineFile, MissingFile) {
+  try {
+    read_centreline("/nowhere/shape.csv");
+    ADD_FAILURE();
+  } catch (const InvalidInput& invalid) {
+    EXPECT_STREQ(invalid.what(), "specimen.file: cannot read /nowhere/shape.csv: no such file");
+  }
+}
 
 }  // namespace
 }  // namespace knot_utm

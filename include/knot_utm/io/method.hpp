@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/io/report_options.hpp"
 #include "knot_utm/machine/end_options.hpp"
 #include "knot_utm/machine/options.hpp"
 #include "knot_utm/machine/program.hpp"
@@ -23,6 +24,8 @@ struct Method {
   Program program;
   EndOptions ends;
   PhysicsOptions physics;
+  ReportOptions report;
+  Specification specification;
 };
 
 /// Reads a method file. Materials and load cells are found by name in
@@ -30,7 +33,7 @@ struct Method {
 ///   2. share/knot_utm/config of the installation the running executable belongs to,
 ///   3. the config/ of the sources it was built from,
 /// or stand in the method as maps. After reading, `specimen.preload` and the load cell are resolved and
-/// `specimen.file` and the records that are followed are absolute paths.
+/// `specimen.file`, `report.logo` and the records that are followed are absolute paths.
 ///
 /// Each override is "dotted.key=YAML", as `--set` takes them. The key of a list's entry is its number from 0 or the
 /// step's name ("program.pull.speed"). A key inside a material or load cell given by name changes a copy of it. Short
@@ -44,7 +47,7 @@ Method load_method(const std::string& file, const std::vector<std::string>& over
 Method parse_method(const std::string& text, const std::string& file, const std::vector<std::string>& overrides = {});
 
 /// The method as YAML that `load_method` reads back to the same: every value stands in it, no other file is needed
-/// but `specimen.file` and records.
+/// but `specimen.file`, `report.logo` and records.
 std::string method_yaml(const Method& method);
 
 /// Its program, for a physics whose longest step is `longest_step` [s].

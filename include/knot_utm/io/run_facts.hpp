@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/io/report_options.hpp"
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/machine/options.hpp"
 #include "knot_utm/machine/sample.hpp"
@@ -19,6 +20,7 @@ struct RunFacts {
   double wall_time = 0.0;             ///< [s]
   std::uint64_t peak_memory = 0;      ///< of the process [bytes]; 0: not known
   LoadCellOptions load_cell;          ///< that read the forces
+  Specification specification;        ///< what the user asks of the results
   std::string version;                ///< of this package
 };
 

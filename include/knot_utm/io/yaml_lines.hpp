@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace knot_utm {
@@ -22,8 +23,12 @@ class YamlLines {
 
   const std::string& all() const { return all_; }
 
+  std::vector<std::string> number_keys() const;               ///< of numbers and counts, null or not, in order
+  std::optional<double> value(const std::string& key) const;  ///< of a number or count; none: null, or not there
+
  private:
   std::string all_;
+  std::vector<std::pair<std::string, std::optional<double>>> numbers_;
 };
 
 }  // namespace knot_utm

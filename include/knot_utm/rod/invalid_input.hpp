@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 namespace knot_utm {
 
@@ -9,30 +10,53 @@ namespace knot_utm {
 /// than a line can say.
 std::string shown(const std::string& text);
 
-/// Input outside what is allowed. `what()` is one line: "file: key: value is not allowed: allowed", the file left
-/// out where it is not known, each part as `shown`. Whoever read the input from a file adds its name with `in_file`.
+/// The operating system's reason for an error, as errno has it, in lower case: "permission denied".
+std::string reason_of(int error);
+
+/// Input outside what is allowed. `what()` is one line, a sentence that says what is wrong, where, and what is allowed.
+/// Its most frequent form is "KEY is VALUE, but must be ALLOWED"; the functions below make the others. A file's name
+/// stands before the sentence, "FILE: ", where it is known: whoever read the input from a file adds it with `in_file`.
+/// Whatever comes from outside is shown as `shown` does.
 struct InvalidInput : std::runtime_error {
-  InvalidInput(const std::string& key_, const std::string& value_, const std::string& allowed_)
-      : InvalidInput(std::string(), key_, value_, allowed_) {}
+  /// "specimen.turns is 7, but must be 1 to 4".
+  InvalidInput(const std::string& key, const std::string& value, const std::string& allowed);
+  InvalidInput(const std::string& file, const std::string& key, const std::string& value, const std::string& allowed);
 
-  InvalidInput(const std::string& file_, const std::string& key_, const std::string& value_,
-               const std::string& allowed_)
-      : std::runtime_error((file_.empty() ? "" : shown(file_) + ": ") + shown(key_) + ": " + shown(value_) +
-                           " is not allowed: " + allowed_),
-        file(file_),
-        key(key_),
-        value(value_),
-        allowed(allowed_) {}
+  /// "material is missing: give a name (green_vps, nylon) or a map".
+  static InvalidInput missing(const std::string& key, const std::string& give);
 
-  /// The same with a file's name, unless it has one already.
-  InvalidInput in_file(const std::string& name) const {
-    return file.empty() ? InvalidInput(name, key, value, allowed) : *this;
-  }
+  /// "specimen.prelaod is no key of a method; did you mean specimen.preload?", or the known keys where none is near.
+  /// `section` is the dotted path of the map that the key stands in, empty for a file's top.
+  static InvalidInput unknown_key(const std::string& section, const std::string& key, const std::string& value,
+                                  const std::vector<std::string>& known, const std::string& of);
+
+  /// "material is "nyln", but must be ALLOWED; did you mean nylon?", without the question where no name is near.
+  static InvalidInput unknown_name(const std::string& key, const std::string& value, const std::string& allowed,
+                                   const std::vector<std::string>& known);
+
+  /// "cannot read FILE: no such file"; looks for the reason itself. Where another file's key names it: "KEY: cannot
+  /// ...".
+  static InvalidInput cannot_read(const std::string& file, const std::string& key = "");
+
+  /// "cannot write FILE: permission denied", for a place that the user chose.
+  static InvalidInput cannot_write(const std::string& key, const std::string& file, int error);
+
+  /// Any other sentence about this value of this key, with nothing foreign in it that has not been `shown`.
+  static InvalidInput sentence(const std::string& key, const std::string& value, const std::string& text);
+
+  /// The same with a file's name, unless it has one already or is about an argument ("--out"), which stands in no file.
+  InvalidInput in_file(const std::string& name) const;
 
   std::string file;     ///< where the input stands; empty: not known
   std::string key;      ///< dotted path, e.g. "specimen.edge_length"
   std::string value;    ///< as given
-  std::string allowed;  ///< e.g. "0.0005 to 0.0064 m (at most twice the radius)"
+  std::string allowed;  ///< e.g. "0.0005 to 0.0064 m (at most twice the radius)", or the whole sentence
+
+ private:
+  struct Parts {
+    std::string file, key, value, allowed;
+  };
+  InvalidInput(const Parts& parts, const std::string& line);
 };
 
 }  // namespace knot_utm

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/rod/known_names.hpp"
+
+namespace knot_utm {
+
+/// "; did you mean --out?", or where to read on.
+inline std::string hint_at_option(const CLI::App& app, const std::string& tool, const std::string& given) {
+  std::vector<std::string> names;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+  const std::string nearest = nearest_name(given, names);
+  return nearest.empty() ? "; see " + tool + " --help" : "; did you mean " + nearest + "?";
+}
+
+/// What is wrong with a command line, in a sentence that names the argument. CLI11's own name its types and its limits.
+inline std::string command_line_fault(const CLI::App& app, const std::string& tool, const CLI::ParseError& error) {
+  const std::vector<std::string> unknown = app.remaining();
+  if (!unknown.empty() && unknown.front().rfind('-', 0) == 0) {
+    const std::string given = shown(unknown.front().substr(0, unknown.front().find('=')));
+    return given + " is no option of " + tool + hint_at_option(app, tool, given);
+  }
+  if (!unknown.empty()) return "\"" + shown(unknown.front()) + "\" is one argument too many; see " + tool + " --help";
+  const std::string said = shown(error.what());
+  const std::string name = said.substr(0, said.find_first_of(": "));
+  const CLI::Option* option = app.get_option_no_throw(name);
+  const std::string description = option == nullptr ? "" : option->get_description();
+  if (error.get_name() == "RequiredError") return name + " is missing: give " + description;
+  if (error.get_name() == "ArgumentMismatch") return name + " needs a value: " + description;
+  if (error.get_name() == "ExcludesError")
+    return name + " and " + said.substr(said.rfind(' ') + 1) + " cannot be given together";
+  if (error.get_name() == "ValidationError" && option != nullptr && !option->results().empty())
+    return name + " is " + shown(option->results().back()) + ", but must be a number of at least 0";
+  return said;
+}
+
+}  // namespace knot_utm
