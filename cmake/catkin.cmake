@@ -8,7 +8,7 @@ if(KNOT_UTM_ROS)
     set(KNOT_UTM_INSTALLS_SETUP TRUE)
   endif()
   set(message_packages actionlib_msgs geometry_msgs std_msgs)
-  set(node_packages actionlib diagnostic_updater dynamic_reconfigure rosbag roscpp rosgraph_msgs sensor_msgs std_srvs tf2_ros visualization_msgs)
+  set(node_packages actionlib diagnostic_updater dynamic_reconfigure rosbag roscpp rosgraph_msgs sensor_msgs std_srvs tf2_msgs tf2_ros visualization_msgs)
   # The environment of the tests is written now, with those of its paths that are there: on a first configuration none.
   if(NOT DEFINED CATKIN_DEVEL_PREFIX)
     file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/devel/lib/python3/dist-packages ${CMAKE_BINARY_DIR}/devel/lib/pkgconfig)
@@ -18,7 +18,7 @@ endif()
 
 if(catkin_FOUND)
   add_message_files(DIRECTORY msg FILES
-                    Crosshead.msg KnotRecord.msg KnotShape.msg KnotState.msg RecorderStatus.msg SpecimenInfo.msg
+                    ColorBar.msg Crosshead.msg KnotRecord.msg KnotShape.msg KnotState.msg RecorderStatus.msg SpecimenInfo.msg
                     TestStatus.msg)
   add_action_files(DIRECTORY action FILES RunTest.action)
   generate_dynamic_reconfigure_options(cfg/Machine.cfg cfg/View.cfg)

@@ -18,5 +18,10 @@ install(TARGETS ${libraries}
         LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
 install(DIRECTORY include/knot_utm DESTINATION include FILES_MATCHING PATTERN "*.hpp")
 install(DIRECTORY config DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+# roslaunch and rosrun look for panel_node here, too.
+if(catkin_FOUND)
+  install(DIRECTORY panel DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} USE_SOURCE_PERMISSIONS
+          PATTERN "__pycache__" EXCLUDE)
+endif()
 install(DIRECTORY report DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} FILES_MATCHING PATTERN "*.py" PATTERN "*.j2"
         PATTERN "__pycache__" EXCLUDE)

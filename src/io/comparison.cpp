@@ -63,7 +63,8 @@ std::vector<std::string> beyond_tolerance(const Comparison& comparison, double t
   std::vector<std::string> out;
   const auto hold = [&](const std::string& name, double relative) {
     if (!(std::abs(relative) <= tolerance))
-      out.push_back(name + ": " + format_number(relative) + " is beyond " + format_number(tolerance));
+      out.push_back(name + ": the relative difference is " + format_number(relative) + ", but must be within " +
+                    format_number(tolerance));
   };
   if (comparison.difference && comparison.difference->rms > 0.0)
     hold("rms_difference_over_load", comparison.difference->rms / comparison.difference->load);

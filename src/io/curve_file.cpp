@@ -27,15 +27,15 @@ bool pulled(const CurveRow& row) { return pulls(row.phase); }
 
 }  // namespace
 
-std::vector<CurveRow> read_curve_file(const std::string& file) {
+std::vector<CurveRow> read_curve_file(const std::string& file, const RawColumns& columns) {
   const std::string content = read_input(file);
-  if (!is_own(content)) return read_raw_data(content, file);
+  if (!is_own(content)) return read_raw_data(content, file, columns);
   std::istringstream in(content);
   return read_curve(in, file);
 }
 
-std::vector<CurveRow> read_course(const std::string& file) {
-  std::vector<CurveRow> rows = read_curve_file(file);
+std::vector<CurveRow> read_course(const std::string& file, const RawColumns& columns) {
+  std::vector<CurveRow> rows = read_curve_file(file, columns);
   const auto first = std::find_if(rows.begin(), rows.end(), pulled);
   if (first == rows.end()) return {};
   const auto begin = first == rows.begin() ? first : first - 1;

@@ -38,14 +38,14 @@ std::vector<std::string> warnings(const Results& results) {
   }
   if (results.fastest_node > kJump) {
     all.push_back("a node moved at " + format_number(results.fastest_node) +
-                  " m/s while pulled: a knot may have jumped open; quote the peak force");
+                  " m/s while pulled: a knot may have jumped open, so quote the peak force");
   }
   if (results.max_penetration > kDeep) {
-    all.push_back("contacts were up to " + format_number(results.max_penetration) + " radii deep");
+    all.push_back("strands are pressed into each other by up to " + format_number(results.max_penetration) + " radii");
   }
   if (results.energy_balance_error > kUnbalanced) {
-    all.push_back("the energy balance is off by " + format_number(*results.energy_balance_error) +
-                  ": a smaller physics.residual moves the forces");
+    all.push_back("the energies and the work differ by " + format_number(*results.energy_balance_error) +
+                  " of the work: choose a smaller physics.residual");
   }
   return all;
 }
@@ -61,7 +61,8 @@ std::vector<std::string> warnings(const Results& results, const LoadCellOptions&
   }
   const double stop = cell.overload * cell.capacity;
   if (results.true_peak_force > stop) {
-    all.push_back("the load cell was overloaded: beyond " + format_number(stop) + " N it reads its stop");
+    all.push_back("the load cell was overloaded: above " + format_number(stop) +
+                  " N it reads the force at its mechanical stop");
   }
   return all;
 }
@@ -86,7 +87,8 @@ std::string accuracy_warning(const Results& results, const ReadingErrors& errors
   constexpr double kUnsure = 0.1;
   if (!results.true_plateau_force || errors.plateau_force.value_or(0.0) <= kUnsure) return {};
   return "the plateau force may be off by " + format_number(std::round(100.0 * *errors.plateau_force)) +
-         " %: for less a finer accuracy, a higher specimen.refinement or a lower pre-load";
+         " %; choose a finer physics.accuracy, a higher specimen.refinement or a lower specimen.preload to reduce the "
+         "error";
 }
 
 RunWriter::RunWriter(const std::string& folder, const Method& method)

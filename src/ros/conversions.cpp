@@ -134,6 +134,11 @@ Sample from_message(const KnotState& m) {
   return sample;
 }
 
+void put_motion(const MotionPatternTracker& motion, KnotState& message) {
+  message.motion_pattern = motion_pattern_name(motion.pattern());
+  message.locked = static_cast<std::uint8_t>(motion.lock_extension().has_value());
+}
+
 KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, double radius) {
   KnotShape m;
   m.header.frame_id = names::kBaseFrame;

@@ -1,5 +1,6 @@
 #include "knot_utm/ros/knot_node.hpp"
 
+#include <knot_utm/ColorBar.h>
 #include <knot_utm/SpecimenInfo.h>
 
 #include <algorithm>
@@ -19,6 +20,16 @@ constexpr double kManyRejected = 0.5;  // of the time steps that were tried
 constexpr std::uint32_t kQueue = 2 * KnotNode::kKeptAnswers;
 constexpr std::uint32_t kLargest = 16 * 1024;  // message to this node [bytes]
 
+/// The forces where the strands are shown, each going with the node that it is nearest to.
+std::vector<ContactForce> moved(std::vector<ContactForce> forces, const Points& from, const Points& to) {
+  for (ContactForce& contact : forces) {
+    Eigen::Index node = 0;
+    (from.colwise() - contact.place).colwise().squaredNorm().minCoeff(&node);
+    contact.place += to.col(node) - from.col(node);
+  }
+  return forces;
+}
+
 TestBench make_bench(const Method& method) {
   return TestBench(method.specimen, method.material, method.machine, method.physics);
 }
@@ -30,11 +41,14 @@ KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
       method_(method),
       bench_(make_bench(method)),
       frames_(bench_.lower_grip(), method.specimen.end_to_end),
-      picture_(method.machine, method.material.radius),
+      picture_(method.machine, method.material),
+      views_(method.machine, method.material.radius),
+      colors_(node_.advertise<ColorBar>(names::kColors, 1, true)),
       view_timer_(node_.createSteadyTimer(ros::WallDuration(1.0), &KnotNode::on_view_timer, this)),
       diagnostics_(node_),
       view_(picture_, [this](double period) {
         view_is_old_ = true;
+        colors_.publish(picture_.scale().bar());
         view_timer_.setPeriod(ros::WallDuration(period));
       }) {
   state_ = node_.advertise<KnotState>(names::kKnotState, kQueue);
@@ -62,6 +76,8 @@ void KnotNode::new_specimen() {
   sample_ = Sample();
   motion_ = MotionPatternTracker();
   picture_.begin(bench_.state().position);
+  views_.begin();
+  shown_.begin();
   view_is_old_ = true;
 
   SpecimenInfo info;
@@ -107,11 +123,12 @@ void KnotNode::answer(const Crosshead& message) {
   motion_.add(sample_);
   ++next_;
   view_is_old_ = true;
+  if (viewers_ > 0) shown_.add(moment(), ShownState::Clock::now());
 
   auto record = boost::make_shared<KnotRecord>();
   record->command = message;
   record->answer = to_message(sample_, message.run, stamp_);
-  record->answer.motion_pattern = motion_pattern_name(motion_.pattern());
+  put_motion(motion_, record->answer);
   const double start = stamp_.toSec() - command.time;
   record->steps.reserve(bench_.substeps().size());
   for (const Sample& step : bench_.substeps()) {
@@ -133,7 +150,7 @@ void KnotNode::refuse(const Crosshead& message, const std::string& why) {
   KnotRecord record;
   record.command = message;
   record.answer = to_message(failed, message.run, message.header.stamp);
-  record.answer.motion_pattern = motion_pattern_name(motion_.pattern());
+  put_motion(motion_, record.answer);
   publish(record);
 }
 
@@ -160,6 +177,10 @@ void KnotNode::on_status(const TestStatus::ConstPtr& ended) {
   if (status.state != TestStatus::ENDED || status.run != run_ || kept_.empty()) return;
   KnotRecord& last = *kept_.back();
   if (last.command.sequence != status.sequence) return;
+  if (viewers_ > 0 && !shown_.settled(ShownState::Clock::now())) {
+    shown_.settle();  // this node may end before the pictures have come to the last state
+    publish_markers();
+  }
   if (last.shape.points.empty()) put_shape(last);
   if (record_.getNumSubscribers() > 0) record_.publish(last);
 }
@@ -175,23 +196,29 @@ bool KnotNode::on_reset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigg
 void KnotNode::on_view_timer(const ros::SteadyTimerEvent& /*event*/) {
   const std::uint32_t viewers = markers_.getNumSubscribers();
   const bool somebody_is_new = viewers > viewers_;
+  if (viewers_ == 0) shown_.begin();
   viewers_ = viewers;
-  if (viewers > 0 && (view_is_old_ || somebody_is_new)) publish_markers();
-  view_is_old_ = false;
-  frames_.publish(stamp_, sample_.displacement, bench_.upper_grip());
+  if (viewers == 0) return frames_.publish(stamp_, sample_.displacement, bench_.upper_grip(), nullptr);
+  if (shown_.empty()) shown_.add(moment(), ShownState::Clock::now());
+  if (view_is_old_ || somebody_is_new) publish_markers();
+}
+
+Moment KnotNode::moment() const {
+  return {stamp_,           bench_.state().position,
+          bench_.tension(), bench_.upper_grip(),
+          sample_,          motion_pattern_name(motion_.pattern())};
 }
 
 void KnotNode::publish_markers() {
-  const Eigen::VectorXd tension = bench_.tension();
-  const std::vector<ContactForce> contacts = bench_.contact_forces();
-  const SceneView view{bench_.state().position,
-                       tension,
-                       contacts,
-                       bench_.lower_grip(),
-                       bench_.upper_grip(),
-                       sample_,
-                       motion_pattern_name(motion_.pattern())};
-  markers_.publish(picture_.draw(view, stamp_));
+  const ShownState::Clock::time_point now = ShownState::Clock::now();
+  view_is_old_ = !shown_.settled(now);
+  const Moment moment = shown_.at(now);
+  const Looks looks = views_.look(moment.points, bench_.lower_grip(), moment.upper_grip, moment.sample);
+  frames_.publish(moment.stamp, moment.sample.displacement, moment.upper_grip, &looks);
+  const std::vector<ContactForce> contacts = moved(bench_.contact_forces(), bench_.state().position, moment.points);
+  const SceneView view{moment.points, moment.tension,       contacts, bench_.lower_grip(), moment.upper_grip,
+                       moment.sample, moment.motion_pattern};
+  markers_.publish(picture_.draw(view, moment.stamp));
 }
 
 void KnotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

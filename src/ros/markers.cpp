@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/ros/color.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/views.hpp"
 
 namespace knot_utm {
 namespace {
@@ -24,23 +26,6 @@ geometry_msgs::Point to_point(const Vec3& v) {
   return point;
 }
 
-std_msgs::ColorRGBA color(double red, double green, double blue) {
-  std_msgs::ColorRGBA c;
-  c.r = static_cast<float>(red);
-  c.g = static_cast<float>(green);
-  c.b = static_cast<float>(blue);
-  c.a = 1.0f;
-  return c;
-}
-
-/// Blue below zero, light grey at zero, yellow to red above.
-std_msgs::ColorRGBA value_color(double value, double highest) {
-  const double x = highest > 0.0 ? std::clamp(value / highest, -1.0, 1.0) : 0.0;
-  if (x < 0.0) return color(0.85 + 0.7 * x, 0.85 + 0.5 * x, 0.85 - 0.1 * x);
-  if (x < 0.5) return color(0.85 + 0.3 * x, 0.85 - 0.1 * x, 0.85 - 1.5 * x);
-  return color(1.0 - 0.3 * (x - 0.5), 0.8 - 1.5 * (x - 0.5), 0.1);
-}
-
 /// rviz does not light triangles that have colours of their own, so the light is put into the colours: one lamp, and
 /// soft enough that no side is black (half-Lambert).
 std_msgs::ColorRGBA lit(const std_msgs::ColorRGBA& c, const Vec3& normal) {
@@ -54,7 +39,16 @@ std_msgs::ColorRGBA lit(const std_msgs::ColorRGBA& c, const Vec3& normal) {
 constexpr std::size_t kGaugeMarks = 9;  // along the rod
 constexpr double kGaugeMark = 0.6;      // half of its length [radius]
 constexpr double kAboveTheRod = 1.03;   // of its paint [radius]
-constexpr double kLongestForce = 6.0;   // half of the line of the largest contact force [radius]
+constexpr double kLongestForce = 6.0;   // half of the line of a contact force at the end of the scale [radius]
+
+// Spheres in place of a tube
+constexpr double kSphereDistance = 1.3;  // beyond which one is put between two [radius]
+constexpr int kMostBetween = 4;          // on an edge
+
+// The readings as text, in halves of the height of the picture
+constexpr double kTextAhead = 0.3;                  // of the way to the machine
+constexpr double kTextHeight = 0.055;               // of a line
+constexpr double kTextUp = 0.72, kTextLeft = 0.36;  // of its middle
 
 const std_msgs::ColorRGBA kInk = color(0.12, 0.12, 0.15);
 const std_msgs::ColorRGBA kContactColor = color(0.25, 0.85, 0.95);
@@ -95,36 +89,37 @@ Marker base_marker(const char* ns, int id, int type) {
 
 Marker grip_marker(int id, const MachineOptions& machine, const Vec3& center, double radius) {
   const bool roller = machine.grips == GripKind::kRollers;
+  const Vec3 size = 2.0 * half_of_grip(machine, radius);
   Marker m = base_marker("grips", id, roller ? Marker::CYLINDER : Marker::CUBE);
   m.pose.position = to_point(center);
+  m.scale.x = size.x();
+  m.scale.y = size.y();
+  m.scale.z = size.z();
   if (roller) {
     // A marker's cylinder stands along z; the rollers lie along y.
-    m.pose.orientation.x = std::sqrt(0.5);
-    m.pose.orientation.w = std::sqrt(0.5);
-    m.scale.x = m.scale.y = machine.roller_diameter;
-    m.scale.z = 12.0 * radius;
-  } else {
-    m.scale.x = m.scale.y = 6.0 * radius;
-    m.scale.z = 4.0 * radius;
+    m.pose.orientation.x = m.pose.orientation.w = std::sqrt(0.5);
+    std::swap(m.scale.y, m.scale.z);
   }
   m.color = color(0.45, 0.47, 0.52);
   return m;
 }
 
-std::string reading_text(const SceneView& view, ColorBy color_by, double highest) {
+/// One reading a line: its name, its value and its unit.
+std::string reading_text(const SceneView& view, const ColorScale& scale) {
   const Sample& sample = view.sample;
-  char text[256];
-  std::snprintf(text, sizeof text, "%s\nF = %.4g N\ns = %.1f mm\n", phase_name(sample.phase), sample.load,
-                1e3 * sample.extension);
+  char text[512];
+  std::snprintf(text, sizeof text,
+                "time %.1f s\nphase: %s\nmotion pattern: %s\nextension %.1f mm\nload %.4g N\n"
+                "end-to-end distance %.1f mm\n",
+                sample.time, phase_name(sample.phase), view.motion_pattern.c_str(), 1e3 * sample.extension, sample.load,
+                1e3 * sample.end_to_end);
   std::string out = text;
   if (!std::isnan(sample.knot_distance)) {
-    std::snprintf(text, sizeof text, "e = %.1f mm\n", 1e3 * sample.knot_distance);
+    std::snprintf(text, sizeof text, "knot distance %.1f mm\n", 1e3 * sample.knot_distance);
     out += text;
   }
-  std::snprintf(text, sizeof text,
-                color_by == ColorBy::kTension ? "\nred: %.3g N in the rod" : "\nred: bent to %.2g radii",
-                color_by == ColorBy::kTension || highest <= 0.0 ? highest : 1.0 / highest);
-  return out + view.motion_pattern + text;
+  std::snprintf(text, sizeof text, "tension in the rod: grey 0, red %g N", scale.full());
+  return out + text;
 }
 
 /// What one ring of triangles to the next is made of.
@@ -225,7 +220,12 @@ Eigen::VectorXd curvature_at_nodes(const Points& points, double radius) {
   return out;
 }
 
-Marker tube_marker(const Points& points, const Eigen::VectorXd& value, double radius, const TubeOptions& options) {
+Vec3 half_of_grip(const MachineOptions& machine, double radius) {
+  if (machine.grips != GripKind::kRollers) return Vec3(3.0, 3.0, 2.0) * radius;
+  return {0.5 * machine.roller_diameter, 6.0 * radius, 0.5 * machine.roller_diameter};
+}
+
+Marker tube_marker(const Points& points, const Colors& colors, double radius, const TubeOptions& options) {
   Marker m = triangles("rod");
   if (points.cols() < 2) return m;
   const std::size_t corners = 6 * static_cast<std::size_t>(options.sides) * static_cast<std::size_t>(points.cols());
@@ -234,7 +234,7 @@ Marker tube_marker(const Points& points, const Eigen::VectorXd& value, double ra
   const auto piece = [&](Eigen::Index first, Eigen::Index end) {
     if (end - first < 2) return;
     Tube(m, points.middleCols(first, end - first), radius, options.sides).draw([&](std::size_t node) {
-      return value_color(value.size() > 0 ? value[first + static_cast<Eigen::Index>(node)] : 0.0, options.highest);
+      return colors[static_cast<std::size_t>(first) + node];
     });
   };
   piece(0, options.parted + 1);
@@ -242,21 +242,46 @@ Marker tube_marker(const Points& points, const Eigen::VectorXd& value, double ra
   return m;
 }
 
-Marker contact_marker(const std::vector<ContactForce>& forces, double radius, double highest, double longest) {
+Marker spheres_marker(const Points& points, const Colors& colors, double radius, Eigen::Index parted) {
+  Marker m = base_marker("rod", 0, Marker::SPHERE_LIST);
+  m.scale.x = m.scale.y = m.scale.z = 2.0 * radius;
+  m.color = color(1.0, 1.0, 1.0);
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const std_msgs::ColorRGBA& here = colors[static_cast<std::size_t>(i)];
+    m.points.push_back(to_point(points.col(i)));
+    m.colors.push_back(here);
+    if (i + 1 == points.cols() || i == parted) continue;
+    const Vec3 edge = points.col(i + 1) - points.col(i);
+    const int between = std::min(static_cast<int>(edge.norm() / (kSphereDistance * radius)), kMostBetween);
+    for (int k = 1; k <= between; ++k) {
+      m.points.push_back(to_point(points.col(i) + edge * k / (between + 1)));
+      m.colors.push_back(here);
+    }
+  }
+  return m;
+}
+
+Marker contact_marker(const std::vector<ContactForce>& forces, double radius, const ColorScale& scale, double longest) {
   Marker m = base_marker("contact_forces", 0, Marker::LINE_LIST);
   m.scale.x = 0.35 * radius;
   m.color = kContactColor;
   m.points.reserve(2 * forces.size());
   for (const ContactForce& contact : forces) {
-    const Vec3 half = highest > 0.0 ? Vec3(longest / highest * contact.force) : Vec3::Zero();
+    const double size = contact.force.norm();
+    const Vec3 half = size > 0.0 ? Vec3(longest * scale.place(size) / size * contact.force) : Vec3::Zero();
     m.points.push_back(to_point(contact.place - half));
     m.points.push_back(to_point(contact.place + half));
   }
   return m;
 }
 
+ScenePicture::ScenePicture(const MachineOptions& machine, const Material& material)
+    : machine_(machine),
+      radius_(material.radius),
+      tension_(ColorScale::of_tension(material, machine.load_cell)),
+      curvature_(ColorScale::of_curvature()) {}
+
 void ScenePicture::begin(const Points& points) {
-  forget_largest();
   gauge_.clear();
   arclength_ = Eigen::VectorXd::Zero(points.cols());
   for (Eigen::Index i = 1; i < points.cols(); ++i)
@@ -273,46 +298,71 @@ Eigen::Index ScenePicture::parted_edge(const Sample& sample) const {
   return std::upper_bound(arclength_.data(), end, sample.break_arclength) - arclength_.data() - 1;
 }
 
-Marker ScenePicture::rod_marker(const SceneView& view) {
+Colors ScenePicture::colors(const SceneView& view, Eigen::Index parted) const {
   const bool by_tension = color_by_ == ColorBy::kTension;
   Eigen::VectorXd value = by_tension ? tension_at_nodes(view.tension) : curvature_at_nodes(view.points, radius_);
-  TubeOptions tube;
-  tube.parted = std::min(parted_edge(view.sample), view.points.cols() - 2);
-  if (tube.parted >= 0 && !by_tension) value.segment(tube.parted, 2).setZero();  // no bend is there any more
-  double& highest = by_tension ? highest_tension_ : highest_curvature_;
-  if (value.size() > 0) highest = std::max(highest, value.maxCoeff());
-  tube.highest = highest;
-  return tube_marker(view.points, value, radius_, tube);
+  value.conservativeResizeLike(Eigen::VectorXd::Zero(view.points.cols()));  // where no tension is known
+  if (parted >= 0 && !by_tension) value.segment(parted, 2).setZero();       // no bend is there any more
+  Colors out;
+  out.reserve(static_cast<std::size_t>(value.size()));
+  for (const double x : value) out.push_back(scale().color(x));
+  return out;
 }
 
-Marker ScenePicture::text_marker(const SceneView& view) const {
+Marker ScenePicture::rod_marker(const SceneView& view) const {
+  TubeOptions tube;
+  tube.parted = std::min(parted_edge(view.sample), view.points.cols() - 2);
+  return tube_marker(view.points, colors(view, tube.parted), radius_, tube);
+}
+
+Marker ScenePicture::reading_marker(const SceneView& view, const Vec3& eye) const {
   Marker m = base_marker("reading", 0, Marker::TEXT_VIEW_FACING);
-  const double height = 0.04 * std::max((view.upper_grip - view.lower_grip).norm(), 0.1);
-  m.pose.position = to_point(view.upper_grip - Vec3(4.0 * height + machine_.roller_diameter, 0.0, 2.0 * height));
-  m.scale.z = height;
-  m.color = color(1.0, 1.0, 1.0);
-  m.text = reading_text(view, color_by_, color_by_ == ColorBy::kTension ? highest_tension_ : highest_curvature_);
+  m.header.frame_id = names::kViewMachineFrame;
+  m.text = reading_text(view, tension_);
+  // In the upper left corner, nearer to the eye than anything else.
+  const double ahead = kTextAhead * (0.5 * (view.lower_grip + view.upper_grip) - eye).norm();
+  const double half_height = ahead * std::tan(0.5 * Camera::kFieldOfView);
+  m.scale.z = kTextHeight * half_height;
+  m.pose.position =
+      to_point(ahead * Camera::forwards() + half_height * (kTextUp * Camera::up() - kTextLeft * Camera::right()));
+  m.color = color(0.95, 0.95, 0.95);
   return m;
 }
 
-visualization_msgs::MarkerArray ScenePicture::draw(const SceneView& view, const ros::Time& stamp) {
-  if (view.sample.phase != phase_) forget_largest();
-  phase_ = view.sample.phase;
-  for (const ContactForce& contact : view.contacts) highest_contact_ = std::max(highest_contact_, contact.force.norm());
-  visualization_msgs::MarkerArray array;
-  array.markers.push_back(rod_marker(view));
-  array.markers.push_back(gauge_marker(view.points, gauge_, radius_));
-  array.markers.push_back(contact_marker(show_contacts_ ? view.contacts : std::vector<ContactForce>(), radius_,
-                                         highest_contact_, kLongestForce * radius_));
-  array.markers.push_back(grip_marker(0, machine_, view.lower_grip, radius_));
-  array.markers.push_back(grip_marker(1, machine_, view.upper_grip, radius_));
-  array.markers.push_back(text_marker(view));
-  for (Marker& marker : array.markers) {
+namespace {
+
+visualization_msgs::MarkerArray stamped(std::vector<Marker> markers, const ros::Time& stamp) {
+  for (Marker& marker : markers) {
     marker.header.stamp = stamp;
     const bool a_list = marker.type == Marker::TRIANGLE_LIST || marker.type == Marker::LINE_LIST;
     if (a_list && marker.points.empty()) marker.action = Marker::DELETE;  // rviz takes an empty list for an error
   }
+  visualization_msgs::MarkerArray array;
+  array.markers = std::move(markers);
   return array;
+}
+
+}  // namespace
+
+visualization_msgs::MarkerArray ScenePicture::draw(const SceneView& view, const ros::Time& stamp) const {
+  return stamped(
+      {rod_marker(view), gauge_marker(view.points, gauge_, radius_),
+       contact_marker(show_contacts_ ? view.contacts : std::vector<ContactForce>(), radius_, tension_,
+                      kLongestForce * radius_),
+       grip_marker(0, machine_, view.lower_grip, radius_), grip_marker(1, machine_, view.upper_grip, radius_)},
+      stamp);
+}
+
+visualization_msgs::MarkerArray ScenePicture::draw_small(const SceneView& view, const Vec3& eye,
+                                                         const ros::Time& stamp) const {
+  const Eigen::Index parted = parted_edge(view.sample);
+  Colors shown = colors(view, std::min(parted, view.points.cols() - 2));
+  for (const Eigen::Index node : gauge_)
+    if (node < view.points.cols()) shown[static_cast<std::size_t>(node)] = kInk;
+  return stamped(
+      {spheres_marker(view.points, shown, radius_, parted), grip_marker(0, machine_, view.lower_grip, radius_),
+       grip_marker(1, machine_, view.upper_grip, radius_), reading_marker(view, eye)},
+      stamp);
 }
 
 }  // namespace knot_utm

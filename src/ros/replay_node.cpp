@@ -1,11 +1,13 @@
 #include "knot_utm/ros/replay_node.hpp"
 
 #include <geometry_msgs/WrenchStamped.h>
+#include <knot_utm/ColorBar.h>
 #include <knot_utm/Crosshead.h>
 #include <knot_utm/KnotState.h>
 #include <ros/callback_queue.h>
 #include <rosgraph_msgs/Clock.h>
 #include <sensor_msgs/JointState.h>
+#include <std_msgs/String.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -33,7 +35,7 @@ void open(rosbag::Bag& bag, const std::string& file) {
   try {
     bag.open(file, rosbag::bagmode::Read);
   } catch (const ros::Exception& error) {
-    throw InvalidInput(file, "bag", error.what(), "a bag that can be read");
+    throw no_bag(file, error.what());
   }
 }
 
@@ -55,12 +57,16 @@ ReplayNode::ReplayNode(const ros::NodeHandle& node, const Method& method, const 
       options_(options),
       bench_(method.specimen, method.material, method.machine, method.physics),
       frames_(bench_.lower_grip(), method.specimen.end_to_end),
-      picture_(method.machine, method.material.radius),
+      picture_(method.machine, method.material),
+      views_(method.machine, method.material.radius),
       markers_(node_.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 1)),
+      colors_(node_.advertise<ColorBar>(names::kColors, 1, true)),
+      method_(node_.advertise<std_msgs::String>(names::kMethod, 1, true)),
       clock_(node_.advertise<rosgraph_msgs::Clock>(names::kClock, 10)),
       view_timer_(node_.createSteadyTimer(ros::WallDuration(1.0), &ReplayNode::on_view_timer, this)),
       parameters_(picture_, [this](double period) {
         picture_is_old_ = true;
+        colors_.publish(picture_.scale().bar());
         view_timer_.setPeriod(ros::WallDuration(period));
       }) {
   open(bag_, options_.bag);
@@ -75,6 +81,9 @@ ReplayNode::ReplayNode(const ros::NodeHandle& node, const Method& method, const 
   publishers_[names::kCrosshead] = node_.advertise<Crosshead>(names::kCrosshead, kQueue);
   publishers_[names::kJointStates] = node_.advertise<sensor_msgs::JointState>(names::kJointStates, kQueue);
   publishers_[names::kLoadCell] = node_.advertise<geometry_msgs::WrenchStamped>(names::kLoadCell, kQueue);
+  std_msgs::String text;
+  text.data = method_yaml(method);
+  method_.publish(text);
   begin_ = Clock::now();
 }
 
@@ -86,6 +95,7 @@ int ReplayNode::spin() {
     if (seconds_since(clock_published_) > kIdleClockPeriod) publish_clock();
     if (options_.exit_at_end && next_ == view_->end()) {
       publish_clock();
+      shown_.settle();
       on_view_timer({});
       ROS_INFO("%s has been replayed", options_.bag.c_str());
       ros::WallDuration(kGoodbye).sleep();
@@ -126,14 +136,13 @@ void ReplayNode::play(const rosbag::MessageInstance& instance) {
   now_ = std::max(now_, instance.getTime());
   const std::string& name = names_.at(instance.getTopic());
   if (name == names::kKnotShape) {
-    const bool first = shape_.points.empty();
-    shape_ = *replay<KnotShape>(instance);
-    if (first) picture_.begin(points_from_message(shape_));
-    picture_is_old_ = true;
+    show(*replay<KnotShape>(instance));
   } else if (name == names::kKnotState) {
     const boost::shared_ptr<KnotState> state = replay<KnotState>(instance);
     const std::string fault = fault_of(*state);
-    if (!fault.empty()) throw InvalidInput(options_.bag, name, fault, "those of a test");
+    if (!fault.empty())
+      throw InvalidInput::sentence(name, fault, "a message on " + name + " is not that of a test: " + shown(fault))
+          .in_file(options_.bag);
     sample_ = from_message(*state);
     motion_pattern_ = state->motion_pattern;
   } else if (name == names::kCrosshead) {
@@ -152,23 +161,36 @@ void ReplayNode::publish_clock() {
   clock_.publish(clock);
 }
 
+void ReplayNode::show(const KnotShape& shape) {
+  const Points points = points_from_message(shape);
+  if (shown_.empty()) picture_.begin(points);
+  const Eigen::VectorXd tension =
+      Eigen::Map<const Eigen::VectorXd>(shape.tension.data(), static_cast<Eigen::Index>(shape.tension.size()));
+  // On a compliant frame the grip goes less far than the crosshead.
+  const double way =
+      sample_.end_to_end > 0.0 ? sample_.end_to_end - (bench_.upper_grip() - bench_.lower_grip()).norm() : 0.0;
+  shown_.add({now_, points, tension, bench_.upper_grip() + way * Vec3::UnitZ(), sample_, motion_pattern_},
+             Clock::now());
+  picture_is_old_ = true;
+}
+
 void ReplayNode::on_view_timer(const ros::SteadyTimerEvent& /*event*/) {
   const std::uint32_t viewers = markers_.getNumSubscribers();
   const bool somebody_is_new = viewers > viewers_;
   viewers_ = viewers;
-  // On a compliant frame the grip goes less far than the crosshead.
-  const double way =
-      sample_.end_to_end > 0.0 ? sample_.end_to_end - (bench_.upper_grip() - bench_.lower_grip()).norm() : 0.0;
-  const Vec3 upper_grip = bench_.upper_grip() + way * Vec3::UnitZ();
-  frames_.publish(now_, sample_.displacement, upper_grip);
-  if (viewers == 0 || shape_.points.empty() || !(picture_is_old_ || somebody_is_new)) return;
-  picture_is_old_ = false;
-  const Points points = points_from_message(shape_);
+  if (shown_.empty()) return;
+  const Clock::time_point now = Clock::now();
+  const Moment moment = shown_.at(now);
+  const Vec3 lower_grip = bench_.lower_grip();
+  if (viewers == 0) return frames_.publish(moment.stamp, moment.sample.displacement, moment.upper_grip, nullptr);
+  if (!picture_is_old_ && !somebody_is_new) return;
+  picture_is_old_ = !shown_.settled(now);
+  const Looks looks = views_.look(moment.points, lower_grip, moment.upper_grip, moment.sample);
+  frames_.publish(moment.stamp, moment.sample.displacement, moment.upper_grip, &looks);
   const std::vector<ContactForce> none_recorded;
-  const Eigen::VectorXd tension =
-      Eigen::Map<const Eigen::VectorXd>(shape_.tension.data(), static_cast<Eigen::Index>(shape_.tension.size()));
-  const SceneView view{points, tension, none_recorded, bench_.lower_grip(), upper_grip, sample_, motion_pattern_};
-  markers_.publish(picture_.draw(view, now_));
+  const SceneView view{moment.points,     moment.tension, none_recorded,        lower_grip,
+                       moment.upper_grip, moment.sample,  moment.motion_pattern};
+  markers_.publish(picture_.draw(view, moment.stamp));
 }
 
 }  // namespace knot_utm

@@ -40,15 +40,16 @@ std::string node_of_process(const std::string& process) { return "/" + process.s
 WatchNode::WatchNode(const ros::NodeHandle& node, std::string verdict) : node_(node), verdict_(std::move(verdict)) {
   std::map<std::string, int> codes;
   if (!node_.getParam(names::kExitCodes, codes) || codes.empty()) {
-    throw InvalidInput(node_.resolveName(names::kExitCodes), "nothing",
-                       "the nodes of the test, as tighten.launch has it");
+    throw InvalidInput::missing(node_.resolveName(names::kExitCodes), "the nodes of the test, as tighten.launch does");
   }
   for (const auto& [name, code] : codes) {
     watched_[node_.resolveName(name)] = node_.resolveName(std::string(names::kExitCodes) + "/" + name);
   }
   recorder_ = subscribe_gated(node_, {names::kRecorderStatus, names::kRecorderNode, 1, kLargest},
                               &WatchNode::on_recorder, this);
-  if (!find_launch()) throw InvalidInput("watch_node", "started by hand", "part of a launch file, which it ends");
+  if (!find_launch())
+    throw InvalidInput::sentence("watch_node", "started by hand",
+                                 "watch_node ends the launch that it is a part of, so it cannot be started by hand");
 }
 
 bool WatchNode::find_launch() {
@@ -134,7 +135,7 @@ void WatchNode::tell(int code) const {
   std::ofstream file(verdict_);
   file << code << '\n' << folder_ << '\n';
   file.close();
-  if (!file) ROS_ERROR("%s cannot be written", verdict_.c_str());
+  if (!file) ROS_ERROR("cannot write %s", verdict_.c_str());
 }
 
 void WatchNode::end_launch() {

@@ -30,12 +30,13 @@ struct Arguments {
   bool overwrite = false;
   std::optional<double> tolerance;
   std::optional<std::string> report;  // a folder
+  RawColumns columns;                 // of raw data
   std::string command;                // the whole line
 };
 
-std::vector<CurveRow> read(const std::string& file) {
+std::vector<CurveRow> read(const std::string& file, const RawColumns& columns) {
   const std::size_t dot = file.rfind('.');
-  if (dot == std::string::npos || file.substr(dot) != ".bag") return read_curve_file(file);
+  if (dot == std::string::npos || file.substr(dot) != ".bag") return read_curve_file(file, columns);
 #ifdef KNOT_UTM_HAS_ROS
   return read_curve_bag(file);
 #else
@@ -59,7 +60,8 @@ struct Side {
   std::vector<CurveRow> rows;
   bool has_zero;  // of its own
 
-  explicit Side(const std::string& file_) : file(file_), rows(read(file_)), has_zero(has_its_zero(rows)) {
+  Side(const std::string& file_, const RawColumns& columns)
+      : file(file_), rows(read(file_, columns)), has_zero(has_its_zero(rows)) {
     require_finite(rows, file);
     require_readings(pull_of(rows));
   }
@@ -123,7 +125,7 @@ void balance(const Arguments& arguments, Side& a, Side& b) {
 int run(const Arguments& arguments) {
   if (arguments.tolerance && !std::isfinite(*arguments.tolerance))
     throw InvalidInput("--tolerance", std::to_string(*arguments.tolerance), "a finite number of at least 0");
-  Side side_a(arguments.a), side_b(arguments.b);
+  Side side_a(arguments.a, arguments.columns), side_b(arguments.b, arguments.columns);
   if (arguments.balance) balance(arguments, side_a, side_b);
   // A machine knows the way of its crosshead alone: beside raw data that is what counts of ours, too.
   const ExtensionOf extension = side_a.has_zero && side_b.has_zero ? ExtensionOf::kSpecimen : ExtensionOf::kMachine;
@@ -156,9 +158,9 @@ int main(int argc, char** argv) {
   return knot_utm::run_tool(knot_utm::kTool, [&] {
     knot_utm::Arguments arguments;
     CLI::App app(
-        "Compares two force-extension curves: curve.csv, a bag, or raw data that Instron's Bluehill exported. Prints "
+        "Compares two force-extension curves: curve.csv, a bag, or raw data that a testing machine exported. Prints "
         "YAML.");
-    app.add_option("A", arguments.a, "the curve that B is held against")->required();
+    app.add_option("A", arguments.a, "the curve that B is compared with")->required();
     app.add_option("B", arguments.b, "the other curve")->required();
     CLI::Option* balance = app.add_flag("--balance", arguments.balance,
                                         "raw data: load and extension are zero where the crosshead begins to move");
@@ -166,13 +168,16 @@ int main(int argc, char** argv) {
                    "raw data that were cut: extension of their first reading; the load there is that of the other "
                    "curve [m]")
         ->needs(balance);
-    app.add_option("--tolerance", arguments.tolerance, "exit code 1 where a relative difference is larger [-]")
+    app.add_option("--tolerance", arguments.tolerance, "end with exit code 1 where a relative difference is larger [-]")
         ->check(CLI::NonNegativeNumber);
-    app.add_option("--report", arguments.report, "a folder to write a page to: report.html and report.pdf");
+    app.add_option("--report", arguments.report, "a folder to write the page to, report.html and report.pdf");
     app.add_flag("--overwrite", arguments.overwrite,
                  "write the page over another comparison, instead of to the next free folder, -2, -3, ...");
+    std::string columns;
+    app.add_option(knot_utm::kColumnsOption, columns, knot_utm::kColumnsHelp);
     arguments.command = knot_utm::command_line(argc, argv);
     if (const auto code = knot_utm::parse(app, knot_utm::kTool, argc, argv)) return *code;
+    if (!columns.empty()) arguments.columns = knot_utm::parse_raw_columns(columns, knot_utm::kColumnsOption);
     return knot_utm::run(arguments);
   });
 }

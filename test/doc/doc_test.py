@@ -160,6 +160,12 @@ class Documents(unittest.TestCase):
             contents = re.findall(r"^- \[([^\]]+)\]\(#([^)]+)\)$", page[:page.index("\n## ")], re.MULTILINE)
             self.assertEqual(contents, [(section, anchor(section)) for section in sections], document)
 
+    def test_every_script_is_explained(self):
+        pages = "".join(text(document) for document in documents())
+        for file in glob.glob(os.path.join(ROOT, "scripts/*")):
+            if os.path.isfile(file):
+                self.assertIn(f"scripts/{os.path.basename(file)}", pages)
+
     def test_named_sources_are_there(self):
         for document in documents():
             for header in re.findall(r"`([\w/]+\.(?:hpp|cpp))`", text(document)):

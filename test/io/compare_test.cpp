@@ -72,8 +72,9 @@ TEST_F(Compare, SaysWhatIsBeyondTheTolerance) {
   EXPECT_EQ(within.code, 0) << within.text;
   const Answer beyond = compare("a.csv", "b.csv", "--tolerance 0.4");
   EXPECT_EQ(beyond.code, 1);
-  EXPECT_THAT(beyond.text, AllOf(HasSubstr("compare: peak_force: 0.5 is beyond 0.4\n"),
-                                 HasSubstr("largest_difference: 50\n"), HasSubstr("largest_difference_at: 0.011")));
+  EXPECT_THAT(beyond.text,
+              AllOf(HasSubstr("compare: peak_force: the relative difference is 0.5, but must be within 0.4\n"),
+                    HasSubstr("largest_difference: 50\n"), HasSubstr("largest_difference_at: 0.011")));
 }
 
 TEST_F(Compare, WithoutAnyLoadACurveIsTheSameAsItself) {

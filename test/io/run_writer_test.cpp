@@ -258,9 +258,10 @@ TEST(ResultYaml, SaysHowFarTheLoadCellMayBeOff) {
   result = YAML::Load(result_yaml(results, facts));
   EXPECT_DOUBLE_EQ(result["load_cell_error"].as<double>(), 0.005 * 2000.0);
   EXPECT_DOUBLE_EQ(result["plateau_load_cell_error"].as<double>(), 0.01 * 1000.0);
-  EXPECT_THAT(result["warnings"].as<std::vector<std::string>>(),
-              ::testing::ElementsAre("the plateau force lies below the load cell's floor of 10 N",
-                                     "the load cell was overloaded: beyond 1500 N it reads its stop"));
+  EXPECT_THAT(
+      result["warnings"].as<std::vector<std::string>>(),
+      ::testing::ElementsAre("the plateau force lies below the load cell's floor of 10 N",
+                             "the load cell was overloaded: above 1500 N it reads the force at its mechanical stop"));
   results.true_peak_force = 9.0;
   EXPECT_THAT(result_yaml(results, facts), HasSubstr("the peak force lies below"));
 }

@@ -34,7 +34,7 @@ TEST(TubeMarker, ClosedSurfaceWindsOutwards) {
   const double length = (points.rightCols(399) - points.leftCols(399)).colwise().norm().sum();
   TubeOptions options;
   options.sides = 12;
-  const auto marker = tube_marker(points, Eigen::VectorXd::Zero(400), radius, options);
+  const auto marker = tube_marker(points, Colors(400), radius, options);
   // A regular polygon of 12 sides in place of the circle.
   const double area = 6.0 * std::sin(3.14159265358979 / 6.0) * radius * radius;
   EXPECT_NEAR(enclosed_volume(marker), area * length, 0.01 * area * length);
@@ -45,7 +45,7 @@ TEST(TubeMarker, ClosedSurfaceWindsOutwards) {
 TEST(TubeMarker, SidesPointAwayFromTheCentreline) {
   Points points(3, 2);
   points << 0.0, 0.0, 0.0, 0.0, 0.0, 1.0;
-  const auto marker = tube_marker(points, Eigen::VectorXd::Zero(2), 0.1, TubeOptions());
+  const auto marker = tube_marker(points, Colors(2), 0.1, TubeOptions());
   const auto triangles = static_cast<std::size_t>(2 * TubeOptions().sides);
   for (std::size_t i = 0; i < 3 * triangles; i += 3) {
     const Vec3 a = vec(marker.points[i]), b = vec(marker.points[i + 1]), c = vec(marker.points[i + 2]);
@@ -54,16 +54,24 @@ TEST(TubeMarker, SidesPointAwayFromTheCentreline) {
   }
 }
 
-TEST(TubeMarker, TensionIsRedderThanSlack) {
-  TubeOptions options;
-  options.highest = 5.0;
-  const Points points = helix(2);
-  const auto tight = tube_marker(points, Eigen::VectorXd::Constant(2, 5.0), 0.01, options).colors.front();
-  const auto slack = tube_marker(points, Eigen::VectorXd::Zero(2), 0.01, options).colors.front();
-  EXPECT_GT(tight.r / tight.b, 3.0f * slack.r / slack.b);
+/// Where edges are longer than the rod is thick there are spheres between the nodes, but not where it has parted.
+TEST(SpheresMarker, StandCloseTogether) {
+  const double radius = 0.002;
+  Points points = Points::Zero(3, 21);
+  points.row(2) = Eigen::RowVectorXd::LinSpaced(21, 0.0, 20.0 * 2.5 * radius);
+  const auto marker = spheres_marker(points, Colors(21), radius, 7);
+  EXPECT_EQ(marker.colors.size(), marker.points.size());
+  EXPECT_DOUBLE_EQ(marker.scale.x, 2.0 * radius);
+  for (std::size_t i = 1; i < marker.points.size(); ++i) {
+    const double gap = (vec(marker.points[i]) - vec(marker.points[i - 1])).norm();
+    const bool parted = (vec(marker.points[i - 1]) - points.col(7)).norm() < 1e-12;
+    EXPECT_NEAR(gap, parted ? 2.5 * radius : 1.25 * radius, 1e-12);
+  }
 }
 
-TEST(TubeMarker, NothingToShow) { EXPECT_TRUE(tube_marker(Points(3, 0), {}, 0.01, TubeOptions()).points.empty()); }
+TEST(TubeMarker, NothingToShow) {
+  EXPECT_TRUE(tube_marker(Points(3, 0), Colors(), 0.01, TubeOptions()).points.empty());
+}
 
 TEST(TensionAtNodes, IsTheMeanOfTheirEdges) {
   const Eigen::VectorXd tension = (Eigen::VectorXd(3) << 2.0, 4.0, -1.0).finished();
@@ -84,13 +92,17 @@ TEST(CurvatureAtNodes, OfAHelixIsThatOfTheCurve) {
   EXPECT_EQ(curvature[nodes - 1], 0.0);
 }
 
-TEST(ContactMarker, LinesAreAsLongAsTheForces) {
+TEST(ContactMarker, LinesAreAsLongAsTheScaleSays) {
   const std::vector<ContactForce> forces = {{Vec3(1.0, 0.0, 0.0), Vec3(0.0, 3.0, 0.0)},
-                                            {Vec3(0.0, 1.0, 0.0), Vec3(0.0, 0.0, -6.0)}};
-  const auto marker = contact_marker(forces, 0.01, 6.0, 0.05);
+                                            {Vec3(0.0, 1.0, 0.0), Vec3(0.0, 0.0, -100.0)}};
+  Material material;
+  material.breaking_force = 100.0;
+  const ColorScale scale = ColorScale::of_tension(material, LoadCellOptions());
+  const auto marker = contact_marker(forces, 0.01, scale, 0.05);
   ASSERT_EQ(marker.points.size(), 4u);
-  EXPECT_NEAR((vec(marker.points[1]) - vec(marker.points[0]) - Vec3(0.0, 0.05, 0.0)).norm(), 0.0, 1e-15);
-  EXPECT_NEAR((vec(marker.points[3]) - vec(marker.points[2]) - Vec3(0.0, 0.0, -0.1)).norm(), 0.0, 1e-15);
+  const Vec3 first(0.0, 0.1 * scale.place(3.0), 0.0), second(0.0, 0.0, -0.1);
+  EXPECT_NEAR((vec(marker.points[1]) - vec(marker.points[0]) - first).norm(), 0.0, 1e-15);
+  EXPECT_NEAR((vec(marker.points[3]) - vec(marker.points[2]) - second).norm(), 0.0, 1e-15);
   EXPECT_NEAR((0.5 * (vec(marker.points[0]) + vec(marker.points[1])) - forces[0].place).norm(), 0.0, 1e-15);
 }
 
@@ -110,7 +122,13 @@ class ScenePictureTest : public testing::Test {
 
   std::vector<ContactForce> contacts;
   Sample sample;
-  ScenePicture picture{MachineOptions(), 0.002};
+  static Material material() {
+    Material rod;
+    rod.radius = 0.002;
+    rod.breaking_force = 500.0;
+    return rod;
+  }
+  ScenePicture picture{MachineOptions(), material()};
 };
 
 /// They are painted on the rod: where its nodes go, they go.
@@ -128,17 +146,28 @@ TEST_F(ScenePictureTest, GaugeMarksGoWithTheRod) {
   }
 }
 
-TEST_F(ScenePictureTest, TextSaysWhereTheTestIsAndWhereTheColoursEnd) {
+/// Whatever was seen before: a colour means the same force throughout.
+TEST_F(ScenePictureTest, AColourMeansTheSameForceThroughout) {
+  picture.begin(helix(50));
+  const auto before = part(draw(helix(50), 4.0), "rod").colors;
+  draw(helix(50), 2000.0);
   sample.phase = Phase::kPull;
+  EXPECT_EQ(part(draw(helix(50), 4.0), "rod").colors, before);
+}
+
+TEST_F(ScenePictureTest, SmallPicturesSayEachReadingWithItsNameAndUnit) {
+  sample.phase = Phase::kPull;
+  sample.time = 7.25;
   sample.load = 12.5;
   sample.knot_distance = 0.1;
   picture.begin(helix(50));
-  draw(helix(50), 40.0);
-  const std::string text = part(draw(helix(50), 20.0), "reading").text;
-  for (const char* words : {"pull", "F = 12.5 N", "e = 100.0 mm", "sliding", "red: 40 N"})
+  const Points rod = helix(50);
+  const Eigen::VectorXd tension = Eigen::VectorXd::Constant(49, 1.0);
+  const SceneView view{rod, tension, contacts, Vec3::Zero(), Vec3::UnitZ(), sample, "sliding"};
+  const std::string text = part(picture.draw_small(view, Vec3(0.0, -2.0, 0.5), ros::Time(1.0)), "reading").text;
+  for (const char* words : {"time 7.2 s", "phase: pull", "motion pattern: sliding", "extension 0.0 mm", "load 12.5 N",
+                            "knot distance 100.0 mm", "end-to-end distance 0.0 mm", "red 500 N"})
     EXPECT_NE(text.find(words), std::string::npos) << words << " is not in:\n" << text;
-  picture.color_by(ColorBy::kCurvature);
-  EXPECT_NE(part(draw(helix(50)), "reading").text.find("radii"), std::string::npos);
 }
 
 /// Of the straight rod's 100 edges the one that parted is missing, and the two new ends are closed.

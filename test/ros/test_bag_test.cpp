@@ -1,13 +1,17 @@
 #include "knot_utm/ros/test_bag.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <knot_utm/KnotState.h>
 #include <rosbag/view.h>
 #include <sys/resource.h>
+#include <tf2_msgs/TFMessage.h>
 #include <unistd.h>
+#include <visualization_msgs/MarkerArray.h>
 
 #include <csignal>
 #include <filesystem>
+#include <set>
 
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/journal_bag.hpp"
@@ -29,6 +33,8 @@ class TestBagTest : public testing::Test {
   fs::path folder_;
 };
 
+Method straight() { return load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml"); }
+
 Record record(std::uint64_t sequence) {
   Record r;
   r.command.sequence = r.answer.sequence = sequence;
@@ -48,23 +54,49 @@ std::size_t count(const std::string& file, const std::string& topic) {
 }
 
 TEST_F(TestBagTest, HoldsEveryCommandAndEveryReading) {
-  TestBag bag(file("a.bag"), Method());
+  TestBag bag(file("a.bag"), straight());
   for (std::uint64_t i = 0; i < 5; ++i) add(bag, i);
   bag.close();
   EXPECT_EQ(count(file("a.bag"), "/knot/state"), 5u);
   EXPECT_EQ(count(file("a.bag"), "/utm/crosshead"), 5u);
   EXPECT_EQ(count(file("a.bag"), "/utm/load_cell"), 3u);
   EXPECT_EQ(count(file("a.bag"), "/knot/shape"), 3u);
-  EXPECT_EQ(bag.messages(), 5u + 5u + 5u + 3u + 3u);
+  for (const char* topic : {"/knot/markers", "/tf", "/utm/status"}) EXPECT_EQ(count(file("a.bag"), topic), 3u) << topic;
+  for (const char* topic : {"/utm/method", "/knot/colors"}) EXPECT_EQ(count(file("a.bag"), topic), 1u) << topic;
+  EXPECT_EQ(bag.messages(), 5u + 5u + 5u + 3u + 3u + 3u * 3u + 2u);
 }
 
 TEST_F(TestBagTest, StampsAreThoseOfTheHeaders) {
-  TestBag bag(file("a.bag"), Method());
+  TestBag bag(file("a.bag"), straight());
   for (std::uint64_t i = 0; i < 5; ++i) add(bag, i);
   bag.close();
   const rosbag::Bag read(file("a.bag"), rosbag::bagmode::Read);
   for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/state"))) {
     EXPECT_EQ(m.getTime(), m.instantiate<KnotState>()->header.stamp);
+  }
+}
+
+/// What `rosbag play` and rviz need to show the test with nothing else running: every frame that a picture stands in or
+/// is looked at from, and topics that wait for whoever comes late.
+TEST_F(TestBagTest, ShowsTheTestByItself) {
+  TestBag bag(file("a.bag"), straight());
+  for (std::uint64_t i = 0; i < 3; ++i) add(bag, i);
+  bag.close();
+  const rosbag::Bag read(file("a.bag"), rosbag::bagmode::Read);
+  std::set<std::string> frames, used;
+  for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/tf")))
+    for (const auto& transform : m.instantiate<tf2_msgs::TFMessage>()->transforms)
+      frames.insert(transform.child_frame_id);
+  for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/markers")))
+    for (const auto& marker : m.instantiate<visualization_msgs::MarkerArray>()->markers)
+      used.insert(marker.header.frame_id);
+  EXPECT_THAT(used, testing::IsSubsetOf(frames));
+  EXPECT_THAT(frames, testing::IsSupersetOf({"utm_base", "upper_grip", "view_machine", "view_knots", "machine"}));
+  rosbag::View all(read);
+  for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
+    const bool latched = connection->header->count("latching") > 0;
+    const std::set<std::string> kept = {"/utm/method", "/utm/status", "/knot/colors"};
+    EXPECT_EQ(latched, kept.count(connection->topic) > 0) << connection->topic;
   }
 }
 
@@ -83,7 +115,7 @@ void write_run(const std::string& folder, const Method& method, std::uint64_t re
 }
 
 TEST_F(TestBagTest, RecoveredFromTheJournalItIsTheSameToTheByte) {
-  const Method method = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml");
+  const Method method = straight();
   write_run(file("ended"), method, 40, true);
   write_run(file("killed"), method, 40, false);
   fs::resize_file(file("killed/test.bag"), 100);
@@ -95,7 +127,7 @@ TEST_F(TestBagTest, RecoveredFromTheJournalItIsTheSameToTheByte) {
 }
 
 TEST_F(TestBagTest, SavedWhileTheTestGoesOnItCanBeRead) {
-  const Method method = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml");
+  const Method method = straight();
   JournalWriter journal(folder_.string(), journal_header(method));
   journal.append(record(0));
   save_bag(folder_.string(), method, file("saved.bag"));
@@ -112,7 +144,7 @@ TEST_F(TestBagTest, WithoutRoomItNamesTheFileAndTheReason) {
   tight.rlim_cur = 20000;
   std::string why;
   {
-    TestBag bag(file("a.bag"), Method());
+    TestBag bag(file("a.bag"), straight());
     setrlimit(RLIMIT_FSIZE, &tight);
     try {
       for (std::uint64_t i = 0; i < 1000; ++i) add(bag, i);

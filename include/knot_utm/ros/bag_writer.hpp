@@ -1,7 +1,9 @@
 #pragma once
 
+#include <ros/message_traits.h>
 #include <rosbag/bag.h>
 
+#include <boost/make_shared.hpp>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -26,6 +28,22 @@ class BagWriter {
   void write(const std::string& topic, const ros::Time& stamp, const Message& message) {
     try {
       bag_->write("/" + topic, stamp, message);
+    } catch (const rosbag::BagException&) {
+      throw CannotWrite(file_);
+    }
+    ++messages_;
+  }
+
+  /// The same of a topic that is latched: `rosbag play` keeps its last message for whoever comes later.
+  template <class Message>
+  void write_latched(const std::string& topic, const ros::Time& stamp, const Message& message) {
+    const auto header = boost::make_shared<ros::M_string>();
+    (*header)["latching"] = "1";
+    (*header)["type"] = ros::message_traits::datatype<Message>();
+    (*header)["md5sum"] = ros::message_traits::md5sum<Message>();
+    (*header)["message_definition"] = ros::message_traits::definition<Message>();
+    try {
+      bag_->write("/" + topic, stamp, message, header);
     } catch (const rosbag::BagException&) {
       throw CannotWrite(file_);
     }

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <string>
 
+#include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/io/record.hpp"
 #include "knot_utm/machine/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
@@ -28,6 +29,10 @@ Crosshead to_message(const Command& command, std::uint32_t run, const ros::Time&
 Command from_message(const Crosshead& message);
 KnotState to_message(const Sample& sample, std::uint32_t run, const ros::Time& stamp);
 Sample from_message(const KnotState& message);
+
+/// What an answer says of the motion pattern so far.
+void put_motion(const MotionPatternTracker& motion, KnotState& message);
+
 KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, double radius);
 Points points_from_message(const KnotShape& message);
 Record from_message(const KnotRecord& message);

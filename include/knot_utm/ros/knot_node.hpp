@@ -14,10 +14,12 @@
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/test_bench.hpp"
-#include "knot_utm/ros/grip_frames.hpp"
+#include "knot_utm/ros/frame_broadcaster.hpp"
 #include "knot_utm/ros/markers.hpp"
+#include "knot_utm/ros/shown_state.hpp"
 #include "knot_utm/ros/validate.hpp"
 #include "knot_utm/ros/view_parameters.hpp"
+#include "knot_utm/ros/views.hpp"
 
 namespace knot_utm {
 
@@ -45,6 +47,7 @@ class KnotNode {
   void refuse(const Crosshead& message, const std::string& why);
   void publish(const KnotRecord& record);
   void put_shape(KnotRecord& record) const;
+  Moment moment() const;
   void publish_markers();
 
   ros::NodeHandle node_;
@@ -57,12 +60,14 @@ class KnotNode {
   MotionPatternTracker motion_;                     ///< of this specimen
   ros::Time stamp_;                                 ///< of the last answer
   Sample diagnosed_;                                ///< the answer at the last diagnosis
-  GripFrames frames_;
+  FrameBroadcaster frames_;
   ScenePicture picture_;
+  Views views_;
+  ShownState shown_;  ///< kept while somebody looks
   bool view_is_old_ = true;
   std::uint32_t viewers_ = 0;
 
-  ros::Publisher state_, record_, load_cell_, shape_, specimen_, markers_;
+  ros::Publisher colors_, state_, record_, load_cell_, shape_, specimen_, markers_;
   ros::Subscriber commands_, status_;
   ros::ServiceServer reset_;
   ros::SteadyTimer view_timer_, diagnostics_timer_;

@@ -22,6 +22,7 @@ inline constexpr char kKnotRecord[] = "knot/record";          ///< KnotRecord, a
 inline constexpr char kKnotShape[] = "knot/shape";            ///< KnotShape, at each reading of the load cell
 inline constexpr char kSpecimen[] = "knot/specimen";          ///< SpecimenInfo, latched
 inline constexpr char kMarkers[] = "knot/markers";            ///< visualization_msgs/MarkerArray
+inline constexpr char kColors[] = "knot/colors";              ///< ColorBar, latched: what the rod's colours mean
 inline constexpr char kRecorderStatus[] = "recorder/status";  ///< RecorderStatus, latched
 inline constexpr char kExperimentLoad[] = "experiment/load_cell";       ///< geometry_msgs/WrenchStamped, as measured
 inline constexpr char kExperimentCrosshead[] = "experiment/crosshead";  ///< Crosshead, as measured
@@ -52,6 +53,15 @@ inline constexpr char kLowerGripFrame[] = "lower_grip";
 inline constexpr char kCrossheadFrame[] = "crosshead";
 inline constexpr char kUpperGripFrame[] = "upper_grip";
 inline constexpr char kLoadCellFrame[] = "load_cell";
+// What is looked at in rviz, and from where
+inline constexpr char kMachineFrame[] = "machine";
+inline constexpr char kKnotsFrame[] = "knots";
+inline constexpr char kLowerKnotFrame[] = "lower_knot";
+inline constexpr char kUpperKnotFrame[] = "upper_knot";
+inline constexpr char kViewMachineFrame[] = "view_machine";
+inline constexpr char kViewKnotsFrame[] = "view_knots";
+inline constexpr char kViewLowerKnotFrame[] = "view_lower_knot";
+inline constexpr char kViewUpperKnotFrame[] = "view_upper_knot";
 
 inline constexpr char kCrossheadJoint[] = "crosshead";  ///< in utm/joint_states
 

@@ -13,9 +13,11 @@
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/sample.hpp"
 #include "knot_utm/machine/test_bench.hpp"
-#include "knot_utm/ros/grip_frames.hpp"
+#include "knot_utm/ros/frame_broadcaster.hpp"
 #include "knot_utm/ros/markers.hpp"
+#include "knot_utm/ros/shown_state.hpp"
 #include "knot_utm/ros/view_parameters.hpp"
+#include "knot_utm/ros/views.hpp"
 
 namespace knot_utm {
 
@@ -51,6 +53,7 @@ class ReplayNode {
   boost::shared_ptr<Message> replay(const rosbag::MessageInstance& instance);
   void publish_clock();
   void on_view_timer(const ros::SteadyTimerEvent& event);
+  void show(const KnotShape& shape);
 
   ros::NodeHandle node_;
   ReplayOptions options_;
@@ -59,20 +62,21 @@ class ReplayNode {
   std::unique_ptr<rosbag::View> view_;
   rosbag::View::iterator next_;
   TestBench bench_;  ///< as it stands before the test
-  GripFrames frames_;
+  FrameBroadcaster frames_;
   ScenePicture picture_;
+  Views views_;
+  ShownState shown_;
   bool begun_ = false;
   ros::Time start_;  ///< of the bag
   ros::Time now_;    ///< of what was played last
   Clock::time_point begin_, clock_published_;
   Sample sample_;
   std::string motion_pattern_;
-  KnotShape shape_;  ///< the latest; no points: none yet
   bool picture_is_old_ = false;
   std::uint32_t viewers_ = 0;
 
   std::map<std::string, ros::Publisher> publishers_;  ///< by our names
-  ros::Publisher markers_, clock_;
+  ros::Publisher markers_, colors_, method_, clock_;
   ros::SteadyTimer view_timer_;
   ViewParameters parameters_;
 };

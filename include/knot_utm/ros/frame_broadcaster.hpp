@@ -1,0 +1,26 @@
+#pragma once
+
+#include <ros/time.h>
+#include <tf2_ros/static_transform_broadcaster.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include "knot_utm/ros/test_frames.hpp"
+
+namespace knot_utm {
+
+/// The frames of a test on /tf and /tf_static.
+class FrameBroadcaster {
+ public:
+  FrameBroadcaster(const Vec3& lower_grip, double end_to_end);
+
+  /// Once for each stamp: tf2 warns of one that it has already. `looks`: null where nobody looks.
+  void publish(const ros::Time& stamp, double displacement, const Vec3& upper_grip, const Looks* looks);
+
+ private:
+  TestFrames frames_;
+  ros::Time published_;
+  tf2_ros::TransformBroadcaster moving_;
+  tf2_ros::StaticTransformBroadcaster fixed_;
+};
+
+}  // namespace knot_utm

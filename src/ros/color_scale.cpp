@@ -1,0 +1,67 @@
+#include "knot_utm/ros/color_scale.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "knot_utm/ros/color.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kDecades = 1000.0;     // from the end of the linear part to the end of the scale
+constexpr double kLargestStrain = 0.5;  // that is shown of a rod without a breaking force
+constexpr double kSharpestBend = 1.0;   // radius of the rod over that of its curve
+constexpr double kCompression = 0.01;   // where blue ends: a thin rod buckles before [of `full`]
+constexpr int kColors = 128;            // of the bar
+
+/// 1, 2 or 5 times a power of ten, no less than `value`.
+double rounded_up(double value) {
+  const double power = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double digit : {1.0, 2.0, 5.0})
+    if (value <= digit * power * (1.0 + 1e-9)) return digit * power;
+  return 10.0 * power;
+}
+
+}  // namespace
+
+ColorScale ColorScale::of_tension(const Material& material, const LoadCellOptions& cell) {
+  const double stretched = std::min(kLargestStrain * material.stretching_stiffness, cell.capacity);
+  return {ColorBy::kTension,
+          rounded_up(material.breaking_force.value_or(std::max(stretched, material.tying_preload.value_or(0.0))))};
+}
+
+ColorScale ColorScale::of_curvature() { return {ColorBy::kCurvature, kSharpestBend}; }
+
+double ColorScale::place(double value) const {
+  const double share = std::clamp(value / full_, -1.0, 1.0);
+  if (what_ == ColorBy::kCurvature) return share;
+  return std::copysign(std::log1p(kDecades * std::abs(share)) / std::log1p(kDecades), share);
+}
+
+double ColorScale::lowest() const { return what_ == ColorBy::kTension ? place(-kCompression * full_) : 0.0; }
+
+std_msgs::ColorRGBA ColorScale::color(double value) const {
+  const double x = place(value);
+  if (x >= 0.0) return tension_color(x);
+  return tension_color(std::max(x / std::abs(place(-kCompression * full_)), -1.0));
+}
+
+ColorBar ColorScale::bar() const {
+  const bool tension = what_ == ColorBy::kTension;
+  ColorBar bar;
+  bar.quantity = tension ? "tension" : "curvature";
+  bar.unit = tension ? "N" : "1/radius";
+  if (tension) {
+    bar.ticks = {-kCompression * full_, 0.0, 0.01 * full_, 0.1 * full_, full_};
+  } else {
+    bar.ticks = {0.0, 0.25 * full_, 0.5 * full_, 0.75 * full_, full_};
+  }
+  for (const double tick : bar.ticks) bar.places.push_back((place(tick) - lowest()) / (1.0 - lowest()));
+  for (int i = 0; i < kColors; ++i) {
+    const double x = lowest() + (1.0 - lowest()) * i / (kColors - 1);
+    bar.colors.push_back(tension_color(x < 0.0 ? x / -lowest() : x));
+  }
+  return bar;
+}
+
+}  // namespace knot_utm

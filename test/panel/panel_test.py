@@ -1,0 +1,144 @@
+#!/usr/bin/python3
+"""The panel beside the picture in rviz: what it says, and that all of it can be read."""
+import itertools
+import math
+import os
+import sys
+import types
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../panel'))
+
+from drawing import HEIGHT, WIDTH, Drawing, limit
+from readings import KEPT, Readings
+
+
+def state(**fields):
+    return types.SimpleNamespace(**{**dict(time=12.5, phase='pull', motion_pattern='sliding', locked=False,
+                                           extension=0.0301, load=4.2, knot_distance=0.1021, end_to_end=0.2801),
+                                    **fields})
+
+
+def color_bar(full=5000.0):
+    color = types.SimpleNamespace(r=1.0, g=0.5, b=0.1)
+    return types.SimpleNamespace(quantity='tension', unit='N', ticks=[-0.01 * full, 0.0, 0.01 * full, 0.1 * full, full],
+                                 places=[0.0, 0.25, 0.5, 0.75, 1.0], colors=[color] * 16)
+
+
+def pull(readings, loads, step=1e-3, **fields):
+    for i, load in enumerate(loads):
+        readings.take_state(i / 3.0, state(**{'time': i / 3.0, 'extension': step * i, 'load': load, **fields}))
+        readings.take_load(i / 3.0, load)
+    return readings
+
+
+class ReadingsTest(unittest.TestCase):
+
+    def test_each_reading_has_its_name_and_unit(self):
+        readings = Readings()
+        readings.take_method({'material': {'name': 'nylon'}, 'specimen': {'knot': 'fisherman'}})
+        readings.take_state(1.0, state())
+        rows = {name: (value, unit) for name, value, unit in readings.table()}
+        self.assertEqual(rows, {'time': ('12.5', 's'), 'material': ('nylon', ''), 'knot': ('fisherman', ''),
+                                'phase': ('pull', ''), 'motion pattern': ('sliding', ''), 'extension': ('30.1', 'mm'),
+                                'load': ('4.2', 'N'), 'knot distance': ('102.1', 'mm'),
+                                'end-to-end distance': ('280.1', 'mm')})
+
+    def test_says_locked_once_the_knots_have_locked(self):
+        readings = Readings()
+        readings.take_state(1.0, state(locked=True))
+        self.assertIn(('motion pattern', 'locked', ''), readings.table())
+
+    def test_the_curve_pairs_readings_by_their_stamps_in_any_order(self):
+        readings = Readings()
+        readings.take_load(1.0, 10.0)
+        readings.take_state(0.5, state(extension=0.001))  # no reading was due there
+        readings.take_state(1.0, state(extension=0.002))
+        readings.take_state(2.0, state(extension=0.003))
+        readings.take_load(2.0, 20.0)
+        self.assertEqual(readings.curve(), [(0.002, 10.0), (0.003, 20.0)])
+
+    def test_what_finds_no_partner_is_forgotten(self):
+        readings = Readings()
+        for i in range(3 * KEPT):
+            readings.take_load(i, 1.0)
+        readings.take_state(0.0, state())
+        self.assertEqual(readings.curve(), [])
+
+    def test_an_earlier_stamp_begins_another_test(self):
+        readings = pull(Readings(), [1.0, 2.0, 3.0])
+        readings.take_state(0.0, state())
+        self.assertEqual(readings.curve(), [])
+
+    def test_the_recorded_curve_begins_where_the_test_is(self):
+        readings = Readings()
+        readings.take_state(1.0, state(extension=0.002))
+        for stamp, extension, load in ((1.0, 0.0101, 3.0), (2.0, 0.0121, 5.0)):
+            readings.take_measured_load(stamp, load)
+            readings.take_measured_extension(stamp, extension)
+        (first, _), (second, load) = readings.measured()
+        self.assertAlmostEqual(first, 0.002)
+        self.assertAlmostEqual(second, 0.004)
+        self.assertEqual(load, 5.0)
+
+
+class DrawingTest(unittest.TestCase):
+
+    def assert_legible(self, drawing):
+        renderer = drawing.canvas.get_renderer()
+        boxes = [(text.get_text(), text.get_window_extent(renderer)) for text in drawing.texts()]
+        self.assertGreater(len(boxes), 10)
+        for text, box in boxes:
+            self.assertTrue(box.x0 >= 0 and box.y0 >= 0 and box.x1 <= WIDTH and box.y1 <= HEIGHT, (text, box))
+        for (one, a), (other, b) in itertools.combinations(boxes, 2):
+            apart = a.x1 <= b.x0 or b.x1 <= a.x0 or a.y1 <= b.y0 or b.y1 <= a.y0
+            self.assertTrue(apart, '"%s" lies over "%s"' % (one, other))
+
+    def test_before_anything_is_known(self):
+        self.assertEqual(Drawing().draw(Readings()).shape, (HEIGHT, WIDTH, 3))
+
+    def test_texts_lie_within_the_picture_and_apart(self):
+        for loads, fields, full in (([0.0], {}, 5000.0),
+                                    ([0.0, 3.0, 5.0, 4.2], {}, 5000.0),
+                                    ([0.0, 4.0, 6352.8], dict(locked=True), 5000.0),
+                                    ([0.0, 123456.0], dict(motion_pattern='stretching', time=98765.4), 2e6),
+                                    ([-0.05, 0.0, -0.0213], dict(motion_pattern='untangling'), 0.02),
+                                    ([0.0, 2e-4, 5e-4], dict(knot_distance=math.nan), 1e-3)):
+            with self.subTest(loads=loads):
+                readings = Readings()
+                readings.take_method({'material': {'name': 'polypropylene'}, 'specimen': {'knot': 'fisherman'}})
+                readings.bar = color_bar(full)
+                drawing = Drawing()
+                drawing.draw(pull(readings, loads, step=0.04, **fields))
+                self.assert_legible(drawing)
+
+    def test_with_a_recorded_curve(self):
+        readings = pull(Readings(), [0.0, 10.0, 20.0])
+        readings.bar = color_bar()
+        for stamp in (0.0, 1.0):
+            readings.take_measured_extension(stamp, 0.001 * stamp)
+            readings.take_measured_load(stamp, 30.0 * stamp)
+        drawing = Drawing()
+        drawing.draw(readings)
+        self.assertIn('measured', [text.get_text() for text in drawing.texts()])
+        self.assert_legible(drawing)
+
+    def test_what_changes_is_drawn_anew_without_the_rest(self):
+        drawing = Drawing()
+        readings = pull(Readings(), [0.0, 3.0, 5.0])
+        before = drawing.draw(readings).copy()
+        readings.take_state(1.2, state(time=1.2, phase='hold'))
+        after = drawing.draw(readings)
+        rows = (before != after).any(axis=(1, 2)).nonzero()[0]
+        self.assertGreater(len(rows), 0)
+        self.assertLess(rows.max(), HEIGHT // 2)  # in the table only
+        self.assertTrue((drawing.draw(readings) == after).all())
+
+    def test_axes_end_at_round_numbers_beyond_the_curve(self):
+        for value in (1e-5, 0.19, 0.99, 4.2, 95.3, 6352.0):
+            self.assertLess(value, limit(value))
+            self.assertLess(limit(value), 2.2 * value)
+
+
+if __name__ == '__main__':
+    unittest.main()

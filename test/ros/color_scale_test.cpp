@@ -1,0 +1,62 @@
+#include "knot_utm/ros/color_scale.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace knot_utm {
+namespace {
+
+Material rope(double breaking_force) {
+  Material material;
+  material.breaking_force = breaking_force;
+  return material;
+}
+
+TEST(ColorScale, EndsAtARoundNumberBeyondTheBreakingForce) {
+  EXPECT_DOUBLE_EQ(ColorScale::of_tension(rope(2500.0), LoadCellOptions()).full(), 5000.0);
+  EXPECT_DOUBLE_EQ(ColorScale::of_tension(rope(5000.0), LoadCellOptions()).full(), 5000.0);
+  EXPECT_DOUBLE_EQ(ColorScale::of_tension(rope(0.011), LoadCellOptions()).full(), 0.02);
+}
+
+TEST(ColorScale, OfARodThatDoesNotPartEndsAtHalfItsStiffnessOrItsPreload) {
+  Material material;
+  material.stretching_stiffness = 22.15;
+  LoadCellOptions cell;
+  EXPECT_DOUBLE_EQ(ColorScale::of_tension(material, cell).full(), 20.0);
+  cell.capacity = 4.0;
+  EXPECT_DOUBLE_EQ(ColorScale::of_tension(material, cell).full(), 5.0);
+  material.tying_preload = 40.0;
+  EXPECT_DOUBLE_EQ(ColorScale::of_tension(material, cell).full(), 50.0);
+}
+
+/// Equal ratios are equally far apart, and the sliding of a rope that locks at kilonewtons is not lost.
+TEST(ColorScale, TellsDecadesApart) {
+  const ColorScale scale = ColorScale::of_tension(rope(5000.0), LoadCellOptions());
+  EXPECT_DOUBLE_EQ(scale.place(5000.0), 1.0);
+  EXPECT_DOUBLE_EQ(scale.place(0.0), 0.0);
+  EXPECT_DOUBLE_EQ(scale.place(-20.0), -scale.place(20.0));
+  EXPECT_NEAR(scale.place(500.0) - scale.place(50.0), 1.0 / 3.0, 0.02);
+  EXPECT_GT(scale.place(4.0), 0.08);
+  EXPECT_DOUBLE_EQ(scale.place(1e6), 1.0);
+}
+
+TEST(ColorScale, BarHasTheColoursOfItsTicks) {
+  for (const ColorScale& scale :
+       {ColorScale::of_tension(rope(5000.0), LoadCellOptions()), ColorScale::of_curvature()}) {
+    const ColorBar bar = scale.bar();
+    ASSERT_EQ(bar.ticks.size(), bar.places.size());
+    EXPECT_DOUBLE_EQ(bar.places.front(), 0.0);
+    EXPECT_DOUBLE_EQ(bar.places.back(), 1.0);
+    for (std::size_t i = 0; i < bar.ticks.size(); ++i) {
+      const double last = static_cast<double>(bar.colors.size() - 1);
+      const auto& on_bar = bar.colors[static_cast<std::size_t>(std::lround(bar.places[i] * last))];
+      const auto expected = scale.color(bar.ticks[i]);
+      EXPECT_NEAR(on_bar.r, expected.r, 0.02) << bar.ticks[i];
+      EXPECT_NEAR(on_bar.b, expected.b, 0.02) << bar.ticks[i];
+    }
+  }
+}
+
+}  // namespace
+}  // namespace knot_utm

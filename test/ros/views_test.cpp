@@ -1,0 +1,150 @@
+// What rviz shows of a test, by the camera of config/knot_utm.rviz: without rviz, and without a display.
+#include "knot_utm/ros/views.hpp"
+
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "knot_utm/io/method.hpp"
+#include "knot_utm/machine/run_test.hpp"
+#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/ros/markers.hpp"
+#include "knot_utm/ros/names.hpp"
+
+namespace knot_utm {
+namespace {
+
+std::string config(const std::string& file) { return std::string(KNOT_UTM_SOURCE_DIR) + "/config/" + file; }
+
+struct Case {
+  const char* method;
+  std::vector<std::string> overrides;
+};
+
+void expect_in_picture(const Vec3& eye, const Vec3& point, const Sample& sample) {
+  const Vec3 seen = Camera::project(eye, point);
+  EXPECT_GT(seen.z(), 0.01) << "nearer than the camera's clipping";
+  EXPECT_LE(std::abs(seen.x()), Camera::kNarrowest) << phase_name(sample.phase) << " at " << sample.time << " s";
+  EXPECT_LE(std::abs(seen.y()), 1.0) << phase_name(sample.phase) << " at " << sample.time << " s";
+}
+
+/// Rod, both grips and the text that a bag has, by their outermost points.
+void expect_all_in_picture(const TestBench& bench, const Method& method, const Vec3& eye, const Sample& sample) {
+  const double radius = method.material.radius;
+  for (Eigen::Index i = 0; i < bench.state().position.cols(); ++i) {
+    for (const Vec3& way : {Camera::right(), Camera::up()})
+      for (const double side : {-radius, radius})
+        expect_in_picture(eye, bench.state().position.col(i) + side * way, sample);
+  }
+  const Vec3 half = half_of_grip(method.machine, radius);
+  for (const Vec3& grip : {bench.lower_grip(), bench.upper_grip()})
+    for (const double x : {-1.0, 1.0})
+      for (const double y : {-1.0, 1.0})
+        for (const double z : {-1.0, 1.0}) expect_in_picture(eye, grip + half.cwiseProduct(Vec3(x, y, z)), sample);
+}
+
+/// The text stands in the frame of the eye. A line is as high as `scale.z`, a letter 0.55 of that wide at most.
+void expect_text_in_picture(const visualization_msgs::Marker& text, const Sample& sample) {
+  EXPECT_EQ(text.header.frame_id, names::kViewMachineFrame);
+  const Vec3 middle(text.pose.position.x, text.pose.position.y, text.pose.position.z);
+  std::size_t widest = 0, lines = 1, line = 0;
+  for (const char letter : text.text) {
+    line = letter == '\n' ? 0 : line + 1;
+    lines += letter == '\n' ? 1 : 0;
+    widest = std::max(widest, line);
+  }
+  const double half_width = 0.5 * 0.55 * text.scale.z * static_cast<double>(widest);
+  const double half_height = 0.5 * 1.1 * text.scale.z * static_cast<double>(lines);
+  for (const double x : {-half_width, half_width})
+    for (const double y : {-half_height, half_height})
+      expect_in_picture(Vec3::Zero(), middle + x * Camera::right() + y * Camera::up(), sample);
+}
+
+class ViewsOfATest : public testing::TestWithParam<Case> {};
+
+/// From the first state to the last: tying, mounting, sliding, lock and break.
+TEST_P(ViewsOfATest, MachineRodAndReadingsStayInThePicture) {
+  const Method method = load_method(config(GetParam().method), GetParam().overrides);
+  TestBench bench(method.specimen, method.material, method.machine, method.physics);
+  TestProgram program = make_program(method, bench.longest_step());
+  ScenePicture picture(method.machine, method.material);
+  picture.begin(bench.state().position);
+  Views views(method.machine, method.material.radius);
+  double nearest = 0.0;
+  run_test(bench, program, [&](const Command& command, const Sample& sample) {
+    if (!command.read_cell && !program.ended() && sample.status == BenchStatus::kRunning) return;
+    const Looks looks = views.look(bench.state().position, bench.lower_grip(), bench.upper_grip(), sample);
+    expect_all_in_picture(bench, method, looks.machine.from, sample);
+    const Eigen::VectorXd tension = bench.tension();
+    const std::vector<ContactForce> contacts;
+    const SceneView view{bench.state().position, tension, contacts,    bench.lower_grip(),
+                         bench.upper_grip(),     sample,  "untangling"};
+    for (const auto& marker : picture.draw_small(view, looks.machine.from, ros::Time(1.0)).markers)
+      if (marker.ns == "reading") expect_text_in_picture(marker, sample);
+    // The camera does not sway while the rod is pulled: it only ever moves away.
+    const double distance = (looks.machine.at - looks.machine.from).norm();
+    if (command.phase == Phase::kPull) {
+      EXPECT_GE(distance, nearest - 1e-12);
+      nearest = distance;
+    }
+  });
+  EXPECT_GT(nearest, 0.0);
+}
+
+const std::vector<std::string> kThinCord = {
+    "material={radius: 0.0005, density: 1150, stretching_stiffness: 2000, bending_stiffness: 3e-8, twisting_stiffness: "
+    "3e-8, friction_coefficient: 0.3, breaking_force: 50}",
+    "specimen.edge_length=0.0005", "specimen.length=0.1", "specimen.end_to_end=0.08",
+    "program.pull.until={extension: 0.01}"};
+
+INSTANTIATE_TEST_SUITE_P(Shipped, ViewsOfATest,
+                         testing::Values(Case{"tighten.yaml", {"physics.accuracy=draft"}},
+                                         Case{"tighten.yaml", {"physics.accuracy=draft", "material=pink_vps"}},
+                                         Case{"overhand.yaml", {}}, Case{"from_file.yaml", {}},
+                                         Case{"straight.yaml", {"specimen.length=1"}}, Case{"straight.yaml", {}},
+                                         Case{"overhand.yaml", kThinCord}));
+
+/// The camera that all of this is about, and those of the saved views.
+TEST(RvizConfig, HasTheCameraInTheFramesThatFollow) {
+  const YAML::Node views = YAML::LoadFile(config("knot_utm.rviz"))["Visualization Manager"]["Views"];
+  std::vector<YAML::Node> cameras = {views["Current"]};
+  EXPECT_EQ(views["Current"]["Target Frame"].as<std::string>(), names::kViewMachineFrame);
+  std::vector<std::string> frames;
+  for (const YAML::Node& saved : views["Saved"]) {
+    frames.push_back(saved["Target Frame"].as<std::string>());
+    if (saved["Class"].as<std::string>() == "rviz/FPS") cameras.push_back(saved);
+  }
+  for (const char* frame : {names::kViewKnotsFrame, names::kViewLowerKnotFrame, names::kViewUpperKnotFrame,
+                            names::kMachineFrame, names::kKnotsFrame})
+    EXPECT_EQ(std::count(frames.begin(), frames.end(), frame), 1) << frame;
+  for (const YAML::Node& camera : cameras) {
+    EXPECT_EQ(camera["Class"].as<std::string>(), "rviz/FPS");
+    EXPECT_EQ(camera["Yaw"].as<double>(), Camera::kYaw);
+    EXPECT_EQ(camera["Pitch"].as<double>(), Camera::kPitch);
+    for (const char* axis : {"X", "Y", "Z"}) EXPECT_EQ(camera["Position"][axis].as<double>(), 0.0);
+    EXPECT_LE(camera["Near Clip Distance"].as<double>(), 0.01);
+  }
+}
+
+/// e says how far apart they are; they are found by the shape alone.
+TEST(FindKnots, OfAFishermansKnotAreTheirDistanceApart) {
+  const Method method = load_method(config("tighten.yaml"), {"physics.accuracy=draft", "program=[{tie: {}}]"});
+  TestBench bench(method.specimen, method.material, method.machine, method.physics);
+  TestProgram program = make_program(method, bench.longest_step());
+  Sample last;
+  run_test(bench, program, [&](const Command&, const Sample& sample) { last = sample; });
+  const auto found = find_knots(bench.state().position, method.material.radius, true);
+  ASSERT_TRUE(found);
+  EXPECT_NEAR((found->upper - found->lower).norm(), last.knot_distance, 3.0 * method.material.radius);
+}
+
+TEST(FindKnots, AStraightRodHasNone) {
+  Points rod = Points::Zero(3, 101);
+  rod.row(2) = Eigen::RowVectorXd::LinSpaced(101, 0.0, 1.0);
+  EXPECT_FALSE(find_knots(rod, 0.003, false));
+}
+
+}  // namespace
+}  // namespace knot_utm
