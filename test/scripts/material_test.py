@@ -97,7 +97,7 @@ class Rod:
                                            "drop": self.read(drop_of_cantilever(bending, weight, overhang), 1e-3)}
 
     def read(self, value, uncertainty):
-        return [value + self.random.gauss(0, uncertainty), uncertainty]
+        return [float(value + self.random.gauss(0, uncertainty)), uncertainty]
 
 
 class Material(unittest.TestCase):
