@@ -20,7 +20,8 @@ endif()
 set_source_files_properties(
   test/rooms_test.cpp test/sim/failed_steps_test.cpp test/io/bad_input_test.cpp test/io/claimed_folder_test.cpp
   test/io/compare_test.cpp test/io/follow_test.cpp
-  test/io/killed_run_test.cpp test/io/method_test.cpp test/io/raw_data_test.cpp test/io/recovery_test.cpp
+  test/io/killed_run_test.cpp test/io/method_test.cpp test/io/plain_messages_test.cpp test/io/raw_data_test.cpp
+  test/io/recovery_test.cpp
   test/io/replay_step_test.cpp test/io/resume_test.cpp test/io/run_writer_test.cpp test/io/untangled_test.cpp
   PROPERTIES COMPILE_DEFINITIONS
              "KNOT_UTM_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\";KNOT_UTM_TOOLS_DIR=\"${KNOT_UTM_EXECUTABLE_DIR}\"")
