@@ -40,18 +40,18 @@ OTHER_LOOPS = {"opposite hands": {"specimen.handedness": "opposite"},
 FRICTION = 1.3                        # times the material's own
 
 GATED = ["polypropylene"]
-CHANGE_GATES = {"plateau_force": at_most(0.03), "lock_extension": at_most(0.02), "locked_stiffness": at_most(0.01)}
+CHANGE_GATES = {"true_plateau_force": at_most(0.03), "lock_extension": at_most(0.02), "locked_stiffness": at_most(0.01)}
 RIPPLE_GATE = at_most(0.1)
 HONEST_GATE = at_least(0.9)           # of the true differences lie within the errors given
 
-READINGS = {"plateau_force": ("plateau force", "N"), "peak_force": ("peak force", "N"),
+READINGS = {"true_plateau_force": ("plateau force", "N"), "true_peak_force": ("peak force", "N"),
             "lock_extension": ("lock extension", "m"), "locked_stiffness": ("locked stiffness", "N/m")}
-WITH_ERROR = ["plateau_force", "lock_extension", "locked_stiffness"]
+WITH_ERROR = ["true_plateau_force", "lock_extension", "locked_stiffness"]
 
 
 def readings_of(material):
     """Knots that do not slide have no plateau and no lock."""
-    return WITH_ERROR if SLIDES.get(material, True) else ["peak_force", "locked_stiffness"]
+    return WITH_ERROR if SLIDES.get(material, True) else ["true_peak_force", "locked_stiffness"]
 
 
 def report(runner, materials, seeds=3):
@@ -130,17 +130,17 @@ def other_preloads(shipped):
 def tightness_law(variants, cases):
     """Of the runs as shipped at their three pre-loads."""
     tied = [variants[SHIPPED]] + [case.starts for case in cases if case.name.startswith(PRELOAD)]
-    return TightnessLaw([(mean(excess_lengths(starts)), mean(readings(starts, "plateau_force")))
+    return TightnessLaw([(mean(excess_lengths(starts)), mean(readings(starts, "true_plateau_force")))
                          for starts in tied])
 
 
 def excess_lengths(starts):
     """Of the runs that have a plateau."""
-    return [None if reading(run, "plateau_force") is None else excess_length(run) for run in starts]
+    return [None if reading(run, "true_plateau_force") is None else excess_length(run) for run in starts]
 
 
 def change_at_same_tightness(law, starts):
-    return runs.relative_change(mean(readings(starts, "plateau_force")),
+    return runs.relative_change(mean(readings(starts, "true_plateau_force")),
                                 law.force_at(mean(excess_lengths(starts))))
 
 
@@ -187,7 +187,7 @@ def over_every_start(gate, *values):
 
 
 def ripple(starts):
-    return [runs.divide(reading(run, "plateau_force_sd"), reading(run, "plateau_force")) for run in starts]
+    return [runs.divide(reading(run, "plateau_force_sd"), reading(run, "true_plateau_force")) for run in starts]
 
 
 def worst(choose, values):
@@ -216,14 +216,14 @@ def table_of(material, variants, law=None):
                   [REFERENCE] + [change_of_means(readings(starts, key), shipped) for starts in each[1:]],
                   gates(CHANGE_GATES.get(key), lambda starts, k=key, s=shipped: (readings(starts, k), s), HALVED),
                   ".2g")
-        if key == "plateau_force" and law:
+        if key == "true_plateau_force" and law:
             table.add("excess length of the tied knots", "m", [mean(excess_lengths(starts)) for starts in each],
                       None, ".6f")
             table.add("relative change of the plateau force at the same excess length", "-",
                       [REFERENCE] + [change_at_same_tightness(law, starts) for starts in each[1:]],
-                      gates(CHANGE_GATES[key], lambda starts, s=shipped: (readings(starts, "plateau_force"), s), HALVED),
+                      gates(CHANGE_GATES[key], lambda starts, s=shipped: (readings(starts, "true_plateau_force"), s), HALVED),
                       ".2g")
-        if key == "plateau_force":
+        if key == "true_plateau_force":
             table.add("ripple of the plateau", "-", [worst(max, ripple(starts)) for starts in each],
                       gates(RIPPLE_GATE, lambda starts: (ripple(starts),), [SHIPPED, *HALVED]), ".2g")
     table.add("CPU time", "s", [worst(max, [run.cpu_time for run in starts if run.exit_code == 0]) for starts in each],
@@ -245,7 +245,7 @@ class Case:
                 for value, fine in zip(readings(self.starts, key), readings(self.fine, key))]
 
     def errors(self, key):
-        return readings(self.starts, key + "_error")
+        return readings(self.starts, key.replace("true_", "") + "_error")
 
     def count(self, key):
         """Starts within, missing, and all; where neither run has a reading, as knots that come open in both, there is

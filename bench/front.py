@@ -92,7 +92,7 @@ def overhand(runner, scenes):
               for name, run in all_runs.items() if run is not fine}
     table = Table("Open overhand, loose to tight", list(all_runs))
     add_work(table, all_runs, errors)
-    table.add("peak force", "N", [run.value("peak_force") for run in all_runs.values()])
+    table.add("peak force", "N", [run.value("true_peak_force") for run in all_runs.values()])
     table.add("largest penetration / radius", "-", [run.value("max_penetration") for run in all_runs.values()], None,
               ".2g")
 
@@ -167,14 +167,14 @@ def loop(runner, material, scenes):
     all_runs = {"fine run": runner.run(f"{material}/fine_run", {**base, **LOOP_FINE})}
     for name, settings in LOOP_VARIANTS.items():
         all_runs[name] = runner.run(f"{material}/{file_name(name)}", {**base, **settings}, times=2)
-    plateau = all_runs["fine run"].value("plateau_force")
-    errors = {name: runs.relative_change(run.value("plateau_force"), plateau)
+    plateau = all_runs["fine run"].value("true_plateau_force")
+    errors = {name: runs.relative_change(run.value("true_plateau_force"), plateau)
               for name, run in all_runs.items() if name != "fine run"}
     table = Table(f"Loop of {material}, tied and pulled: plateau force", list(all_runs))
     add_work(table, all_runs, errors)
-    table.add("plateau force", "N", [run.value("plateau_force") for run in all_runs.values()])
+    table.add("plateau force", "N", [run.value("true_plateau_force") for run in all_runs.values()])
     table.add("change of the plateau in a run finer still", "-",
-              [runs.relative_change(finer.value("plateau_force"), plateau)] + [None] * (len(all_runs) - 1), None, ".2g")
+              [runs.relative_change(finer.value("true_plateau_force"), plateau)] + [None] * (len(all_runs) - 1), None, ".2g")
     table.add("lock extension", "m", [run.value("lock_extension") for run in all_runs.values()])
     scenes[f"loop of {material}, plateau against a fine run"] = {"points": points(all_runs, errors)}
     return table

@@ -79,7 +79,7 @@ def classify(run):
     crossed = [line for line in run.value("warnings") or [] if "ran through itself" in line]
     if crossed or (run.value("max_penetration") or 0.0) > DEEP:
         return "tunnelled", crossed[0] if crossed else f"strands overlap by {run.value('max_penetration')} h"
-    if run.exit_code == 1:
+    if run.exit_code == 1 and run.value("ended_by") != "untangled":
         return "solver", run.value("reason") or ""
     return ("not at rest" if run.value("not_equilibrated") else "ended"), run.value("ended_by")
 

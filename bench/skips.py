@@ -78,7 +78,7 @@ class Pair:
         return runs.mean_relative_difference(runs.pulled(self.asked_for), runs.pulled(self.skipped))
 
     def peak_change(self):
-        return runs.relative_change(self.asked_for.value("peak_force"), self.skipped.value("peak_force"))
+        return runs.relative_change(self.asked_for.value("true_peak_force"), self.skipped.value("true_peak_force"))
 
 
 def parts(runner):

@@ -45,11 +45,11 @@ def report(runner, materials, seeds=5):
     physics.add("its confidence", "-", [run.value("motion_pattern_confidence") for run in each], None, ".2f")
     physics.add("de/ds (while sliding, else the whole pull)", "-", [run.slope_of_knot_distance() for run in each],
                 gates(SLOPE, materials), ".3f")
-    physics.add("plateau force", "N", [run.value("plateau_force") for run in each])
+    physics.add("plateau force", "N", [run.value("true_plateau_force") for run in each])
     physics.add("its standard deviation", "N", [run.value("plateau_force_sd") for run in each], None, ".2g")
     physics.add("lock extension", "m", [run.value("lock_extension") for run in each], gates(LOCK, materials))
     physics.add("locked stiffness", "N/m", [run.value("locked_stiffness") for run in each])
-    physics.add("peak force", "N", [run.value("peak_force") for run in each])
+    physics.add("peak force", "N", [run.value("true_peak_force") for run in each])
     physics.add("largest penetration / radius", "-", [run.value("max_penetration") for run in each], at_most(0.05),
                 ".3f")
     physics.add("largest difference of upper and lower force / peak", "-",
@@ -80,9 +80,9 @@ def over_starts(runner, materials, seeds):
         table.add(f"`{accuracy}`: real-time factor", "-", slowest, None, ".1f")
         table.add(f"`{accuracy}`: over the {times * SPEED_WANTED[True]:g} and {times * SPEED_WANTED[False]:g} wanted", "-",
                   [divide(factor, goal) for factor, goal in zip(slowest, wanted)], None, ".2f")
-        for reading in ("plateau_force", "peak_force"):
+        for reading, words in (("true_plateau_force", "plateau force"), ("true_peak_force", "peak force")):
             for name, pick in (("least", least), ("largest", largest)):
-                table.add(f"`{accuracy}`: {name} {reading.replace('_', ' ')}", "N",
+                table.add(f"`{accuracy}`: {name} {words}", "N",
                           [pick([run.value(reading) for run in group]) for group in each], None, ".4g")
     return table
 

@@ -69,7 +69,7 @@ def table_of(material, all_runs):
         table.add(f"relative change of the {where} knot's excess length", "-",
                   changes(lambda run: excess_length(run, knot)), not_first(EXCESS_GATE), ".2g")
     table.add("knot distance, tied", "m", values(lambda run: run.value("tied_knot_distance")))
-    table.add("plateau force", "N", values(lambda run: run.value("plateau_force")))
-    table.add("relative change of the plateau force", "-", changes(lambda run: run.value("plateau_force")),
+    table.add("plateau force", "N", values(lambda run: run.value("true_plateau_force")))
+    table.add("relative change of the plateau force", "-", changes(lambda run: run.value("true_plateau_force")),
               not_first(PLATEAU_GATE), ".2g")
     return table

@@ -18,10 +18,10 @@ if(KNOT_UTM_SANITIZE)
 endif()
 # To these files only: what a file does not use need not compile it anew.
 set_source_files_properties(
-  test/rooms_test.cpp test/sim/failed_steps_test.cpp test/io/bad_input_test.cpp test/io/compare_test.cpp
-  test/io/follow_test.cpp
+  test/rooms_test.cpp test/sim/failed_steps_test.cpp test/io/bad_input_test.cpp test/io/claimed_folder_test.cpp
+  test/io/compare_test.cpp test/io/follow_test.cpp
   test/io/killed_run_test.cpp test/io/method_test.cpp test/io/raw_data_test.cpp test/io/recovery_test.cpp
-  test/io/replay_step_test.cpp test/io/resume_test.cpp test/io/run_writer_test.cpp
+  test/io/replay_step_test.cpp test/io/resume_test.cpp test/io/run_writer_test.cpp test/io/untangled_test.cpp
   PROPERTIES COMPILE_DEFINITIONS
              "KNOT_UTM_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\";KNOT_UTM_TOOLS_DIR=\"${KNOT_UTM_EXECUTABLE_DIR}\"")
 add_dependencies(core_tests compare tensile_test recover replay_step)
@@ -62,6 +62,8 @@ endif()
 add_test(NAME bench_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/bench_test.py)
 add_test(NAME stress_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/stress_test.py)
 add_test(NAME scripts_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/scripts_test.py)
+add_test(NAME material_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/material_test.py)
+set_tests_properties(material_test PROPERTIES TIMEOUT 600 ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
 add_test(NAME doc_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/doc_test.py)
 
 # The panel beside the picture in rviz.

@@ -76,12 +76,12 @@ def checks_of(result):
 
 
 def numerical_errors(result):
-    """Each as a share of its reading."""
+    """Each as a share of its reading, of a force as a share of the true one."""
     checks = []
     for key, words, limit in (("plateau_force", "plateau force", LIMITS["kUnsure"]),
                               ("lock_extension", "lock extension", None),
                               ("locked_stiffness", stiffness_name(result), None)):
-        value, error = result.get(key), result.get(key + "_error")
+        value, error = result.get("true_" + key) or result.get(key), result.get(key + "_error")
         words = f"Estimated numerical error of the {words}, as a share of it"
         share = abs(error / value) if is_number(value) and is_number(error) and value else None
         checks.append(unlimited(words, [key + "_error"], share) if limit is None

@@ -7,7 +7,7 @@ from failure import CannotReport
 from is_number import is_number
 from run import numbers, printable, read_columns, read_yaml
 
-READINGS = ("peak_force", "plateau_force", "lock_extension", "locked_stiffness")
+READINGS = ("peak_force", "plateau_force", "breakaway_force", "lock_extension_by_load", "locked_stiffness")
 
 
 class Pull:

@@ -57,7 +57,7 @@ def draw_both(axes, comparison, letters):
         rows = few_points(pull.load)
         axes.plot(1e3 * pull.extension[rows], pull.load[rows], color=colour, lw=1.4,
                   label=f"{name}: {short(comparison.facts[name.lower()], letters)}")
-    for colour, lock in zip((ORANGE, BLUE), readings(comparison, "lock_extension")):
+    for colour, lock in zip((ORANGE, BLUE), readings(comparison, "lock_extension_by_load")):
         if lock is not None:
             axes.axvline(1e3 * lock, color=colour, lw=0.9, ls=(0, (4, 3)), label="_lock")
 

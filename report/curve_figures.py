@@ -174,7 +174,7 @@ def draw_floor(axes, run, tested):
 
 
 def draw_plateau(axes, run):
-    plateau, lock = run.value("plateau_force"), run.value("lock_extension")
+    plateau, lock = run.value("plateau_force"), run.value("lock_extension_by_load")
     if plateau is None:
         return
     force, length = run.units.force, run.units.length

@@ -1,6 +1,6 @@
 """Where the curve of ever finer tolerances may lie, by the errors that result.yaml gives for its readings.
 
-Up to the lock the force may be off by plateau_force_error / plateau_force, behind it by locked_stiffness_error /
+Up to the lock the force may be off by plateau_force_error / true_plateau_force, behind it by locked_stiffness_error /
 locked_stiffness, each as a share of the true force; the extension may be off by lock_extension_error at the lock and
 behind it, and in proportion before. A curve between these errors lies between the two that are returned.
 """
@@ -28,5 +28,6 @@ def error_band(run, pull):
 
 
 def share(run, key):
-    value, error = run.value(key), run.value(key + "_error")
+    """Errors of forces belong to the true one."""
+    value, error = run.value("true_" + key) or run.value(key), run.value(key + "_error")
     return None if value is None or error is None or value == 0.0 else abs(error / value)

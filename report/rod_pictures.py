@@ -8,7 +8,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator
 
 from quantities import number, with_unit
 from shapes import pieces
-from style import GREY, INK, SMALL, USUAL, as_png
+from style import GREY, HUB, INK, ROLLER, SMALL, USUAL, as_png
 from tube import Tube, smooth, to_picture
 
 TENSION = LinearSegmentedColormap.from_list("tension", ["#ece5d3", "#e8bd6a", "#d9752f", "#b02a30", "#6e1540"])
@@ -89,8 +89,8 @@ def rollers(run, shape):
 
 def draw_rollers(axes, run, shape):
     for z, radius in rollers(run, shape):
-        axes.add_patch(plt.Circle((z, 0.0), radius, facecolor="#e3e8ec", edgecolor="#b3bfc9", lw=0.8, zorder=1))
-        axes.add_patch(plt.Circle((z, 0.0), 0.15 * radius, facecolor="#b3bfc9", edgecolor="none", zorder=1))
+        axes.add_patch(plt.Circle((z, 0.0), radius, facecolor=ROLLER, edgecolor=HUB, lw=0.8, zorder=1))
+        axes.add_patch(plt.Circle((z, 0.0), 0.15 * radius, facecolor=HUB, edgecolor="none", zorder=1))
 
 
 def view(run, shape, radius):

@@ -13,6 +13,7 @@ BLUE, ORANGE, GREEN, VIOLET, RED, GOLD = "#1f5f99", "#b95a15", "#2a7554", "#6d4a
 PHASES = {"tie": "#f3e6c8", "release": "#e9efd2", "mount": "#d8eee3", "preload": "#d6e9ee", "balance": "#c9ced3",
           "pull": "#dfe6f3", "hold": "#ece0f1", "cycle": "#f4dfe3", "return": "#e6e6e6",
           "follow": "#dcecf2"}
+ROLLER, HUB = "#e3e8ec", "#b3bfc9"
 SMALL, USUAL = 8.5, 9.5  # letters [pt]; none is smaller than SMALL
 
 

@@ -95,14 +95,16 @@ CurveReadings curve_readings(const Pull& pull) {
   CurveReadings out;
   if (pull.empty()) return out;
   out.peak_force = peak_force(pull);
-  out.lock_extension = lock_by_load(pull);
-  const std::optional<Plateau> level = plateau(pull, out.lock_extension.value_or(pull.back().extension));
-  if (level && (out.lock_extension || std::abs(level->rise) < kLevel * level->force)) {
+  const std::optional<double> lock = lock_by_load(pull);
+  out.lock_extension_by_load = lock;
+  const double end = lock.value_or(pull.back().extension);
+  const std::optional<Plateau> level = plateau(pull, end);
+  if (level && (lock || std::abs(level->rise) < kLevel * level->force)) {
     out.plateau_force = level->force;
     out.plateau_force_sd = level->force_sd;
+    out.breakaway_force = breakaway_force(pull, end);
   }
-  if (out.lock_extension || !out.plateau_force)
-    out.locked_stiffness = locked_stiffness(pull, out.lock_extension.value_or(pull.front().extension));
+  if (lock || !out.plateau_force) out.locked_stiffness = locked_stiffness(pull, lock.value_or(pull.front().extension));
   return out;
 }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/analysis/curve_readings.hpp"
+#include "knot_utm/analysis/curve_row.hpp"
 #include "knot_utm/analysis/cycles.hpp"
 #include "knot_utm/analysis/pull_readings.hpp"
 
@@ -107,6 +107,47 @@ std::vector<Cycle> last_cycles(const std::vector<Sample>& samples) {
   return closed_cycles(path);
 }
 
+/// To where the rod parts.
+std::vector<CurveRow> rows_of(const std::vector<Sample>& readings) {
+  std::vector<CurveRow> rows;
+  for (const Sample& reading : readings) {
+    rows.push_back(curve_row(reading));
+    if (reading.status == BenchStatus::kBroken) break;
+  }
+  return rows;
+}
+
+/// The pull with true forces in place of loads: rows pair with readings.
+Pull true_pull_of(std::vector<CurveRow> rows, const std::vector<Sample>& readings) {
+  const auto first = std::find_if(readings.begin(), readings.end(), [](const Sample& r) { return pulls(r.phase); });
+  const double offset = first == readings.end() ? 0.0 : first->balance_offset;
+  // Balanced, as loads are, so that the origin is zero where a balance made it so.
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i].load = readings[i].force_upper - offset;
+  Pull pull = pull_of(rows);
+  for (PullPoint& point : pull) point.force += offset;
+  return pull;
+}
+
+void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>& at_break, Results& results) {
+  const std::vector<CurveRow> rows = rows_of(readings);
+  const Pull pull = pull_of(rows), true_pull = true_pull_of(rows, readings);
+  results.curve = curve_readings(pull);
+  if (!pull.empty()) results.true_peak_force = peak_force(true_pull);
+  if (at_break) {  // wherever it was: nothing is less than none
+    results.curve.peak_force = std::max(results.curve.peak_force, std::optional<double>(at_break->load));
+    results.true_peak_force = std::max(results.true_peak_force, std::optional<double>(at_break->force_upper));
+  }
+  const bool locked = results.lock_extension || results.curve.lock_extension_by_load;
+  if (results.motion_pattern == MotionPattern::kUntangling ||
+      (results.motion_pattern == MotionPattern::kSliding && !locked))
+    results.curve.locked_stiffness.reset();
+  if (!results.curve.plateau_force) return;
+  const double end = results.curve.lock_extension_by_load.value_or(pull.back().extension);
+  results.true_plateau_force = plateau(true_pull, end)->force;
+  results.true_breakaway_force = breakaway_force(true_pull, end);
+  results.plateau_slope = known(plateau(pull, end)->slope);
+}
+
 double stored_energy(const Sample& sample) {
   return sample.stretching_energy + sample.bending_energy + sample.twisting_energy + sample.contact_energy;
 }
@@ -125,7 +166,9 @@ EnergyParts energy_between(const Sample& from, const Sample& to) {
   return parts;
 }
 
-Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
+Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) { return analyse(samples, samples, ended_by); }
+
+Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by) {
   Results results;
   results.ended_by = ended_by;
   if (samples.empty()) return results;
@@ -177,6 +220,7 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
   results.fastest_node = fastest_node_while_sliding(samples, results.lock_extension);
   results.untangled_at = tracker.untangled_at();
   results.failure_mode = failure_mode(results);
+  read_curve(readings, at_break, results);
   if (energy_scale > 0.0) results.energy_balance_error = energy_error / energy_scale;
 
   results.relaxation = last_relaxation(samples);
@@ -197,12 +241,8 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
   if (tied) results.tied_knot_distance = known(tied->knot_distance);
 
   const Pull& pull = tracker.pull();
-  if (pull.empty()) {
-    if (at_break) results.peak_force = at_break->force_upper;
-    return results;
-  }
+  if (pull.empty()) return results;
   const double peak = std::max(peak_force(pull), at_break ? at_break->force_upper : 0.0);
-  results.peak_force = peak;
   if (peak > 0.0) {
     results.force_balance_error = imbalance / peak;
     results.moment_balance_error = moment_imbalance / peak;
@@ -212,20 +252,6 @@ Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) {
   if (before_pull) origin = origin_of(*pull_begin, *before_pull);
   if (at_break && at_break->balance_offset != pull_begin->balance_offset) at_break.reset();  // another s
   read_pull(with_ends(pull, origin, at_break), results);
-  const double start = pull.front().extension;
-  if (results.motion_pattern == MotionPattern::kSliding) {
-    const double end = results.lock_extension.value_or(pull.back().extension);
-    if (const std::optional<Plateau> sliding = plateau(pull, end)) {
-      results.plateau_force = sliding->force;
-      results.plateau_force_sd = sliding->force_sd;
-      results.plateau_slope = sliding->slope;
-    }
-    results.breakaway_force = breakaway_force(pull, end);
-  }
-  // A rod that still slides, or lost its knot, has no stiffness of its own yet.
-  const bool carries = results.motion_pattern == MotionPattern::kStretching || results.lock_extension ||
-                       results.motion_pattern == MotionPattern::kNone;
-  if (carries) results.locked_stiffness = locked_stiffness(pull, results.lock_extension.value_or(start));
   return results;
 }
 

@@ -14,9 +14,10 @@ struct Reading {
   std::optional<double> CurveReadings::*value;
 };
 
-constexpr std::array<Reading, 4> kReadings{{{"peak_force", &CurveReadings::peak_force},
+constexpr std::array<Reading, 5> kReadings{{{"peak_force", &CurveReadings::peak_force},
                                             {"plateau_force", &CurveReadings::plateau_force},
-                                            {"lock_extension", &CurveReadings::lock_extension},
+                                            {"breakaway_force", &CurveReadings::breakaway_force},
+                                            {"lock_extension_by_load", &CurveReadings::lock_extension_by_load},
                                             {"locked_stiffness", &CurveReadings::locked_stiffness}}};
 
 std::optional<double> difference(const std::optional<double>& a, const std::optional<double>& b) {
@@ -62,7 +63,8 @@ std::vector<std::string> beyond_tolerance(const Comparison& comparison, double t
   std::vector<std::string> out;
   const auto hold = [&](const std::string& name, double relative) {
     if (!(std::abs(relative) <= tolerance))
-      out.push_back(name + ": " + format_number(relative) + " is beyond " + format_number(tolerance));
+      out.push_back(name + ": the relative difference is " + format_number(relative) + ", but must be within " +
+                    format_number(tolerance));
   };
   if (comparison.difference && comparison.difference->rms > 0.0)
     hold("rms_difference_over_load", comparison.difference->rms / comparison.difference->load);

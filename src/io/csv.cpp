@@ -62,22 +62,6 @@ std::size_t place(const std::string& file, const std::vector<std::string_view>& 
 
 }  // namespace
 
-CurveRow curve_row(const Sample& sample) {
-  CurveRow row;
-  row.time = sample.time;
-  row.extension = sample.extension;
-  if (!std::isnan(sample.raw_extension)) {
-    row.extension = sample.raw_extension;
-    row.corrected_extension = sample.extension;
-  }
-  row.load = sample.load;
-  row.knot_distance = sample.knot_distance;
-  row.end_to_end = sample.end_to_end;
-  row.load_lower = sample.force_lower;
-  row.phase = sample.phase;
-  return row;
-}
-
 CurveWriter::CurveWriter(const std::string& file, bool compliant_frame)
     : file_(file), compliant_frame_(compliant_frame) {
   open(out_, file);

@@ -23,31 +23,19 @@ bool is_own(const std::string& content) {
   return time && phase;
 }
 
-/// L less s, which nothing but a balance changes.
-double zero_of(const CurveRow& row) {
-  return row.end_to_end - (std::isfinite(row.corrected_extension) ? row.corrected_extension : row.extension);
-}
-
-constexpr double kSameZero = 1e-9;  // far above rounding, far below what anybody measures [m]
-
-/// Raw data have no L, and one zero.
-bool balanced_between(const CurveRow& a, const CurveRow& b) {
-  return a.end_to_end > 0.0 && std::abs(zero_of(b) - zero_of(a)) > kSameZero;
-}
-
 bool pulled(const CurveRow& row) { return pulls(row.phase); }
 
 }  // namespace
 
-std::vector<CurveRow> read_curve_file(const std::string& file) {
+std::vector<CurveRow> read_curve_file(const std::string& file, const RawColumns& columns) {
   const std::string content = read_input(file);
-  if (!is_own(content)) return read_raw_data(content, file);
+  if (!is_own(content)) return read_raw_data(content, file, columns);
   std::istringstream in(content);
   return read_curve(in, file);
 }
 
-std::vector<CurveRow> read_course(const std::string& file) {
-  std::vector<CurveRow> rows = read_curve_file(file);
+std::vector<CurveRow> read_course(const std::string& file, const RawColumns& columns) {
+  std::vector<CurveRow> rows = read_curve_file(file, columns);
   const auto first = std::find_if(rows.begin(), rows.end(), pulled);
   if (first == rows.end()) return {};
   const auto begin = first == rows.begin() ? first : first - 1;
@@ -70,18 +58,6 @@ std::vector<CurveRow> read_course(const std::string& file) {
           .in_file(file);
   }
   return {begin, end};
-}
-
-Pull pull_of(const std::vector<CurveRow>& rows, bool balanced) {
-  Pull pull;
-  CurveRow zero;
-  for (const CurveRow& row : rows) {
-    if (!pulls(row.phase)) continue;
-    if (pull.empty() && balanced) zero = row;
-    const PullPoint point = {row.time, row.extension - zero.extension, row.knot_distance, row.load - zero.load};
-    if (pull.empty() || point.extension > pull.back().extension) pull.push_back(point);
-  }
-  return pull;
 }
 
 }  // namespace knot_utm

@@ -18,6 +18,7 @@
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/rod/known_names.hpp"
+#include "method_defaults.hpp"
 #include "method_fields.hpp"
 #include "method_reader.hpp"
 
@@ -29,9 +30,6 @@ using fields::as_given;
 using fields::one_line;
 using fields::Reader;
 using fields::Writer;
-
-/// The paper's machine has this cell for all but the softest material.
-constexpr const char* kDefaultLoadCell = "50kN";
 
 /// From which load on a fall may be a break, unless the method says so: testing machines have such a share.
 constexpr double kArmingShare = 0.02;  // of the cell's capacity
@@ -146,11 +144,11 @@ YAML::Node named_map(const fs::path& file) {
   return map;
 }
 
-/// The cell's name behind `auto`, or behind no entry at all.
-std::string load_cell_name(const YAML::Node& node, const std::string& of_material) {
+/// The cell's name behind `auto`, or behind no entry at all; none where the material names no cell.
+std::optional<std::string> load_cell_name(const YAML::Node& node, const std::string& of_material) {
   std::string given = node.IsDefined() && node.IsScalar() ? node.Scalar() : "auto";
   if (given != "auto") return given;
-  return of_material.empty() ? kDefaultLoadCell : of_material;
+  return of_material.empty() ? std::nullopt : std::optional<std::string>(of_material);
 }
 
 std::vector<std::string> split(const std::string& path) {
@@ -216,9 +214,10 @@ void expand(YAML::Node root, const Override& set, const Library& library) {
       material = read_yaml(library.find("materials", material_name(root), "material"));
     }
     const YAML::Node of_material = material.IsDefined() && material.IsMap() ? material["load_cell"] : YAML::Node();
-    const std::string name =
+    const std::optional<std::string> name =
         load_cell_name(cell, of_material.IsDefined() && of_material.IsScalar() ? of_material.Scalar() : "");
-    root["machine"]["load_cell"] = named_map(library.find("load_cells", name, "machine.load_cell"));
+    root["machine"]["load_cell"] =
+        name ? named_map(library.find("load_cells", *name, "machine.load_cell")) : YAML::Node(YAML::NodeType::Map);
   }
 }
 
@@ -306,16 +305,19 @@ Material read_material(const YAML::Node& node, const std::string& file, const Li
 }
 
 LoadCellOptions read_load_cell(const YAML::Node& node, const std::string& file, const Material& material,
-                               const Library& library) {
-  LoadCellOptions cell;
+                               const LoadCellOptions& by_default, const Library& library) {
+  LoadCellOptions cell = by_default;
+  const std::optional<std::string> name = load_cell_name(node, material.load_cell);
   if (node.IsSequence()) throw InvalidInput(file, "machine.load_cell", as_given(node), library.allowed("load_cells"));
   if (node.IsDefined() && !node.IsNull() && !node.IsScalar()) {
     Reader reader(node, file, "machine.load_cell");
     fields::load_cell(reader, cell);
     reader.finish();
     if (cell.name.empty()) cell.name = "own";
+  } else if (!name) {
+    cell.name = "auto";
   } else {
-    const fs::path path = library.find("load_cells", load_cell_name(node, material.load_cell), "machine.load_cell");
+    const fs::path path = library.find("load_cells", *name, "machine.load_cell");
     Reader reader(read_yaml(path), path.string(), "", "a load cell");
     fields::load_cell(reader, cell);
     reader.finish();
@@ -324,15 +326,16 @@ LoadCellOptions read_load_cell(const YAML::Node& node, const std::string& file, 
   return cell;
 }
 
-ProgramStep default_step(Phase phase) {
+ProgramStep default_step(Phase phase, double scale) {
   ProgramStep step;
   step.phase = phase;
-  if (phase == Phase::kTie) step.speed = 0.01;
+  step.speed *= scale;
+  if (phase == Phase::kTie) step.speed = 0.01 * scale;
   if (phase == Phase::kRelease) step.duration = 3.0;
   return step;
 }
 
-Program read_program(const YAML::Node& node, const std::string& file) {
+Program read_program(const YAML::Node& node, const std::string& file, const fields::Defaults& defaults) {
   const std::vector<std::string> steps{"tie",  "release", "mount", "preload", "balance",
                                        "pull", "hold",    "cycle", "return",  "follow"};
   const std::string form = "a list of steps, such as [{pull: {until: {break: true}}}]";
@@ -346,9 +349,9 @@ Program read_program(const YAML::Node& node, const std::string& file) {
     const std::string name = one_line(node[i].begin()->first);
     if (std::find(steps.begin(), steps.end(), name) == steps.end())
       throw InvalidInput::unknown_name(path, name, listed(steps), steps).in_file(file);
-    ProgramStep step = default_step(*phase_named(name));
+    ProgramStep step = default_step(*phase_named(name), defaults.scale);
     Reader reader(node[i].begin()->second, file, path + "." + name);
-    fields::step(reader, step);
+    fields::step(reader, step, defaults.way);
     reader.finish();
     program.push_back(step);
   }
@@ -360,7 +363,7 @@ Specification read_specification(const YAML::Node& node, const std::string& file
   Specification specification;
   if (!node.IsDefined() || node.IsNull()) return specification;
   if (!node.IsMap())
-    throw InvalidInput(file, key, one_line(node), "a map such as {peak_force: {min: 100}}, of numbers of result.yaml");
+    throw InvalidInput(file, key, as_given(node), "a map such as {peak_force: {min: 100}}, of numbers of result.yaml");
   const std::vector<std::string> known = result_numbers();
   for (const auto& item : node) {
     Requirement required;
@@ -370,27 +373,31 @@ Specification read_specification(const YAML::Node& node, const std::string& file
     if (std::find(known.begin(), known.end(), required.key) == known.end())
       throw InvalidInput::unknown_key(key, required.key, one_line(item.second), known, "a specification").in_file(file);
     if (std::any_of(specification.begin(), specification.end(), is_it))
-      throw InvalidInput(file, path, one_line(item.second), "one value: the key stands twice");
+      throw InvalidInput::sentence(path, one_line(item.second), shown(path) + " stands twice; give it once")
+          .in_file(file);
     Reader reader(item.second, file, path);
     fields::requirement(reader, required);
     reader.finish();
-    if (!required.min && !required.max) throw InvalidInput(file, path, one_line(item.second), "min, max or both");
+    if (!required.min && !required.max) throw InvalidInput::missing(path, "min, max or both").in_file(file);
     if (required.min && required.max && *required.min > *required.max)
-      throw InvalidInput(file, path, one_line(item.second), "a min that is no larger than max");
+      throw InvalidInput(file, path, one_line(item.second), "a map whose min is no larger than its max");
     specification.push_back(required);
   }
   return specification;
 }
 
 /// The course of the crosshead in the record of another test, curve.csv or raw data.
-void read_record(const fs::path& folder, const std::string& key, ProgramStep& step) {
+void read_record(const fs::path& folder, const std::string& follow, ProgramStep& step) {
+  const std::string key = follow + ".record";
   std::error_code error;
   const fs::path file = fs::absolute(folder / step.record).lexically_normal();
   if (step.record.empty()) throw InvalidInput::missing(key, "a curve.csv, or raw data of a testing machine");
   if (!fs::is_regular_file(file, error)) throw InvalidInput::cannot_read(file.string(), key);
   step.record = file.string();
   step.recorded.clear();
-  const std::vector<CurveRow> course = read_course(step.record);
+  RawColumns columns;
+  if (!step.columns.empty()) columns = parse_raw_columns(step.columns, follow + ".columns");
+  const std::vector<CurveRow> course = read_course(step.record, columns);
   for (const CurveRow& row : course) {
     const RecordedPlace place{row.time - course.front().time, row.extension - course.front().extension};
     if (step.recorded.empty() || place.time > step.recorded.back().time) step.recorded.push_back(place);
@@ -399,6 +406,33 @@ void read_record(const fs::path& folder, const std::string& key, ProgramStep& st
     throw InvalidInput::sentence(
         key, step.record,
         key + ": " + shown(step.record) + " has fewer than 2 readings of the pull at different times");
+}
+
+/// The method over defaults that suit its knot and material, and, once it has been read with these, what is `known` of
+/// the rest.
+Method read_method(const YAML::Node& root, const std::string& file, const Library& library, const Method* known) {
+  Method method;
+  Reader top(root, file, "");
+  method.material = read_material(top.take("material"), file, library);
+  Reader specimen(top.take("specimen"), file, "specimen");
+  fields::knot(specimen, method.specimen.knot);
+  const fields::Defaults defaults = fields::defaults(method.specimen.knot, method.material, known);
+  method.specimen = defaults.specimen;
+  fields::specimen(specimen, method.specimen);
+  specimen.finish();
+  method.machine = defaults.machine;
+  top.section("machine", [&](Reader& reader) {
+    fields::machine(reader, method.machine);
+    method.machine.load_cell =
+        read_load_cell(reader.take("load_cell"), file, method.material, defaults.machine.load_cell, library);
+  });
+  method.program = read_program(top.take("program"), file, defaults);
+  top.section("ends", [&](Reader& reader) { fields::ends(reader, method.ends); });
+  top.section("physics", [&](Reader& reader) { fields::physics(reader, method.physics); });
+  top.section("report", [&](Reader& reader) { fields::report(reader, method.report); });
+  method.specification = read_specification(top.take("specification"), file);
+  top.finish();
+  return method;
 }
 
 }  // namespace
@@ -417,23 +451,11 @@ Method parse_method(const std::string& text, const std::string& file, const std:
       throw InvalidInput("the file", as_given(root), "a map with the keys specimen, material, machine and program");
     apply_overrides(root, overrides, library);
 
-    Method method;
+    const Method first = read_method(root, file, library, nullptr);
+    Method method = read_method(root, file, library, &first);
     method.name = path.stem().string();
-    Reader top(root, file, "");
-    top.section("specimen", [&](Reader& reader) { fields::specimen(reader, method.specimen); });
-    method.material = read_material(top.take("material"), file, library);
-    top.section("machine", [&](Reader& reader) {
-      fields::machine(reader, method.machine);
-      method.machine.load_cell = read_load_cell(reader.take("load_cell"), file, method.material, library);
-    });
-    method.program = read_program(top.take("program"), file);
     method.specimen.to_be_tied = std::any_of(method.program.begin(), method.program.end(),
                                              [](const ProgramStep& step) { return step.phase == Phase::kTie; });
-    top.section("ends", [&](Reader& reader) { fields::ends(reader, method.ends); });
-    top.section("physics", [&](Reader& reader) { fields::physics(reader, method.physics); });
-    top.section("report", [&](Reader& reader) { fields::report(reader, method.report); });
-    method.specification = read_specification(top.take("specification"), file);
-    top.finish();
 
     const Material& material = method.material;
     if (!method.specimen.preload && method.specimen.knot == KnotKind::kFisherman) {
@@ -446,7 +468,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
       method.report.logo = fs::absolute(folder / method.report.logo).lexically_normal().string();
     for (std::size_t i = 0; i < method.program.size(); ++i)
       if (method.program[i].phase == Phase::kFollow)
-        read_record(folder, "program." + std::to_string(i) + ".follow.record", method.program[i]);
+        read_record(folder, "program." + std::to_string(i) + ".follow", method.program[i]);
     check_method(method);
     return method;
   } catch (const InvalidInput& invalid) {

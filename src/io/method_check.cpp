@@ -227,7 +227,8 @@ void check_report(const Method& m) {
   const std::string ending = fs::path(m.report.logo).extension().string();
   const std::uintmax_t size = fs::file_size(m.report.logo, error);
   if (error || size > kLargestLogo || (ending != ".png" && ending != ".svg"))
-    throw InvalidInput("report.logo", m.report.logo, "a .png or .svg file of at most 2 MB, its path counted from the method's folder");
+    throw InvalidInput("report.logo", "\"" + m.report.logo + "\"",
+                       "a .png or .svg file of at most 2 MB, its path counted from the method's folder");
 }
 
 }  // namespace

@@ -9,13 +9,15 @@
 /// Every key of a method with its range, said once: reading and writing both walk these lists.
 ///
 /// A `Fields` has
-///   number(key, double&, Range)                 optional_number(key, optional<double>&, Range, word)
+///   number(key, double&, Range)                 optional_number(key, optional<double>&, Range, word[, automatic])
+///   scaled_number(key, double&, Range)
 ///   integer(key, Integer&, min, max)            text(key, string&)          flag(key, bool&)
 ///   short_text(key, string&, most characters)
 ///   choice(key, Enum&, names in enum order)     vector(key, Vector3d&, Range)
 ///   turns(key, optional<TurningPoints>&, Range)
 ///   section(key, [](Fields&) {...})
-/// where `word` is what may stand in a file for "not set".
+/// where `word` is what may stand in a file for "not set", and a scaled number may be `auto`, which leaves what it is
+/// by default (method_defaults.hpp); so may an optional one that has an `automatic` value.
 namespace knot_utm::fields {
 
 /// Both ends are allowed. Narrow enough that a number in millimetres or gigapascals is noticed.
@@ -28,18 +30,23 @@ struct Range {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class Fields>
+void knot(Fields& f, KnotKind& knot) {
+  f.choice("knot", knot, std::array{"fisherman", "overhand", "straight", "file"});
+}
+
+template <class Fields>
 void specimen(Fields& f, SpecimenOptions& o) {
-  f.choice("knot", o.knot, std::array{"fisherman", "overhand", "straight", "file"});
+  knot(f, o.knot);
   f.choice("handedness", o.handedness, std::array{"same", "opposite"});
   f.integer("turns", o.turns, 1, 4);
   f.text("file", o.file);
   f.flag("closed", o.closed);
-  f.number("knot_distance", o.knot_distance, Range{1e-3, 2.0, "m"});
-  f.number("end_to_end", o.end_to_end, Range{1e-3, 20.0, "m"});
-  f.number("length", o.length, Range{1e-2, 50.0, "m"});
-  f.number("tail", o.tail, Range{1e-3, 2.0, "m"});
-  f.optional_number("preload", o.preload, Range{1e-4, 1e5, "N"}, "auto");
-  f.number("edge_length", o.edge_length, Range{5e-5, 0.1, "m"});
+  f.scaled_number("knot_distance", o.knot_distance, Range{1e-4, 5.0, "m"});
+  f.scaled_number("end_to_end", o.end_to_end, Range{1e-4, 20.0, "m"});
+  f.scaled_number("length", o.length, Range{1e-4, 50.0, "m"});
+  f.scaled_number("tail", o.tail, Range{1e-5, 2.0, "m"});
+  f.optional_number("preload", o.preload, Range{1e-9, 1e9, "N"}, "auto");
+  f.scaled_number("edge_length", o.edge_length, Range{1e-6, 0.1, "m"});
   f.optional_number("refinement", o.refinement, Range{1.0, 8.0, "-"}, "auto");
 }
 
@@ -49,13 +56,13 @@ void material(Fields& f, Material& o) {
   f.text("name", o.name);
   f.required_number("radius", o.radius, Range{1e-5, 0.05, "m"});
   f.required_number("density", o.density, Range{10.0, 25e3, "kg/m3"});
-  f.required_number("stretching_stiffness", o.stretching_stiffness, Range{1e-4, 1e9, "N"});
-  f.required_number("bending_stiffness", o.bending_stiffness, Range{1e-12, 1e3, "N m2"});
-  f.required_number("twisting_stiffness", o.twisting_stiffness, Range{1e-12, 1e3, "N m2"});
+  f.required_number("stretching_stiffness", o.stretching_stiffness, Range{1e-6, 1e9, "N"});
+  f.required_number("bending_stiffness", o.bending_stiffness, Range{1e-18, 1e6, "N m2"});
+  f.required_number("twisting_stiffness", o.twisting_stiffness, Range{1e-18, 1e6, "N m2"});
   f.required_number("friction_coefficient", o.friction_coefficient, Range{0.0, 5.0, "-"});
   f.optional_number("contact_stiffness", o.contact_stiffness, Range{1.0, 1e13, "N/m2"}, "auto");
-  f.optional_number("tying_preload", o.tying_preload, Range{1e-4, 1e5, "N"}, "auto");
-  f.optional_number("breaking_force", o.breaking_force, Range{1e-4, 1e8, "N"}, "none");
+  f.optional_number("tying_preload", o.tying_preload, Range{1e-9, 1e9, "N"}, "auto");
+  f.optional_number("breaking_force", o.breaking_force, Range{1e-6, 1e8, "N"}, "none");
   f.optional_number("breaking_strain", o.breaking_strain, Range{1e-6, 100.0, "-"}, "none");
   f.text("load_cell", o.load_cell);
   f.text("notes", o.notes);
@@ -64,7 +71,7 @@ void material(Fields& f, Material& o) {
 template <class Fields>
 void load_cell(Fields& f, LoadCellOptions& o) {
   f.text("name", o.name);
-  f.number("capacity", o.capacity, Range{1e-3, 1e8, "N"});
+  f.scaled_number("capacity", o.capacity, Range{1e-3, 1e8, "N"});
   f.number("sampling_rate", o.sampling_rate, Range{1e-2, 1e4, "Hz"});
   f.number("accuracy", o.accuracy, Range{0.0, 0.1, "of the reading"});
   f.number("floor", o.floor, Range{0.0, 1.0, "of capacity"});
@@ -80,19 +87,19 @@ void load_cell(Fields& f, LoadCellOptions& o) {
 template <class Fields>
 void machine(Fields& f, MachineOptions& o) {
   f.choice("grips", o.grips, std::array{"rollers", "nodes", "clamps"});
-  f.number("roller_diameter", o.roller_diameter, Range{1e-3, 1.0, "m"});
+  f.scaled_number("roller_diameter", o.roller_diameter, Range{1e-5, 1.0, "m"});
   f.number("roller_friction", o.roller_friction, Range{0.0, 5.0, "-"});
   f.number("stiffness", o.stiffness, Range{1.0, kInfinity, "N/m"});
-  f.number("travel", o.travel, Range{1e-3, 100.0, "m"});
+  f.scaled_number("travel", o.travel, Range{1e-3, 100.0, "m"});
 }
 
-/// The keys that a step of `o.phase` has.
+/// The keys that a step of `o.phase` has. `way`: of a pull to an extension that is auto [m].
 template <class Fields>
-void step(Fields& f, ProgramStep& o) {
+void step(Fields& f, ProgramStep& o, double way = 0.0) {
   switch (o.phase) {
     case Phase::kTie:
     case Phase::kMount:
-      f.number("speed", o.speed, Range{1e-6, 0.5, "m/s"});
+      f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
       break;
     case Phase::kRelease:
       f.number("duration", o.duration, Range{1e-3, 1e4, "s"});
@@ -101,34 +108,35 @@ void step(Fields& f, ProgramStep& o) {
       f.required_number("duration", o.duration, Range{1e-3, 1e6, "s"});
       f.choice("control", o.hold_load, std::array{"extension", "load"});
       f.optional_number("load", o.held_load, Range{-1e8, 1e8, "N"}, "auto");
-      if (o.hold_load) f.number("speed", o.speed, Range{1e-6, 0.5, "m/s"});
+      if (o.hold_load) f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
       break;
     case Phase::kPreload:
       f.required_number("load", o.load, Range{1e-6, 1e8, "N"});
-      f.number("speed", o.speed, Range{1e-6, 0.5, "m/s"});
+      f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
       f.optional_number("load_rate", o.load_rate, Range{1e-6, 1e8, "N/s"}, "none");
       f.flag("balance", o.balance);
       break;
     case Phase::kCycle:
       f.turns("extension", o.extension_turns, Range{-100.0, 100.0, "m"});
       f.turns("load", o.load_turns, Range{-1e8, 1e8, "N"});
-      f.number("speed", o.speed, Range{1e-6, 0.5, "m/s"});
+      f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
       f.integer("count", o.cycles, 0, 1000000);
       f.optional_number("time", o.until.time, Range{1e-3, 1e6, "s"}, "none");
       break;
     case Phase::kReturn:
-      f.number("speed", o.speed, Range{1e-6, 0.5, "m/s"});
+      f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
       f.number("extension", o.return_extension, Range{-100.0, 100.0, "m"});
       f.optional_number("load", o.until.load, Range{-1e8, 1e8, "N"}, "none");
       break;
     case Phase::kFollow:
       f.text("record", o.record);
+      f.text("columns", o.columns);
       break;
     case Phase::kPull:
-      f.number("speed", o.speed, Range{1e-6, 0.5, "m/s"});
+      f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
       f.optional_number("load_rate", o.load_rate, Range{1e-6, 1e8, "N/s"}, "none");
-      f.section("until", [&o](auto& until) {
-        until.optional_number("extension", o.until.extension, Range{1e-6, 100.0, "m"}, "none");
+      f.section("until", [&o, way](auto& until) {
+        until.optional_number("extension", o.until.extension, Range{1e-6, 100.0, "m"}, "none", way);
         until.optional_number("load", o.until.load, Range{1e-6, 1e8, "N"}, "none");
         until.optional_number("time", o.until.time, Range{1e-3, 1e6, "s"}, "none");
         until.flag("break", o.until.broken);

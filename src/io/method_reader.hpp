@@ -100,6 +100,12 @@ class Reader {
     if (node.IsDefined()) value = checked(key, node, range, "");
   }
 
+  /// `auto` stands for what the value is already.
+  void scaled_number(const char* key, double& value, const Range& range) {
+    const YAML::Node node = take(key);
+    if (node.IsDefined() && !node.IsNull() && !is_auto(node)) value = checked(key, node, range, "auto");
+  }
+
   void required_number(const char* key, double& value, const Range& range) {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) throw InvalidInput::missing(path_of(key), number_text(range)).in_file(file_);
@@ -114,6 +120,15 @@ class Reader {
     } else {
       value = checked(key, node, range, word);
     }
+  }
+
+  /// `auto` stands for the value `automatic`.
+  void optional_number(const char* key, std::optional<double>& value, const Range& range, const char* word,
+                       double automatic) {
+    if (const YAML::Node node = take(key); node.IsDefined() && is_auto(node))
+      value = automatic;
+    else
+      optional_number(key, value, range, word);
   }
 
   template <class Integer>
@@ -201,7 +216,7 @@ class Reader {
 
   /// The value of a key as it stands, for what is more than a value; undefined where the map does not have it.
   YAML::Node take(const char* key) {
-    known_.emplace_back(key);
+    if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
     YAML::Node found(YAML::NodeType::Undefined);
     if (!map_.IsDefined() || !map_.IsMap()) return found;
     for (const auto& item : map_) {
@@ -235,6 +250,8 @@ class Reader {
   }
 
  private:
+  static bool is_auto(const YAML::Node& node) { return node.IsScalar() && node.Scalar() == "auto"; }
+
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
 
   [[noreturn]] void fail_here(const YAML::Node& value, const std::string& allowed) const {
@@ -265,9 +282,14 @@ class Reader {
 class Writer {
  public:
   void number(const char* key, const double& value, const Range&) { map_[key] = format_yaml_number(value); }
+  void scaled_number(const char* key, const double& value, const Range& range) { number(key, value, range); }
   void required_number(const char* key, const double& value, const Range&) { map_[key] = format_yaml_number(value); }
   void optional_number(const char* key, const std::optional<double>& value, const Range&, const char*) {
     if (value) map_[key] = format_yaml_number(*value);
+  }
+  void optional_number(const char* key, const std::optional<double>& value, const Range& range, const char* word,
+                       double) {
+    optional_number(key, value, range, word);
   }
   template <class Integer>
   void integer(const char* key, const Integer& value, Integer, Integer) {

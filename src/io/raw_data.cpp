@@ -10,77 +10,13 @@
 #include "knot_utm/io/number.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/rod/text_rows.hpp"
+#include "raw_names.hpp"
+#include "raw_text.hpp"
 
 namespace knot_utm {
 namespace {
 
 using Cells = std::vector<std::string>;
-
-// ---- characters -----------------------------------------------------------------------------------------------------
-
-constexpr char kForeign = '?';  // stands for every letter beyond ASCII, but for blanks that do not break a line
-
-/// Two bytes a character, the high one first or second.
-std::string from_utf16(const std::string& bytes, std::size_t high) {
-  std::string out;
-  for (std::size_t i = 2; i + 1 < bytes.size(); i += 2) {
-    const int upper = static_cast<unsigned char>(bytes[i + high]),
-              lower = static_cast<unsigned char>(bytes[i + 1 - high]);
-    const int letter = upper << 8 | lower;
-    if (letter < 0x80)
-      out += static_cast<char>(letter);
-    else
-      out += letter == 0xA0 || letter == 0x202F ? ' ' : kForeign;
-  }
-  return out;
-}
-
-/// Of a code page every byte is a letter.
-std::string from_code_page(const std::string& bytes) {
-  std::string out = bytes;
-  for (char& c : out) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (byte >= 0x80) c = byte == 0xA0 ? ' ' : kForeign;
-  }
-  return out;
-}
-
-/// Bytes that go on with a letter (10xxxxxx) are none of their own.
-std::string from_utf8(const std::string& bytes) {
-  std::string out;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    const auto byte = static_cast<unsigned char>(bytes[i]);
-    if (byte < 0x80)
-      out += bytes[i];
-    else if ((byte & 0xC0) != 0x80)
-      out += bytes.compare(i, 2, "\xC2\xA0") == 0 || bytes.compare(i, 3, "\xE2\x80\xAF") == 0 ? ' ' : kForeign;
-  }
-  return out;
-}
-
-/// Whether every letter beyond ASCII is whole: 110xxxxx 10xxxxxx and so on.
-bool is_utf8(const std::string& bytes) {
-  int missing = 0;
-  for (const char c : bytes) {
-    const auto byte = static_cast<unsigned char>(c);
-    const bool goes_on = (byte & 0xC0) == 0x80;
-    if (goes_on != (missing > 0)) return false;
-    if (goes_on)
-      --missing;
-    else if (byte >= 0x80)
-      missing = byte >= 0xF0 ? 3 : byte >= 0xE0 ? 2 : 1;
-  }
-  return missing == 0;
-}
-
-/// The text in ASCII.
-std::string decoded(const std::string& bytes) {
-  const auto begins = [&](const char* mark) { return bytes.rfind(mark, 0) == 0; };
-  if (begins("\xFF\xFE")) return from_utf16(bytes, 1);
-  if (begins("\xFE\xFF")) return from_utf16(bytes, 0);
-  if (begins("\xEF\xBB\xBF")) return from_utf8(bytes.substr(3));
-  return is_utf8(bytes) ? from_utf8(bytes) : from_code_page(bytes);
-}
 
 // ---- cells ----------------------------------------------------------------------------------------------------------
 
@@ -109,60 +45,15 @@ Cells split(const std::string& row, char separator) {
   return cells;
 }
 
-std::string lower(std::string text) {
-  for (char& c : text)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return text;
-}
-
 // ---- names and units ------------------------------------------------------------------------------------------------
 
-struct Unit {
-  const char* name;
-  double si;
-};
+/// What a user calls time, extension and load; empty where the known names are to do.
+using Names = std::array<std::string, 3>;
 
-/// What a column may hold. Letters beyond ASCII are '?'.
-struct Quantity {
-  const char* name;
-  double CurveRow::*value;
-  std::vector<const char*> names;  // the machine's own first
-  std::vector<Unit> units;
-  const char* allowed;
-};
-
-const std::array<Quantity, 3>& quantities() {
-  static const std::array<Quantity, 3> all{
-      {{"time",
-        &CurveRow::time,
-        {"time", "zeit", "czas", "godzina", "temps"},
-        {{"s", 1.0}, {"sec", 1.0}, {"ms", 1e-3}, {"min", 60.0}, {"h", 3600.0}},
-        "ms, s, sec, min or h"},
-       {"extension",
-        &CurveRow::extension,
-        {"extension", "displacement", "crosshead displacement", "traversenweg", "verl?ngerung", "przemieszczenie",
-         "wyd?u?enie", "d?placement", "deplacement", "d?placement de la traverse", "allongement", "tensile extension",
-         "tensile displacement"},
-        {{"mm", 1e-3}, {"m", 1.0}, {"cm", 1e-2}, {"um", 1e-6}, {"?m", 1e-6}, {"in", 0.0254}, {"ft", 0.3048}},
-        "um, mm, cm, m, in or ft"},
-       {"load",
-        &CurveRow::load,
-        {"load", "force", "last", "kraft", "obci??enie", "obciazenie", "si?a", "sila", "charge"},
-        {{"n", 1.0},
-         {"kn", 1e3},
-         {"mn", 1e-3},
-         {"cn", 1e-2},
-         {"gf", 9.80665e-3},
-         {"kgf", 9.80665},
-         {"lbf", 4.4482216152605}},
-        "mN, cN, N, kN, gf, kgf or lbf"}}};
-  return all;
-}
-
-std::optional<double> si_of(const Quantity& quantity, const std::string& unit) {
+std::optional<double> si_of(const RawQuantity& quantity, const std::string& unit) {
   if (unit == "MN") return std::nullopt;  // mega is not milli
-  for (const Unit& known : quantity.units)
-    if (lower(unit) == known.name) return known.si;
+  for (const RawUnit& known : quantity.units)
+    if (is_name(unit, known.name)) return known.si;
   return std::nullopt;
 }
 
@@ -183,43 +74,86 @@ struct Name {
 Name name_of(const std::string& cell) {
   const std::size_t bracket = cell.find_last_of("([");
   if (bracket != std::string::npos && bracket > 0) {
-    if (const auto unit = bracketed(cell.substr(bracket))) return {lower(trimmed(cell.substr(0, bracket))), unit};
+    if (const auto unit = bracketed(cell.substr(bracket))) return {trimmed(cell.substr(0, bracket)), unit};
   }
-  return {lower(cell), std::nullopt};
+  return {cell, std::nullopt};
+}
+
+/// "Time sec", "Force_kN" and "Force/kN", where what stands behind is a unit of the quantity.
+std::optional<Name> name_before_unit(const RawQuantity& quantity, const std::string& cell) {
+  constexpr const char* kBetween = " _/,";
+  const std::size_t between = cell.find_last_of(kBetween);
+  if (between == std::string::npos || between == 0) return std::nullopt;
+  const std::string unit = cell.substr(between + 1);
+  const std::size_t end = cell.find_last_not_of(kBetween, between);
+  if (end == std::string::npos || !si_of(quantity, unit)) return std::nullopt;
+  return Name{cell.substr(0, end + 1), unit};
 }
 
 /// Where a column stands and what its numbers are in.
 struct Column {
-  const Quantity* quantity;
+  const RawQuantity* quantity;
   std::size_t place;
   std::string name;                 // as given
   std::optional<std::string> unit;  // that behind the name
 };
 
+/// The cell, where it is of this name.
+std::optional<Column> column_named(const RawQuantity& quantity, const std::string& known, const std::string& cell,
+                                   std::size_t place) {
+  const Name name = name_of(cell);
+  if (is_name(name.name, known) || is_name(cell, known)) return Column{&quantity, place, visible(cell), name.unit};
+  const std::optional<Name> other = name_before_unit(quantity, cell);
+  if (other && is_name(other->name, known)) return Column{&quantity, place, visible(cell), other->unit};
+  return std::nullopt;
+}
+
 /// The one of the machine's own name; of two alike that with a unit of this quantity: the other may be a strain
 /// gauge's, "Displacement (Strain 1)".
-std::optional<Column> find(const Quantity& quantity, const Cells& cells) {
+std::optional<Column> find(const RawQuantity& quantity, const std::string& given, const Cells& cells) {
+  std::vector<std::string> names = quantity.names;
+  if (!given.empty()) names = {given};
   std::optional<Column> best;
-  for (const char* known : quantity.names) {
+  for (const std::string& known : names) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
-      const Name name = name_of(cells[i]);
-      if (name.name != known) continue;
-      if (!name.unit || si_of(quantity, *name.unit)) return Column{&quantity, i, cells[i], name.unit};
-      if (!best) best = Column{&quantity, i, cells[i], name.unit};
+      const std::optional<Column> column = column_named(quantity, known, cells[i], i);
+      if (!column) continue;
+      if (!column->unit || si_of(quantity, *column->unit)) return column;
+      if (!best) best = column;
     }
   }
   return best;
 }
 
 using Columns = std::array<Column, 3>;
+using Found = std::array<std::optional<Column>, 3>;
 
-std::optional<Columns> find_columns(const Cells& cells) {
-  std::array<std::optional<Column>, 3> found;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    found[i] = find(quantities()[i], cells);
-    if (!found[i]) return std::nullopt;
-  }
+Found columns_in(const Cells& cells, const Names& given) {
+  Found found;
+  for (std::size_t i = 0; i < found.size(); ++i) found[i] = find(raw_quantities()[i], given[i], cells);
+  return found;
+}
+
+std::optional<Columns> all_of(const Found& found) {
+  if (!std::all_of(found.begin(), found.end(), [](const auto& column) { return column.has_value(); }))
+    return std::nullopt;
   return Columns{*found[0], *found[1], *found[2]};
+}
+
+/// What the row does not name, and the names that it might have, for the message.
+std::string missing_names(const Found& found, const Names& given) {
+  std::string out;
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i]) continue;
+    out += (out.empty() ? "" : "; ") + std::string(raw_quantities()[i].name) + ", whose known names are ";
+    if (!given[i].empty()) out += '"' + shown(given[i]) + "\" alone";
+    const char* comma = "";
+    for (const std::string& name : given[i].empty() ? raw_quantities()[i].names : std::vector<std::string>()) {
+      out += comma + name;
+      comma = ", ";
+    }
+  }
+  return out;
 }
 
 // ---- numbers --------------------------------------------------------------------------------------------------------
@@ -294,8 +228,8 @@ struct Row {
   std::string text;
 };
 
-std::vector<Row> rows_of(const std::string& content, const std::string& file) {
-  std::istringstream text(decoded(content));
+std::vector<Row> rows_of(const std::string& meaning, const std::string& file) {
+  std::istringstream text(meaning);
   TextRows rows(text);
   std::vector<Row> out;
   while (rows.next()) out.push_back({rows.number(), rows.text()});
@@ -306,8 +240,8 @@ std::vector<Row> rows_of(const std::string& content, const std::string& file) {
 /// The table in the file: what its columns are, and the cells of its rows.
 class RawTable {
  public:
-  RawTable(const std::string& content, const std::string& file) : file_(file), rows_(rows_of(content, file)) {
-    find_names();
+  RawTable(const std::string& content, const std::string& file, const Names& names) : file_(file), given_(names) {
+    find_names(content);
     find_units();
     for (std::size_t i = next_; i < rows_.size() && !mark_.is_told(); ++i)
       for (const std::string& cell : wanted(split(rows_[i].text, separator_))) mark_.look_at(cell);
@@ -326,11 +260,11 @@ class RawTable {
       const std::array<std::string, 3> cells = wanted(all);
       if (are_empty(cells.begin(), cells.end())) continue;
       require_named(all, rows_[i].number);
-      if (!has_digit(cells[0]) && find_columns(all))
+      if (!has_digit(cells[0]) && all_of(columns_in(all, given_)))
         refuse(rows_[i].number, " names the columns once more, but the file must hold one table");
       const CurveRow row = row_of(cells, rows_[i].number);
       if (!out.empty() && row.time < out.back().time)
-        refuse(rows_[i].number, ": " + shown(columns_[0].name) + " goes back to " + shown(cells[0]));
+        refuse(rows_[i].number, ": " + shown(columns_[0].name) + " goes back to " + shown(visible(cells[0])));
       if (out.empty() || !is_same(row, out.back())) out.push_back(row);
     }
     if (out.empty()) throw InvalidInput::sentence("rows", "none", "no row of numbers follows the names").in_file(file_);
@@ -338,17 +272,54 @@ class RawTable {
   }
 
  private:
-  void find_names() {
-    for (; next_ < rows_.size(); ++next_)
-      for (const char separator : {';', '\t', ','})
-        if (const auto found = find_columns(split(rows_[next_].text, separator))) {
+  /// In the first of its meanings in which the file has them.
+  void find_names(const std::string& content) {
+    std::string nearest;
+    for (const std::string& meaning : meanings_of(content)) {
+      rows_ = rows_of(meaning, file_);
+      if (find_row_of_names()) return;
+      if (nearest.empty()) nearest = nearest_row();
+    }
+    throw InvalidInput::sentence("names", "none",
+                                 "no row names the columns time, extension and load" +
+                                     (nearest.empty() ? "" : "; " + nearest + "; other names are given by --columns"))
+        .in_file(file_);
+  }
+
+  bool find_row_of_names() {
+    for (next_ = 0; next_ < rows_.size(); ++next_)
+      for (const char separator : kSeparators) {
+        const Cells cells = split(rows_[next_].text, separator);
+        if (cells.size() < columns_.size()) continue;
+        if (const auto found = all_of(columns_in(cells, given_))) {
           columns_ = *found;
           separator_ = separator;
-          names_ = split(rows_[next_].text, separator).size();
+          names_ = cells.size();
           ++next_;
-          return;
+          return true;
         }
-    throw InvalidInput::sentence("names", "none", "no row names the columns time, extension and load").in_file(file_);
+      }
+    return false;
+  }
+
+  /// The first row that names the most columns, and which it does not name; of a file that names none, its first row of
+  /// words in three columns or more.
+  std::string nearest_row() const {
+    std::string out;
+    std::ptrdiff_t most = -1;
+    for (const Row& row : rows_)
+      for (const char separator : kSeparators) {
+        const Cells cells = split(row.text, separator);
+        if (cells.size() < columns_.size() || std::all_of(cells.begin(), cells.end(), has_digit)) continue;
+        const Found found = columns_in(cells, given_);
+        const auto named =
+            std::count_if(found.begin(), found.end(), [](const auto& column) { return column.has_value(); });
+        if (named <= most) continue;
+        most = named;
+        out = "row " + std::to_string(row.number) + " is \"" + shown(visible(row.text)) + "\" and does not name " +
+              missing_names(found, given_);
+      }
+    return out;
   }
 
   /// Those behind the names, or of the row below them.
@@ -397,7 +368,7 @@ class RawTable {
     for (std::size_t i = 0; i < cells.size(); ++i) {
       const double value = number(cells[i], mark_.mark()).value_or(Sample::kNone) * si_[i];
       if (!std::isfinite(value))
-        refuse(row_number, ": " + shown(columns_[i].name) + " is \"" + shown(cells[i]) +
+        refuse(row_number, ": " + shown(columns_[i].name) + " is \"" + shown(visible(cells[i])) +
                                "\", but must be a number with \"" + mark_.mark() + "\" before its decimals");
       row.*columns_[i].quantity->value = value;
     }
@@ -416,7 +387,10 @@ class RawTable {
     throw InvalidInput::sentence(key, why, key + why).in_file(file_);
   }
 
+  static constexpr std::array<char, 3> kSeparators{';', '\t', ','};
+
   std::string file_;
+  Names given_;
   std::vector<Row> rows_;
   std::size_t next_ = 0;  // that has not been read yet
   char separator_ = ',';
@@ -428,8 +402,8 @@ class RawTable {
 
 }  // namespace
 
-std::vector<CurveRow> read_raw_data(const std::string& content, const std::string& file) {
-  return RawTable(content, file).read();
+std::vector<CurveRow> read_raw_data(const std::string& content, const std::string& file, const RawColumns& columns) {
+  return RawTable(content, file, {columns.time, columns.extension, columns.load}).read();
 }
 
 }  // namespace knot_utm

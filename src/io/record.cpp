@@ -1,5 +1,7 @@
 #include "knot_utm/io/record.hpp"
 
+#include <algorithm>
+
 namespace knot_utm {
 
 void Record::state(Archive& archive) {
@@ -7,6 +9,15 @@ void Record::state(Archive& archive) {
   archive.list(steps);
   archive.list(shape);
   archive.list(tension);
+}
+
+const Sample* cell_reading(const Record& record) {
+  const auto parted = [](const Sample& sample) { return sample.status == BenchStatus::kBroken; };
+  const auto step = std::find_if(record.steps.begin(), record.steps.end(), parted);
+  if (step != record.steps.end()) return &*step;
+  if (parted(record.answer)) return &record.answer;
+  const bool read = record.command.read_cell || record.command.balance;
+  return read && record.answer.status != BenchStatus::kFailed ? &record.answer : nullptr;
 }
 
 }  // namespace knot_utm

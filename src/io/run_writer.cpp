@@ -38,14 +38,14 @@ std::vector<std::string> warnings(const Results& results) {
   }
   if (results.fastest_node > kJump) {
     all.push_back("a node moved at " + format_number(results.fastest_node) +
-                  " m/s while pulled: a knot may have jumped open; quote the peak force");
+                  " m/s while pulled: a knot may have jumped open, so quote the peak force");
   }
   if (results.max_penetration > kDeep) {
-    all.push_back("contacts were up to " + format_number(results.max_penetration) + " radii deep");
+    all.push_back("strands are pressed into each other by up to " + format_number(results.max_penetration) + " radii");
   }
   if (results.energy_balance_error > kUnbalanced) {
-    all.push_back("the energy balance is off by " + format_number(*results.energy_balance_error) +
-                  ": a smaller physics.residual moves the forces");
+    all.push_back("the energies and the work differ by " + format_number(*results.energy_balance_error) +
+                  " of the work: choose a smaller physics.residual");
   }
   return all;
 }
@@ -54,14 +54,15 @@ std::vector<std::string> warnings(const Results& results) {
 std::vector<std::string> warnings(const Results& results, const LoadCellOptions& cell) {
   std::vector<std::string> all;
   const std::string floor = "the load cell's floor of " + format_number(cell.floor * cell.capacity) + " N";
-  if (results.peak_force && is_below_floor(cell, *results.peak_force)) {
+  if (results.true_peak_force && is_below_floor(cell, *results.true_peak_force)) {
     all.push_back("the peak force lies below " + floor);
-  } else if (results.plateau_force && is_below_floor(cell, *results.plateau_force)) {
+  } else if (results.true_plateau_force && is_below_floor(cell, *results.true_plateau_force)) {
     all.push_back("the plateau force lies below " + floor);
   }
   const double stop = cell.overload * cell.capacity;
-  if (results.peak_force > stop) {
-    all.push_back("the load cell was overloaded: beyond " + format_number(stop) + " N it reads its stop");
+  if (results.true_peak_force > stop) {
+    all.push_back("the load cell was overloaded: above " + format_number(stop) +
+                  " N it reads the force at its mechanical stop");
   }
   return all;
 }
@@ -84,9 +85,10 @@ std::optional<double> share_of(const std::optional<double>& reading, const std::
 std::string accuracy_warning(const Results& results, const ReadingErrors& errors) {
   if (!results.not_equilibrated.empty()) return results.not_equilibrated;
   constexpr double kUnsure = 0.1;
-  if (!results.plateau_force || errors.plateau_force.value_or(0.0) <= kUnsure) return {};
+  if (!results.true_plateau_force || errors.plateau_force.value_or(0.0) <= kUnsure) return {};
   return "the plateau force may be off by " + format_number(std::round(100.0 * *errors.plateau_force)) +
-         " %: for less a finer accuracy, a higher specimen.refinement or a lower pre-load";
+         " %; choose a finer physics.accuracy, a higher specimen.refinement or a lower specimen.preload to reduce the "
+         "error";
 }
 
 RunWriter::RunWriter(const std::string& folder, const Method& method)
@@ -109,7 +111,11 @@ void RunWriter::add(const Record& record) {
     samples_.push_back(step);
   }
   if (sample.status == BenchStatus::kFailed) return;
-  if (record.command.read_cell) curve_.write(sample);
+  const Sample* reading = cell_reading(record);
+  if (reading && (readings_.empty() || reading->time > readings_.back().time)) {
+    curve_.write(*reading);
+    readings_.push_back(*reading);
+  }
   if (samples_.empty() || sample.time > samples_.back().time) {
     samples_.push_back(sample);
   } else {
@@ -117,7 +123,7 @@ void RunWriter::add(const Record& record) {
   }
 }
 
-Results RunWriter::results(EndedBy ended_by) const { return analyse(samples_, ended_by); }
+Results RunWriter::results(EndedBy ended_by) const { return analyse(samples_, readings_, ended_by); }
 
 RunFacts RunWriter::facts() const {
   RunFacts facts = known_;
@@ -150,16 +156,20 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.number("tied_knot_distance", r.tied_knot_distance);
   lines.pair("excess_length", r.tied_excess_length);
   lines.pair("final_excess_length", r.final_excess_length);
-  lines.number("plateau_force", r.plateau_force);
-  lines.number("plateau_force_sd", r.plateau_force_sd);
-  lines.number("plateau_force_error", share_of(r.plateau_force, errors.plateau_force));
+  lines.number("plateau_force", r.curve.plateau_force);
+  lines.number("plateau_force_sd", r.curve.plateau_force_sd);
+  lines.number("plateau_force_error", share_of(r.true_plateau_force, errors.plateau_force));
   lines.number("plateau_slope", r.plateau_slope);
-  lines.number("breakaway_force", r.breakaway_force);
+  lines.number("breakaway_force", r.curve.breakaway_force);
   lines.number("lock_extension", r.lock_extension);
   lines.number("lock_extension_error", share_of(r.lock_extension, errors.lock_extension));
-  lines.number("locked_stiffness", r.locked_stiffness);
-  lines.number("locked_stiffness_error", share_of(r.locked_stiffness, errors.locked_stiffness));
-  lines.number("peak_force", r.peak_force);
+  lines.number("lock_extension_by_load", r.curve.lock_extension_by_load);
+  lines.number("locked_stiffness", r.curve.locked_stiffness);
+  lines.number("locked_stiffness_error", share_of(r.curve.locked_stiffness, errors.locked_stiffness));
+  lines.number("peak_force", r.curve.peak_force);
+  lines.number("true_plateau_force", r.true_plateau_force);
+  lines.number("true_breakaway_force", r.true_breakaway_force);
+  lines.number("true_peak_force", r.true_peak_force);
   lines.number("balance_offset", r.balance_offset);
   lines.number("break_extension", r.break_extension);
   lines.number("break_arclength", r.break_arclength);
@@ -180,8 +190,8 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.number("numerical_dissipation", part(&EnergyParts::numerical));
   lines.number("reweighting_loss", part(&EnergyParts::reweighting));
   lines.number("energy_balance_error", r.energy_balance_error);
-  lines.number("load_cell_error", class_error(f.load_cell, r.peak_force));
-  lines.number("plateau_load_cell_error", class_error(f.load_cell, r.plateau_force));
+  lines.number("load_cell_error", class_error(f.load_cell, r.true_peak_force));
+  lines.number("plateau_load_cell_error", class_error(f.load_cell, r.true_plateau_force));
   lines.number("energy_to_peak", r.energy_to_peak);
   lines.number("energy_to_break", r.energy_to_break);
   lines.number("chord_stiffness", r.chord_stiffness);

@@ -5,22 +5,21 @@
 #include <system_error>
 
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/rod/known_names.hpp"
 
 namespace knot_utm {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string names_of_methods(const std::vector<std::string>& folders) {
+std::vector<std::string> names_of_methods(const std::vector<std::string>& folders) {
   std::set<std::string> names;
   for (const std::string& folder : folders) {
     std::error_code error;
     for (fs::directory_iterator file(folder, error), end; !error && file != end; file.increment(error))
       if (file->path().extension() == ".yaml") names.insert(file->path().stem().string());
   }
-  std::string all;
-  for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
-  return all;
+  return {names.begin(), names.end()};
 }
 
 }  // namespace
@@ -46,8 +45,10 @@ std::string find_method(const std::string& method, const std::string& base, cons
   }
   const bool is_name = !method.empty() && method.find('/') == std::string::npos && !fs::path(method).has_extension();
   if (is_name && !fs::exists(given, error)) {
-    throw InvalidInput("method", method,
-                       "a file, or one of the methods that come with the package: " + names_of_methods(shipped));
+    const std::vector<std::string> names = names_of_methods(shipped);
+    throw InvalidInput::unknown_name("the method", method,
+                                     "a file, or one of those that come with the package (" + listed(names, ", ") + ")",
+                                     names);
   }
   return given.string();
 }

@@ -24,9 +24,10 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kGripStretch = 2.4;   // of a tail's grip when it slips [h]
-constexpr double kTakeUpLoad = 0.02;   // slack is taken up once the load has risen by this much [k_b/h^2] ...
-constexpr double kTakeUpMotion = 0.3;  // ... or once the knots have moved by this much [h]
+constexpr double kGripStretch = 2.4;       // of a tail's grip when it slips [h]
+constexpr double kPaperRadius = 0.003175;  // for which speeds of rest are meant; thinner rods rest at lower ones [m]
+constexpr double kTakeUpLoad = 0.02;       // slack is taken up once the load has risen by this much [k_b/h^2] ...
+constexpr double kTakeUpMotion = 0.3;      // ... or once the knots have moved by this much [h]
 
 constexpr double kShortestStep = 0.01;  // below it the run gives up, where that is less than usual [bending time]
 
@@ -110,6 +111,7 @@ struct TestBench::Impl {
     if (!centreline.knots.empty()) {
       TyingRig::Options tying;
       tying.preload = tying_load(specimen, material);
+      tying.rest_speed *= material.radius / kPaperRadius;
       // Smoothed friction holds nothing at rest: under any load it creeps, at up to about v_s.
       if (physics.friction_law == FrictionLaw::kSmoothed)
         tying.rest_speed = std::max(tying.rest_speed, physics.slip_tolerance);
@@ -228,7 +230,7 @@ struct TestBench::Impl {
                   : grips.hold(grip, middle(edge), material.radius) ? BreakPlace::kGrip
                                                                     : BreakPlace::kStrand;
     std::ostringstream text;
-    text << "the rod parted " << break_arclength(edge) << " m along it (" << break_place_name(break_place)
+    text << "the rod parted " << break_arclength(edge) << " m along its length (" << break_place_name(break_place)
          << (reached.limit == BreakLimit::kForce ? ") at a tension of " : ") at a strain of its outermost fibre of ")
          << reached.value << (reached.limit == BreakLimit::kForce ? " N" : "");
     status = BenchStatus::kBroken;
@@ -386,7 +388,7 @@ struct TestBench::Impl {
     std::string gave_up = advance(command, {time, displacement}, command.time);
     if (parted()) {
       gave_up = advance(command, {time, displacement}, recoil_end);
-      if (!gave_up.empty()) message += "; the recoil of its ends could not be followed to its end";
+      if (!gave_up.empty()) message += "; the recoil of the broken ends could not be simulated to its end";
     } else if (!gave_up.empty()) {
       status = BenchStatus::kFailed;
       message = gave_up;

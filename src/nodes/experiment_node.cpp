@@ -5,10 +5,10 @@
 #include "knot_utm/ros/test_setup.hpp"
 
 int main(int argc, char** argv) {
-  return knot_utm::run_node(knot_utm::names::kExperimentNode, [&] {
+  return knot_utm::run_node(argc, argv, knot_utm::names::kExperimentNode, [&] {
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, knot_utm::names::kExperimentNode);
     const std::string data = knot_utm::read_test_setup(node).data;
-    if (data.empty()) throw knot_utm::InvalidInput("test/data", "\"\"", "a record of an experiment");
+    if (data.empty()) throw knot_utm::InvalidInput::missing("data", "the record of an experiment, data:=FILE");
     bool autostart = false;
     knot_utm::read_parameter(ros::NodeHandle("~"), "autostart", &autostart, "true or false");
     knot_utm::ExperimentNode(node, data).spin(autostart);

@@ -4,7 +4,7 @@
 #include "knot_utm/ros/test_setup.hpp"
 
 int main(int argc, char** argv) {
-  return knot_utm::run_node("utm_node", [&] {
+  return knot_utm::run_node(argc, argv, "utm_node", [&] {
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, "utm_node");
     const ros::NodeHandle own("~");
     knot_utm::UtmOptions options;
@@ -13,7 +13,8 @@ int main(int argc, char** argv) {
     knot_utm::read_parameter(own, "record", &options.record, "true or false");
     knot_utm::read_parameter(own, "exit_at_end", &options.exit_at_end, "true or false");
     if (!(options.real_time_factor >= 0.0)) {
-      throw knot_utm::InvalidInput("real_time_factor", std::to_string(options.real_time_factor), "0 or more");
+      throw knot_utm::InvalidInput("real_time_factor", std::to_string(options.real_time_factor),
+                                   "0 (as fast as possible) or more");
     }
     return knot_utm::UtmNode(node, knot_utm::read_test_setup(node).method, options).spin();
   });

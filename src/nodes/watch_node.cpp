@@ -4,7 +4,7 @@
 #include "knot_utm/ros/test_setup.hpp"
 
 int main(int argc, char** argv) {
-  return knot_utm::run_node("watch_node", [&] {
+  return knot_utm::run_node(argc, argv, "watch_node", [&] {
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, "watch_node");
     std::string verdict;
     knot_utm::read_parameter(ros::NodeHandle("~"), "verdict", &verdict, "a file");

@@ -1,5 +1,8 @@
 #include "bag_topics.hpp"
 
+#include <filesystem>
+#include <system_error>
+
 namespace knot_utm {
 namespace {
 
@@ -10,12 +13,22 @@ bool ends_with(const std::string& topic, const std::string& name) {
 
 }  // namespace
 
+InvalidInput no_bag(const std::string& file, const std::string& why) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) return InvalidInput::cannot_read(file);
+  return InvalidInput::sentence("bag", file, "the file is no bag that can be read: " + shown(why)).in_file(file);
+}
+
 std::string topic_named(const rosbag::Bag& bag, const std::string& file, const std::string& name) {
   std::string found;
   rosbag::View all(bag);
   for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
     if (!ends_with(connection->topic, name) || connection->topic == found) continue;
-    if (!found.empty()) throw InvalidInput(file, "topic " + name, found + " and " + connection->topic, "one of them");
+    if (!found.empty())
+      throw InvalidInput::sentence("topic " + name, connection->topic,
+                                   "the bag has two topics " + name + ", " + shown(found) + " and " +
+                                       shown(connection->topic) + ", but must have one")
+          .in_file(file);
     found = connection->topic;
   }
   return found;
@@ -23,7 +36,10 @@ std::string topic_named(const rosbag::Bag& bag, const std::string& file, const s
 
 std::string required_topic(const rosbag::Bag& bag, const std::string& file, const std::string& name) {
   std::string topic = topic_named(bag, file, name);
-  if (topic.empty()) throw InvalidInput(file, "topic " + name, "none", "a bag that has it");
+  if (topic.empty())
+    throw InvalidInput::sentence("topic " + name, "none",
+                                 "the bag has no topic " + name + ", so it is not that of a test")
+        .in_file(file);
   return topic;
 }
 

@@ -43,7 +43,10 @@ std::vector<CurveRow> rows_of(const rosbag::Bag& bag, const std::string& file) {
   for_each<geometry_msgs::WrenchStamped>(bag, file, load_cell, [&](const geometry_msgs::WrenchStamped& message) {
     const auto found = at.find(message.header.stamp);
     if (found == at.end())
-      throw InvalidInput(file, "topic " + load_cell, "a reading without a command of its stamp", "one of both");
+      throw InvalidInput::sentence(
+          "topic " + load_cell, "no command",
+          "a reading on topic " + shown(load_cell) + " has no command with the same time stamp")
+          .in_file(file);
     out.push_back(found->second);
     out.back().load = message.wrench.force.z;
   });
@@ -57,9 +60,10 @@ std::vector<CurveRow> read_curve_bag(const std::string& file) {
     const rosbag::Bag bag(file, rosbag::bagmode::Read);
     return rows_of(bag, file);
   } catch (const ros::Exception& error) {
-    throw InvalidInput(file, "bag", error.what(), "a bag that can be read");
+    throw no_bag(file, error.what());
   } catch (const std::invalid_argument& error) {
-    throw InvalidInput(file, "message", error.what(), "those of a test");
+    throw InvalidInput::sentence("message", error.what(), "a message is not that of a test: " + shown(error.what()))
+        .in_file(file);
   }
 }
 

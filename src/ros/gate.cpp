@@ -16,7 +16,7 @@ void TopicWarning::say(const std::string& publisher, const std::string& fault) {
   if (!silent_so_far_ && now - said_ < kQuiet) return;
   silent_so_far_ = false;
   said_ = now;
-  ROS_WARN("%s from %s ignored: %s", topic_.c_str(), one_line(publisher).c_str(), fault.c_str());
+  ROS_WARN("a message on %s from %s was ignored: %s", topic_.c_str(), one_line(publisher).c_str(), fault.c_str());
 }
 
 Gate::Gate(const std::string& topic, std::string publisher, std::uint32_t largest)
@@ -24,12 +24,12 @@ Gate::Gate(const std::string& topic, std::string publisher, std::uint32_t larges
 
 bool Gate::admits(const std::string& publisher, std::uint32_t length) {
   if (publisher != publisher_) {
-    warning_.say(publisher, "publisher: " + one_line(publisher) + ", allowed: " + publisher_);
+    warning_.say(publisher, "only " + publisher_ + " may publish there");
     return false;
   }
   if (length > largest_) {
     warning_.say(publisher,
-                 "length: " + std::to_string(length) + " bytes, allowed: at most " + std::to_string(largest_));
+                 "it is " + std::to_string(length) + " bytes long, but may have at most " + std::to_string(largest_));
     return false;
   }
   return true;

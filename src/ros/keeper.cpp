@@ -23,9 +23,7 @@ namespace {
 /// Each message is a folder to be recovered behind a letter, so that none is empty as the end is.
 constexpr char kWatch = '+';
 
-std::runtime_error no_keeper(int error) {
-  return std::runtime_error("the keeper cannot be started: " + std::generic_category().message(error));
-}
+std::runtime_error no_keeper(int error) { return std::runtime_error("cannot start the keeper: " + reason_of(error)); }
 
 }  // namespace
 
@@ -85,7 +83,7 @@ int keep() {
     std::fprintf(stderr, "the recorder died; %s\n", recovery.summary().c_str());
     return 0;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "the recorder died, and nothing was recovered: %s\n", error.what());
+    std::fprintf(stderr, "the recorder died, and its results could not be recovered: %s\n", error.what());
     return 1;
   }
 }

@@ -23,7 +23,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kAllowed = "loopback only: ROS_HOSTNAME=localhost, or network:=true";
+/// Who may be reached from where only this machine should reach it, and what to do about it.
+InvalidInput reachable(const std::string& who, const std::string& address, const std::string& remedy) {
+  return InvalidInput::sentence(who, address,
+                                who + " can be reached from other machines (" + shown(address) +
+                                    "), and ROS 1 has no authentication: " + remedy + ", or allow it by network:=true");
+}
+
+constexpr const char* kLocalhost = "set ROS_HOSTNAME=localhost";
 
 bool is_loopback(const sockaddr_storage& address) {
   if (address.ss_family == AF_INET) {
@@ -118,13 +125,13 @@ void prefer_loopback() {
 
 void require_loopback() {
   const std::string& host = ros::network::getHost();
-  if (!names_loopback(host)) throw InvalidInput("this node's address", host, kAllowed);
+  if (!names_loopback(host)) throw reachable("this node", host, kLocalhost);
   const std::string open = open_socket();
-  if (!open.empty()) throw InvalidInput("a socket of this node", open, kAllowed);
-  if (!names_loopback(ros::master::getHost())) throw InvalidInput("ROS_MASTER_URI", ros::master::getURI(), kAllowed);
+  if (!open.empty()) throw reachable("a socket of this node", open, kLocalhost);
+  if (!names_loopback(ros::master::getHost()))
+    throw reachable("the ROS master", ros::master::getURI(), "set ROS_MASTER_URI=http://localhost:11311");
   if (is_open_port(ros::master::getPort())) {
-    throw InvalidInput("the ROS master's address", "every address of this machine",
-                       "loopback only: start it with ROS_HOSTNAME=localhost, or network:=true");
+    throw reachable("the ROS master", "at every address of this machine", "start it with ROS_HOSTNAME=localhost");
   }
 }
 

@@ -118,8 +118,8 @@ void RecorderNode::begin_run(const Crosshead& first) {
   if (!before.empty()) {
     if (go_on(before)) return;
     if (first.sequence > 0 && has_complete_result(before)) {
-      throw std::runtime_error(before +
-                               ": holds a result, which the rest of a test would write over: its recorder was stopped");
+      throw std::runtime_error("the recorder of this test was stopped; " + before +
+                               " holds a result, which the rest of the test would write over");
     }
   }
   require_no_record_in(setup_.out, setup_.method);
@@ -153,13 +153,14 @@ bool RecorderNode::go_on(const std::string& folder) {
   run_->journal.truncate_to(reader.good_bytes());
   run_->dropped = run_->next - run_->recorded;
   run_->begin -= std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(record.wall_time));
-  ROS_WARN("goes on with %s after %llu commands", folder.c_str(), static_cast<unsigned long long>(run_->recorded));
+  ROS_WARN("the recorder goes on with %s after %llu commands", folder.c_str(),
+           static_cast<unsigned long long>(run_->recorded));
   return true;
 }
 
 void RecorderNode::watch(const std::string& folder) {
   if (!keeper_.watch(fs::absolute(folder).string()))
-    ROS_WARN("the keeper is gone: a recorder that is killed needs `recover`");
+    ROS_WARN("the keeper has died: should the recorder be killed, too, write its results by `rosrun knot_utm recover`");
 }
 
 void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
@@ -282,7 +283,8 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
     facts.reason = reason;
     facts.wall_time = seconds_since(run.begin);
     if (!warning.empty()) facts.warnings.push_back(warning);
-    if (run.dropped > 0) facts.warnings.push_back(std::to_string(run.dropped) + " commands were not recorded");
+    if (run.dropped > 0)
+      facts.warnings.push_back(std::to_string(run.dropped) + " commands of the test were not recorded");
     run.writer.finish(run.writer.results(ended_by), facts, run.shape);
     // Whoever begins anew from here on has nothing left to do.
     if (ros::ok() && !test_id_.empty()) tell_master(names::kRecordedTest, test_id_);
@@ -291,9 +293,10 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
     run.complete = true;
     const std::string failed_step = failed_step_file(run.folder);
     if (fs::exists(failed_step))
-      ROS_WARN("the step that could not be made: scripts/replay-step %s", failed_step.c_str());
-    ROS_INFO("written to %s: %zu rows, %llu commands dropped", run.folder.c_str(), run.writer.rows(),
-             static_cast<unsigned long long>(run.dropped));
+      ROS_WARN("the time step that failed can be looked at by: scripts/replay-step %s", failed_step.c_str());
+    if (run.dropped > 0)
+      ROS_WARN("%llu commands of the test were not recorded", static_cast<unsigned long long>(run.dropped));
+    ROS_INFO("%zu readings were written to %s", run.writer.rows(), run.folder.c_str());
   } catch (const std::exception& error) {
     fail(error.what());
   }
@@ -370,7 +373,7 @@ void RecorderNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   } else if (is_complete()) {
     status.summary(DiagnosticStatus::OK, "complete");
   } else {
-    status.summary(DiagnosticStatus::OK, run_ ? "records" : "nothing to record yet");
+    status.summary(DiagnosticStatus::OK, run_ ? "recording" : "nothing to record yet");
   }
   if (!run_) return;
   status.add("folder", run_->folder);

@@ -35,7 +35,7 @@ void open(rosbag::Bag& bag, const std::string& file) {
   try {
     bag.open(file, rosbag::bagmode::Read);
   } catch (const ros::Exception& error) {
-    throw InvalidInput(file, "bag", error.what(), "a bag that can be read");
+    throw no_bag(file, error.what());
   }
 }
 
@@ -140,7 +140,9 @@ void ReplayNode::play(const rosbag::MessageInstance& instance) {
   } else if (name == names::kKnotState) {
     const boost::shared_ptr<KnotState> state = replay<KnotState>(instance);
     const std::string fault = fault_of(*state);
-    if (!fault.empty()) throw InvalidInput(options_.bag, name, fault, "those of a test");
+    if (!fault.empty())
+      throw InvalidInput::sentence(name, fault, "a message on " + name + " is not that of a test: " + shown(fault))
+          .in_file(options_.bag);
     sample_ = from_message(*state);
     motion_pattern_ = state->motion_pattern;
   } else if (name == names::kCrosshead) {

@@ -28,7 +28,7 @@ void RunTestServer::on_goal(Server::GoalHandle goal) {
   const std::string why_not = machine_.start();
   if (!why_not.empty()) return goal.setRejected(RunTestResult(), why_not);
   goal_ = goal;
-  goal_->setAccepted("the test runs");
+  goal_->setAccepted("the test is running");
 }
 
 void RunTestServer::on_cancel(Server::GoalHandle goal) {

@@ -39,13 +39,13 @@ void TestBag::add(const Record& record) {
   const Command& command = record.command;
   const Sample& sample = record.answer;
   const ros::Time stamp = test_stamp(0.0, command.time);
+  if (const Sample* reading = cell_reading(record)) add_reading(*reading, stamp);
   bag_.write(names::kCrosshead, stamp, to_message(command, kRun, stamp));
   bag_.write(names::kJointStates, stamp, to_joint_state(command, sample, stamp));
   motion_.add(sample);
   KnotState state = to_message(sample, kRun, stamp);
   put_motion(motion_, state);
   bag_.write(names::kKnotState, stamp, state);
-  if (command.read_cell) bag_.write(names::kLoadCell, stamp, to_wrench(sample, stamp));
   if (shape_is_due(command) && record.shape.cols() > 0) {
     KnotShape message = to_message(record.shape, record.tension, radius_);
     message.header.stamp = stamp;
@@ -56,6 +56,16 @@ void TestBag::add(const Record& record) {
     add_status(record, stamp);
     add_picture(record, stamp);
   }
+}
+
+/// `answered`: stamp of the command. A rod parts between two.
+void TestBag::add_reading(const Sample& reading, const ros::Time& answered) {
+  const bool parted = reading.status == BenchStatus::kBroken;
+  if (parted && broken_) return;  // it answers every command with the same
+  broken_ = parted;
+  const ros::Time stamp = parted ? test_stamp(0.0, reading.time) : answered;
+  if (parted) bag_.write(names::kKnotState, stamp, to_message(reading, kRun, stamp));
+  bag_.write(names::kLoadCell, stamp, to_wrench(reading, stamp));
 }
 
 void TestBag::begin(const ros::Time& stamp, const Points& shape) {

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/ros/loopback.hpp"
 #include "knot_utm/ros/names.hpp"
@@ -31,13 +32,14 @@ std::string text_parameter(const ros::NodeHandle& node, const std::string& name)
     std::snprintf(text, sizeof text, "%.17g", static_cast<double>(value));
     return text;
   }
-  throw InvalidInput(node.resolveName(name), value.toXml(), "a text or a number");
+  throw InvalidInput(node.resolveName(name), "a list or a map", "a text or a number");
 }
 
 /// The launch file knows the package's own methods, wherever the package is installed.
 std::string method_file(const ros::NodeHandle& node, const fs::path& base) {
   const std::string method = text_parameter(node, "test/method");
-  if (method.empty()) throw InvalidInput("test/method", "\"\"", "a method file");
+  if (method.empty())
+    throw InvalidInput::missing("method", "a method file, method:=FILE, or the name of a shipped method");
   const std::string file = find_method(method, base.string(), {text_parameter(node, "test/shipped_methods")});
   return fs::path(file).lexically_normal().string();
 }
@@ -46,7 +48,10 @@ std::string method_file(const ros::NodeHandle& node, const fs::path& base) {
 std::string following(const std::string& data, const Program& program) {
   const auto pull = std::find_if(program.rbegin(), program.rend(),
                                  [](const ProgramStep& step) { return step.phase == Phase::kPull; });
-  if (pull == program.rend()) throw InvalidInput("test/data", data, "with a method that pulls");
+  if (pull == program.rend())
+    throw InvalidInput::sentence(
+        "data", data,
+        "the method cannot follow " + shown(data) + ": no step of its program is a pull, which it would replace");
   std::string quoted;
   for (const char c : data) quoted += c == '\'' ? "''" : std::string(1, c);
   return "program." + std::to_string(program.rend() - pull - 1) + "={follow: {record: '" + quoted + "'}}";
@@ -78,7 +83,9 @@ TestSetup read_test_setup(const ros::NodeHandle& node) {
   }
   // The folder's name below out/.
   if (setup.method.name == "." || setup.method.name == "..") {
-    throw InvalidInput("test/method", file, "a file whose name without ending is a name for a folder");
+    throw InvalidInput::sentence("method", file,
+                                 "the method file cannot be called \"" + shown(file) +
+                                     "\": its name without its ending is that of the folder to write to");
   }
   const std::string out = text_parameter(node, "test/out");
   setup.out = (base / (out.empty() ? fs::path("out") / setup.method.name : fs::path(out))).lexically_normal().string();
@@ -95,7 +102,7 @@ ros::NodeHandle join_ros(int argc, char** argv, const char* name) {
   if (!network) {
     require_loopback();
   } else if (name == std::string(names::kUtmNode)) {  // one of all that say it
-    ROS_WARN("network:=true: ROS 1 has no authentication, anyone who reaches this machine can command the test");
+    ROS_WARN("network:=true: ROS 1 has no authentication, so anyone who reaches this machine can command the test");
   }
   return node;
 }
@@ -111,6 +118,12 @@ void leave_ros(const char* name, int code) {
     ros::master::execute("setParam", request, response, payload, false);
   }
   ros::shutdown();
+}
+
+bool asks_for_version(int argc, char** argv) {
+  if (argc != 2 || argv[1] != std::string("--version")) return false;
+  std::puts(version().c_str());
+  return true;
 }
 
 int report_failure(const char* name, const char* what, int code) {

@@ -136,12 +136,23 @@ void UtmNode::on_state(const KnotState::ConstPtr& answer) {
   if (!fault.empty()) return physics_failed(std::string(names::kKnotState) + ": " + fault);
   sample_ = from_message(state);
   motion_pattern_ = state.motion_pattern;
-  if (pulls(sample_.phase)) peak_force_ = std::max(peak_force_, sample_.force_upper);
+  take_reading();
   max_penetration_ = std::max(max_penetration_, sample_.max_penetration);
   waiting_ = false;
   now_ = state.header.stamp;
   publish_clock(false);
   if (joint_states_.getNumSubscribers() > 0) joint_states_.publish(to_joint_state(command_, sample_, now_));
+}
+
+/// What result.yaml is made of, too: the readings of the load cell, and where the rod parts.
+void UtmNode::take_reading() {
+  const bool parted = sample_.status == BenchStatus::kBroken;
+  if (!command_.read_cell && !command_.balance && !parted) return;
+  readings_.push_back(sample_);
+  if (!parted) return;
+  Sample& reading = readings_.back();  // its ends recoil by now: the largest load of the command is that of the break
+  reading.load = reading.highest_load;
+  reading.force_upper = reading.highest_load + reading.balance_offset;
 }
 
 void UtmNode::on_recorder(const RecorderStatus::ConstPtr& recorded) {
@@ -187,7 +198,8 @@ void UtmNode::start() {
   single_steps_ = 0;
   sample_ = Sample();
   motion_pattern_.clear();
-  peak_force_ = max_penetration_ = 0.0;
+  readings_.clear();
+  max_penetration_ = 0.0;
   state_ = State::kRunning;
   due_ = steady_clock::now();
   factor_measured_ = due_;

@@ -1,6 +1,7 @@
 // What the machine tells of itself: its status, the action's feedback and result, its health.
 #include <limits>
 
+#include "knot_utm/analysis/results.hpp"
 #include "knot_utm/io/number.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 
@@ -72,7 +73,10 @@ void UtmNode::finish_goal() {
   result.motion_pattern = motion_pattern_;
   result.time = sample_.time;
   result.extension = sample_.extension;
-  result.peak_force = peak_force_;
+  const Results results = analyse(readings_, ended_by);
+  result.peak_force = results.curve.peak_force.value_or(Sample::kNone);
+  result.true_peak_force = results.true_peak_force.value_or(Sample::kNone);
+  result.balance_offset = results.balance_offset.value_or(Sample::kNone);
   result.max_penetration = max_penetration_;
   result.directory = directory_;
   run_test_.finish(ended_by, program_->failed() || recorder_failed_, result);

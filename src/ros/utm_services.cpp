@@ -34,7 +34,7 @@ std::string UtmNode::start_if_possible() {
 bool UtmNode::on_start(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
   const std::string why_not = start_if_possible();
   if (!why_not.empty()) return refuse(response, why_not);
-  return accept(response, "test " + std::to_string(run_) + " runs");
+  return accept(response, "test " + std::to_string(run_) + " is running");
 }
 
 bool UtmNode::on_stop(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
@@ -46,7 +46,7 @@ bool UtmNode::on_stop(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger
 bool UtmNode::on_balance(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
   if (!active()) return refuse(response, "no test is running");
   program_->balance();
-  return accept(response, "the next command balances");
+  return accept(response, "the load cell is balanced with the next command");
 }
 
 bool UtmNode::on_pause(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
@@ -82,7 +82,7 @@ void UtmNode::set_pace(MachineConfig& wanted) {
 bool UtmNode::on_step(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
   if (state_ != State::kPaused) return refuse(response, "the test is not paused");
   ++single_steps_;
-  return accept(response, "one command");
+  return accept(response, "the test went on by one command");
 }
 
 }  // namespace knot_utm

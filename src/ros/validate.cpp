@@ -64,10 +64,10 @@ class Check {
  private:
   static std::string range(double low, double high) {
     if (std::isfinite(low) && std::isfinite(high)) return format_number(low) + " to " + format_number(high);
-    return std::isfinite(low) ? format_number(low) + " or more, finite" : "a finite number";
+    return std::isfinite(low) ? format_number(low) + " or more and finite" : "a finite number";
   }
   Check& wrong(const char* field, const std::string& value, const std::string& allowed) {
-    if (fault_.empty()) fault_ = prefix_ + field + ": " + value + ", allowed: " + allowed;
+    if (fault_.empty()) fault_ = prefix_ + field + " is " + value + ", but must be " + allowed;
     return *this;
   }
 
@@ -135,10 +135,10 @@ std::string fault_of_shape(const KnotShape& m) {
           [&] { return std::to_string(edges); })
       .that(
           lost == m.points.end(), "points",
-          [&] { return "point " + std::to_string(lost - m.points.begin()) + " not finite"; }, finite_numbers)
+          [&] { return "not finite at point " + std::to_string(lost - m.points.begin()); }, finite_numbers)
       .that(
           torn == m.tension.end(), "tension",
-          [&] { return "edge " + std::to_string(torn - m.tension.begin()) + " not finite"; }, finite_numbers)
+          [&] { return "not finite at edge " + std::to_string(torn - m.tension.begin()); }, finite_numbers)
       .fault();
 }
 
@@ -202,7 +202,7 @@ std::string fault_of(const KnotRecord& m) {
       .that(
           m.failed_step.empty() || m.answer.status == KnotState::FAILED, "failed_step",
           [&] { return std::to_string(m.failed_step.size()) + " bytes"; },
-          [] { return "none where the physics did not give up"; });
+          [] { return "empty where the physics did not give up"; });
   for (std::size_t i = 0; i < m.steps.size() && check.fault().empty(); ++i) {
     check.part(fault_of_state(m.steps[i], "steps[" + std::to_string(i) + "]."));
   }

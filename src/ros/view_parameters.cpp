@@ -36,7 +36,8 @@ ros::NodeHandle with_checked_parameters() {
   if (!is_rate(set.marker_rate))
     throw InvalidInput(own.resolveName("marker_rate"), format_number(set.marker_rate), rates());
   read_parameter(own, "color_by", &set.color_by, kColorings);
-  if (!is_coloring(set.color_by)) throw InvalidInput(own.resolveName("color_by"), set.color_by, kColorings);
+  if (!is_coloring(set.color_by))
+    throw InvalidInput(own.resolveName("color_by"), "\"" + set.color_by + "\"", kColorings);
   read_parameter(own, "contact_forces", &set.contact_forces, "true or false");
   return own;
 }

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <fstream>
 #include <stdexcept>
 #include <utility>
@@ -40,15 +41,16 @@ std::string node_of_process(const std::string& process) { return "/" + process.s
 WatchNode::WatchNode(const ros::NodeHandle& node, std::string verdict) : node_(node), verdict_(std::move(verdict)) {
   std::map<std::string, int> codes;
   if (!node_.getParam(names::kExitCodes, codes) || codes.empty()) {
-    throw InvalidInput(node_.resolveName(names::kExitCodes), "nothing",
-                       "the nodes of the test, as tighten.launch has it");
+    throw InvalidInput::missing(node_.resolveName(names::kExitCodes), "the nodes of the test, as tighten.launch does");
   }
   for (const auto& [name, code] : codes) {
     watched_[node_.resolveName(name)] = node_.resolveName(std::string(names::kExitCodes) + "/" + name);
   }
   recorder_ = subscribe_gated(node_, {names::kRecorderStatus, names::kRecorderNode, 1, kLargest},
                               &WatchNode::on_recorder, this);
-  if (!find_launch()) throw InvalidInput("watch_node", "started by hand", "part of a launch file, which it ends");
+  if (!find_launch())
+    throw InvalidInput::sentence("watch_node", "started by hand",
+                                 "watch_node ends the launch that it is a part of, so it cannot be started by hand");
 }
 
 bool WatchNode::find_launch() {
@@ -127,6 +129,7 @@ void WatchNode::test_is_over(int code, bool somebody_looks) {
   tell(code);
   if (!somebody_looks) return end_launch();
   ROS_INFO("the test is over; the launch ends when the window of rviz is closed");
+  std::fflush(stdout);  // where this is no terminal it would be seen at the end only
 }
 
 void WatchNode::tell(int code) const {
@@ -134,7 +137,7 @@ void WatchNode::tell(int code) const {
   std::ofstream file(verdict_);
   file << code << '\n' << folder_ << '\n';
   file.close();
-  if (!file) ROS_ERROR("%s cannot be written", verdict_.c_str());
+  if (!file) ROS_ERROR("cannot write %s", verdict_.c_str());
 }
 
 void WatchNode::end_launch() {

@@ -40,9 +40,9 @@ void examine(const RodProperties& rod, const StepSettings& settings, const Solve
       out.largest_slip = std::max(out.largest_slip, slip(contact, step.way).norm());
     }
   if (out.largest_motion > settings.motion_limit)
-    out.reason = "a node moved further than a step may";
+    out.reason = "a node moved further than is allowed in one step";
   else if (out.largest_overlap > settings.overlap_limit)
-    out.reason = "strands overlap more than a step may leave";
+    out.reason = "strands overlap more than is allowed after a step";
   else if (const std::optional<Passage> found = passage.find(step.start.position, step.end))
     out.reason = reason(rod, *found);
 }

@@ -6,16 +6,16 @@
 
 namespace knot_utm {
 
-/// What Newton's method may leave unbalanced.
+/// The tolerance of Newton's method, and its scaling by a node's tension.
 ///
 ///   tolerance  max(s clamp(l T, r/100, r), r/1000), s = min(1, (dt/t_r)^2 (1 + c dt/m))
-///   ease       of a node: 1 + a T_i / tolerance, the factor by which its residual may be larger
+///   ease       tolerance scaling of a node: 1 + a T_i / tolerance, the factor by which its residual may be larger
 ///
 /// Symbols: r residual [N], l residual_at_little_tension (0: r instead of the clamp), a residual_of_tension, t_r
 /// residual_from_step [s]; T largest tension of the rod, T_i of the edges of node i [N].
 ///
 /// What is left unbalanced shakes the rod, the more often the shorter the steps: it would keep them short. A node's own
-/// edges count: in a locked knot they bear kN, while next to it are tails that a trifle moves.
+/// edges count: in a locked knot they bear kN, while next to it are tails that a very small force moves.
 /// While a shape settles, its drag holds what is left unbalanced back by 1 + c dt/m, c the drag and m the mass per
 /// length [kg/m], and s is as much larger.
 class ResidualRule {

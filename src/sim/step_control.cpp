@@ -52,9 +52,9 @@ std::string StepControl::no_headway(double time) {
   const double way = time - watched_from_.time;
   if (way < kLeastHeadway * options_.longest * static_cast<double>(iterations)) {
     std::ostringstream reason;
-    reason << "no headway: the last " << iterations
-           << " iterations of Newton's method led from t = " << watched_from_.time << " s to " << time
-           << " s, in steps of " << last_tried_ << " s in the end";
+    reason << "the solver makes no headway: the last " << iterations
+           << " iterations of Newton's method led only from t = " << watched_from_.time << " s to " << time
+           << " s, and the last time step was " << last_tried_ << " s long";
     return reason.str();
   }
   watched_from_ = {time, counters_.iterations};
@@ -84,10 +84,10 @@ std::string StepControl::advance(TimeStep& stepper, double& time, double end, co
       next_ = 0.5 * dt;
       if (next_ < options_.shortest) {
         std::ostringstream reason;
-        reason << "time step fell below " << options_.shortest << " s at t = " << time << " s: " << summary.reason
+        reason << "the time step fell below " << options_.shortest << " s at t = " << time << " s: " << summary.reason
                << " (residual " << summary.newton.residual << " N, tolerance " << summary.newton.tolerance << " N); "
-               << summary.diagnosis.text() << "; tried " << failed << " steps from " << longest_failed << " to " << dt
-               << " s, the shorter ones by secants of the friction too";
+               << summary.diagnosis.text() << "; " << failed << " steps of " << longest_failed << " to " << dt
+               << " s failed, the shorter ones with friction linearised by secants, too";
         return reason.str();
       }
       continue;

@@ -5,18 +5,17 @@
 namespace knot_utm {
 
 std::string StepDiagnosis::text() const {
-  if (node < 0) return "nowhere in particular";
+  if (node < 0) return "no node stands out";
   std::ostringstream out;
-  out << "worst at node " << node << ", " << arclength << " m along the rod (residual " << residual << " N, moved "
-      << motion << " m)";
-  if (!in_contact) return out.str() + ", which touches nothing";
-  out << ", which touches ";
+  out << "the residual is largest at node " << node << ", " << arclength << " m along the rod: " << residual
+      << " N; the node moved " << motion << " m and touches ";
+  if (!in_contact) return out.str() + "nothing";
   if (roller >= 0) {
     out << "roller " << roller;
   } else {
-    out << "a strand: " << contact_arclengths[0] << " m at " << contact_arclengths[1] << " m";
+    out << "another strand, " << contact_arclengths[0] << " m along the rod at " << contact_arclengths[1] << " m";
   }
-  out << ", overlap " << overlap << " m, " << (slides ? "sliding" : "sticking");
+  out << ", with an overlap of " << overlap << " m, " << (slides ? "sliding" : "sticking");
   return out.str();
 }
 

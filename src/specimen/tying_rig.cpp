@@ -187,8 +187,8 @@ bool TyingRig::waited_for_rest(const TimeStep& stepper, double time, double begi
   if (rested_ >= options_.rest_time) return true;
   if (time - begin <= options_.patience) return false;
   std::ostringstream message;
-  message << "not equilibrated: " << options_.patience << " s after " << since << " the fastest node still moved at "
-          << fastest_node(stepper) << " m/s (rest is " << options_.rest_speed << " m/s)";
+  message << "not equilibrated: " << options_.patience << " s after " << since << ", the fastest node still moved at "
+          << fastest_node(stepper) << " m/s; at rest it moves at less than " << options_.rest_speed << " m/s";
   not_equilibrated_ = message.str();
   return true;
 }
@@ -198,9 +198,9 @@ void TyingRig::judge_pull(double time) {
   if (stage_ != Stage::kPulling || reached_ >= 0.0 || elapsed <= options_.pull_patience) return;
   if (speed_ * elapsed <= options_.pull_way * radius_) return;
   std::ostringstream message;
-  message << "not tied: after " << elapsed << " s the tail grips hold";
-  for (const double force : tail_force_) message << ' ' << force;
-  message << " N and have not reached the pre-load, " << options_.preload << " N";
+  message << "not tied: after " << elapsed << " s the tail grips pull with";
+  for (std::size_t i = 0; i < tail_force_.size(); ++i) message << (i == 0 ? " " : " and ") << tail_force_[i];
+  message << " N and have not reached the pre-load of " << options_.preload << " N";
   not_tied_ = message.str();
 }
 

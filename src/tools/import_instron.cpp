@@ -1,4 +1,4 @@
-// Raw data that Instron's Bluehill exported, as a bag with the topics of a simulated test.
+// Raw data that a testing machine exported, as a bag with the topics of a simulated test.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <string>
@@ -12,17 +12,21 @@
 int main(int argc, char** argv) {
   constexpr const char* kTool = "import_instron";
   return knot_utm::run_tool(kTool, [&] {
-    std::string raw_data, bag;
+    std::string raw_data, bag, columns;
     bool quiet = false;
-    CLI::App app("Writes raw data that Instron's Bluehill exported as a bag: utm/crosshead and utm/load_cell.");
+    CLI::App app("Writes the raw data of a testing machine into a bag, on the topics utm/crosshead and utm/load_cell.");
     app.add_option("RAW_DATA", raw_data, "the exported CSV")->required();
     app.add_option("BAG", bag, "the bag to be written")->required();
-    app.add_flag("--quiet", quiet, "say nothing but what went wrong");
+    app.add_option(knot_utm::kColumnsOption, columns, knot_utm::kColumnsHelp);
+    app.add_flag("--quiet", quiet, "say only what went wrong");
     if (const auto code = knot_utm::parse(app, kTool, argc, argv)) return *code;
-    const std::vector<knot_utm::CurveRow> rows = knot_utm::read_raw_data(knot_utm::read_input(raw_data), raw_data);
+    knot_utm::RawColumns names;
+    if (!columns.empty()) names = knot_utm::parse_raw_columns(columns, knot_utm::kColumnsOption);
+    const std::vector<knot_utm::CurveRow> rows =
+        knot_utm::read_raw_data(knot_utm::read_input(raw_data), raw_data, names);
     knot_utm::write_curve_bag(bag, rows);
     if (!quiet)
-      std::printf("%zu readings over %g s written to %s\n", rows.size(), rows.back().time - rows.front().time,
+      std::printf("%zu readings over %g s were written to %s\n", rows.size(), rows.back().time - rows.front().time,
                   bag.c_str());
     return static_cast<int>(knot_utm::kDone);
   });

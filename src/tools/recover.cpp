@@ -47,9 +47,9 @@ int run(const Arguments& arguments) {
 
 /// Reads the command line; an exit code where that is all there is to do.
 std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
-  CLI::App app("Writes anew what a run left that was killed, from its method.yaml and journal.");
+  CLI::App app("Writes the results of a run that was killed, from its method.yaml and its journal.");
   app.add_option("DIR", arguments.folder, "the run's folder")->required();
-  app.add_option("--out", arguments.out, "the folder to write to; DIR unless given");
+  app.add_option("--out", arguments.out, "the folder to write to; unless given, DIR itself");
   return parse(app, kTool, argc, argv);
 }
 

@@ -71,8 +71,10 @@ int run(const std::string& file) {
 
 /// Reads the command line; an exit code where that is all there is to do.
 std::optional<int> read_arguments(int argc, char** argv, std::string& file) {
-  CLI::App app("Tries a saved time step again. Exit code 0: it was accepted; 1: it was not; 2: the file is wrong.");
-  app.add_option("FILE", file, "a time step as tensile_test leaves it, failed_step.bin")->required();
+  CLI::App app(
+      "Tries a saved time step again, and prints each iteration. The exit code is 0 where the step was accepted, 1 "
+      "where it was not, and 2 where the file is wrong.");
+  app.add_option("FILE", file, "a time step that tensile_test saved, failed_step.bin")->required();
   return parse(app, kTool, argc, argv);
 }
 

@@ -145,15 +145,19 @@ class Past {
       : folder_(folder) {
     JournalReader journal = reader();
     if (!(journal.header() == journal_header(method)))
-      throw InvalidInput(journal_file(folder), "method", "that of another run", "that of method.yaml");
+      throw InvalidInput::sentence("method", folder, "the journal belongs to another method than method.yaml beside it")
+          .in_file(journal_file(folder));
     bytes_ = journal.good_bytes();
     if (!checkpoint.is_there()) return;
     bytes_ = checkpoint.load(bench, program);
     Record record;
     while (journal.good_bytes() < bytes_ && journal.next(record)) continue;
     if (journal.good_bytes() != bytes_ || journal.records() != program.last().sequence)
-      throw InvalidInput(checkpoint.file(), "journal", std::to_string(journal.good_bytes()) + " whole bytes",
-                         "at least the " + std::to_string(bytes_) + " of this checkpoint");
+      throw InvalidInput::sentence("journal", folder,
+                                   "the checkpoint needs " + std::to_string(bytes_) +
+                                       " bytes of the journal, of which only " + std::to_string(journal.good_bytes()) +
+                                       " are whole")
+          .in_file(checkpoint.file());
   }
 
   /// Writes everything anew; the wall time that had passed [s].
@@ -237,14 +241,14 @@ int tell_end(const Test& test, const Results& results, double wall_time, bool qu
   const TestProgram& program = test.program;
   const char* out = test.out.c_str();
   if (program.ended_by() == EndedBy::kSolver) {
-    std::fprintf(stderr, "%s: the physics gave up: %s; what was measured is in %s\n", kTool, program.reason().c_str(),
-                 out);
+    std::fprintf(stderr, "%s: the physics gave up: %s; what was measured until then is in %s\n", kTool,
+                 program.reason().c_str(), out);
     if (!test.bench.failed_step().empty())
-      std::fprintf(stderr, "%s: the step that could not be made: scripts/replay-step %s\n", kTool,
+      std::fprintf(stderr, "%s: the time step that failed can be looked at by: scripts/replay-step %s\n", kTool,
                    failed_step_file(test.out).c_str());
   } else if (!quiet) {
-    std::printf("ended by %s after %.1f s, %.1f times real time; written to %s\n", ended_by_name(program.ended_by()),
-                results.simulated_time, results.simulated_time / wall_time, out);
+    std::printf("the test ended by %s after %.1f s, at %.1f times real time; its results are in %s\n",
+                ended_by_name(program.ended_by()), results.simulated_time, results.simulated_time / wall_time, out);
   }
   if (program.ended_by() == EndedBy::kUntangled)
     std::fprintf(stderr, "%s: the knot came undone: %s\n", kTool, what_keeps_a_knot(test.method).c_str());
@@ -256,7 +260,7 @@ int leave_for_resume(const Test& test, Writers& writers, const WallClock& clock)
   test.program.stop();
   const Results results = write_results(test, writers, clock, true);
   const std::array<const char*, 3> go_on{kTool, "--resume", test.out.c_str()};
-  std::fprintf(stderr, "%s: interrupted after %.1f s; what was measured is in %s; to go on: %s\n", kTool,
+  std::fprintf(stderr, "%s: the test was interrupted after %.1f s; what was measured is in %s; go on with: %s\n", kTool,
                results.simulated_time, test.out.c_str(), command_line(go_on.size(), go_on.data()).c_str());
   return kFailed;
 }
@@ -294,10 +298,12 @@ int run_to_end(const Test& test, JournalWriter& journal, double checkpoint_perio
 
 /// Throws InvalidInput where there is nothing to take up. Reads nothing of a run that goes on.
 void require_cut_off(const std::string& folder) {
-  if (is_settled(folder)) throw InvalidInput("--resume", folder, "a test that was cut off; this one has ended");
+  if (is_settled(folder))
+    throw InvalidInput::sentence("--resume", folder,
+                                 "cannot resume " + shown(folder) + ": its test has ended, and was not cut off");
   const LockedFile journal(journal_file(folder), O_RDONLY, 0.0);
   if (!journal.is_open() && errno == EWOULDBLOCK)
-    throw InvalidInput("--resume", folder, "a test that was cut off; this one goes on");
+    throw InvalidInput::sentence("--resume", folder, "cannot resume " + shown(folder) + ": its test is still running");
 }
 
 /// Says where the run goes to where it goes elsewhere than asked.
@@ -335,37 +341,34 @@ int run(const Arguments& arguments) {
   }
   if (arguments.report) {
     write_report(out, arguments.command);
-    if (!arguments.quiet) std::printf("report: %s/report.html and %s/report.pdf\n", out.c_str(), out.c_str());
+    if (!arguments.quiet) std::printf("the report is in %s/report.html and %s/report.pdf\n", out.c_str(), out.c_str());
   }
   return code;
 }
 
-/// What is wrong with an argument stands in no file.
-InvalidInput with_place(const InvalidInput& invalid, const std::string& method) {
-  return invalid.key.rfind("--", 0) == 0 ? invalid : invalid.in_file(method);
-}
-
 /// Reads the command line; an exit code where that is all there is to do.
 std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
-  CLI::App app("Runs one whole test of a method, as fast as it goes.");
+  CLI::App app("Runs the whole test that a method describes, as fast as the computer can.");
   CLI::Option* method = app.add_option("METHOD", arguments.method,
                                        "the method: a YAML file, or the name of one that comes with the package");
   // One value each, so that --set may stand before METHOD too.
-  CLI::Option* set =
-      app.add_option("--set", arguments.overrides, "dotted.key=YAML, over what the method says; may be repeated")
-          ->allow_extra_args(false);
+  CLI::Option* set = app.add_option("--set", arguments.overrides,
+                                    "dotted.key=YAML, instead of what the method says; may be given more than once")
+                         ->allow_extra_args(false);
   CLI::Option* out =
-      app.add_option("--out", arguments.out, "the folder to write to; out/ and the method's name unless given");
-  CLI::Option* resume = app.add_option("--resume", arguments.resume, "the folder of a test that was cut off: goes on");
+      app.add_option("--out", arguments.out, "the folder to write to; unless given, out/ and the method's name");
+  CLI::Option* resume =
+      app.add_option("--resume", arguments.resume, "the folder of a test that was cut off, which goes on");
   CLI::Option* overwrite =
       app.add_flag("--overwrite", arguments.overwrite,
                    "write over what the folder holds, instead of to the next free one, -2, -3, ...");
   resume->excludes(method)->excludes(set)->excludes(out)->excludes(overwrite);
-  app.add_option("--checkpoint", arguments.checkpoint, "wall time between two checkpoints [s]; 0: none")
+  app.add_option("--checkpoint", arguments.checkpoint,
+                 "the time between two checkpoints, of the clock on the wall [s]; 0 for none")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
-  app.add_flag("--quiet", arguments.quiet, "say nothing but what went wrong");
-  app.add_flag("--report", arguments.report, "write report.html and report.pdf too");
+  app.add_flag("--quiet", arguments.quiet, "say only what went wrong");
+  app.add_flag("--report", arguments.report, "also write report.html and report.pdf");
   const std::optional<int> code = parse(app, kTool, argc, argv, [&] {
     if (method->empty() && resume->empty()) throw CLI::RequiredError("METHOD");
   });
@@ -391,7 +394,7 @@ int main(int argc, char** argv) {
     try {
       return knot_utm::run(arguments);
     } catch (const knot_utm::InvalidInput& invalid) {
-      throw knot_utm::with_place(invalid, arguments.method);
+      throw invalid.in_file(arguments.method);
     }
   });
 }

@@ -27,36 +27,37 @@ TEST(CurveReadings, ASlidingKnotHasAPlateauALockAndAStiffness) {
   EXPECT_NEAR(*readings.plateau_force, 6.0, 1e-12);
   EXPECT_NEAR(*readings.plateau_force_sd, 0.0, 1e-6);  // the root of a rounding of 36 N^2
   // Twice the plateau is reached 6 N / (2e5 N/m) behind the corner.
-  EXPECT_NEAR(*readings.lock_extension, 0.08 + 6.0 / 2e5, 1e-9);
+  EXPECT_NEAR(*readings.lock_extension_by_load, 0.08 + 6.0 / 2e5, 1e-9);
   EXPECT_NEAR(*readings.locked_stiffness, 2e5, 1e-4);
   EXPECT_DOUBLE_EQ(*readings.peak_force, 6.0 + 2e5 * 0.04);
+  EXPECT_DOUBLE_EQ(*readings.breakaway_force, 6.0);
 }
 
 TEST(CurveReadings, AStretchingRodHasAStiffnessAlone) {
   const CurveReadings readings = curve_readings(pull([](double s) { return 160.0 * s; }));
   EXPECT_FALSE(readings.plateau_force);
-  EXPECT_FALSE(readings.lock_extension);
+  EXPECT_FALSE(readings.lock_extension_by_load);
   EXPECT_NEAR(*readings.locked_stiffness, 160.0, 1e-9);
 }
 
 TEST(CurveReadings, AKnotThatSlidesToTheEndHasNoLockAndNoStiffness) {
   const CurveReadings readings = curve_readings(pull(sliding, 0.07, 700));
   EXPECT_NEAR(*readings.plateau_force, 6.0, 1e-12);
-  EXPECT_FALSE(readings.lock_extension);
+  EXPECT_FALSE(readings.lock_extension_by_load);
   EXPECT_FALSE(readings.locked_stiffness);
 }
 
 TEST(CurveReadings, ABreakawayIsNoLock) {
   const auto force = [](double s) { return sliding(s) + 30.0 * std::exp(-s / 2e-3); };
-  EXPECT_NEAR(*curve_readings(pull(force)).lock_extension, 0.08 + 6.0 / 2e5, 1e-6);
-  EXPECT_FALSE(curve_readings(pull(force, 0.07, 700)).lock_extension);
+  EXPECT_NEAR(*curve_readings(pull(force)).lock_extension_by_load, 0.08 + 6.0 / 2e5, 1e-6);
+  EXPECT_FALSE(curve_readings(pull(force, 0.07, 700)).lock_extension_by_load);
 }
 
 TEST(CurveReadings, APlateauBeforeALockMayRise) {
   const CurveReadings readings = curve_readings(pull([](double s) { return sliding(s) + 150.0 * s; }));
-  ASSERT_TRUE(readings.lock_extension);
+  ASSERT_TRUE(readings.lock_extension_by_load);
   // Of a straight line the mean is that of the middle, 0.55 of the lock.
-  EXPECT_NEAR(*readings.plateau_force, 6.0 + 150.0 * 0.55 * *readings.lock_extension, 1e-9);
+  EXPECT_NEAR(*readings.plateau_force, 6.0 + 150.0 * 0.55 * *readings.lock_extension_by_load, 1e-9);
 }
 
 TEST(CurveReadings, TheSameLinesByMorePointsAreTheSame) {
@@ -64,23 +65,23 @@ TEST(CurveReadings, TheSameLinesByMorePointsAreTheSame) {
   Pull few;
   for (const double s : {0.0, 1e-3, 0.04, 0.08, 0.12}) few.push_back({s, s, Sample::kNone, bent(s)});
   const CurveReadings a = curve_readings(few), b = curve_readings(pull(bent));
-  EXPECT_NEAR(*a.lock_extension, *b.lock_extension, 1e-9);
+  EXPECT_NEAR(*a.lock_extension_by_load, *b.lock_extension_by_load, 1e-9);
   EXPECT_NEAR(*a.plateau_force, *b.plateau_force, 1e-9);
   EXPECT_NEAR(*a.plateau_force_sd, *b.plateau_force_sd, 1e-6);
   const CurveReadings line = curve_readings({{0.0, 0.0, Sample::kNone, 0.0}, {1.0, 0.1, Sample::kNone, 10.0}});
-  EXPECT_FALSE(line.plateau_force || line.lock_extension);
+  EXPECT_FALSE(line.plateau_force || line.lock_extension_by_load);
 }
 
 TEST(CurveReadings, WhereTheSearchForALockCreepsThereIsNone) {
   // Twice the mean of s^1.1711 over its plateau is reached where that ends: the search hardly goes back.
-  EXPECT_FALSE(curve_readings(pull([](double s) { return std::pow(s, 1.1712); }, 1.0, 20000)).lock_extension);
+  EXPECT_FALSE(curve_readings(pull([](double s) { return std::pow(s, 1.1712); }, 1.0, 20000)).lock_extension_by_load);
 }
 
 TEST(CurveReadings, OfNothingThereAreNone) {
   EXPECT_FALSE(curve_readings({}).peak_force);
   const CurveReadings one = curve_readings({{0.0, 0.0, Sample::kNone, 1.0}});
   EXPECT_EQ(one.peak_force, 1.0);
-  EXPECT_FALSE(one.plateau_force || one.lock_extension || one.locked_stiffness);
+  EXPECT_FALSE(one.plateau_force || one.lock_extension_by_load || one.locked_stiffness);
 }
 
 TEST(CurveDifference, OfLinesIsTheirExactIntegral) {

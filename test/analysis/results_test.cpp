@@ -80,12 +80,14 @@ TEST(MotionPattern, SlidingThenStretching) {
       ASSERT_TRUE(results.lock_extension);
       // de/ds passes -1 a little before the middle of the soft turn, and e lags the rate by half a step.
       EXPECT_NEAR(*results.lock_extension, curve.lock, 1.5e-3);
-      ASSERT_TRUE(results.plateau_force);
-      EXPECT_NEAR(*results.plateau_force, curve.plateau, 0.03 * curve.plateau);
-      EXPECT_LT(*results.plateau_force_sd, 0.05 * curve.plateau);
+      ASSERT_TRUE(results.curve.lock_extension_by_load);
+      EXPECT_NEAR(*results.curve.lock_extension_by_load, curve.lock, 1.5e-3);
+      ASSERT_TRUE(results.true_plateau_force);
+      EXPECT_NEAR(*results.true_plateau_force, curve.plateau, 0.03 * curve.plateau);
+      EXPECT_LT(*results.curve.plateau_force_sd, 0.05 * curve.plateau);
       EXPECT_NEAR(*results.plateau_slope, -2.0, 0.02);
-      ASSERT_TRUE(results.locked_stiffness);
-      EXPECT_NEAR(*results.locked_stiffness, curve.stiffness, 0.01 * curve.stiffness);
+      ASSERT_TRUE(results.curve.locked_stiffness);
+      EXPECT_NEAR(*results.curve.locked_stiffness, curve.stiffness, 0.01 * curve.stiffness);
       EXPECT_FALSE(results.untangled_at);
       EXPECT_EQ(results.knot_type, KnotType::kKept);
       EXPECT_NEAR(*results.force_balance_error, 1e-3, 1e-4);
@@ -101,9 +103,9 @@ TEST(MotionPattern, SlidingToTheEndHasNeitherLockNorStiffness) {
   EXPECT_EQ(results.motion_pattern, MotionPattern::kSliding);
   EXPECT_GT(results.motion_pattern_confidence, 0.85);
   EXPECT_FALSE(results.lock_extension);
-  EXPECT_FALSE(results.locked_stiffness);
-  EXPECT_NEAR(*results.plateau_force, curve.plateau, 0.03 * curve.plateau);
-  EXPECT_GT(*results.breakaway_force, 2.0 * curve.plateau);
+  EXPECT_FALSE(results.curve.locked_stiffness);
+  EXPECT_NEAR(*results.true_plateau_force, curve.plateau, 0.03 * curve.plateau);
+  EXPECT_GT(*results.true_breakaway_force, 2.0 * curve.plateau);
 }
 
 TEST(MotionPattern, StretchingFromTheStart) {
@@ -117,8 +119,8 @@ TEST(MotionPattern, StretchingFromTheStart) {
     EXPECT_EQ(results.motion_pattern, MotionPattern::kStretching);
     EXPECT_GT(results.motion_pattern_confidence, 0.95);
     EXPECT_FALSE(results.lock_extension);
-    EXPECT_FALSE(results.plateau_force);
-    EXPECT_NEAR(*results.locked_stiffness, curve.stiffness, 0.01 * curve.stiffness);
+    EXPECT_FALSE(results.true_plateau_force);
+    EXPECT_NEAR(*results.curve.locked_stiffness, curve.stiffness, 0.01 * curve.stiffness);
   }
 }
 
@@ -128,14 +130,14 @@ TEST(LockedStiffness, DoesNotSeeASlipInsideTheLock) {
   std::vector<Sample> samples = curve.samples();
   double peak = 0.0;
   for (const Sample& sample : samples) peak = std::max(peak, sample.force_upper);
-  const double whole = *analyse(samples, EndedBy::kExtension).locked_stiffness;
+  const double whole = *analyse(samples, EndedBy::kExtension).curve.locked_stiffness;
   for (Sample& sample : samples) {
     if (sample.force_upper < 0.75 * peak) continue;
     sample.force_upper -= 0.03 * peak;
     sample.force_lower -= 0.03 * peak;
   }
   // One part in three holds the slip, and is left out.
-  EXPECT_NEAR(*analyse(samples, EndedBy::kExtension).locked_stiffness, whole, 2e-3 * whole);
+  EXPECT_NEAR(*analyse(samples, EndedBy::kExtension).curve.locked_stiffness, whole, 2e-3 * whole);
 }
 
 TEST(LockedStiffness, DoesNotDependOnWhereTheStepsAreShort) {
@@ -145,8 +147,8 @@ TEST(LockedStiffness, DoesNotDependOnWhereTheStepsAreShort) {
   std::vector<Sample> sparse;  // ten times as long beyond three quarters of the extension
   for (std::size_t i = 0; i < fine.size(); ++i)
     if (4 * i < 3 * fine.size() || i % 10 == 0 || i + 1 == fine.size()) sparse.push_back(fine[i]);
-  const double whole = *analyse(fine, EndedBy::kExtension).locked_stiffness;
-  EXPECT_NEAR(*analyse(sparse, EndedBy::kExtension).locked_stiffness, whole, 2e-3 * whole);
+  const double whole = *analyse(fine, EndedBy::kExtension).curve.locked_stiffness;
+  EXPECT_NEAR(*analyse(sparse, EndedBy::kExtension).curve.locked_stiffness, whole, 2e-3 * whole);
 }
 
 TEST(MotionPattern, UntanglingWhenKnotsOpenAfterBreakaway) {
@@ -182,7 +184,7 @@ TEST(MotionPattern, UntanglingWhenTheKnotTypeIsLost) {
   EXPECT_EQ(results.motion_pattern_confidence, 1.0);
   EXPECT_EQ(results.untangled_at, lost_at);
   EXPECT_EQ(results.knot_type, KnotType::kChanged);
-  EXPECT_FALSE(results.locked_stiffness);
+  EXPECT_FALSE(results.curve.locked_stiffness);
 }
 
 TEST(MotionPattern, NoneWithoutAPullOrWithoutTwoKnots) {
@@ -195,7 +197,7 @@ TEST(MotionPattern, NoneWithoutAPullOrWithoutTwoKnots) {
   const Results results = analyse(samples, EndedBy::kExtension);
   EXPECT_EQ(results.motion_pattern, MotionPattern::kNone);
   EXPECT_EQ(results.motion_pattern_confidence, 0.0);
-  EXPECT_TRUE(results.locked_stiffness);
+  EXPECT_TRUE(results.curve.locked_stiffness);
 }
 
 TEST(MotionPattern, IsFollowedLive) {
@@ -227,7 +229,7 @@ TEST(Results, ABreakEndsThePullAndIsNoUntangling) {
   const Results results = analyse(samples, EndedBy::kBreak);
   EXPECT_EQ(results.motion_pattern, MotionPattern::kSliding);
   EXPECT_EQ(results.break_extension, samples[at].extension);
-  EXPECT_EQ(results.peak_force, peak);
+  EXPECT_EQ(results.true_peak_force, peak);
   EXPECT_EQ(results.ended_by, EndedBy::kBreak);
 }
 
@@ -302,7 +304,7 @@ TEST(Results, ARodThatPartsWhereNothingPullsHasABreakToo) {
   held[4].max_penetration = 9.0;
   Results results = analyse(held, EndedBy::kBreak);
   EXPECT_EQ(results.break_extension, 0.01);
-  EXPECT_EQ(results.peak_force, 110.0);
+  EXPECT_EQ(results.true_peak_force, 110.0);
   EXPECT_NEAR(*results.energy_to_break, 0.5, 1e-12);
   EXPECT_EQ(results.relaxation->to, 110.0) << "not the recoil";
   EXPECT_EQ(results.max_penetration, 0.0);
@@ -316,7 +318,7 @@ TEST(Results, ARodThatPartsWhereNothingPullsHasABreakToo) {
     early[1].status = early[2].status = BenchStatus::kBroken;
     results = analyse(early, EndedBy::kBreak);
     EXPECT_EQ(results.break_extension, 0.005);
-    EXPECT_EQ(results.peak_force, 50.0);
+    EXPECT_EQ(results.true_peak_force, 50.0);
     EXPECT_FALSE(results.energy_to_break);
   }
 }
@@ -437,7 +439,7 @@ TEST(Results, MomentBalanceIsThatOfThePull) {
   Sample& worst = samples[samples.size() / 2];
   worst.moment_imbalance = 0.02;
   const Results results = analyse(samples, EndedBy::kExtension);
-  EXPECT_NEAR(*results.moment_balance_error, 0.02 / worst.end_to_end / *results.peak_force, 1e-12);
+  EXPECT_NEAR(*results.moment_balance_error, 0.02 / worst.end_to_end / *results.true_peak_force, 1e-12);
 }
 
 TEST(Results, CountsAndNotEquilibratedAreCarriedOver) {
@@ -471,26 +473,40 @@ TEST(Results, WhereNothingIsTiedThePullBeginsWithTheKnotsAsTheyAre) {
   EXPECT_EQ(results.tied_excess_length[0], 0.04);
 }
 
-TEST(Results, ForcesAreTrueOnesWhateverTheCellWasBalancedTo) {
-  const std::vector<Sample> samples = Curve().samples();
-  std::vector<Sample> balanced = samples;
-  for (Sample& sample : balanced) {
+TEST(Results, ForcesAreThoseOfTheBalancedLoadAndTheTrueOnesAreLargerByTheBalanceOffset) {
+  std::vector<Sample> samples = Curve().samples();
+  for (Sample& sample : samples) {
     sample.balance_offset = 1.5;
     sample.load = sample.force_upper - 1.5;
   }
-  const Results as_if_zero = analyse(samples, EndedBy::kExtension);
-  const Results results = analyse(balanced, EndedBy::kExtension);
-  EXPECT_EQ(results.plateau_force, as_if_zero.plateau_force);
-  EXPECT_EQ(results.peak_force, as_if_zero.peak_force);
-  EXPECT_EQ(as_if_zero.balance_offset, 0.0);
+  const Results results = analyse(samples, EndedBy::kExtension);
+  const double peak = samples.back().force_upper;
   EXPECT_EQ(results.balance_offset, 1.5);
+  EXPECT_DOUBLE_EQ(*results.curve.peak_force, peak - 1.5);
+  EXPECT_DOUBLE_EQ(*results.true_peak_force, peak);
+  EXPECT_NEAR(*results.true_plateau_force, *results.curve.plateau_force + 1.5, 1e-12);
+  EXPECT_NEAR(*results.true_breakaway_force, *results.curve.breakaway_force + 1.5, 1e-12);
+}
+
+TEST(Results, ReadingsOfTheCellAreNotThoseOfEveryTimeStep) {
+  Curve curve;
+  curve.step = 1e-4;
+  const std::vector<Sample> samples = curve.samples();
+  std::vector<Sample> readings;
+  for (std::size_t i = 0; i < samples.size(); i += 11) readings.push_back(samples[i]);
+  const Results results = analyse(samples, readings, EndedBy::kExtension);
+  EXPECT_EQ(results.curve.peak_force, readings.back().load);
+  EXPECT_LT(*results.curve.peak_force, samples.back().load);
+  EXPECT_EQ(results.curve.plateau_force, analyse(readings, EndedBy::kExtension).curve.plateau_force);
+  EXPECT_EQ(results.lock_extension, analyse(samples, EndedBy::kExtension).lock_extension);
 }
 
 TEST(Results, WhatATestDoesNotHaveIsEmpty) {
   std::vector<Sample> samples = Curve().samples();
   for (Sample& sample : samples) sample.phase = Phase::kHold;
   const Results results = analyse(samples, EndedBy::kOperator);
-  EXPECT_FALSE(results.peak_force);
+  EXPECT_FALSE(results.curve.peak_force);
+  EXPECT_FALSE(results.true_peak_force);
   EXPECT_FALSE(results.balance_offset);
   EXPECT_FALSE(results.force_balance_error);
   EXPECT_FALSE(results.moment_balance_error);

@@ -141,8 +141,8 @@ class FakeRunner:
     def run(self, name, settings):
         run = runs.Run("/nowhere", 2.0, 0, "")
         run.method = {"material": {"radius": 0.003, "bending_stiffness": 1e-4, "friction_coefficient": 0.3}}
-        run.result = {"motion_pattern": "sliding", "simulated_time": 60.0, "preload": 50.0, "plateau_force": 6.0,
-                      "plateau_force_sd": 0.3, "lock_extension": 0.08, "locked_stiffness": 2e5, "peak_force": 7e3,
+        run.result = {"motion_pattern": "sliding", "simulated_time": 60.0, "preload": 50.0, "true_plateau_force": 6.0,
+                      "plateau_force_sd": 0.3, "lock_extension": 0.08, "locked_stiffness": 2e5, "true_peak_force": 7e3,
                       "excess_length": [0.08, 0.08 - 0.002 * settings.get("specimen.preload", 50.0) / 50.0],
                       "plateau_force_error": 0.1, "lock_extension_error": 1e-3, "locked_stiffness_error": 1e3}
         run.settings = settings
@@ -178,7 +178,7 @@ class Convergence(unittest.TestCase):
 
     def test_a_halving_that_moves_the_mean_fails_and_no_other_material_is_gated(self):
         def change(name, result):
-            result["plateau_force"] *= 1.04 if "/edges_x1_2/" in name else 1.0
+            result["true_plateau_force"] *= 1.04 if "/edges_x1_2/" in name else 1.0
             return 0
         line, tied_alike = self.report(change).failed()
         self.assertIn("edges x1/2: relative change of the plateau force is 0.04", line)
@@ -187,10 +187,10 @@ class Convergence(unittest.TestCase):
 
     def test_a_halving_that_ties_tighter_is_told_apart_from_one_that_slides_at_another_force(self):
         def change(name, result):
-            result["plateau_force"] = 1e3 * (0.08 - result["excess_length"][1])  # grows as knots are tied tighter
+            result["true_plateau_force"] = 1e3 * (0.08 - result["excess_length"][1])  # grows as knots are tied tighter
             if "/edges_x1_2/" in name:
                 result["excess_length"] = [0.08, 0.0779]
-                result["plateau_force"] = 2.1
+                result["true_plateau_force"] = 2.1
             return 0
         table = self.report(change).tables[0]
         rows = {row[0]: dict(zip(table.columns, row[2])) for row in table.rows}
@@ -282,7 +282,7 @@ class Convergence(unittest.TestCase):
 
     def test_knots_that_do_not_slide_are_judged_by_their_peak(self):
         def change(name, result):
-            for key in ("plateau_force", "plateau_force_sd", "lock_extension"):
+            for key in ("true_plateau_force", "plateau_force_sd", "lock_extension"):
                 result[key] = None
             return 0
         report = self.report(change, "pink_vps")

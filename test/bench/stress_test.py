@@ -68,8 +68,10 @@ class Outcomes(unittest.TestCase):
         solver = self.GOOD.replace("extension", "solver") + "reason: time step\n"
         self.assertEqual(self.status(0, self.GOOD), "ended")
         self.assertEqual(self.status(1, solver), "solver")
+        # The physics did all that it was asked for.
+        self.assertEqual(self.status(1, self.GOOD.replace("extension", "untangled")), "ended")
         self.assertEqual(self.status(0, self.GOOD + "not_equilibrated: true\n"), "not at rest")
-        self.assertEqual(self.status(2, said="tensile_test: m.yaml: a: b is not allowed: c"), "refused")
+        self.assertEqual(self.status(2, said="tensile_test: m.yaml: a is b, but must be c"), "refused")
         self.assertEqual(self.status(2, said="one line\nand another"), "mute")
         self.assertEqual(self.status(2, self.GOOD, said="refused, and yet written"), "mute")
         self.assertEqual(self.status(1, said="an exception"), "mute")

@@ -135,7 +135,7 @@ class Readme(unittest.TestCase):
 
     def test_leads_to_every_page(self):
         for document in documents()[1:]:
-            self.assertIn(f"]({document})", text("README.md"))
+            self.assertTrue(f"]({document})" in text("README.md"), document)
 
 
 class Documents(unittest.TestCase):
@@ -159,6 +159,12 @@ class Documents(unittest.TestCase):
             self.assertGreater(len(sections), 1, f"{document} is long and has no sections")
             contents = re.findall(r"^- \[([^\]]+)\]\(#([^)]+)\)$", page[:page.index("\n## ")], re.MULTILINE)
             self.assertEqual(contents, [(section, anchor(section)) for section in sections], document)
+
+    def test_every_script_is_explained(self):
+        pages = "".join(text(document) for document in documents())
+        for file in glob.glob(os.path.join(ROOT, "scripts/*")):
+            if os.path.isfile(file):
+                self.assertTrue(f"scripts/{os.path.basename(file)}" in pages, file)
 
     def test_named_sources_are_there(self):
         for document in documents():

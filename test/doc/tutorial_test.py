@@ -58,7 +58,7 @@ class Tutorial(unittest.TestCase):
         self.assertEqual((result["warnings"], result["ended_by"]), ([], "load"))
         with open(os.path.join(clone, "out/beside/comparison.yaml"), encoding="utf-8") as text:
             comparison = yaml.safe_load(text)
-        for key in ("peak_force", "plateau_force", "lock_extension", "locked_stiffness"):
+        for key in ("peak_force", "plateau_force", "lock_extension_by_load", "locked_stiffness"):
             self.assertIsNotNone(comparison[key]["difference"], key)
 
 

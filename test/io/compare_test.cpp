@@ -25,24 +25,25 @@ class Compare : public OwnFolder {
   }
   std::string file(const std::string& name) const { return folder() + "/" + name; }
 
-  /// Load 10 N/mm times `factor`, beyond an offset, from 1 mm on.
-  void write_curve(const std::string& name, double factor, double offset = 0.0) const {
+  /// Load 10 N/mm times `factor`, from 1 mm on.
+  void write_curve(const std::string& name, double factor) const {
     CurveWriter writer(file(name));
     for (int i = 0; i <= 10; ++i) {
       CurveRow row;
       row.time = i;
       row.extension = 1e-3 * (i + 1);
-      row.load = factor * 10.0 * i + offset;
+      row.load = factor * 10.0 * i;
       row.phase = Phase::kPull;
       writer.write(row);
     }
   }
-  void write_raw_data(const std::string& name, double factor) const {
+  /// The same beyond an offset of the load, the crosshead standing at `place` to begin with [N], [mm].
+  void write_raw_data(const std::string& name, double factor, int offset = 0, int place = 1) const {
     std::string text = "Zeit;Traversenweg;Kraft\r\n(s);(mm);(kN)\r\n";
     for (int i = 0; i <= 10; ++i) {
-      const int newtons = static_cast<int>(factor * 10.0 * i), tenths = newtons % 1000;
+      const int newtons = offset + static_cast<int>(factor * 10.0 * i), tenths = newtons % 1000;
       const std::string digits = std::to_string(1000 + tenths).substr(1);
-      text += std::to_string(i) + ",0;" + std::to_string(i + 1) + ",0;" + std::to_string(newtons / 1000) + ',' +
+      text += std::to_string(i) + ",0;" + std::to_string(i + place) + ",0;" + std::to_string(newtons / 1000) + ',' +
               digits + "\r\n";
     }
     write_whole(file(name), text);
@@ -71,8 +72,9 @@ TEST_F(Compare, SaysWhatIsBeyondTheTolerance) {
   EXPECT_EQ(within.code, 0) << within.text;
   const Answer beyond = compare("a.csv", "b.csv", "--tolerance 0.4");
   EXPECT_EQ(beyond.code, 1);
-  EXPECT_THAT(beyond.text, AllOf(HasSubstr("compare: peak_force: 0.5 is beyond 0.4\n"),
-                                 HasSubstr("largest_difference: 50\n"), HasSubstr("largest_difference_at: 0.011")));
+  EXPECT_THAT(beyond.text,
+              AllOf(HasSubstr("compare: peak_force: the relative difference is 0.5, but must be within 0.4\n"),
+                    HasSubstr("largest_difference: 50\n"), HasSubstr("largest_difference_at: 0.011")));
 }
 
 TEST_F(Compare, WithoutAnyLoadACurveIsTheSameAsItself) {
@@ -86,11 +88,31 @@ TEST_F(Compare, ANoteOfAPhaseIsNoCurveOfOurs) {
   EXPECT_EQ(compare("raw.csv", "note.csv", "--tolerance 0").code, 0);
 }
 
-TEST_F(Compare, BalancesWhereItIsTold) {
+TEST_F(Compare, BalancesRawDataAlone) {
   write_curve("a.csv", 1.0);
-  write_curve("b.csv", 1.0, 25.0);
-  EXPECT_EQ(compare("a.csv", "b.csv", "--tolerance 0.01").code, 1);
-  EXPECT_EQ(compare("a.csv", "b.csv", "--tolerance 0.01 --balance").code, 0);
+  write_raw_data("b.csv", 1.0, 25, 14);
+  write_raw_data("c.csv", 1.0, 3, 40);
+  EXPECT_EQ(compare("a.csv", "b.csv", "--tolerance 0.01").code, 2) << "they have no extension in common";
+  // Each begins at its zero; which of them was cut nobody knows.
+  const Answer both = compare("b.csv", "c.csv", "--tolerance 1e-12 --balance");
+  EXPECT_EQ(both.code, 0) << both.text;
+  EXPECT_THAT(both.text, AllOf(HasSubstr("b.csv: the record shows no rest before the pull, so its first reading, 25 N"),
+                               HasSubstr("c.csv: the record shows")));
+  const Answer ours = compare("a.csv", "a.csv", "--tolerance 0 --balance");
+  EXPECT_EQ(ours.code, 0);
+  EXPECT_THAT(ours.text, AllOf(HasSubstr("common_extension: [0.001, 0.011]"), HasSubstr("--balance changes nothing")));
+}
+
+TEST_F(Compare, IsToldWhereARecordWasCut) {
+  write_curve("a.csv", 1.0);
+  write_raw_data("b.csv", 1.0, 25, 14);
+  EXPECT_EQ(compare("a.csv", "b.csv", "--tolerance 1e-12 --balance").code, 1);
+  const Answer told = compare("a.csv", "b.csv", "--tolerance 1e-12 --balance --begins-at 0.001");
+  EXPECT_EQ(told.code, 0) << told.text;
+  EXPECT_THAT(told.text, HasSubstr("its load is set to that of the other curve"));
+  for (const char* wrong : {"--begins-at 0.001", "--balance --begins-at 3", "--balance --begins-at x"})
+    EXPECT_EQ(compare("a.csv", "b.csv", wrong).code, 2) << wrong;
+  EXPECT_EQ(compare("b.csv", "b.csv", "--balance --begins-at 0.001").code, 2);
 }
 
 TEST_F(Compare, RefusesInOneLine) {

@@ -62,5 +62,21 @@ TEST_F(ReportIn, AComparisonReplacesNoRunAndNothingThatItCompares) {
   EXPECT_THROW(write_comparison("", "", a_, a_, "x", "y"), InvalidInput);
 }
 
+TEST_F(ReportIn, AnotherComparisonGoesBesideAndTheSameOneReplacesIt) {
+  const auto compared = [&](const std::string& yaml) {
+    return write_comparison(file("beside"), yaml, a_, a_, "x", "y");
+  };
+  EXPECT_EQ(compared("a: x\nb: y\nrms: 1\n"), file("beside"));
+  EXPECT_EQ(compared("a: x\nb: y\nrms: 2\n"), file("beside"));
+  EXPECT_EQ(compared("a: x\nb: z\nrms: 3\n"), file("beside-2"));
+  EXPECT_EQ(read_whole(file("beside/comparison.yaml")), "a: x\nb: y\nrms: 2\n");
+  EXPECT_EQ(write_comparison(file("beside"), "a: v\nb: w\n", a_, a_, "v", "w", true), file("beside"));
+
+  fs::create_directories(file("mine"));
+  write_whole(file("mine/report.html"), "mine");
+  EXPECT_EQ(write_comparison(file("mine"), "a: x\nb: y\n", a_, a_, "x", "y"), file("mine-2"));
+  EXPECT_EQ(read_whole(file("mine/report.html")), "mine");
+}
+
 }  // namespace
 }  // namespace knot_utm

@@ -6,25 +6,39 @@ import re
 import subprocess
 import tempfile
 import unittest
+from html import escape
 
 from runs import FISHERMAN, Folders, read, tool, write
 
 import matplotlib.image
 import yaml
 
-WIDTH = 1200  # of the window [px]
+import style
 
-# What the page cannot hide from itself, said where --dump-dom shows it.
+WIDTH = 1200                    # of the window [px]
+WIDTHS = (360, 720, 800, 1280)  # a telephone, tablets, a desk [px]
+SMALLEST, DRAWN = 12.0, 10.0    # letters of the page, and those in its figures [px]
+
+# What the page cannot hide from itself, said where --dump-dom shows it. It stands in a frame, as no window is as narrow as
+# a telephone.
+FRAME = """<html><body><pre id=seen></pre><script>function tell(text) { document.getElementById("seen").textContent = text; }
+</script><iframe style="width: %dpx; height: 1500px; border: 0" srcdoc="%s"></iframe></body></html>"""
 PROBE = """<script>window.addEventListener("load", () => {
   const seen = {
     images: [...document.images].map(image => [image.complete, image.naturalWidth, image.clientWidth]),
     requests: performance.getEntriesByType("resource").map(entry => entry.name),
     overflow: document.documentElement.scrollWidth - window.innerWidth,
     height: document.documentElement.scrollHeight,
+    letters: Math.min(...[...document.querySelectorAll("body *")]
+      .filter(element => [...element.childNodes].some(node => node.nodeType == 3 && node.data.trim())
+        && element.tagName != "SCRIPT" && element.offsetWidth > 0)
+      .map(element => parseFloat(getComputedStyle(element).fontSize))),
+    outside: [...document.querySelectorAll("body *")].filter(element =>
+      element.getBoundingClientRect().right > window.innerWidth + 0.5).map(element => element.outerHTML.slice(0, 200)),
+    narrow: [...document.images].map(image => image.currentSrc != image.src),
     keys: [...document.querySelectorAll("[data-key]")].map(element => element.dataset.key),
     text: document.body.innerText };
-  document.body.innerHTML = "<pre id=seen></pre>";
-  document.getElementById("seen").textContent = btoa(unescape(encodeURIComponent(JSON.stringify(seen))));
+  parent.tell(btoa(unescape(encodeURIComponent(JSON.stringify(seen)))));
 });</script>"""
 
 
@@ -51,11 +65,11 @@ def chromium(*arguments):
     return done
 
 
-def in_browser(html):
+def in_browser(html, width=WIDTH):
     """What the page is like once loaded, and what the console says."""
     file = os.path.join(folders.path, "probed.html")
-    write(html.replace("</body>", PROBE + "</body>"), file)
-    done = chromium(f"--window-size={WIDTH},1500", "--dump-dom", f"file://{file}")
+    write(FRAME % (width, escape(html.replace("</body>", PROBE + "</body>"))), file)
+    done = chromium(f"--window-size={max(width, WIDTH) + 50},1600", "--dump-dom", f"file://{file}")
     seen = re.search(r'<pre id="seen">([^<]+)</pre>', done.stdout)
     assert seen, done.stdout[-2000:] + done.stderr
     decoded = subprocess.run(["base64", "-d"], input=seen.group(1), capture_output=True, text=True, check=True).stdout
@@ -76,9 +90,29 @@ class InABrowser(unittest.TestCase):
         self.assertEqual(len(seen["images"]), images)
         for complete, natural, drawn in seen["images"]:
             self.assertTrue(complete and natural > 100 and drawn > 500, seen["images"])
-        self.assertLessEqual(seen["overflow"], 0)
+        self.fits(seen)
         self.assertEqual(set(keys) - set(seen["keys"]), set())
         return seen
+
+    def fits(self, seen):
+        self.assertLessEqual(seen["overflow"], 0)
+        self.assertEqual(seen["outside"], [])
+
+    def is_legible(self, folder):
+        for width in WIDTHS:
+            seen, _ = in_browser(read(folder, "report.html"), width)
+            self.fits(seen)
+            self.assertGreaterEqual(seen["letters"], SMALLEST, width)
+            look = style.NARROW if width <= 760 else style.WIDE
+            self.assertEqual(set(seen["narrow"]), {look.is_narrow}, width)
+            for _, _, drawn in seen["images"]:
+                self.assertGreaterEqual(drawn / look.width * style.SMALL / 72.0, DRAWN, width)
+
+    def test_the_page_of_a_run_is_legible_at_every_width(self):
+        self.is_legible(run)
+
+    def test_the_page_of_a_comparison_is_legible_at_every_width(self):
+        self.is_legible(comparison)
 
     def test_the_page_of_a_run_is_whole(self):
         result = yaml.safe_load(read(run, "result.yaml"))
@@ -96,6 +130,7 @@ class InABrowser(unittest.TestCase):
         self.assertEqual([natural for _, natural, _ in seen["images"]], [0, 0])
         self.assertIn("http://127.0.0.1:9/x.png", seen["requests"])
         self.assertGreater(seen["overflow"], 0)
+        self.assertEqual(len(seen["outside"]), 1)
         self.assertTrue(any("seen" in line for line in console), console)
 
     def test_the_pictures_are_not_blank(self):
@@ -128,10 +163,10 @@ class OnPaper(unittest.TestCase):
     def test_a_run(self):
         text = self.pages(run)
         for words in ("Fisherman's knot, polypropylene", "Force and extension", "The rod at the marked points",
-                      "Results", "Quality certificate", "What was tested, and how", "Where it comes from", "--report"):
+                      "Results", "Quality certificate", "What was tested, and how", "Where this page comes from", "--report"):
             self.assertIn(words, text)
-        lock = yaml.safe_load(read(run, "result.yaml"))["lock_extension"]
-        self.assertRegex(text, rf"lock_extension\s+{in_mm(lock)}")
+        lock = yaml.safe_load(read(run, "result.yaml"))["lock_extension_by_load"]
+        self.assertRegex(text, rf"lock_extension_by_load\s+{in_mm(lock)}")
 
     def test_a_comparison(self):
         text = self.pages(comparison)

@@ -10,21 +10,25 @@ import unittest
 
 from runs import FISHERMAN, ROOT, STRAIGHT, Folders, page_of, put_into, read, script, tool, write
 
+import matplotlib.text
 import numpy as np
 import yaml
 
 import certificate
 import curve_figures
 import error_band
+import largest_load
 import marks
 import method_facts
 import page
 import quantities
 import rod_pictures
 import shapes
+import style
 from failure import CannotReport
 from few_points import few_points
 from run import Curve, Run
+from units import Units
 
 
 def setUpModule():
@@ -57,10 +61,20 @@ def keys_on(html):
     return set(re.findall(r'data-key="(\w+)"', html))
 
 
-def row_of(html, key):
-    """Cells of the row of a key."""
-    row = next(row for row in re.findall(r"<tr>.*?</tr>", html, re.DOTALL) if f'data-key="{key}"' in row)
-    return [re.sub(r"<[^>]+>", "", cell).strip() for cell in re.findall(r"<td.*?</td>", row, re.DOTALL)]
+def row_of(html, key, table=0):
+    """Cells of the row of a key, in the first table that has it or in a later one."""
+    rows = [row for row in re.findall(r"<tr>.*?</tr>", html, re.DOTALL) if f'data-key="{key}"' in row]
+    return [re.sub(r"<[^>]+>", " ", cell).strip() for cell in re.findall(r"<td.*?</td>", rows[table], re.DOTALL)]
+
+
+def with_report(of, report="", specification="", **results):
+    """A copy of a run whose method has a report and a specification, and whose result has other values."""
+    folder = folders.copy(of)
+    method = re.sub(r"^(report|specification):.*?(?=^\S|\Z)", "", read(folder, "method.yaml"), flags=re.M | re.S)
+    write(f"{method}report: {{{report}}}\nspecification: {{{specification}}}\n", folder, "method.yaml")
+    result = {**yaml.safe_load(read(folder, "result.yaml")), **results}
+    write(yaml.safe_dump(result, sort_keys=False), folder, "result.yaml")
+    return folder
 
 
 class PageOfARun(unittest.TestCase):
@@ -71,15 +85,67 @@ class PageOfARun(unittest.TestCase):
         folder = folders.copy(straight)
         write(read(folder, "result.yaml") + "loop_energy: 2.5\nknots_of_loop: [1, 2]\n", folder, "result.yaml")
         html = html_of(folder)
-        self.assertEqual(row_of(html, "loop_energy")[2:], ["2.5", "", "", "J"])
-        self.assertEqual(row_of(html, "knots_of_loop")[2], "1; 2")
+        self.assertEqual(row_of(html, "loop_energy")[1:], ["2.5", "J"])
+        self.assertEqual(row_of(html, "knots_of_loop")[1], "1; 2")
+
+    def test_leaves_out_what_has_no_value(self):
+        folder = with_report(fisherman, break_extension=None, energy_to_peak=None, max_penetration=None)
+        html = html_of(folder)
+        for key in ("break_extension", "energy_to_peak", "max_penetration"):
+            self.assertFalse(any(f'data-key="{key}"' in row for row in re.findall(r"<tr>.*?</tr>", html, re.DOTALL)), key)
+        cells = re.findall(r"<td[^>]*>([^<]*)</td>", html)
+        self.assertFalse({"–", "None", "null", "nan", "not known"} & {cell.strip() for cell in cells})
+        self.assertRegex(html, r"This test has no value of .*break_extension")
 
     def test_gives_readings_in_the_units_of_testers_with_their_errors(self):
         html, result = page_of(fisherman), yaml.safe_load(read(fisherman, "result.yaml"))
         row = row_of(html, "lock_extension")
-        self.assertAlmostEqual(float(row[2]), 1e3 * result["lock_extension"], delta=0.05)
-        self.assertAlmostEqual(float(row[3]), 1e3 * result["lock_extension_error"], delta=0.05)
-        self.assertEqual(row[5], "mm")
+        self.assertAlmostEqual(float(row[1]), 1e3 * result["lock_extension"], delta=0.05)
+        self.assertAlmostEqual(float(row[2].strip("± ")), 1e3 * result["lock_extension_error"], delta=0.05)
+        self.assertEqual(row[-1], "mm")
+
+    def test_has_the_true_force_beside_the_balanced_load(self):
+        folder = with_report(fisherman, plateau_force=4.25, plateau_force_error=None, true_plateau_force=5.5)
+        self.assertEqual([cell for cell in row_of(html_of(folder), "plateau_force")[1:] if cell], ["4.25", "5.5", "N"])
+
+    def test_has_every_number_in_the_units_of_its_method(self):
+        result = {"peak_force": 444.82216152605, "break_extension": 0.0254, "locked_stiffness": 175.126835,
+                  "locked_stiffness_error": None}
+        for asked, force, length, values in (("units: {force: lbf, length: in}", "lbf", "in", ("100", "1", "1")),
+                                             ("units: {force: kN, length: m}", "kN", "m", ("0.4448", "0.0254", "0.1751"))):
+            html = html_of(with_report(straight, asked, "break_extension: {max: 0.0508}", specification_passed=True,
+                                       **result))
+            for key, value, unit in (("peak_force", values[0], force), ("break_extension", values[1], length),
+                                     ("locked_stiffness", values[2], f"{force}/{length}")):
+                self.assertEqual(row_of(html, key)[1:], [value, unit])
+            self.assertEqual(row_of(html, "break_extension", 1)[1], f"{values[1]} {length}")
+            self.assertIn("all files are in SI units", html)
+            for unit in ("N", "mm", "N/mm", "mm/s"):
+                self.assertNotRegex(re.sub(r'"data:[^"]*"', "", html), rf"\d {unit}\b(?! (?:s/)?m²)", unit)
+
+    def test_has_head_and_foot_only_where_they_are_given(self):
+        bare, full = html_of(straight), html_of(with_report(
+            straight, "specimen_id: 0012, operator: A. M., customer: <R&D>, date: 2026-11-23, standard: EN 1, "
+                      'notes: "one\\ntwo", signature: Dr. Q.'))
+        for word in ("Specimen</span>", "Operator</span>", "Customer</span>", "Date</span>", "Standard</span>",
+                     'class="notes"', 'class="signature"', 'class="logo"'):
+            self.assertNotIn(word, bare)
+        for word in ("Specimen</span>0012<", "Operator</span>A. M.<", "Customer</span>&lt;R&amp;D&gt;<",
+                     "Date</span>2026-11-23<", "Standard</span>EN 1<", ">one\ntwo<", ">Dr. Q., 2026-11-23<"):
+            self.assertIn(word, full)
+
+    def test_holds_its_logo(self):
+        folder = with_report(straight, "logo: logo.svg")
+        self.assertIn("logo.svg: the logo cannot be read", script(folder).stderr)
+        logo = '<svg xmlns="http://www.w3.org/2000/svg" width="9" height="9"><rect width="9" height="9"/></svg>'
+        write(logo, folder, "logo.svg")
+        self.assertIn("data:image/svg+xml;base64," + base64.b64encode(logo.encode()).decode(), html_of(folder))
+
+    def test_begins_with_the_reason_where_the_physics_gave_up(self):
+        html = html_of(with_report(straight, ended_by="solver", reason="no step converged", warnings=[]))
+        self.assertIn("The physics gave up before the test ended", html)
+        self.assertIn("no step converged", html)
+        self.assertNotIn("The test gave no warning", html)
 
     def test_names_the_command_that_made_it_and_every_file(self):
         html = page_of(fisherman)
@@ -90,7 +156,7 @@ class PageOfARun(unittest.TestCase):
 
     def test_asks_for_nothing_from_elsewhere(self):
         html = page_of(fisherman)
-        self.assertEqual([source[:5] for source in re.findall(r'src="([^"]*)"', html)], ["data:"] * 3)
+        self.assertEqual([source[:5] for source in re.findall(r'(?:src|srcset)="([^"]*)"', html)], ["data:"] * 6)
         for elsewhere in ("<link", "<script", "http://", "https://", "url(", "@import"):
             self.assertNotIn(elsewhere, html)
 
@@ -110,7 +176,7 @@ class PageOfARun(unittest.TestCase):
             write(yaml.safe_dump(method), folder, "method.yaml")
             pages.append(html_of(folder))
         self.assertEqual(Run(folder).load_cell_floor(), 0.002 * method["machine"]["load_cell"]["capacity"])
-        self.assertEqual(["Hatched" in html for html in pages], [False, True])
+        self.assertEqual(["hatched floor" in html for html in pages], [False, True])
         curves = [re.search(r'src="(data:image/svg[^"]+)"', html).group(1) for html in pages]
         self.assertTrue(curves[0] != curves[1])
 
@@ -138,7 +204,7 @@ class PageOfARun(unittest.TestCase):
             write("\n".join(row for row in rows if not row.endswith(",pull")) + "\n", folder, name)
         html = html_of(folder)
         self.assertIn("there is no curve", html)
-        self.assertEqual(len(re.findall(r'src="data:image/(?:svg|png)', html)), 2)
+        self.assertEqual(len(re.findall(r' src="data:image/(?:svg|png)', html)), 2)
 
     def test_says_warnings_first(self):
         folder = folders.copy(straight)
@@ -160,16 +226,42 @@ class Certificate(unittest.TestCase):
         self.assertTrue(certificate.verdict(certificate.certificate(good))[1])
         for key, bad in (("max_penetration", 0.06), ("fastest_node", 0.2), ("energy_balance_error", 0.02),
                          ("force_balance_error", 0.02), ("knot_type_preserved", False), ("not_equilibrated", True),
-                         ("ended_by", "solver"), ("plateau_force_error", 0.2 * good["plateau_force"])):
-            missed = [check.keys for check in certificate.certificate({**good, key: bad}) if check.verdict == "miss"]
+                         ("ended_by", "solver"), ("plateau_force_error", 0.2 * good["true_plateau_force"])):
+            missed = [check.keys for check in certificate.certificate({**good, key: bad}) if check.verdict == "fail"]
             self.assertEqual(missed, [[key]])
 
     def test_makes_up_no_limit(self):
         checks = {check.keys[0]: check for check in certificate.certificate(
             {"moment_balance_error": 0.5, "max_penetration": None, "knot_type_preserved": True})}
         self.assertEqual((checks["moment_balance_error"].limit, checks["moment_balance_error"].verdict),
-                         ("none set", ""))
-        self.assertEqual((checks["max_penetration"].value, checks["max_penetration"].verdict), ("not known", ""))
+                         ("no limit is set", ""))
+        self.assertNotIn("max_penetration", checks)
+
+
+class Specification(unittest.TestCase):
+    SPECIFICATION = ["--set", "specification={peak_force: {min: 1}, chord_stiffness: {min: 1, max: 2}, untangled_at: {max: 9}}"]
+
+    def test_verdicts_are_those_of_the_program(self):
+        folder = folders.run("specified", [*STRAIGHT, *self.SPECIFICATION])
+        run = Run(folder)
+        checks = certificate.specification_checks(run.method, run.result, run.units)
+        self.assertEqual([check.verdict for check in checks], ["pass", "fail", "fail"])
+        self.assertEqual(checks[2].value, "not measured")
+        self.assertEqual([line.split()[0] for line in run.result["specification_failed"]],
+                         [check.keys[0] for check in checks if check.verdict == "fail"])
+        words, passed = certificate.specification_verdict(run.result, checks)
+        self.assertFalse(passed)
+        html = html_of(folder)
+        self.assertIn("2 of 3 requirements are not met", words)
+        self.assertEqual(html.count(words), 2)
+        self.assertEqual(row_of(html, "chord_stiffness", 1)[2:], ["at least 0.001 and at most 0.002 N/mm", "fail"])
+
+    def test_passes_where_every_requirement_is_met(self):
+        html = html_of(with_report(straight, "", "peak_force: {max: 1e6}", specification_passed=True))
+        self.assertIn("The test meets its specification.", html)
+
+    def test_is_not_there_where_nothing_was_asked_for(self):
+        self.assertNotIn("specification.", html_of(straight))
 
 
 def a_pull(extension, load):
@@ -182,7 +274,7 @@ class OfValues(Run):
     """A run that is not in a folder."""
 
     def __init__(self, curve, **result):
-        self.curve, self.result = curve, result
+        self.curve, self.readings, self.result, self.units = curve, curve, result, Units()
 
 
 class Band(unittest.TestCase):
@@ -234,7 +326,7 @@ class APicture(unittest.TestCase):
     def test_is_never_much_higher_than_wide(self):
         run = Run(straight)
         across = np.column_stack([np.linspace(0.0, 1.2, 50), np.zeros(50), np.linspace(0.0, 0.008, 50)])
-        picture = rod_pictures.pictures(run, [marks.end_of(run.curve)], [shapes.Shape(0.0, across, None)])
+        picture = rod_pictures.pictures(run, [marks.end_of(run.curve)], [shapes.Shape(0.0, across, None)], style.WIDE)
         width, height = struct.unpack(">II", base64.b64decode(picture.split(",")[1])[16:24])  # of a PNG's header
         self.assertLess(height, width)
 
@@ -262,7 +354,7 @@ class ACompliantFrame(unittest.TestCase):
         own, rigid = Run(folder).curve, Run(straight).curve
         np.testing.assert_array_equal(own["extension"], rigid["extension"])
         np.testing.assert_array_equal(own["crosshead_extension"], 2.0 * rigid["extension"])
-        self.assertIn("without what the frame gives", html_of(folder))
+        self.assertIn("the deflection of the frame is taken off", html_of(folder))
 
 
 class Marks(unittest.TestCase):
@@ -271,14 +363,14 @@ class Marks(unittest.TestCase):
         run = OfValues(a_pull(s, np.where(s < 0.09, 100.0 * s, 1.0)), lock_extension=0.05, peak_force=9.0)
         found = marks.marks_of(run)
         self.assertEqual([(mark.letter, mark.title()) for mark in found],
-                         [("a", "start of pull"), ("b", "lock"), ("c", "peak"), ("d", "end")])
+                         [("a", "start of the pull"), ("b", "lock"), ("c", "peak"), ("d", "end of the test")])
         self.assertAlmostEqual(found[1].extension, 0.05)
 
     def test_tell_what_was_before_a_break_from_what_was_behind(self):
         s = np.linspace(0.0, 0.1, 101)
         found = marks.marks_of(OfValues(a_pull(s, np.where(s < 0.0995, s, 0.0)), break_extension=0.0992,
                                           peak_force=0.099))
-        self.assertEqual([mark.title() for mark in found], ["start of pull", "peak, break", "end"])
+        self.assertEqual([mark.title() for mark in found], ["start of the pull", "peak, break", "end of the test"])
         self.assertAlmostEqual(marks.time_of_break(found), 0.99)
         seconds = np.array([0.0, 0.5, 0.98, 1.02, 1.3])
         self.assertEqual([shapes.nearest(seconds, time, 1.01) for time in (0.4, 1.005, 1.01, 1.4)], [1, 2, 2, 4])
@@ -286,18 +378,54 @@ class Marks(unittest.TestCase):
     def test_that_fall_together_are_one(self):
         s = np.linspace(0.0, 0.1, 101)
         self.assertEqual([mark.title() for mark in marks.marks_of(OfValues(a_pull(s, s), peak_force=0.1))],
-                         ["start of pull", "peak, end"])
+                         ["start of the pull", "largest load, end of the test"])
 
     def test_have_a_peak_only_where_the_pull_has_one(self):
         s = np.linspace(0.0, 0.1, 101)
         held = a_pull(s, np.where(s < 0.05, s, 0.2 - s))
         held.phase[50:] = "hold"
         self.assertEqual([mark.title() for mark in marks.marks_of(OfValues(held, peak_force=None))],
-                         ["start of pull", "end"])
+                         ["start of the pull", "end of the test"])
         found = marks.marks_of(OfValues(held, peak_force=0.049))
-        self.assertEqual([(mark.title(), mark.load) for mark in found][1], ("peak", held["load"][49]))
+        self.assertEqual([(mark.title(), mark.load) for mark in found][1], ("largest load", held["load"][49]))
         held.phase[:] = "hold"
-        self.assertEqual([mark.title() for mark in marks.marks_of(OfValues(held, peak_force=1.0))], ["start", "end"])
+        self.assertEqual([mark.title() for mark in marks.marks_of(OfValues(held, peak_force=1.0))],
+                         ["start", "end of the test"])
+
+
+class TheLargestLoad(unittest.TestCase):
+    S = np.linspace(0.0, 0.1, 101)
+
+    def of(self, load, **result):
+        return largest_load.largest_load(OfValues(a_pull(self.S, load), peak_force=1.0, **result))
+
+    def test_is_a_peak_where_the_load_fell_behind_it(self):
+        found = self.of(np.where(self.S < 0.06, self.S, 0.0), ended_by="extension")
+        self.assertEqual((found.is_peak, found.name, found.where), (True, "peak", "at an extension of 59 mm"))
+
+    def test_is_a_peak_where_the_rod_parted(self):
+        found = self.of(np.where(self.S < 0.0995, self.S, 0.0), ended_by="break", break_extension=0.0992)
+        self.assertEqual((found.is_peak, found.where), (True, "where the rod parted"))
+
+    def test_is_no_peak_where_the_test_was_stopped_while_the_load_rose(self):
+        for ended_by, where in (("extension", "which was stopped at 100 mm"), ("operator", "the operator stopped at"),
+                                ("solver", "where the physics gave up")):
+            found = self.of(self.S, ended_by=ended_by)
+            self.assertEqual((found.is_peak, found.name), (False, "largest load"))
+            self.assertIn("at the end of the test, ", found.where)
+            self.assertIn(where, found.where)
+
+    def test_is_no_peak_where_a_hold_follows_the_pull(self):
+        held = a_pull(self.S, np.minimum(self.S, 0.05))
+        held.phase[51:] = "hold"
+        found = largest_load.largest_load(OfValues(held, peak_force=0.05, ended_by="time"))
+        self.assertEqual((found.is_peak, found.where), (False, "at the end of the pull, at 50 mm"))
+
+    def test_is_called_so_on_the_page(self):
+        html = html_of(straight)
+        self.assertIn("The curve has no peak: its largest load", html)
+        self.assertRegex(row_of(html, "peak_force")[0], "^Largest load, at the end of the test, which was stopped at")
+        self.assertNotRegex(re.sub(r'"data:[^"]*"', "", html), ">Peak")
 
 
 class Facts(unittest.TestCase):
@@ -306,9 +434,9 @@ class Facts(unittest.TestCase):
                   "physics": {"gravity": [0, 0, -9.81], "accuracy": "draft", "contact": {"tolerance": 0.02},
                               "friction": {"slip_tolerance": 0.001, "presliding": 0.01}},
                   "ends": {"sharp_drop": 0.5, "drop": 0.3, "break_at_fraction_of_peak": 0.2}}
-        found = {row for _, rows, _ in method_facts.method_facts(method) for row in rows}
+        found = {row for _, rows, _ in method_facts.method_facts(method, Units()) for row in rows}
         self.assertLessEqual({
-            ("Cell's accuracy", "0.005 of the reading"), ("Accuracy", "draft"), ("Gravity", "[0, 0, –9.81] m/s²"),
+            ("Accuracy of the cell", "0.005 of the reading"), ("Accuracy", "draft"), ("Gravity", "[0, 0, –9.81] m/s²"),
             ("Contact", "tolerance 0.02 of the radius"),
             ("Friction", "slip tolerance 0.001 m/s, presliding 0.01 of the radius"),
             ("Sharp drop by", "0.5 of the peak"), ("Drop by", "0.3 of the peak"),
@@ -318,8 +446,32 @@ class Facts(unittest.TestCase):
         result = {"lock_extension": None, "locked_stiffness": 1.0, "locked_stiffness_error": 0.1}
         for lock, name in ((None, "tiffness of the pull"), (0.05, "ocked stiffness")):
             result["lock_extension"] = lock
-            self.assertTrue(any(label.endswith(name) for label, *_ in page.headlines(result)))
+            shown = page.headlines(OfValues(None, **result), None)
+            self.assertTrue(any(headline.label.endswith(name) for headline in shown))
             self.assertTrue(any(name in check.words for check in certificate.certificate(result)))
+
+
+class Figures(unittest.TestCase):
+    def test_have_no_letters_smaller_than_the_smallest(self):
+        run, drawn = Run(fisherman), []
+        found = marks.marks_of(run)
+        shown = [shapes.final_shape(run)]
+        keep = lambda figure, *_: drawn.append(figure) or ""
+        for module, name in ((curve_figures, "as_svg"), (rod_pictures, "as_png")):
+            self.addCleanup(setattr, module, name, getattr(module, name))
+            setattr(module, name, keep)
+        for look in style.LOOKS:
+            curve_figures.force_extension(run, found, look)
+            curve_figures.course(run, look)
+            rod_pictures.pictures(run, found[-1:], shown, look)
+        self.assertEqual(len(drawn), 6)
+        for figure in drawn:
+            sizes = [text.get_fontsize() for text in figure.findobj(matplotlib.text.Text) if text.get_text().strip()]
+            self.assertGreaterEqual(min(sizes), style.SMALL)
+
+    def test_of_scripts_picture_are_of_the_same_style(self):
+        source = read(ROOT, "scripts/picture")
+        self.assertNotRegex(source, r"#[0-9a-fA-F]{6}|fontsize=\d")
 
 
 class Numbers(unittest.TestCase):
@@ -406,6 +558,9 @@ class PageOfAComparison(unittest.TestCase):
         self.assertEqual(set(yaml.safe_load(done.stdout)) - keys_on(html), set())
         self.assertTrue(command_of(html).endswith(f"curve_full.csv --report {out} --balance"), command_of(html))
         self.assertIn("simulated: Straight rod, nylon", html)
+        self.assertIn("Forces are in N and lengths in mm", html)
+        self.assertIn("Curve A ends at its largest load", html)
+        self.assertEqual(row_of(html, "peak_force")[0].split("  ")[0], "Largest load")
         self.assertEqual(script(out).returncode, 0)
 
     def test_takes_files_of_any_name(self):
@@ -417,7 +572,11 @@ class PageOfAComparison(unittest.TestCase):
         bytes_only = os.fsencode(folders.path) + b"/\xff"
         shutil.copytree(os.fsencode(straight), bytes_only)
         self.assertEqual(script(bytes_only).stderr, "")
-        self.assertEqual(tool("compare", bytes_only + b"/curve.csv", odd, "--report", out).stderr, "")
+        # Another comparison goes beside the one that stands there.
+        beside = tool("compare", bytes_only + b"/curve.csv", odd, "--report", out)
+        self.assertIn(f"this one is written to {out}-2\n", beside.stderr)
+        self.assertIn("a$b$ &lt;c&gt; it&#39;s_ä.csv", page_of(out))
+        out += "-2"
         self.assertIn("/\\udcff/curve.csv", page_of(out))
         self.assertIn("simulated: Straight rod, nylon", page_of(out))
 

@@ -127,7 +127,7 @@ class KilledRecorderTest(unittest.TestCase):
         self.assertIn('commands of the test never arrived', said)
         result = content(self.out, 'result.yaml')
         self.assertIn(b'ended_by: program\n', result)
-        self.assertRegex(result, rb'warnings: \["\d+ commands were not recorded"')
+        self.assertRegex(result, rb'warnings: \["\d+ commands of the test were not recorded"')
         self.assertGreater(self.rows(), 100)
         self.assertTrue(content(self.headless, 'curve.csv').endswith(content(self.out, 'curve.csv').split(b'\n', 3)[3]))
         self.assertEqual(messages(self.out + '/test.bag'), 5 * self.rows())

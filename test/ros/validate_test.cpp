@@ -78,7 +78,7 @@ TEST(Validate, WhatTheNodesSayPasses) {
 }
 
 TEST(Validate, CommandNamesFieldValueAndWhatIsAllowed) {
-  EXPECT_EQ(fault_with(command(3), [](Crosshead& m) { m.velocity = 1.0; }), "velocity: 1, allowed: -0.5 to 0.5");
+  EXPECT_EQ(fault_with(command(3), [](Crosshead& m) { m.velocity = 1.0; }), "velocity is 1, but must be -0.5 to 0.5");
 }
 
 TEST(Validate, CommandThatNoProgramCanMean) {
@@ -122,7 +122,7 @@ TEST(Validate, StateOfNoSpecimen) {
   EXPECT_THAT(fault([](KnotState& m) { m.message = std::string(1000000, 'x'); }), StartsWith("message: 1000000"));
   // Nothing that is written or logged gets a second line.
   EXPECT_EQ(fault([](KnotState& m) { m.message = "x\nended_by: break"; }),
-            "message: \"x ended_by: break\", allowed: one line of text");
+            "message is \"x ended_by: break\", but must be one line of text");
 }
 
 TEST(Validate, RecordThatDoesNotHoldTogether) {

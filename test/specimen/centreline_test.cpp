@@ -322,12 +322,14 @@ TEST(FromPoints, SaysWhereStrandsLieThroughEachOther) {
   crossing.col(1) << 0.2, 0.0, 0.0;
   crossing.col(2) << 0.2, 0.1, 0.0;
   crossing.col(3) << 0.1, -0.1, 0.0;
-  EXPECT_EQ(refusal(crossing, 3e-3, 3e-3).rfind("specimen.file: shape.csv is not allowed", 0), 0U);
+  EXPECT_EQ(refusal(crossing, 3e-3, 3e-3).rfind("specimen.file shape.csv: strands overlap at ", 0), 0U);
   double apart = 1.0, first = 0.0, second = 0.0;
   const std::string said = refusal(crossing, 3e-3, 3e-3);
-  const std::size_t here = said.find("here ");
+  const std::size_t here = said.find("strands overlap ");
   ASSERT_NE(here, std::string::npos) << said;
-  ASSERT_EQ(std::sscanf(said.c_str() + here, "here %lf m, at %lf m and %lf m along it", &apart, &first, &second), 3);
+  ASSERT_EQ(std::sscanf(said.c_str() + here, "strands overlap at %lf m and %lf m along the rod, where they are %lf m",
+                        &first, &second, &apart),
+            3);
   EXPECT_LT(apart, 1e-9);
   // Edges cut the corners.
   EXPECT_NEAR(first, 0.15, 3e-3);

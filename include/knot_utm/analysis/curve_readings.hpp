@@ -47,17 +47,19 @@ double breakaway_force(const Pull& pull, double end);
 /// parts of equal extension: strands that slip inside a locked knot let F fall at one place. [N/m]
 std::optional<double> locked_stiffness(const Pull& pull, double from);
 
-/// What a force-extension curve says by itself, be it measured or simulated.
+/// What a force-extension curve says by itself, be it measured or simulated. A test's own, those of its load cell, are
+/// in result.yaml by the same names and to the last digit.
 struct CurveReadings {
   std::optional<double> peak_force;  ///< [N]
   std::optional<double>
       plateau_force;  ///< mean F before the lock; without one where F is level: it rises by less than half [N]
-  std::optional<double> plateau_force_sd;  ///< [N]
-  std::optional<double> lock_extension;    ///< s_l [m]
-  std::optional<double> locked_stiffness;  ///< behind s_l; of the whole pull where there is no plateau [N/m]
+  std::optional<double> plateau_force_sd;        ///< [N]
+  std::optional<double> breakaway_force;         ///< largest F before the plateau, where there is one [N]
+  std::optional<double> lock_extension_by_load;  ///< s_l [m]
+  std::optional<double> locked_stiffness;        ///< behind s_l; of the whole pull where there is no plateau [N/m]
 };
 
-/// Without knot distances the lock is where F last rises through twice the mean of its plateau, which the lock itself
+/// The lock by the load alone is where F last rises through twice the mean of its plateau, which the lock itself
 /// bounds: s_l is the fixed point that is reached from the peak. A load in proportion to s has none, and none counts
 /// that lies in the first 15 % of the pull. In simulations of the shipped materials that lock, it lies 1 to 5 % of s_l
 /// behind the one that the knots tell (`Results::lock_extension`): F doubles after they have begun to hold.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/analysis/curve_readings.hpp"
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/machine/sample.hpp"
 #include "knot_utm/machine/test_program.hpp"
@@ -39,28 +40,27 @@ struct Relaxation {
 
 /// What a test says: every measured key of result.yaml. A value that the test does not have is empty.
 ///
-/// Symbols: s extension, F true force on the upper grip, s_l lock extension. F is not what the cell reads: balancing it
-/// zeroes what the mounted specimen already carried, F = load + balance_offset but for noise and resolution.
-/// "The pull" is the samples of phase `pull` that reach a new
-/// largest s, up to a break.
+/// Symbols: s extension, F true force on the upper grip, s_l lock extension. The load is what the cell reads: balancing
+/// it zeroes what the mounted specimen already carried, F = load + balance_offset but for the cell's own errors.
+/// "The pull" is the samples of phase `pull` that reach a new largest s, up to a break.
 struct Results {
   MotionPattern motion_pattern = MotionPattern::kNone;
   double motion_pattern_confidence = 0.0;  ///< 0 to 1, see MotionPatternTracker
   EndedBy ended_by = EndedBy::kNotYet;
 
-  /// Sliding only: mean and standard deviation of F, weighted by extension, over s from 0.3 to 0.8 of s_l, or of the
-  /// whole pull where it never locked. The breakaway lies before, the onset of locking behind. [N]
-  std::optional<double> plateau_force;
-  std::optional<double> plateau_force_sd;
-  std::optional<double> plateau_slope;    ///< de/ds over the same part [-]; -2: rigid sliding
-  std::optional<double> breakaway_force;  ///< sliding only: largest F up to 0.3 of s_l [N]
-  std::optional<double> lock_extension;   ///< s_l, where sliding turned into stretching [m]
+  /// Of the load, by the cell's readings alone, as they stand in curve.csv: what `compare` says of that file. The peak
+  /// is also that of a rod that parted where nothing pulled. A knot that came undone, or that still slides, has no
+  /// stiffness here.
+  CurveReadings curve;
 
-  /// Slope of F(s) where the rod carries the load: over the samples after s_l (stretching: all), up to the peak, whose
-  /// F lies between half the peak and the peak, at least the last three. The middle one of the least-squares slopes in
-  /// three parts of equal extension: strands that slip inside a locked knot let F fall at one place. [N/m]
-  std::optional<double> locked_stiffness;
-  std::optional<double> peak_force;       ///< largest F of the pull, and where the rod parted [N]
+  // Of the true force, at the same readings and over the same extensions: these less balance_offset are those of the
+  // load, but for the cell's own errors. [N]
+  std::optional<double> true_plateau_force;
+  std::optional<double> true_breakaway_force;
+  std::optional<double> true_peak_force;
+
+  std::optional<double> plateau_slope;    ///< de/ds over the plateau [-]; -2: rigid sliding
+  std::optional<double> lock_extension;   ///< s_l, where the knots' distance tells that sliding became stretching [m]
   std::optional<double> balance_offset;   ///< F that the cell reads as zero, once the pull begins [N]
   std::optional<double> break_extension;  ///< s where the rod parted [m]
   std::optional<double> break_arclength;  ///< of the place where it did, from its first node [m]
@@ -109,7 +109,11 @@ struct Results {
   double simulated_time = 0.0;  ///< [s]
 };
 
-/// Evaluates a whole test; best from every accepted time step.
+/// Evaluates a whole test from every accepted time step, and from those of the samples that are readings of the load
+/// cell; a break ends them.
+Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by);
+
+/// Of a cell that reads at every one of the samples.
 Results analyse(const std::vector<Sample>& samples, EndedBy ended_by);
 
 }  // namespace knot_utm

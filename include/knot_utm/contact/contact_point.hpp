@@ -12,8 +12,8 @@ namespace knot_utm {
 /// A force between two points of the rod, or between the rod and a roller, in the terms every contact law shares.
 ///
 /// Point a stands on nodes a0..a0+2 with weights c_0..c_2; point b on nodes b0..b0+2 with weights -c_3..-c_5, so
-/// that the gap vector is x = a - b = sum_k c_k q_k = d n. Its foot b moves along its strand by du as the strands
-/// move: with beta_k = -dc_k/du,
+/// that the gap vector is x = a - b = sum_k c_k q_k = d n. b is the closest-point projection of a, its foot, which
+/// moves along its strand by du as the strands move: with beta_k = -dc_k/du,
 ///
 ///     dx = S - b' du,   S = sum_k c_k dq_k,   R = sum_k beta_k dq_k,   du = (b'.S + x.R) / G,
 ///     G = |b'|^2 - x.b''.

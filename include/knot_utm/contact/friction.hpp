@@ -14,10 +14,10 @@ namespace knot_utm {
 ///     memory     z = y for |y| < 1, else y/|y|,      y = r / xi_s,     r = xi_n + slip of this step
 ///     smoothed   z = tanh(7.5 |y|) y/|y|,            y = r / (dt v_s), r = slip of this step
 ///
-/// `memory` is a tangential spring with Coulomb return: the state xi = xi_s z stays at the contact, so that a knot
-/// at rest stays at rest. xi_s is the presliding displacement (Dahl 1968); as the traction is the pressure times z,
-/// its stiffness grows with the pressure. `smoothed` is eq. 12 of the source paper: with
-/// gamma = 2 / (1 + exp(-15 v/v_s)) - 1 = tanh(7.5 v/v_s) it creeps under any load.
+/// `memory` is a tangential spring with a return mapping to Coulomb's cone: xi = xi_s z is kept at the contact, so that
+/// a knot at rest stays at rest. xi_s is the presliding displacement (Dahl 1968); as the traction is the pressure times
+/// z, its stiffness grows with the pressure. `smoothed` is eq. 12 of the source paper: with gamma = 2 / (1 + exp(-15
+/// v/v_s)) - 1 = tanh(7.5 v/v_s) it creeps under any load.
 struct Friction {
   FrictionLaw law = FrictionLaw::kMemory;
   double coefficient = 0.0;     ///< mu [-]
@@ -72,7 +72,7 @@ Vector friction_direction(FrictionLaw law, const Vector& y) {
 
 /// z(y) with dz/dy, or in its place the secant |z|/|y| in every direction. Where a slip is beyond saturation the
 /// tangent along it vanishes, and Newton's method may leap from one saturated side to the other for ever; the secant
-/// bounds the law from above (Kacanov's method): slow, but it falls from anywhere.
+/// bounds the law from above (Kacanov's method): it converges slowly, but from any start.
 template <typename Vector>
 FrictionDirection<Vector> linearised_direction(FrictionLaw law, bool secant, const Vector& y) {
   using Real = decltype(dot(y, y));

@@ -10,7 +10,7 @@
 namespace knot_utm {
 
 /// Self-contact of the rod along its smooth centreline: each strand is integrated by two midpoint points a segment,
-/// each of which presses on its feet, the nearest points of the other strands' curves. A pair of points is seen from
+/// each of which presses on its feet, its closest-point projections on the other strands. A pair of points is seen from
 /// both sides; the two sides share it by
 ///
 ///     omega = g_b^4 / (g_a^4 + g_b^4 + 1e-4),   g_b = 1 - x.b''/|b'|^2,   g_a = 1 + x.a''/|a'|^2,

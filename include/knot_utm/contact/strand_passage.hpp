@@ -14,9 +14,9 @@ struct Passage {
   double on_a = 0.0, on_b = 0.0;
 };
 
-/// Whether a rod passes through itself while every node goes straight, and at constant speed, from where it starts to
-/// where it ends: continuous collision detection of the polygon of nodes, every two edges that share no node. It asks
-/// nothing of how the rod lies, how far it moves, how its edges stretch or what contact knows. No passage is missed.
+/// Whether a rod passes through itself (tunnelling) while every node goes straight, at constant speed, from its start
+/// to its end: continuous collision detection of the polygon of nodes, every two edges that share no node. It assumes
+/// nothing about the rod's shape and motion, the stretch of its edges or the known contacts. No passage is missed.
 ///
 /// Nearly every pair is settled by one of two bounds on pieces of 1, 2, 4, ... edges:
 ///

@@ -5,25 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/machine/program.hpp"
+#include "knot_utm/analysis/curve_row.hpp"
 #include "knot_utm/machine/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
-
-/// One row of curve.csv.
-struct CurveRow {
-  double time = 0.0;                     ///< [s]
-  double extension = 0.0;                ///< as the crosshead travels since balance: s where the frame is rigid [m]
-  double load = 0.0;                     ///< [N]
-  double knot_distance = Sample::kNone;  ///< e [m]; NaN: no two knots
-  double end_to_end = 0.0;               ///< L [m]
-  double load_lower = 0.0;               ///< [N]
-  Phase phase = Phase::kIdle;
-  double corrected_extension = Sample::kNone;  ///< s where the frame is compliant [m]; NaN: it is rigid, or not known
-};
-
-CurveRow curve_row(const Sample& sample);
 
 /// curve.csv and curve_full.csv: row 1 names, row 2 units, then one row a sample, comma between columns, every number
 /// in the shortest form that reads back to the same double, "nan" for what is not there. Each row is handed to the

@@ -15,7 +15,7 @@ namespace knot_utm {
 
 /// Everything that one run leaves in its folder, headless or recorded:
 ///   method.yaml      from the beginning; with the centreline beside it as specimen.csv where the specimen is a file
-///   curve.csv        one row a sampling instant of the load cell
+///   curve.csv        one row a reading of the load cell (cell_reading)
 ///   curve_full.csv   one row an accepted time step
 ///   result.yaml, final_shape.csv   at the end; until then the folder has none, not even those of an earlier run
 ///
@@ -34,7 +34,7 @@ class RunWriter {
   void finish(const Results& results, const RunFacts& facts, const Points& final_shape);
 
   RunFacts facts() const;                   ///< what the method and this process say
-  Results results(EndedBy ended_by) const;  ///< what the time steps so far mean
+  Results results(EndedBy ended_by) const;  ///< what the time steps and readings so far mean
 
   std::size_t rows() const { return curve_.rows(); }            ///< of curve.csv
   std::size_t full_rows() const { return full_curve_.rows(); }  ///< of curve_full.csv
@@ -42,7 +42,8 @@ class RunWriter {
  private:
   std::string folder_;
   RunFacts known_;
-  std::vector<Sample> samples_;  ///< every time step, that of an answer as it was answered
+  std::vector<Sample> samples_;   ///< every time step, that of an answer as it was answered
+  std::vector<Sample> readings_;  ///< of the load cell: the rows of curve.csv
   CurveWriter curve_;
   CurveWriter full_curve_;
 };

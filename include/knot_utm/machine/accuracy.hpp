@@ -21,7 +21,7 @@ struct Tolerances {
 /// Its readings are those of the stretching, which looser contacts and coarser knots move by less than a per cent.
 Tolerances tolerances(const PhysicsOptions& physics, const SpecimenOptions& specimen, const Material& material);
 
-/// How far readings may lie from those of ever finer tolerances, as fractions of the readings. Empty: no study says.
+/// The estimated numerical errors of readings, as fractions of them. Empty where no convergence study covers the case.
 struct ReadingErrors {
   std::optional<double> plateau_force;
   std::optional<double> lock_extension;
@@ -39,7 +39,7 @@ struct ReadingErrors {
 /// The powers are the orders of the method. The factors were chosen after `scripts/bench convergence` (normal and
 /// draft, three pre-loads; P of 3 to 53; contact `smooth` and friction `memory`): those of plateau and lock for
 /// polypropylene and nylon, that of the stiffness for VPS too. doc/performance.md says how they held for loops they
-/// were not chosen for. For nylon the plateau's is wide: what edges and contact tolerance do to it partly cancels. The
+/// were not chosen for. For nylon the plateau's is large: the effects of edges and contact tolerance partly cancel. The
 /// 0.1 % for a straight rod, whose stiffness is exact but for the residual, is an upper bound by judgement.
 ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const PhysicsOptions& physics);
 

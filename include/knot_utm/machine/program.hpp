@@ -50,6 +50,7 @@ struct ProgramStep {
   int cycles = 0;                                ///< cycle: so many; 0: until `until.time` is over
   double return_extension = 0.0;                 ///< return: to this extension [m]
   std::string record;                            ///< follow: the file of the record
+  std::string columns;                           ///< and how it names its columns, where that is not known
   std::vector<RecordedPlace> recorded;           ///< and what it says, times ascending from 0
 };
 

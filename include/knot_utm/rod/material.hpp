@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 
@@ -28,9 +29,11 @@ struct Material {
 };
 
 /// Pre-load F_p that `specimen.preload: auto` stands for [N]: the material's own, else four times the scale k_b/h^2 of
-/// its bending, at which a knot holds together once the tails are let go.
+/// its bending, at which a knot holds together once the tails are let go, but no more than half of what breaks it.
 inline double default_preload(const Material& material) {
-  return material.tying_preload.value_or(4.0 * material.bending_stiffness / (material.radius * material.radius));
+  const double holds = 4.0 * material.bending_stiffness / (material.radius * material.radius);
+  return material.tying_preload.value_or(material.breaking_force ? std::min(holds, 0.5 * *material.breaking_force)
+                                                                 : holds);
 }
 
 /// Contact stiffness K that `auto` stands for [N/m^2]: the material's own, else 300 k_b/h^4: where strands are pressed

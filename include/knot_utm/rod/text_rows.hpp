@@ -17,7 +17,7 @@ class TextRows {
 
   const std::string& text() const { return text_; }  ///< of the row, without the end of the line
   std::size_t number() const { return number_; }     ///< of the row, from 1
-  /// Empty, or what is allowed where a bound was passed, in row `number()`.
+  /// Empty, or which bound was passed: a sentence.
   const std::string& fault() const { return fault_; }
 
  private:

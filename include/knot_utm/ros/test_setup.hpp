@@ -2,6 +2,7 @@
 
 #include <ros/node_handle.h>
 
+#include <sstream>
 #include <string>
 
 #include "knot_utm/io/method.hpp"
@@ -32,7 +33,11 @@ TestSetup read_test_setup(const ros::NodeHandle& node);
 template <class Value>
 void read_parameter(const ros::NodeHandle& node, const std::string& name, Value* value, const char* allowed) {
   if (node.hasParam(name) && !node.getParam(name, *value)) {
-    throw InvalidInput(node.resolveName(name), "what it is set to", allowed);
+    XmlRpc::XmlRpcValue given;
+    node.getParam(name, given);
+    std::ostringstream text;
+    given.write(text);
+    throw InvalidInput(node.resolveName(name), text.str(), allowed);
   }
 }
 
@@ -45,13 +50,17 @@ void leave_ros(const char* name, int code);
 
 /// Runs `body` and says in one line what went wrong. Returns the exit code: 0, 1 failed, 2 wrong input.
 template <class Body>
-int run_node(const char* name, Body body);
+int run_node(int argc, char** argv, const char* name, Body body);
+
+/// For `run_node`: whether the only argument is --version, which is answered then.
+bool asks_for_version(int argc, char** argv);
 
 /// For `run_node`: one line on the console, whether or not ROS logging is up.
 int report_failure(const char* name, const char* what, int code);
 
 template <class Body>
-int run_node(const char* name, Body body) {
+int run_node(int argc, char** argv, const char* name, Body body) {
+  if (asks_for_version(argc, argv)) return 0;
   int code = 0;
   try {
     code = body();

@@ -15,6 +15,7 @@
 #include <deque>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/test_program.hpp"
@@ -74,6 +75,7 @@ class UtmNode {
   void advance();
   void send(const Command& command);
   void resend();
+  void take_reading();
   void physics_failed(const std::string& why);  ///< ends the test
   void end();
   void publish_clock(bool at_once);
@@ -95,7 +97,7 @@ class UtmNode {
   Command command_;                   ///< the last given
   Sample sample_;                     ///< the last answer
   std::string motion_pattern_;        ///< that it told
-  double peak_force_ = 0.0;           ///< the largest true force while pulled, of all answers [N]
+  std::vector<Sample> readings_;      ///< of the load cell in this test
   double max_penetration_ = 0.0;      ///< of all answers [fraction of radius]
   bool waiting_ = false;              ///< for the answer to `command_`
   std::uint64_t single_steps_ = 0;    ///< asked for while paused

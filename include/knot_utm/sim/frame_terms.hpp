@@ -20,8 +20,8 @@ namespace knot_utm {
 ///   I_j      rho pi h^4/2 l_j, polar moment of inertia      [kg m^2]
 ///   c        viscous drag per length, as for the positions: it acts on the rod's surface, whose speed is h omega and
 ///            whose lever is h [N s/m^2]
-///   r_j      0, or where spin has neither inertia nor drag a trifle of k_t/l_j, so that a rod that is free to turn
-///            stays where it is [N m]
+///   r_j      0, or where spin has neither inertia nor drag a regularisation, a small share of k_t/l_j, so that a rod
+///            that is free to turn stays where it is [N m]
 ///   E        k_t/(2 lbar) (m - mbar)^2 at every inner node (twisting.hpp) and, where the rod has a natural curvature,
 ///            bending.hpp [J]; a rod that is straight at rest bends as without frames (isotropic_bending.hpp)
 ///   T_j      torque of the holder of a held frame about the tangent [N m]

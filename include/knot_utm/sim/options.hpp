@@ -23,7 +23,7 @@ struct PhysicsOptions {
   std::optional<double>
       presliding;  ///< friction.presliding, slip at which memory friction saturates [fraction of radius]
   std::optional<double> max_step;  ///< longest time step [s]
-  std::optional<double> residual;  ///< Newton residual [k_b/h^2]
+  std::optional<double> residual;  ///< tolerance of Newton's residual [k_b/h^2]
 };
 
 }  // namespace knot_utm

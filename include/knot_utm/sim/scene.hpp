@@ -71,14 +71,14 @@ struct StepSettings {
   NormalLaw normal;                              ///< between strands, and on rollers
   Friction friction;                             ///< between strands
   Friction roller_friction;
-  double share_time = 0.05;                 ///< in which a contact's share follows the shape (smooth_contact.hpp) [s]
+  double share_time = 0.05;                 ///< time for a contact's share to follow the shape (smooth_contact.hpp) [s]
   Vec3 gravity = Vec3::Zero();              ///< g [m/s^2]
   double drag = 0.0;                        ///< c, force -c v per length [N s/m^2]
   bool spin_inertia = true;                 ///< turning of the rod about itself has inertia and drag (frame_terms.hpp)
-  double residual = 0.0;                    ///< Newton's largest nodal residual [N]
+  double residual = 0.0;                    ///< tolerance of a node's residual [N]
   double residual_from_step = 0.0;          ///< in shorter steps it shrinks with their square, to a thousandth [s]
-  double residual_of_tension = 0.0;         ///< more of it where a node's own edges bear tension: by this share [-]
-  double residual_at_little_tension = 0.0;  ///< it shrinks to this share of the largest one; 0: no [-]
+  double residual_of_tension = 0.0;         ///< tolerance scaling: more by this share of the node's tension [-]
+  double residual_at_little_tension = 0.0;  ///< it shrinks to this share of the largest tension; 0: no [-]
   double newton_cap = 0.0;                  ///< longest movement of a node in one Newton iteration [m]
   double motion_limit = 0.0;                ///< longest movement of a node in one step [m]
   double overlap_limit = 0.0;               ///< deepest overlap of a step that may be accepted [m]

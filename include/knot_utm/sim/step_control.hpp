@@ -10,19 +10,19 @@
 
 namespace knot_utm {
 
-/// Chooses the length of time steps: longer where Newton's method converges in few iterations, nodes move little and
-/// strands in contact even less against each other, shorter where not; a step that was not accepted is tried again at
-/// half its length. What Newton's method still does not solve after some of these it is given more patience for, and
-/// tried once more with secants before it is halved again (Solution). A run that very many iterations have led nowhere
-/// is given up.
+/// Step-size control: time steps become longer where Newton's method converges in few iterations, nodes move little and
+/// strands slip even less against each other, and shorter otherwise. A step that was not accepted is tried again with
+/// half its length. After some of these failures Newton's method is allowed more iterations, and is tried once more
+/// with secants before the step is halved again (Solution). A run that makes no headway over very many iterations is
+/// given up.
 class StepControl {
  public:
   struct Options {
     double longest = 0.1;                                   ///< [s]
     double first = 0.1;                                     ///< what is tried first [s]
     double shortest = 1e-7;                                 ///< below it the run gives up [s]
-    double motion = 0.0;                                    ///< of the fastest node in a step, that is aimed at [m]
-    double slip = std::numeric_limits<double>::infinity();  ///< of strands in contact against each other, the same [m]
+    double motion = 0.0;                                    ///< motion of the fastest node that a step aims at [m]
+    double slip = std::numeric_limits<double>::infinity();  ///< slip of strands in contact that a step aims at [m]
     int easy_iterations = 6;                                ///< up to here the next step may be longer
     int hard_iterations = 10;                               ///< from here on it is shorter
   };

@@ -58,8 +58,8 @@ std::vector<ContactForce> contact_forces(const std::vector<ContactPoint>& contac
 ///                feet come and go, and what is stored in them changes without a force; negative where it grows
 ///   residual     what Newton's method left unbalanced on free nodes, times their way
 ///
-/// An edge's spin counts as the nodes' motion does, with its own inertia, drag, torques and the trifle r_j
-/// (frame_terms.hpp), which is numerical.
+/// An edge's spin counts as the nodes' motion does, with its own inertia, drag, torques and the regularisation r_j
+/// (frame_terms.hpp), whose part is numerical.
 struct StepWork {
   double boundary = 0.0;
   double friction = 0.0;

@@ -13,10 +13,10 @@
 
 namespace knot_utm {
 
-/// How a time step is solved: by Newton's method as it stands; in haste, with expected tensions and pressures, and
-/// given up where a shorter step is the cheaper way out; or, where it runs in circles, with friction linearised by
-/// secants, then from there by tangents; if that fails too, anew with half of each change that secants make, three
-/// times over. The equations and their tolerance are the same.
+/// How the increment of a time step is solved: by Newton's method with tangents; the same in haste, with expected
+/// tensions and pressures, and given up where a shorter step costs less; or, where the iterates run in a cycle, with
+/// friction linearised by secants and then, from there, by tangents. If that fails, too, secants are tried again with
+/// each change halved, up to three times. The equations and their tolerance are the same in all of them.
 enum class Solution { kTangents, kHastyTangents, kSecants };
 
 /// How one time step went.
@@ -33,11 +33,11 @@ struct StepSummary {
 
 /// Where the solution of a step stands, for those who watch it.
 struct Iterate {
-  double residual = 0.0;      ///< the largest; a node's is less by the factor by which its edges' tension eases it [N]
-  double tolerance = 0.0;     ///< what it may be [N]
-  int node = -1;              ///< whose it is; -1: of none, all are held
-  bool spin = false;          ///< it is the torque on the edge behind the node, over the radius
-  double share = 0.0;         ///< of the change that led here; 0: the prediction [-]
+  double residual = 0.0;      ///< the largest, each node's divided by its tolerance scaling (scene.hpp) [N]
+  double tolerance = 0.0;     ///< what it must not exceed [N]
+  int node = -1;              ///< with the largest residual; -1: none, all are held
+  bool spin = false;          ///< the residual is the torque on the edge behind the node, over the radius
+  double share = 0.0;         ///< of the increment that was taken to get here; 0: the prediction [-]
   double motion = 0.0;        ///< of the node that this moved the furthest [m]
   int active = 0;             ///< contacts in the next linear system
   int touching = 0;           ///< contacts that carry force

@@ -31,7 +31,7 @@ class ArgumentsTest(unittest.TestCase):
 
         with Launch('method:=...yaml', 'rviz:=false', 'out:=', command=SCRIPT, prepare=copy) as launch:
             self.assertEqual(launch.end(), 2)
-            self.assertIn('is not allowed: a file whose name without ending is a name for a folder', launch.console())
+            self.assertIn('its name without its ending is that of the folder to write to', launch.console())
             self.assertEqual(sorted(os.listdir(launch.folder)), ['...yaml', 'console', 'log'])
 
     def refused(self, *command):

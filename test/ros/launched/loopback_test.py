@@ -60,7 +60,7 @@ class LoopbackTest(unittest.TestCase):
         with Launch('method:=' + METHOD, environment={'ROS_HOSTNAME': 'LOCALHOST'}) as launch:
             launch.end()
             self.assertIn('exit code 2', launch.console())
-            self.assertIn('is not allowed: loopback only', launch.console())
+            self.assertIn('ROS 1 has no authentication: set ROS_HOSTNAME=localhost', launch.console())
             self.assertFalse(os.path.exists(launch.out))
 
     def test_master_on_every_address(self):

@@ -136,7 +136,7 @@ class StrangersTest(unittest.TestCase):
             deaf = [subscribe(launch.uri, topic, read)
                     for topic in ('/knot/state', '/knot/record', '/utm/crosshead') for read in (0, 100000)]
             deaf.append(subscribe(launch.uri, '/knot/markers'))
-            ignored = [topic + ' from /stranger ignored: publisher: /stranger, allowed: /' for topic in
+            ignored = ['a message on ' + topic + ' from /stranger was ignored: only /' for topic in
                        ('utm/crosshead', 'knot/state', 'knot/record', 'utm/status', 'recorder/status')]
             stranger.talk_until('all is ignored', lambda: all(line in launch.console() for line in ignored))
             stranger.talk_until('2000 rows', lambda: launch.rows() > 2000)

@@ -1,0 +1,48 @@
+#!/usr/bin/python3
+"""While the window of rviz is open the launch goes on after the end of its test; closed, the launch ends."""
+import os
+import signal
+import sys
+import unittest
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
+
+from launched import METHOD, Launch, children, wait_for
+
+# In the place of rviz a process that needs no display, and ends well when the one that it waits for does.
+LAUNCH = """<launch>
+  <arg name="working_directory"/>
+  <arg name="out"/>
+  <include file="$(find knot_utm)/launch/tighten.launch" pass_all_args="true">
+    <arg name="method" value="%s"/>
+    <arg name="overrides" value="'program.hold.duration=0.1'"/>
+  </include>
+  <node name="rviz" pkg="knot_utm" type="late" args="1000000 true"/>
+</launch>
+"""
+
+
+class WindowTest(unittest.TestCase):
+
+    def test_stays_until_it_is_closed(self):
+        def prepare(folder):
+            with open(os.path.join(folder, 'mine.launch'), 'w', encoding='utf-8') as file:
+                file.write(LAUNCH % METHOD)
+
+        with Launch(prepare=prepare, command=['roslaunch', './mine.launch']) as launch:
+            said = 'the launch ends when the window of rviz is closed'
+            wait_for('the end of the test', lambda: said in launch.console())
+            self.assertNotIn('utm_node', launch.processes())
+            # Its picture can still be changed.
+            self.assertIn('knot_node', launch.processes())
+            self.assertIsNone(launch.process.poll())
+            for process in children(launch.pid('rviz')):
+                os.kill(process, signal.SIGTERM)
+            self.assertEqual(launch.end(), 0)
+            for word in ('has died', 'REQUIRED', 'ERROR'):
+                self.assertNotIn(word, launch.console())
+            self.assertEqual(launch.result('ended_by'), 'program')
+
+
+if __name__ == '__main__':
+    unittest.main()
