@@ -37,7 +37,7 @@ void suit_loop(const Method& known, double r, double h, SpecimenOptions& out) {
 }
 
 /// Of rod beyond its end-to-end distance, that an overhand knot of so many turns takes up at least.
-double taken_up(int turns, double h) { return 1.1 * (25.0 + 20.0 * turns) * h; }
+double taken_up(int turns, double h) { return 1.1 * (34.5 + 40.0 * turns) * h; }
 
 void suit_overhand(const Method& known, double r, double h, SpecimenOptions& out) {
   const double length = known.specimen.length, least = taken_up(known.specimen.turns, h);

@@ -57,8 +57,8 @@ void material(Fields& f, Material& o) {
   f.required_number("radius", o.radius, Range{1e-5, 0.05, "m"});
   f.required_number("density", o.density, Range{10.0, 25e3, "kg/m3"});
   f.required_number("stretching_stiffness", o.stretching_stiffness, Range{1e-6, 1e9, "N"});
-  f.required_number("bending_stiffness", o.bending_stiffness, Range{1e-18, 1e3, "N m2"});
-  f.required_number("twisting_stiffness", o.twisting_stiffness, Range{1e-18, 1e3, "N m2"});
+  f.required_number("bending_stiffness", o.bending_stiffness, Range{1e-18, 1e6, "N m2"});
+  f.required_number("twisting_stiffness", o.twisting_stiffness, Range{1e-18, 1e6, "N m2"});
   f.required_number("friction_coefficient", o.friction_coefficient, Range{0.0, 5.0, "-"});
   f.optional_number("contact_stiffness", o.contact_stiffness, Range{1.0, 1e13, "N/m2"}, "auto");
   f.optional_number("tying_preload", o.tying_preload, Range{1e-9, 1e9, "N"}, "auto");

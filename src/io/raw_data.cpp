@@ -140,17 +140,15 @@ std::optional<Columns> all_of(const Found& found) {
   return Columns{*found[0], *found[1], *found[2]};
 }
 
-/// The names that a file may use, for the message.
-std::string known_names(const Names& given) {
+/// What the row does not name, and the names that it might have, for the message.
+std::string missing_names(const Found& found, const Names& given) {
   std::string out;
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    out += (i == 0 ? "" : "; ") + std::string("for ") + raw_quantities()[i].name + " ";
-    if (!given[i].empty()) {
-      out += '"' + shown(given[i]) + '"';
-      continue;
-    }
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    if (found[i]) continue;
+    out += (out.empty() ? "" : "; ") + std::string(raw_quantities()[i].name) + ", whose known names are ";
+    if (!given[i].empty()) out += '"' + shown(given[i]) + "\" alone";
     const char* comma = "";
-    for (const std::string& name : raw_quantities()[i].names) {
+    for (const std::string& name : given[i].empty() ? raw_quantities()[i].names : std::vector<std::string>()) {
       out += comma + name;
       comma = ", ";
     }
@@ -284,9 +282,7 @@ class RawTable {
     }
     throw InvalidInput::sentence("names", "none",
                                  "no row names the columns time, extension and load" +
-                                     (nearest.empty() ? "" : "; nearest to it is " + nearest) + "; known names are " +
-                                     known_names(given_) +
-                                     "; others are given as time=NAME,extension=NAME,load=NAME by --columns")
+                                     (nearest.empty() ? "" : "; " + nearest + "; other names are given by --columns"))
         .in_file(file_);
   }
 
@@ -320,13 +316,8 @@ class RawTable {
             std::count_if(found.begin(), found.end(), [](const auto& column) { return column.has_value(); });
         if (named <= most) continue;
         most = named;
-        out = "row " + std::to_string(row.number) + ", \"" + shown(visible(row.text)) + "\", which does not name ";
-        const char* comma = "";
-        for (std::size_t i = 0; i < found.size(); ++i)
-          if (!found[i]) {
-            out += std::string(comma) + raw_quantities()[i].name;
-            comma = " or ";
-          }
+        out = "row " + std::to_string(row.number) + " is \"" + shown(visible(row.text)) + "\" and does not name " +
+              missing_names(found, given_);
       }
     return out;
   }

@@ -83,8 +83,8 @@ void expect_the_same(const Pull& a, const Pull& b) {
 }
 
 TEST(RawZero, ACurveDiffersFromItsOwnRawDataByRounding) {
-  for (const double speed : {1e-4, 3.3e-3, 2e-2})
-    for (const double rate : {3.0, 17.0, 100.0})
+  for (const double speed : {1e-3, 3.3e-3, 2e-2})
+    for (const double rate : {3.0, 17.0, 60.0})
       for (const Format& format : kFormats)
         for (const Offset& offset : {Offset{0.0, 0.0}, Offset{3.0, 0.013}, Offset{-40.0, -0.3}}) {
           SCOPED_TRACE(testing::Message() << speed << " m/s, " << rate << " Hz, " << format.head << offset.load);
