@@ -7,6 +7,11 @@ from run import PULLING
 
 NEAR = 0.01  # of the pull: a largest load within this of its end was reached there
 
+# How a test ended that nobody and no program stopped.
+NOT_STOPPED = {"solver": "at the end of the test, where the physics gave up",
+               "untangled": "at the end of the test, where the knot came undone",
+               "not yet": "at the end of what was recorded"}
+
 
 class LargestLoad:
     """`rows`, `row`: where it is. `name`: of its mark. `where`: the rest of a sentence that begins with its value.
@@ -42,11 +47,10 @@ def end_of_pull(run, tested, pulled):
     if tested["time"][-1] > pulled["time"][-1]:
         return f"at the end of the pull, at {length(run, pulled['extension'].max())}"
     ended_by = run.result.get("ended_by")
-    if ended_by == "solver":
-        return "at the end of the test, where the physics gave up"
-    who = "the operator stopped" if ended_by == "operator" else None
-    at = length(run, pulled["extension"].max())
-    return f"at the end of the test, which {who} at {at}" if who else f"at the end of the test, which was stopped at {at}"
+    if ended_by in NOT_STOPPED:
+        return NOT_STOPPED[ended_by]
+    stopped = "the operator stopped" if ended_by == "operator" else "was stopped"
+    return f"at the end of the test, which {stopped} at {length(run, pulled['extension'].max())}"
 
 
 def length(run, metres):

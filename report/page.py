@@ -56,10 +56,12 @@ def report_on_run(folder, command, version):
         "title": f"{knot_of(run.method)}, {run.method['material'].get('name', 'own material')}",
         "head": head_of(run.report), "report": run.report, "logo": logo_of(run), "headlines": headlines(run, largest),
         "facts": method_facts(run.method, run.units), "program": program(run.method, run.units),
-        "gave_up": run.result.get("ended_by") == "solver", "results": results, "unmeasured": unmeasured, "checks": checks, "verdict": words, "good": good,
+        "gave_up": run.result.get("ended_by") == "solver", "results": results, "unmeasured": unmeasured,
+        "checks": checks, "verdict": words, "good": good,
         "asked": asked, "asked_verdict": specification_verdict(run.result, asked),
         "band": error_band(run, run.pull()) is not None, "floor": run.load_cell_floor(),
-        "compliant": run.curve.has_compliant_frame(), "si": run.units.are_default, "largest_load": largest_load_shown(run),
+        "compliant": run.curve.has_compliant_frame(), "si": run.units.are_default,
+        "largest_load": with_unit(run.value("peak_force"), run.units.force),
         "files": files_of(folder), "command": printable(command), "version": version, "folder": printable(folder)})
 
 
@@ -81,10 +83,6 @@ def words_of_largest(largest):
     if largest is None:
         return "Largest load"
     return f"{'Peak force' if largest.is_peak else 'Largest load'}, {largest.where}"
-
-
-def largest_load_shown(run):
-    return with_unit(run.value("peak_force"), run.units.force)
 
 
 HEAD = (("specimen_id", "Specimen"), ("operator", "Operator"), ("customer", "Customer"), ("date", "Date"),
@@ -146,8 +144,9 @@ def report_on_comparison(folder, command, version):
     return render("comparison.html.j2", {
         "title": "Comparison of two curves", "facts": comparison.facts,
         "curves": [overlay(comparison, look) for look in LOOKS], "rows": rows,
-        "rising": rising, "unmeasured": [key for key in READINGS if key in comparison.facts and not has_either(comparison.facts[key])],
-        "sides": [(name.upper(), printable(file), *side_facts(run_beside(file))) for name, file in comparison.files.items()],
+        "rising": rising, "sides": [(name.upper(), printable(file), *side_facts(run_beside(file)))
+                                    for name, file in comparison.files.items()],
+        "unmeasured": [key for key in READINGS if key in comparison.facts and not has_either(comparison.facts[key])],
         "common": [shown(s, length) for s in comparison.facts["common_extension"]],
         "rms": shown(comparison.number("rms_difference")), "largest": shown(comparison.number("largest_difference")),
         "share": percent(comparison.number("rms_difference_over_load")),

@@ -1,7 +1,6 @@
 #include "knot_utm/analysis/curve_row.hpp"
 
 #include <cmath>
-#include <optional>
 
 namespace knot_utm {
 namespace {
@@ -17,10 +16,9 @@ PullPoint point_of(const CurveRow& row, ExtensionOf extension) {
   return {row.time, s, row.knot_distance, row.load};
 }
 
-/// None where the row before says nothing about the zero of the pull.
-std::optional<PullPoint> origin_of(const CurveRow& before, const CurveRow& first, ExtensionOf extension) {
-  if (balanced_between(before, first)) return PullPoint{before.time, 0.0, before.knot_distance, 0.0};
-  if (before.phase != Phase::kBalance) return std::nullopt;
+/// From where the pull began.
+PullPoint origin_of(const CurveRow& before, const CurveRow& first, ExtensionOf extension) {
+  if (balanced_between(before, first)) return {before.time, 0.0, before.knot_distance, 0.0};
   return point_of(before, extension);
 }
 
@@ -54,8 +52,8 @@ Pull pull_of(const std::vector<CurveRow>& rows, ExtensionOf extension) {
     if (!pulls(rows[i].phase)) continue;
     const PullPoint point = point_of(rows[i], extension);
     if (pull.empty() && i > 0) {
-      const std::optional<PullPoint> origin = origin_of(rows[i - 1], rows[i], extension);
-      if (origin && origin->extension < point.extension) pull.push_back(*origin);
+      const PullPoint origin = origin_of(rows[i - 1], rows[i], extension);
+      if (origin.extension < point.extension) pull.push_back(origin);
     }
     if (pull.empty() || point.extension > pull.back().extension) pull.push_back(point);
   }

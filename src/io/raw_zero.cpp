@@ -33,7 +33,7 @@ bool has_its_zero(const std::vector<CurveRow>& rows) {
   return std::any_of(rows.begin(), rows.end(), [](const CurveRow& row) { return std::isfinite(row.end_to_end); });
 }
 
-RawZero zero_at_rest(const std::vector<CurveRow>& rows) {
+RawZero zero_at_rest(const std::vector<CurveRow>& rows, const Pull& other) {
   const std::vector<CurveRow> all = pulled(rows);
   const double start = all.front().extension;
   double growth = 0.0;
@@ -52,7 +52,7 @@ RawZero zero_at_rest(const std::vector<CurveRow>& rows) {
     ++zero.readings;
   }
   zero.extension = last.extension + extension / static_cast<double>(zero.readings);
-  zero.load = last.load + load / static_cast<double>(zero.readings);
+  zero.load = last.load + load / static_cast<double>(zero.readings) - load_at(other, 0.0).value_or(0.0);
   return zero;
 }
 

@@ -16,7 +16,8 @@ const Sample* cell_reading(const Record& record) {
   const auto step = std::find_if(record.steps.begin(), record.steps.end(), parted);
   if (step != record.steps.end()) return &*step;
   if (parted(record.answer)) return &record.answer;
-  return record.command.read_cell && record.answer.status != BenchStatus::kFailed ? &record.answer : nullptr;
+  const bool read = record.command.read_cell || record.command.balance;
+  return read && record.answer.status != BenchStatus::kFailed ? &record.answer : nullptr;
 }
 
 }  // namespace knot_utm

@@ -8,10 +8,10 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kDecades = 1000.0;     // from the end of the linear part to the end of the scale
+constexpr double kDecades = 1e4;        // from the end of the linear part to the end of the scale
 constexpr double kLargestStrain = 0.5;  // that is shown of a rod without a breaking force
 constexpr double kSharpestBend = 1.0;   // radius of the rod over that of its curve
-constexpr double kCompression = 0.01;   // where blue ends: a thin rod buckles before [of `full`]
+constexpr double kCompression = 1e-3;   // where blue ends: a thin rod buckles before [of `full`]
 constexpr int kColors = 128;            // of the bar
 
 /// 1, 2 or 5 times a power of ten, no less than `value`.
@@ -52,7 +52,7 @@ ColorBar ColorScale::bar() const {
   bar.quantity = tension ? "tension" : "curvature";
   bar.unit = tension ? "N" : "1/radius";
   if (tension) {
-    bar.ticks = {-kCompression * full_, 0.0, 0.01 * full_, 0.1 * full_, full_};
+    bar.ticks = {-kCompression * full_, 0.0, 1e-3 * full_, 1e-2 * full_, 0.1 * full_, full_};
   } else {
     bar.ticks = {0.0, 0.25 * full_, 0.5 * full_, 0.75 * full_, full_};
   }

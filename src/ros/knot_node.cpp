@@ -164,7 +164,8 @@ void KnotNode::put_shape(KnotRecord& record) const {
 void KnotNode::publish(const KnotRecord& record) {
   state_.publish(record.answer);
   if (record_.getNumSubscribers() > 0) record_.publish(record);
-  if (record.command.read_cell != 0 && load_cell_.getNumSubscribers() > 0) {
+  const bool read = record.command.read_cell != 0 || record.command.balance != 0;
+  if (read && load_cell_.getNumSubscribers() > 0) {
     load_cell_.publish(to_wrench(from_message(record.answer), record.answer.header.stamp));
   }
   if (!record.shape.points.empty() && shape_.getNumSubscribers() > 0) shape_.publish(record.shape);

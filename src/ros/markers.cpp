@@ -47,8 +47,8 @@ constexpr int kMostBetween = 4;          // on an edge
 
 // The readings as text, in halves of the height of the picture
 constexpr double kTextAhead = 0.3;                  // of the way to the machine
-constexpr double kTextHeight = 0.055;               // of a line
-constexpr double kTextUp = 0.72, kTextLeft = 0.36;  // of its middle
+constexpr double kTextHeight = 0.038;               // of letters; rviz sets lines 3.8 times that apart
+constexpr double kTextUp = 0.36, kTextLeft = 0.42;  // of its middle
 
 const std_msgs::ColorRGBA kInk = color(0.12, 0.12, 0.15);
 const std_msgs::ColorRGBA kContactColor = color(0.25, 0.85, 0.95);
@@ -118,7 +118,7 @@ std::string reading_text(const SceneView& view, const ColorScale& scale) {
     std::snprintf(text, sizeof text, "knot distance %.1f mm\n", 1e3 * sample.knot_distance);
     out += text;
   }
-  std::snprintf(text, sizeof text, "tension in the rod: grey 0, red %g N", scale.full());
+  std::snprintf(text, sizeof text, "colours: grey 0, red %g N", scale.full());
   return out + text;
 }
 

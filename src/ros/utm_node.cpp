@@ -147,7 +147,7 @@ void UtmNode::on_state(const KnotState::ConstPtr& answer) {
 /// What result.yaml is made of, too: the readings of the load cell, and where the rod parts.
 void UtmNode::take_reading() {
   const bool parted = sample_.status == BenchStatus::kBroken;
-  if (!command_.read_cell && !parted) return;
+  if (!command_.read_cell && !command_.balance && !parted) return;
   readings_.push_back(sample_);
   if (!parted) return;
   Sample& reading = readings_.back();  // its ends recoil by now: the largest load of the command is that of the break

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <csignal>
+#include <cstdio>
 #include <fstream>
 #include <stdexcept>
 #include <utility>
@@ -128,6 +129,7 @@ void WatchNode::test_is_over(int code, bool somebody_looks) {
   tell(code);
   if (!somebody_looks) return end_launch();
   ROS_INFO("the test is over; the launch ends when the window of rviz is closed");
+  std::fflush(stdout);  // where this is no terminal it would be seen at the end only
 }
 
 void WatchNode::tell(int code) const {

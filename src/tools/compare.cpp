@@ -75,8 +75,8 @@ struct Side {
   }
 
   /// Says what is done: what raw data do not tell is assumed.
-  void balance() {
-    const RawZero zero = zero_at_rest(rows);
+  void balance(const Pull& other) {
+    const RawZero zero = zero_at_rest(rows, other);
     const std::string place = format_number(zero.load) + " N at " + format_number(zero.extension) + " m";
     if (zero.readings > 1) {
       note("zero is " + place + ", the mean of its " + std::to_string(zero.readings) +
@@ -109,15 +109,17 @@ void balance(const Arguments& arguments, Side& a, Side& b) {
   if (a.has_zero && b.has_zero)
     std::fprintf(stderr, "%s: --balance changes nothing, since both curves are of knot_utm and have their zero\n",
                  kTool);
+  Side& raw = a.has_zero ? b : a;
+  const Side& other = a.has_zero ? a : b;
+  const Pull beside = other.has_zero ? pull_of(other.rows, ExtensionOf::kMachine) : Pull();
   if (arguments.begins_at) {
     if (a.has_zero == b.has_zero)
       throw InvalidInput::sentence("--begins-at", format_number(*arguments.begins_at),
                                    "one of the curves must be raw data, and the other one a curve of knot_utm");
-    (a.has_zero ? b : a).balance_cut(*arguments.begins_at, pull_of((a.has_zero ? a : b).rows, ExtensionOf::kMachine));
-    return;
+    return raw.balance_cut(*arguments.begins_at, beside);
   }
   for (Side* side : {&a, &b})
-    if (!side->has_zero) side->balance();
+    if (!side->has_zero) side->balance(beside);
 }
 
 int run(const Arguments& arguments) {

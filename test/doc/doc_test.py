@@ -135,7 +135,7 @@ class Readme(unittest.TestCase):
 
     def test_leads_to_every_page(self):
         for document in documents()[1:]:
-            self.assertIn(f"]({document})", text("README.md"))
+            self.assertTrue(f"]({document})" in text("README.md"), document)
 
 
 class Documents(unittest.TestCase):
@@ -164,7 +164,7 @@ class Documents(unittest.TestCase):
         pages = "".join(text(document) for document in documents())
         for file in glob.glob(os.path.join(ROOT, "scripts/*")):
             if os.path.isfile(file):
-                self.assertIn(f"scripts/{os.path.basename(file)}", pages)
+                self.assertTrue(f"scripts/{os.path.basename(file)}" in pages, file)
 
     def test_named_sources_are_there(self):
         for document in documents():

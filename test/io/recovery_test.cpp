@@ -170,7 +170,7 @@ TEST_F(RecoveryOf, AFailedStepIsThereAsItWas) {
 TEST_F(RecoveryOf, IsRefusedOverAnotherRunsJournal) {
   run(in("killed"), 7);
   run(in("other"), 5);
-  EXPECT_THAT(refusal(in("killed"), in("other")), HasSubstr("has a journal of its own: choose another folder"));
+  EXPECT_THAT(refusal(in("killed"), in("other")), HasSubstr("holds a run already: choose another folder"));
 }
 
 TEST_F(RecoveryOf, IsRefusedWhileTheRunGoesOn) {

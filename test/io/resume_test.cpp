@@ -243,7 +243,7 @@ TEST_F(Resume, RefusesInOneLineWhatCannotBeTakenUp) {
   // Several records, the largest of which is a small part of them: the checkpoint stands before the last one.
   ASSERT_TRUE(kill_after(in_cut({"--checkpoint", "1e-6"}), 60000));
   const std::string resume = "--resume '" + cut() + "'";
-  EXPECT_THAT(complaint(resume + " " + kTest[0]), HasSubstr("excludes"));
+  EXPECT_THAT(complaint(resume + " " + kTest[0]), HasSubstr("METHOD and --resume cannot be given together"));
   EXPECT_THAT(complaint(resume + " --checkpoint -1"), HasSubstr("--checkpoint"));
 
   const auto changed = [&](const std::string& name, auto change) {
@@ -256,18 +256,18 @@ TEST_F(Resume, RefusesInOneLineWhatCannotBeTakenUp) {
     return said;
   };
   const auto cut_off = [](std::string& bytes) { bytes.resize(bytes.size() - 1); };
-  EXPECT_THAT(changed("checkpoint", cut_off), HasSubstr("checkpoint: length: "));
+  EXPECT_THAT(changed("checkpoint", cut_off), HasSubstr("the checkpoint cannot be loaded: length: "));
   EXPECT_THAT(changed("checkpoint", [](std::string& bytes) { bytes[bytes.size() / 2] ^= 1; }),
-              HasSubstr("checkpoint: checksum: "));
+              HasSubstr("the checkpoint cannot be loaded: checksum: "));
   EXPECT_THAT(changed("checkpoint", [](std::string& bytes) { bytes = "x,y,z\n"; }),
-              HasSubstr("checkpoint: first line: that of a foreign file"));
+              HasSubstr("the checkpoint cannot be loaded: first line: found that of a foreign file"));
   EXPECT_THAT(changed("method.yaml",
                       [](std::string& text) {
                         text = std::regex_replace(text, std::regex("capacity: 50000"), "capacity: 40000");
                       }),
-              HasSubstr("journal: method: that of another run"));
+              HasSubstr("journal: method is that of another run"));
   EXPECT_THAT(changed("journal", [](std::string& bytes) { bytes.resize(bytes.size() / 8); }),
-              HasSubstr("checkpoint: journal: "));
+              HasSubstr("checkpoint: journal is "));
   EXPECT_THAT(changed("journal", [](std::string& bytes) { bytes = "x,y,z\n"; }), HasSubstr("journal: "));
 
   ASSERT_EQ(wait_for(launch(resumed("0"))), 0);

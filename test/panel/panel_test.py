@@ -21,8 +21,8 @@ def state(**fields):
 
 def color_bar(full=5000.0):
     color = types.SimpleNamespace(r=1.0, g=0.5, b=0.1)
-    return types.SimpleNamespace(quantity='tension', unit='N', ticks=[-0.01 * full, 0.0, 0.01 * full, 0.1 * full, full],
-                                 places=[0.0, 0.25, 0.5, 0.75, 1.0], colors=[color] * 16)
+    return types.SimpleNamespace(quantity='tension', unit='N', ticks=[-1e-3 * full, 0.0, 1e-3 * full, 1e-2 * full, 0.1 * full, full],
+                                 places=[0.0, 0.206, 0.412, 0.604, 0.802, 1.0], colors=[color] * 16)
 
 
 def pull(readings, loads, step=1e-3, **fields):

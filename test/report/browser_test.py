@@ -15,9 +15,9 @@ import yaml
 
 import style
 
-WIDTH = 1200                  # of the window [px]
+WIDTH = 1200                    # of the window [px]
 WIDTHS = (360, 720, 800, 1280)  # a telephone, tablets, a desk [px]
-SMALLEST, DRAWN = 12.0, 10.0  # letters of the page, and those in its figures [px]
+SMALLEST, DRAWN = 12.0, 10.0    # letters of the page, and those in its figures [px]
 
 # What the page cannot hide from itself, said where --dump-dom shows it. It stands in a frame, as no window is as narrow as
 # a telephone.

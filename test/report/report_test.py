@@ -572,7 +572,11 @@ class PageOfAComparison(unittest.TestCase):
         bytes_only = os.fsencode(folders.path) + b"/\xff"
         shutil.copytree(os.fsencode(straight), bytes_only)
         self.assertEqual(script(bytes_only).stderr, "")
-        self.assertEqual(tool("compare", bytes_only + b"/curve.csv", odd, "--report", out).stderr, "")
+        # Another comparison goes beside the one that stands there.
+        beside = tool("compare", bytes_only + b"/curve.csv", odd, "--report", out)
+        self.assertIn(f"this one is written to {out}-2\n", beside.stderr)
+        self.assertIn("a$b$ &lt;c&gt; it&#39;s_ä.csv", page_of(out))
+        out += "-2"
         self.assertIn("/\\udcff/curve.csv", page_of(out))
         self.assertIn("simulated: Straight rod, nylon", page_of(out))
 

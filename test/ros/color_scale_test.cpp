@@ -36,8 +36,8 @@ TEST(ColorScale, TellsDecadesApart) {
   EXPECT_DOUBLE_EQ(scale.place(5000.0), 1.0);
   EXPECT_DOUBLE_EQ(scale.place(0.0), 0.0);
   EXPECT_DOUBLE_EQ(scale.place(-20.0), -scale.place(20.0));
-  EXPECT_NEAR(scale.place(500.0) - scale.place(50.0), 1.0 / 3.0, 0.02);
-  EXPECT_GT(scale.place(4.0), 0.08);
+  EXPECT_NEAR(scale.place(500.0) - scale.place(50.0), 0.25, 0.01);
+  EXPECT_GT(scale.place(2.0), 0.15);
   EXPECT_DOUBLE_EQ(scale.place(1e6), 1.0);
 }
 

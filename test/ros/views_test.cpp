@@ -45,7 +45,8 @@ void expect_all_in_picture(const TestBench& bench, const Method& method, const V
         for (const double z : {-1.0, 1.0}) expect_in_picture(eye, grip + half.cwiseProduct(Vec3(x, y, z)), sample);
 }
 
-/// The text stands in the frame of the eye. A line is as high as `scale.z`, a letter 0.55 of that wide at most.
+/// The text stands in the frame of the eye. As rviz draws it, lines are 3.8 times `scale.z` apart, and a
+/// letter is half of that wide at most.
 void expect_text_in_picture(const visualization_msgs::Marker& text, const Sample& sample) {
   EXPECT_EQ(text.header.frame_id, names::kViewMachineFrame);
   const Vec3 middle(text.pose.position.x, text.pose.position.y, text.pose.position.z);
@@ -55,8 +56,8 @@ void expect_text_in_picture(const visualization_msgs::Marker& text, const Sample
     lines += letter == '\n' ? 1 : 0;
     widest = std::max(widest, line);
   }
-  const double half_width = 0.5 * 0.55 * text.scale.z * static_cast<double>(widest);
-  const double half_height = 0.5 * 1.1 * text.scale.z * static_cast<double>(lines);
+  const double half_width = 0.5 * 0.5 * text.scale.z * static_cast<double>(widest);
+  const double half_height = 0.5 * 3.8 * text.scale.z * static_cast<double>(lines);
   for (const double x : {-half_width, half_width})
     for (const double y : {-half_height, half_height})
       expect_in_picture(Vec3::Zero(), middle + x * Camera::right() + y * Camera::up(), sample);

@@ -22,7 +22,10 @@ struct RawZero {
 /// growth, the last one that lies no further out than the first one. Load and extension are the means of the readings
 /// in a row up to it that lie within a thousandth of the growth. A record that shows no rest has but its first reading:
 /// it counts as zero, though the record may have been cut. Only rows that pull count; there must be one.
-RawZero zero_at_rest(const std::vector<CurveRow>& rows);
+///
+/// A cell that was balanced does not read exactly 0 N when the pull begins. `other`: a pull that has its zero; there
+/// the raw data get the load that it has, so that both begin in the same point. Empty: 0 N.
+RawZero zero_at_rest(const std::vector<CurveRow>& rows, const Pull& other = {});
 
 /// Of a record that was cut where the extension was `begins_at` beyond zero: its load there is told by another pull
 /// that has its zero, so that both agree in that point. None where the other pull does not reach there.

@@ -20,9 +20,9 @@ struct Record {
   void state(Archive& archive);
 };
 
-/// What the load cell's record of the test gets of a command, a row of curve.csv: at a sampling instant the answer;
-/// where the rod parted, between two readings as a rule, the time step that parted it, with which the record ends. None
-/// at other times, and of a bench that failed.
+/// What the load cell's record of the test gets of a command, a row of curve.csv: the answer at a sampling instant, and
+/// where the cell was balanced, so that the record has its zero; where the rod parted, between two readings as a rule,
+/// the time step that parted it, with which the record ends. None at other times, and of a bench that failed.
 const Sample* cell_reading(const Record& record);
 
 /// Whether the rod's shape belongs into the record of a command: at every reading of the load cell.

@@ -17,7 +17,7 @@ enum class ColorBy { kTension, kCurvature };
 /// Tension spans decades, from the newtons of sliding to the kilonewtons of a locked knot. Its scale is logarithmic,
 /// but linear around zero:
 ///
-///   place(v) = sign(v) log(1 + |v|/v0) / log(1 + full/v0),   v0 = full / 1000
+///   place(v) = sign(v) log(1 + |v|/v0) / log(1 + full/v0),   v0 = full / 10000
 ///
 /// `full` is the breaking force. A material without one has half its stretching stiffness instead (a strain of 50 %),
 /// no more than the load cell's capacity and no less than the tying pre-load. It is rounded up to 1, 2 or 5 times a

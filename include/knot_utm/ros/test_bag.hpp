@@ -15,8 +15,9 @@
 namespace knot_utm {
 
 /// test.bag: the topics of one test with the stamps of their headers, the same from a live and from a headless run.
-/// utm/crosshead, utm/joint_states and knot/state for every command; utm/load_cell and knot/shape for every reading. A
-/// rod that parts is read in the time step that parts it, of which there is a knot/state, too.
+/// utm/crosshead, utm/joint_states and knot/state for every command; utm/load_cell for every reading (cell_reading),
+/// knot/shape at sampling instants. A rod that parts is read in the time step that parts it, of which there is a
+/// knot/state, too.
 ///
 /// `rosbag play` and rviz show it, with nothing else running: for that it holds utm/method, knot/colors and, at every
 /// reading, knot/markers (small ones, ScenePicture::draw_small), all frames on /tf, and utm/status without what only

@@ -62,15 +62,25 @@ class ReplayTest(unittest.TestCase):
             from knot_utm.msg import Crosshead, KnotShape, KnotState
             from node_test import Latest
             from rosgraph_msgs.msg import Clock
+            from sensor_msgs.msg import Image
             from visualization_msgs.msg import MarkerArray
             rospy.init_node('replay_test', disable_signals=True)
             heard = {'/knot/state': Latest('knot/state', KnotState), '/knot/shape': Latest('knot/shape', KnotShape),
                      '/utm/crosshead': Latest('utm/crosshead', Crosshead)}
             clock = Latest('/clock', Clock)
+            panel = subprocess.Popen([os.path.join(ROOT, 'panel/panel_node')],
+                                     env=dict(os.environ, ROS_LOG_DIR=replay.log))
+            self.addCleanup(panel.wait, LAST_RESORT)
+            self.addCleanup(panel.terminate)
+            panels = Latest('view/panel', Image)
+            empty = panels.wait('the panel before anything is played', lambda _: True)
             for latest in [*heard.values(), clock]:
                 wait_for('a connection', lambda one=latest: one.connected())
             pictures = Latest('knot/markers', MarkerArray)  # the last one: it begins when somebody looks
             self.assertEqual(replay.process.wait(LAST_RESORT), 0, replay.console())
+
+            shown = panels.wait('the panel', lambda image: image.data != empty.data)
+            self.assertEqual((shown.encoding, len(shown.data)), ('rgb8', 3 * shown.width * shown.height))
 
             with rosbag.Bag(run.folder + '/test.bag') as bag:
                 for topic, latest in heard.items():
