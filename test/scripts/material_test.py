@@ -48,7 +48,7 @@ def least_energy(angles, stiffness, weights, end, held=None):
     raise AssertionError("the chain found no rest")
 
 
-def drop_of_cantilever(bending, weight, overhang, links=400):
+def drop_of_cantilever(bending, weight, overhang, links=200):
     piece = overhang / links
     hung = weight * piece * piece * (links - np.arange(links) - 0.5)  # beyond the middle of each link
     angles = np.zeros(links)
@@ -57,7 +57,7 @@ def drop_of_cantilever(bending, weight, overhang, links=400):
     return piece * np.sin(angles).sum()
 
 
-def height_of_loop(bending, weight, length, links=400):
+def height_of_loop(bending, weight, length, links=200):
     """Half of it: down from the clamp, level at the bottom, there straight below the clamp."""
     piece = 0.5 * length / links
     hung = weight * piece * piece * (links - np.arange(links) - 0.5)
