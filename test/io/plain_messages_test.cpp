@@ -49,7 +49,7 @@ TEST_F(PlainMessages, OfTensileTest) {
   write("list.yaml", "- specimen\n");
   write("wrong.bin", "\x01\x02");
   const std::vector<Mistake> mistakes{
-      {"", "METHOD is missing: give the method, a YAML file"},
+      {"", "METHOD is missing: give the method: a YAML file, or the name of one that comes with the package"},
       {"nosuch.yaml", "cannot read nosuch.yaml: no such file"},
       {".", "cannot read .: is a directory"},
       {"list.yaml",
@@ -60,9 +60,9 @@ TEST_F(PlainMessages, OfTensileTest) {
       {"tighten.yaml --set specimen.prelaod=3",
        "tighten.yaml: specimen.prelaod is no key of a method; did you mean specimen.preload?"},
       {"tighten.yaml --set specimen.preload=abc",
-       "tighten.yaml: specimen.preload is \"abc\", but must be a number from 0.0001 to 100000 (in N), or auto"},
-      {"tighten.yaml --set specimen.preload=1e9",
-       "tighten.yaml: specimen.preload is 1e9, but must be 0.0001 to 100000 N, or auto"},
+       "tighten.yaml: specimen.preload is \"abc\", but must be a number from 1e-9 to 1e9 (in N), or auto"},
+      {"tighten.yaml --set specimen.preload=1e10",
+       "tighten.yaml: specimen.preload is 1e10, but must be 1e-9 to 1e9 N, or auto"},
       {"tighten.yaml --set specimen.preload",
        "--set \"specimen.preload\" sets no key: write key=value, such as specimen.preload=20"},
       {"tighten.yaml --set 'specimen.preload=[3'",
