@@ -129,7 +129,8 @@ class Launch:
     def answers(self, node):
         """Whether the master is there and knows the node."""
         try:
-            return xmlrpc.client.ServerProxy(self.uri).lookupNode('/test', '/' + node)[0] == 1
+            with xmlrpc.client.ServerProxy(self.uri) as master:
+                return master.lookupNode('/test', '/' + node)[0] == 1
         except OSError:
             return False
 

@@ -16,14 +16,14 @@ if(KNOT_UTM_SANITIZE)
   target_precompile_headers(core_tests PRIVATE <gmock/gmock.h> <gtest/gtest.h> <Eigen/Core> <Eigen/Geometry>
                             <functional> <string> <vector>)
 endif()
-# To these files only: what a file does not use need not compile it anew.
-set_source_files_properties(
-  test/rooms_test.cpp test/sim/failed_steps_test.cpp test/io/bad_input_test.cpp test/io/claimed_folder_test.cpp
-  test/io/compare_test.cpp test/io/follow_test.cpp
-  test/io/killed_run_test.cpp test/io/method_test.cpp test/io/raw_data_test.cpp test/io/recovery_test.cpp
-  test/io/replay_step_test.cpp test/io/resume_test.cpp test/io/run_writer_test.cpp test/io/untangled_test.cpp
-  PROPERTIES COMPILE_DEFINITIONS
-             "KNOT_UTM_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\";KNOT_UTM_TOOLS_DIR=\"${KNOT_UTM_EXECUTABLE_DIR}\"")
+# To those files only that use them: what a file does not use need not compile it anew.
+foreach(source ${core_test_sources})
+  file(STRINGS ${source} uses REGEX "KNOT_UTM_SOURCE_DIR|KNOT_UTM_TOOLS_DIR|io/command.hpp")
+  if(uses)
+    set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS
+                 KNOT_UTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}" KNOT_UTM_TOOLS_DIR="${KNOT_UTM_EXECUTABLE_DIR}")
+  endif()
+endforeach()
 add_dependencies(core_tests compare tensile_test recover replay_step)
 gtest_discover_tests(core_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800)
 

@@ -26,7 +26,10 @@ inline std::string command_line_fault(const CLI::App& app, const std::string& to
     return given + " is no option of " + tool + hint_at_option(app, tool, given);
   }
   if (!unknown.empty()) return "\"" + shown(unknown.front()) + "\" is one argument too many; see " + tool + " --help";
-  const std::string said = shown(error.what());
+  constexpr std::size_t kNone = std::string::npos;
+  std::string said = shown(error.what());
+  const std::string number = "Could not convert: ";  // --checkpoint = abc
+  if (said.rfind(number, 0) == 0) said = said.substr(number.size());
   const std::string name = said.substr(0, said.find_first_of(": "));
   const CLI::Option* option = app.get_option_no_throw(name);
   const std::string description = option == nullptr ? "" : option->get_description();
@@ -34,9 +37,10 @@ inline std::string command_line_fault(const CLI::App& app, const std::string& to
   if (error.get_name() == "ArgumentMismatch") return name + " needs a value: " + description;
   if (error.get_name() == "ExcludesError")
     return name + " and " + said.substr(said.rfind(' ') + 1) + " cannot be given together";
-  if (error.get_name() == "ValidationError" && option != nullptr && !option->results().empty())
-    return name + " is " + shown(option->results().back()) + ", but must be a number of at least 0";
-  return said;
+  if (option == nullptr || option->results().empty()) return said;
+  const std::string given = name + " is " + shown(option->results().back()) + ", but must be a number";
+  if (error.get_name() == "ConversionError") return given;
+  return said.find(" not in range 0") == kNone ? said : given + " of at least 0";
 }
 
 }  // namespace knot_utm

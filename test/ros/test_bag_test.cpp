@@ -84,12 +84,14 @@ TEST_F(TestBagTest, ShowsTheTestByItself) {
   bag.close();
   const rosbag::Bag read(file("a.bag"), rosbag::bagmode::Read);
   std::set<std::string> frames, used;
-  for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/tf")))
-    for (const auto& transform : m.instantiate<tf2_msgs::TFMessage>()->transforms)
-      frames.insert(transform.child_frame_id);
-  for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/markers")))
-    for (const auto& marker : m.instantiate<visualization_msgs::MarkerArray>()->markers)
-      used.insert(marker.header.frame_id);
+  for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/tf"))) {
+    const auto message = m.instantiate<tf2_msgs::TFMessage>();
+    for (const auto& transform : message->transforms) frames.insert(transform.child_frame_id);
+  }
+  for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/markers"))) {
+    const auto message = m.instantiate<visualization_msgs::MarkerArray>();
+    for (const auto& marker : message->markers) used.insert(marker.header.frame_id);
+  }
   EXPECT_THAT(used, testing::IsSubsetOf(frames));
   EXPECT_THAT(frames, testing::IsSupersetOf({"utm_base", "upper_grip", "view_machine", "view_knots", "machine"}));
   rosbag::View all(read);

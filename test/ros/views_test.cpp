@@ -97,7 +97,7 @@ TEST_P(ViewsOfATest, MachineRodAndReadingsStayInThePicture) {
 const std::vector<std::string> kThinCord = {
     "material={radius: 0.0005, density: 1150, stretching_stiffness: 2000, bending_stiffness: 3e-8, twisting_stiffness: "
     "3e-8, friction_coefficient: 0.3, breaking_force: 50}",
-    "specimen.edge_length=0.0005", "specimen.length=0.1", "specimen.end_to_end=0.08",
+    "specimen.edge_length=0.0005", "specimen.length=0.15", "specimen.end_to_end=0.1",
     "program.pull.until={extension: 0.01}"};
 
 INSTANTIATE_TEST_SUITE_P(Shipped, ViewsOfATest,
