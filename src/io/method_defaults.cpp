@@ -44,7 +44,8 @@ void suit_overhand(const Method& known, double r, double h, SpecimenOptions& out
   const double loose = (1.0 - kOverhandShare) * length;
   out.end_to_end = loose >= least ? kOverhandShare * length : length - least;
   const double end_to_end = known.specimen.end_to_end;
-  if (kOverhandLength * r - end_to_end < least)
+  const bool is_default = end_to_end == kOverhandShare * kOverhandLength * r;  // it makes room for the knot itself
+  if (!is_default && kOverhandLength * r - end_to_end < least)
     out.length = end_to_end + std::max((1.0 - kOverhandShare) * kOverhandLength * r, least);
 }
 
