@@ -102,7 +102,7 @@ TEST_F(KilledRun, WithoutRoomSaysSoInOneLineAndIsRecoveredElsewhere) {
   const std::string blocks = std::to_string(kSomeRecords / 512);
   EXPECT_EQ(shell("ulimit -f " + blocks + "; exec " + kTest + in("full")), 1);
   const std::string said = read_whole(in("said"));
-  EXPECT_THAT(said, AllOf(HasSubstr("journal: file too large"), HasSubstr("recover " + in("full"))));
+  EXPECT_THAT(said, AllOf(HasSubstr(": file too large"), HasSubstr("recover " + in("full"))));
   EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
   EXPECT_FALSE(fs::exists(in("full/result.yaml")));
 

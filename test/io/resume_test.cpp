@@ -265,9 +265,9 @@ TEST_F(Resume, RefusesInOneLineWhatCannotBeTakenUp) {
                       [](std::string& text) {
                         text = std::regex_replace(text, std::regex("capacity: 50000"), "capacity: 40000");
                       }),
-              HasSubstr("journal: method is that of another run"));
+              HasSubstr("journal: the journal belongs to another method than method.yaml"));
   EXPECT_THAT(changed("journal", [](std::string& bytes) { bytes.resize(bytes.size() / 8); }),
-              HasSubstr("checkpoint: journal is "));
+              HasSubstr("checkpoint: the checkpoint needs "));
   EXPECT_THAT(changed("journal", [](std::string& bytes) { bytes = "x,y,z\n"; }), HasSubstr("journal: "));
 
   ASSERT_EQ(wait_for(launch(resumed("0"))), 0);

@@ -50,10 +50,10 @@ TEST(TextRows, EndWhereABoundIsPassed) {
   std::size_t count = 0;
   while (many_rows.next()) ++count;
   EXPECT_EQ(count, 2000000u);
-  EXPECT_EQ(many_rows.fault(), "at most 2000000 rows");
+  EXPECT_EQ(many_rows.fault(), "there are more than 2000000 rows");
   EXPECT_FALSE(many_rows.next());
   EXPECT_FALSE(wide_rows.next());
-  EXPECT_EQ(wide_rows.fault(), "rows of at most 4096 characters");
+  EXPECT_EQ(wide_rows.fault(), "row 1 is longer than 4096 characters");
 }
 
 }  // namespace

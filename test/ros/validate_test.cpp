@@ -83,43 +83,43 @@ TEST(Validate, CommandNamesFieldValueAndWhatIsAllowed) {
 
 TEST(Validate, CommandThatNoProgramCanMean) {
   const auto fault = [](auto change) { return fault_with(command(3), change); };
-  EXPECT_THAT(fault([](Crosshead& m) { m.time = kNan; }), StartsWith("time: nan"));
-  EXPECT_THAT(fault([](Crosshead& m) { m.time = -1.0; }), StartsWith("time: -1"));
-  EXPECT_THAT(fault([](Crosshead& m) { m.displacement = kInf; }), StartsWith("displacement: inf"));
-  EXPECT_THAT(fault([](Crosshead& m) { m.displacement = -1.1; }), StartsWith("displacement: -1.1"));
-  EXPECT_THAT(fault([](Crosshead& m) { m.speed = -0.001; }), StartsWith("speed: -0.001"));
-  EXPECT_THAT(fault([](Crosshead& m) { m.speed = kNan; }), StartsWith("speed: nan"));
-  EXPECT_THAT(fault([](Crosshead& m) { m.duration = 1e7; }), StartsWith("duration: 1"));
-  EXPECT_THAT(fault([](Crosshead& m) { m.phase = "pulling"; }), StartsWith("phase: \"pulling\""));
-  EXPECT_THAT(fault([](Crosshead& m) { m.step = -2; }), StartsWith("step: -2"));
-  EXPECT_THAT(fault([](Crosshead& m) { m.run = 0; }), StartsWith("run: 0"));
-  EXPECT_THAT(fault([](Crosshead& m) { m.header.stamp = ros::Time(0.1); }), StartsWith("header.stamp: 0.1"));
+  EXPECT_THAT(fault([](Crosshead& m) { m.time = kNan; }), StartsWith("time is nan"));
+  EXPECT_THAT(fault([](Crosshead& m) { m.time = -1.0; }), StartsWith("time is -1"));
+  EXPECT_THAT(fault([](Crosshead& m) { m.displacement = kInf; }), StartsWith("displacement is inf"));
+  EXPECT_THAT(fault([](Crosshead& m) { m.displacement = -1.1; }), StartsWith("displacement is -1.1"));
+  EXPECT_THAT(fault([](Crosshead& m) { m.speed = -0.001; }), StartsWith("speed is -0.001"));
+  EXPECT_THAT(fault([](Crosshead& m) { m.speed = kNan; }), StartsWith("speed is nan"));
+  EXPECT_THAT(fault([](Crosshead& m) { m.duration = 1e7; }), StartsWith("duration is 1"));
+  EXPECT_THAT(fault([](Crosshead& m) { m.phase = "pulling"; }), StartsWith("phase is \"pulling\""));
+  EXPECT_THAT(fault([](Crosshead& m) { m.step = -2; }), StartsWith("step is -2"));
+  EXPECT_THAT(fault([](Crosshead& m) { m.run = 0; }), StartsWith("run is 0"));
+  EXPECT_THAT(fault([](Crosshead& m) { m.header.stamp = ros::Time(0.1); }), StartsWith("header.stamp is 0.1"));
   EXPECT_THAT(fault([](Crosshead& m) { m.header.frame_id = std::string(1000000, 'x'); }),
-              StartsWith("header.frame_id: 1000000 characters"));
-  EXPECT_THAT(fault_with(command(0), [](Crosshead& m) { m.time = 0.05; }), StartsWith("time: 0.05"));
+              StartsWith("header.frame_id is 1000000 characters"));
+  EXPECT_THAT(fault_with(command(0), [](Crosshead& m) { m.time = 0.05; }), StartsWith("time is 0.05"));
 }
 
 TEST(Validate, CommandThatDoesNotFollowTheLast) {
-  EXPECT_THAT(fault_after(command(3), command(3), kLimits), StartsWith("time: "));
-  EXPECT_THAT(fault_after(command(3), command(2), kLimits), StartsWith("time: "));
-  EXPECT_THAT(fault_after(command(3), command(5), kLimits), StartsWith("time: 0.25"));
+  EXPECT_THAT(fault_after(command(3), command(3), kLimits), StartsWith("time is "));
+  EXPECT_THAT(fault_after(command(3), command(2), kLimits), StartsWith("time is "));
+  EXPECT_THAT(fault_after(command(3), command(5), kLimits), StartsWith("time is 0.25"));
   Crosshead jump = command(4);
   jump.displacement += 0.1;
-  EXPECT_THAT(fault_after(command(3), jump, kLimits), StartsWith("displacement: "));
+  EXPECT_THAT(fault_after(command(3), jump, kLimits), StartsWith("displacement is "));
 }
 
 TEST(Validate, StateOfNoSpecimen) {
   const auto fault = [](auto change) { return fault_with(state(3), change); };
-  EXPECT_THAT(fault([](KnotState& m) { m.load = kNan; }), StartsWith("load: nan"));
-  EXPECT_THAT(fault([](KnotState& m) { m.force_lower = kInf; }), StartsWith("force_lower: inf"));
-  EXPECT_THAT(fault([](KnotState& m) { m.dissipation = kNan; }), StartsWith("dissipation: nan"));
-  EXPECT_THAT(fault([](KnotState& m) { m.tail_force[1] = kInf; }), StartsWith("tail_force[1]: inf"));
-  EXPECT_THAT(fault([](KnotState& m) { m.contacts = -1; }), StartsWith("contacts: -1"));
-  EXPECT_THAT(fault([](KnotState& m) { m.status = 5; }), StartsWith("status: 5"));
-  EXPECT_THAT(fault([](KnotState& m) { m.knot_type = 3; }), StartsWith("knot_type: 3"));
-  EXPECT_THAT(fault([](KnotState& m) { m.break_place = 4; }), StartsWith("break_place: 4"));
-  EXPECT_THAT(fault([](KnotState& m) { m.break_arclength = -1.0; }), StartsWith("break_arclength: -1"));
-  EXPECT_THAT(fault([](KnotState& m) { m.message = std::string(1000000, 'x'); }), StartsWith("message: 1000000"));
+  EXPECT_THAT(fault([](KnotState& m) { m.load = kNan; }), StartsWith("load is nan"));
+  EXPECT_THAT(fault([](KnotState& m) { m.force_lower = kInf; }), StartsWith("force_lower is inf"));
+  EXPECT_THAT(fault([](KnotState& m) { m.dissipation = kNan; }), StartsWith("dissipation is nan"));
+  EXPECT_THAT(fault([](KnotState& m) { m.tail_force[1] = kInf; }), StartsWith("tail_force[1] is inf"));
+  EXPECT_THAT(fault([](KnotState& m) { m.contacts = -1; }), StartsWith("contacts is -1"));
+  EXPECT_THAT(fault([](KnotState& m) { m.status = 5; }), StartsWith("status is 5"));
+  EXPECT_THAT(fault([](KnotState& m) { m.knot_type = 3; }), StartsWith("knot_type is 3"));
+  EXPECT_THAT(fault([](KnotState& m) { m.break_place = 4; }), StartsWith("break_place is 4"));
+  EXPECT_THAT(fault([](KnotState& m) { m.break_arclength = -1.0; }), StartsWith("break_arclength is -1"));
+  EXPECT_THAT(fault([](KnotState& m) { m.message = std::string(1000000, 'x'); }), StartsWith("message is 1000000"));
   // Nothing that is written or logged gets a second line.
   EXPECT_EQ(fault([](KnotState& m) { m.message = "x\nended_by: break"; }),
             "message is \"x ended_by: break\", but must be one line of text");
@@ -127,27 +127,29 @@ TEST(Validate, StateOfNoSpecimen) {
 
 TEST(Validate, RecordThatDoesNotHoldTogether) {
   const auto fault = [](auto change) { return fault_with(record(3), change); };
-  EXPECT_THAT(fault([](KnotRecord& m) { m.command.displacement = kNan; }), StartsWith("command.displacement: nan"));
-  EXPECT_THAT(fault([](KnotRecord& m) { m.answer.load = kNan; }), StartsWith("answer.load: nan"));
-  EXPECT_THAT(fault([](KnotRecord& m) { m.answer.sequence = 4; }), StartsWith("answer.sequence: 4"));
-  EXPECT_THAT(fault([](KnotRecord& m) { m.steps[1].phase = "?"; }), StartsWith("steps[1].phase: "));
-  EXPECT_THAT(fault([](KnotRecord& m) { m.steps.resize(1000001); }), StartsWith("steps: 1000001"));
-  EXPECT_THAT(fault([](KnotRecord& m) { m.shape.tension.resize(2); }), StartsWith("shape.tension: 2 edges"));
-  EXPECT_THAT(fault([](KnotRecord& m) { m.shape.points[2].y = kNan; }), StartsWith("shape.points: point 2"));
-  EXPECT_THAT(fault([](KnotRecord& m) { m.shape.tension[2] = kInf; }), StartsWith("shape.tension: edge 2"));
-  EXPECT_THAT(fault([](KnotRecord& m) { m.failed_step.resize(9); }), StartsWith("failed_step: 9 bytes"));
+  EXPECT_THAT(fault([](KnotRecord& m) { m.command.displacement = kNan; }), StartsWith("command.displacement is nan"));
+  EXPECT_THAT(fault([](KnotRecord& m) { m.answer.load = kNan; }), StartsWith("answer.load is nan"));
+  EXPECT_THAT(fault([](KnotRecord& m) { m.answer.sequence = 4; }), StartsWith("answer.sequence is 4"));
+  EXPECT_THAT(fault([](KnotRecord& m) { m.steps[1].phase = "?"; }), StartsWith("steps[1].phase is "));
+  EXPECT_THAT(fault([](KnotRecord& m) { m.steps.resize(1000001); }), StartsWith("steps is 1000001"));
+  EXPECT_THAT(fault([](KnotRecord& m) { m.shape.tension.resize(2); }), StartsWith("shape.tension is 2 edges"));
+  EXPECT_THAT(fault([](KnotRecord& m) { m.shape.points[2].y = kNan; }),
+              StartsWith("shape.points is not finite at point 2"));
+  EXPECT_THAT(fault([](KnotRecord& m) { m.shape.tension[2] = kInf; }),
+              StartsWith("shape.tension is not finite at edge 2"));
+  EXPECT_THAT(fault([](KnotRecord& m) { m.failed_step.resize(9); }), StartsWith("failed_step is 9 bytes"));
 }
 
 TEST(Validate, SpecimenAndStatus) {
   SpecimenInfo specimen;
-  EXPECT_THAT(fault_of(specimen), StartsWith("longest_step: 0"));
+  EXPECT_THAT(fault_of(specimen), StartsWith("longest_step is 0"));
   specimen.longest_step = kNan;
-  EXPECT_THAT(fault_of(specimen), StartsWith("longest_step: nan"));
+  EXPECT_THAT(fault_of(specimen), StartsWith("longest_step is nan"));
   TestStatus status;
   status.phase = "pull";
-  EXPECT_THAT(fault_with(status, [](TestStatus& m) { m.state = 4; }), StartsWith("state: 4"));
-  EXPECT_THAT(fault_with(status, [](TestStatus& m) { m.reason = "a\nb"; }), StartsWith("reason: \"a b\""));
-  EXPECT_THAT(fault_with(status, [](TestStatus& m) { m.progress = kNan; }), StartsWith("progress: nan"));
+  EXPECT_THAT(fault_with(status, [](TestStatus& m) { m.state = 4; }), StartsWith("state is 4"));
+  EXPECT_THAT(fault_with(status, [](TestStatus& m) { m.reason = "a\nb"; }), StartsWith("reason is \"a b\""));
+  EXPECT_THAT(fault_with(status, [](TestStatus& m) { m.progress = kNan; }), StartsWith("progress is nan"));
 }
 
 TEST(Validate, OneLineIsOneShortLine) {

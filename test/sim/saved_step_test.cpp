@@ -152,19 +152,21 @@ TEST(SavedTimeStepFile, IsToldFromOtherFiles) {
   scene.boundary.fixed_twists = {{3, 0.1}};
   const std::string whole = save_step(*scene.stepper, scene.boundary, 0.0, 0.01);
   EXPECT_EQ(complaint(whole), "");
-  EXPECT_THAT(complaint(""), testing::HasSubstr("file: first line: that of a foreign file"));
-  EXPECT_THAT(complaint(whole.substr(0, whole.size() / 2)), testing::HasSubstr("file: length: "));
+  EXPECT_THAT(complaint(""), testing::HasSubstr("first line: found that of a foreign file"));
+  EXPECT_THAT(complaint(whole.substr(0, whole.size() / 2)), testing::HasSubstr("length: found "));
   std::string damaged = whole;
   damaged[whole.size() / 2] = static_cast<char>(damaged[whole.size() / 2] ^ 1);
-  EXPECT_THAT(complaint(damaged), testing::HasSubstr("file: checksum: "));
+  EXPECT_THAT(complaint(damaged), testing::HasSubstr("checksum: found "));
 
   scene.boundary.fixed_twists[0].edge = 20;
-  EXPECT_THAT(complaint(save_step(*scene.stepper, scene.boundary, 0.0, 0.01)), testing::HasSubstr("held edge: 20"));
+  EXPECT_THAT(complaint(save_step(*scene.stepper, scene.boundary, 0.0, 0.01)),
+              testing::HasSubstr("held edge: found 20"));
   scene.boundary.fixed_twists.clear();
   scene.boundary.forces = {{-1, Vec3::Zero()}};
   EXPECT_THAT(complaint(save_step(*scene.stepper, scene.boundary, 0.0, 0.01)),
-              testing::HasSubstr("node that is pulled: -1"));
-  EXPECT_THAT(complaint(save_step(*scene.stepper, Boundary(), 0.0, 0.0)), testing::HasSubstr("length of the step: 0"));
+              testing::HasSubstr("node that is pulled: found -1"));
+  EXPECT_THAT(complaint(save_step(*scene.stepper, Boundary(), 0.0, 0.0)),
+              testing::HasSubstr("length of the step: found 0"));
 }
 
 }  // namespace

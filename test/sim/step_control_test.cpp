@@ -122,7 +122,7 @@ TEST(StepControl, GivesUpWithWhereItWasHardestAndWhatWasTried) {
   step.longest_good = 0.0;
   const Outcome run = advance(control, step, 0.1);
   EXPECT_THAT(run.gave_up, testing::HasSubstr(step.text()));
-  EXPECT_THAT(run.gave_up, testing::HasSubstr(" steps from 0.1 to "));
+  EXPECT_THAT(run.gave_up, testing::HasSubstr(" steps of 0.1 to "));
   EXPECT_FALSE(step.by_secants.empty());
 }
 
@@ -152,15 +152,16 @@ TEST(StepDiagnosis, NamesNodeResidualAndContact) {
   where.node = 17;
   where.arclength = 0.25;
   where.residual = 0.5;
-  EXPECT_THAT(where.text(), testing::AllOf(testing::HasSubstr("node 17, 0.25 m"), testing::HasSubstr("residual 0.5 N"),
-                                           testing::HasSubstr("touches nothing")));
+  EXPECT_THAT(where.text(),
+              testing::AllOf(testing::HasSubstr("node 17, 0.25 m"), testing::HasSubstr("along the rod: 0.5 N"),
+                             testing::HasSubstr("touches nothing")));
   where.in_contact = true;
   where.contact_arclengths[0] = 0.26;
   where.contact_arclengths[1] = 0.75;
   where.overlap = 1e-5;
   where.slides = true;
-  EXPECT_THAT(where.text(), testing::AllOf(testing::HasSubstr("0.26 m at 0.75 m"),
-                                           testing::HasSubstr("overlap 1e-05 m"), testing::HasSubstr("sliding")));
+  EXPECT_THAT(where.text(), testing::AllOf(testing::HasSubstr("another strand, 0.26 m along the rod at 0.75 m"),
+                                           testing::HasSubstr("an overlap of 1e-05 m"), testing::HasSubstr("sliding")));
   where.roller = 1;
   EXPECT_THAT(where.text(), testing::HasSubstr("roller 1"));
 }

@@ -30,8 +30,8 @@ bool balanced_between(const CurveRow& before, const CurveRow& after);
 enum class ExtensionOf { kSpecimen, kMachine };
 
 /// The rows in which the specimen is pulled (pulls(phase)) that reach a new largest extension. Before them, as their
-/// origin, stands the row before the first of them, as a rule that of the balance. Where a balance lies between the two,
-/// the origin is s = 0 and F = 0, as it makes them.
+/// origin, stands the row before the first of them, as a rule that of the balance. Where a balance lies between the
+/// two, the origin is s = 0 and F = 0, as it makes them.
 Pull pull_of(const std::vector<CurveRow>& rows, ExtensionOf extension = ExtensionOf::kSpecimen);
 
 }  // namespace knot_utm
