@@ -114,7 +114,7 @@ class OperatorTest(unittest.TestCase):
         markers = Latest('knot/markers', MarkerArray).wait('a picture', lambda m: True).markers
         self.assertEqual([m.type for m in markers if m.ns == 'rod'], [Marker.TRIANGLE_LIST])
         self.assertEqual(len([m for m in markers if m.ns == 'grips']), 2)
-        self.assertTrue(any('F = ' in m.text for m in markers))
+        self.assertEqual([m.text for m in markers if m.text], [])  # the panel has the readings
 
     def test_7_saved_while_it_runs(self):
         self.assertIn('messages:', tool('rosbag', 'info', OUT + '/saved.bag'))

@@ -74,7 +74,7 @@ class LoopbackTest(unittest.TestCase):
                                   env=dict(BARE, ROS_MASTER_URI='http://localhost:%d' % port, ROS_LOG_DIR=log.name),
                                   stderr=subprocess.PIPE, universal_newlines=True)
             self.assertEqual(node.returncode, 2)
-            self.assertIn("the ROS master's address", node.stderr)
+            self.assertIn("the ROS master can be reached from other machines", node.stderr)
         finally:
             master.kill()
             master.wait()

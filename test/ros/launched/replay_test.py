@@ -110,7 +110,7 @@ class ReplayTest(unittest.TestCase):
 
     def test_bad_input_is_refused_in_one_line(self):
         with tempfile.TemporaryDirectory() as folder:
-            self.assertIn('replay_node: bag: ', self.refused('bag:=none.bag', 'working_directory:=' + folder))
+            self.assertIn('replay_node: cannot read ' + folder + '/none.bag: no such file', self.refused('bag:=none.bag', 'working_directory:=' + folder))
             # A measured curve has no shapes.
             raw = os.path.join(folder, 'raw.csv')
             with open(raw, 'w', encoding='utf-8') as file:
