@@ -23,7 +23,7 @@ from actionlib_msgs.msg import GoalStatus
 from catkin.find_in_workspaces import find_in_workspaces
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from dynamic_reconfigure.client import Client
-from knot_utm.msg import KnotState, RunTestAction, RunTestGoal, TestStatus
+from knot_utm.msg import ColorBar, KnotState, RunTestAction, RunTestGoal, TestStatus
 from node_test import LAST_RESORT, Latest, call
 from own_launch import wait_until
 from rosgraph_msgs.msg import Clock, Log
@@ -109,6 +109,7 @@ class RunTestTest(unittest.TestCase):
         cls.state = Latest('knot/state', KnotState)
         cls.status = Latest('utm/status', TestStatus)
         cls.markers = Latest('knot/markers', MarkerArray)
+        cls.colors = Latest('knot/colors', ColorBar)
         cls.console = Latest('/rosout', Log)
         cls.diagnostics = Latest('/diagnostics', DiagnosticArray)
 
@@ -146,13 +147,14 @@ class RunTestTest(unittest.TestCase):
         values = {v.key: float(v.value) for v in physics.values}
         self.assertGreater(values['time steps'], 0.0)
         self.assertLessEqual(values['Newton iterations per time step of late'], values['Newton iterations'])
-        self.diagnosis('recorder_node: files', 'records', lambda s: s.message == 'records')
+        self.diagnosis('recorder_node: files', 'records', lambda s: s.message == 'recording')
 
-        self.markers.wait('a picture', lambda m: any(' N in the rod' in k.text for k in m.markers))
+        self.markers.wait('a picture', lambda m: any(k.ns == 'rod' for k in m.markers))
+        self.colors.wait('tension', lambda bar: bar.quantity == 'tension')
         view = Client('knot_node', timeout=LAST_RESORT)
         changed = view.update_configuration({'color_by': 'curvature', 'marker_rate': 50.0})
         self.assertEqual(changed['color_by'], 'curvature')
-        self.markers.wait('curvature', lambda m: any('radii' in k.text for k in m.markers))
+        self.colors.wait('curvature', lambda bar: bar.quantity == 'curvature')
         self.assertEqual(view.update_configuration({'color_by': 'beauty'})['color_by'], 'curvature')
         self.said('knot_node: color_by: beauty is refused: tension or curvature is allowed; it stays curvature')
         self.assertEqual(view.update_configuration({'marker_rate': 1000.0})['marker_rate'], 50.0)
