@@ -141,6 +141,11 @@ void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>
   if (results.motion_pattern == MotionPattern::kUntangling ||
       (results.motion_pattern == MotionPattern::kSliding && !locked))
     results.curve.locked_stiffness.reset();
+  if (results.motion_pattern == MotionPattern::kUntangling) {  // what is left without a knot is no sliding force
+    results.curve.plateau_force.reset();
+    results.curve.plateau_force_sd.reset();
+    results.curve.breakaway_force.reset();
+  }
   if (!results.curve.plateau_force) return;
   const double end = results.curve.lock_extension_by_load.value_or(pull.back().extension);
   results.true_plateau_force = plateau(true_pull, end)->force;

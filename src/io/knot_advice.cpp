@@ -8,12 +8,12 @@ std::string what_keeps_a_knot(const Method& method) {
   const std::string friction =
       "a higher material.friction_coefficient (now " + format_number(method.material.friction_coefficient) + ")";
   const SpecimenOptions& specimen = method.specimen;
-  if (specimen.knot == KnotKind::kOverhand) return friction + " or a larger specimen.end_to_end would keep it";
-  if (!specimen.to_be_tied) return friction + " would keep it";
+  if (specimen.knot == KnotKind::kOverhand) return friction + " or a larger specimen.end_to_end may keep it";
+  if (!specimen.to_be_tied) return friction + " may keep it";
   const double usual = default_preload(method.material), preload = specimen.preload.value_or(usual);
   std::string now = format_number(preload) + " N";
   if (preload < usual) now += "; auto is " + format_number(usual) + " N";
-  return "a higher specimen.preload (now " + now + ") or " + friction + " would keep it";
+  return "a higher specimen.preload (now " + now + ") or " + friction + " may keep it";
 }
 
 }  // namespace knot_utm

@@ -94,6 +94,7 @@ class Library {
     add(method_folder);
     add(method_folder / "config");
     add(method_folder / ".." / "config");
+    add(fs::current_path());
     for (const std::string& folder : shipped_folders()) add(folder);
   }
 
@@ -120,6 +121,8 @@ class Library {
         if (!name.empty() && fs::is_regular_file(candidate, error)) return candidate;
       }
     }
+    const fs::path file(name);
+    if (file.has_parent_path() || file.extension() == ".yaml") throw InvalidInput::cannot_read(name, key);
     throw InvalidInput::unknown_name(key, name, allowed(kind), names(kind));
   }
 

@@ -36,6 +36,10 @@ std::vector<std::string> warnings(const Results& results) {
     all.push_back("the rod ran through itself at " + format_number(results.untangled_at.value_or(Sample::kNone)) +
                   " s");
   }
+  if (results.untangled_at && results.knot_type != KnotType::kCrossed && results.ended_by != EndedBy::kUntangled) {
+    all.push_back("the knot came undone at " + format_number(*results.untangled_at) +
+                  " s, while it was pulled, so there is no sliding force");
+  }
   if (results.fastest_node > kJump) {
     all.push_back("a node moved at " + format_number(results.fastest_node) +
                   " m/s while pulled: a knot may have jumped open, so quote the peak force");

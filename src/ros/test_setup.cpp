@@ -57,9 +57,12 @@ std::string following(const std::string& data, const Program& program) {
   return "program." + std::to_string(program.rend() - pull - 1) + "={follow: {record: '" + quoted + "'}}";
 }
 
-}  // namespace
+bool another_says_it(const ros::NodeHandle& node) {
+  return ros::this_node::getName() != node.resolveName(names::kUtmNode) &&
+         node.hasParam(std::string(names::kExitCodes) + "/" + names::kUtmNode);
+}
 
-TestSetup read_test_setup(const ros::NodeHandle& node) {
+TestSetup read_parameters(const ros::NodeHandle& node) {
   fs::path base = text_parameter(node, "test/working_directory");
   if (base.empty()) base = fs::current_path();
 
@@ -90,6 +93,17 @@ TestSetup read_test_setup(const ros::NodeHandle& node) {
   const std::string out = text_parameter(node, "test/out");
   setup.out = (base / (out.empty() ? fs::path("out") / setup.method.name : fs::path(out))).lexically_normal().string();
   return setup;
+}
+
+}  // namespace
+
+TestSetup read_test_setup(const ros::NodeHandle& node) {
+  try {
+    return read_parameters(node);
+  } catch (const InvalidInput& invalid) {
+    if (another_says_it(node)) throw SaidByAnother(invalid);
+    throw;
+  }
 }
 
 ros::NodeHandle join_ros(int argc, char** argv, const char* name) {

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -252,6 +253,9 @@ int tell_end(const Test& test, const Results& results, double wall_time, bool qu
   }
   if (program.ended_by() == EndedBy::kUntangled)
     std::fprintf(stderr, "%s: the knot came undone: %s\n", kTool, what_keeps_a_knot(test.method).c_str());
+  else if (results.untangled_at)
+    std::fprintf(stderr, "%s: the knot came undone at %.1f s, while it was pulled: %s\n", kTool, *results.untangled_at,
+                 what_keeps_a_knot(test.method).c_str());
   return program.failed() ? kFailed : kDone;
 }
 
@@ -379,6 +383,8 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   }
   arguments.method = arguments.resume + "/method.yaml";
   arguments.out = arguments.resume;
+  // What stands there is of the interrupted test, and is made anew of the whole one.
+  arguments.report |= std::filesystem::exists(arguments.resume + "/report.html");
   return std::nullopt;
 }
 

@@ -63,11 +63,11 @@ TEST(KnotAdvice, NamesKeysThatHaveAnEffect) {
   method.specimen.to_be_tied = true;
   EXPECT_EQ(what_keeps_a_knot(method),
             "a higher specimen.preload (now 20 N; auto is 50 N) or a higher material.friction_coefficient (now 0.3) "
-            "would keep it");
+            "may keep it");
   method.specimen.preload = 60.0;
   EXPECT_THAT(what_keeps_a_knot(method), HasSubstr("(now 60 N)"));
   method.specimen.to_be_tied = false;
-  EXPECT_EQ(what_keeps_a_knot(method), "a higher material.friction_coefficient (now 0.3) would keep it");
+  EXPECT_EQ(what_keeps_a_knot(method), "a higher material.friction_coefficient (now 0.3) may keep it");
   method.specimen.knot = KnotKind::kOverhand;
   EXPECT_THAT(what_keeps_a_knot(method), HasSubstr("a larger specimen.end_to_end"));
 }

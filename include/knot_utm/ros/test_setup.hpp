@@ -26,7 +26,13 @@ struct TestSetup {
   std::string data;  ///< absolute; empty: none
 };
 
-/// Throws InvalidInput.
+/// Wrong input of which another node of the same launch says the line: the cause of a failure stands there once.
+struct SaidByAnother : InvalidInput {
+  explicit SaidByAnother(const InvalidInput& invalid) : InvalidInput(invalid) {}
+};
+
+/// Throws InvalidInput; in every node but utm_node, which reads the same, SaidByAnother where that one is launched,
+/// too.
 TestSetup read_test_setup(const ros::NodeHandle& node);
 
 /// A parameter where it is set; else `value` stays. Throws InvalidInput where it is not what `allowed` says.
@@ -64,6 +70,8 @@ int run_node(int argc, char** argv, const char* name, Body body) {
   int code = 0;
   try {
     code = body();
+  } catch (const SaidByAnother&) {
+    code = 2;
   } catch (const InvalidInput& error) {
     code = report_failure(name, error.what(), 2);
   } catch (const std::exception& error) {
