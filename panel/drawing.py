@@ -6,6 +6,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+UNPULLED = 0.01, 1.0  # ends of the axes before anything is pulled [m, N]
 WIDTH, HEIGHT, DPI = 430, 786, 100  # of the picture [px, px, px/in]
 BACKGROUND, FAINT, NAME, VALUE = '#26282e', '#4a4d55', '#a9adb7', '#f4f4f6'
 OURS, MEASURED = '#ffc531', '#59d5f2'
@@ -14,11 +15,11 @@ TOP, ROW = 0.972, 0.0365  # of the table, in heights of the picture
 LEFT, RIGHT, UNIT = 0.05, 0.84, 0.865  # where names begin, values end and units begin, in widths of the picture
 
 
-def limit(value):
+def limit(value, of_nothing=1.0):
     """1, 1.5, 2, 3, 5 or 7 times a power of ten, a twentieth beyond the value at least: an axis then seldom changes."""
     value = 1.05 * value
     if not value > 0.0:
-        return 1.0
+        return of_nothing
     power = 10.0 ** math.floor(math.log10(value))
     return next(digit * power for digit in (1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0) if value <= digit * power * (1 + 1e-9))
 
@@ -93,7 +94,8 @@ class Drawing:
 
     def _draw_background(self, points, compared, bar):
         low, high = points.min(axis=0, initial=0.0), points.max(axis=0, initial=0.0)
-        limits = [(-limit(-low[i]) if low[i] < -1e-3 * high[i] else 0.0, limit(high[i])) for i in (0, 1)]
+        limits = [(-limit(-low[i]) if low[i] < -1e-3 * high[i] else 0.0, limit(high[i], UNPULLED[i]))
+                  for i in (0, 1)]
         keep = (limits, compared, bar)
         if keep == self._kept:
             return

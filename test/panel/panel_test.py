@@ -134,6 +134,14 @@ class DrawingTest(unittest.TestCase):
         self.assertLess(rows.max(), HEIGHT // 2)  # in the table only
         self.assertTrue((drawing.draw(readings) == after).all())
 
+    def test_axes_before_the_pull_do_not_end_at_a_metre(self):
+        drawing = Drawing()
+        readings = Readings()
+        readings.bar = color_bar()
+        drawing.draw(pull(readings, [0.0, 0.3], step=0.0, phase='tie'))
+        self.assertIn('10', [text.get_text() for text in drawing.texts()])
+        self.assert_legible(drawing)
+
     def test_axes_end_at_round_numbers_beyond_the_curve(self):
         for value in (1e-5, 0.19, 0.99, 4.2, 95.3, 6352.0):
             self.assertLess(value, limit(value))

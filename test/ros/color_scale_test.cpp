@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace knot_utm {
@@ -39,6 +40,19 @@ TEST(ColorScale, TellsDecadesApart) {
   EXPECT_NEAR(scale.place(500.0) - scale.place(50.0), 0.25, 0.01);
   EXPECT_GT(scale.place(2.0), 0.15);
   EXPECT_DOUBLE_EQ(scale.place(1e6), 1.0);
+}
+
+/// Of a polypropylene rope that slides under 2 N and ends at 5000 N.
+TEST(ColorScale, ShowsSlidingAsNeitherZeroNorLocked) {
+  const ColorScale scale = ColorScale::of_tension(rope(5000.0), LoadCellOptions());
+  const auto saturation = [&scale](double tension) {
+    const auto c = scale.color(tension);
+    return std::max({c.r, c.g, c.b}) - std::min({c.r, c.g, c.b});
+  };
+  EXPECT_NEAR(saturation(0.0), 0.0, 1e-6);
+  EXPECT_GT(saturation(2.0), 0.3);
+  EXPECT_GT(scale.color(2.0).g, scale.color(2.0).r);  // green
+  EXPECT_GT(scale.color(500.0).r, scale.color(500.0).g);
 }
 
 TEST(ColorScale, BarHasTheColoursOfItsTicks) {

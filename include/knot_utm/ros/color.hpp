@@ -13,11 +13,24 @@ inline std_msgs::ColorRGBA color(double red, double green, double blue) {
   return c;
 }
 
-/// Of a place on a scale from -1 to 1: blue below zero, light grey at zero, yellow to red above.
+/// On the straight way from one colour to another.
+inline std_msgs::ColorRGBA mixed(const std_msgs::ColorRGBA& from, const std_msgs::ColorRGBA& to, double share) {
+  const auto mix = [share](float a, float b) {
+    return (1.0 - share) * static_cast<double>(a) + share * static_cast<double>(b);
+  };
+  return color(mix(from.r, to.r), mix(from.g, to.g), mix(from.b, to.b));
+}
+
+/// Of a place on a scale from -1 to 1: blue below zero, light grey at zero, green, yellow and red above.
 inline std_msgs::ColorRGBA tension_color(double place) {
-  if (place < 0.0) return color(0.85 + 0.7 * place, 0.85 + 0.5 * place, 0.85 - 0.1 * place);
-  if (place < 0.5) return color(0.85 + 0.3 * place, 0.85 - 0.1 * place, 0.85 - 1.5 * place);
-  return color(1.0 - 0.3 * (place - 0.5), 0.8 - 1.5 * (place - 0.5), 0.1);
+  const std_msgs::ColorRGBA grey = color(0.85, 0.85, 0.85), yellow = color(1.0, 0.8, 0.1);
+  // Where ropes slide that lock at a thousand times the force: it must look like neither zero nor locking.
+  constexpr double kGreen = 0.2, kYellow = 0.5;
+  const std_msgs::ColorRGBA green = color(0.45, 0.8, 0.35);
+  if (place < 0.0) return mixed(grey, color(0.15, 0.35, 0.95), -place);
+  if (place < kGreen) return mixed(grey, green, place / kGreen);
+  if (place < kYellow) return mixed(green, yellow, (place - kGreen) / (kYellow - kGreen));
+  return mixed(yellow, color(0.85, 0.05, 0.1), (place - kYellow) / (1.0 - kYellow));
 }
 
 }  // namespace knot_utm
