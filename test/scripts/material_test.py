@@ -147,6 +147,7 @@ class Material(unittest.TestCase):
     def test_what_is_wrong_is_named(self):
         good = Rod(1, 2e-4, False).measured
         for change, named in (({"capstan": None}, "capstan"), ({"diameter": 0.005}, "diameter"),
+                              ({"diameter": [5, 0.1]}, "is it in metres?"),
                               ({"loops": {}}, "loops"), ({"cantilever": {"overhang": [0.1, 1e-3], "drop": [0.099, 1e-3]}}, "drop")):
             done = self.run_script({**good, **change})
             self.assertEqual(done.returncode, 2, done.stderr)
