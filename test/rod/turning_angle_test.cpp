@@ -18,7 +18,7 @@ double squared(double angle) {
 
 TEST(SquaredAngle, IsThatOfTheAngleWhereEdgesResolveTheBend) {
   const std::pair<double, double> bounds[] = {
-      {0.5, 4e-15}, {0.8, 4e-11}, {1.0, 3e-9}, {0.5 * M_PI, 1.1e-5}, {2.0, 7e-4}};
+      {0.1, 1e-15}, {0.5, 8e-10}, {1.0, 3e-6}, {0.5 * M_PI, 5.1e-4}, {2.0, 9e-3}};
   for (const auto& [angle, relative] : bounds)
     EXPECT_NEAR(squared(angle), angle * angle, relative * angle * angle) << "at " << angle << " rad";
 }
@@ -41,7 +41,7 @@ TEST(SquaredAngle, HoldsAgainstFolding) {
   }
   for (const double short_of_a_fold : {1e-2, 1e-3, 1e-4}) {
     const double pole = std::cos(0.5 * (M_PI - short_of_a_fold));  // sqrt(1 - w)
-    EXPECT_NEAR(squared(M_PI - short_of_a_fold) * pole * pole, kTurningSeries.last, 0.02);
+    EXPECT_NEAR(squared(M_PI - short_of_a_fold) * pole * pole, kTurningSeries.last, 0.03);
   }
 }
 

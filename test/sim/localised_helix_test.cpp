@@ -16,6 +16,9 @@ constexpr double kTwistingStiffness = 1.0;
 ///
 ///     sin^2(theta/2) = (1 - m^2/4) sech^2(sqrt(1 - m^2/4) s sqrt(T/B)).
 ///
+/// Ends that are held in place and turn bear the helix down to m^2 = 2 - 4 sqrt(1 - m^2/4)/(L sqrt(T/B)), which is m
+/// = 1.38 here: below, it springs into a loop. So near to that the length of the edges decides what happens at m = 1.4.
+///
 /// The ends are brought to the shortening and the turn of T = 1 and m, along a way on which the rod is a bow under
 /// compression at first; T and M are what the clamps then feel.
 struct LocalisedHelix {
@@ -80,7 +83,7 @@ TEST_P(R6_LocalisedHelix, ShapeAndEndShorteningUnderTensionAndMoment) {
                helix.moment * kLength / kTwistingStiffness + 4.0 * std::acos(0.5 * helix.m()), helix.rod.turn, 0.01);
 }
 
-INSTANTIATE_TEST_SUITE_P(Moments, R6_LocalisedHelix, testing::Values(1.4, 1.6, 1.8),
+INSTANTIATE_TEST_SUITE_P(Moments, R6_LocalisedHelix, testing::Values(1.5, 1.6, 1.8),
                          [](const auto& m) { return "m" + std::to_string(std::lround(10.0 * m.param)); });
 
 }  // namespace

@@ -15,9 +15,10 @@ namespace knot_utm {
 ///   phi^2 = 4 asin^2(sqrt(w)) = sum_{n>=1} a_n w^n,   a_1 = 4,   a_{n+1}/a_n = 2 n^2/((n + 1) (2 n + 1))
 ///
 /// From term N on, all coefficients are taken as large as a_N, so that the rest of the series is a_N w^N/(1 - w). This
-/// squared angle g needs neither root nor arc function and is smooth everywhere. It is phi^2 to 3e-11 of it at
-/// 0.8 rad, to 1e-5 at a right angle and to 7e-4 at 2 rad. Beyond that no edge resolves a bend, and g grows
-/// without bound towards phi = pi, where phi^2 itself would let a rod under tension fold back on itself.
+/// squared angle g needs neither root nor arc function and is smooth everywhere. It is phi^2 to 8e-10 of it at
+/// 0.5 rad, to 3e-6 at 1 rad and to 5e-4 at a right angle. Beyond that no edge resolves a bend, and g grows without
+/// bound towards phi = pi, where phi^2 itself would let a rod under tension fold back on itself. With more terms g
+/// follows phi^2 further and then rises so steeply that Newton's method no longer comes out of a fold.
 /// Source: y = asin(x)^2 solves (1 - x^2) y'' - x y' = 2, which gives the series; its end our own.
 ///
 /// Given here is G = g/w, of a number or of four (lanes.hpp), with which g = w G keeps its digits where the rod is
@@ -27,7 +28,7 @@ struct SquaredAngleOverW {
   Real value, first, second;  ///< G, dG/dw, d2G/dw2 [-]
 };
 
-inline constexpr int kTurningTerms = 10;  // N
+inline constexpr int kTurningTerms = 6;  // N
 
 /// a_N, and a_n - a_N for n = 1 ... N-1: since w^N/(1-w) = 1/(1-w) - 1 - w - ... - w^(N-1),
 /// G = a_N/(1-w) + sum_{n<N} (a_n - a_N) w^(n-1).
