@@ -10,6 +10,10 @@ namespace knot_utm {
 namespace {
 
 constexpr double kSlack = 0.6;  // by which the rollers stand closer than taut, until mounting [h]
+// Of the crosshead's way, while a loop that was drawn narrower than the rollers is put over pins that widen to them: of
+// what the loop's far side gives way.
+constexpr double kWayOfPuttingOn = 0.1;
+constexpr double kClearance = 1.5;  // of a pin in the loop that is put over it [h]
 
 }  // namespace
 
@@ -22,7 +26,10 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
     roller.radius = 0.5 * machine.roller_diameter;
     roller.centre = Vec3::Zero();
     rollers_.push_back(roller);
-    roller.centre = Vec3(0.0, 0.0, specimen.end_to_end - kSlack * radius);
+    narrower_ = roller.radius + radius - centreline.loop.radius;
+    clearance_ = kClearance * radius;
+    way_on_ = 2.0 * kWayOfPuttingOn * (narrower_ + clearance_);
+    roller.centre = Vec3(0.0, 0.0, specimen.end_to_end - kSlack * radius - way_on_);
     rollers_.push_back(roller);
     return;
   }
@@ -65,13 +72,28 @@ bool Grips::hold(double displacement, const Vec3& point, double radius) const {
 
 void Grips::set(double displacement, Boundary& boundary) const {
   boundary.rollers = rollers_;
-  if (on_rollers()) boundary.rollers[1].centre[2] += displacement;
+  if (on_rollers()) {
+    boundary.rollers[1].centre[2] += displacement;
+    if (displacement < way_on_) widen(1.0 - displacement / way_on_, boundary.rollers);
+  }
   boundary.fixed_twists = held_frames_;
   boundary.fixed_nodes = lower_nodes_;
   for (FixedNode node : upper_nodes_) {
     node.position[2] += displacement;
     boundary.fixed_nodes.push_back(node);
   }
+}
+
+/// The near side stays where it is: a pin is narrower by a share of what the loop was drawn, set off to that side, and
+/// further out by as much as keeps the loop's length.
+void Grips::widen(double left, std::vector<Roller>& rollers) const {
+  const double narrower = std::min(left, 1.0) * narrower_, further = 0.5 * M_PI * narrower;
+  for (Roller& roller : rollers) {
+    roller.radius -= narrower + std::min(left, 1.0) * clearance_;
+    roller.centre[0] += narrower;
+  }
+  rollers[0].centre[2] -= further;
+  rollers[1].centre[2] += further;
 }
 
 Vec3 Grips::lower() const { return on_rollers() ? rollers_[0].centre : lower_nodes_.front().position; }

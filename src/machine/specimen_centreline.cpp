@@ -7,6 +7,7 @@
 #include "knot_utm/specimen/centreline_file.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/overhand.hpp"
+#include "knot_utm/specimen/tying_rig.hpp"
 
 namespace knot_utm {
 
@@ -57,6 +58,7 @@ Centreline specimen_centreline(const SpecimenOptions& specimen, const Material& 
       FishermanShape shape;
       shape.radius = material.radius;
       shape.knot_distance = specimen.knot_distance;
+      shape.straight = specimen.to_be_tied ? TyingRig::straight_strand(material.radius) : 0.0;
       shape.outward_shift = specimen.to_be_tied ? outward_shift(specimen, material) : 0.0;
       shape.end_to_end = specimen.end_to_end;
       shape.roller_radius = 0.5 * machine.roller_diameter;

@@ -151,8 +151,15 @@ struct TestBench::Impl {
                      ? travel
                      : frame.grip_after(grip, travel, grips.force_upper(*stepper), held_length(from, to), to - from);
     grips.set(grip_tried, boundary);
+    if (rig && rig->off_rollers()) boundary.rollers.clear();
+    if (rig)
+      for (Roller& roller : boundary.rollers) {
+        roller.first_node = rig->loop_begin();
+        roller.last_node = rig->loop_end();
+      }
     boundary.forces.clear();
     boundary.grips.clear();
+    boundary.holds.clear();
     boundary.extra_drag = settling_drag(to);
     if (rig && rig->stage() != TyingRig::Stage::kIdle) rig->hold(boundary, from, to);
     return boundary;
@@ -187,6 +194,10 @@ struct TestBench::Impl {
       rig->release(command.duration, time);
     } else if (rig->tied()) {
       rig->let_go(*stepper, time);
+    } else if (rig->released() && phase != Phase::kHold) {
+      rig->put_on(*stepper, time);
+    } else if (rig->guides()) {
+      rig->take_guides_off(*stepper, time);
     }
     if (phase == Phase::kMount) begin_mounting();
   }
@@ -198,7 +209,8 @@ struct TestBench::Impl {
 
   bool slack_taken_up() const {
     const double load = std::min(grips.force_upper(*stepper), grips.force_lower(*stepper));
-    return load - mount_load >= kTakeUpLoad * material.bending_stiffness / (material.radius * material.radius) ||
+    static const double f = getenv("XF") ? atof(getenv("XF")) : kTakeUpLoad;
+    return load - mount_load >= f * material.bending_stiffness / (material.radius * material.radius) ||
            (rig && std::abs(knot_distance() - mount_distance) > kTakeUpMotion * material.radius);
   }
 
@@ -262,7 +274,7 @@ struct TestBench::Impl {
         done = !rig || rig->released();
         break;
       case Phase::kMount:
-        done = !rig || (!rig->lets_go() && slack_taken_up());
+        done = !rig || (rig->guides() && slack_taken_up());
         break;
       default:
         break;
@@ -384,7 +396,7 @@ struct TestBench::Impl {
       extension_zero = grips.end_to_end(grip);
       raw_extension_zero = displacement;
     }
-    const bool let_go = rig && rig->lets_go();
+    const bool put_on = rig && rig->puts_on();
     std::string gave_up = advance(command, {time, displacement}, command.time);
     if (parted()) {
       gave_up = advance(command, {time, displacement}, recoil_end);
@@ -397,11 +409,13 @@ struct TestBench::Impl {
       displacement = command.displacement;
       if (frame.rigid()) grip = displacement;
       // What the knots and the load do while they are let go is not the slack's.
-      if (let_go && !rig->lets_go()) begin_mounting();
+      if (rig && rig->released() && phase != Phase::kRelease && phase != Phase::kHold) rig->put_on(*stepper, time);
+      if (put_on && rig->guides()) begin_mounting();
       judge_phase();
     }
     if (watch && !parted()) watch->follow(stepper->state().position);
     Sample last = read(command, time);
+    if (getenv("XD") && rig) fprintf(stderr, "D %.4f ph %d st %d e %.3f x %.3f %.3f F %.4f N %.3f c %d v %.2e\n", time, (int)phase, (int)rig->stage(), 1e3*last.knot_distance, 1e3*last.excess_length[0], 1e3*last.excess_length[1], last.force_upper, last.normal_force, last.contacts, last.fastest_node);
     if (command.read_cell && status != BenchStatus::kFailed) last.load = cell.read(last.force_upper, time);
     for (const Sample& step : substeps) {
       last.highest_load = std::max(last.highest_load, step.highest_load);

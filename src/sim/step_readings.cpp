@@ -54,6 +54,8 @@ void StepReadings::begin(const SolvedStep& step, const RollerContact& rollers) {
   add_work_of_rollers(step, rollers);
   for (const SlippingGrip& grip : step.boundary.grips)
     work_.boundary += grip.force(step.end.col(grip.node)) * grip.direction.dot(step.way.col(grip.node));
+  for (const SpringHold& hold : step.boundary.holds)
+    work_.boundary += hold.force(step.end.col(hold.node)).dot(step.way.col(hold.node));
   for (const NodeForce& force : step.boundary.forces) work_.boundary += force.force.dot(step.way.col(force.node));
   add_motion(step);
   work_.reweighting = before_.contact;

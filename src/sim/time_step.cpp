@@ -358,6 +358,7 @@ class ImplicitStep final : public TimeStep {
   void add_grips_and_forces() {
     for (const SlippingGrip& grip : boundary_->grips)
       force_[at(grip.node)] += to_lanes(grip.force(x_.col(grip.node)) * grip.direction);
+    for (const SpringHold& hold : boundary_->holds) force_[at(hold.node)] += to_lanes(hold.force(x_.col(hold.node)));
     for (const NodeForce& force : boundary_->forces) force_[at(force.node)] += to_lanes(force.force);
   }
 
@@ -367,6 +368,7 @@ class ImplicitStep final : public TimeStep {
       if (force <= 0.0 || grip.slips(x_.col(grip.node))) continue;
       add(matrix_.band(grip.node, 0, 0), grip.direction * grip.direction.transpose(), grip.stiffness);
     }
+    for (const SpringHold& hold : boundary_->holds) add(matrix_.band(hold.node, 0, 0), hold.stiffness, 1.0);
   }
 
   double ease(int node, double tolerance) const { return rule_.ease(centreline_.largest_tension_at(node), tolerance); }

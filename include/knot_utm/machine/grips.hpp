@@ -44,6 +44,11 @@ class Grips {
   double moment_imbalance(double displacement, const TimeStep& step) const;
 
  private:
+  void widen(double left, std::vector<Roller>& rollers) const;
+
+  double narrower_ = 0.0;  // than the rollers, by which the loop was drawn [m]
+  double clearance_ = 0.0;  // of the narrower pins in the loop [m]
+  double way_on_ = 0.0;    // of the crosshead until it lies on them [m]
   std::vector<FixedNode> lower_nodes_, upper_nodes_;
   std::vector<FixedTwist> held_frames_;
   std::vector<Roller> rollers_;  // lower, upper

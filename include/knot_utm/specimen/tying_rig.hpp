@@ -43,7 +43,11 @@ class TyingRig {
     kClampsRamp,
     kClampsRest,
     kReleased,
-    kLettingGo
+    kLettingGo,
+    kPuttingOn,
+    kGuided,
+    kGuidesRamp,
+    kFree
   };
 
   TyingRig(const Centreline& centreline, const RodProperties& rod, const Options& options);
@@ -51,6 +55,11 @@ class TyingRig {
   void tie(double speed, double time, const Points& position);
   void release(double duration, double time);
   void let_go(const TimeStep& stepper, double time);
+  void put_on(const TimeStep& stepper, double time);
+  void take_guides_off(const TimeStep& stepper, double time);
+
+  /// Beyond the middle of a drawn coil, that its clamps stand clear of all bends [m].
+  static double straight_strand(double radius);
 
   /// Adds its clamps and grips, as they stand at `to`, to the boundary of a step.
   void hold(Boundary& boundary, double from, double to) const;
@@ -62,10 +71,18 @@ class TyingRig {
   bool tied() const { return stage_ == Stage::kTied; }
   bool released() const { return stage_ == Stage::kReleased; }
   bool lets_go() const { return stage_ == Stage::kLettingGo; }
+  bool puts_on() const { return stage_ == Stage::kPuttingOn; }
+  bool guides() const { return stage_ == Stage::kGuided; }
+  /// The loop hangs free of the rollers.
+  bool off_rollers() const { return stage_ != Stage::kIdle && stage_ < Stage::kPuttingOn; }
   /// Empty, or what had not come to rest when it went on.
   const std::string& not_equilibrated() const { return not_equilibrated_; }
   /// Empty, or why the knots cannot be tied.
   const std::string& not_tied() const { return not_tied_; }
+
+  /// Nodes between the tails, once the loop is put on.
+  int loop_begin() const { return loop_begin_; }
+  int loop_end() const { return loop_end_; }
 
   /// Node in the standing part of each knot, in the order of the centreline's knots.
   std::vector<int> standing_nodes() const;
@@ -85,6 +102,7 @@ class TyingRig {
     int node;
     Vec3 position;
     Vec3 reaction;
+    bool guides;  // the strand along which the knot slides, once it is released
   };
   struct Knot {
     Vec3 outwards;
@@ -92,6 +110,10 @@ class TyingRig {
     int standing_node;
   };
   void attach_grips();
+  /// The outermost node of a knot from which its tail runs on.
+  int tail_begin(int knot, const TimeStep& stepper) const;
+  SpringHold guide(const Clamp& clamp) const;
+  void hold_knots(Boundary& boundary, double ramp) const;
   void enter(Stage stage, double time);
   /// At rest, or no longer waited for since `begin`.
   bool waited_for_rest(const TimeStep& stepper, double time, double begin, const char* since);
@@ -102,6 +124,8 @@ class TyingRig {
   double settling_drag_;  // [N s/m^2]
   std::vector<Knot> knots_;
   std::vector<Clamp> clamps_;
+  std::vector<Clamp> far_side_;
+  int loop_begin_ = 0, loop_end_ = 0;
   std::vector<SlippingGrip> grips_;
   std::vector<double> tail_force_;
   std::vector<double> ramp_from_;
