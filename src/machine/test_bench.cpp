@@ -86,7 +86,7 @@ struct TestBench::Impl {
         machine(machine_),
         physics(physics_),
         centreline(specimen_centreline(specimen_, material_, machine_, physics_)),
-        grips(specimen_, machine_, centreline, material_.radius),
+        grips(specimen_, machine_, centreline, material_),
         frame(machine_.stiffness, material_, specimen_.knot == KnotKind::kFisherman ? 2 : 1,
               grips.length_around(material_.radius)),
         cell(machine_.load_cell) {
@@ -150,8 +150,11 @@ struct TestBench::Impl {
     grip_tried = frame.rigid()
                      ? travel
                      : frame.grip_after(grip, travel, grips.force_upper(*stepper), held_length(from, to), to - from);
-    grips.set(grip_tried, boundary);
-    if (rig && rig->off_rollers()) boundary.rollers.clear();
+    grips.set(grip_tried, rig ? rig->left_to_put_on(to) : 0.0, boundary);
+    if (rig && rig->off_rollers()) {
+      boundary.rollers.clear();
+      boundary.holds.clear();
+    }
     if (rig)
       for (Roller& roller : boundary.rollers) {
         roller.first_node = rig->loop_begin();
@@ -159,7 +162,6 @@ struct TestBench::Impl {
       }
     boundary.forces.clear();
     boundary.grips.clear();
-    boundary.holds.clear();
     boundary.extra_drag = settling_drag(to);
     if (rig && rig->stage() != TyingRig::Stage::kIdle) rig->hold(boundary, from, to);
     return boundary;
@@ -195,11 +197,23 @@ struct TestBench::Impl {
     } else if (rig->tied()) {
       rig->let_go(*stepper, time);
     } else if (rig->released() && phase != Phase::kHold) {
-      rig->put_on(*stepper, time);
-    } else if (rig->guides()) {
-      rig->take_guides_off(*stepper, time);
+      put_on();
+    } else if (rig->guides() && phase != Phase::kMount) {
+      let_loop_go();
     }
     if (phase == Phase::kMount) begin_mounting();
+  }
+
+  void put_on() {
+    rig->put_on(*stepper, time);
+    grips.put_on(stepper->state().position.middleCols(rig->loop_begin(), rig->loop_end() - rig->loop_begin() + 1), grip,
+                 material.radius);
+  }
+
+  /// Guides off: the loop is on the rollers alone.
+  void let_loop_go() {
+    rig->take_guides_off(*stepper, time);
+    grips.hold_far_side(stepper->state().position, grip);
   }
 
   void begin_mounting() {
@@ -209,8 +223,7 @@ struct TestBench::Impl {
 
   bool slack_taken_up() const {
     const double load = std::min(grips.force_upper(*stepper), grips.force_lower(*stepper));
-    static const double f = getenv("XF") ? atof(getenv("XF")) : kTakeUpLoad;
-    return load - mount_load >= f * material.bending_stiffness / (material.radius * material.radius) ||
+    return load - mount_load >= kTakeUpLoad * material.bending_stiffness / (material.radius * material.radius) ||
            (rig && std::abs(knot_distance() - mount_distance) > kTakeUpMotion * material.radius);
   }
 
@@ -339,7 +352,7 @@ struct TestBench::Impl {
   }
 
   void state(Archive& archive) {
-    archive.section("BNCG");  // "BNCH" had no grip beside the crosshead
+    archive.section("BNCI");  // "BNCG" was tied on the rollers
     int parted_edge = stepper->parted_edge();
     archive.number("parted edge", parted_edge, -1, static_cast<int>(stepper->rod().edges()) - 1);
     if (archive.loads() && parted_edge >= 0) stepper->part(parted_edge);
@@ -351,7 +364,7 @@ struct TestBench::Impl {
     archive.choice("status", status, BenchStatus::kFailed);
     archive.require(parted() == (status == BenchStatus::kBroken), "status of a rod that parted",
                     break_place_name(break_place));
-    archive(control, cell, *stepper);
+    archive(control, cell, *stepper, grips);
     bool ties = rig.has_value(), watches = watch.has_value();
     archive.same("tying rig", ties ? 1 : 0);
     archive.same("knot", watches ? 1 : 0);
@@ -396,7 +409,7 @@ struct TestBench::Impl {
       extension_zero = grips.end_to_end(grip);
       raw_extension_zero = displacement;
     }
-    const bool put_on = rig && rig->puts_on();
+    const bool puts_on = rig && rig->puts_on();
     std::string gave_up = advance(command, {time, displacement}, command.time);
     if (parted()) {
       gave_up = advance(command, {time, displacement}, recoil_end);
@@ -409,13 +422,13 @@ struct TestBench::Impl {
       displacement = command.displacement;
       if (frame.rigid()) grip = displacement;
       // What the knots and the load do while they are let go is not the slack's.
-      if (rig && rig->released() && phase != Phase::kRelease && phase != Phase::kHold) rig->put_on(*stepper, time);
-      if (put_on && rig->guides()) begin_mounting();
+      if (rig && rig->released() && phase != Phase::kRelease && phase != Phase::kHold) put_on();
+      if (puts_on && rig->guides()) begin_mounting();
+      if (rig && rig->guides() && phase != Phase::kMount) let_loop_go();
       judge_phase();
     }
     if (watch && !parted()) watch->follow(stepper->state().position);
     Sample last = read(command, time);
-    if (getenv("XD") && rig) fprintf(stderr, "D %.4f ph %d st %d e %.3f x %.3f %.3f F %.4f N %.3f c %d v %.2e\n", time, (int)phase, (int)rig->stage(), 1e3*last.knot_distance, 1e3*last.excess_length[0], 1e3*last.excess_length[1], last.force_upper, last.normal_force, last.contacts, last.fastest_node);
     if (command.read_cell && status != BenchStatus::kFailed) last.load = cell.read(last.force_upper, time);
     for (const Sample& step : substeps) {
       last.highest_load = std::max(last.highest_load, step.highest_load);

@@ -113,7 +113,8 @@ Centreline fisherman_loop(const FishermanShape& shape) {
                            " m for this rod and these rollers");
   }
 
-  // Both ends of the near side are drawn further out where the straight strands ask for it, and the half circles narrower.
+  // Both ends of the near side are drawn further out where the straight strands ask for it, and the half circles
+  // narrower.
   const double narrowest = std::min(rolled, 0.5 * (coil.radius + 2.5 * h));
   const double wanted = std::max(shape.end_to_end, 2.0 * (c + shape.straight));
   const double drawn = std::min(wanted, shape.end_to_end + M_PI * (rolled - narrowest));

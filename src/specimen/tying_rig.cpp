@@ -10,15 +10,25 @@ namespace knot_utm {
 
 namespace {
 
-// Places of the clamps, in rod radii. A knot that runs over its clamp reads wrong: they stand clear of where it ends.
-constexpr double kStandingFromKnot = 8.0;  // inwards from the middle of the loose knot
-// The settling drag relaxes waves of this many radii in about a tenth of the settling time.
+// Places of the clamps, in rod radii from the middle of the loose coil. A knot that runs over its clamp reads wrong:
+// they stand clear of where it ends. They are the same for every loop, so that neither e nor L enters what is tied.
+constexpr double kStandingFromKnot = 8.0;     // inwards
+constexpr double kThreadedBeyondKnot = 18.0;  // outwards: the knot ends 8 further out
+constexpr double kStraightBeyondClamp = 3.0;
+constexpr int kGuideNodes = 3;     // on the strand from there outwards: they guide its direction, too
+constexpr double kHalfKnot = 4.0;  // a tight knot reaches no further out from its middle [h]
+
+// The settling drag relaxes waves of so many radii in about a tenth of the settling time; so does the drag of the time
+// while the loop is put on, in which it moves as a whole.
 constexpr double kSettlingTime = 0.3;  // [s]
 constexpr double kSettlingWave = 17.0;
-constexpr double kLetGoTime = 1.0 / 3.0;      // [s]
-constexpr double kThreadedBeyondKnot = 18.0;  // beyond the middle of the loose knot: it ends 8 further out
-constexpr double kStraightBeyondClamp = 3.0;
-constexpr double kHalfKnot = 4.0;  // a tight one reaches no further out than this
+constexpr double kPuttingOnWave = 73.0;
+constexpr double kLetGoTime = 1.0 / 3.0;  // [s]
+
+/// Relaxes waves of a length in about a tenth of the settling time [N s/m^2].
+double drag_for(double wave, double bending_stiffness) {
+  return 0.1 * kSettlingTime * bending_stiffness * std::pow(2.0 * M_PI / wave, 4);
+}
 
 double fastest_node(const TimeStep& stepper) {
   return std::sqrt(stepper.state().velocity.colwise().squaredNorm().maxCoeff());
@@ -32,7 +42,8 @@ TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const
   const int nodes = static_cast<int>(rod.nodes());
   const Points& x = centreline.points;
   const std::size_t count = centreline.knots.size();
-  settling_drag_ = 0.1 * kSettlingTime * rod.material.bending_stiffness * std::pow(2.0 * M_PI / (kSettlingWave * h), 4);
+  settling_drag_ = drag_for(kSettlingWave * h, rod.material.bending_stiffness);
+  putting_on_drag_ = drag_for(kPuttingOnWave * h, rod.material.bending_stiffness);
   double middle = 0.0;
   for (const KnotLandmarks& knot : centreline.knots)
     middle += x(2, centreline.nearest_node(knot.coil_middle)) / static_cast<double>(count);
@@ -54,12 +65,12 @@ TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const
     int threaded = centreline.nearest_node(marks.threaded);
     const double knot_z = x(2, threaded);
     while (up * (x(2, threaded) - knot_z) < kThreadedBeyondKnot * h) threaded -= inward;
-    clamps_.push_back({threaded, x.col(threaded), Vec3::Zero(), true});
-    for (int k = 1; k <= 2; ++k) clamps_.push_back({threaded - k * inward, x.col(threaded - k * inward), Vec3::Zero(), true});
+    for (int k = 0; k < kGuideNodes; ++k, threaded -= inward)
+      clamps_.push_back({threaded, x.col(threaded), Vec3::Zero(), true});
     knots_.push_back(knot);
   }
-  for (int i = centreline.nearest_node(centreline.loop.far_begin); i <= centreline.nearest_node(centreline.loop.far_end);
-       ++i)
+  for (int i = centreline.nearest_node(centreline.loop.far_begin);
+       i <= centreline.nearest_node(centreline.loop.far_end); ++i)
     far_side_.push_back({i, x.col(i), Vec3::Zero(), false});
   loop_end_ = nodes - 1;
   tail_force_.assign(count, 0.0);
@@ -117,6 +128,10 @@ void TyingRig::put_on(const TimeStep& stepper, double time) {
   enter(Stage::kPuttingOn, time);
 }
 
+double TyingRig::left_to_put_on(double time) const {
+  return stage_ == Stage::kPuttingOn ? std::clamp(1.0 - (time - stage_begin_) / ramp_time_, 0.0, 1.0) : 0.0;
+}
+
 void TyingRig::take_guides_off(const TimeStep& stepper, double time) {
   ramp_time_ = kLetGoTime;
   for (Clamp& clamp : clamps_)
@@ -157,6 +172,7 @@ void TyingRig::hold(Boundary& boundary, double from, double to) const {
     const double left = std::clamp(1.0 - (to - stage_begin_) / kSettlingTime, 0.0, 1.0);
     boundary.extra_drag = settling_drag_ * left * left;
   }
+  if (stage_ == Stage::kPuttingOn || stage_ == Stage::kGuided) boundary.extra_drag = putting_on_drag_;
   if (stage_ == Stage::kSettling || stage_ == Stage::kPulling || stage_ == Stage::kTied) {
     for (SlippingGrip grip : grips_) {
       if (stage_ == Stage::kPulling) grip.place += speed_ * (to - from);
@@ -174,7 +190,8 @@ void TyingRig::hold_knots(Boundary& boundary, double ramp) const {
     if (stage_ < Stage::kClampsRamp)
       boundary.fixed_nodes.push_back({clamp.node, clamp.position});
     else if (ramps)
-      boundary.forces.push_back({clamp.node, ramp * (clamp.guides ? clamp.reaction.z() * Vec3::UnitZ() : clamp.reaction)});
+      boundary.forces.push_back(
+          {clamp.node, ramp * (clamp.guides ? clamp.reaction.z() * Vec3::UnitZ() : clamp.reaction)});
     if (!clamp.guides || stage_ < Stage::kClampsRamp) continue;
     if (stage_ == Stage::kGuidesRamp)
       boundary.forces.push_back({clamp.node, ramp * clamp.reaction});

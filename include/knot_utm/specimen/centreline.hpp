@@ -16,12 +16,13 @@ struct KnotLandmarks {
   double threaded;        ///< the other strand, where it passes the middle of the coil
 };
 
-/// The loop as it is drawn and tied: two straight sides and two half circles, all of it as long as on the rollers. Where
-/// the knots need longer straight strands than rollers at their places would leave, the half circles are narrower.
+/// The loop as it is drawn and tied: two straight sides and two half circles, all of it as long as on the rollers.
+/// Where the knots need longer straight strands than rollers at their places would leave, the half circles are
+/// narrower.
 struct DrawnLoop {
-  double end_to_end = 0.0;   ///< distance of the half circles' centres [m]
-  double radius = 0.0;       ///< of the half circles [m]
-  double far_begin = 0.0;    ///< arclengths between which its far side is straight [m]
+  double end_to_end = 0.0;  ///< distance of the half circles' centres [m]
+  double radius = 0.0;      ///< of the half circles [m]
+  double far_begin = 0.0;   ///< arclengths between which its far side is straight [m]
   double far_end = 0.0;
 };
 

@@ -16,12 +16,20 @@ namespace knot_utm {
 /// Before it pulls, the drawn shape settles under a strong drag that fades: its stored energy is an artefact of the
 /// drawing, and would otherwise throw the strands about.
 ///
+/// All this happens off the rollers. The loop is held by the straight part of its far side; its half circles and the
+/// side with the knots are free. The clamps stand at set distances from the knots, on straight strands.
+///
 /// Release: the tails' pull goes to zero linearly, everything comes to rest; then each clamp is replaced by its
-/// reaction, which goes to zero linearly, and everything comes to rest again. What does not come to rest in time, as a
-/// knot that creeps open does, is not kept from going on; `not_equilibrated` says so.
+/// reaction, which goes to zero linearly, and everything comes to rest again. Guides stay on the strands beyond the
+/// knots: these can move along themselves only. What does not come to rest in time, as a knot that creeps open does, is
+/// not kept from going on; `not_equilibrated` says so.
 ///
 /// Letting go, for a knot that is pulled as it was tied: the tails' pull and the clamps' reactions go to zero linearly,
 /// together and within a third of a second, and nothing is waited for.
+///
+/// Putting on: within a third of a second the far side is let go while the rollers take the loop. The tails are laid
+/// beside the rollers. The guides stay until the slack is taken up; a slack strand that bends around a roller would
+/// else work on a knot that is near to it.
 class TyingRig {
  public:
   struct Options {
@@ -80,6 +88,9 @@ class TyingRig {
   /// Empty, or why the knots cannot be tied.
   const std::string& not_tied() const { return not_tied_; }
 
+  /// Share of the time of putting the loop on that is left.
+  double left_to_put_on(double time) const;
+
   /// Nodes between the tails, once the loop is put on.
   int loop_begin() const { return loop_begin_; }
   int loop_end() const { return loop_end_; }
@@ -120,8 +131,9 @@ class TyingRig {
   void judge_pull(double time);
 
   Options options_;
-  double radius_;         // h [m]
-  double settling_drag_;  // [N s/m^2]
+  double radius_;           // h [m]
+  double settling_drag_;    // [N s/m^2]
+  double putting_on_drag_;  // [N s/m^2]
   std::vector<Knot> knots_;
   std::vector<Clamp> clamps_;
   std::vector<Clamp> far_side_;
