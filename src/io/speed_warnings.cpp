@@ -18,6 +18,8 @@ constexpr const char* kTiedFast =
 
 std::string in_per_cent(double share) { return format_number(std::round(1000.0 * share) / 10.0) + " %"; }
 
+std::string about(double share) { return share > 1.0 ? "more than itself" : "about " + in_per_cent(share); }
+
 }  // namespace
 
 std::vector<std::string> speed_warnings(const RateShares& rate, double inertia) {
@@ -30,9 +32,9 @@ std::vector<std::string> speed_warnings(const RateShares& rate, double inertia) 
   if (by_inertia > kFast)
     all.push_back("inertia moves the force by " + in_per_cent(by_inertia) + " until the knots lock: pull more slowly");
   else if (by_own > kFast)
-    all.push_back("the rod's own mass, which physics.inertia leaves out but for " + format_number(inertia) +
-                  " of it, would move the force by about " + in_per_cent(by_own) +
-                  " until the knots lock: a real test at this speed is not slow; pull more slowly");
+    all.push_back("only " + format_number(inertia) +
+                  " of the rod's own mass is accelerated (physics.inertia), and all of it would move the force by " +
+                  about(by_own) + " until the knots lock: a real test at this speed is not slow, so pull more slowly");
   return all;
 }
 

@@ -173,11 +173,11 @@ struct TestBench::Impl {
     return 0.1 * kSettlingTime * material.bending_stiffness * std::pow(wave_number, 4) * left * left;
   }
 
-  /// `auto`: what brings it to rest. In the force of a loop that stays below 1e-4 k_b/h^2; a loose knot between clamps
-  /// pulls with no more than that, so there is none from the first pull on.
+  /// `auto`: what brings it to rest. In the forces of a loop and of a straight rod it stays far below a thousandth. A
+  /// loose knot between clamps pulls with no more than the drag on its length: there is none from the first pull on.
   double drag() const {
-    const bool loop = specimen.knot == KnotKind::kFisherman;
-    return physics.drag.value_or(loop || !pulled ? drag_to_rest(material) : 0.0);
+    const bool drawn_knot = specimen.knot == KnotKind::kOverhand || specimen.knot == KnotKind::kFile;
+    return physics.drag.value_or(pulled && drawn_knot ? 0.0 : drag_to_rest(material));
   }
 
   void enter_step(const Command& command) {
