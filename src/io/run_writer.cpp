@@ -6,10 +6,12 @@
 
 #include "knot_utm/io/number.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/io/speed_warnings.hpp"
 #include "knot_utm/io/verdict.hpp"
 #include "knot_utm/io/yaml_lines.hpp"
 #include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/load_cell.hpp"
+#include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
 namespace {
@@ -22,15 +24,15 @@ std::string begin(const std::string& folder, const Method& method) {
   return folder;
 }
 
-/// Above this a knot has jumped open: its plateau is no longer what its tying made it [m/s].
-constexpr double kJump = 0.1;
+/// Above this a knot has jumped open: its plateau is no longer what its tying made it [radii/s].
+constexpr double kJump = 31.5;
 /// A contact deeper than this is no longer that of the rod it stands for [fraction of radius].
 constexpr double kDeep = 0.05;
 /// Where energies miss the work by more, what Newton's method leaves unbalanced has a part in the forces too: seen
 /// where a loose loop pulls with far less than k_b/h^2, of which `physics.residual` is a share.
 constexpr double kUnbalanced = 0.01;
 
-std::vector<std::string> warnings(const Results& results) {
+std::vector<std::string> warnings(const Results& results, const RunFacts& facts) {
   std::vector<std::string> all;
   if (results.knot_type == KnotType::kCrossed) {
     all.push_back("the rod ran through itself at " + format_number(results.untangled_at.value_or(Sample::kNone)) +
@@ -40,7 +42,7 @@ std::vector<std::string> warnings(const Results& results) {
     all.push_back("the knot came undone at " + format_number(*results.untangled_at) +
                   " s, while it was pulled, so there is no sliding force");
   }
-  if (results.fastest_node > kJump) {
+  if (results.fastest_node > kJump * facts.radius) {
     all.push_back("a node moved at " + format_number(results.fastest_node) +
                   " m/s while pulled: a knot may have jumped open, so quote the peak force");
   }
@@ -102,6 +104,9 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
   known_.errors = reading_errors(method.specimen, method.material, method.physics);
   if (method.specimen.to_be_tied) known_.preload = method.specimen.preload.value_or(Sample::kNone);
   known_.load_cell = method.machine.load_cell;
+  known_.radius = method.material.radius;
+  known_.inertia = inertia_factor(method.material, method.physics);
+  known_.warnings = speed_warnings(method);
   known_.specification = method.specification;
   known_.version = version();
 }
@@ -149,8 +154,8 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.number("motion_pattern_confidence", r.motion_pattern_confidence);
   lines.word("ended_by", ended_by_name(r.ended_by));
   lines.text("reason", f.reason);
-  std::vector<std::string> all_warnings = warnings(r);
-  for (const std::vector<std::string>& more : {warnings(r, f.load_cell), f.warnings})
+  std::vector<std::string> all_warnings = warnings(r, f);
+  for (const std::vector<std::string>& more : {speed_warnings(r.rate, f.inertia), warnings(r, f.load_cell), f.warnings})
     all_warnings.insert(all_warnings.end(), more.begin(), more.end());
   const std::string unsure = accuracy_warning(r, f.errors);
   if (!unsure.empty()) all_warnings.push_back(unsure);
@@ -183,6 +188,8 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.flag("knot_type_preserved", r.knot_type == KnotType::kKept);
   lines.number("max_penetration", r.max_penetration);
   lines.number("fastest_node", r.fastest_node);
+  lines.number("drag_share", r.rate.drag);
+  lines.number("inertia_share", r.rate.inertia);
   lines.number("force_balance_error", r.force_balance_error);
   lines.number("moment_balance_error", r.moment_balance_error);
   const auto part = [&](double EnergyParts::*of) { return r.energy ? (*r.energy).*of : Sample::kNone; };

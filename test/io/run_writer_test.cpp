@@ -103,6 +103,8 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
                           "true_peak_force",
                           "balance_offset",
                           "fastest_node",
+                          "drag_share",
+                          "inertia_share",
                           "preload",
                           "warnings",
                           "reason",
@@ -233,6 +235,7 @@ TEST(ResultYaml, WarnsOfWhatTheResultsShow) {
   results.energy_balance_error = 0.02;
   RunFacts facts;
   facts.warnings = {"of the run"};
+  facts.radius = 0.003175;
   const YAML::Node result = YAML::Load(result_yaml(results, facts));
   const std::vector<std::string> warnings = result["warnings"].as<std::vector<std::string>>();
   EXPECT_THAT(warnings, ::testing::ElementsAre(HasSubstr("through itself at 12.5 s"), HasSubstr("0.2 m/s"),

@@ -8,6 +8,7 @@
 
 #include "knot_utm/analysis/curve_readings.hpp"
 #include "knot_utm/analysis/motion_pattern.hpp"
+#include "knot_utm/analysis/rate_shares.hpp"
 #include "knot_utm/machine/sample.hpp"
 #include "knot_utm/machine/test_program.hpp"
 
@@ -101,7 +102,8 @@ struct Results {
   std::optional<double> tied_knot_distance;                  ///< e [m]
   std::array<std::optional<double>, 2> tied_excess_length;   ///< rod hidden in each knot [m]
   std::array<std::optional<double>, 2> final_excess_length;  ///< and at the end of the test [m]
-  double fastest_node = 0.0;  ///< of the pull until the knots lock [m/s]; above 0.1 m/s one opened
+  RateShares rate;            ///< what speed has a share in
+  double fastest_node = 0.0;  ///< of the pull until the knots lock [m/s]
 
   std::uint64_t steps = 0;
   std::uint64_t rejected_steps = 0;

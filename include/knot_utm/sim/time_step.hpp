@@ -93,6 +93,9 @@ class TimeStep {
   /// Tension of each edge [N]; of a parted one none.
   Eigen::VectorXd tension() const;
 
+  /// The drag c of the steps to come [N s/m^2], in place of that of the settings.
+  void drag(double per_length) { settings_.drag = per_length; }
+
   /// That of the last accepted step, on which the next one depends.
   virtual void state(Archive& archive);
 
