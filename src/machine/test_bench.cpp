@@ -11,6 +11,7 @@
 #include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/frame.hpp"
 #include "knot_utm/machine/grips.hpp"
+#include "knot_utm/machine/knot_touch.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/step_settings.hpp"
@@ -59,6 +60,7 @@ struct TestBench::Impl {
   LoadCell cell;
   std::optional<TyingRig> rig;
   std::optional<KnotWatch> watch;  // of anything that is knotted
+  std::optional<KnotTouch> touch;  // of two knots
   Boundary boundary;
 
   double time = 0.0;
@@ -117,6 +119,7 @@ struct TestBench::Impl {
         tying.rest_speed = std::max(tying.rest_speed, physics.slip_tolerance);
       tying.grip_stiffness = tying.preload / (kGripStretch * material.radius);
       rig.emplace(centreline, rod, tying);
+      touch.emplace(rig->standing_nodes(), material.radius);
     }
     if (specimen.knot != KnotKind::kStraight) {
       watch.emplace(rig ? rig->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
@@ -297,6 +300,8 @@ struct TestBench::Impl {
         s.excess_length[k] = rig->excess_length(k, stepper->state());
       }
       s.knot_distance = knot_distance();
+      s.knots_force = touch->between_knots();
+      s.knot_on_roller = touch->on_rollers();
     }
     const ContactReading contact = stepper->contact_reading();
     s.max_penetration = contact.largest_overlap / material.radius;
@@ -327,7 +332,7 @@ struct TestBench::Impl {
   }
 
   void state(Archive& archive) {
-    archive.section("BNCG");  // "BNCH" had no grip beside the crosshead
+    archive.section("BNCT");  // "BNCG" did not know what the knots touch
     int parted_edge = stepper->parted_edge();
     archive.number("parted edge", parted_edge, -1, static_cast<int>(stepper->rod().edges()) - 1);
     if (archive.loads() && parted_edge >= 0) stepper->part(parted_edge);
@@ -343,7 +348,7 @@ struct TestBench::Impl {
     bool ties = rig.has_value(), watches = watch.has_value();
     archive.same("tying rig", ties ? 1 : 0);
     archive.same("knot", watches ? 1 : 0);
-    if (ties) archive(*rig);
+    if (ties) archive(*rig, *touch);
     if (watches) archive(*watch);
     if (archive.loads()) substeps.clear();
   }
@@ -367,6 +372,7 @@ struct TestBench::Impl {
           grip = frame.rigid() ? displacement : grip_tried;
           work += stepper->work();
           if (rig) rig->follow(*stepper, to, dt);
+          if (touch) touch->follow(*stepper);
           watch_for_break(dt);
           substeps.push_back(read(command, to));
         });

@@ -232,6 +232,7 @@ Results write_results(const Test& test, Writers& writers, const WallClock& clock
   facts.wall_time = clock.seconds();
   const Results results = writers.run.results(test.program.ended_by());
   writers.run.finish(results, facts, test.bench.state().position);
+  for (const std::string& event : events(results)) std::fprintf(stderr, "%s: %s\n", kTool, event.c_str());
   const std::string unsure = accuracy_warning(results, facts.errors);
   if (!unsure.empty()) std::fprintf(stderr, "%s: %s\n", kTool, unsure.c_str());
   return results;
