@@ -33,8 +33,9 @@ class OneNumber : public OwnFolder {
       const Answer answer = answer_of(tool("compare", curve + " " + curve + " --tolerance 0"));
       ASSERT_EQ(answer.code, 0) << answer.text;
       const YAML::Node said = YAML::Load(answer.text);
-      for (const char* key :
-           {"peak_force", "plateau_force", "breakaway_force", "lock_extension_by_load", "locked_stiffness"})
+      for (const char* key : {"peak_force", "plateau_force", "plateau_force_low", "plateau_force_high",
+                              "plateau_force_slope", "breakaway_force", "largest_drop", "jump_force",
+                              "force_after_jump", "lock_extension_by_load", "locked_stiffness"})
         EXPECT_EQ(said[key]["a"].as<std::string>(), result[key].as<std::string>()) << file << ": " << key;
     }
   }
