@@ -33,7 +33,7 @@ constexpr double kDeep = 0.05;
 /// where a loose loop pulls with far less than k_b/h^2, of which `physics.residual` is a share.
 constexpr double kUnbalanced = 0.01;
 
-std::vector<std::string> warnings(const Results& results, const RunFacts& facts) {
+std::vector<std::string> warnings(const Results& results) {
   std::vector<std::string> all;
   if (results.knot_type == KnotType::kCrossed) {
     all.push_back("the rod ran through itself at " + format_number(results.untangled_at.value_or(Sample::kNone)) +
@@ -126,7 +126,6 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
   known_.errors = reading_errors(method.specimen, method.material, method.physics);
   if (method.specimen.to_be_tied) known_.preload = method.specimen.preload.value_or(Sample::kNone);
   known_.load_cell = method.machine.load_cell;
-  known_.radius = method.material.radius;
   known_.inertia = inertia_factor(method.material, method.physics);
   known_.warnings = speed_warnings(method);
   known_.specification = method.specification;

@@ -250,7 +250,6 @@ TEST(ResultYaml, WarnsOfWhatTheResultsShow) {
   results.energy_balance_error = 0.02;
   RunFacts facts;
   facts.warnings = {"of the run"};
-  facts.radius = 0.003175;
   const YAML::Node result = YAML::Load(result_yaml(results, facts));
   const std::vector<std::string> warnings = result["warnings"].as<std::vector<std::string>>();
   EXPECT_THAT(warnings, ::testing::ElementsAre(
