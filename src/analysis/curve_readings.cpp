@@ -206,8 +206,8 @@ void read_plateau(const Pull& pull, double end, const std::optional<Drop>& jumpe
   } else if (jumped && pull[jumped->from].extension <= plateau_range(pull, end).high) {
     out.no_plateau = text("a knot jumped open at %.3g m", *out.jump_extension);
   } else {
-    out.no_plateau = why_not_level(*level, out.lock_extension_by_load.has_value());
-    if (out.no_plateau.empty()) out.no_plateau = why_interrupted(pull, end, level->force);
+    out.no_plateau = why_interrupted(pull, end, level->force);
+    if (out.no_plateau.empty()) out.no_plateau = why_not_level(*level, out.lock_extension_by_load.has_value());
   }
   if (!out.no_plateau.empty()) return;
   out.plateau_force = level->force;
