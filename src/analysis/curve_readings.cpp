@@ -65,6 +65,21 @@ std::size_t last_within(const Pull& pull, std::size_t i, double way, double end)
 
 double sudden(const Pull& pull, double end) { return kSudden * (end - pull.front().extension); }
 
+/// The largest fall of F between two points of a range that are no further apart than `way`.
+std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double way) {
+  std::optional<Drop> out;
+  for (std::size_t i = 0; i < pull.size() && pull[i].extension <= range.high; ++i) {
+    if (pull[i].extension < range.low) continue;
+    const std::size_t last = last_within(pull, i, way, range.high);
+    for (std::size_t j = i + 1; j <= last; ++j) {
+      const double fall = pull[i].force - pull[j].force, largest = out ? out->force(pull) : 0.0;
+      // Of those that are the same the last begins where F begins to fall.
+      if (fall > largest || (fall == largest && out && i > out->from)) out = Drop{i, j};
+    }
+  }
+  return out;
+}
+
 /// By which the knots came nearer to each other beyond what sliding can do [m].
 double let_out(const PullPoint& from, const PullPoint& to) {
   return from.knot_distance - to.knot_distance + kSliding * (to.extension - from.extension);
@@ -140,13 +155,7 @@ double breakaway_force(const Pull& pull, double end) {
 
 std::optional<Drop> largest_drop(const Pull& pull, double end) {
   if (pull.empty()) return std::nullopt;
-  std::optional<Drop> out;
-  for (std::size_t i = 0; i < pull.size() && pull[i].extension <= end; ++i) {
-    const std::size_t last = last_within(pull, i, sudden(pull, end), end);
-    for (std::size_t j = i + 1; j <= last; ++j)
-      if (pull[j].force < pull[i].force && (!out || Drop{i, j}.force(pull) > out->force(pull))) out = Drop{i, j};
-  }
-  return out;
+  return largest_drop(pull, {pull.front().extension, end}, sudden(pull, end));
 }
 
 std::optional<Drop> jump(const Pull& pull, double end) {
@@ -183,6 +192,13 @@ std::optional<double> locked_stiffness(const Pull& pull, double from) {
 
 namespace {
 
+/// Where F falls at once by more than a level may change the mean is one of before and behind; empty: it does not.
+std::string why_interrupted(const Pull& pull, double end, double mean) {
+  const std::optional<Drop> fall = largest_drop(pull, plateau_range(pull, end), sudden(pull, end));
+  if (!fall || fall->force(pull) < kLevel * mean) return {};
+  return text("the load is not level: it drops by %.3g N at %.3g m", fall->force(pull), pull[fall->from].extension);
+}
+
 void read_plateau(const Pull& pull, double end, const std::optional<Drop>& jumped, CurveReadings& out) {
   const std::optional<Plateau> level = plateau(pull, end);
   if (!level) {
@@ -190,7 +206,8 @@ void read_plateau(const Pull& pull, double end, const std::optional<Drop>& jumpe
   } else if (jumped && pull[jumped->from].extension <= plateau_range(pull, end).high) {
     out.no_plateau = text("a knot jumped open at %.3g m", *out.jump_extension);
   } else {
-    out.no_plateau = why_not_level(*level, out.lock_extension_by_load.has_value());
+    out.no_plateau = why_interrupted(pull, end, level->force);
+    if (out.no_plateau.empty()) out.no_plateau = why_not_level(*level, out.lock_extension_by_load.has_value());
   }
   if (!out.no_plateau.empty()) return;
   out.plateau_force = level->force;

@@ -78,6 +78,18 @@ TEST(CurveReadings, AForceThatFallsAllTheWayHasNoPlateau) {
   EXPECT_NE(readings.no_plateau.find("not level"), std::string::npos) << readings.no_plateau;
 }
 
+TEST(CurveReadings, ALevelThatIsLostAtOnceIsNone) {
+  const auto dropping = [](double share) {
+    return pull([share](double s) { return sliding(s) - (s > 0.05 && s < 0.08 ? share * 6.0 : 0.0); });
+  };
+  EXPECT_TRUE(curve_readings(dropping(0.3)).plateau_force);
+  const CurveReadings readings = curve_readings(dropping(0.6));
+  EXPECT_FALSE(readings.plateau_force);
+  EXPECT_NE(readings.no_plateau.find("drops by 3.6 N at 0.05 m"), std::string::npos) << readings.no_plateau;
+  EXPECT_NEAR(*readings.largest_drop, 3.6, 1e-9);
+  EXPECT_NEAR(*readings.largest_drop_at, 0.05, 1e-3 + 4e-3);
+}
+
 /// e of knots that slide up to s = 0.08 m, less what a knot lets out at s = 0.03 m.
 Pull with_knots(Pull pull, double let_out, double rate = -2.0) {
   for (PullPoint& point : pull) {
