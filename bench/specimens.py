@@ -1,5 +1,5 @@
-"""The sliding force of a loop is a distribution, as on a real machine: specimens that differ as tied ones do, and whether
-their mean holds still under mesh, step and tolerances."""
+"""The sliding force of a loop is a distribution, as on a real machine: specimens that differ as tied ones do, and
+whether their mean holds still under mesh, step and tolerances."""
 import random
 import statistics
 
@@ -65,12 +65,12 @@ def report(runner, materials, seeds=COUNT):
         pictures[name] = {variant: present([reading(run, key) for run in runs[variant]])
                           for variant in [NORMAL, *meshes]}
     return Report("Specimens: how the readings scatter, and whether their mean holds still",
-                  f"`config/tighten.yaml` with {seeds} specimens of each variant, whose knot distance (1 %), tails (5 %) and "
-                  f"tying speed (10 %) are drawn, in brackets the standard deviation, with seed {SEED}. The change of the "
-                  "mean is that of the same specimens, and its standard error is that of the mean of their differences. A "
-                  "gate holds where the change is at most 2 % beyond its standard error and every specimen has its "
-                  "reading. Edges h/3 and h/5: the edges in the knots are the radius over 3 and 5 long, where `normal` has "
-                  "h/2. The picture has every specimen, and the mean with its standard error.", tables,
+                  f"`config/tighten.yaml` with {seeds} specimens of each variant, whose knot distance (1 %), tails (5 %) "
+                  f"and tying speed (10 %) are drawn, in brackets the standard deviation, with seed {SEED}. The change "
+                  "of the mean is that of the same specimens, and its standard error is that of the mean of their "
+                  "differences. A gate holds where the change is at most 2 % beyond its standard error and every "
+                  "specimen has its reading. Edges h/3 and h/5: the edges in the knots are the radius over 3 and 5 "
+                  "long, where `normal` has h/2. The picture has every specimen, and the mean with its standard error.", tables,
                   lambda file: plots.strips(file, pictures, "plateau or peak force [N]"))
 
 
@@ -138,8 +138,8 @@ def table_of(name, runs, keys, gated):
         table.add(f"relative change of the mean {words}", "-",
                   [REFERENCE] + [change.relative for change in changes.values()],
                   [None] + [change.gate() if variant in gated else None for variant, change in changes.items()], ".2g")
-        table.add("its standard error, relative", "-", [REFERENCE] + [change.error for change in changes.values()], None,
-                  ".2g")
+        table.add("its standard error, relative", "-", [REFERENCE] + [change.error for change in changes.values()],
+                  None, ".2g")
     table.add("mean CPU time of a run", "s", [mean([run.cpu_time for run in each]) for each in runs.values()], None,
               ".2f")
     return table
