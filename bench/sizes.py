@@ -48,7 +48,8 @@ def report(runner, materials):
                   "and stiffness, and the others are compared with it. The own bending time is h² √(ρ A/k_b). With its "
                   "own mass (`--set physics.inertia=1`) each rod would be another specimen. A speed that moves the "
                   "plateau by more than a gate allows must have been warned of.",
-                  tables, lambda file: plots.ratios(file, curves, "F_0 [N]", "reading / that of the first column", SAME_SHARE))
+                  tables, lambda file: plots.ratios(file, curves, "F_0 [N]", "reading / that of the first column",
+                                                    SAME_SHARE))
 
 
 def of_sizes(runner, method, material, curves):

@@ -11,6 +11,7 @@
 #include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/frame.hpp"
 #include "knot_utm/machine/grips.hpp"
+#include "knot_utm/machine/knot_touch.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/step_settings.hpp"
@@ -53,6 +54,7 @@ struct TestBench::Impl {
   LoadCell cell;
   std::optional<TyingRig> rig;
   std::optional<KnotWatch> watch;  // of anything that is knotted
+  std::optional<KnotTouch> touch;  // of two knots
   Boundary boundary;
 
   double time = 0.0;
@@ -81,7 +83,7 @@ struct TestBench::Impl {
         machine(machine_),
         physics(physics_),
         centreline(specimen_centreline(specimen_, material_, machine_, physics_)),
-        grips(specimen_, machine_, centreline, material_.radius),
+        grips(specimen_, machine_, centreline, material_),
         frame(machine_.stiffness, material, specimen_.knot == KnotKind::kFisherman ? 2 : 1,
               grips.length_around(material_.radius)),
         cell(machine_.load_cell) {
@@ -113,6 +115,7 @@ struct TestBench::Impl {
         tying.rest_speed = std::max(tying.rest_speed, physics.slip_tolerance);
       tying.grip_stiffness = tying.preload / (kGripStretch * material.radius);
       rig.emplace(centreline, rod, tying);
+      touch.emplace(rig->standing_nodes(), material.radius);
     }
     if (specimen.knot != KnotKind::kStraight) {
       watch.emplace(rig ? rig->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
@@ -146,7 +149,16 @@ struct TestBench::Impl {
     grip_tried = frame.rigid()
                      ? travel
                      : frame.grip_after(grip, travel, grips.force_upper(*stepper), held_length(from, to), to - from);
-    grips.set(grip_tried, boundary);
+    grips.set(grip_tried, rig ? rig->left_to_put_on(to) : 0.0, boundary);
+    if (rig && rig->off_rollers()) {
+      boundary.rollers.clear();
+      boundary.holds.clear();
+    }
+    if (rig)
+      for (Roller& roller : boundary.rollers) {
+        roller.first_node = rig->loop_begin();
+        roller.last_node = rig->loop_end();
+      }
     boundary.forces.clear();
     boundary.grips.clear();
     boundary.extra_drag = settling_drag(to);
@@ -191,8 +203,24 @@ struct TestBench::Impl {
       rig->release(command.duration, time);
     } else if (rig->tied()) {
       rig->let_go(*stepper, time);
+    } else if (rig->released() && phase != Phase::kHold) {
+      put_on();
+    } else if (rig->guides() && phase != Phase::kMount) {
+      let_loop_go();
     }
     if (phase == Phase::kMount) begin_mounting();
+  }
+
+  void put_on() {
+    rig->put_on(*stepper, time);
+    grips.put_on(stepper->state().position.middleCols(rig->loop_begin(), rig->loop_end() - rig->loop_begin() + 1), grip,
+                 material.radius);
+  }
+
+  /// Guides off: the loop is on the rollers alone.
+  void let_loop_go() {
+    rig->take_guides_off(*stepper, time);
+    grips.hold_far_side(stepper->state().position, grip);
   }
 
   void begin_mounting() {
@@ -266,7 +294,7 @@ struct TestBench::Impl {
         done = !rig || rig->released();
         break;
       case Phase::kMount:
-        done = !rig || (!rig->lets_go() && slack_taken_up());
+        done = !rig || (rig->guides() && slack_taken_up());
         break;
       default:
         break;
@@ -301,6 +329,8 @@ struct TestBench::Impl {
         s.excess_length[k] = rig->excess_length(k, stepper->state());
       }
       s.knot_distance = knot_distance();
+      s.knots_force = touch->between_knots();
+      s.knot_on_roller = touch->on_rollers();
     }
     const ContactReading contact = stepper->contact_reading();
     s.max_penetration = contact.largest_overlap / material.radius;
@@ -331,7 +361,7 @@ struct TestBench::Impl {
   }
 
   void state(Archive& archive) {
-    archive.section("BNCI");  // "BNCG" did not know whether it had been pulled
+    archive.section("BNCI");  // "BNCG" was tied on the rollers
     int parted_edge = stepper->parted_edge();
     archive.number("parted edge", parted_edge, -1, static_cast<int>(stepper->rod().edges()) - 1);
     if (archive.loads() && parted_edge >= 0) stepper->part(parted_edge);
@@ -344,11 +374,11 @@ struct TestBench::Impl {
     archive.choice("status", status, BenchStatus::kFailed);
     archive.require(parted() == (status == BenchStatus::kBroken), "status of a rod that parted",
                     break_place_name(break_place));
-    archive(control, cell, *stepper);
+    archive(control, cell, *stepper, grips);
     bool ties = rig.has_value(), watches = watch.has_value();
     archive.same("tying rig", ties ? 1 : 0);
     archive.same("knot", watches ? 1 : 0);
-    if (ties) archive(*rig);
+    if (ties) archive(*rig, *touch);
     if (watches) archive(*watch);
     if (archive.loads()) substeps.clear();
   }
@@ -372,6 +402,7 @@ struct TestBench::Impl {
           grip = frame.rigid() ? displacement : grip_tried;
           work += stepper->work();
           if (rig) rig->follow(*stepper, to, dt);
+          if (touch) touch->follow(*stepper);
           watch_for_break(dt);
           substeps.push_back(read(command, to));
         });
@@ -390,7 +421,7 @@ struct TestBench::Impl {
       extension_zero = grips.end_to_end(grip);
       raw_extension_zero = displacement;
     }
-    const bool let_go = rig && rig->lets_go();
+    const bool puts_on = rig && rig->puts_on();
     std::string gave_up = advance(command, {time, displacement}, command.time);
     if (parted()) {
       gave_up = advance(command, {time, displacement}, recoil_end);
@@ -403,7 +434,9 @@ struct TestBench::Impl {
       displacement = command.displacement;
       if (frame.rigid()) grip = displacement;
       // What the knots and the load do while they are let go is not the slack's.
-      if (let_go && !rig->lets_go()) begin_mounting();
+      if (rig && rig->released() && phase != Phase::kRelease && phase != Phase::kHold) put_on();
+      if (puts_on && rig->guides()) begin_mounting();
+      if (rig && rig->guides() && phase != Phase::kMount) let_loop_go();
       judge_phase();
     }
     if (watch && !parted()) watch->follow(stepper->state().position);
