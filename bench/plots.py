@@ -52,6 +52,23 @@ def panels(file, curves, x_label, y_label):
     save(figure, file)
 
 
+def ratios(file, groups, x_label, y_label, band):
+    """One panel a group of points that should all be one. `groups`: group -> name -> (x, ratios); `band` shows how far
+    off they may be."""
+    figure, all_axes = plt.subplots(1, len(groups), figsize=(4.6 * len(groups), 3.6), squeeze=False, sharey=True)
+    for axes, (group, points) in zip(all_axes[0], groups.items()):
+        axes.axhspan(1.0 - band, 1.0 + band, color="0.92")
+        for (name, (x, y)), marker in zip(points.items(), "o^sv"):
+            axes.plot(x, y, marker, label=name, markerfacecolor="none")
+        axes.set_xscale("log")
+        axes.set_title(group)
+        axes.set_xlabel(x_label)
+        axes.legend(fontsize="x-small")
+    all_axes[0][0].set_ylim(1.0 - 2.0 * band, 1.0 + 2.0 * band)
+    all_axes[0][0].set_ylabel(y_label)
+    save(figure, file)
+
+
 def strips(file, groups, label):
     """One panel a group: every value over its name, beside it their mean and its standard error. `groups`: group ->
     name -> values."""

@@ -11,7 +11,8 @@ from table import Report, Table, at_most, is_
 MATERIALS = ["nylon", "polypropylene", "pink_vps"]
 LEAST, LARGEST = 0.00025, 0.04  # diameters of a thread and of a hawser [m]
 FORCES = (1e-5, 1e4)  # F_0, nine decades of it [N]
-SAME = at_most(0.01)
+SAME_SHARE = 0.01
+SAME = at_most(SAME_SHARE)
 SAME_WORK = at_most(0.2)
 LITTLE = at_most(0.001)
 SLOW_ENOUGH = at_most(0.02)
@@ -47,7 +48,8 @@ def report(runner, materials):
                   "and stiffness, and the others are compared with it. The own bending time is h² √(ρ A/k_b). With its "
                   "own mass (`--set physics.inertia=1`) each rod would be another specimen. A speed that moves the "
                   "plateau by more than a gate allows must have been warned of.",
-                  tables, lambda file: plots.panels(file, curves, "F_0 [N]", "reading / that of the first column"))
+                  tables, lambda file: plots.ratios(file, curves, "F_0 [N]", "reading / that of the first column",
+                                                    SAME_SHARE))
 
 
 def of_sizes(runner, method, material, curves):

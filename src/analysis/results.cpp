@@ -241,8 +241,8 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
   results.motion_pattern_confidence = tracker.confidence();
   results.lock_extension = tracker.lock_extension();
   results.fastest_node = fastest_node_while_sliding(samples, results.lock_extension);
-  results.rate = rate_shares(samples, results.lock_extension);
   results.untangled_at = tracker.untangled_at();
+  results.rate = rate_shares(samples, results.lock_extension, results.untangled_at);
   results.failure_mode = failure_mode(results);
   read_curve(readings, at_break, results);
   if (energy_scale > 0.0) results.energy_balance_error = energy_error / energy_scale;

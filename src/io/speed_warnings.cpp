@@ -2,21 +2,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "knot_utm/io/number.hpp"
 
 namespace knot_utm {
 namespace {
 
-constexpr double kFast = 0.01;  // share of F that is told
-constexpr double kTiedSlow =
-    9.45;  // three times the default, whose plateaus are the same as those of a tenth [radii/s]
+constexpr double kFast = 0.01;      // share of F that is told
+constexpr double kTiedSlow = 9.45;  // three times the default: plateaus are still the same [radii/s]
 /// Ten times the default moved the plateau of nylon by -8 %, of polypropylene by -7 %
 /// (config/tighten.yaml with program.tie.speed=0.1).
 constexpr const char* kTiedFast =
     "; ten times that speed moves a sliding force by up to 8 %, so choose a lower program.tie.speed";
 
 std::string in_per_cent(double share) { return format_number(std::round(1000.0 * share) / 10.0) + " %"; }
+
+std::string two_digits(double value) {
+  std::ostringstream out;
+  out.precision(2);
+  out << value;
+  return out.str();
+}
 
 std::string about(double share) { return share > 1.0 ? "more than itself" : "about " + in_per_cent(share); }
 
@@ -28,11 +35,11 @@ std::vector<std::string> speed_warnings(const RateShares& rate, double inertia) 
   const double by_own = by_inertia / std::min(1.0, inertia);
   if (by_drag > kFast)
     all.push_back("drag makes up " + in_per_cent(by_drag) +
-                  " of the force until the knots lock: choose physics.drag: auto, or pull more slowly");
+                  " of the force until the knots lock: choose a smaller physics.drag or pull more slowly");
   if (by_inertia > kFast)
     all.push_back("inertia moves the force by " + in_per_cent(by_inertia) + " until the knots lock: pull more slowly");
   else if (by_own > kFast)
-    all.push_back("only " + format_number(inertia) +
+    all.push_back("only " + two_digits(inertia) +
                   " of the rod's own mass is accelerated (physics.inertia), and all of it would move the force by " +
                   about(by_own) + " until the knots lock: a real test at this speed is not slow, so pull more slowly");
   return all;

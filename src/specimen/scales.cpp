@@ -6,8 +6,9 @@ namespace knot_utm {
 
 namespace {
 
-// Where CPU time is least for the paper's materials: 3e-5 s takes 15 to 35 % more iterations and moves the plateau of
-// nylon by 5 %, of polypropylene by 0.1 %; 8e-4 s moves them by 4 and 1 % (scripts/bench sizes --set physics.inertia).
+// Between the times of nylon and polypropylene, 2.9e-4 and 1.6e-4 s. Of these, 3e-5 s takes 23 and 35 % more iterations
+// and moves the plateaus by +5.5 and -0.1 %, 8e-4 s takes 4 and 17 % fewer and moves them by -3.6 and -0.5 %
+// (config/tighten.yaml with physics.inertia 0.0105 and 0.0367, 7.45 and 26.1).
 constexpr double kBendingTime = 2e-4;  // tau [s]
 constexpr double kFading = 3.0;        // of motion under the drag that brings a specimen to rest [1/s]
 constexpr double kRestSpeed = 0.0063;  // [radii/s]

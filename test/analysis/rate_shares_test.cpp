@@ -28,32 +28,42 @@ std::vector<Sample> pulled(double swing) {
 }
 
 TEST(RateShares, ADragThatIsSteadyIsItsShareOfTheForce) {
-  const RateShares shares = rate_shares(pulled(0.0), {});
+  const RateShares shares = rate_shares(pulled(0.0), {}, {});
   EXPECT_NEAR(*shares.drag, kDrag / kForce, 1e-9);
   EXPECT_NEAR(*shares.inertia, 0.0, 1e-9);  // neither weight nor drag
 }
 
-TEST(RateShares, AForceThatSwingsIsInertia) { EXPECT_NEAR(*rate_shares(pulled(0.2), {}).inertia, 0.2 / kForce, 1e-9); }
+TEST(RateShares, AForceThatSwingsIsInertia) {
+  EXPECT_NEAR(*rate_shares(pulled(0.2), {}, {}).inertia, 0.2 / kForce, 1e-9);
+}
 
-TEST(RateShares, EndWhereTheKnotsLockAndWhereTheRodParts) {
+TEST(RateShares, TheEnergyOfAJumpIsNoSteadyDrag) {
   std::vector<Sample> samples = pulled(0.0);
-  for (std::size_t k = 80; k < samples.size(); ++k) {
+  for (std::size_t k = 60; k < samples.size(); ++k) samples[k].dissipation += 1e3;
+  EXPECT_NEAR(*rate_shares(samples, {}, {}).drag, kDrag / kForce, 1e-9);
+}
+
+TEST(RateShares, EndWhereTheKnotsLockAndWhereTheyComeUndoneOrTheRodParts) {
+  std::vector<Sample> samples = pulled(0.0);
+  for (std::size_t k = 40; k < samples.size(); ++k) {
     samples[k].force_lower = 0.0;
-    samples[k].dissipation += 1e3;
+    samples[k].dissipation += 1e3 * static_cast<double>(k);
   }
-  const double lock = 0.5 * (samples[78].extension + samples[79].extension);
-  EXPECT_NEAR(*rate_shares(samples, lock).drag, kDrag / kForce, 1e-9);
-  EXPECT_GT(*rate_shares(samples, {}).drag, 1.0);
-  samples[80].status = BenchStatus::kBroken;
-  EXPECT_NEAR(*rate_shares(samples, {}).drag, kDrag / kForce, 1e-9);
+  EXPECT_GT(*rate_shares(samples, {}, {}).drag, 1.0);
+  const double lock = 0.5 * (samples[38].extension + samples[39].extension);
+  EXPECT_NEAR(*rate_shares(samples, lock, {}).drag, kDrag / kForce, 1e-9);
+  EXPECT_NEAR(*rate_shares(samples, {}, samples[40].time).drag, kDrag / kForce, 1e-9);
+  EXPECT_NEAR(*rate_shares(samples, {}, samples[40].time).inertia, 0.0, 1e-9);
+  samples[40].status = BenchStatus::kBroken;
+  EXPECT_NEAR(*rate_shares(samples, {}, {}).drag, kDrag / kForce, 1e-9);
 }
 
 TEST(RateShares, NothingWasPulled) {
-  EXPECT_FALSE(rate_shares({}, {}).drag);
+  EXPECT_FALSE(rate_shares({}, {}, {}).drag);
   std::vector<Sample> samples = pulled(0.0);
   samples.resize(10);
-  EXPECT_FALSE(rate_shares(samples, {}).drag);
-  EXPECT_FALSE(rate_shares(samples, {}).inertia);
+  EXPECT_FALSE(rate_shares(samples, {}, {}).drag);
+  EXPECT_FALSE(rate_shares(samples, {}, {}).inertia);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ import front  # noqa: E402
 import references  # noqa: E402
 import runs  # noqa: E402
 import scaling  # noqa: E402
+import sizes  # noqa: E402
 import specimens  # noqa: E402
 import tighten  # noqa: E402
 import tightness  # noqa: E402
@@ -172,6 +173,55 @@ class FakeRunner:
         run.settings = settings
         run.exit_code = self.change(name, run.result)
         return run
+
+
+class Sizes(unittest.TestCase):
+    SHIPPED = {"radius": 0.003, "density": 900.0, "stretching_stiffness": 4e4, "bending_stiffness": 1e-4,
+               "twisting_stiffness": 8e-5, "friction_coefficient": 0.5, "tying_preload": 50.0}
+
+    def test_draws_spread_over_sizes_and_forces_independently(self):
+        diameters, forces = zip(*sizes.draws())
+        self.assertGreaterEqual(len(forces), 12)
+        self.assertEqual((min(diameters), max(diameters)), (0.00025, 0.04))
+        self.assertGreaterEqual(math.log10(max(forces) / min(forces)), 9.0)
+        logs = [[math.log(value) for value in values] for values in (diameters, forces)]
+        means = [sum(values) / len(values) for values in logs]
+        covariance, *squares = (sum((a[i] - means[m]) * (b[i] - means[n]) for i in range(len(a)))
+                                for (a, m), (b, n) in (((logs[0], 0), (logs[1], 1)), ((logs[0], 0), (logs[0], 0)),
+                                                       ((logs[1], 1), (logs[1], 1))))
+        self.assertLess(abs(covariance) / math.sqrt(squares[0] * squares[1]), 0.3)
+
+    def test_rods_have_the_groups_of_the_shipped_one(self):
+        def groups(rod):
+            force = rod["bending_stiffness"] / rod["radius"] ** 2
+            return [rod["stretching_stiffness"] / force, rod["tying_preload"] / force, rod["friction_coefficient"],
+                    rod["twisting_stiffness"] / rod["bending_stiffness"], rod["density"]]
+        for diameter, force in sizes.draws():
+            rod = sizes.settings_of(self.SHIPPED, diameter, force)["material"]
+            self.assertAlmostEqual(rod["radius"], diameter / 2.0)
+            self.assertAlmostEqual(sizes.bending_force(rod) / force, 1.0)
+            for own, shipped in zip(groups(rod), groups(self.SHIPPED)):
+                self.assertAlmostEqual(own / shipped, 1.0)
+
+    def test_a_specimen_that_pulls_otherwise_or_takes_more_work_fails(self):
+        def table(**changed):
+            class Runner:
+                root = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../..")
+
+                def run(self, name, settings, method):
+                    rod = settings["material"]
+                    force = rod["bending_stiffness"] / rod["radius"] ** 2
+                    run = runs.Run("/nowhere", 1.0, 0, "")
+                    run.result = {"motion_pattern": "sliding", "true_plateau_force": 0.5 * force,
+                                  "newton_iterations": 3000, "drag_share": 1e-4, "inertia_share": 1e-5}
+                    if name.endswith("/3"):
+                        run.result.update({key: change * run.result[key] for key, change in changed.items()})
+                    return run
+            return sizes.of_sizes(Runner(), sizes.LOOP, "polypropylene", {}).failed()
+        self.assertEqual(table(), [])
+        self.assertEqual(len(table(true_plateau_force=1.02)), 1)
+        self.assertEqual(len(table(newton_iterations=1.3)), 1)
+        self.assertEqual(len(table(drag_share=20.0)), 1)
 
 
 class SpeedOverStarts(unittest.TestCase):
