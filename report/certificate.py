@@ -8,14 +8,13 @@ from is_number import is_number
 
 LIMITS = {
     "kDeep": 0.05,        # contact [of the radius]
-    "kJump": 31.5,        # node while pulled [radii/s]
     "kUnbalanced": 0.01,  # energies [of the largest]
     "kUnsure": 0.1,       # plateau force [of itself]
 }
 BENCH_FORCE_BALANCE = 0.01  # [of the peak]
 
 # Keys of result.yaml that stand in the certificate.
-CERTIFIED = ("knot_type_preserved", "not_equilibrated", "max_penetration", "fastest_node", "force_balance_error",
+CERTIFIED = ("knot_type_preserved", "not_equilibrated", "max_penetration", "force_balance_error",
              "moment_balance_error", "energy_balance_error")
 
 
@@ -44,12 +43,12 @@ def must_be(words, key, value, wanted, yes, no):
                  None if value is None else value is wanted)
 
 
-def certificate(result, radius):
-    """What is known of this test, of a rod of that radius [m]."""
-    return [check for check in checks_of(result, radius) if check.value]
+def certificate(result):
+    """What is known of this test."""
+    return [check for check in checks_of(result) if check.value]
 
 
-def checks_of(result, radius):
+def checks_of(result):
     def value(key):
         return result.get(key)
 
@@ -63,8 +62,8 @@ def checks_of(result, radius):
         must_be("The specimen was at rest before it was pulled", "not_equilibrated", value("not_equilibrated"), False,
                 "no", "yes"),
         at_most("Deepest contact, in radii", "max_penetration", value("max_penetration"), LIMITS["kDeep"]),
-        at_most("Largest speed of a node while the knots slid, in radii a second", "fastest_node",
-                in_radii(value("fastest_node"), radius), LIMITS["kJump"]),
+        must_be("A knot jumped open", "jump_force", None if "jump_force" not in result else is_number(value("jump_force")),
+                False, "yes", "no"),
         at_most("Error of the energy balance, as a share of the largest energy", "energy_balance_error",
                 value("energy_balance_error"), LIMITS["kUnbalanced"]),
         at_most("Difference of the forces at both grips, as a share of the largest force", "force_balance_error",
@@ -73,10 +72,6 @@ def checks_of(result, radius):
                   ["moment_balance_error"], value("moment_balance_error")),
         *numerical_errors(result),
     ]
-
-
-def in_radii(value, radius):
-    return value / radius if is_number(value) else value
 
 
 def numerical_errors(result):

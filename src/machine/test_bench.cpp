@@ -11,6 +11,7 @@
 #include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/frame.hpp"
 #include "knot_utm/machine/grips.hpp"
+#include "knot_utm/machine/knot_touch.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/step_settings.hpp"
@@ -53,6 +54,7 @@ struct TestBench::Impl {
   LoadCell cell;
   std::optional<TyingRig> rig;
   std::optional<KnotWatch> watch;  // of anything that is knotted
+  std::optional<KnotTouch> touch;  // of two knots
   Boundary boundary;
 
   double time = 0.0;
@@ -113,6 +115,7 @@ struct TestBench::Impl {
         tying.rest_speed = std::max(tying.rest_speed, physics.slip_tolerance);
       tying.grip_stiffness = tying.preload / (kGripStretch * material.radius);
       rig.emplace(centreline, rod, tying);
+      touch.emplace(rig->standing_nodes(), material.radius);
     }
     if (specimen.knot != KnotKind::kStraight) {
       watch.emplace(rig ? rig->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
@@ -326,6 +329,8 @@ struct TestBench::Impl {
         s.excess_length[k] = rig->excess_length(k, stepper->state());
       }
       s.knot_distance = knot_distance();
+      s.knots_force = touch->between_knots();
+      s.knot_on_roller = touch->on_rollers();
     }
     const ContactReading contact = stepper->contact_reading();
     s.max_penetration = contact.largest_overlap / material.radius;
@@ -373,7 +378,7 @@ struct TestBench::Impl {
     bool ties = rig.has_value(), watches = watch.has_value();
     archive.same("tying rig", ties ? 1 : 0);
     archive.same("knot", watches ? 1 : 0);
-    if (ties) archive(*rig);
+    if (ties) archive(*rig, *touch);
     if (watches) archive(*watch);
     if (archive.loads()) substeps.clear();
   }
@@ -397,6 +402,7 @@ struct TestBench::Impl {
           grip = frame.rigid() ? displacement : grip_tried;
           work += stepper->work();
           if (rig) rig->follow(*stepper, to, dt);
+          if (touch) touch->follow(*stepper);
           watch_for_break(dt);
           substeps.push_back(read(command, to));
         });

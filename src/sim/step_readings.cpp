@@ -28,6 +28,24 @@ std::vector<ContactForce> contact_forces(const std::vector<ContactPoint>& contac
   return out;
 }
 
+double normal_force_between(const std::vector<ContactPoint>& contacts, const NodeRange& a, const NodeRange& b) {
+  double sum = 0.0;
+  for (const ContactPoint& contact : contacts) {
+    if (contact.on_roller() || !contact.touches()) continue;
+    const int on_a = contact.a0 + 1, on_b = contact.b0 + 1;  // the middle of their three nodes
+    if ((a.holds(on_a) && b.holds(on_b)) || (a.holds(on_b) && b.holds(on_a))) sum += contact.weight * contact.pressure;
+  }
+  return sum;
+}
+
+double roller_normal_force(const std::vector<ContactPoint>& contacts, const NodeRange& piece) {
+  double sum = 0.0;
+  for (const ContactPoint& contact : contacts)
+    if (contact.on_roller() && contact.touches() && piece.holds(contact.a0 + 1))
+      sum += contact.weight * contact.pressure;
+  return sum;
+}
+
 StepReadings::StepReadings(const RodProperties& rod, const RodState& state, const StepSettings& settings, double spin)
     : rod_(rod), settings_(settings), force_(static_cast<std::size_t>(rod.nodes())) {
   const ElasticEnergy elastic = elastic_energy(rod, state);

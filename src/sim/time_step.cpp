@@ -228,6 +228,12 @@ class ImplicitStep final : public TimeStep {
   std::vector<ContactForce> contact_forces() const override {
     return knot_utm::contact_forces(contact_.contacts(), state_.position);
   }
+  double normal_force_between(const NodeRange& a, const NodeRange& b) const override {
+    return knot_utm::normal_force_between(contact_.contacts(), a, b);
+  }
+  double roller_normal_force(const NodeRange& piece) const override {
+    return knot_utm::roller_normal_force(rollers_.contacts(), piece);
+  }
 
   void state(Archive& archive) override {
     archive.section("STEP");

@@ -233,7 +233,8 @@ Results write_results(const Test& test, Writers& writers, const WallClock& clock
   facts.wall_time = clock.seconds();
   const Results results = writers.run.results(test.program.ended_by());
   writers.run.finish(results, facts, test.bench.state().position);
-  for (const std::vector<std::string>& all : {speed_warnings(results.rate, facts.inertia), facts.warnings})
+  for (const std::vector<std::string>& all :
+       {events(results), speed_warnings(results.rate, facts.inertia), facts.warnings})
     for (const std::string& warning : all) std::fprintf(stderr, "%s: %s\n", kTool, warning.c_str());
   const std::string unsure = accuracy_warning(results, facts.errors);
   if (!unsure.empty()) std::fprintf(stderr, "%s: %s\n", kTool, unsure.c_str());

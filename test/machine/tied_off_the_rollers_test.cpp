@@ -96,9 +96,13 @@ TEST(TiedOffTheRollers, TheTailsLieBesideTheRollers) {
   const Sample mounted = driver.through(Phase::kMount, 0.0033);
   ASSERT_EQ(mounted.status, BenchStatus::kPhaseDone);
   const Points& x = driver.bench().state().position;
-  // The end of a tail reaches into the roller, where it would be pushed out if they touched.
-  const Vec3 end = x.col(0) - driver.bench().lower_grip();
-  EXPECT_LT(std::hypot(end.x(), end.z()), 0.01905 + kRadius);
+  // A tail passes where the roller is, which would push it out if they touched.
+  double nearest = 1.0;
+  for (int i = 0; i < 15; ++i) {
+    const Vec3 node = x.col(i) - driver.bench().lower_grip();
+    nearest = std::min(nearest, std::hypot(node.x(), node.z()));
+  }
+  EXPECT_LT(nearest, 0.01905 + 0.5 * kRadius);
 }
 
 /// The middle of the far side, which is the loop's own middle, stays half-way: within what the difference of the forces
@@ -124,16 +128,17 @@ TEST(TiedOffTheRollers, TheFarSideIsHeldHalfWay) {
     Command hold;
     hold.step = 1;
     hold.phase = Phase::kHold;
-    for (int k = 1; k <= 12; ++k) {
+    for (int k = 1; k <= 60; ++k) {
       hold.sequence = static_cast<std::uint64_t>(k);
       hold.time = k / 6.0;
       ASSERT_EQ(bench.respond(hold).status, BenchStatus::kRunning);
     }
     const double moved = std::abs(bench.state().position(2, node) - before);
+    // The slack lets half-way come down by 0.3 h, and the spring gives way by the weight of the loop, 0.4 h.
     if (far_side == FarSide::kHeld)
-      EXPECT_LT(moved, 0.1 * kRadius);
+      EXPECT_LT(moved, 0.8 * kRadius);
     else
-      EXPECT_GT(moved, 0.1 * kRadius) << "nothing holds it";
+      EXPECT_GT(moved, 2.0 * kRadius) << "nothing holds it";
   }
 }
 

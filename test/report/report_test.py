@@ -213,9 +213,6 @@ class PageOfARun(unittest.TestCase):
         self.assertLess(html.index("<li>a &amp; b &lt; c</li>"), html.index("<h2>"))
 
 
-RADIUS = 0.003175  # of the rod of these results [m]
-
-
 class Certificate(unittest.TestCase):
     def test_limits_are_those_of_the_program(self):
         source = read(ROOT, "src/io/run_writer.cpp")
@@ -226,16 +223,16 @@ class Certificate(unittest.TestCase):
 
     def test_misses_where_the_program_warns(self):
         good = yaml.safe_load(read(fisherman, "result.yaml"))
-        self.assertTrue(certificate.verdict(certificate.certificate(good, RADIUS))[1])
-        for key, bad in (("max_penetration", 0.06), ("fastest_node", 0.2), ("energy_balance_error", 0.02),
+        self.assertTrue(certificate.verdict(certificate.certificate(good))[1])
+        for key, bad in (("max_penetration", 0.06), ("jump_force", 1.0), ("energy_balance_error", 0.02),
                          ("force_balance_error", 0.02), ("knot_type_preserved", False), ("not_equilibrated", True),
                          ("ended_by", "solver"), ("plateau_force_error", 0.2 * good["true_plateau_force"])):
-            missed = [check.keys for check in certificate.certificate({**good, key: bad}, RADIUS) if check.verdict == "fail"]
+            missed = [check.keys for check in certificate.certificate({**good, key: bad}) if check.verdict == "fail"]
             self.assertEqual(missed, [[key]])
 
     def test_makes_up_no_limit(self):
         checks = {check.keys[0]: check for check in certificate.certificate(
-            {"moment_balance_error": 0.5, "max_penetration": None, "knot_type_preserved": True}, RADIUS)}
+            {"moment_balance_error": 0.5, "max_penetration": None, "knot_type_preserved": True})}
         self.assertEqual((checks["moment_balance_error"].limit, checks["moment_balance_error"].verdict),
                          ("no limit is set", ""))
         self.assertNotIn("max_penetration", checks)
@@ -451,7 +448,7 @@ class Facts(unittest.TestCase):
             result["lock_extension"] = lock
             shown = page.headlines(OfValues(None, **result), None)
             self.assertTrue(any(headline.label.endswith(name) for headline in shown))
-            self.assertTrue(any(name in check.words for check in certificate.certificate(result, RADIUS)))
+            self.assertTrue(any(name in check.words for check in certificate.certificate(result)))
 
 
 class Figures(unittest.TestCase):

@@ -59,12 +59,16 @@ struct Results {
   std::optional<double> true_plateau_force;
   std::optional<double> true_breakaway_force;
   std::optional<double> true_peak_force;
+  std::optional<double> true_jump_force;
+  std::optional<double> true_force_after_jump;
 
-  std::optional<double> plateau_slope;    ///< de/ds over the plateau [-]; -2: rigid sliding
-  std::optional<double> lock_extension;   ///< s_l, where the knots' distance tells that sliding became stretching [m]
-  std::optional<double> balance_offset;   ///< F that the cell reads as zero, once the pull begins [N]
-  std::optional<double> break_extension;  ///< s where the rod parted [m]
-  std::optional<double> break_arclength;  ///< of the place where it did, from its first node [m]
+  std::optional<double> plateau_slope;   ///< de/ds over the plateau [-]; -2: rigid sliding
+  std::optional<double> lock_extension;  ///< s_l, where the knots' distance tells that sliding became stretching [m]
+  std::optional<double> first_contact_extension;  ///< s where the coils of the two knots first touch each other [m]
+  std::optional<double> roller_touched_at;  ///< s where rollers first bear on a knot or its tail, 5 % of F or more [m]
+  std::optional<double> balance_offset;     ///< F that the cell reads as zero, once the pull begins [N]
+  std::optional<double> break_extension;    ///< s where the rod parted [m]
+  std::optional<double> break_arclength;    ///< of the place where it did, from its first node [m]
   BreakPlace break_place = BreakPlace::kNone;
   std::string failure_mode;  ///< sliding then fracture, stretching then fracture, fracture, untangling; empty: none
 

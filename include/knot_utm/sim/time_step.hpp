@@ -90,6 +90,8 @@ class TimeStep {
   virtual StepWork work() const = 0;
   /// Of the last step that was tried: what is read off an accepted one, before the next is tried.
   virtual std::vector<ContactForce> contact_forces() const = 0;
+  virtual double normal_force_between(const NodeRange& a, const NodeRange& b) const = 0;
+  virtual double roller_normal_force(const NodeRange& piece) const = 0;
   /// Tension of each edge [N]; of a parted one none.
   Eigen::VectorXd tension() const;
 
