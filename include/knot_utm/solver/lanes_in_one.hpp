@@ -13,8 +13,10 @@ inline bool any(const LanesInOneMask& where) { return ((where[0] | where[1]) | (
 
 /// Rows of a 4 x 4 matrix become its columns.
 inline void transpose(LanesInOne& a, LanesInOne& b, LanesInOne& c, LanesInOne& d) {
-  const LanesInOne ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const LanesInOne cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  const LanesInOne ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6),
+                   ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const LanesInOne cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6),
+                   cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
   a = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
   b = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
   c = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);

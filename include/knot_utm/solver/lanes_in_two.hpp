@@ -83,7 +83,8 @@ inline void transpose(LanesInTwo& a, LanesInTwo& b, LanesInTwo& c, LanesInTwo& d
 
 /// The last of `before` and the first three of `now`.
 inline LanesInTwo one_later(const LanesInTwo& before, const LanesInTwo& now) {
-  return {__builtin_shufflevector(before.high(), now.low(), 1, 2), __builtin_shufflevector(now.low(), now.high(), 1, 2)};
+  return {__builtin_shufflevector(before.high(), now.low(), 1, 2),
+          __builtin_shufflevector(now.low(), now.high(), 1, 2)};
 }
 
 }  // namespace knot_utm
