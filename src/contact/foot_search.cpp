@@ -40,9 +40,6 @@ struct Cubics {
   }
 };
 
-Lanes smaller(const Lanes& a, const Lanes& b) { return select(a < b, a, b); }
-Lanes larger(const Lanes& a, const Lanes& b) { return select(a > b, a, b); }
-
 /// Where F' rises through zero in [0, 1): one place as a rule; two, or one more between places where it falls, on a
 /// segment that bends around the point. c3 >= 0, so F' rises, falls and rises at most.
 struct RisingRoots {

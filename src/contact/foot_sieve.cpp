@@ -52,7 +52,7 @@ void FootSieve::sieve(const Lanes& a0, const Lanes& a1, const Candidates::Run* b
       LanesMask left[2];
       for (int p = 0; p < 2; ++p) {
         const Lanes ends = four.slope(*a[p]);
-        const Lanes begins = __builtin_shufflevector(before[p], ends, 3, 4, 5, 6);
+        const Lanes begins = one_later(before[p], ends);
         left[p] = (begins < four.least_begin) & (ends >= four.least_end);
         before[p] = ends;
       }

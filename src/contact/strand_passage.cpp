@@ -14,8 +14,6 @@ constexpr double kRounding = 1e-12;  // more than what rounding does to e.d [fra
 constexpr int kNeighbours = 2;
 
 Lanes load(const Points& points, Eigen::Index i) { return Lanes{points(0, i), points(1, i), points(2, i), 0.0}; }
-Lanes smaller(const Lanes& a, const Lanes& b) { return a < b ? a : b; }
-Lanes larger(const Lanes& a, const Lanes& b) { return a > b ? a : b; }
 
 }  // namespace
 

@@ -3,13 +3,23 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "knot_utm/solver/lanes_in_two.hpp"
+#ifdef __AVX__
+#include "knot_utm/solver/lanes_in_one.hpp"
+#endif
+
 namespace knot_utm {
 
-/// Four doubles the compiler keeps in one vector register (or two, without AVX): a vector of three and nothing, or one
+/// Four doubles in one vector register, or in two where registers are shorter: a vector of three and nothing, or one
 /// number of four things that are worked out side by side. Formulas for both, one thing and four, take `double` or
 /// `Lanes` for Real, and Eigen's vectors or FourVectors.
-using Lanes = double __attribute__((vector_size(32)));
-using LanesMask = decltype(Lanes{} < Lanes{});
+#ifdef __AVX__
+using Lanes = LanesInOne;
+using LanesMask = LanesInOneMask;
+#else
+using Lanes = LanesInTwo;
+using LanesMask = LanesInTwoMask;
+#endif
 
 inline Lanes to_lanes(const Eigen::Vector3d& v) { return Lanes{v[0], v[1], v[2], 0.0}; }
 inline Lanes to_lanes(const double* v) { return Lanes{v[0], v[1], v[2], 0.0}; }
@@ -26,9 +36,10 @@ Real constant(double value) {
   return Real{} + value;
 }
 inline double select(bool where, double a, double b) { return where ? a : b; }
-inline Lanes select(const LanesMask& where, const Lanes& a, const Lanes& b) { return where ? a : b; }
 inline bool any(bool where) { return where; }
-inline bool any(const LanesMask& where) { return ((where[0] | where[1]) | (where[2] | where[3])) != 0; }
+
+inline Lanes smaller(const Lanes& a, const Lanes& b) { return select(a < b, a, b); }
+inline Lanes larger(const Lanes& a, const Lanes& b) { return select(a > b, a, b); }
 
 inline double square_root(double v) { return std::sqrt(v); }
 inline Lanes square_root(const Lanes& v) {
@@ -40,16 +51,6 @@ inline Lanes square_root(const Lanes& v) {
 }
 inline double tanh(double v) { return std::tanh(v); }
 inline Lanes tanh(const Lanes& v) { return Lanes{std::tanh(v[0]), std::tanh(v[1]), std::tanh(v[2]), std::tanh(v[3])}; }
-
-/// Rows of a 4 x 4 matrix become its columns.
-inline void transpose(Lanes& a, Lanes& b, Lanes& c, Lanes& d) {
-  const Lanes ab_even = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab_odd = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-  const Lanes cd_even = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd_odd = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  a = __builtin_shufflevector(ab_even, cd_even, 0, 1, 4, 5);
-  b = __builtin_shufflevector(ab_odd, cd_odd, 0, 1, 4, 5);
-  c = __builtin_shufflevector(ab_even, cd_even, 2, 3, 6, 7);
-  d = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
-}
 
 /// Four vectors of three, side by side.
 struct FourVectors {
