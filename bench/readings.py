@@ -29,7 +29,7 @@ HEADER = (["number"] + DRAWN + FOUND + ["exit_code", "fine_exit_code", "cpu_time
 
 def report(runner, _, seed=SEED, count=COUNT):
     pairs = run_all(runner, [Stranger(seed, number) for number in range(count)])
-    write_draws(os.path.join(runner.folder, "draws.csv"), pairs)
+    write_draws(os.path.join(runner.folder, f"draws_{seed}.csv"), pairs)
     judged = {key: [Judgement(key, *pair) for pair in pairs] for key in READINGS}
     tables = [summary(judged)] + [table_of(key, judged[key]) for key in READINGS] + [table_of_runs(pairs)]
     return Report("Errors beside readings",
@@ -66,8 +66,7 @@ class Judgement:
         self.title = draw.title()
         self.reading, self.fine = (scaled(value_of(one, READINGS[key][1]), unit) for one in (run, fine))
         self.error = scaled(value_of(run, key + "_error"), unit)
-        self.reasons = (run.value("null_reasons") or {}) if isinstance(run.value("null_reasons"), dict) else {}
-        self.reason = self.reasons.get(key + "_error") or self.reasons.get(key)
+        self.reason = reason_of(run, key + "_error") if self.error is None else ""
         both = self.reading is not None and self.fine is not None
         self.difference = abs(self.reading - self.fine) if both else None
         nothing = self.reading is None and self.fine is None
@@ -78,6 +77,18 @@ def value_of(run, key):
     """Of a run that went to its end."""
     value = run.value(key) if run.exit_code == 0 else None
     return None if is_missing(value) else value
+
+
+def reason_of(run, key):
+    """What result.yaml says, behind the null, of a reading that a run does not have."""
+    if run.exit_code != 0:
+        return run.said or f"exit {run.exit_code}"
+    try:
+        with open(os.path.join(run.folder, "result.yaml"), encoding="utf-8") as lines:
+            found = [line for line in lines if line.startswith(key + ": null")]
+    except OSError:
+        found = []
+    return found[0].partition("#")[2].strip() if found else ""
 
 
 def scaled(value, unit):
@@ -119,7 +130,7 @@ def table_of(key, judged):
                                                   "reason where there is none"])
     for one in judged:
         table.add(one.title, "-", [one.reading, one.fine, one.difference, one.error, bool(one.holds),
-                                   one.reason or ""], None, ".3g")
+                                   one.reason.replace("\n", " ").replace("|", "/")], None, ".3g")
     return table
 
 
