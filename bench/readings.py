@@ -47,15 +47,15 @@ def report(runner, _, seed=SEED, count=COUNT):
 
 
 def run_all(runner, draws):
-    """(draw, its run, its fine run) of each, the slow ones among the others."""
+    """(draw, its run, its fine run) of each."""
     def run(draw, name, settings):
         return runner.start(f"{draw.seed}/{draw.number}/{name}", {**draw.settings, **settings}, "config/tighten.yaml",
                             None, CPU_LIMIT).wait()
 
     with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
-        fine = [pool.submit(run, draw, "fine", FINE_RUN) for draw in draws]
-        normal = [pool.submit(run, draw, "normal", {}) for draw in draws]
-        return [(draw, one.result(), other.result()) for draw, one, other in zip(draws, normal, fine)]
+        started = [(draw, pool.submit(run, draw, "normal", {}), pool.submit(run, draw, "fine", FINE_RUN))
+                   for draw in draws]
+        return [(draw, one.result(), other.result()) for draw, one, other in started]
 
 
 class Judgement:
