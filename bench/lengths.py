@@ -3,6 +3,8 @@ import concurrent.futures
 import math
 import statistics
 
+import numpy as np
+
 import plots
 import runs
 from table import REFERENCE, Report, Table, at_most, is_, is_missing
@@ -31,8 +33,8 @@ def report(runner, materials, seeds=3):
                   f"is the mean of the true force from {SHARED[0]:g} to {SHARED[1]:g} of the way from zero to the lock, so that loops "
                   "of unlike e are compared at like shares of their way. The lock is given as the distance that "
                   "the knots still have when they lock (e less twice the extension): it is theirs, where the "
-                  "extension is the way to it. The stiffness is multiplied by the rod's length around the loop, of which it is a share of "
-                  "the stretching stiffness. A change must stay within the larger of the error that the run gives and "
+                  "extension is the way to it. The stiffness k is that of a loop of two strands, 4 k_s over its length; "
+                  "what 4 k_s/k is longer than the way around the rollers at the lock is what both knots add. A change must stay within the larger of the error that the run gives and "
                   f"of {SURE:g} standard errors of the difference. Runs without a lock have no share of the way to it, "
                   "and fail.", tables, lambda file: plots.panels(file, curves, "L or e [mm]", "mean force [N]"))
 
@@ -62,8 +64,9 @@ def study(runner, material, title, loops, seeds, curves):
         [shares_of(starts, "plateau_force", "true_plateau_force") for starts in each])
     add(table, "knot distance at the lock", "m", [[distance_at_lock(run) for run in starts] for starts in each],
         [shares_of(starts, "lock_extension", "lock_extension", 2.0) for starts in each], absolute=True)
-    add(table, "locked stiffness times the loop over 4 k_s", "-", [[stiffness_of(run) for run in starts] for starts in each],
-        [shares_of(starts, "locked_stiffness", "locked_stiffness") for starts in each])
+    add(table, "rod that the knots add to the loop's stretching", "m",
+        [[added_by_knots(run) for run in starts] for starts in each],
+        [stiffness_error(starts) for starts in each], absolute=True)
     table.add("plateau force as the run gives it", "N",
               [", ".join(text(run.value("plateau_force")) for run in starts) for starts in each])
     table.add("warnings", "-", ["; ".join(sorted({warning.replace("|", "/") for run in starts
@@ -93,11 +96,13 @@ def add(table, words, unit, values, errors, absolute=False):
 
 
 def force_on_the_way(run):
+    """Mean of the true force over the way, and not over the steps, which are shorter where the force changes fast."""
     lock = run.value("lock_extension") if run.exit_code == 0 else None
-    if is_missing(lock):
+    extension, load = runs.pulled(run)
+    if is_missing(lock) or not extension:
         return None
-    force = [load for extension, load in zip(*runs.pulled(run)) if SHARED[0] * lock <= extension <= SHARED[1] * lock]
-    return mean(force)
+    way = np.linspace(SHARED[0] * lock, SHARED[1] * lock, 500)
+    return float(np.mean(np.interp(way, extension, load))) + (run.value("balance_offset") or 0.0)
 
 
 def distance_at_lock(run):
@@ -105,15 +110,28 @@ def distance_at_lock(run):
     return None if run.exit_code != 0 or is_missing(lock) or is_missing(tied) else tied - 2.0 * lock
 
 
-def stiffness_of(run):
-    """Over that of a loop of this length without knots, of four strands that share it."""
+def stretched_length(run):
+    """4 k_s over the locked stiffness [m]."""
     stiffness = run.value("locked_stiffness") if run.exit_code == 0 else None
-    material, specimen = run.method.get("material"), run.method.get("specimen")
+    material = run.method.get("material")
     if is_missing(stiffness) or not isinstance(material, dict):
         return None
-    roller = run.method["machine"]["roller_diameter"]
-    loop = 2.0 * (specimen["end_to_end"] + run.value("lock_extension")) + math.pi * (0.5 * roller + material["radius"])
-    return stiffness * loop / (4.0 * material["stretching_stiffness"])
+    return 4.0 * material["stretching_stiffness"] / stiffness
+
+
+def added_by_knots(run):
+    length, lock = stretched_length(run), run.value("lock_extension")
+    if length is None or is_missing(lock):
+        return None
+    half_turns = math.pi * (0.5 * run.method["machine"]["roller_diameter"] + run.method["material"]["radius"])
+    return length - 2.0 * (run.method["specimen"]["end_to_end"] + lock + half_turns)
+
+
+def stiffness_error(starts):
+    """What it makes of the length [m]."""
+    share = shares_of(starts, "locked_stiffness", "locked_stiffness")
+    length = mean([stretched_length(run) for run in starts])
+    return None if share is None or length is None else share * length
 
 
 def shares_of(starts, key, reading, times=None):

@@ -170,8 +170,8 @@ class Studies(unittest.TestCase):
     def test_the_force_on_the_way_is_of_the_same_shares_of_every_way(self):
         run = runs.Run("/nowhere", 1.0, 0, "")
         run.result = {"lock_extension": 10.0, "tied_knot_distance": 30.0}
-        run.curve = {"phase": ["pull"] * 11, "extension": [float(k) for k in range(11)],
-                     "load": [0.0, 0.0] + 7 * [3.0] + [9.0, 9.0]}
+        run.curve = {"phase": ["pull"] * 13, "extension": [0.0, 1.0, 1.9, 1.95, 1.99] + [float(k) for k in range(2, 10)],
+                     "load": 5 * [0.0] + 7 * [3.0] + [9.0]}
         self.assertAlmostEqual(lengths.force_on_the_way(run), 3.0)
         self.assertAlmostEqual(lengths.distance_at_lock(run), 10.0)
         run.result = {}
