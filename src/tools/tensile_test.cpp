@@ -25,6 +25,7 @@
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/io/shipped.hpp"
+#include "knot_utm/io/speed_warnings.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/test_bench.hpp"
 #include "knot_utm/machine/test_program.hpp"
@@ -232,6 +233,9 @@ Results write_results(const Test& test, Writers& writers, const WallClock& clock
   facts.wall_time = clock.seconds();
   const Results results = writers.run.results(test.program.ended_by());
   writers.run.finish(results, facts, test.bench.state().position);
+  for (const std::vector<std::string>& all :
+       {events(results), speed_warnings(results.rate, facts.inertia), facts.warnings})
+    for (const std::string& warning : all) std::fprintf(stderr, "%s: %s\n", kTool, warning.c_str());
   const std::string unsure = accuracy_warning(results, facts.errors);
   if (!unsure.empty()) std::fprintf(stderr, "%s: %s\n", kTool, unsure.c_str());
   return results;

@@ -19,6 +19,7 @@ struct RunFacts {
   ReadingErrors errors;               ///< of the readings, as fractions of them
   double wall_time = 0.0;             ///< [s]
   std::uint64_t peak_memory = 0;      ///< of the process [bytes]; 0: not known
+  double inertia = 1.0;               ///< mass that is accelerated, over the rod's own [-]
   LoadCellOptions load_cell;          ///< that read the forces
   Specification specification;        ///< what the user asks of the results
   std::string version;                ///< of this package
