@@ -152,6 +152,25 @@ def statuses(file, colours, maps, histograms, linear=()):
     save(figure, file)
 
 
+def error_against_difference(file, panels_of):
+    """Error given over true difference, one panel a reading: what lies above the line holds. `panels_of`: title ->
+    [(difference, error, whether it holds)]."""
+    figure, all_axes = plt.subplots(1, len(panels_of), figsize=(4.6 * len(panels_of), 4.2), squeeze=False)
+    for axes, (title, points) in zip(all_axes[0], panels_of.items()):
+        known = [(difference, error, holds) for difference, error, holds in points if difference and error]
+        for difference, error, holds in known:
+            axes.plot([difference], [error], "o", markersize=4, color="tab:blue" if holds else "tab:red")
+        if known:
+            ends = [min(point[0] for point in known), max(point[0] for point in known)]
+            axes.plot(ends, ends, color="black", linewidth=0.8)
+        axes.set_xscale("log")
+        axes.set_yscale("log")
+        axes.set_title(title)
+        axes.set_xlabel("true difference")
+        axes.set_ylabel("error given")
+    save(figure, file)
+
+
 def logarithmic(axes, values):
     """Logarithmic, and linear around zero: below a tenth of what is usual."""
     sizes = sorted(abs(value) for value in values)

@@ -14,11 +14,15 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../
 
 import convergence  # noqa: E402
 import front  # noqa: E402
+import lengths  # noqa: E402
+import peers  # noqa: E402
+import readings  # noqa: E402
 import references  # noqa: E402
 import runs  # noqa: E402
 import scaling  # noqa: E402
 import sizes  # noqa: E402
 import specimens  # noqa: E402
+import strangers  # noqa: E402
 import tighten  # noqa: E402
 import tightness  # noqa: E402
 from table import Table, at_least, at_most, is_, within  # noqa: E402
@@ -133,7 +137,71 @@ class Runs(unittest.TestCase):
         self.assertEqual(subprocess.run(runs.SHELLS_CHILD + ["/bin/sh", "-c", "exit 2"], check=False).returncode, 2)
 
 
+class Errors(unittest.TestCase):
+    """When the error beside a reading holds (scripts/bench readings)."""
+
+    def judged(self, result, fine_result, exit_code=0):
+        draw = strangers.Stranger(1, 0)
+        unit = draw.unit_of("plateau_force")
+        both = []
+        for values, code in ((result, exit_code), (fine_result, 0)):
+            run = runs.Run("/nowhere", 1.0, code, "")
+            run.result = {key: value * unit for key, value in values.items()}
+            both.append(run)
+        return readings.Judgement("plateau_force", draw, *both)
+
+    def test_holds_where_the_difference_is_no_larger(self):
+        self.assertTrue(self.judged({"true_plateau_force": 1.0, "plateau_force_error": 0.2},
+                                    {"true_plateau_force": 1.1}).holds)
+        one = self.judged({"true_plateau_force": 1.0, "plateau_force_error": 0.05}, {"true_plateau_force": 1.1})
+        self.assertFalse(one.holds)
+        self.assertAlmostEqual(one.difference, 0.1)
+
+    def test_a_null_holds_only_where_neither_run_has_a_reading(self):
+        self.assertTrue(self.judged({}, {}).holds)
+        self.assertFalse(self.judged({}, {"true_plateau_force": 1.0}).holds)
+        self.assertFalse(self.judged({"true_plateau_force": 1.0, "plateau_force_error": 9.0}, {}).holds)
+        self.assertFalse(self.judged({"true_plateau_force": 1.0}, {"true_plateau_force": 1.0}).holds)
+        self.assertFalse(self.judged({"true_plateau_force": 1.0, "plateau_force_error": 9.0},
+                                     {"true_plateau_force": 1.0}, exit_code=1).holds)
+
+    def test_the_same_seed_draws_the_same_loops_and_coils_clear_the_rollers(self):
+        for number in range(200):
+            draw = strangers.Stranger(19, number)
+            self.assertEqual(draw.settings, strangers.Stranger(19, number).settings)
+            specimen = draw.settings
+            gap = specimen["specimen.end_to_end"] - specimen["specimen.knot_distance"]
+            self.assertGreaterEqual(gap, 25.99 * draw.radius)
+            self.assertLessEqual(draw.preload, draw.values["stretching"])
+        self.assertNotEqual(strangers.Stranger(19, 0).settings, strangers.Stranger(20, 0).settings)
+
+
 class Studies(unittest.TestCase):
+    def test_peers_are_compared_with_ours_of_their_own_machine_only(self):
+        class Here:
+            def nodes(self):
+                return 314
+
+            def machine(self):
+                return "some machine, 2 cores; busy"
+
+        rows = front.side_by_side(Here(), Here(), peers.Figure(0.1, 0.01)).rows
+        on_its_machine = {(row[0], row[2][3]): row[2][5] for row in rows}
+        self.assertEqual(on_its_machine[("imc-der, step of 2.5 ms", peers.FIRST.machine)], "")
+        self.assertAlmostEqual(on_its_machine[("imc-der, step of 2.5 ms", peers.SECOND.machine)], 4.97 / 0.0212)
+        self.assertEqual({len(row[2]) for row in rows}, {7})
+        self.assertFalse(front.solves_for_twist("draft, twist off"))
+
+    def test_the_force_on_the_way_is_of_the_same_shares_of_every_way(self):
+        run = runs.Run("/nowhere", 1.0, 0, "")
+        run.result = {"lock_extension": 10.0, "tied_knot_distance": 30.0}
+        run.curve = {"phase": ["pull"] * 13, "extension": [0.0, 1.0, 1.9, 1.95, 1.99] + [float(k) for k in range(2, 10)],
+                     "load": 5 * [0.0] + 7 * [3.0] + [9.0]}
+        self.assertAlmostEqual(lengths.force_on_the_way(run), 3.0)
+        self.assertAlmostEqual(lengths.distance_at_lock(run), 10.0)
+        run.result = {}
+        self.assertIsNone(lengths.force_on_the_way(run))
+
     def test_force_over_theory_is_one_where_it_holds(self):
         h, bending, mu, length, eps = 0.0016, 9.265e-7, 0.3, 1.0, 0.15
         run = runs.Run("/nowhere", 1.0, 0, "")
