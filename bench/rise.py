@@ -21,16 +21,15 @@ LATELY = 0.003  # [m] of the way over which the force is a mean
 def report(runner, materials):
     tables, forces = [], {}
     for material in materials:
-        forces[material] = {}
         for loop, (settings, extensions) in LOOPS.items():
             readings = [look(runner, material, loop, settings, s) for s in extensions]
             tables.append(table_of(f"{material}, {loop}", extensions, readings, steady(loop, extensions, readings)))
             known = [(1e3 * r["e"], r["force"]) for r in readings if None not in (r["e"], r["force"])]
-            forces[material][loop] = tuple(zip(*known)) if known else ((), ())
+            forces[f"{material}, {loop}"] = tuple(zip(*known)) if known else ((), ())
     return Report("Why the force rises while knots slide",
                   "Pulls of `config/tighten.yaml` that stop at several extensions. The winding is the angle by which the "
                   f"line from one strand to the other turns between the knots, up to {MOUTH:g} radii from their middles.",
-                  tables, lambda file: plots.panels(file, forces, "knot distance e [mm]", "load F [N]"))
+                  tables, lambda file: plots.curves_together(file, forces, "knot distance e [mm]", "load F [N]"))
 
 
 def look(runner, material, loop, settings, extension):
