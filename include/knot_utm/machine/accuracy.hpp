@@ -28,19 +28,11 @@ struct ReadingErrors {
   std::optional<double> locked_stiffness;
 };
 
-/// With edges of l in the knots, contact tolerance delta, presliding xi_s, longest step dt, residual r, and the
-/// pre-load in units of bending, P = F_p h^2/k_b:
-///
-///     plateau    (0.005 + 0.002 P) (2 l/h)^2 + (0.005 + 0.00175 P) delta/0.02h + 0.01 xi_s/0.002h
-///                + 0.005 dt/0.17s + 0.003 r/(1e-4 k_b/h^2)
-///     lock       0.004 + 0.006 (2 l/h)^2 + 0.002 dt/0.17s
-///     stiffness  0.005 + 0.006 (2 l/h)^2
-///
-/// The powers are the orders of the method. The factors were chosen after `scripts/bench convergence` (normal and
-/// draft, three pre-loads; P of 3 to 53; contact `smooth` and friction `memory`): those of plateau and lock for
-/// polypropylene and nylon, that of the stiffness for VPS too. doc/performance.md says how they held for loops they
-/// were not chosen for. For nylon the plateau's is large: the effects of edges and contact tolerance partly cancel. The
-/// 0.1 % for a straight rod, whose stiffness is exact but for the residual, is an upper bound by judgement.
+/// Each is meant to hold 95 % of the differences to a run at `fine` with edges half as long. Its size at `normal` is
+/// that found over loops drawn at random (`scripts/bench readings`); it depends on the hands of the knots, on friction
+/// and pre-load of those of opposite hands, and of rods that stretch on the length of the loop. Other edges and
+/// tolerances raise or lower it: edges by their square, contact tolerance, presliding, longest step and residual each
+/// by its share.
 ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const PhysicsOptions& physics);
 
 }  // namespace knot_utm
