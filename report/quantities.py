@@ -43,6 +43,8 @@ GROUPS = [
         "plateau_force_high": force("Largest force within the plateau"),
         "plateau_slope": Quantity("Slope de/ds of the knot distance within the plateau; –\u20602 is rigid sliding"),
         "breakaway_force": force("Breakaway force, the largest before the plateau"),
+        "margin_friction": Quantity("Share of the friction coefficient that may be missing before the knots open"),
+        "margin_preload": Quantity("Share of the pre-load that may be missing before the knots open"),
         "lock_extension": length("Lock extension, where the motion of the knots shows that they lock"),
         "lock_extension_by_load": length("Lock extension by the load alone, where it last rises through twice the plateau"),
         "locked_stiffness": stiffness("Locked stiffness"),

@@ -8,6 +8,7 @@
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/verdict.hpp"
 #include "knot_utm/io/yaml_lines.hpp"
+#include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 
@@ -22,6 +23,8 @@ std::string begin(const std::string& folder, const Method& method) {
   return folder;
 }
 
+/// Of a loop around its rollers. Rods of shipped methods turn by less than a third of it [h].
+constexpr double kTurned = 6.0;
 /// Above this a knot has jumped open: its plateau is no longer what its tying made it [m/s].
 constexpr double kJump = 0.1;
 /// A contact deeper than this is no longer that of the rod it stands for [fraction of radius].
@@ -100,7 +103,14 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
       curve_((fs::path(folder) / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
       full_curve_((fs::path(folder) / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)) {
   known_.errors = reading_errors(method.specimen, method.material, method.physics);
-  if (method.specimen.to_be_tied) known_.preload = method.specimen.preload.value_or(Sample::kNone);
+  if (method.specimen.to_be_tied) {
+    known_.preload = method.specimen.preload.value_or(Sample::kNone);
+    known_.warnings = tying_warnings(method.specimen, method.material, method.physics);
+  }
+  if (method.specimen.knot == KnotKind::kFisherman && method.machine.grips == GripKind::kRollers)
+    radius_on_rollers_ = method.material.radius;
+  if (method.analysis.margin)
+    known_.margin.reason = "only tensile_test makes the runs for the margin: run method.yaml of this folder with it";
   known_.load_cell = method.machine.load_cell;
   known_.specification = method.specification;
   known_.version = version();
@@ -115,6 +125,8 @@ void RunWriter::add(const Record& record) {
     samples_.push_back(step);
   }
   if (sample.status == BenchStatus::kFailed) return;
+  const bool mounted = sample.phase != Phase::kIdle && sample.phase != Phase::kTie && sample.phase != Phase::kRelease;
+  if (mounted && record.shape.cols() > 0 && sample.status != BenchStatus::kBroken) turn_.add(record.shape);
   const Sample* reading = cell_reading(record);
   if (reading && (readings_.empty() || reading->time > readings_.back().time)) {
     curve_.write(*reading);
@@ -132,6 +144,11 @@ Results RunWriter::results(EndedBy ended_by) const { return analyse(samples_, re
 RunFacts RunWriter::facts() const {
   RunFacts facts = known_;
   facts.peak_memory = peak_memory();
+  if (radius_on_rollers_ && turn_.largest() > kTurned * *radius_on_rollers_)
+    facts.warnings.push_back("the loop turned around its rollers by " +
+                             format_number(std::round(turn_.largest() / *radius_on_rollers_)) +
+                             " radii of the rod, which carries its knots along: physics.gravity turns it, and "
+                             "machine.roller_friction holds it");
   return facts;
 }
 
@@ -154,6 +171,7 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
     all_warnings.insert(all_warnings.end(), more.begin(), more.end());
   const std::string unsure = accuracy_warning(r, f.errors);
   if (!unsure.empty()) all_warnings.push_back(unsure);
+  if (!f.margin.reason.empty()) all_warnings.push_back("no margin: " + f.margin.reason);
   lines.list("warnings", all_warnings);
   lines.flag("not_equilibrated", !r.not_equilibrated.empty());
   lines.number("preload", f.preload);
@@ -165,6 +183,8 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.number("plateau_force_error", share_of(r.true_plateau_force, errors.plateau_force));
   lines.number("plateau_slope", r.plateau_slope);
   lines.number("breakaway_force", r.curve.breakaway_force);
+  lines.number("margin_friction", f.margin.friction);
+  lines.number("margin_preload", f.margin.preload);
   lines.number("lock_extension", r.lock_extension);
   lines.number("lock_extension_error", share_of(r.lock_extension, errors.lock_extension));
   lines.number("lock_extension_by_load", r.curve.lock_extension_by_load);

@@ -1,0 +1,22 @@
+#include "knot_utm/analysis/loop_turn.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace knot_utm {
+
+void LoopTurn::add(const Points& shape) {
+  Eigen::Index highest = 0, lowest = 0;
+  shape.row(2).maxCoeff(&highest);
+  shape.row(2).minCoeff(&lowest);
+  double length = 0.0, sum = 0.0;
+  for (Eigen::Index i = 0; i < shape.cols(); ++i) {
+    if (i > 0) length += (shape.col(i) - shape.col(i - 1)).norm();
+    if (i == highest || i == lowest) sum += length;
+  }
+  const double middle = 0.5 * sum;
+  if (!first_) first_ = middle;
+  largest_ = std::max(largest_, std::abs(middle - *first_));
+}
+
+}  // namespace knot_utm
