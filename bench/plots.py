@@ -1,5 +1,6 @@
 """Pictures of curves, drawn without a display."""
 import math
+import statistics
 
 import matplotlib
 
@@ -48,6 +49,23 @@ def panels(file, curves, x_label, y_label):
         axes.set_xlabel(x_label)
         axes.set_ylabel(y_label)
         axes.legend(fontsize="x-small")
+    save(figure, file)
+
+
+def strips(file, groups, label):
+    """One panel a group: every value over its name, beside it their mean and its standard error. `groups`: group ->
+    name -> values."""
+    figure, all_axes = plt.subplots(1, len(groups), figsize=(3.4 * len(groups), 3.8), squeeze=False)
+    for axes, (group, columns) in zip(all_axes[0], groups.items()):
+        for place, values in enumerate(columns.values()):
+            axes.plot([place - 0.1] * len(values), values, "o", color="tab:blue", markersize=4, alpha=0.6)
+            if len(values) > 1:
+                error = statistics.stdev(values) / math.sqrt(len(values))
+                axes.errorbar([place + 0.15], [statistics.fmean(values)], [error], fmt="s", color="tab:orange", capsize=3)
+        axes.set_xticks(range(len(columns)), columns, fontsize="small")
+        axes.set_xlim(-0.5, len(columns) - 0.5)
+        axes.set_title(group)
+        axes.set_ylabel(label)
     save(figure, file)
 
 

@@ -7,7 +7,9 @@ from failure import CannotReport
 from is_number import is_number
 from run import numbers, printable, read_columns, read_yaml
 
-READINGS = ("peak_force", "plateau_force", "breakaway_force", "lock_extension_by_load", "locked_stiffness")
+READINGS = ("peak_force", "plateau_force", "plateau_force_low", "plateau_force_high", "plateau_force_slope",
+            "breakaway_force", "largest_drop", "jump_force", "force_after_jump", "lock_extension_by_load",
+            "locked_stiffness")
 
 
 class Pull:

@@ -215,7 +215,7 @@ def end_of_test(run):
 
 
 def shade_motion(axes, run):
-    """Up to the lock the knots slide, behind it the rod stretches; the break ends it."""
+    """Up to the lock the knots slide, behind it the rod stretches; the break ends it. Dotted: the knots touch."""
     lock, broke, scale = run.value("lock_extension"), run.value("break_extension"), run.units.length.scale
     if lock is not None:
         axes.axvspan(0.0, scale * lock, color=PHASES["mount"], alpha=0.45, lw=0, zorder=0)
@@ -224,6 +224,9 @@ def shade_motion(axes, run):
         error = run.value("lock_extension_error")
         if error:
             axes.axvspan(scale * (lock - error), scale * (lock + error), color=GREY, alpha=0.2, lw=0, zorder=0)
+    touch = run.value("first_contact_extension")
+    if touch is not None:
+        axes.axvline(scale * touch, color=VIOLET, lw=0.9, ls=(0, (1, 2)))
     if broke is not None:
         axes.axvline(scale * broke, color=RED, lw=1.1)
 

@@ -48,7 +48,8 @@ def report_on_run(folder, command, version):
     run = Run(folder)
     marks = marks_of(run)
     largest = largest_load(run)
-    checks, asked = certificate(run.result), specification_checks(run.method, run.result, run.units)
+    checks = certificate(run.result)
+    asked = specification_checks(run.method, run.result, run.units)
     words, good = verdict(checks)
     results, unmeasured = results_table(run.result, run.units, words_of_largest(largest))
     return render("run.html.j2", {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
+#include <tuple>
 
 #include "pull_integrals.hpp"
 
@@ -12,7 +14,11 @@ namespace {
 constexpr double kPlateauBegin = 0.3, kPlateauEnd = 0.8;  // of the way to the lock
 constexpr double kLockedLoad = 2.0;                       // times the plateau's mean
 constexpr double kEarliestLock = 0.15;                    // of the pull
-constexpr double kLevel = 0.5;                            // rise of a plateau over its mean
+constexpr double kLevel = 0.5;                            // change of a plateau over its mean ...
+constexpr double kProportional = 1.0 / 1.1;               // ... and that of a force in proportion to s
+constexpr double kSliding = -2.0, kOffSliding = 0.5;      // de/ds of rigid sliding, and how far off it a plateau's is
+constexpr double kSudden = 0.05;                          // of the way to the lock
+constexpr double kLetOut = 0.05;                          // of the first e
 
 double mean_force(const Pull& pull, const Range& range) {
   const Integrals part = integrate(pull, range);
@@ -28,6 +34,71 @@ double middle_slope(const Pull& pull, const Range& range) {
   }
   std::sort(slope.begin(), slope.end());
   return slope[1];
+}
+
+/// Smallest and largest F, F being straight from point to point.
+std::pair<double, double> extremes(const Pull& pull, const Range& range) {
+  const auto force_at = [&](double s) {
+    const auto after = std::lower_bound(pull.begin() + 1, pull.end() - 1, s,
+                                        [](const PullPoint& p, double extension) { return p.extension < extension; });
+    const PullPoint &a = *(after - 1), &b = *after;
+    return a.force + (s - a.extension) / (b.extension - a.extension) * (b.force - a.force);
+  };
+  const double begin = force_at(range.low), end = force_at(range.high);
+  double low = std::min(begin, end), high = std::max(begin, end);
+  for (const PullPoint& point : pull)
+    if (point.extension >= range.low && point.extension <= range.high) {
+      low = std::min(low, point.force);
+      high = std::max(high, point.force);
+    }
+  return {low, high};
+}
+
+/// The last point within `way` of point i, at least the next one, as far as s = `end`.
+std::size_t last_within(const Pull& pull, std::size_t i, double way, double end) {
+  std::size_t last = i;
+  while (last + 1 < pull.size() && pull[last + 1].extension <= end &&
+         (last == i || pull[last + 1].extension - pull[i].extension <= way))
+    ++last;
+  return last;
+}
+
+double sudden(const Pull& pull, double end) { return kSudden * (end - pull.front().extension); }
+
+/// The largest fall of F between two points of a range that are no further apart than `way`.
+std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double way) {
+  std::optional<Drop> out;
+  for (std::size_t i = 0; i < pull.size() && pull[i].extension <= range.high; ++i) {
+    if (pull[i].extension < range.low) continue;
+    const std::size_t last = last_within(pull, i, way, range.high);
+    for (std::size_t j = i + 1; j <= last; ++j) {
+      const double fall = pull[i].force - pull[j].force, largest = out ? out->force(pull) : 0.0;
+      // Of those that are the same the last begins where F begins to fall.
+      if (fall > largest || (fall == largest && out && i > out->from)) out = Drop{i, j};
+    }
+  }
+  return out;
+}
+
+/// By which the knots came nearer to each other beyond what sliding can do [m].
+double let_out(const PullPoint& from, const PullPoint& to) {
+  return from.knot_distance - to.knot_distance + kSliding * (to.extension - from.extension);
+}
+
+std::string text(const char* format, double a, double b = 0.0) {
+  std::array<char, 200> line{};
+  std::snprintf(line.data(), line.size(), format, a, b);
+  return line.data();
+}
+
+/// Why the mean of F is no plateau; empty: it is.
+std::string why_not_level(const Plateau& level, bool locked) {
+  if (std::abs(level.slope - kSliding) > kOffSliding)
+    return text("the knots do not slide steadily: de/ds is %.2f, where %.0f is sliding", level.slope, kSliding);
+  const bool slides = locked || std::isfinite(level.slope);
+  if (std::abs(level.rise) < (slides ? kProportional : kLevel) * level.force) return {};
+  return text("the load is not level: from 0.3 to 0.8 of the way it changes by %.3g N about a mean of %.3g N",
+              level.rise, level.force);
 }
 
 std::optional<double> lock_by_load(const Pull& pull) {
@@ -66,6 +137,8 @@ std::optional<Plateau> plateau(const Pull& pull, double end) {
   out.force = part.force / part.width;
   out.force_sd = std::sqrt(std::max(0.0, part.square / part.width - out.force * out.force));
   out.slope = part.distance_change / part.width;
+  out.force_slope = slope_over(pull, range);
+  std::tie(out.low, out.high) = extremes(pull, range);
   const double middle = 0.5 * (range.low + range.high);
   out.rise = 2.0 * (mean_force(pull, {middle, range.high}) - mean_force(pull, {range.low, middle}));
   return out;
@@ -80,6 +153,32 @@ double breakaway_force(const Pull& pull, double end) {
   return out;
 }
 
+std::optional<Drop> largest_drop(const Pull& pull, double end) {
+  if (pull.empty()) return std::nullopt;
+  return largest_drop(pull, {pull.front().extension, end}, sudden(pull, end));
+}
+
+std::optional<Drop> jump(const Pull& pull, double end) {
+  if (pull.empty()) return std::nullopt;
+  const auto less = [&](const PullPoint& a, const PullPoint& b) { return a.force < b.force; };
+  const auto point = [&](std::size_t i) { return pull.begin() + static_cast<std::ptrdiff_t>(i); };
+  double most = kLetOut * pull.front().knot_distance;
+  std::optional<Drop> out;
+  for (std::size_t i = 0; i < pull.size() && pull[i].extension <= end; ++i) {
+    const std::size_t last = last_within(pull, i, sudden(pull, end), end);
+    for (std::size_t j = i + 1; j <= last; ++j)
+      if (pull[j].force < pull[i].force && let_out(pull[i], pull[j]) > most) {
+        most = let_out(pull[i], pull[j]);
+        out = Drop{i, j};
+      }
+  }
+  if (!out) return std::nullopt;
+  const std::size_t left = last_within(pull, out->to, sudden(pull, end), end);
+  out->to = static_cast<std::size_t>(std::min_element(point(out->to), point(left + 1), less) - pull.begin());
+  out->from = static_cast<std::size_t>(std::max_element(point(out->from), point(out->to), less) - pull.begin());
+  return out;
+}
+
 std::optional<double> locked_stiffness(const Pull& pull, double from) {
   if (pull.empty()) return std::nullopt;
   const double peak = peak_force(pull);
@@ -91,19 +190,53 @@ std::optional<double> locked_stiffness(const Pull& pull, double from) {
   return middle_slope(pull, {pull[begin].extension, pull[end - 1].extension});
 }
 
+namespace {
+
+/// Where F falls at once by more than a level may change the mean is one of before and behind; empty: it does not.
+std::string why_interrupted(const Pull& pull, double end, double mean) {
+  const std::optional<Drop> fall = largest_drop(pull, plateau_range(pull, end), sudden(pull, end));
+  if (!fall || fall->force(pull) < kLevel * mean) return {};
+  return text("the load is not level: it drops by %.3g N at %.3g m", fall->force(pull), pull[fall->from].extension);
+}
+
+void read_plateau(const Pull& pull, double end, const std::optional<Drop>& jumped, CurveReadings& out) {
+  const std::optional<Plateau> level = plateau(pull, end);
+  if (!level) {
+    out.no_plateau = "the pull has too few readings";
+  } else if (jumped && pull[jumped->from].extension <= plateau_range(pull, end).high) {
+    out.no_plateau = text("a knot jumped open at %.3g m", *out.jump_extension);
+  } else {
+    out.no_plateau = why_interrupted(pull, end, level->force);
+    if (out.no_plateau.empty()) out.no_plateau = why_not_level(*level, out.lock_extension_by_load.has_value());
+  }
+  if (!out.no_plateau.empty()) return;
+  out.plateau_force = level->force;
+  out.plateau_force_sd = level->force_sd;
+  out.plateau_force_low = level->low;
+  out.plateau_force_high = level->high;
+  out.plateau_force_slope = level->force_slope;
+  out.breakaway_force = breakaway_force(pull, end);
+}
+
+}  // namespace
+
 CurveReadings curve_readings(const Pull& pull) {
   CurveReadings out;
+  out.no_plateau = "nothing was pulled";
   if (pull.empty()) return out;
   out.peak_force = peak_force(pull);
   const std::optional<double> lock = lock_by_load(pull);
   out.lock_extension_by_load = lock;
   const double end = lock.value_or(pull.back().extension);
-  const std::optional<Plateau> level = plateau(pull, end);
-  if (level && (lock || std::abs(level->rise) < kLevel * level->force)) {
-    out.plateau_force = level->force;
-    out.plateau_force_sd = level->force_sd;
-    out.breakaway_force = breakaway_force(pull, end);
+  const std::optional<Drop> fall = largest_drop(pull, end), jumped = jump(pull, end);
+  out.largest_drop = fall ? fall->force(pull) : 0.0;
+  if (fall) out.largest_drop_at = pull[fall->from].extension;
+  if (jumped) {
+    out.jump_force = pull[jumped->from].force;
+    out.jump_extension = pull[jumped->from].extension;
+    out.force_after_jump = pull[jumped->to].force;
   }
+  read_plateau(pull, end, jumped, out);
   if (lock || !out.plateau_force) out.locked_stiffness = locked_stiffness(pull, lock.value_or(pull.front().extension));
   return out;
 }

@@ -7,6 +7,7 @@
 
 #include "knot_utm/analysis/crossings.hpp"
 #include "knot_utm/analysis/modular.hpp"
+#include "knot_utm/analysis/overhand_strand.hpp"
 
 namespace knot_utm {
 namespace {
@@ -140,86 +141,63 @@ Points closed_far_away(const Points& open, const Vec3& axis) {
 }
 
 bool LoopTopology::Reading::same_knot(const Reading& other) const {
-  return polynomial == other.polynomial && linking == other.linking &&
-         overhand_determinant == other.overhand_determinant && coil_found == other.coil_found;
+  return polynomial == other.polynomial && linking == other.linking && same_overhands(other);
+}
+
+bool LoopTopology::Reading::same_overhands(const Reading& other) const {
+  return overhand_determinant == other.overhand_determinant && coil_found == other.coil_found;
 }
 
 LoopTopology::LoopTopology(Eigen::Index lower_standing, Eigen::Index upper_standing, double radius)
     : standing_{lower_standing, upper_standing}, radius_(radius) {}
 
-/// One end of the rod, from the standing part to the cut.
-struct LoopTopology::Tail {
-  Eigen::Index cut = 0;  ///< last node kept
-  double level = 0.0;    ///< along the outward axis, where the closure leaves the knot
-  bool coil_found = false;
-};
+LoopTopology::Reading LoopTopology::read_as(const Reading& known, const Points& points, const Vec3& load_axis) {
+  const Reading found = read(points, load_axis);
+  if (found.same_knot(known) || !found.same_overhands(known)) return found;
+  const std::array<double, 2> followed = angle_;
+  for (const int most : {1, 2})
+    for (int lower = -most; lower <= most; ++lower)
+      for (int upper = -most; upper <= most; ++upper) {
+        if (std::max(std::abs(lower), std::abs(upper)) < most) continue;  // tried before
+        angle_ = {followed[0] + 2.0 * M_PI * lower, followed[1] + 2.0 * M_PI * upper};
+        Reading turned = read(points, load_axis);
+        if (turned.same_knot(known)) return turned;
+      }
+  angle_ = followed;
+  return found;
+}
 
 LoopTopology::Reading LoopTopology::read(const Points& points, const Vec3& load_axis) {
   const Eigen::Index nodes = points.cols();
   const Eigen::Index middle = nodes / 2;
   const Vec3 axis = load_axis.normalized();
   const double distance = far_away(points);
-  const Vec3 knots = 0.5 * (points.col(standing_[0]) + points.col(standing_[1]));
+  const std::array<OverhandStrand, 2> strands{OverhandStrand::follow(points, 0, standing_[0], axis, radius_),
+                                              OverhandStrand::follow(points, 1, standing_[1], axis, radius_)};
+  const Vec3 knots = 0.5 * (points.col(strands[0].begin) + points.col(strands[1].begin));
   Vec3 away = knots - points.col(middle);
   away = (away - away.dot(axis) * axis).normalized();
   const Vec3 side = axis.cross(away);
 
-  std::array<Tail, 2> tails;
   std::array<std::vector<Vec3>, 2> closures;
   Reading reading;
   for (std::size_t k = 0; k < 2; ++k) {
-    const Eigen::Index step = k == 0 ? -1 : 1;
-    const Eigen::Index end = k == 0 ? 0 : nodes - 1;
-    const Vec3 outwards = static_cast<double>(step) * axis;
+    const OverhandStrand& strand = strands[k];
+    const Vec3 outwards = k == 0 ? Vec3(-axis) : axis;
     const auto height = [&](Eigen::Index i) { return points.col(i).dot(outwards); };
-    // Follow the own strand: up to the coil's top, down to its bottom, up to the level of the cut. A turn counts once
-    // the strand has come back from it by 1.5 h; a coil is longer than that however tight.
-    const double turn = 1.5 * radius_;
-    Tail& tail = tails[k];
-    double top = height(standing_[k]);
-    double bottom = top;
-    enum { kRising, kFalling, kLeaving } part = kRising;
-    Eigen::Index i = standing_[k];
-    tail.cut = end;
-    double highest = 0.0;
-    for (; i != end + step; i += step) {
-      const double z = height(i);
-      if (part == kRising) {
-        top = std::max(top, z);
-        if (z < top - turn) {
-          part = kFalling;
-          bottom = z;
-        }
-      } else if (part == kFalling) {
-        bottom = std::min(bottom, z);
-        if (z > bottom + turn) {
-          part = kLeaving;
-          highest = z;
-          tail.cut = i;
-        }
-      } else {
-        if (z > highest) {
-          highest = z;
-          tail.cut = i;
-        }
-        if (z > top + radius_ || z < highest - turn) break;
-      }
-    }
-    tail.coil_found = part == kLeaving;
-    tail.level = std::max(top + radius_, height(tail.cut));
-    reading.coil_found[k] = tail.coil_found;
+    reading.coil_found[k] = strand.coil_found;
 
     // The threaded strand is the other knot's own; where it passes the level of the cut, or comes nearest to it.
     const Eigen::Index back = k == 0 ? -1 : 1;
     // Once the knots have slid together its standing part may begin beyond the level: back then, towards its coil.
-    Eigen::Index pass = standing_[1 - k];
-    const Eigen::Index other_end = k == 0 ? nodes - 1 : 0;
-    while (pass != other_end && std::min(height(pass), height(pass - back)) >= tail.level) pass -= back;
+    Eigen::Index pass = strands[1 - k].begin;
+    const Eigen::Index other_end = strands[1 - k].end;
+    while (pass != other_end && std::min(height(pass), height(pass - back)) >= strand.level) pass -= back;
     for (Eigen::Index j = pass; j != middle; j += back) {
       if (height(j) > height(pass)) pass = j;
-      if (height(pass) >= tail.level) break;
+      if (height(pass) >= strand.level) break;
     }
-    const Vec3 cut = points.col(tail.cut);
+    const Vec3 cut = points.col(strand.cut);
     const Vec3 offset = cut - points.col(pass);
     const double x = offset.dot(away);
     const double y = offset.dot(side);
@@ -227,7 +205,7 @@ LoopTopology::Reading LoopTopology::read(const Points& points, const Vec3& load_
     angle_[k] += std::remainder(std::atan2(y, x) - angle_[k], 2.0 * M_PI);
 
     std::vector<Vec3>& closure = closures[k];
-    const Vec3 level_cut = cut + (tail.level - height(tail.cut)) * outwards;
+    const Vec3 level_cut = cut + (strand.level - height(strand.cut)) * outwards;
     const Vec3 hub = level_cut - x * away - y * side;
     closure.push_back(level_cut);
     // A spiral that widens as it unwinds, so that several turns do not meet each other nor the way out.
@@ -241,7 +219,7 @@ LoopTopology::Reading LoopTopology::read(const Points& points, const Vec3& load_
   }
 
   std::vector<Vec3> loop(closures[0].rbegin(), closures[0].rend());
-  for (Eigen::Index i = tails[0].cut; i <= tails[1].cut; ++i) loop.emplace_back(points.col(i));
+  for (Eigen::Index i = strands[0].cut; i <= strands[1].cut; ++i) loop.emplace_back(points.col(i));
   loop.insert(loop.end(), closures[1].begin(), closures[1].end());
   reading.polynomial = alexander_polynomial(joined(loop));
   reading.determinant = knot_determinant(reading.polynomial);
@@ -254,9 +232,9 @@ LoopTopology::Reading LoopTopology::read(const Points& points, const Vec3& load_
     const Vec3 outwards = sign * axis;
     std::vector<Vec3> half;
     if (k == 0) {
-      for (Eigen::Index i = middle; i >= tails[0].cut; --i) half.emplace_back(points.col(i));
+      for (Eigen::Index i = middle; i >= strands[0].cut; --i) half.emplace_back(points.col(i));
     } else {
-      for (Eigen::Index i = middle + 1; i <= tails[1].cut; ++i) half.emplace_back(points.col(i));
+      for (Eigen::Index i = middle + 1; i <= strands[1].cut; ++i) half.emplace_back(points.col(i));
     }
     half.insert(half.end(), closures[k].begin(), closures[k].end());
     half.push_back(half.back() + distance * outwards);
@@ -268,10 +246,10 @@ LoopTopology::Reading LoopTopology::read(const Points& points, const Vec3& load_
   reading.linking = linking_number(halves[0], halves[1]);
 
   for (std::size_t k = 0; k < 2; ++k) {
-    const Eigen::Index from = std::min(standing_[k], tails[k].cut);
-    const Eigen::Index to = std::max(standing_[k], tails[k].cut);
-    const Points strand = points.middleCols(from, to - from + 1);
-    reading.overhand_determinant[k] = knot_determinant(alexander_polynomial(closed_far_away(strand, axis)));
+    const Eigen::Index from = std::min(strands[k].begin, strands[k].cut);
+    const Eigen::Index to = std::max(strands[k].begin, strands[k].cut);
+    const Points own = points.middleCols(from, to - from + 1);
+    reading.overhand_determinant[k] = knot_determinant(alexander_polynomial(closed_far_away(own, axis)));
   }
   return reading;
 }

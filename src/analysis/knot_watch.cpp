@@ -11,10 +11,11 @@ KnotWatch::KnotWatch(const std::vector<int>& standing_nodes, bool closed, double
 }
 
 KnotType KnotWatch::follow(const Points& points) {
-  if (type_ != KnotType::kKept) return type_;
+  const bool for_good = type_ == KnotType::kCrossed || (type_ == KnotType::kChanged && !loop_);
+  if (for_good) return type_;
   if ((points - last_).colwise().squaredNorm().maxCoeff() < radius_ * radius_) return type_;
   try {
-    if (!read(points).same_knot(start_)) type_ = KnotType::kChanged;
+    type_ = read(points).same_knot(start_) ? KnotType::kKept : KnotType::kChanged;
   } catch (const std::runtime_error&) {
     type_ = KnotType::kCrossed;
   }
@@ -31,7 +32,7 @@ void KnotWatch::state(Archive& archive) {
 LoopTopology::Reading KnotWatch::read(const Points& points) {
   last_ = points;
   ++readings_;
-  if (loop_) return loop_->read(points, Vec3::UnitZ());
+  if (loop_) return readings_ == 1 ? loop_->read(points, Vec3::UnitZ()) : loop_->read_as(start_, points, Vec3::UnitZ());
   LoopTopology::Reading reading;
   if (closed_) {
     reading.polynomial = alexander_polynomial(points.leftCols(points.cols() - 1));

@@ -73,11 +73,16 @@ const char* motion_pattern_name(MotionPattern pattern) {
 }
 
 void MotionPatternTracker::add(const Sample& sample) {
-  if (sample.knot_type != KnotType::kKept && !knot_lost_) knot_lost_ = sample.time;
+  if (sample.knot_type == KnotType::kKept)
+    type_lost_.reset();
+  else if (!type_lost_)
+    type_lost_ = sample.time;
+  crossed_ |= sample.knot_type == KnotType::kCrossed;
   // After a break the load says nothing about the knot; the sample that reports it is the last that counts.
   if (broken_) return;
   if (sample.status == BenchStatus::kBroken) broken_ = true;
   if (sample.status == BenchStatus::kFailed) return;
+  if (sample.phase == Phase::kPull || sample.phase == Phase::kHold) borne_ = sample.force_upper;
   if (!pulls(sample.phase)) {
     if (pull_.empty() && (sample.phase == Phase::kTie || sample.phase == Phase::kRelease)) {
       for (int k = 0; k < 2; ++k) {
@@ -146,15 +151,27 @@ bool MotionPatternTracker::load_gone() const {
   return !known || opened();
 }
 
+bool MotionPatternTracker::knot_lost() const {
+  return type_lost_ && (crossed_ || pull_.empty() || borne_ < kGone * peak_);
+}
+
+bool MotionPatternTracker::slid() const {
+  const PullPoint& first = pull_.front();
+  const auto there = std::lower_bound(pull_.begin(), pull_.end() - 1, last_sliding_,
+                                      [](const PullPoint& p, double extension) { return p.extension < extension; });
+  const double all = pull_.back().extension - first.extension;
+  return slid_ >= window_ && slid_ >= kLeastSliding * all &&
+         there->knot_distance - first.knot_distance < kTurnover * (there->extension - first.extension);
+}
+
 MotionPattern MotionPatternTracker::pattern() const {
-  if (knot_lost_ || load_gone()) return MotionPattern::kUntangling;
+  if (knot_lost() || load_gone()) return MotionPattern::kUntangling;
   if (pull_.empty() || !std::isfinite(slope_)) return MotionPattern::kNone;
-  const double all = pull_.back().extension - pull_.front().extension;
-  return slid_ >= window_ && slid_ >= kLeastSliding * all ? MotionPattern::kSliding : MotionPattern::kStretching;
+  return slid() ? MotionPattern::kSliding : MotionPattern::kStretching;
 }
 
 MotionPattern MotionPatternTracker::current() const {
-  if (knot_lost_ || load_gone()) return MotionPattern::kUntangling;
+  if (knot_lost() || load_gone()) return MotionPattern::kUntangling;
   if (pull_.empty() || !std::isfinite(slope_)) return MotionPattern::kNone;
   return slope_ < kTurnover ? MotionPattern::kSliding : MotionPattern::kStretching;
 }
@@ -165,7 +182,7 @@ std::optional<double> MotionPatternTracker::lock_extension() const {
 }
 
 std::optional<double> MotionPatternTracker::untangled_at() const {
-  if (knot_lost_) return knot_lost_;
+  if (knot_lost()) return type_lost_;
   if (load_gone()) return gone_since_;
   return {};
 }
@@ -174,7 +191,7 @@ double MotionPatternTracker::confidence() const {
   const MotionPattern found = pattern();
   if (found == MotionPattern::kNone) return 0.0;
   if (found == MotionPattern::kUntangling) {
-    if (knot_lost_) return 1.0;
+    if (knot_lost()) return 1.0;
     return opened() ? 0.75 : 0.5;
   }
   const bool sliding = found == MotionPattern::kSliding;

@@ -128,10 +128,30 @@ Pull true_pull_of(std::vector<CurveRow> rows, const std::vector<Sample>& reading
   return pull;
 }
 
+void drop_plateau(const char* why, CurveReadings& curve) {
+  for (std::optional<double>* reading : {&curve.plateau_force, &curve.plateau_force_sd, &curve.plateau_force_low,
+                                         &curve.plateau_force_high, &curve.plateau_force_slope, &curve.breakaway_force})
+    reading->reset();
+  curve.no_plateau = why;
+}
+
+// A tail that brushes along a roller bears less [of the true force].
+constexpr double kTouch = 0.05;
+
+/// Where a force on the knots is first more than `least` [m].
+void keep_first(const Sample& sample, double force, double least, std::optional<double>& first) {
+  if (!first && force > least) first = sample.extension;
+}
+
 void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>& at_break, Results& results) {
   const std::vector<CurveRow> rows = rows_of(readings);
   const Pull pull = pull_of(rows), true_pull = true_pull_of(rows, readings);
   results.curve = curve_readings(pull);
+  const double end = pull.empty() ? 0.0 : results.curve.lock_extension_by_load.value_or(pull.back().extension);
+  if (const std::optional<Drop> jumped = jump(pull, end)) {
+    results.true_jump_force = true_pull[jumped->from].force;
+    results.true_force_after_jump = true_pull[jumped->to].force;
+  }
   if (!pull.empty()) results.true_peak_force = peak_force(true_pull);
   if (at_break) {  // wherever it was: nothing is less than none
     results.curve.peak_force = std::max(results.curve.peak_force, std::optional<double>(at_break->load));
@@ -141,13 +161,9 @@ void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>
   if (results.motion_pattern == MotionPattern::kUntangling ||
       (results.motion_pattern == MotionPattern::kSliding && !locked))
     results.curve.locked_stiffness.reset();
-  if (results.motion_pattern == MotionPattern::kUntangling) {  // what is left without a knot is no sliding force
-    results.curve.plateau_force.reset();
-    results.curve.plateau_force_sd.reset();
-    results.curve.breakaway_force.reset();
-  }
+  // What is left without a knot is no sliding force.
+  if (results.motion_pattern == MotionPattern::kUntangling) drop_plateau("the knot came undone", results.curve);
   if (!results.curve.plateau_force) return;
-  const double end = results.curve.lock_extension_by_load.value_or(pull.back().extension);
   results.true_plateau_force = plateau(true_pull, end)->force;
   results.true_breakaway_force = breakaway_force(true_pull, end);
   results.plateau_slope = known(plateau(pull, end)->slope);
@@ -213,6 +229,8 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
       results.energy = energy_between(before_pull ? *before_pull : sample, samples.back());
     }
     if (recoils) continue;
+    keep_first(sample, sample.knots_force, 0.0, results.first_contact_extension);
+    keep_first(sample, sample.knot_on_roller, kTouch * std::abs(sample.force_upper), results.roller_touched_at);
     imbalance = std::max(imbalance, std::abs(sample.force_upper - sample.force_lower));
     moment_imbalance = std::max(moment_imbalance, sample.moment_imbalance / sample.end_to_end);
   }
@@ -223,6 +241,7 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
   results.motion_pattern_confidence = tracker.confidence();
   results.lock_extension = tracker.lock_extension();
   results.fastest_node = fastest_node_while_sliding(samples, results.lock_extension);
+  results.rate = rate_shares(samples, results.lock_extension);
   results.untangled_at = tracker.untangled_at();
   results.failure_mode = failure_mode(results);
   read_curve(readings, at_break, results);

@@ -67,6 +67,7 @@ void RollerContact::find_near_segments(const std::vector<Roller>& rollers, const
   for (std::size_t roller = 0; roller < rollers.size(); ++roller)
     for (int segment = 1; segment + 1 < static_cast<int>(start.cols()); ++segment) {
       if (segment == parted_ || segment == parted_ + 1) continue;
+      if (segment < rollers[roller].first_node || segment > rollers[roller].last_node) continue;
       if (distance(rollers[roller], start.col(segment)) <= limit(rollers[roller], segment) + farthest_)
         near_.push_back({roller, segment});
     }

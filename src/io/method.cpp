@@ -430,6 +430,10 @@ Method read_method(const YAML::Node& root, const std::string& file, const Librar
         read_load_cell(reader.take("load_cell"), file, method.material, defaults.machine.load_cell, library);
   });
   method.program = read_program(top.take("program"), file, defaults);
+  // Without effect they keep their plain value.
+  if (known && known->ends.breaks.drop) method.ends.breaks.drop_extension = defaults.drop_extension;
+  if (known && known->physics.friction_law == FrictionLaw::kSmoothed)
+    method.physics.slip_tolerance = defaults.slip_tolerance;
   top.section("ends", [&](Reader& reader) { fields::ends(reader, method.ends); });
   top.section("physics", [&](Reader& reader) { fields::physics(reader, method.physics); });
   top.section("analysis", [&](Reader& reader) { fields::analysis(reader, method.analysis); });

@@ -64,6 +64,9 @@ void check_effects(const Method& m) {
   has_effect(loop, "machine.roller_diameter", machine.roller_diameter, bare.roller_diameter, "for knot: fisherman");
   has_effect(machine.grips == GripKind::kRollers, "machine.roller_friction", machine.roller_friction,
              bare.roller_friction, "with grips: rollers");
+  const bool held = machine.far_side == FarSide::kHeld;
+  has_effect(loop && machine.grips == GripKind::kRollers, "machine.far_side", std::string(held ? "held" : "free"),
+             std::string("held"), "for knot: fisherman, with grips: rollers");
 
   const PhysicsOptions& physics = m.physics;
   const PhysicsOptions plain;

@@ -21,6 +21,9 @@ constexpr double kShareOfLoop = 0.6;        // e over L, as the paper has it
 constexpr double kLeastTravel = 1.0, kLargestTravel = 100.0;  // [m]
 constexpr double kTravelOverWay = 2.0;                        // slack and balance take some of the crosshead's way, too
 
+constexpr double kDropExtension = 1e-3;  // for the paper's radius [m]
+constexpr double kCreep = 1.0 / 3.3;     // friction that creeps is Coulomb's well above this share of the slowest pull
+
 constexpr double kMarginOfCell = 2.5;                            // over the strength of one strand: a loop has two
 constexpr double kLeastCapacity = 1e-3, kLargestCapacity = 1e8;  // [N]
 
@@ -91,6 +94,14 @@ double asked_travel(const Program& program) {
   return out;
 }
 
+/// Of the steps that pull, or where there is none the paper's [m/s].
+double slowest_pull(const Program& program, double scale) {
+  double out = ProgramStep{}.speed * scale;
+  for (const ProgramStep& step : program)
+    if (pulls(step.phase)) out = std::min(out, step.speed);
+  return out;
+}
+
 double asked_load(const Method& method) {
   double out = method.ends.load.value_or(0.0);
   for (const ProgramStep& step : method.program) {
@@ -139,6 +150,8 @@ Defaults defaults(KnotKind knot, const Material& material, const Method* known) 
   const double asked = known ? asked_travel(known->program) : out.way;
   out.machine.travel = std::min(std::max({kLeastTravel, kLeastTravel * r, kTravelOverWay * asked}), kLargestTravel);
   out.machine.load_cell.capacity = capacity(material, known);
+  out.slip_tolerance = kCreep * slowest_pull(known ? known->program : Program{}, r);
+  out.drop_extension = kDropExtension * r;
   return out;
 }
 

@@ -9,9 +9,11 @@ namespace knot_utm::fields {
 
 struct Defaults {
   SpecimenOptions specimen;
-  MachineOptions machine;  ///< its load cell has the capacity that suits, and no name
-  double scale = 1.0;      ///< the rod's radius over that of the paper's rods; of speeds, too
-  double way = 0.0;        ///< of a pull whose `until.extension` is auto [m]
+  MachineOptions machine;       ///< its load cell has the capacity that suits, and no name
+  double scale = 1.0;           ///< the rod's radius over that of the paper's rods; of speeds, too
+  double way = 0.0;             ///< of a pull whose `until.extension` is auto [m]
+  double slip_tolerance = 0.0;  ///< of `law: smoothed` [m/s]
+  double drop_extension = 0.0;  ///< of a `drop` [m]
 };
 
 /// The defaults for a knot of this material. `known`: the method as it was read with the defaults of the knot and the

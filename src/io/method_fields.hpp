@@ -90,6 +90,7 @@ void machine(Fields& f, MachineOptions& o) {
   f.choice("grips", o.grips, std::array{"rollers", "nodes", "clamps"});
   f.scaled_number("roller_diameter", o.roller_diameter, Range{1e-5, 1.0, "m"});
   f.number("roller_friction", o.roller_friction, Range{0.0, 5.0, "-"});
+  f.choice("far_side", o.far_side, std::array{"held", "free"});
   f.number("stiffness", o.stiffness, Range{1.0, kInfinity, "N/m"});
   f.scaled_number("travel", o.travel, Range{1e-3, 100.0, "m"});
 }
@@ -159,7 +160,7 @@ void ends(Fields& f, EndOptions& o) {
   f.optional_number("sharp_drop", o.breaks.sharp_drop, Range{0.01, 2.0, "of the peak"}, "none");
   f.number("sharp_drop_time", o.breaks.sharp_drop_time, Range{1e-3, 1e3, "s"});
   f.optional_number("drop", o.breaks.drop, Range{0.01, 2.0, "of the peak"}, "none");
-  f.number("drop_extension", o.breaks.drop_extension, Range{1e-5, 10.0, "m"});
+  f.scaled_number("drop_extension", o.breaks.drop_extension, Range{1e-5, 10.0, "m"});
 }
 
 template <class Fields>
@@ -167,7 +168,7 @@ void physics(Fields& f, PhysicsOptions& o) {
   f.vector("gravity", o.gravity, Range{-100.0, 100.0, "m/s2"});
   f.section("friction", [&o](auto& friction) {
     friction.choice("law", o.friction_law, std::array{"memory", "smoothed"});
-    friction.number("slip_tolerance", o.slip_tolerance, Range{1e-7, 0.1, "m/s"});
+    friction.scaled_number("slip_tolerance", o.slip_tolerance, Range{1e-7, 0.1, "m/s"});
     friction.optional_number("presliding", o.presliding, Range{1e-5, 0.5, "of the radius"}, "auto");
   });
   f.section("contact", [&o](auto& contact) {
@@ -176,7 +177,8 @@ void physics(Fields& f, PhysicsOptions& o) {
   });
   f.choice("twist", o.twist, std::array{"auto", "on", "off"});
   f.choice("accuracy", o.accuracy, std::array{"draft", "normal", "fine"});
-  f.number("drag", o.drag, Range{0.0, 100.0, "N s/m2"});
+  f.optional_number("drag", o.drag, Range{0.0, 100.0, "N s/m2"}, "auto");
+  f.optional_number("inertia", o.inertia, Range{1e-12, 1e12, "of the own mass"}, "auto");
   f.optional_number("max_step", o.max_step, Range{1e-6, 0.5, "s"}, "auto");
   f.optional_number("residual", o.residual, Range{1e-12, 0.1, "of k_b/h2"}, "auto");
 }

@@ -1,16 +1,21 @@
 #include "knot_utm/io/run_writer.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 
+#include "knot_utm/io/null_reasons.hpp"
 #include "knot_utm/io/number.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/io/speed_warnings.hpp"
 #include "knot_utm/io/verdict.hpp"
 #include "knot_utm/io/yaml_lines.hpp"
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/load_cell.hpp"
+#include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
 namespace {
@@ -25,8 +30,6 @@ std::string begin(const std::string& folder, const Method& method) {
 
 /// Of a loop around its rollers. Rods of shipped methods turn by less than a third of it [h].
 constexpr double kTurned = 6.0;
-/// Above this a knot has jumped open: its plateau is no longer what its tying made it [m/s].
-constexpr double kJump = 0.1;
 /// A contact deeper than this is no longer that of the rod it stands for [fraction of radius].
 constexpr double kDeep = 0.05;
 /// Where energies miss the work by more, what Newton's method leaves unbalanced has a part in the forces too: seen
@@ -43,9 +46,11 @@ std::vector<std::string> warnings(const Results& results) {
     all.push_back("the knot came undone at " + format_number(*results.untangled_at) +
                   " s, while it was pulled, so there is no sliding force");
   }
-  if (results.fastest_node > kJump) {
-    all.push_back("a node moved at " + format_number(results.fastest_node) +
-                  " m/s while pulled: a knot may have jumped open, so quote the peak force");
+  if (results.knot_type == KnotType::kChanged && !results.untangled_at) {
+    all.push_back(
+        "the ends of the rod, joined outside, are another knot than at the start, but the load is borne, so that "
+        "nothing "
+        "came undone");
   }
   if (results.max_penetration > kDeep) {
     all.push_back("strands are pressed into each other by up to " + format_number(results.max_penetration) + " radii");
@@ -78,9 +83,9 @@ std::optional<double> class_error(const LoadCellOptions& cell, const std::option
   return force ? class_error(cell, *force) : std::nullopt;
 }
 
-/// Of readings whose specimen had not come to rest no study says how far off they are.
+/// Of readings whose specimen had not come to rest, or jumped open, no study says how far off they are.
 ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
-  return results.not_equilibrated.empty() ? facts.errors : ReadingErrors{};
+  return results.not_equilibrated.empty() && !results.curve.jump_force ? facts.errors : ReadingErrors{};
 }
 
 std::optional<double> share_of(const std::optional<double>& reading, const std::optional<double>& share) {
@@ -89,10 +94,29 @@ std::optional<double> share_of(const std::optional<double>& reading, const std::
 
 }  // namespace
 
+std::vector<std::string> events(const Results& results) {
+  const auto short_number = [](double value) {
+    std::array<char, 32> text{};
+    std::snprintf(text.data(), text.size(), "%.3g", value);
+    return std::string(text.data());
+  };
+  std::vector<std::string> all;
+  const CurveReadings& curve = results.curve;
+  if (curve.jump_force)
+    all.push_back("a knot jumped open at an extension of " + short_number(*curve.jump_extension) +
+                  " m: the load fell from " + short_number(*curve.jump_force) + " N to " +
+                  short_number(*curve.force_after_jump) + " N, and what follows is that of a looser knot");
+  if (results.roller_touched_at)
+    all.push_back("a roller bore on a knot or its tail from an extension of " +
+                  short_number(*results.roller_touched_at) + " m on");
+  return all;
+}
+
 std::string accuracy_warning(const Results& results, const ReadingErrors& errors) {
   if (!results.not_equilibrated.empty()) return results.not_equilibrated;
   constexpr double kUnsure = 0.1;
-  if (!results.true_plateau_force || errors.plateau_force.value_or(0.0) <= kUnsure) return {};
+  if (!results.true_plateau_force || results.curve.jump_force || errors.plateau_force.value_or(0.0) <= kUnsure)
+    return {};
   return "the plateau force may be off by " + format_number(std::round(100.0 * *errors.plateau_force)) +
          " %; choose a finer physics.accuracy, a higher specimen.refinement or a lower specimen.preload to reduce the "
          "error";
@@ -105,13 +129,15 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
   known_.errors = reading_errors(method.specimen, method.material, method.physics);
   if (method.specimen.to_be_tied) {
     known_.preload = method.specimen.preload.value_or(Sample::kNone);
-    known_.warnings = tying_warnings(method.specimen, method.material, method.physics);
+    known_.foreseen = tying_warnings(method.specimen, method.material, method.physics);
   }
   if (method.specimen.knot == KnotKind::kFisherman && method.machine.grips == GripKind::kRollers)
     radius_on_rollers_ = method.material.radius;
   if (method.analysis.margin)
     known_.margin.reason = "only tensile_test makes the runs for the margin: run method.yaml of this folder with it";
   known_.load_cell = method.machine.load_cell;
+  known_.inertia = inertia_factor(method.material, method.physics);
+  known_.warnings = speed_warnings(method);
   known_.specification = method.specification;
   known_.version = version();
 }
@@ -167,9 +193,10 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.word("ended_by", ended_by_name(r.ended_by));
   lines.text("reason", f.reason);
   std::vector<std::string> all_warnings = warnings(r);
-  for (const std::vector<std::string>& more : {warnings(r, f.load_cell), f.warnings})
+  for (const std::vector<std::string>& more :
+       {events(r), speed_warnings(r.rate, f.inertia), warnings(r, f.load_cell), f.foreseen, f.warnings})
     all_warnings.insert(all_warnings.end(), more.begin(), more.end());
-  const std::string unsure = accuracy_warning(r, f.errors);
+  const std::string unsure = accuracy_warning(r, errors);
   if (!unsure.empty()) all_warnings.push_back(unsure);
   if (!f.margin.reason.empty()) all_warnings.push_back("no margin: " + f.margin.reason);
   lines.list("warnings", all_warnings);
@@ -180,11 +207,20 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.pair("final_excess_length", r.final_excess_length);
   lines.number("plateau_force", r.curve.plateau_force);
   lines.number("plateau_force_sd", r.curve.plateau_force_sd);
+  lines.number("plateau_force_low", r.curve.plateau_force_low);
+  lines.number("plateau_force_high", r.curve.plateau_force_high);
+  lines.number("plateau_force_slope", r.curve.plateau_force_slope);
   lines.number("plateau_force_error", share_of(r.true_plateau_force, errors.plateau_force));
   lines.number("plateau_slope", r.plateau_slope);
   lines.number("breakaway_force", r.curve.breakaway_force);
   lines.number("margin_friction", f.margin.friction);
   lines.number("margin_preload", f.margin.preload);
+  lines.text("no_plateau_because", r.curve.no_plateau);
+  lines.number("largest_drop", r.curve.largest_drop);
+  lines.number("largest_drop_at", r.curve.largest_drop_at);
+  lines.number("jump_force", r.curve.jump_force);
+  lines.number("force_after_jump", r.curve.force_after_jump);
+  lines.number("first_contact_extension", r.first_contact_extension);
   lines.number("lock_extension", r.lock_extension);
   lines.number("lock_extension_error", share_of(r.lock_extension, errors.lock_extension));
   lines.number("lock_extension_by_load", r.curve.lock_extension_by_load);
@@ -194,15 +230,20 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.number("true_plateau_force", r.true_plateau_force);
   lines.number("true_breakaway_force", r.true_breakaway_force);
   lines.number("true_peak_force", r.true_peak_force);
+  lines.number("true_jump_force", r.true_jump_force);
+  lines.number("true_force_after_jump", r.true_force_after_jump);
   lines.number("balance_offset", r.balance_offset);
   lines.number("break_extension", r.break_extension);
   lines.number("break_arclength", r.break_arclength);
   lines.word("break_place", break_place_name(r.break_place));
   lines.text("failure_mode", r.failure_mode);
+  lines.number("roller_touched_at", r.roller_touched_at);
   lines.number("untangled_at", r.untangled_at);
   lines.flag("knot_type_preserved", r.knot_type == KnotType::kKept);
   lines.number("max_penetration", r.max_penetration);
   lines.number("fastest_node", r.fastest_node);
+  lines.number("drag_share", r.rate.drag);
+  lines.number("inertia_share", r.rate.inertia);
   lines.number("force_balance_error", r.force_balance_error);
   lines.number("moment_balance_error", r.moment_balance_error);
   const auto part = [&](double EnergyParts::*of) { return r.energy ? (*r.energy).*of : Sample::kNone; };
@@ -252,6 +293,7 @@ std::string result_yaml(const Results& results, const RunFacts& facts) {
   else
     lines.word("specification_passed", "null");
   lines.list("specification_failed", found.failed);
+  lines.explain_nulls([&](const std::string& key) { return why_null(key, results, facts); });
   return lines.all();
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <sstream>
 
 #include "knot_utm/io/number.hpp"
 
@@ -62,6 +63,18 @@ void YamlLines::list(const char* key, const std::vector<std::string>& texts) {
   std::string all;
   for (const std::string& entry : texts) all += (all.empty() ? "" : ", ") + quoted(entry);
   word(key, "[" + all + "]");
+}
+
+void YamlLines::explain_nulls(const std::function<std::string(const std::string& key)>& why) {
+  const std::string null = ": null";
+  std::istringstream lines(all_);
+  std::string explained, line;
+  while (std::getline(lines, line)) {
+    const std::size_t key = line.size() < null.size() ? 0 : line.size() - null.size();
+    const std::string reason = line.substr(key) == null ? why(line.substr(0, key)) : "";
+    explained += line + (reason.empty() ? "" : "  # " + reason) + "\n";
+  }
+  all_ = explained;
 }
 
 }  // namespace knot_utm

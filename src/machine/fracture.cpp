@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "knot_utm/rod/stretching.hpp"
+#include "knot_utm/rod/turning_angle.hpp"
 
 namespace knot_utm {
 
@@ -12,13 +13,12 @@ namespace {
 constexpr double kTouching = 2.2;   // [h]
 constexpr double kNeighbour = 5.0;  // along the rod [h]
 
-/// kappa of an inner node: 2 tan(phi/2) = 2 |t_e x t_f|/(1 + t_e . t_f), over lbar.
+/// kappa of an inner node.
 double curvature(const RodProperties& rod, const Points& position, Eigen::Index node) {
   if (node < 1 || node + 1 >= rod.nodes()) return 0.0;
   const Vec3 e = (position.col(node) - position.col(node - 1)).normalized();
   const Vec3 f = (position.col(node + 1) - position.col(node)).normalized();
-  const double cosine = e.dot(f);
-  return 2.0 * std::sqrt(std::max(0.0, (1.0 - cosine) / (1.0 + cosine))) / rod.voronoi_length[node];
+  return turning_angle(e, f) / rod.voronoi_length[node];
 }
 
 }  // namespace

@@ -9,12 +9,16 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kSlack = 0.6;  // by which the rollers stand closer than taut, until mounting [h]
+constexpr double kSlack = 0.6;      // by which the rollers stand closer than taut, until mounting [h]
+constexpr double kClearance = 0.5;  // by which pins are narrower, so that the loop goes over them [h]
+constexpr double kGap = 0.2;        // between them and the loop then, at least [h]
+constexpr double kHeld = 100.0;     // stiffness of what holds the middle of the far side [k_b/h^3]
 
 }  // namespace
 
 Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, const Centreline& centreline,
-             double radius) {
+             const Material& material) {
+  const double radius = material.radius;
   const int nodes = static_cast<int>(centreline.points.cols());
   if (specimen.knot == KnotKind::kFisherman && machine.grips == GripKind::kRollers) {
     Roller roller;
@@ -22,8 +26,16 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
     roller.radius = 0.5 * machine.roller_diameter;
     roller.centre = Vec3::Zero();
     rollers_.push_back(roller);
+    narrower_ = roller.radius + radius - centreline.loop.radius;
+    clearance_ = kClearance * radius;
     roller.centre = Vec3(0.0, 0.0, specimen.end_to_end - kSlack * radius);
     rollers_.push_back(roller);
+    if (machine.far_side == FarSide::kFree) return;
+    SpringHold middle;
+    middle.node = centreline.nearest_node(0.5 * (centreline.loop.far_begin + centreline.loop.far_end));
+    middle.stiffness(2, 2) = kHeld * material.bending_stiffness / (radius * radius * radius);
+    far_middle_ = middle;
+    holds_far_side_ = !specimen.to_be_tied;
     return;
   }
   auto hold = [&](std::vector<FixedNode>& held, int node) { held.push_back({node, centreline.points.col(node)}); };
@@ -54,7 +66,7 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
 
 bool Grips::hold(double displacement, const Vec3& point, double radius) const {
   Boundary boundary;
-  set(displacement, boundary);
+  set(displacement, 0.0, boundary);
   for (const Roller& roller : boundary.rollers) {
     const Vec3 away = point - roller.centre;
     if ((away - roller.axis * roller.axis.dot(away)).norm() < roller.radius + 2.0 * radius) return true;
@@ -63,15 +75,58 @@ bool Grips::hold(double displacement, const Vec3& point, double radius) const {
                      [&](const FixedNode& node) { return (node.position - point).norm() < 2.0 * radius; });
 }
 
-void Grips::set(double displacement, Boundary& boundary) const {
+void Grips::set(double displacement, double left, Boundary& boundary) const {
   boundary.rollers = rollers_;
-  if (on_rollers()) boundary.rollers[1].centre[2] += displacement;
+  if (on_rollers()) {
+    boundary.rollers[1].centre[2] += displacement;
+    if (left > 0.0) narrow(left, boundary.rollers);
+  }
+  boundary.holds.clear();
+  if (holds_far_side_) {
+    boundary.holds.push_back(*far_middle_);
+    boundary.holds.back().place[2] += half_way(displacement);
+  }
   boundary.fixed_twists = held_frames_;
   boundary.fixed_nodes = lower_nodes_;
   for (FixedNode node : upper_nodes_) {
     node.position[2] += displacement;
     boundary.fixed_nodes.push_back(node);
   }
+}
+
+double Grips::half_way(double displacement) const { return 0.5 * (lower()[2] + upper(displacement)[2]); }
+
+void Grips::hold_far_side(const Points& position, double displacement) {
+  if (!far_middle_) return;
+  far_middle_->place[2] = position(2, far_middle_->node) - half_way(displacement);
+  holds_far_side_ = true;
+}
+
+/// To pins in the loop as it was drawn, by a share of what they widen: its near side is where it will be, its half
+/// circles are narrower and further out by as much as keeps its length.
+void Grips::narrow(double left, std::vector<Roller>& rollers) const {
+  for (Roller& roller : rollers) {
+    roller.radius -= left * (narrower_ + clearance_);
+    roller.centre[0] += left * narrower_;
+  }
+  rollers[0].centre[2] += left * (lift_ - 0.5 * M_PI * narrower_);
+  rollers[1].centre[2] += left * 0.5 * M_PI * narrower_;
+}
+
+void Grips::put_on(const Points& loop, double displacement, double radius) {
+  if (!on_rollers()) return;
+  const double step = 0.5 * kGap * radius, most = 0.25 * end_to_end(displacement);
+  Boundary pins;
+  const auto touches = [&](std::size_t pin) {
+    set(displacement, 1.0, pins);
+    const Roller& roller = pins.rollers[pin];
+    const Points away = loop.colwise() - roller.centre;
+    const double nearest2 = (away.colwise().squaredNorm() - (roller.axis.transpose() * away).cwiseAbs2()).minCoeff();
+    return std::sqrt(nearest2) < roller.radius + (1.0 + kGap) * radius;
+  };
+  while (lift_ < most && touches(0)) lift_ += step;
+  rollers_[1].centre[2] -= lift_;
+  for (double drop = 0.0; drop < most && touches(1); drop += step) rollers_[1].centre[2] -= step;
 }
 
 Vec3 Grips::lower() const { return on_rollers() ? rollers_[0].centre : lower_nodes_.front().position; }
@@ -100,6 +155,12 @@ double Grips::force_lower(const TimeStep& step) const {
   double sum = 0.0;
   for (const FixedNode& node : lower_nodes_) sum -= step.reaction(node.node)[2];
   return sum;
+}
+
+void Grips::state(Archive& archive) {
+  archive(lift_, holds_far_side_);
+  if (far_middle_) archive(far_middle_->place);
+  for (Roller& roller : rollers_) archive(roller);
 }
 
 double Grips::moment_imbalance(double displacement, const TimeStep& step) const {

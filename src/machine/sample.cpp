@@ -2,7 +2,7 @@
 
 namespace knot_utm {
 
-// In the order of the journal's version 2: another one is another version (src/io/journal.cpp).
+// In the order of the journal's version 3: another one is another version (src/io/journal.cpp).
 
 void Command::state(Archive& archive) {
   archive(sequence, time, displacement, velocity, step);
@@ -21,7 +21,7 @@ void Sample::state(Archive& archive) {
   archive.choice("status", status, BenchStatus::kFailed);
   archive(message, highest_load, lowest_load, break_arclength);
   archive.choice("place of the break", break_place, BreakPlace::kGrip);
-  archive(raw_extension);
+  archive(knots_force, knot_on_roller, raw_extension);
 }
 
 }  // namespace knot_utm

@@ -11,6 +11,7 @@
 #include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/frame.hpp"
 #include "knot_utm/machine/grips.hpp"
+#include "knot_utm/machine/knot_touch.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/step_settings.hpp"
@@ -18,16 +19,16 @@
 #include "knot_utm/sim/saved_step.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
+#include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
 
 namespace knot_utm {
 
 namespace {
 
-constexpr double kGripStretch = 2.4;       // of a tail's grip when it slips [h]
-constexpr double kPaperRadius = 0.003175;  // for which speeds of rest are meant; thinner rods rest at lower ones [m]
-constexpr double kTakeUpLoad = 0.02;       // slack is taken up once the load has risen by this much [k_b/h^2] ...
-constexpr double kTakeUpMotion = 0.3;      // ... or once the knots have moved by this much [h]
+constexpr double kGripStretch = 2.4;   // of a tail's grip when it slips [h]
+constexpr double kTakeUpLoad = 0.02;   // slack is taken up once the load has risen by this much [k_b/h^2] ...
+constexpr double kTakeUpMotion = 0.3;  // ... or once the knots have moved by this much [h]
 
 constexpr double kShortestStep = 0.01;  // below it the run gives up, where that is less than usual [bending time]
 
@@ -38,17 +39,11 @@ constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth
 constexpr double kNearBreak = 1e-3;      // steps are no shorter for a break that is near [longest step]
 constexpr double kRecoilTransits = 1.0;  // of the specimen, that the ends of a parted rod are followed for
 
-/// In which a wave as long as the rod is thick bends to and fro, but for a factor: h^2 sqrt(rho A/k_b) [s].
-double bending_time(const Material& material) {
-  const double h = material.radius, mass = material.density * M_PI * h * h;
-  return h * h * std::sqrt(mass / material.bending_stiffness);
-}
-
 }  // namespace
 
 struct TestBench::Impl {
   SpecimenOptions specimen;
-  Material material;
+  Material material;  // its density is that of the mass that is accelerated
   MachineOptions machine;
   PhysicsOptions physics;
   Centreline centreline;
@@ -59,6 +54,7 @@ struct TestBench::Impl {
   LoadCell cell;
   std::optional<TyingRig> rig;
   std::optional<KnotWatch> watch;  // of anything that is knotted
+  std::optional<KnotTouch> touch;  // of two knots
   Boundary boundary;
 
   double time = 0.0;
@@ -74,6 +70,7 @@ struct TestBench::Impl {
   int step_index = -1;
   Phase phase = Phase::kIdle;
   bool has_weight = true;  // what is tied has none until it is mounted
+  bool pulled = false;     // a step of the program has pulled it
   StepWork work;           // of all accepted steps
   std::vector<Sample> substeps;
   BenchStatus status = BenchStatus::kRunning;
@@ -83,12 +80,12 @@ struct TestBench::Impl {
   Impl(const SpecimenOptions& specimen_, const Material& material_, const MachineOptions& machine_,
        const PhysicsOptions& physics_)
       : specimen(specimen_),
-        material(material_),
+        material(as_it_moves(material_, physics_)),
         machine(machine_),
         physics(physics_),
         centreline(specimen_centreline(specimen_, material_, machine_, physics_)),
-        grips(specimen_, machine_, centreline, material_.radius),
-        frame(machine_.stiffness, material_, specimen_.knot == KnotKind::kFisherman ? 2 : 1,
+        grips(specimen_, machine_, centreline, material_),
+        frame(machine_.stiffness, material, specimen_.knot == KnotKind::kFisherman ? 2 : 1,
               grips.length_around(material_.radius)),
         cell(machine_.load_cell) {
     const Eigen::Index nodes = centreline.points.cols();
@@ -100,24 +97,26 @@ struct TestBench::Impl {
     state.velocity = Points::Zero(3, nodes);
     const RodProperties rod = make_rod(material, rest);
     if (solves_for_twist(rod)) initialise_frames(&state);
-    stepper = TimeStep::make(rod, state, step_settings(specimen, material, machine, physics));
+    stepper = TimeStep::make(rod, state, step_settings(specimen, material_, machine, physics));
+    const double bending_time = specimen_scales(material).own_time;
     StepControl::Options options;
     options.longest = options.first = tolerances(physics, specimen, material).longest_step;
     // A drawn shape springs apart at once.
-    if (specimen.knot != KnotKind::kStraight) options.first = std::min(bending_time(material), options.longest);
+    if (specimen.knot != KnotKind::kStraight) options.first = std::min(bending_time, options.longest);
     options.motion = 0.6 * material.radius;
     options.slip = 0.4 * material.radius;
-    options.shortest = std::min(options.shortest, kShortestStep * bending_time(material));
+    options.shortest = std::min(options.shortest, kShortestStep * bending_time);
     control = StepControl(options);
     if (!centreline.knots.empty()) {
       TyingRig::Options tying;
       tying.preload = tying_load(specimen, material);
-      tying.rest_speed *= material.radius / kPaperRadius;
+      tying.rest_speed = specimen_scales(material).rest_speed;
       // Smoothed friction holds nothing at rest: under any load it creeps, at up to about v_s.
       if (physics.friction_law == FrictionLaw::kSmoothed)
         tying.rest_speed = std::max(tying.rest_speed, physics.slip_tolerance);
       tying.grip_stiffness = tying.preload / (kGripStretch * material.radius);
       rig.emplace(centreline, rod, tying);
+      touch.emplace(rig->standing_nodes(), material.radius);
     }
     if (specimen.knot != KnotKind::kStraight) {
       watch.emplace(rig ? rig->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
@@ -155,7 +154,16 @@ struct TestBench::Impl {
     grip_tried = frame.rigid()
                      ? travel
                      : frame.grip_after(grip, travel, grips.force_upper(*stepper), held_length(from, to), to - from);
-    grips.set(grip_tried, boundary);
+    grips.set(grip_tried, rig ? rig->left_to_put_on(to) : 0.0, boundary);
+    if (rig && rig->off_rollers()) {
+      boundary.rollers.clear();
+      boundary.holds.clear();
+    }
+    if (rig)
+      for (Roller& roller : boundary.rollers) {
+        roller.first_node = rig->loop_begin();
+        roller.last_node = rig->loop_end();
+      }
     boundary.forces.clear();
     boundary.grips.clear();
     boundary.extra_drag = settling_drag(to);
@@ -182,9 +190,17 @@ struct TestBench::Impl {
     return 0.1 * kSettlingTime * material.bending_stiffness * std::pow(wave_number, 4) * left * left;
   }
 
+  /// `auto`: what brings it to rest. In the forces of a loop and of a straight rod it stays far below a thousandth. A
+  /// loose knot between clamps pulls with no more than the drag on its length: there is none from the first pull on.
+  double drag() const {
+    const bool drawn_knot = specimen.knot == KnotKind::kOverhand || specimen.knot == KnotKind::kFile;
+    return physics.drag.value_or(pulled && drawn_knot ? 0.0 : drag_to_rest(material));
+  }
+
   void enter_step(const Command& command) {
     step_index = command.step;
     phase = command.phase;
+    pulled |= pulls(phase) || phase == Phase::kPreload || phase == Phase::kReturn;
     status = BenchStatus::kRunning;
     has_weight |= phase != Phase::kTie && phase != Phase::kRelease && phase != Phase::kHold;
     apply_gravity();
@@ -194,8 +210,24 @@ struct TestBench::Impl {
       rig->release(command.duration, time);
     } else if (rig->tied()) {
       rig->let_go(*stepper, time);
+    } else if (rig->released() && phase != Phase::kHold) {
+      put_on();
+    } else if (rig->guides() && phase != Phase::kMount) {
+      let_loop_go();
     }
     if (phase == Phase::kMount) begin_mounting();
+  }
+
+  void put_on() {
+    rig->put_on(*stepper, time);
+    grips.put_on(stepper->state().position.middleCols(rig->loop_begin(), rig->loop_end() - rig->loop_begin() + 1), grip,
+                 material.radius);
+  }
+
+  /// Guides off: the loop is on the rollers alone.
+  void let_loop_go() {
+    rig->take_guides_off(*stepper, time);
+    grips.hold_far_side(stepper->state().position, grip);
   }
 
   void begin_mounting() {
@@ -269,7 +301,7 @@ struct TestBench::Impl {
         done = !rig || rig->released();
         break;
       case Phase::kMount:
-        done = !rig || (!rig->lets_go() && slack_taken_up());
+        done = !rig || (rig->guides() && slack_taken_up());
         break;
       default:
         break;
@@ -304,6 +336,8 @@ struct TestBench::Impl {
         s.excess_length[k] = rig->excess_length(k, stepper->state());
       }
       s.knot_distance = knot_distance();
+      s.knots_force = touch->between_knots();
+      s.knot_on_roller = touch->on_rollers();
     }
     const ContactReading contact = stepper->contact_reading();
     s.max_penetration = contact.largest_overlap / material.radius;
@@ -334,7 +368,7 @@ struct TestBench::Impl {
   }
 
   void state(Archive& archive) {
-    archive.section("BNCW");  // "BNCG" had no word on weight, "BNCH" no grip beside the crosshead
+    archive.section("BNCJ");  // "BNCI" had no word on weight, "BNCG" was tied on the rollers
     int parted_edge = stepper->parted_edge();
     archive.number("parted edge", parted_edge, -1, static_cast<int>(stepper->rod().edges()) - 1);
     if (archive.loads() && parted_edge >= 0) stepper->part(parted_edge);
@@ -343,14 +377,15 @@ struct TestBench::Impl {
     archive(time, displacement, grip, extension_zero, raw_extension_zero, mount_load, mount_distance, step_index,
             has_weight, work, message);
     archive.choice("phase", phase, Phase::kDone);
+    archive(pulled);
     archive.choice("status", status, BenchStatus::kFailed);
     archive.require(parted() == (status == BenchStatus::kBroken), "status of a rod that parted",
                     break_place_name(break_place));
-    archive(control, cell, *stepper);
+    archive(control, cell, *stepper, grips);
     bool ties = rig.has_value(), watches = watch.has_value();
     archive.same("tying rig", ties ? 1 : 0);
     archive.same("knot", watches ? 1 : 0);
-    if (ties) archive(*rig);
+    if (ties) archive(*rig, *touch);
     if (watches) archive(*watch);
     if (!archive.loads()) return;
     substeps.clear();
@@ -376,6 +411,7 @@ struct TestBench::Impl {
           grip = frame.rigid() ? displacement : grip_tried;
           work += stepper->work();
           if (rig) rig->follow(*stepper, to, dt);
+          if (touch) touch->follow(*stepper);
           watch_for_break(dt);
           substeps.push_back(read(command, to));
         });
@@ -388,12 +424,13 @@ struct TestBench::Impl {
       return substeps.back();
     }
     if (command.step != step_index) enter_step(command);
+    stepper->drag(drag());
     if (command.balance) {
       cell.balance(grips.force_upper(*stepper), time);
       extension_zero = grips.end_to_end(grip);
       raw_extension_zero = displacement;
     }
-    const bool let_go = rig && rig->lets_go();
+    const bool puts_on = rig && rig->puts_on();
     std::string gave_up = advance(command, {time, displacement}, command.time);
     if (parted()) {
       gave_up = advance(command, {time, displacement}, recoil_end);
@@ -406,7 +443,9 @@ struct TestBench::Impl {
       displacement = command.displacement;
       if (frame.rigid()) grip = displacement;
       // What the knots and the load do while they are let go is not the slack's.
-      if (let_go && !rig->lets_go()) begin_mounting();
+      if (rig && rig->released() && phase != Phase::kRelease && phase != Phase::kHold) put_on();
+      if (puts_on && rig->guides()) begin_mounting();
+      if (rig && rig->guides() && phase != Phase::kMount) let_loop_go();
       judge_phase();
     }
     if (watch && !parted()) watch->follow(stepper->state().position);

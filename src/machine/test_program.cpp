@@ -14,6 +14,7 @@ constexpr double kMetExtension = 1e-9;  // nearer to an extension it is met [m]
 constexpr double kMetByAFrame = 1e-3;   // on a compliant frame [of what one period moves]
 constexpr double kRigid = 1.0 - 1e-6;   // gain of a frame that gives nothing
 constexpr double kLeastGain = 1e-3;     // of a frame that gives nearly all
+constexpr int kUndoneAnswers = 3;       // in a row: a strand that is thrown about may be taken for another knot once
 
 constexpr std::array<std::pair<EndedBy, const char*>, 10> kEndNames{{{EndedBy::kNotYet, "not yet"},
                                                                      {EndedBy::kBreak, "break"},
@@ -79,13 +80,14 @@ Command TestProgram::next(const Sample& sample) {
   }
   take_balance(sample);
   learn_gain(sample);
+  undone_answers_ = is_undone(sample) ? std::min(undone_answers_ + 1, kUndoneAnswers) : 0;
   if (end_by_alarm(sample)) return command(last_.sequence);
 
   const EndedBy by = last_.sequence == 0 ? EndedBy::kNotYet : step_end(sample);
   if (by != EndedBy::kNotYet) {
     if (step_ + 1 == program_.size()) {
       // What only ties has done what it is for; that the knot is gone is how it ended all the same.
-      end(came_undone(sample) ? EndedBy::kUntangled : by, "");
+      end(is_undone(sample) ? EndedBy::kUntangled : by, "");
       return command(last_.sequence);
     }
     ++step_;
@@ -128,10 +130,11 @@ double TestProgram::time_left() const {
 }
 
 void TestProgram::state(Archive& archive) {
-  archive.section("PRG4");
+  archive.section("PRG5");
   archive.same("steps of the program", static_cast<std::int64_t>(program_.size()));
   int step = static_cast<int>(step_);
   archive.number("step of the program", step, 0, static_cast<int>(program_.size()) - 1);
+  archive.number("answers of an undone knot", undone_answers_, 0, kUndoneAnswers);
   step_ = static_cast<std::size_t>(step);
   archive(wanted_load_, balancing_, balance_offset_, gain_.extension, gain_.displacement, gain_.value);
   archive.require(gain_.value >= kLeastGain && gain_.value <= 1.0, "gain of the frame", std::to_string(gain_.value));
@@ -186,7 +189,7 @@ bool TestProgram::end_by_alarm(const Sample& sample) {
     end(EndedBy::kSolver, sample.message.empty() ? phase + ": the physics gave up" : sample.message);
   } else if (sample.status == BenchStatus::kBroken) {
     end(EndedBy::kBreak, sample.message);
-  } else if (came_undone(sample) && !only_ties()) {
+  } else if (undone_answers_ == kUndoneAnswers && !only_ties()) {
     end(EndedBy::kUntangled, phase + ": the knot came undone");
   } else if (std::abs(sample.load) > limits_.load || std::abs(sample.force_upper) > limits_.load) {
     end(EndedBy::kLoad, phase + ": the load is beyond its limit, the load cell's capacity or ends.load");
@@ -210,7 +213,7 @@ bool TestProgram::only_ties() const {
 }
 
 /// Before anything has pulled at it.
-bool TestProgram::came_undone(const Sample& sample) const {
+bool TestProgram::is_undone(const Sample& sample) const {
   const auto here = program_.begin() + static_cast<std::ptrdiff_t>(step_) + 1;
   return sample.knot_type == KnotType::kChanged &&
          std::none_of(program_.begin(), here, [](const ProgramStep& step) { return pulls(step.phase); });

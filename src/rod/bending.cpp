@@ -1,5 +1,9 @@
 #include "knot_utm/rod/bending.hpp"
 
+#include <cmath>
+
+#include "knot_utm/rod/turning_angle.hpp"
+
 namespace knot_utm {
 
 namespace {
@@ -7,10 +11,20 @@ namespace {
 /// The two edges of an inner node, as every term below needs them.
 struct Corner {
   Corner(const Vec3& e, const Vec3& f)
-      : length_e(e.norm()), length_f(f.norm()), u(e / length_e), v(f / length_f), c(u.dot(v)), chi(1.0 + c) {}
+      : length_e(e.norm()), length_f(f.norm()), u(e / length_e), v(f / length_f), c(u.dot(v)) {
+    const double w = 0.25 * (v - u).squaredNorm(), pole = 1.0 / (1.0 - w);
+    const SquaredAngleOverW<double> over = squared_angle_over(w);
+    // 16 s^2 = G/(1 - w), and its derivatives in w; dw/dc = -1/2.
+    const double square = over.value * pole, square_w = (over.first + square) * pole;
+    const double square_ww = (over.second + 2.0 * square_w) * pole;
+    s = 0.25 * std::sqrt(square);
+    const double s_w = square_w / (32.0 * s), s_ww = (square_ww / 32.0 - s_w * s_w) / s;
+    s_c = -0.5 * s_w;
+    s_cc = 0.25 * s_ww;
+  }
   double length_e, length_f;
   Vec3 u, v;
-  double c, chi;
+  double c, s, s_c, s_cc;
 };
 
 /// One curvature from the k-th directors p on e and q on f, and the same directors' derivatives in theta.
@@ -18,11 +32,15 @@ struct Curvature {
   const Corner& at;
   Vec3 p, q, dp, dq;
 
-  double value() const { return (at.v.dot(p) - at.u.dot(q)) / at.chi; }
-  double in_theta_e() const { return at.v.dot(dp) / at.chi; }
-  double in_theta_f() const { return -at.u.dot(dq) / at.chi; }
-  Vec3 in_u(double kappa) const { return -(at.c * p + q + kappa * at.v) / at.chi; }
-  Vec3 in_v(double kappa) const { return (p + at.c * q - kappa * at.u) / at.chi; }
+  double projection() const { return at.v.dot(p) - at.u.dot(q); }
+  Vec3 projection_in_u() const { return -(at.c * p + q); }
+  Vec3 projection_in_v() const { return p + at.c * q; }
+
+  double value() const { return at.s * projection(); }
+  double in_theta_e() const { return at.s * at.v.dot(dp); }
+  double in_theta_f() const { return -at.s * at.u.dot(dq); }
+  Vec3 in_u() const { return at.s * projection_in_u() + (at.s_c * projection()) * at.v; }
+  Vec3 in_v() const { return at.s * projection_in_v() + (at.s_c * projection()) * at.u; }
 };
 
 Curvature first_curvature(const Corner& at, const Directors& on_e, const Directors& on_f) {
@@ -46,42 +64,39 @@ Mat3 sphere_term(const Vec3& g, const Vec3& u) {
 }
 
 EdgePairGradient first_derivatives(const Curvature& k) {
-  const double kappa = k.value();
-  return {across(k.in_u(kappa), k.at.u) / k.at.length_e, across(k.in_v(kappa), k.at.v) / k.at.length_f, k.in_theta_e(),
+  return {across(k.in_u(), k.at.u) / k.at.length_e, across(k.in_v(), k.at.v) / k.at.length_f, k.in_theta_e(),
           k.in_theta_f()};
 }
 
 EdgePairHessian second_derivatives(const Curvature& k) {
   const Corner& at = k.at;
   const Vec3 &u = at.u, &v = at.v, &p = k.p, &q = k.q;
-  const double kappa = k.value();
-  const Vec3 k_u = k.in_u(kappa);
-  const Vec3 k_v = k.in_v(kappa);
-  const double k_te = k.in_theta_e();
-  const double k_tf = k.in_theta_f();
-
+  const double n = k.projection();
   const Mat3 pv = p * v.transpose();
   const Mat3 qu = q * u.transpose();
-  const Mat3 k_u_v = k_u * v.transpose();
-  const Mat3 k_v_u = k_v * u.transpose();
-  const Mat3 k_uu = (-0.5 * (pv + pv.transpose()) - k_u_v - k_u_v.transpose()) / at.chi;
-  const Mat3 k_vv = (0.5 * (qu + qu.transpose()) - k_v_u - k_v_u.transpose()) / at.chi;
+  const Mat3 n_u_v = k.projection_in_u() * v.transpose();
+  const Mat3 n_v_u = k.projection_in_v() * u.transpose();
+  const Mat3 k_uu =
+      -0.5 * at.s * (pv + pv.transpose()) + at.s_c * (n_u_v + n_u_v.transpose()) + (at.s_cc * n) * v * v.transpose();
+  const Mat3 k_vv =
+      0.5 * at.s * (qu + qu.transpose()) + at.s_c * (n_v_u + n_v_u.transpose()) + (at.s_cc * n) * u * u.transpose();
   const Mat3 k_uv =
-      (v * q.transpose() - p * u.transpose() - k_u * u.transpose() - v * k_v.transpose() - kappa * Mat3::Identity()) /
-      at.chi;
+      at.s * (v * q.transpose() - p * u.transpose()) + (at.s_cc * n) * v * u.transpose() +
+      at.s_c * (k.projection_in_u() * u.transpose() + v * k.projection_in_v().transpose() + n * Mat3::Identity());
 
   const double length_e2 = at.length_e * at.length_e;
   const double length_f2 = at.length_f * at.length_f;
+  const double turned_e = at.s_c * v.dot(k.dp), turned_f = at.s_c * u.dot(k.dq);
   EdgePairHessian h;
-  h.ee = (across(k_uu, u, u) + sphere_term(k_u, u)) / length_e2;
-  h.ff = (across(k_vv, v, v) + sphere_term(k_v, v)) / length_f2;
+  h.ee = (across(k_uu, u, u) + sphere_term(k.in_u(), u)) / length_e2;
+  h.ff = (across(k_vv, v, v) + sphere_term(k.in_v(), v)) / length_f2;
   h.ef = across(k_uv, u, v) / (at.length_e * at.length_f);
-  h.e_theta_e = across(-(at.c * k.dp + k_te * v) / at.chi, u) / at.length_e;
-  h.e_theta_f = across(-(k.dq + k_tf * v) / at.chi, u) / at.length_e;
-  h.f_theta_e = across((k.dp - k_te * u) / at.chi, v) / at.length_f;
-  h.f_theta_f = across((at.c * k.dq - k_tf * u) / at.chi, v) / at.length_f;
-  h.theta_e_theta_e = -v.dot(p) / at.chi;
-  h.theta_f_theta_f = u.dot(q) / at.chi;
+  h.e_theta_e = across(turned_e * v - (at.s * at.c) * k.dp, u) / at.length_e;
+  h.e_theta_f = across(-turned_f * v - at.s * k.dq, u) / at.length_e;
+  h.f_theta_e = across(turned_e * u + at.s * k.dp, v) / at.length_f;
+  h.f_theta_f = across(-turned_f * u + (at.s * at.c) * k.dq, v) / at.length_f;
+  h.theta_e_theta_e = -at.s * v.dot(p);
+  h.theta_f_theta_f = at.s * u.dot(q);
   return h;
 }
 

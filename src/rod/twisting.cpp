@@ -32,7 +32,7 @@ Mat3 cross_matrix(const Vec3& w) {
   return m;
 }
 
-/// -(kb (t + mean)^T + (t + mean) kb^T)/(4 length^2)
+/// -(b (t + mean)^T + (t + mean) b^T)/(4 length^2)
 Mat3 same_edge(const Corner& at, const Vec3& tangent, double length) {
   const Mat3 product = at.binormal * (tangent + at.mean).transpose();
   return -(product + product.transpose()) / (4.0 * length * length);

@@ -73,6 +73,8 @@ void copy_sample(const From& from, To& to) {
   to.rejected_steps = from.rejected_steps;
   to.newton_iterations = from.newton_iterations;
   to.message = from.message;
+  to.knots_force = from.knots_force;
+  to.knot_on_roller = from.knot_on_roller;
   to.raw_extension = from.raw_extension;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/turning_angle.hpp"
 #include "knot_utm/ros/color.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/views.hpp"
@@ -211,11 +212,10 @@ Eigen::VectorXd curvature_at_nodes(const Points& points, double radius) {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(points.cols());
   for (Eigen::Index i = 1; i + 1 < points.cols(); ++i) {
     const Vec3 before = points.col(i) - points.col(i - 1), after = points.col(i + 1) - points.col(i);
-    const double lengths = before.norm() * after.norm();
-    if (lengths <= 0.0) continue;
-    // 2 tan(angle/2) over the mean length.
-    const double tangent = before.cross(after).norm() / (lengths + before.dot(after));
-    out[i] = radius * 4.0 * tangent / (before.norm() + after.norm());
+    const double length_before = before.norm(), length_after = after.norm();
+    if (length_before <= 0.0 || length_after <= 0.0) continue;
+    const double angle = turning_angle(before / length_before, after / length_after);
+    out[i] = radius * 2.0 * angle / (length_before + length_after);
   }
   return out;
 }

@@ -115,6 +115,8 @@ std::string fault_of_state(const KnotState& m, const std::string& prefix) {
       .count("status", m.status, KnotState::RUNNING, KnotState::FAILED)
       .text("message", m.message)
       .text("motion_pattern", m.motion_pattern)
+      .number_or_none("knots_force", m.knots_force, 0.0)
+      .number_or_none("knot_on_roller", m.knot_on_roller, 0.0)
       .number_or_none("raw_extension", m.raw_extension)
       .fault();
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/rod/isotropic_bending.hpp"
 #include "knot_utm/rod/stretching.hpp"
 
 namespace knot_utm {
@@ -23,8 +24,9 @@ CentrelineTerms::CentrelineTerms(const RodProperties& rod, bool bends)
       inverse_length_(tangent_.size()),
       tension_(tangent_.size()),
       expected_tension_(tangent_.size()),
-      cosine_(static_cast<std::size_t>(rod.nodes())),
-      inverse_1c_(cosine_.size()) {
+      cosine_(static_cast<std::size_t>(rod.nodes() + 3) / 4, constant<Lanes>(1.0)),
+      bending_slope_(cosine_.size()),
+      bending_curve_(cosine_.size()) {
   for (std::size_t i = 0; i < bending_stiffness_.size(); ++i)
     bending_stiffness_[i] = rod.material.bending_stiffness / rod.voronoi_length[static_cast<Eigen::Index>(i)];
 }
@@ -66,13 +68,20 @@ void CentrelineTerms::add_forces(const Points& position, std::vector<Lanes>& for
     force[j] += pull;
     force[j + 1] -= pull;
   }
-  if (!bends_) return;
+  if (bends_) add_bending_forces(force);
+}
+
+void CentrelineTerms::add_bending_forces(std::vector<Lanes>& force) {
+  const std::size_t edges = tangent_.size();
+  for (std::size_t i = 1; i < edges; ++i) cosine_[i / 4][i % 4] = dot(tangent_[i - 1], tangent_[i]);
+  for (std::size_t four = 0; four < cosine_.size(); ++four) {
+    const auto slopes = BendingSlopes<Lanes>::at(cosine_[four]);
+    bending_slope_[four] = slopes.first;
+    bending_curve_[four] = slopes.second;
+  }
   for (std::size_t i = 1; i < edges; ++i) {
     const Lanes &t_e = tangent_[i - 1], &t_f = tangent_[i];
-    const double c = dot(t_e, t_f), inverse_1c = 1.0 / (1.0 + c);
-    cosine_[i] = c;
-    inverse_1c_[i] = inverse_1c;
-    const double slope = -4.0 * bending_stiffness_[i] * inverse_1c * inverse_1c;
+    const double c = cosine_[i / 4][i % 4], slope = bending_stiffness_[i] * bending_slope_[i / 4][i % 4];
     const Lanes gradient_e = (slope * inverse_length_[i - 1]) * (t_f - c * t_e);
     const Lanes gradient_f = (slope * inverse_length_[i]) * (t_e - c * t_f);
     force[i - 1] += gradient_e;
@@ -94,11 +103,9 @@ CentrelineTerms::Energy CentrelineTerms::energy(const Points& way) const {
     if (bends_ && j > 0) {
       const Lanes &t_e = tangent_[j - 1], &t_f = tangent_[j];
       const Lanes apart = t_f - t_e;
-      const double stiffness = bending_stiffness_[j];
-      const double c = cosine_[j], inverse_1c = inverse_1c_[j];
-      out.bending += stiffness * inverse_1c * dot(apart, apart);
-      out.along -=
-          4.0 * stiffness * inverse_1c * inverse_1c * (dot(t_f - c * t_e, before) + dot(t_e - c * t_f, turned));
+      const double c = cosine_[j / 4][j % 4], slope = bending_stiffness_[j] * bending_slope_[j / 4][j % 4];
+      out.bending += 0.5 * bending_stiffness_[j] * bending_angle_squared(dot(apart, apart));
+      out.along += slope * (dot(t_f - c * t_e, before) + dot(t_e - c * t_f, turned));
     }
     before = turned;
   }
@@ -106,10 +113,9 @@ CentrelineTerms::Energy CentrelineTerms::energy(const Points& way) const {
 }
 
 CentrelineTerms::NodeHessian CentrelineTerms::bending_hessian(std::size_t node) const {
-  const double stiffness = bending_stiffness_[node];
-  const double c = cosine_[node], inverse_1c = inverse_1c_[node];
-  const double slope = -4.0 * stiffness * inverse_1c * inverse_1c;  // W'
-  const double curve = -2.0 * slope * inverse_1c;                   // W''
+  const double c = cosine_[node / 4][node % 4], stiffness = bending_stiffness_[node];
+  const double slope = stiffness * bending_slope_[node / 4][node % 4];  // W'
+  const double curve = stiffness * bending_curve_[node / 4][node % 4];  // W''
   const double over_e = inverse_length_[node - 1], over_f = inverse_length_[node];
   const Lanes &t_e = tangent_[node - 1], &t_f = tangent_[node];
   const Lanes c_e = over_e * (t_f - c * t_e), c_f = over_f * (t_e - c * t_f);

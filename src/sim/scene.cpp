@@ -12,12 +12,13 @@ constexpr int kMostIterations = 10000;
 }  // namespace
 
 void Boundary::state(Archive& archive, int nodes) {
-  archive.section("BNDY");
+  archive.section("BND2");
   archive.list(rollers);
   archive.list(fixed_nodes);
   archive.list(fixed_twists);
   archive.list(forces);
   archive.list(grips);
+  archive.list(holds);
   archive(extra_drag);
   const auto require_below = [&](int count, const char* what, int number) {
     archive.require(number >= 0 && number < count, what, std::to_string(number));
@@ -26,6 +27,7 @@ void Boundary::state(Archive& archive, int nodes) {
   for (const FixedTwist& fixed : fixed_twists) require_below(nodes - 1, "held edge", fixed.edge);
   for (const NodeForce& force : forces) require_below(nodes, "node that is pulled", force.node);
   for (const SlippingGrip& grip : grips) require_below(nodes, "node in a grip", grip.node);
+  for (const SpringHold& hold : holds) require_below(nodes, "node on a spring", hold.node);
 }
 
 void StepSettings::state(Archive& archive) {

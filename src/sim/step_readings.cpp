@@ -28,6 +28,24 @@ std::vector<ContactForce> contact_forces(const std::vector<ContactPoint>& contac
   return out;
 }
 
+double normal_force_between(const std::vector<ContactPoint>& contacts, const NodeRange& a, const NodeRange& b) {
+  double sum = 0.0;
+  for (const ContactPoint& contact : contacts) {
+    if (contact.on_roller() || !contact.touches()) continue;
+    const int on_a = contact.a0 + 1, on_b = contact.b0 + 1;  // the middle of their three nodes
+    if ((a.holds(on_a) && b.holds(on_b)) || (a.holds(on_b) && b.holds(on_a))) sum += contact.weight * contact.pressure;
+  }
+  return sum;
+}
+
+double roller_normal_force(const std::vector<ContactPoint>& contacts, const NodeRange& piece) {
+  double sum = 0.0;
+  for (const ContactPoint& contact : contacts)
+    if (contact.on_roller() && contact.touches() && piece.holds(contact.a0 + 1))
+      sum += contact.weight * contact.pressure;
+  return sum;
+}
+
 StepReadings::StepReadings(const RodProperties& rod, const RodState& state, const StepSettings& settings, double spin)
     : rod_(rod), settings_(settings), force_(static_cast<std::size_t>(rod.nodes())) {
   const ElasticEnergy elastic = elastic_energy(rod, state);
@@ -54,6 +72,8 @@ void StepReadings::begin(const SolvedStep& step, const RollerContact& rollers) {
   add_work_of_rollers(step, rollers);
   for (const SlippingGrip& grip : step.boundary.grips)
     work_.boundary += grip.force(step.end.col(grip.node)) * grip.direction.dot(step.way.col(grip.node));
+  for (const SpringHold& hold : step.boundary.holds)
+    work_.boundary += hold.force(step.end.col(hold.node)).dot(step.way.col(hold.node));
   for (const NodeForce& force : step.boundary.forces) work_.boundary += force.force.dot(step.way.col(force.node));
   add_motion(step);
   work_.reweighting = before_.contact;

@@ -228,6 +228,12 @@ class ImplicitStep final : public TimeStep {
   std::vector<ContactForce> contact_forces() const override {
     return knot_utm::contact_forces(contact_.contacts(), state_.position);
   }
+  double normal_force_between(const NodeRange& a, const NodeRange& b) const override {
+    return knot_utm::normal_force_between(contact_.contacts(), a, b);
+  }
+  double roller_normal_force(const NodeRange& piece) const override {
+    return knot_utm::roller_normal_force(rollers_.contacts(), piece);
+  }
 
   void state(Archive& archive) override {
     archive.section("STEP");
@@ -358,6 +364,7 @@ class ImplicitStep final : public TimeStep {
   void add_grips_and_forces() {
     for (const SlippingGrip& grip : boundary_->grips)
       force_[at(grip.node)] += to_lanes(grip.force(x_.col(grip.node)) * grip.direction);
+    for (const SpringHold& hold : boundary_->holds) force_[at(hold.node)] += to_lanes(hold.force(x_.col(hold.node)));
     for (const NodeForce& force : boundary_->forces) force_[at(force.node)] += to_lanes(force.force);
   }
 
@@ -367,6 +374,7 @@ class ImplicitStep final : public TimeStep {
       if (force <= 0.0 || grip.slips(x_.col(grip.node))) continue;
       add(matrix_.band(grip.node, 0, 0), grip.direction * grip.direction.transpose(), grip.stiffness);
     }
+    for (const SpringHold& hold : boundary_->holds) add(matrix_.band(hold.node, 0, 0), hold.stiffness, 1.0);
   }
 
   double ease(int node, double tolerance) const { return rule_.ease(centreline_.largest_tension_at(node), tolerance); }

@@ -94,7 +94,6 @@ Centreline fisherman_loop(const FishermanShape& shape) {
     throw InvalidInput("machine.roller_diameter", text(2.0 * shape.roller_radius),
                        text(coil.radius + 0.5 * h) + " to 20 m");
   }
-  const double rho = before_smoothing(rolled, h);
 
   // The knots clear each other; their strands reach the rollers; their coils clear the rollers.
   const double c = 0.5 * (shape.knot_distance - shape.outward_shift);
@@ -114,12 +113,22 @@ Centreline fisherman_loop(const FishermanShape& shape) {
                            " m for this rod and these rollers");
   }
 
+  // Both ends of the near side are drawn further out where the straight strands ask for it, and the half circles
+  // narrower.
+  const double narrowest = std::min(rolled, 0.5 * (coil.radius + 2.5 * h));
+  const double wanted = std::max(shape.end_to_end, 2.0 * (c + shape.straight));
+  const double drawn = std::min(wanted, shape.end_to_end + M_PI * (rolled - narrowest));
+  const double narrow = rolled - (drawn - shape.end_to_end) / M_PI;
+  const double rho = before_smoothing(narrow, h);
+  const double near = rolled + rho - narrow, far = near - 2.0 * rho, centre = near - rho;
+  const double bottom = middle - 0.5 * drawn, top = middle + 0.5 * drawn;
+
   // Standing parts lie at +-u from the axis. Opposite-handed tails lie on either side of the loop's plane, so u lies in
   // the plane; the axis is then set off so that the inner strand runs straight to its roller.
   const bool same = shape.handedness == Handedness::kSame;
   const Vec3 u = same ? Vec3::UnitY() : Vec3::UnitX();
   const Vec3 v = same ? Vec3::UnitX() : Vec3::UnitY();
-  const Vec3 origin(same ? rho : rho + coil.strand, 0.0, middle);
+  const Vec3 origin(same ? near : near + coil.strand, 0.0, middle);
   const KnotFrame lower{origin, -u, same ? v : Vec3(-v), -Vec3::UnitZ()};
   const KnotFrame upper{origin, u, v, Vec3::UnitZ()};
   // Where strands meet their rollers, along y: away from the neighbouring tail, back into the plane around the roller.
@@ -134,16 +143,17 @@ Centreline fisherman_loop(const FishermanShape& shape) {
   for (auto point = knot_path.points().rbegin(); point != knot_path.points().rend(); ++point) path.add(*point);
   const double first_middle = path.length();
   path.add(upper.at(coil.strand, M_PI, c + past));
-  path.add(Vec3(rho, upper_y, shape.end_to_end));
+  path.add(Vec3(near, upper_y, top));
   const double upper_begin = path.length();
   path.add_curve(M_PI * rho, [&](double t) {
-    return Vec3(rho * std::cos(M_PI * t), upper_y * (1.0 - ease(t)), shape.end_to_end + rho * std::sin(M_PI * t));
+    return Vec3(centre + rho * std::cos(M_PI * t), upper_y * (1.0 - ease(t)), top + rho * std::sin(M_PI * t));
   });
-  const double upper_apex = 0.5 * (upper_begin + path.length());
-  path.add(Vec3(-rho, 0.0, 0.0));
+  const double upper_end = path.length();
+  const double upper_apex = 0.5 * (upper_begin + upper_end);
+  path.add(Vec3(far, 0.0, bottom));
   const double lower_begin = path.length();
   path.add_curve(M_PI * rho, [&](double t) {
-    return Vec3(-rho * std::cos(M_PI * t), lower_y * ease(t), -rho * std::sin(M_PI * t));
+    return Vec3(centre - rho * std::cos(M_PI * t), lower_y * ease(t), bottom - rho * std::sin(M_PI * t));
   });
   const double lower_end = path.length();
   const double lower_apex = 0.5 * (lower_begin + lower_end);
@@ -165,6 +175,7 @@ Centreline fisherman_loop(const FishermanShape& shape) {
   centreline.points = rod.points;
   centreline.upper_apex = rod(upper_apex);
   centreline.lower_apex = rod(lower_apex);
+  centreline.loop = {drawn, narrow, rod(upper_end), rod(lower_begin)};
   KnotLandmarks first{};
   first.tail_end = 0.0;
   first.tail_exit = rod(first_middle - marks.tail_exit);

@@ -10,13 +10,25 @@ namespace knot_utm {
 
 namespace {
 
-// Places of the clamps, in rod radii. A knot that runs over its clamp reads wrong: they stand clear of where it ends.
-constexpr double kStandingFromMiddle = 5.0;  // from the middle of the specimen, towards the own knot
-// The settling drag relaxes waves of this many radii in about a tenth of the settling time.
+// Places of the clamps, in rod radii from the middle of the loose coil. A knot that runs over its clamp reads wrong:
+// they stand clear of where it ends. They are the same for every loop, so that neither e nor L enters what is tied.
+constexpr double kStandingFromKnot = 8.0;     // inwards
+constexpr double kThreadedBeyondKnot = 18.0;  // outwards: the knot ends 8 further out
+constexpr double kStraightBeyondClamp = 3.0;
+constexpr int kGuideNodes = 3;     // on the strand from there outwards: they guide its direction, too
+constexpr double kHalfKnot = 4.0;  // a tight knot reaches no further out from its middle [h]
+
+// The settling drag relaxes waves of so many radii in about a tenth of the settling time; so does the drag of the time
+// while the loop is put on, in which it moves as a whole.
 constexpr double kSettlingTime = 0.3;  // [s]
 constexpr double kSettlingWave = 17.0;
-constexpr double kLetGoTime = 1.0 / 3.0;      // [s]
-constexpr double kThreadedBeyondKnot = 18.0;  // beyond the middle of the loose knot: it ends 8 further out
+constexpr double kPuttingOnWave = 73.0;
+constexpr double kLetGoTime = 1.0 / 3.0;  // [s]
+
+/// Relaxes waves of a length in about a tenth of the settling time [N s/m^2].
+double drag_for(double wave, double bending_stiffness) {
+  return 0.1 * kSettlingTime * bending_stiffness * std::pow(2.0 * M_PI / wave, 4);
+}
 
 double fastest_node(const TimeStep& stepper) {
   return std::sqrt(stepper.state().velocity.colwise().squaredNorm().maxCoeff());
@@ -30,7 +42,8 @@ TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const
   const int nodes = static_cast<int>(rod.nodes());
   const Points& x = centreline.points;
   const std::size_t count = centreline.knots.size();
-  settling_drag_ = 0.1 * kSettlingTime * rod.material.bending_stiffness * std::pow(2.0 * M_PI / (kSettlingWave * h), 4);
+  settling_drag_ = drag_for(kSettlingWave * h, rod.material.bending_stiffness);
+  putting_on_drag_ = drag_for(kPuttingOnWave * h, rod.material.bending_stiffness);
   double middle = 0.0;
   for (const KnotLandmarks& knot : centreline.knots)
     middle += x(2, centreline.nearest_node(knot.coil_middle)) / static_cast<double>(count);
@@ -44,17 +57,22 @@ TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const
 
     const int inward = knot.tail_node == 0 ? 1 : -1;
     int standing = centreline.nearest_node(marks.standing_begin);
-    while (up * (x(2, standing) - middle) > kStandingFromMiddle * h) standing += inward;
+    while (up * (x(2, coil) - x(2, standing)) < kStandingFromKnot * h) standing += inward;
     knot.standing_node = standing;
-    clamps_.push_back({standing, x.col(standing), Vec3::Zero()});
+    clamps_.push_back({standing, x.col(standing), Vec3::Zero(), false});
 
     // The threaded strand is the other end's; away from its own tail it runs on outwards.
     int threaded = centreline.nearest_node(marks.threaded);
     const double knot_z = x(2, threaded);
     while (up * (x(2, threaded) - knot_z) < kThreadedBeyondKnot * h) threaded -= inward;
-    clamps_.push_back({threaded, x.col(threaded), Vec3::Zero()});
+    for (int k = 0; k < kGuideNodes; ++k, threaded -= inward)
+      clamps_.push_back({threaded, x.col(threaded), Vec3::Zero(), true});
     knots_.push_back(knot);
   }
+  for (int i = centreline.nearest_node(centreline.loop.far_begin);
+       i <= centreline.nearest_node(centreline.loop.far_end); ++i)
+    far_side_.push_back({i, x.col(i), Vec3::Zero(), false});
+  loop_end_ = nodes - 1;
   tail_force_.assign(count, 0.0);
   ramp_from_.assign(count, 0.0);
 }
@@ -100,20 +118,61 @@ void TyingRig::let_go(const TimeStep& stepper, double time) {
   enter(Stage::kLettingGo, time);
 }
 
+void TyingRig::put_on(const TimeStep& stepper, double time) {
+  ramp_time_ = kLetGoTime;
+  for (Clamp& held : far_side_) held.reaction = stepper.reaction(held.node);
+  for (int k = 0; k < static_cast<int>(knots_.size()); ++k) {
+    const Knot& knot = knots_[static_cast<std::size_t>(k)];
+    (knot.tail_node == 0 ? loop_begin_ : loop_end_) = tail_begin(k, stepper);
+  }
+  enter(Stage::kPuttingOn, time);
+}
+
+double TyingRig::left_to_put_on(double time) const {
+  return stage_ == Stage::kPuttingOn ? std::clamp(1.0 - (time - stage_begin_) / ramp_time_, 0.0, 1.0) : 0.0;
+}
+
+void TyingRig::take_guides_off(const TimeStep& stepper, double time) {
+  ramp_time_ = kLetGoTime;
+  for (Clamp& clamp : clamps_)
+    if (clamp.guides) clamp.reaction = guide(clamp).force(stepper.state().position.col(clamp.node));
+  enter(Stage::kGuidesRamp, time);
+}
+
+double TyingRig::straight_strand(double radius) { return (kThreadedBeyondKnot + kStraightBeyondClamp) * radius; }
+
+int TyingRig::tail_begin(int knot, const TimeStep& stepper) const {
+  const Knot& k = knots_[static_cast<std::size_t>(knot)];
+  const Points& x = stepper.state().position;
+  const double end = knot_middle(knot, stepper.rod(), stepper.state()).dot(k.outwards) + kHalfKnot * radius_;
+  const int inward = k.tail_node == 0 ? 1 : -1;
+  int node = k.tail_node;
+  while (node != k.standing_node && x.col(node).dot(k.outwards) > end) node += inward;
+  return node;
+}
+
+SpringHold TyingRig::guide(const Clamp& clamp) const {
+  SpringHold hold;
+  hold.node = clamp.node;
+  hold.place = clamp.position;
+  hold.stiffness = options_.grip_stiffness * (Mat3::Identity() - Vec3::UnitZ() * Vec3::UnitZ().transpose());
+  return hold;
+}
+
 void TyingRig::hold(Boundary& boundary, double from, double to) const {
   const double ramp = std::clamp(1.0 - (to - stage_begin_) / ramp_time_, 0.0, 1.0);
-  if (stage_ == Stage::kReleased) return;
-  const bool clamped = stage_ < Stage::kClampsRamp;
-  for (const Clamp& clamp : clamps_) {
-    if (clamped)
-      boundary.fixed_nodes.push_back({clamp.node, clamp.position});
-    else if (stage_ == Stage::kClampsRamp || stage_ == Stage::kLettingGo)
-      boundary.forces.push_back({clamp.node, ramp * clamp.reaction});
+  if (stage_ == Stage::kFree) return;
+  if (off_rollers()) {
+    for (const Clamp& held : far_side_) boundary.fixed_nodes.push_back({held.node, held.position});
+  } else if (stage_ == Stage::kPuttingOn) {
+    for (const Clamp& held : far_side_) boundary.forces.push_back({held.node, ramp * held.reaction});
   }
+  hold_knots(boundary, ramp);
   if (stage_ == Stage::kSettling) {
     const double left = std::clamp(1.0 - (to - stage_begin_) / kSettlingTime, 0.0, 1.0);
     boundary.extra_drag = settling_drag_ * left * left;
   }
+  if (stage_ == Stage::kPuttingOn || stage_ == Stage::kGuided) boundary.extra_drag = putting_on_drag_;
   if (stage_ == Stage::kSettling || stage_ == Stage::kPulling || stage_ == Stage::kTied) {
     for (SlippingGrip grip : grips_) {
       if (stage_ == Stage::kPulling) grip.place += speed_ * (to - from);
@@ -122,6 +181,22 @@ void TyingRig::hold(Boundary& boundary, double from, double to) const {
   } else if (stage_ == Stage::kTailsRamp || stage_ == Stage::kLettingGo) {
     for (std::size_t k = 0; k < knots_.size(); ++k)
       boundary.forces.push_back({knots_[k].tail_node, ramp * ramp_from_[k] * knots_[k].outwards});
+  }
+}
+
+void TyingRig::hold_knots(Boundary& boundary, double ramp) const {
+  const bool ramps = stage_ == Stage::kClampsRamp || stage_ == Stage::kLettingGo;
+  for (const Clamp& clamp : clamps_) {
+    if (stage_ < Stage::kClampsRamp)
+      boundary.fixed_nodes.push_back({clamp.node, clamp.position});
+    else if (ramps)
+      boundary.forces.push_back(
+          {clamp.node, ramp * (clamp.guides ? clamp.reaction.z() * Vec3::UnitZ() : clamp.reaction)});
+    if (!clamp.guides || stage_ < Stage::kClampsRamp) continue;
+    if (stage_ == Stage::kGuidesRamp)
+      boundary.forces.push_back({clamp.node, ramp * clamp.reaction});
+    else
+      boundary.holds.push_back(guide(clamp));
   }
 }
 
@@ -175,9 +250,17 @@ void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
     case Stage::kLettingGo:
       if (elapsed >= ramp_time_) enter(Stage::kReleased, time);
       break;
+    case Stage::kPuttingOn:
+      if (elapsed >= ramp_time_) enter(Stage::kGuided, time);
+      break;
+    case Stage::kGuidesRamp:
+      if (elapsed >= ramp_time_) enter(Stage::kFree, time);
+      break;
     case Stage::kIdle:
     case Stage::kTied:
     case Stage::kReleased:
+    case Stage::kGuided:
+    case Stage::kFree:
       break;
   }
   judge_pull(time);
@@ -205,10 +288,12 @@ void TyingRig::judge_pull(double time) {
 }
 
 void TyingRig::state(Archive& archive) {
-  archive.section("TIES");
-  archive.choice("stage of tying", stage_, Stage::kLettingGo);
+  archive.section("TIE2");
+  archive.choice("stage of tying", stage_, Stage::kFree);
+  archive(loop_begin_, loop_end_);
   archive(speed_, ramp_time_, stage_begin_, rested_, reached_, not_equilibrated_, tail_force_, ramp_from_);
   for (Clamp& clamp : clamps_) archive(clamp.reaction);
+  for (Clamp& held : far_side_) archive(held.reaction);
   bool pulls = !grips_.empty();
   archive(pulls);
   if (archive.loads() && pulls) attach_grips();

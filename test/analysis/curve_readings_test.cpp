@@ -60,6 +60,77 @@ TEST(CurveReadings, APlateauBeforeALockMayRise) {
   EXPECT_NEAR(*readings.plateau_force, 6.0 + 150.0 * 0.55 * *readings.lock_extension_by_load, 1e-9);
 }
 
+TEST(CurveReadings, BesideTheMeanStandWhatItIsTheMeanOf) {
+  const CurveReadings readings = curve_readings(pull([](double s) { return sliding(s) + 50.0 * s; }));
+  const double lock = *readings.lock_extension_by_load;
+  EXPECT_NEAR(*readings.plateau_force_low, 6.0 + 50.0 * 0.3 * lock, 1e-9);
+  EXPECT_NEAR(*readings.plateau_force_high, 6.0 + 50.0 * 0.8 * lock, 1e-9);
+  EXPECT_NEAR(*readings.plateau_force_slope, 50.0, 1e-6);
+  EXPECT_EQ(readings.no_plateau, "");
+  EXPECT_EQ(*readings.largest_drop, 0.0);
+  EXPECT_FALSE(readings.largest_drop_at || readings.jump_force);
+}
+
+TEST(CurveReadings, AForceThatFallsAllTheWayHasNoPlateau) {
+  const CurveReadings readings = curve_readings(pull([](double s) { return sliding(s) - 70.0 * std::min(s, 0.08); }));
+  ASSERT_TRUE(readings.lock_extension_by_load);
+  EXPECT_FALSE(readings.plateau_force || readings.plateau_force_low || readings.breakaway_force);
+  EXPECT_NE(readings.no_plateau.find("not level"), std::string::npos) << readings.no_plateau;
+}
+
+TEST(CurveReadings, ALevelThatIsLostAtOnceIsNone) {
+  const auto dropping = [](double share) {
+    return pull([share](double s) { return sliding(s) - (s > 0.05 && s < 0.08 ? share * 6.0 : 0.0); });
+  };
+  EXPECT_TRUE(curve_readings(dropping(0.3)).plateau_force);
+  const CurveReadings readings = curve_readings(dropping(0.6));
+  EXPECT_FALSE(readings.plateau_force);
+  EXPECT_NE(readings.no_plateau.find("drops by 3.6 N at 0.05 m"), std::string::npos) << readings.no_plateau;
+  EXPECT_NEAR(*readings.largest_drop, 3.6, 1e-9);
+  EXPECT_NEAR(*readings.largest_drop_at, 0.05, 1e-3 + 4e-3);
+}
+
+/// e of knots that slide up to s = 0.08 m, less what a knot lets out at s = 0.03 m.
+Pull with_knots(Pull pull, double let_out, double rate = -2.0) {
+  for (PullPoint& point : pull) {
+    point.knot_distance = 0.2 + rate * std::min(point.extension, 0.08);
+    if (point.extension > 0.03) {
+      point.knot_distance -= let_out;
+      if (let_out > 0.0) point.force *= 0.1;
+    }
+  }
+  return pull;
+}
+
+TEST(CurveReadings, AKnotThatJumpsOpenHasTheForceAtWhichItDidAndNoPlateau) {
+  const CurveReadings kept = curve_readings(with_knots(pull(sliding), 0.0));
+  EXPECT_TRUE(kept.plateau_force);
+  EXPECT_FALSE(kept.jump_force);
+  const CurveReadings jumped = curve_readings(with_knots(pull(sliding), 0.02));
+  ASSERT_TRUE(jumped.jump_force);
+  EXPECT_NEAR(*jumped.jump_force, 6.0, 1e-9);
+  EXPECT_NEAR(*jumped.force_after_jump, 0.6, 1e-9);
+  EXPECT_NEAR(*jumped.jump_extension, 0.03, 5e-3);
+  EXPECT_NEAR(*jumped.largest_drop, 5.4, 1e-9);
+  EXPECT_FALSE(jumped.plateau_force);
+  EXPECT_NE(jumped.no_plateau.find("jumped open"), std::string::npos);
+  // Ten times the size, a thousand times the force.
+  Pull large = with_knots(pull(sliding), 0.02);
+  for (PullPoint& point : large) {
+    point.extension *= 10.0;
+    point.knot_distance *= 10.0;
+    point.force *= 1e3;
+  }
+  EXPECT_NEAR(*curve_readings(large).jump_force, 1e3 * *jumped.jump_force, 1e-6);
+}
+
+TEST(CurveReadings, AMeanOverKnotsThatHoldIsNone) {
+  const CurveReadings readings = curve_readings(with_knots(pull(sliding), 0.0, -1.0));
+  EXPECT_TRUE(readings.lock_extension_by_load);
+  EXPECT_FALSE(readings.plateau_force);
+  EXPECT_NE(readings.no_plateau.find("de/ds is -1.00"), std::string::npos) << readings.no_plateau;
+}
+
 TEST(CurveReadings, TheSameLinesByMorePointsAreTheSame) {
   const auto bent = [](double s) { return sliding(s) + 100.0 * std::max(0.0, s - 0.04); };
   Pull few;

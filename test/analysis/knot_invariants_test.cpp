@@ -245,6 +245,33 @@ TEST_P(K7_Loop, KeepsItWhileAWholeKnotTurnsAroundTheOtherStrand) {
   }
 }
 
+/// As the pair of knots wanders to a roller, the standing part of one goes around it, and its node lies on the far
+/// side.
+TEST_P(K7_Loop, KeepsItWhereTheStandingPartHasGoneAroundTheRoller) {
+  FishermanShape shape;
+  shape.handedness = GetParam();
+  const Centreline line = fisherman_loop(shape);
+  const Eigen::Index lower = node_at(line, line.knots[0].standing_begin);
+  for (const double beyond : {0.0, 0.03, 0.08}) {
+    LoopTopology topology(lower, node_at(line, line.lower_apex - beyond), shape.radius);
+    expect_fisherman(topology.read(line.points, Vec3::UnitZ()), GetParam());
+  }
+}
+
+TEST_P(K7_Loop, KeepsItWhereAKnotTurnedFurtherThanCouldBeFollowed) {
+  FishermanShape shape;
+  shape.handedness = GetParam();
+  shape.knot_distance = 0.15;
+  const Centreline line = fisherman_loop(shape);
+  const Eigen::Index full = node_at(line, line.knots[1].standing_begin);
+  LoopTopology topology = topology_of(line, shape.radius);
+  const LoopTopology::Reading tied = topology.read(line.points, Vec3::UnitZ());
+  const Points turned = wound(line, full - 25, full, 2.0 * M_PI);
+  EXPECT_FALSE(LoopTopology(topology).read(turned, Vec3::UnitZ()).same_knot(tied));
+  expect_fisherman(topology.read_as(tied, turned, Vec3::UnitZ()), GetParam());
+  expect_fisherman(topology.read(turned, Vec3::UnitZ()), GetParam());
+}
+
 TEST_P(K7_Loop, LosesItWhenATailLeavesItsCoil) {
   FishermanShape shape;
   shape.handedness = GetParam();
@@ -259,7 +286,7 @@ TEST_P(K7_Loop, LosesItWhenATailLeavesItsCoil) {
     const double along = static_cast<double>(i - middle) * (line.points.col(1) - line.points.col(0)).norm();
     points.col(i) = from + along * (from - points.col(node_at(line, line.knots[1].threaded))).normalized();
   }
-  const LoopTopology::Reading lost = topology.read(points, Vec3::UnitZ());
+  const LoopTopology::Reading lost = topology.read_as(tied, points, Vec3::UnitZ());
   EXPECT_FALSE(lost.same_knot(tied));
   EXPECT_EQ(lost.overhand_determinant[0], 3);
   EXPECT_EQ(lost.overhand_determinant[1], 1);

@@ -171,12 +171,13 @@ TEST(MotionPattern, UntanglingWhenKnotsOpenAfterBreakaway) {
   EXPECT_EQ(analyse(samples, EndedBy::kExtension).motion_pattern, MotionPattern::kSliding);
 }
 
-TEST(MotionPattern, UntanglingWhenTheKnotTypeIsLost) {
+TEST(MotionPattern, UntanglingWhenTheKnotTypeIsLostAndTheLoadIsGone) {
   std::vector<Sample> samples = Curve().samples();
   std::optional<double> lost_at;
   for (Sample& sample : samples) {
     if (sample.time < 12.5) continue;
     sample.knot_type = KnotType::kChanged;
+    sample.force_upper = sample.force_lower = sample.load = 0.0;
     if (!lost_at) lost_at = sample.time;
   }
   const Results results = analyse(samples, EndedBy::kExtension);
@@ -185,6 +186,75 @@ TEST(MotionPattern, UntanglingWhenTheKnotTypeIsLost) {
   EXPECT_EQ(results.untangled_at, lost_at);
   EXPECT_EQ(results.knot_type, KnotType::kChanged);
   EXPECT_FALSE(results.curve.locked_stiffness);
+}
+
+/// The ends of the rod are joined outside to tell the knot type, where a roller can be in the way.
+TEST(MotionPattern, AKnotTypeThatChangesUnderLoadIsNoUntangling) {
+  std::vector<Sample> samples = Curve().samples();
+  for (Sample& sample : samples)
+    if (sample.extension > 0.07) sample.knot_type = KnotType::kChanged;
+  const Results results = analyse(samples, EndedBy::kExtension);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kSliding);
+  EXPECT_FALSE(results.untangled_at);
+  EXPECT_TRUE(results.curve.plateau_force);
+  // Where the rod ran through itself no load says that it did not.
+  samples.back().knot_type = KnotType::kCrossed;
+  EXPECT_EQ(analyse(samples, EndedBy::kExtension).motion_pattern, MotionPattern::kUntangling);
+}
+
+TEST(MotionPattern, AKnotTypeThatComesBackWasMisread) {
+  std::vector<Sample> samples = Curve().samples();
+  for (std::size_t i = 30; i < 40; ++i) samples[i].knot_type = KnotType::kChanged;
+  for (std::size_t i = 60; i < samples.size(); ++i) samples[i].force_upper = 0.0;
+  EXPECT_FALSE(analyse(samples, EndedBy::kExtension).untangled_at);
+}
+
+/// Of a loop held by two of its nodes the strand beside the knots becomes taut, and bears the load.
+TEST(MotionPattern, KnotsThatGiveWayALittleBeforeAnotherStrandBearsTheLoadDoNotSlide) {
+  std::vector<Sample> samples = Curve().samples();
+  for (Sample& sample : samples) {
+    const double s = sample.extension;
+    sample.knot_distance = 0.15 - 1.7 * std::clamp(s - 0.03, 0.0, 0.02) - 0.5 * std::max(0.0, s - 0.05);
+    sample.load = sample.force_upper = s < 0.05 ? 0.1 * std::exp(100.0 * s) : 10.0 + 2e5 * (s - 0.05);
+  }
+  const Results results = analyse(samples, EndedBy::kExtension);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kStretching);
+  EXPECT_FALSE(results.curve.plateau_force);
+  EXPECT_NE(results.curve.no_plateau, "");
+}
+
+TEST(Results, SayWhereTheKnotsFirstTouchEachOtherAndARoller) {
+  std::vector<Sample> samples = Curve().samples();
+  for (Sample& sample : samples) {
+    sample.knots_force = sample.extension > 0.07 ? 0.1 : 0.0;
+    // A tail brushes along the roller, and bears on it later.
+    sample.knot_on_roller = sample.force_upper * (sample.extension > 0.09 ? 0.06 : 0.04);
+  }
+  samples.front().phase = Phase::kMount;
+  samples.front().knots_force = 1.0;  // does not count: it is not pulled
+  const Results results = analyse(samples, EndedBy::kExtension);
+  ASSERT_TRUE(results.first_contact_extension && results.roller_touched_at);
+  EXPECT_NEAR(*results.first_contact_extension, 0.07, 1.2e-3);
+  EXPECT_NEAR(*results.roller_touched_at, 0.09, 1.2e-3);
+}
+
+TEST(Results, AJumpIsToldInBothForces) {
+  std::vector<Sample> samples = Curve().samples();
+  for (Sample& sample : samples) {
+    sample.balance_offset = 1.5;
+    if (sample.extension > 0.03) {
+      sample.knot_distance -= 0.03;
+      sample.force_upper *= 0.2;
+    }
+    sample.load = sample.force_upper - 1.5;
+  }
+  const Results results = analyse(samples, EndedBy::kExtension);
+  ASSERT_TRUE(results.curve.jump_force && results.true_jump_force);
+  EXPECT_NEAR(*results.curve.jump_force, 6.6 - 1.5, 0.3);
+  EXPECT_NEAR(*results.true_jump_force, *results.curve.jump_force + 1.5, 1e-12);
+  EXPECT_NEAR(*results.true_force_after_jump, *results.curve.force_after_jump + 1.5, 1e-12);
+  EXPECT_FALSE(results.curve.plateau_force);
+  EXPECT_NE(results.curve.no_plateau.find("jumped open"), std::string::npos);
 }
 
 TEST(MotionPattern, NoneWithoutAPullOrWithoutTwoKnots) {

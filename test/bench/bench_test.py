@@ -3,6 +3,7 @@
 import math
 import os
 import re
+import statistics
 import subprocess
 import sys
 import tempfile
@@ -16,6 +17,7 @@ import front  # noqa: E402
 import references  # noqa: E402
 import runs  # noqa: E402
 import scaling  # noqa: E402
+import specimens  # noqa: E402
 import tighten  # noqa: E402
 import tightness  # noqa: E402
 from table import Table, at_least, at_most, is_, within  # noqa: E402
@@ -47,6 +49,28 @@ class Gates(unittest.TestCase):
         table.add("quantity", "N", [5.0, 5.0], [None, at_most(1.0)])
         self.assertEqual(len(table.failed()), 1)
         self.assertIn("second", table.failed()[0])
+
+
+class Specimens(unittest.TestCase):
+    def test_are_the_same_however_many_are_drawn(self):
+        self.assertEqual(specimens.specimens(20)[:12], specimens.specimens(12))
+
+    def test_scatter_as_is_said(self):
+        drawn = specimens.specimens(2000)
+        for key, (mean, share) in specimens.SCATTER.items():
+            values = [each[key] for each in drawn]
+            self.assertAlmostEqual(statistics.fmean(values) / mean, 1.0, delta=0.1 * share)
+            self.assertAlmostEqual(statistics.stdev(values) / mean, share, delta=0.1 * share)
+
+    def test_the_change_of_a_mean_may_lie_as_far_beyond_the_bound_as_its_standard_error(self):
+        reference = [4.0] * 4
+        for values, passes in (([4.079] * 4, True), ([4.081] * 4, False), ([4.0, 4.2, 4.0, 4.2], True),
+                               ([4.1, 4.3, 4.1, 4.3], False), ([3.9, 3.7, 3.9, 3.7], False), ([4.0, None, 4.0, 4.0], False)):
+            change = specimens.Change(values, reference)
+            self.assertEqual(change.gate().test(change.relative), passes, values)
+
+    def test_of_one_specimen_there_is_no_change_to_speak_of(self):
+        self.assertIsNone(specimens.Change([4.0], [4.0]).relative)
 
 
 class Runs(unittest.TestCase):

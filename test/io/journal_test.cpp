@@ -42,6 +42,8 @@ constexpr double Sample::*kNumbers[] = {&Sample::time,
                                         &Sample::numerical_dissipation,
                                         &Sample::reweighting_loss,
                                         &Sample::moment_imbalance,
+                                        &Sample::knots_force,
+                                        &Sample::knot_on_roller,
                                         &Sample::raw_extension};
 
 /// No two numbers are the same; some are those that are easily lost.
@@ -266,7 +268,7 @@ TEST_F(Journal, RefusesAnotherVersion) {
   std::string all = bytes();
   all[all.find('\n') + 1] = 1;
   put(all);
-  EXPECT_THAT(invalid(), HasSubstr("the journal's version is 1, but must be 2"));
+  EXPECT_THAT(invalid(), HasSubstr("the journal's version is 1, but must be 3"));
 }
 
 TEST_F(Journal, GoesOnFromARecord) {

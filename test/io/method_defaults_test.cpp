@@ -48,6 +48,37 @@ TEST_P(EveryRod, HasDefaultsThatNobodyRefuses) {
     }
 }
 
+/// Of a thread and of a hawser, in numbers.
+TEST(MethodDefaults, OfAThreadAndOfAHawserFollowFromTheRadius) {
+  const std::vector<std::string> ends{"ends.drop=0.5", "physics.friction.law=smoothed"};
+  for (const double h : {1.25e-4, 0.02}) {
+    std::vector<std::string> set = ends;
+    set.push_back(material(h, 1e9, 1e3));
+    const Method m = load_method(kConfig + "tighten.yaml", set);
+    EXPECT_NEAR(m.specimen.edge_length, 1.00787 * h, 1e-5 * h);
+    EXPECT_NEAR(m.program[0].speed, 3.14961 * h, 1e-5 * h);
+    EXPECT_NEAR(m.program[4].speed, 1.03937 * h, 1e-5 * h);
+    EXPECT_NEAR(m.physics.slip_tolerance, 0.314961 * h, 1e-5 * h);
+    EXPECT_NEAR(m.ends.breaks.drop_extension, 0.314961 * h, 1e-5 * h);
+    EXPECT_FALSE(m.physics.drag);
+    EXPECT_FALSE(m.physics.inertia);
+    // Friction that creeps is Coulomb's only where the pull is faster than that.
+    set.emplace_back("program.pull.speed=" + std::to_string(0.1 * h));
+    EXPECT_NEAR(load_method(kConfig + "tighten.yaml", set).physics.slip_tolerance, 0.1 * h / 3.3, 1e-6);
+  }
+}
+
+TEST(MethodDefaults, ADragThatIsSetStays) {
+  const Method set = load_method(kConfig + "tighten.yaml", {"physics.drag=0.1", "physics.inertia=1"});
+  EXPECT_EQ(*set.physics.drag, 0.1);
+  EXPECT_EQ(*set.physics.inertia, 1.0);
+  const Method again = parse_method(method_yaml(set), "method.yaml");
+  EXPECT_EQ(*again.physics.drag, 0.1);
+  const Method automatic = load_method(kConfig + "tighten.yaml", {"physics.drag=auto", "physics.inertia=auto"});
+  EXPECT_FALSE(automatic.physics.drag);
+  EXPECT_FALSE(automatic.physics.inertia);
+}
+
 INSTANTIATE_TEST_SUITE_P(MethodDefaults, EveryRod, testing::Values(1e-5, 1.2e-4, 5e-4, 2e-3, 0.003175, 0.0125, 0.05));
 
 TEST(MethodDefaults, AreThePapersForItsRods) {

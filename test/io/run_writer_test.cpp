@@ -64,6 +64,18 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
                           "ended_by",
                           "plateau_force",
                           "plateau_force_sd",
+                          "plateau_force_low",
+                          "plateau_force_high",
+                          "plateau_force_slope",
+                          "no_plateau_because",
+                          "largest_drop",
+                          "largest_drop_at",
+                          "jump_force",
+                          "force_after_jump",
+                          "true_jump_force",
+                          "true_force_after_jump",
+                          "first_contact_extension",
+                          "roller_touched_at",
                           "plateau_force_error",
                           "lock_extension_error",
                           "locked_stiffness_error",
@@ -105,6 +117,8 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
                           "true_peak_force",
                           "balance_offset",
                           "fastest_node",
+                          "drag_share",
+                          "inertia_share",
                           "preload",
                           "warnings",
                           "reason",
@@ -230,18 +244,56 @@ TEST(ResultYaml, WarnsOfWhatTheResultsShow) {
   results.not_equilibrated = "not equilibrated: the fastest node still moved";
   results.knot_type = KnotType::kCrossed;
   results.untangled_at = 12.5;
-  results.fastest_node = 0.2;
+  results.curve.jump_force = 1.25;
+  results.curve.jump_extension = 0.0123456;
+  results.curve.force_after_jump = 0.1;
+  results.roller_touched_at = 0.05;
   results.max_penetration = 0.06;
   results.energy_balance_error = 0.02;
   RunFacts facts;
   facts.warnings = {"of the run"};
   const YAML::Node result = YAML::Load(result_yaml(results, facts));
   const std::vector<std::string> warnings = result["warnings"].as<std::vector<std::string>>();
-  EXPECT_THAT(warnings, ::testing::ElementsAre(HasSubstr("through itself at 12.5 s"), HasSubstr("0.2 m/s"),
-                                               HasSubstr("0.06 radii"), HasSubstr("differ by 0.02"), "of the run",
-                                               HasSubstr("still moved")));
+  EXPECT_THAT(warnings, ::testing::ElementsAre(
+                            HasSubstr("through itself at 12.5 s"), HasSubstr("0.06 radii"), HasSubstr("differ by 0.02"),
+                            HasSubstr("jumped open at an extension of 0.0123 m: the load fell from "
+                                      "1.25 N to 0.1 N"),
+                            HasSubstr("a roller bore on a knot or its tail from an extension of 0.05 m"), "of the run",
+                            HasSubstr("still moved")));
   EXPECT_FALSE(result["knot_type_preserved"].as<bool>());
   EXPECT_TRUE(result["not_equilibrated"].as<bool>());
+}
+
+TEST(ResultYaml, SaysOfANullWhy) {
+  Results results;
+  results.true_peak_force = 9.0;
+  results.motion_pattern = MotionPattern::kSliding;
+  results.curve.no_plateau = "the load is not level";
+  RunFacts facts;
+  facts.errors = {0.1, 0.1, 0.1};
+  const std::string yaml = result_yaml(results, facts);
+  for (const char* line :
+       {"plateau_force: null  # see no_plateau_because\n", "no_plateau_because: \"the load is not level\"\n",
+        "lock_extension: null  # the knots still slid at the end of the pull\n",
+        "lock_extension_error: null  # the knots still slid at the end of the pull\n",
+        "break_extension: null  # the rod did not break\n", "jump_force: null  # no knot jumped open\n",
+        "hysteresis: null  # no cycle was closed\n", "reason: null\n"})
+    EXPECT_THAT(yaml, HasSubstr(line));
+  EXPECT_THAT(result_yaml(Results(), facts), HasSubstr("peak_force: null  # nothing was pulled\n"));
+}
+
+/// What a convergence study says of a knot that holds is not said of one that jumped open.
+TEST(ResultYaml, AKnotThatJumpedOpenHasNoErrors) {
+  Results results;
+  results.lock_extension = 0.05;
+  results.curve.locked_stiffness = 1e5;
+  RunFacts facts;
+  facts.errors = {0.1, 0.1, 0.1};
+  EXPECT_DOUBLE_EQ(YAML::Load(result_yaml(results, facts))["lock_extension_error"].as<double>(), 0.005);
+  results.curve.jump_force = results.curve.jump_extension = results.curve.force_after_jump = 1.0;
+  const std::string yaml = result_yaml(results, facts);
+  for (const char* key : {"plateau_force_error", "lock_extension_error", "locked_stiffness_error"})
+    EXPECT_THAT(yaml, HasSubstr(std::string(key) + ": null  # a knot jumped open"));
 }
 
 TEST(ResultYaml, SaysHowFarTheLoadCellMayBeOff) {

@@ -58,6 +58,8 @@ std::vector<Bits> numbers(const Sample& s) {
           {s.numerical_dissipation},
           {s.reweighting_loss},
           {s.moment_imbalance},
+          {s.knots_force},
+          {s.knot_on_roller},
           {s.raw_extension},
           {static_cast<double>(s.steps)},
           {static_cast<double>(s.rejected_steps)},

@@ -178,6 +178,33 @@ TEST(TestBench, ADrawnOverhandSettlesGently) {
   }
 }
 
+/// A loose knot pulls with less than the drag on its length, were there any.
+TEST(TestBench, ThereIsNoDragInTheForceOfAKnotBetweenClampsUnlessTheMethodSetsOne) {
+  SpecimenOptions overhand;
+  overhand.knot = KnotKind::kOverhand;
+  overhand.end_to_end = 0.7;
+  overhand.edge_length = 0.0063;
+  MachineOptions machine;
+  machine.grips = GripKind::kClamps;
+  for (const double drag : {0.0, 0.1}) {
+    PhysicsOptions physics;
+    physics.accuracy = Accuracy::kDraft;
+    if (drag > 0.0) physics.drag = drag;
+    TestBench bench(overhand, nylon(), machine, physics);
+    Command settle;
+    settle.time = 1.5;
+    const Sample settled = bench.respond(settle);
+    EXPECT_GT(settled.dissipation, settled.friction_loss);
+    const Sample pulled = bench.respond(pull(1, 2.5, 0.0033));
+    ASSERT_EQ(pulled.status, BenchStatus::kRunning) << pulled.message;
+    const double loss = pulled.dissipation - pulled.friction_loss - settled.dissipation + settled.friction_loss;
+    if (drag > 0.0)
+      EXPECT_GT(loss, 0.1 * drag * 1.0 * 0.0033 * 0.0033 / 3.0);  // c l v^2/3 of a rod that one end pulls
+    else
+      EXPECT_NEAR(loss, 0.0, 1e-12 * pulled.dissipation);
+  }
+}
+
 /// Friction's part of a force is at most mu times its pressure, and tangential.
 TEST(TestBench, ForcesBetweenStrandsAreThoseOfTheReading) {
   SpecimenOptions overhand;

@@ -50,17 +50,15 @@ struct Overhand {
   }
 };
 
-/// New units of length and force. That of time is the second: doc/reliability.md says what is counted in seconds.
+/// A similar rod of another size and stiffness. Its density is the same: what is accelerated follows from its bending.
+/// The unit of time is the second: doc/reliability.md says what is counted in seconds.
 Overhand scaled(Overhand overhand, double length, double force) {
-  const Units units{length, force, 1.0};
   overhand.specimen.length *= length;
   overhand.specimen.end_to_end *= length;
   overhand.specimen.edge_length *= length;
   overhand.way *= length;
   overhand.machine.travel *= length;
-  overhand.physics.drag *= units.stress();
   overhand.material.radius *= length;
-  overhand.material.density *= units.mass() / (length * length * length);
   overhand.material.stretching_stiffness *= force;
   overhand.material.bending_stiffness *= force * length * length;
   overhand.material.twisting_stiffness *= force * length * length;

@@ -35,14 +35,33 @@ TEST(Energy, OfAnArcIsTheSameWithAndWithoutFrame) {
   const RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(8, 0.1));
   RodState state = arc(8, 0.12, 0.3);
   const ElasticEnergy twist_free = elastic_energy(rod, state);
-  const double kappa = 2.0 * std::tan(0.15);
-  EXPECT_NEAR(twist_free.bending, 7 * 0.5 * 2.0 / 0.1 * kappa * kappa, 1e-12);
+  EXPECT_NEAR(twist_free.bending, 7 * 0.5 * 2.0 / 0.1 * 0.3 * 0.3, 1e-12);
   EXPECT_NEAR(twist_free.stretching, 8 * 0.5 * 50.0 * 0.1 * 0.04, 1e-12);
   EXPECT_EQ(twist_free.twisting, 0.0);
   initialise_frames(&state);
   const ElasticEnergy full = elastic_energy(rod, state);
   EXPECT_NEAR(full.total(), twist_free.total(), 1e-12);
   EXPECT_NEAR(full.twisting, 0.0, 1e-20);
+}
+
+/// Every node of a rod that is wound to a radius turns by its Voronoi length over it, however long its edges are.
+TEST(Energy, OfAnArcIsExactWhateverItsEdges) {
+  constexpr double kRadius = 0.2;
+  Eigen::VectorXd rest(6);
+  rest << 0.1, 0.04, 0.16, 0.16, 0.02, 0.1;
+  const RodProperties rod = make_rod(material(), rest);
+  RodState state;
+  state.position = Points::Zero(3, rod.nodes());
+  double direction = 0.0;
+  for (Eigen::Index j = 0; j < rod.edges(); ++j) {
+    if (j > 0) direction += rod.voronoi_length[j] / kRadius;
+    state.position.col(j + 1) = state.position.col(j) + rest[j] * Vec3(std::cos(direction), std::sin(direction), 0.0);
+  }
+  const double bent_length = rod.voronoi_length.segment(1, rod.edges() - 1).sum();
+  const double expected = 0.5 * 2.0 / (kRadius * kRadius) * bent_length;
+  EXPECT_NEAR(elastic_energy(rod, state).bending, expected, 1e-10 * expected);
+  initialise_frames(&state);
+  EXPECT_NEAR(elastic_energy(rod, state).bending, expected, 1e-10 * expected);
 }
 
 TEST(Energy, OfTwistIsHalfMomentTimesAngle) {

@@ -124,10 +124,13 @@ TEST_P(StencilAt, CheapPathsAgree) {
   EXPECT_LT((cheap_twist.gradient - full_twist.gradient).norm(), 1e-14 * full_twist.gradient.norm());
 }
 
+/// The binormal has the length of the turning angle.
 TEST_P(StencilAt, CurvatureIsTheAveragedDirectorsPartOfTheBinormal) {
   const Vec3 u = base.e(base.at).normalized();
   const Vec3 v = base.f(base.at).normalized();
-  const Vec3 kb = 2.0 * u.cross(v) / (1.0 + u.dot(v));
+  const double angle = std::sqrt(bending_angle_squared((v - u).squaredNorm()));
+  EXPECT_NEAR(angle, GetParam().angle, 2e-4 * angle + 1e-15);
+  const Vec3 kb = angle * u.cross(v).stableNormalized();
   const Directors on_e = base.on_e(base.at);
   const Directors on_f = base.on_f(base.at);
   const Eigen::Vector2d kappa = material_curvature(base.e(base.at), base.f(base.at), on_e, on_f);

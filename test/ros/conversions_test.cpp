@@ -23,7 +23,8 @@ Sample full_sample() {
       &s.excess_length[1], &s.max_penetration, &s.normal_force,   &s.fastest_node,          &s.stretching_energy,
       &s.bending_energy,   &s.twisting_energy, &s.contact_energy, &s.kinetic_energy,        &s.grip_work,
       &s.dissipation,      &s.balance_offset,  &s.friction_loss,  &s.numerical_dissipation, &s.reweighting_loss,
-      &s.moment_imbalance, &s.highest_load,    &s.lowest_load,    &s.break_arclength,       &s.raw_extension};
+      &s.moment_imbalance, &s.highest_load,    &s.lowest_load,    &s.break_arclength,       &s.knots_force,
+      &s.knot_on_roller,   &s.raw_extension};
   int i = 1;
   for (double* field : fields) *field = odd_number(i++);
   s.contacts = 31;
@@ -80,6 +81,8 @@ TEST(Conversions, SampleSurvivesBitForBit) {
   EXPECT_EQ(out.knot_type, in.knot_type);
   EXPECT_EQ(out.status, in.status);
   EXPECT_EQ(out.message, in.message);
+  EXPECT_EQ(out.knots_force, in.knots_force);
+  EXPECT_EQ(out.knot_on_roller, in.knot_on_roller);
   EXPECT_EQ(out.raw_extension, in.raw_extension);
 }
 

@@ -44,6 +44,8 @@ class ScriptedStep : public TimeStep {
   ContactReading contact_reading() const override { return {}; }
   StepWork work() const override { return {}; }
   std::vector<ContactForce> contact_forces() const override { return {}; }
+  double normal_force_between(const NodeRange&, const NodeRange&) const override { return 0.0; }
+  double roller_normal_force(const NodeRange&) const override { return 0.0; }
 
   double longest_good = 1.0;  // [s]
   double speed = 0.0;         // [m/s]

@@ -163,7 +163,7 @@ TEST_P(Natural, ShapeIsTheRodAtRest) {
   Bare bare(0.8);
   const double turn = 0.08, twist = GetParam();  // of a node [rad]
   bare.rod.natural_curvature = Eigen::Matrix2Xd::Zero(2, kEdges - 1);
-  bare.rod.natural_curvature.row(0).setConstant(2.0 * std::tan(0.5 * turn) * std::cos(0.5 * twist));
+  bare.rod.natural_curvature.row(0).setConstant(turn * std::cos(0.5 * twist));
   bare.rod.natural_twist = Eigen::VectorXd::Constant(kEdges - 1, twist);
   bare.hold(0);
   bare.hold(1);

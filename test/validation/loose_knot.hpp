@@ -10,6 +10,7 @@
 
 #include "knot_utm/analysis/knot_invariants.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/rod/turning_angle.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 
@@ -199,7 +200,7 @@ class LooseKnot {
   double curvature(Eigen::Index i) const {
     const Points& x = stepper_->state().position;
     const Vec3 e = (x.col(i) - x.col(i - 1)).normalized(), f = (x.col(i + 1) - x.col(i)).normalized();
-    return 2.0 * e.cross(f).norm() / (1.0 + e.dot(f)) / rod_.voronoi_length[i];
+    return turning_angle(e, f) / rod_.voronoi_length[i];
   }
 
   void start(const RodState& state, const Friction& friction) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "knot_utm/machine/sample.hpp"
@@ -30,10 +31,13 @@ Range plateau_range(const Pull& pull, double end);
 
 /// Means over that range, by the trapezoidal rule.
 struct Plateau {
-  double force = 0.0;     ///< F [N]
-  double force_sd = 0.0;  ///< its standard deviation [N]
-  double slope = 0.0;     ///< de/ds [-]; NaN where e is not known
-  double rise = 0.0;      ///< of F over the range, by the means of its halves [N]
+  double force = 0.0;        ///< F [N]
+  double force_sd = 0.0;     ///< its standard deviation [N]
+  double low = 0.0;          ///< smallest F [N]
+  double high = 0.0;         ///< largest F [N]
+  double force_slope = 0.0;  ///< least-squares slope of F over s [N/m]
+  double slope = 0.0;        ///< de/ds [-]; NaN where e is not known
+  double rise = 0.0;         ///< of F over the range, by the means of its halves [N]
 };
 
 /// None where the range is empty.
@@ -41,6 +45,23 @@ std::optional<Plateau> plateau(const Pull& pull, double end);
 
 /// Largest F before the plateau of a pull that slides up to s = `end` [N]; at least 0.
 double breakaway_force(const Pull& pull, double end);
+
+/// A fall of F within a twentieth of a way, from one point of a pull to a later one.
+struct Drop {
+  std::size_t from, to;  ///< points
+
+  double force(const Pull& pull) const { return pull[from].force - pull[to].force; }  ///< [N]
+};
+
+/// The largest fall of F on the way to s = `end`; none where F only rises.
+std::optional<Drop> largest_drop(const Pull& pull, double end);
+
+/// A knot that jumped open lets out rod at once: within a twentieth of the way to s = `end` the knots come nearer to
+/// each other by more than twice what the grips moved apart, which is all that sliding can do, and more than that by a
+/// twentieth of the first e; and F falls. The fall is that from the largest F in there to the smallest from then on,
+/// within another twentieth. None where no knot did, or e is not known. In simulations of drawn methods those that
+/// jumped let out 6 to 65 % of e, and all others at most 4 %, as their knots nested into each other.
+std::optional<Drop> jump(const Pull& pull, double end);
 
 /// Slope of F(s) where the rod carries the load: over the points from s = `from` on, up to the peak, whose F lies
 /// between half the peak and the peak, at least the last three. The middle one of the least-squares slopes in three
@@ -52,13 +73,30 @@ std::optional<double> locked_stiffness(const Pull& pull, double from);
 struct CurveReadings {
   std::optional<double> peak_force;  ///< [N]
   std::optional<double>
-      plateau_force;  ///< mean F before the lock; without one where F is level: it rises by less than half [N]
+      plateau_force;  ///< mean F before the lock, or to the end of a pull without one, where it is a plateau [N]
   std::optional<double> plateau_force_sd;        ///< [N]
+  std::optional<double> plateau_force_low;       ///< smallest F within the plateau [N]
+  std::optional<double> plateau_force_high;      ///< largest F within it [N]
+  std::optional<double> plateau_force_slope;     ///< dF/ds within it [N/m]
+  std::string no_plateau;                        ///< why there is no plateau; empty: there is one
+  std::optional<double> largest_drop;            ///< largest sudden fall of F before the lock; 0: it only rose [N]
+  std::optional<double> largest_drop_at;         ///< s where that began [m]
+  std::optional<double> jump_force;              ///< F at which a knot jumped open [N]
+  std::optional<double> jump_extension;          ///< s there [m]
+  std::optional<double> force_after_jump;        ///< F that was left [N]
   std::optional<double> breakaway_force;         ///< largest F before the plateau, where there is one [N]
   std::optional<double> lock_extension_by_load;  ///< s_l [m]
   std::optional<double> locked_stiffness;        ///< behind s_l; of the whole pull where there is no plateau [N/m]
 };
 
+/// A mean of F is a plateau where the knots slide and F is level in between:
+///   - nothing jumped open before the range ends;
+///   - where e is known, de/ds lies within a quarter of the -2 of rigid sliding: half-way to -1, where sliding ends;
+///   - F changes over the range by less than it would if it grew in proportion to s from the beginning of the pull,
+///     10/11 of its mean: such a force has no level of its own. Where neither a lock nor e tells that anything slides,
+///     by less than half of its mean.
+/// Nylon's force grows while it slides, by 0.7 to 0.9 of its mean: the mean stands, and low, high and slope beside it.
+///
 /// The lock by the load alone is where F last rises through twice the mean of its plateau, which the lock itself
 /// bounds: s_l is the fixed point that is reached from the peak. A load in proportion to s has none, and none counts
 /// that lies in the first 15 % of the pull. In simulations of the shipped materials that lock, it lies 1 to 5 % of s_l

@@ -33,9 +33,9 @@ Points closed_far_away(const Points& open, const Vec3& axis);
 
 /// The topology of a fisherman's loop, with a closure that swinging tails do not change.
 ///
-/// Each knot's own strand is followed from its standing part outwards: along the load axis it rises to the coil's
-/// outermost point, falls to its innermost and rises again as the tail. There, level with the outermost point plus h
-/// (or where the tail turns back before), the tail is cut; what lies beyond can be pulled in without passing anything.
+/// Each knot's own strand is followed from its standing part outwards (OverhandStrand), and its tail is cut level with
+/// the coil's outermost point plus h, or where the tail turns back before; what lies beyond can be pulled in without
+/// passing anything.
 /// From the cut the closure runs on along the load axis to that level; around the threaded strand back to the
 /// direction away from the loop's far side (angle 0), by the angle theta that the cut has gone around; and straight
 /// out to far away, where the closures of both tails meet. theta is followed from one reading to the next, so a tail
@@ -55,6 +55,8 @@ class LoopTopology {
 
     /// Whether this is the same knot, made of the same two overhands.
     bool same_knot(const Reading& other) const;
+    /// Whether at least these are the same.
+    bool same_overhands(const Reading& other) const;
   };
 
   /// `lower_standing`, `upper_standing`: a node in the standing part of the lower knot, tied into the rod's first end,
@@ -64,11 +66,16 @@ class LoopTopology {
   /// Reads the rod as it is now. `load_axis`: from the lower grip to the upper one, of any length.
   Reading read(const Points& points, const Vec3& load_axis);
 
+  /// The same of a rod that was the knot `known`. Where the overhands still are the same and the whole is not, a tail
+  /// may have gone around further than could be followed, as when a knot springs open: a free end may, and nothing
+  /// comes undone by it. Then up to two more turns of each tail, either way, are tried, and kept where they give
+  /// `known`.
+  Reading read_as(const Reading& known, const Points& points, const Vec3& load_axis);
+
   /// How often the tails have gone around.
   void state(Archive& archive) { archive(angle_[0], angle_[1]); }
 
  private:
-  struct Tail;
   std::array<Eigen::Index, 2> standing_;
   double radius_;
   std::array<double, 2> angle_{};

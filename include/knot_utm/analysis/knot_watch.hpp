@@ -12,7 +12,10 @@ namespace knot_utm {
 ///
 /// Two strands cannot pass through each other, nor an end out of a coil, before some node has moved by the order of the
 /// rod's radius h. So the topology is read where a node has moved by h since the reading before, and in between stays
-/// what it was: a test at rest costs nothing, one that jumps is read at every answer. A knot once lost stays lost.
+/// what it was: a test at rest costs nothing, one that jumps is read at every answer. What is said of a loop is what
+/// its last reading says, as one of knots that lie on a roller may be wrong: whoever asks holds it against the load
+/// (MotionPatternTracker). Of any other rod a knot once lost stays lost, and so does one of which the rod ran through
+/// itself.
 ///
 /// What is read: of a fisherman's loop all that LoopTopology says; of any other rod the Alexander polynomial, the rod
 /// closed far away beyond its ends, or by joining them where they lie on each other.

@@ -27,10 +27,16 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 /// de/ds = e/L > 0. de/ds is the least-squares slope over a window of s, 3 % of the first e wide; half-way, at -1, the
 /// one turns into the other. The specimen **slides** as long as de/ds < -1, and has **locked** where it last was.
 ///
-///   sliding     at least one window, and 15 % of all extension, was passed at de/ds < -1
-///   untangling  the knot type is lost; or F fell for a window below 5 % of its largest value, has not come back, and
-///               the excess length in a knot, where known, grew beyond 1.5 times that of the tied knot
+///   sliding     at least one window, and 15 % of all extension, was passed at de/ds < -1; and up to where it last was
+///               the knots came nearer to each other by more than s grew: else something beside them gave way
+///   untangling  the knot type is another one, and nothing is borne: F is below 5 % of its largest value, or nothing
+///   has
+///               been pulled; or F fell for a window below that, has not come back, and the excess length in a knot,
+///               where known, grew beyond 1.5 times that of the tied knot; or the rod ran through itself
 ///   stretching  anything else
+///
+/// A knot type alone says nothing while the load is borne: it is told by a closure of the open ends, which a knot on a
+/// roller can put in another place.
 ///
 /// Confidence, 0 to 1, is the mean of independent signs, each 0 to 1, where they can be read. Deviations are those
 /// from a line, means weighted by extension, both over the part that decides (sliding: 0.3 to 0.8 of the lock
@@ -38,7 +44,7 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 ///   kinematics  sliding: 1 - |de/ds + 2|; stretching: 1 + de/ds
 ///   load        sliding: 1 - (rise over the part + standard deviation) / mean; stretching: correlation with s
 ///   contact     the same of the sum of normal forces between strands
-/// Untangling: 1 where the knot type is lost, 0.75 where load and excess length show it, 0.5 where the load alone does.
+/// Untangling: 1 where the knot type says so, 0.75 where load and excess length show it, 0.5 where the load alone does.
 class MotionPatternTracker {
  public:
   void add(const Sample& sample);
@@ -51,15 +57,17 @@ class MotionPatternTracker {
   /// window, and where nothing slid.
   std::optional<double> lock_extension() const;
 
-  /// Time at which the knot came undone [s]: the knot type lost, or else the load fallen for good.
+  /// Time at which the knot came undone [s]: since when the knot type is another one, or else since when the load is
+  /// gone.
   std::optional<double> untangled_at() const;
 
   /// The samples of the pull that count.
   const Pull& pull() const { return pull_; }
 
  private:
-  double slope() const;
+  bool slid() const;
   bool opened() const;
+  bool knot_lost() const;
   bool load_gone() const;
 
   Pull pull_;
@@ -74,7 +82,9 @@ class MotionPatternTracker {
   double largest_excess_[2] = {Sample::kNone, Sample::kNone};  ///< during the pull [m]
   std::optional<double> gone_since_;                           ///< time since which F is gone [s]
   double gone_extension_ = 0.0;                                ///< extension there [m]
-  std::optional<double> knot_lost_;                            ///< since when it is another one [s]
+  std::optional<double> type_lost_;                            ///< since when the knot type is another one [s]
+  double borne_ = 0.0;                                         ///< F, as last pulled or held [N]
+  bool crossed_ = false;                                       ///< the rod ran through itself
   bool broken_ = false;
 };
 

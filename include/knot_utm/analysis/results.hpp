@@ -8,6 +8,7 @@
 
 #include "knot_utm/analysis/curve_readings.hpp"
 #include "knot_utm/analysis/motion_pattern.hpp"
+#include "knot_utm/analysis/rate_shares.hpp"
 #include "knot_utm/machine/sample.hpp"
 #include "knot_utm/machine/test_program.hpp"
 
@@ -58,12 +59,16 @@ struct Results {
   std::optional<double> true_plateau_force;
   std::optional<double> true_breakaway_force;
   std::optional<double> true_peak_force;
+  std::optional<double> true_jump_force;
+  std::optional<double> true_force_after_jump;
 
-  std::optional<double> plateau_slope;    ///< de/ds over the plateau [-]; -2: rigid sliding
-  std::optional<double> lock_extension;   ///< s_l, where the knots' distance tells that sliding became stretching [m]
-  std::optional<double> balance_offset;   ///< F that the cell reads as zero, once the pull begins [N]
-  std::optional<double> break_extension;  ///< s where the rod parted [m]
-  std::optional<double> break_arclength;  ///< of the place where it did, from its first node [m]
+  std::optional<double> plateau_slope;   ///< de/ds over the plateau [-]; -2: rigid sliding
+  std::optional<double> lock_extension;  ///< s_l, where the knots' distance tells that sliding became stretching [m]
+  std::optional<double> first_contact_extension;  ///< s where the coils of the two knots first touch each other [m]
+  std::optional<double> roller_touched_at;  ///< s where rollers first bear on a knot or its tail, 5 % of F or more [m]
+  std::optional<double> balance_offset;     ///< F that the cell reads as zero, once the pull begins [N]
+  std::optional<double> break_extension;    ///< s where the rod parted [m]
+  std::optional<double> break_arclength;    ///< of the place where it did, from its first node [m]
   BreakPlace break_place = BreakPlace::kNone;
   std::string failure_mode;  ///< sliding then fracture, stretching then fracture, fracture, untangling; empty: none
 
@@ -101,7 +106,8 @@ struct Results {
   std::optional<double> tied_knot_distance;                  ///< e [m]
   std::array<std::optional<double>, 2> tied_excess_length;   ///< rod hidden in each knot [m]
   std::array<std::optional<double>, 2> final_excess_length;  ///< and at the end of the test [m]
-  double fastest_node = 0.0;  ///< of the pull until the knots lock [m/s]; above 0.1 m/s one opened
+  RateShares rate;            ///< what speed has a share in
+  double fastest_node = 0.0;  ///< of the pull until the knots lock [m/s]
 
   std::uint64_t steps = 0;
   std::uint64_t rejected_steps = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "knot_utm/contact/contact_point.hpp"
@@ -11,8 +12,10 @@ struct Roller {
   Vec3 centre = Vec3::Zero();  ///< a point of its axis [m]
   Vec3 axis = Vec3::UnitY();   ///< unit
   double radius = 0.0;         ///< [m]
+  /// Nodes between which the rod touches it; what lies beyond is laid beside it.
+  int first_node = 0, last_node = std::numeric_limits<int>::max();
 
-  void state(Archive& archive) { archive(centre, axis, radius); }
+  void state(Archive& archive) { archive(centre, axis, radius, first_node, last_node); }
 };
 
 /// Contact of the rod's smooth centreline with rollers that move without turning: the normal law of the rod with

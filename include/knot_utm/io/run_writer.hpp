@@ -51,6 +51,9 @@ class RunWriter {
   CurveWriter full_curve_;
 };
 
+/// What befell the specimen while it was pulled, a line each: a knot that jumped open, a roller that was touched.
+std::vector<std::string> events(const Results& results);
+
 /// One line where the specimen had not come to rest, or the plateau force may be off by more than a tenth; else empty.
 std::string accuracy_warning(const Results& results, const ReadingErrors& errors);
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -20,6 +21,9 @@ class YamlLines {
   void text(const char* key, const std::string& value);  ///< quoted; empty is null
   void pair(const char* key, const std::array<std::optional<double>, 2>& values);
   void list(const char* key, const std::vector<std::string>& texts);
+
+  /// Behind each null a comment that says why, where `why` has something to say of that key.
+  void explain_nulls(const std::function<std::string(const std::string& key)>& why);
 
   const std::string& all() const { return all_; }
 

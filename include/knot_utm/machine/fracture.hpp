@@ -10,7 +10,7 @@ enum class BreakLimit { kForce, kStrain };  ///< breaking force, breaking strain
 /// How near a rod is to parting, and at which edge: at a share of 1 it parts there.
 ///
 /// Symbols: T tension [N], F_b breaking force [N], k_s stretching stiffness [N], h radius [m], kappa curvature at the
-/// edge's more bent end, 2 tan(phi/2)/lbar [1/m], eps_b breaking strain [-]. Of edge j
+/// edge's more bent end, the angle it turns by over lbar [1/m], eps_b breaking strain [-]. Of edge j
 ///
 ///   share_j = max(T_j/F_b, (T_j/k_s + h kappa_j)/eps_b),
 ///

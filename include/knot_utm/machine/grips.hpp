@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "knot_utm/machine/options.hpp"
@@ -15,14 +16,24 @@ namespace knot_utm {
 /// the crosshead's, less what a compliant frame gives (frame.hpp).
 class Grips {
  public:
-  /// At displacement 0. `radius`: of the rod [m].
-  Grips(const SpecimenOptions& specimen, const MachineOptions& machine, const Centreline& centreline, double radius);
+  /// At displacement 0.
+  Grips(const SpecimenOptions& specimen, const MachineOptions& machine, const Centreline& centreline,
+        const Material& material);
 
   bool on_rollers() const { return !rollers_.empty(); }
   bool hold_frames() const { return !held_frames_.empty(); }
 
   /// Rollers, held nodes and held frames of the boundary.
-  void set(double displacement, Boundary& boundary) const;
+  /// While the loop is put on, by the share of this that is `left`, the rollers are pins that widen.
+  void set(double displacement, double left, Boundary& boundary) const;
+
+  /// The loop, off the rollers until now, is put on them: they come nearer to each other as far as it asks for.
+  void put_on(const Points& loop, double displacement, double radius);
+
+  /// From now on the middle of the loop's far side keeps its place between the rollers, where it is to be held.
+  void hold_far_side(const Points& position, double displacement);
+
+  void state(Archive& archive);
 
   /// Centres of rollers, or places of the nodes between which the specimen's length counts [m].
   Vec3 lower() const;
@@ -44,9 +55,17 @@ class Grips {
   double moment_imbalance(double displacement, const TimeStep& step) const;
 
  private:
+  double half_way(double displacement) const;
+  void narrow(double left, std::vector<Roller>& rollers) const;
+
+  double narrower_ = 0.0;   // than the rollers, by which the loop was drawn [m]
+  double clearance_ = 0.0;  // of narrower pins in the loop [m]
+  double lift_ = 0.0;       // of the lower one while the loop is put on [m]
   std::vector<FixedNode> lower_nodes_, upper_nodes_;
   std::vector<FixedTwist> held_frames_;
-  std::vector<Roller> rollers_;  // lower, upper
+  std::vector<Roller> rollers_;           // lower, upper
+  std::optional<SpringHold> far_middle_;  // keeps the loop from going round on the rollers; from half-way
+  bool holds_far_side_ = false;
 };
 
 }  // namespace knot_utm

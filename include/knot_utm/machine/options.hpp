@@ -7,6 +7,10 @@ namespace knot_utm {
 
 enum class GripKind { kRollers, kNodes, kClamps };
 
+/// Whether the middle of the loop's far side stays half-way between the rollers, or the loop is free to go round on
+/// them.
+enum class FarSide { kHeld, kFree };
+
 /// What the load cell makes of the force on the upper grip (load_cell.hpp).
 struct LoadCellOptions {
   std::string name;
@@ -25,8 +29,9 @@ struct LoadCellOptions {
 /// The `machine` section of a method.
 struct MachineOptions {
   GripKind grips = GripKind::kRollers;
-  double roller_diameter = 0.0381;  ///< [m]
-  double roller_friction = 0.0;     ///< mu of rod on roller [-]
+  double roller_diameter = 0.0381;    ///< [m]
+  double roller_friction = 0.0;       ///< mu of rod on roller [-]
+  FarSide far_side = FarSide::kHeld;  ///< of a loop on rollers
   LoadCellOptions load_cell;
   double stiffness = std::numeric_limits<double>::infinity();  ///< frame [N/m]
   double travel = 1.0;                                         ///< the crosshead's reach; a test ends there [m]

@@ -90,7 +90,9 @@ struct Sample {
   KnotType knot_type = KnotType::kKept;
   BenchStatus status = BenchStatus::kRunning;
   std::string message;
-  double raw_extension = kNone;  ///< travel of the crosshead since balance [m]; NaN: a rigid frame, on which it is s
+  double knots_force = kNone;  ///< between the coils of the two knots, the sum of normal forces [N]; NaN: no two knots
+  double knot_on_roller = kNone;  ///< of rollers on the knots or their tails [N]; NaN: no two knots
+  double raw_extension = kNone;   ///< travel of the crosshead since balance [m]; NaN: a rigid frame, on which it is s
 
   void state(Archive& archive);
 };

@@ -59,8 +59,9 @@ std::optional<EndedBy> ended_by_named(const std::string& name);  ///< the other 
 /// The whole test ends when the last step has ended, or at once, whichever comes first: by a rod that parted, a load
 /// that falls as Limits::breaks says (judged in preload, pull, hold and on the ways out of a cycle), a bench that
 /// failed, a true force or a reading beyond Limits::load, the end of the crosshead's way, grips that meet, the time
-/// limit, or the operator; and by a knot that comes undone before the first step that pulls it. A program that neither
-/// mounts nor pulls, so that one may watch the knot, goes on to its end all the same.
+/// limit, or the operator; and by a knot that comes undone before the first step that pulls it, once three answers in a
+/// row say so. A program that neither mounts nor pulls, so that one may watch the knot, goes on to its end all the
+/// same.
 class TestProgram {
  public:
   struct Limits {
@@ -106,7 +107,7 @@ class TestProgram {
   void end(EndedBy by, std::string reason);
   bool end_by_alarm(const Sample& sample);
   bool only_ties() const;
-  bool came_undone(const Sample& sample) const;
+  bool is_undone(const Sample& sample) const;
   std::string break_seen(const Sample& sample);
   EndedBy step_end(const Sample& sample);  ///< kNotYet: the step goes on
   bool cycles_over(const Sample& sample);
@@ -134,6 +135,7 @@ class TestProgram {
   double wanted_load_ = 0.0;      ///< kept, or followed at a rate [N]
   bool balancing_ = false;        ///< preload: reached, and now balanced
   double balance_offset_ = 0.0;   ///< of the last sample [N]
+  int undone_answers_ = 0;        ///< in a row that say so, before the pull
   /// Growth of the extension over that of the displacement in the last command that moved: 1 on a rigid frame.
   struct {
     double extension = 0.0, displacement = 0.0;  ///< of the last sample [m]

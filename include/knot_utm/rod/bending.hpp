@@ -9,33 +9,36 @@ namespace knot_utm {
 /// Bending at one inner node from material curvatures, with natural curvature.
 ///
 ///   E = k_b/(2 lbar) [(kappa_1 - kappabar_1)^2 + (kappa_2 - kappabar_2)^2]
-///   kappa_1 =  1/2 kb . (m2_e + m2_f) = (v . m1_e - u . m1_f)/chi
-///   kappa_2 = -1/2 kb . (m1_e + m1_f) = (v . m2_e - u . m2_f)/chi
+///   kappa_1 =  s (v . m1_e - u . m1_f)
+///   kappa_2 =  s (v . m2_e - u . m2_f)
 ///
-///   e, f        edge vectors before and behind the node  [m];  u, v their unit tangents, c = u . v, chi = 1 + c
-///   kb          2 u x v/chi, integrated curvature binormal [-]
+///   e, f        edge vectors before and behind the node  [m];  u, v their unit tangents, c = u . v, w = (1 - c)/2
+///   s(c)        sqrt(G/(1 - w))/4 with G of turning_angle.hpp; phi/(2 sin phi), phi being the turning angle [-]
 ///   m1, m2      material directors of the two edges (frames.hpp)
-///   kappa_k     integrated material curvatures, 2 tan(angle/2) in a plane bend [-]: kappa_1 is positive where the
+///   kappa_k     integrated material curvatures, the turning angle in a plane bend [-]: kappa_1 is positive where the
 ///               rod turns towards +m1, kappa_2 where it turns towards +m2
 ///   lbar        Voronoi length [m];  k_b bending stiffness [N m^2]
 ///
-/// Both curvatures have one form, kappa = (v . p - u . q)/chi with p, q the k-th directors of e, f. Directors follow
-/// their edge by parallel transport, p(u + eps) = p - (p . eps)(u + eps/2) + O(eps^3), so with N = v . p - u . q
+/// With the vector kb of length phi along u x v, kappa_1 = 1/2 kb . (m2_e + m2_f), kappa_2 = -1/2 kb . (m1_e + m1_f).
+///
+/// Both curvatures have one form, kappa = s N, N = v . p - u . q with p, q the k-th directors of e, f. Directors follow
+/// their edge by parallel transport, p(u + eps) = p - (p . eps)(u + eps/2) + O(eps^3), so
 ///
 ///   N_u = -(c p + q)                N_v = p + c q
 ///   N_uu = -1/2 (p v^T + v p^T)     N_vv = 1/2 (q u^T + u q^T)     N_uv = v q^T - p u^T
-///   kappa_a = (N_a - kappa chi_a)/chi
-///   kappa_ab = (N_ab - kappa_a chi_b^T - chi_a kappa_b^T - kappa chi_ab)/chi,   chi_u = v, chi_v = u, chi_uv = 1
+///   kappa_a = s N_a + s' N c_a,   c_u = v, c_v = u, c_uv = 1
+///   kappa_ab = s N_ab + s' (N_a c_b^T + c_a N_b^T + N c_ab) + s'' N c_a c_b^T
 ///
 /// and u = e/|e| brings in the projections and the curvature of the sphere. In theta, p' = dp/dtheta (m1' = m2,
-/// m2' = -m1) stands for p: kappa_theta_e = v . p'/chi, kappa_theta_f = -u . q'/chi.
+/// m2' = -m1) stands for p: kappa_theta_e = s v . p', kappa_theta_f = -s u . q'.
 /// The Hessian is that of E as a function of positions and angles, the reference frame being transported from the
 /// present one; it is symmetric.
 ///
 /// Where the two edges are twisted by m against each other, the averaged directors see the curvature times cos(m/2):
 /// an error of second order in the edge length that couples bending and twisting. A rod that is straight at rest has
 /// no need of it; its bending is that of isotropic_bending.hpp, with or without twist.
-/// Source: Bergou et al. 2010, section 4.2; Jawed, Novelia, O'Reilly 2018, chapters 4 and 7; derivatives our own.
+/// Source: Bergou et al. 2010, section 4.2; Jawed, Novelia, O'Reilly 2018, chapters 4 and 7, with the turning angle
+/// in place of 2 tan(phi/2); derivatives our own.
 struct BendingInput {
   double k_b = 0.0;                                             ///< [N m^2]
   double voronoi_length = 0.0;                                  ///< lbar [m]

@@ -1,23 +1,23 @@
 #pragma once
 
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/rod/turning_angle.hpp"
 
 namespace knot_utm {
 
 /// Bending at one inner node of a rod that is isotropic (one bending stiffness for every direction), straight at
 /// rest and free of twist: the energy then depends on the centreline alone, and the rod needs no frame.
 ///
-///   E = k_b/(2 lbar) |kb|^2,   kb = 2 t_e x t_f/(1 + c)
-///     = (2 k_b/lbar) (1 - c)/(1 + c)
+///   E = k_b/(2 lbar) phi^2 = k_b/(2 lbar) g(w),   w = (1 - c)/2
 ///
 ///   e, f      edge vectors x_i - x_{i-1} and x_{i+1} - x_i   [m]
 ///   t_e, t_f  their unit tangents                            [-]
-///   c         t_e . t_f, cosine of the turning angle         [-]
-///   kb        integrated curvature binormal; |kb| is 2 tan(angle/2)  [-]
+///   c         t_e . t_f, cosine of the turning angle phi     [-]
+///   g = w G   phi^2, but without bound as the rod folds back on itself (turning_angle.hpp)  [-]
 ///   lbar      Voronoi length of node i                       [m]
 ///   k_b       bending stiffness                              [N m^2]
 ///
-/// With W(c) = E:  W' = -(4 k_b/lbar)/(1 + c)^2,  W'' = (8 k_b/lbar)/(1 + c)^3,
+/// With W(c) = E:  W' = -k_b/(4 lbar) (G + w G'),  W'' = k_b/(8 lbar) (2 G' + w G''),
 ///
 ///   c_e  = (t_f - c t_e)/|e|,   c_f = (t_e - c t_f)/|f|
 ///   c_ee = -(c_e t_e^T + t_e c_e^T)/|e| - c (1 - t_e t_e^T)/|e|^2,   c_ff alike
@@ -26,13 +26,31 @@ namespace knot_utm {
 ///   dE/da = W' c_a,   d2E/da db = W'' c_a c_b^T + W' c_ab   for a, b in {e, f}
 ///
 /// On the nodes (i-1, i, i+1) the gradient is (-g_e, g_e - g_f, g_f), the force its negative.
-/// E grows without bound as the rod folds back on itself (c -> -1).
-/// Source: Bergou, Wardetzky, Robinson, Audoly, Grinspun 2008, section 4.2.
+/// Source: Bergou, Wardetzky, Robinson, Audoly, Grinspun 2008, section 4.2, with the turning angle in place of their
+/// 2 tan(phi/2).
 struct IsotropicBendingGradient {
   double energy;    ///< [J]
   Vec3 gradient_e;  ///< dE/de [N]
   Vec3 gradient_f;  ///< dE/df [N]
 };
+
+/// W' and W'' over k_b/lbar.
+template <typename Real>
+struct BendingSlopes {
+  Real first, second;
+
+  static BendingSlopes at(const Real& c) {
+    const Real w = 0.5 - 0.5 * c;
+    const SquaredAngleOverW<Real> over = squared_angle_over(w);
+    return {-0.25 * (over.value + w * over.first), 0.125 * (2.0 * over.first + w * over.second)};
+  }
+};
+
+/// phi^2 in E, of tangents rather than of c: 1 - c = |t_f - t_e|^2/2 keeps its digits where the rod is nearly straight.
+inline double bending_angle_squared(double tangents_apart_squared) {
+  const double w = 0.25 * tangents_apart_squared;
+  return w * squared_angle_over(w).value;
+}
 
 /// As IsotropicBendingGradient, and the Hessian in the edge vectors. On the nodes, with H_fe = H_ef^T:
 ///   (i-1,i-1)  H_ee          (i-1,i)  H_ef - H_ee               (i-1,i+1)  -H_ef
@@ -53,11 +71,9 @@ inline IsotropicBendingGradient isotropic_bending_gradient(double k_b, double vo
   const Vec3 t_e = inverse_e * e;
   const Vec3 t_f = inverse_f * f;
   const double c = t_e.dot(t_f);
-  const double inverse_1c = 1.0 / (1.0 + c);
-  const double stiffness = 2.0 * k_b / voronoi_length;
-  const double slope = -2.0 * stiffness * inverse_1c * inverse_1c;
-  // 1 - c = |t_f - t_e|^2/2 keeps its digits where the rod is nearly straight.
-  return {0.5 * stiffness * inverse_1c * (t_f - t_e).squaredNorm(), (slope * inverse_e) * (t_f - c * t_e),
+  const double stiffness = k_b / voronoi_length;
+  const double slope = stiffness * BendingSlopes<double>::at(c).first;
+  return {0.5 * stiffness * bending_angle_squared((t_f - t_e).squaredNorm()), (slope * inverse_e) * (t_f - c * t_e),
           (slope * inverse_f) * (t_e - c * t_f)};
 }
 
@@ -67,15 +83,14 @@ inline IsotropicBendingLocal isotropic_bending(double k_b, double voronoi_length
   const Vec3 t_e = inverse_e * e;
   const Vec3 t_f = inverse_f * f;
   const double c = t_e.dot(t_f);
-  const double inverse_1c = 1.0 / (1.0 + c);
-  const double stiffness = 2.0 * k_b / voronoi_length;
-  const double slope = -2.0 * stiffness * inverse_1c * inverse_1c;
-  const double curve = -2.0 * slope * inverse_1c;
+  const double stiffness = k_b / voronoi_length;
+  const BendingSlopes<double> slopes = BendingSlopes<double>::at(c);
+  const double slope = stiffness * slopes.first, curve = stiffness * slopes.second;
   const Vec3 c_e = inverse_e * (t_f - c * t_e);
   const Vec3 c_f = inverse_f * (t_e - c * t_f);
 
   IsotropicBendingLocal local;
-  local.energy = 0.5 * stiffness * inverse_1c * (t_f - t_e).squaredNorm();
+  local.energy = 0.5 * stiffness * bending_angle_squared((t_f - t_e).squaredNorm());
   local.gradient_e = slope * c_e;
   local.gradient_f = slope * c_f;
 

@@ -21,7 +21,7 @@ struct RodProperties {
   Eigen::VectorXd rest_length;         ///< l_j [m], N-1
   Eigen::VectorXd voronoi_length;      ///< lbar_i [m], N (half an edge at the ends)
   Eigen::VectorXd mass;                ///< m_i [kg], N
-  Eigen::Matrix2Xd natural_curvature;  ///< kappa-bar of inner node i+1 on (m1, m2), as integrated 2 tan(phi/2) [-],
+  Eigen::Matrix2Xd natural_curvature;  ///< kappa-bar of inner node i+1 on (m1, m2), the angle it turns by [rad],
                                        ///< N-2; empty: straight
   Eigen::VectorXd natural_twist;       ///< m-bar of inner node i+1 [rad], N-2; empty: untwisted
 

@@ -14,11 +14,11 @@ namespace knot_utm {
 ///   mbar              natural twist                       [rad]
 ///   lbar              Voronoi length [m];  k_t twisting stiffness [N m^2]
 ///
-/// With u, v the unit tangents of e, f, chi = 1 + u . v, kb = 2 u x v/chi and t = (u + v)/chi,
+/// With u, v the unit tangents of e, f, chi = 1 + u . v, b = 2 u x v/chi and t = (u + v)/chi,
 ///
-///   m_e  = kb/(2 |e|),   m_f = kb/(2 |f|)
-///   m_ee = -(kb (u + t)^T + (u + t) kb^T)/(4 |e|^2),   m_ff = -(kb (v + t)^T + (v + t) kb^T)/(4 |f|^2)
-///   m_ef = ((2/chi) [u]x - kb t^T)/(2 |e| |f|)
+///   m_e  = b/(2 |e|),   m_f = b/(2 |f|)
+///   m_ee = -(b (u + t)^T + (u + t) b^T)/(4 |e|^2),   m_ff = -(b (v + t)^T + (v + t) b^T)/(4 |f|^2)
+///   m_ef = ((2/chi) [u]x - b t^T)/(2 |e| |f|)
 ///
 /// The Hessian is that of E as a function of positions and angles, the reference frame being transported from the
 /// present one; it is symmetric. Differentiating m_e as it stands gives m_ee plus an antisymmetric part, the area

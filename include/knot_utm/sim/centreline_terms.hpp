@@ -60,6 +60,7 @@ class CentrelineTerms {
     Lanes ee[3], ef[3], fe[3], ff[3];
   };
   NodeHessian bending_hessian(std::size_t node) const;
+  void add_bending_forces(std::vector<Lanes>& force);
 
   const RodProperties& rod_;
   bool bends_;
@@ -70,8 +71,9 @@ class CentrelineTerms {
   std::vector<Lanes> tangent_;                    // t of every edge
   std::vector<double> inverse_length_, tension_;  // 1/|e| [1/m], T [N]
   bool expects_ = false;
-  std::vector<double> expected_tension_;     // [N]
-  std::vector<double> cosine_, inverse_1c_;  // c, 1/(1 + c) of every inner node
+  std::vector<double> expected_tension_;  // [N]
+  // c of every node, 1 of the ends; W' and W'' over k_b/lbar, four nodes side by side.
+  std::vector<Lanes> cosine_, bending_slope_, bending_curve_;
 };
 
 }  // namespace knot_utm

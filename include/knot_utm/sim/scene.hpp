@@ -52,6 +52,17 @@ struct SlippingGrip {
   }
 };
 
+/// A spring that holds a node at a place, not with the same stiffness in all directions:
+///   f = -K (x - X).
+struct SpringHold {
+  int node = 0;
+  Vec3 place = Vec3::Zero();      ///< X at the end of the step [m]
+  Mat3 stiffness = Mat3::Zero();  ///< K, symmetric, not negative [N/m]
+
+  Vec3 force(const Vec3& node_position) const { return stiffness * (place - node_position); }
+  void state(Archive& archive) { archive(node, place, stiffness); }
+};
+
 /// Everything outside the rod, as it stands at the end of a step.
 struct Boundary {
   std::vector<Roller> rollers;
@@ -59,6 +70,7 @@ struct Boundary {
   std::vector<FixedTwist> fixed_twists;
   std::vector<NodeForce> forces;
   std::vector<SlippingGrip> grips;
+  std::vector<SpringHold> holds;
   double extra_drag = 0.0;  ///< beside the scene's own [N s/m^2]
 
   /// For a rod of that many nodes.

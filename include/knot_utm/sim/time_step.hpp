@@ -93,8 +93,13 @@ class TimeStep {
   virtual StepWork work() const = 0;
   /// Of the last step that was tried: what is read off an accepted one, before the next is tried.
   virtual std::vector<ContactForce> contact_forces() const = 0;
+  virtual double normal_force_between(const NodeRange& a, const NodeRange& b) const = 0;
+  virtual double roller_normal_force(const NodeRange& piece) const = 0;
   /// Tension of each edge [N]; of a parted one none.
   Eigen::VectorXd tension() const;
+
+  /// The drag c of the steps to come [N s/m^2], in place of that of the settings.
+  void drag(double per_length) { settings_.drag = per_length; }
 
   /// That of the last accepted step, on which the next one depends.
   virtual void state(Archive& archive);

@@ -16,6 +16,16 @@ struct KnotLandmarks {
   double threaded;        ///< the other strand, where it passes the middle of the coil
 };
 
+/// The loop as it is drawn and tied: two straight sides and two half circles, all of it as long as on the rollers.
+/// Where the knots need longer straight strands than rollers at their places would leave, the half circles are
+/// narrower.
+struct DrawnLoop {
+  double end_to_end = 0.0;  ///< distance of the half circles' centres [m]
+  double radius = 0.0;      ///< of the half circles [m]
+  double far_begin = 0.0;   ///< arclengths between which its far side is straight [m]
+  double far_end = 0.0;
+};
+
 /// A specimen's centreline at rest: an open polyline, and where its parts lie. Edges may be shorter in its knots.
 /// Frame: z up and along the load axis. Arclengths are those of the polyline.
 struct Centreline {
@@ -24,6 +34,7 @@ struct Centreline {
   std::vector<KnotLandmarks> knots;  ///< fisherman: [0] lower knot at the rod's first end, [1] upper at its last
   double upper_apex = 0.0;           ///< fisherman: arclength of the top of the loop, on the upper roller [m]
   double lower_apex = 0.0;           ///< fisherman: arclength of the bottom of the loop [m]
+  DrawnLoop loop;                    ///< fisherman
 
   double length() const;                     ///< [m]
   int nearest_node(double arclength) const;  ///< to an arclength [m]

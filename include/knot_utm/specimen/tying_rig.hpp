@@ -16,12 +16,20 @@ namespace knot_utm {
 /// Before it pulls, the drawn shape settles under a strong drag that fades: its stored energy is an artefact of the
 /// drawing, and would otherwise throw the strands about.
 ///
+/// All this happens off the rollers. The loop is held by the straight part of its far side; its half circles and the
+/// side with the knots are free. The clamps stand at set distances from the knots, on straight strands.
+///
 /// Release: the tails' pull goes to zero linearly, everything comes to rest; then each clamp is replaced by its
-/// reaction, which goes to zero linearly, and everything comes to rest again. What does not come to rest in time, as a
-/// knot that creeps open does, is not kept from going on; `not_equilibrated` says so.
+/// reaction, which goes to zero linearly, and everything comes to rest again. Guides stay on the strands beyond the
+/// knots: these can move along themselves only. What does not come to rest in time, as a knot that creeps open does, is
+/// not kept from going on; `not_equilibrated` says so.
 ///
 /// Letting go, for a knot that is pulled as it was tied: the tails' pull and the clamps' reactions go to zero linearly,
 /// together and within a third of a second, and nothing is waited for.
+///
+/// Putting on: within a third of a second the far side is let go while the rollers take the loop. The tails are laid
+/// beside the rollers. The guides stay until the slack is taken up; a slack strand that bends around a roller would
+/// else work on a knot that is near to it.
 class TyingRig {
  public:
   struct Options {
@@ -43,7 +51,11 @@ class TyingRig {
     kClampsRamp,
     kClampsRest,
     kReleased,
-    kLettingGo
+    kLettingGo,
+    kPuttingOn,
+    kGuided,
+    kGuidesRamp,
+    kFree
   };
 
   TyingRig(const Centreline& centreline, const RodProperties& rod, const Options& options);
@@ -51,6 +63,11 @@ class TyingRig {
   void tie(double speed, double time, const Points& position);
   void release(double duration, double time);
   void let_go(const TimeStep& stepper, double time);
+  void put_on(const TimeStep& stepper, double time);
+  void take_guides_off(const TimeStep& stepper, double time);
+
+  /// Beyond the middle of a drawn coil, that its clamps stand clear of all bends [m].
+  static double straight_strand(double radius);
 
   /// Adds its clamps and grips, as they stand at `to`, to the boundary of a step.
   void hold(Boundary& boundary, double from, double to) const;
@@ -62,10 +79,21 @@ class TyingRig {
   bool tied() const { return stage_ == Stage::kTied; }
   bool released() const { return stage_ == Stage::kReleased; }
   bool lets_go() const { return stage_ == Stage::kLettingGo; }
+  bool puts_on() const { return stage_ == Stage::kPuttingOn; }
+  bool guides() const { return stage_ == Stage::kGuided; }
+  /// The loop hangs free of the rollers.
+  bool off_rollers() const { return stage_ != Stage::kIdle && stage_ < Stage::kPuttingOn; }
   /// Empty, or what had not come to rest when it went on.
   const std::string& not_equilibrated() const { return not_equilibrated_; }
   /// Empty, or why the knots cannot be tied.
   const std::string& not_tied() const { return not_tied_; }
+
+  /// Share of the time of putting the loop on that is left.
+  double left_to_put_on(double time) const;
+
+  /// Nodes between the tails, once the loop is put on.
+  int loop_begin() const { return loop_begin_; }
+  int loop_end() const { return loop_end_; }
 
   /// Node in the standing part of each knot, in the order of the centreline's knots.
   std::vector<int> standing_nodes() const;
@@ -85,6 +113,7 @@ class TyingRig {
     int node;
     Vec3 position;
     Vec3 reaction;
+    bool guides;  // the strand along which the knot slides, once it is released
   };
   struct Knot {
     Vec3 outwards;
@@ -92,16 +121,23 @@ class TyingRig {
     int standing_node;
   };
   void attach_grips();
+  /// The outermost node of a knot from which its tail runs on.
+  int tail_begin(int knot, const TimeStep& stepper) const;
+  SpringHold guide(const Clamp& clamp) const;
+  void hold_knots(Boundary& boundary, double ramp) const;
   void enter(Stage stage, double time);
   /// At rest, or no longer waited for since `begin`.
   bool waited_for_rest(const TimeStep& stepper, double time, double begin, const char* since);
   void judge_pull(double time);
 
   Options options_;
-  double radius_;         // h [m]
-  double settling_drag_;  // [N s/m^2]
+  double radius_;           // h [m]
+  double settling_drag_;    // [N s/m^2]
+  double putting_on_drag_;  // [N s/m^2]
   std::vector<Knot> knots_;
   std::vector<Clamp> clamps_;
+  std::vector<Clamp> far_side_;
+  int loop_begin_ = 0, loop_end_ = 0;
   std::vector<SlippingGrip> grips_;
   std::vector<double> tail_force_;
   std::vector<double> ramp_from_;

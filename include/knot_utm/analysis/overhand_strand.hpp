@@ -1,0 +1,27 @@
+#pragma once
+
+#include <array>
+
+#include "knot_utm/rod/rod.hpp"
+
+namespace knot_utm {
+
+/// The own strand of one overhand of a fisherman's loop, which is tied into one end of the rod: along the load axis it
+/// rises to the coil's outermost point, falls to its innermost and rises again as the tail. "High" is outwards, from
+/// the other knot to this one.
+struct OverhandStrand {
+  Eigen::Index begin = 0;   ///< node of the standing part from which it was followed: on this side of the roller
+  Eigen::Index top = 0;     ///< node of the coil's outermost point, where the strand turns back
+  Eigen::Index cut = 0;     ///< node of the tail level with that plus h, or where the tail turns back before
+  Eigen::Index end = 0;     ///< node of the tail's end
+  double level = 0.0;       ///< height of the coil's outermost point plus h, or of the cut where that is higher [m]
+  bool coil_found = false;  ///< the strand turns back and forth as an overhand's does
+
+  /// `standing`: a node in the standing part of the lower knot (k = 0), tied into the rod's first end, or of the upper
+  /// (k = 1), tied into its last. It may have gone around the roller behind the other knot: the strand that falls from
+  /// it is followed to where it rises again. `axis`: unit, from the lower grip to the upper one. `radius`: h [m].
+  static OverhandStrand follow(const Points& points, std::size_t k, Eigen::Index standing, const Vec3& axis,
+                               double radius);
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,52 @@
+#include "knot_utm/io/speed_warnings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "knot_utm/io/number.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kFast = 0.01;  // share of F that is told
+constexpr double kTiedSlow =
+    9.45;  // three times the default, whose plateaus are the same as those of a tenth [radii/s]
+/// Ten times the default moved the plateau of nylon by -8 %, of polypropylene by -7 %
+/// (config/tighten.yaml with program.tie.speed=0.1).
+constexpr const char* kTiedFast =
+    "; ten times that speed moves a sliding force by up to 8 %, so choose a lower program.tie.speed";
+
+std::string in_per_cent(double share) { return format_number(std::round(1000.0 * share) / 10.0) + " %"; }
+
+std::string about(double share) { return share > 1.0 ? "more than itself" : "about " + in_per_cent(share); }
+
+}  // namespace
+
+std::vector<std::string> speed_warnings(const RateShares& rate, double inertia) {
+  std::vector<std::string> all;
+  const double by_drag = rate.drag.value_or(0.0), by_inertia = rate.inertia.value_or(0.0);
+  const double by_own = by_inertia / std::min(1.0, inertia);
+  if (by_drag > kFast)
+    all.push_back("drag makes up " + in_per_cent(by_drag) +
+                  " of the force until the knots lock: choose physics.drag: auto, or pull more slowly");
+  if (by_inertia > kFast)
+    all.push_back("inertia moves the force by " + in_per_cent(by_inertia) + " until the knots lock: pull more slowly");
+  else if (by_own > kFast)
+    all.push_back("only " + format_number(inertia) +
+                  " of the rod's own mass is accelerated (physics.inertia), and all of it would move the force by " +
+                  about(by_own) + " until the knots lock: a real test at this speed is not slow, so pull more slowly");
+  return all;
+}
+
+std::vector<std::string> speed_warnings(const Method& method) {
+  std::vector<std::string> all;
+  for (const ProgramStep& step : method.program) {
+    const double speed = step.speed / method.material.radius;
+    if (step.phase == Phase::kTie && speed > kTiedSlow)
+      all.push_back("the knots are tied at " + format_number(std::round(10.0 * speed) / 10.0) +
+                    " radii a second, by default at 3.1" + kTiedFast);
+  }
+  return all;
+}
+
+}  // namespace knot_utm
