@@ -28,7 +28,7 @@ std::string begin(const std::string& folder, const Method& method) {
   return folder;
 }
 
-/// Of a loop around its rollers. Rods of shipped methods turn by less than a third of it [h].
+/// Of a loop around its rollers, by choice: half of the diameter of the default roller [h].
 constexpr double kTurned = 6.0;
 /// A contact deeper than this is no longer that of the rod it stands for [fraction of radius].
 constexpr double kDeep = 0.05;

@@ -15,7 +15,8 @@ namespace {
 
 constexpr int kBisections = 3;
 constexpr double kPulledPart = 0.2;  // of the first knot distance
-constexpr double kLetOut = 0.05;     // of it, that knots which open take in of the rod between them, and no others do
+constexpr double kLetOut =
+    0.05;  // of it: between what knots that jumped open took in and what others did (jump in curve_readings.hpp)
 
 /// Up to the first step that pulls, and of that a part.
 Program beginning(const Program& program, double extension) {
