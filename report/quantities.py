@@ -46,6 +46,8 @@ GROUPS = [
         "no_plateau_because": Quantity("Why there is no plateau"),
         "plateau_slope": Quantity("Slope de/ds of the knot distance within the plateau; –\u20602 is rigid sliding"),
         "breakaway_force": force("Breakaway force, the largest before the plateau"),
+        "margin_friction": Quantity("Share of the friction coefficient that may be missing before the knots open"),
+        "margin_preload": Quantity("Share of the pre-load that may be missing before the knots open"),
         "largest_drop": force("Largest sudden fall of the force before the lock"),
         "largest_drop_at": length("Extension at which it began"),
         "jump_force": force("Force at which a knot jumped open"),

@@ -436,6 +436,7 @@ Method read_method(const YAML::Node& root, const std::string& file, const Librar
     method.physics.slip_tolerance = defaults.slip_tolerance;
   top.section("ends", [&](Reader& reader) { fields::ends(reader, method.ends); });
   top.section("physics", [&](Reader& reader) { fields::physics(reader, method.physics); });
+  top.section("analysis", [&](Reader& reader) { fields::analysis(reader, method.analysis); });
   top.section("report", [&](Reader& reader) { fields::report(reader, method.report); });
   method.specification = read_specification(top.take("specification"), file);
   top.finish();
@@ -515,6 +516,9 @@ std::string method_yaml(const Method& method) {
   Writer physics;
   fields::physics(physics, m.physics);
   root["physics"] = physics.map();
+  Writer analysis;
+  fields::analysis(analysis, m.analysis);
+  root["analysis"] = analysis.map();
   Writer report;
   fields::report(report, m.report);
   root["report"] = report.map();

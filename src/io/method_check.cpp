@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -8,6 +9,7 @@
 
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/number.hpp"
+#include "knot_utm/machine/before_tying.hpp"
 
 namespace knot_utm {
 namespace {
@@ -221,6 +223,16 @@ void check_program(const Method& m) {
   }
 }
 
+bool pulls_anything(const Method& m) {
+  return std::any_of(m.program.begin(), m.program.end(), [](const ProgramStep& step) { return pulls(step.phase); });
+}
+
+void check_analysis(const Method& m) {
+  const bool has = m.specimen.to_be_tied && pulls_anything(m);
+  has_effect(has, "analysis.margin", std::string(m.analysis.margin ? "true" : "false"), std::string("false"),
+             "with a program that ties the knots and pulls them");
+}
+
 /// A page embeds its logo: larger than this it is a photograph [bytes].
 constexpr std::uintmax_t kLargestLogo = 2'000'000;
 
@@ -242,7 +254,9 @@ void check_method(const Method& method) {
   check_program(method);
   check_ends(method);
   check_effects(method);
+  check_analysis(method);
   check_report(method);
+  if (method.specimen.to_be_tied && pulls_anything(method)) check_tying(method.specimen, method.material);
 }
 
 }  // namespace knot_utm

@@ -64,6 +64,7 @@ void material(Fields& f, Material& o) {
   f.optional_number("tying_preload", o.tying_preload, Range{1e-9, 1e9, "N"}, "auto");
   f.optional_number("breaking_force", o.breaking_force, Range{1e-6, 1e8, "N"}, "none");
   f.optional_number("breaking_strain", o.breaking_strain, Range{1e-6, 100.0, "-"}, "none");
+  f.optional_number("yield_strain", o.yield_strain, Range{1e-6, 100.0, "-"}, "none");
   f.text("load_cell", o.load_cell);
   f.text("notes", o.notes);
 }
@@ -180,6 +181,11 @@ void physics(Fields& f, PhysicsOptions& o) {
   f.optional_number("inertia", o.inertia, Range{1e-12, 1e12, "of the own mass"}, "auto");
   f.optional_number("max_step", o.max_step, Range{1e-6, 0.5, "s"}, "auto");
   f.optional_number("residual", o.residual, Range{1e-12, 0.1, "of k_b/h2"}, "auto");
+}
+
+template <class Fields>
+void analysis(Fields& f, AnalysisOptions& o) {
+  f.flag("margin", o.margin);
 }
 
 /// What stands in the head and the foot of a report.

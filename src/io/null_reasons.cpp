@@ -73,6 +73,8 @@ std::string why_null(const std::string& key, const Results& results, const RunFa
   if (one_of(key, kOfJump)) return "no knot jumped open";
   if (one_of(key, kOfHold)) return "the crosshead was not held under a load";
   if (one_of(key, kOfKnots)) return "there are no two knots";
+  if (key == "margin_friction" || key == "margin_preload")
+    return facts.margin.reason.empty() ? "the method does not ask for analysis.margin" : facts.margin.reason;
   if (key == "hysteresis") return "no cycle was closed";
   if (key == "untangled_at") return "the knot did not come undone";
   if (key == "failure_mode") return "the specimen did not fail";

@@ -12,6 +12,7 @@
 #include "knot_utm/io/speed_warnings.hpp"
 #include "knot_utm/io/verdict.hpp"
 #include "knot_utm/io/yaml_lines.hpp"
+#include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/specimen/scales.hpp"
@@ -27,6 +28,8 @@ std::string begin(const std::string& folder, const Method& method) {
   return folder;
 }
 
+/// Of a loop around its rollers, by choice: half of the diameter of the default roller [h].
+constexpr double kTurned = 6.0;
 /// A contact deeper than this is no longer that of the rod it stands for [fraction of radius].
 constexpr double kDeep = 0.05;
 /// Where energies miss the work by more, what Newton's method leaves unbalanced has a part in the forces too: seen
@@ -124,7 +127,14 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
       curve_((fs::path(folder) / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
       full_curve_((fs::path(folder) / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)) {
   known_.errors = reading_errors(method.specimen, method.material, method.physics);
-  if (method.specimen.to_be_tied) known_.preload = method.specimen.preload.value_or(Sample::kNone);
+  if (method.specimen.to_be_tied) {
+    known_.preload = method.specimen.preload.value_or(Sample::kNone);
+    known_.foreseen = tying_warnings(method.specimen, method.material, method.physics);
+  }
+  if (method.specimen.knot == KnotKind::kFisherman && method.machine.grips == GripKind::kRollers)
+    radius_on_rollers_ = method.material.radius;
+  if (method.analysis.margin)
+    known_.margin.reason = "only tensile_test makes the runs for the margin: run method.yaml of this folder with it";
   known_.load_cell = method.machine.load_cell;
   known_.inertia = inertia_factor(method.material, method.physics);
   known_.warnings = speed_warnings(method);
@@ -141,6 +151,8 @@ void RunWriter::add(const Record& record) {
     samples_.push_back(step);
   }
   if (sample.status == BenchStatus::kFailed) return;
+  const bool mounted = sample.phase != Phase::kIdle && sample.phase != Phase::kTie && sample.phase != Phase::kRelease;
+  if (mounted && record.shape.cols() > 0 && sample.status != BenchStatus::kBroken) turn_.add(record.shape);
   const Sample* reading = cell_reading(record);
   if (reading && (readings_.empty() || reading->time > readings_.back().time)) {
     curve_.write(*reading);
@@ -158,6 +170,11 @@ Results RunWriter::results(EndedBy ended_by) const { return analyse(samples_, re
 RunFacts RunWriter::facts() const {
   RunFacts facts = known_;
   facts.peak_memory = peak_memory();
+  if (radius_on_rollers_ && turn_.largest() > kTurned * *radius_on_rollers_)
+    facts.warnings.push_back("the loop turned around its rollers by " +
+                             format_number(std::round(turn_.largest() / *radius_on_rollers_)) +
+                             " radii of the rod, which carries its knots along: physics.gravity turns it, and "
+                             "machine.roller_friction holds it");
   return facts;
 }
 
@@ -177,10 +194,11 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.text("reason", f.reason);
   std::vector<std::string> all_warnings = warnings(r);
   for (const std::vector<std::string>& more :
-       {events(r), speed_warnings(r.rate, f.inertia), warnings(r, f.load_cell), f.warnings})
+       {events(r), speed_warnings(r.rate, f.inertia), warnings(r, f.load_cell), f.foreseen, f.warnings})
     all_warnings.insert(all_warnings.end(), more.begin(), more.end());
   const std::string unsure = accuracy_warning(r, errors);
   if (!unsure.empty()) all_warnings.push_back(unsure);
+  if (!f.margin.reason.empty()) all_warnings.push_back("no margin: " + f.margin.reason);
   lines.list("warnings", all_warnings);
   lines.flag("not_equilibrated", !r.not_equilibrated.empty());
   lines.number("preload", f.preload);
@@ -195,6 +213,8 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.number("plateau_force_error", share_of(r.true_plateau_force, errors.plateau_force));
   lines.number("plateau_slope", r.plateau_slope);
   lines.number("breakaway_force", r.curve.breakaway_force);
+  lines.number("margin_friction", f.margin.friction);
+  lines.number("margin_preload", f.margin.preload);
   lines.text("no_plateau_because", r.curve.no_plateau);
   lines.number("largest_drop", r.curve.largest_drop);
   lines.number("largest_drop_at", r.curve.largest_drop_at);

@@ -69,8 +69,9 @@ struct TestBench::Impl {
   double mount_distance = 0.0;  // of the knots when mounting began [m]
   int step_index = -1;
   Phase phase = Phase::kIdle;
-  bool pulled = false;  // a step of the program has pulled it
-  StepWork work;        // of all accepted steps
+  bool has_weight = true;  // what is tied has none until it is mounted
+  bool pulled = false;     // a step of the program has pulled it
+  StepWork work;           // of all accepted steps
   std::vector<Sample> substeps;
   BenchStatus status = BenchStatus::kRunning;
   std::string message;
@@ -122,7 +123,11 @@ struct TestBench::Impl {
                     centreline.points);
     }
     extension_zero = grips.end_to_end(grip);
+    has_weight = !specimen.to_be_tied;
+    apply_gravity();
   }
+
+  void apply_gravity() { stepper->set_gravity(has_weight ? physics.gravity : Vec3::Zero()); }
 
   /// `auto`: where frames are held at two places, or the rod at rest is curved or twisted. A rod whose ends are free
   /// to turn has no twist, contacts acting on its centreline; nor has one that stays straight.
@@ -197,6 +202,8 @@ struct TestBench::Impl {
     phase = command.phase;
     pulled |= pulls(phase) || phase == Phase::kPreload || phase == Phase::kReturn;
     status = BenchStatus::kRunning;
+    has_weight |= phase != Phase::kTie && phase != Phase::kRelease && phase != Phase::kHold;
+    apply_gravity();
     if (!rig) return;
     if (phase == Phase::kTie) rig->tie(command.speed, time, stepper->state().position);
     if (phase == Phase::kRelease) {
@@ -361,14 +368,14 @@ struct TestBench::Impl {
   }
 
   void state(Archive& archive) {
-    archive.section("BNCI");  // "BNCG" was tied on the rollers
+    archive.section("BNCJ");  // "BNCI" had no word on weight, "BNCG" was tied on the rollers
     int parted_edge = stepper->parted_edge();
     archive.number("parted edge", parted_edge, -1, static_cast<int>(stepper->rod().edges()) - 1);
     if (archive.loads() && parted_edge >= 0) stepper->part(parted_edge);
     archive.choice("place of the break", break_place, BreakPlace::kGrip);
     archive(exposure);
-    archive(time, displacement, grip, extension_zero, raw_extension_zero, mount_load, mount_distance, step_index, work,
-            message);
+    archive(time, displacement, grip, extension_zero, raw_extension_zero, mount_load, mount_distance, step_index,
+            has_weight, work, message);
     archive.choice("phase", phase, Phase::kDone);
     archive(pulled);
     archive.choice("status", status, BenchStatus::kFailed);
@@ -380,7 +387,9 @@ struct TestBench::Impl {
     archive.same("knot", watches ? 1 : 0);
     if (ties) archive(*rig, *touch);
     if (watches) archive(*watch);
-    if (archive.loads()) substeps.clear();
+    if (!archive.loads()) return;
+    substeps.clear();
+    apply_gravity();
   }
 
   /// When and where the crosshead was.

@@ -26,6 +26,8 @@
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/io/speed_warnings.hpp"
+#include "knot_utm/machine/before_tying.hpp"
+#include "knot_utm/machine/margin.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/test_bench.hpp"
 #include "knot_utm/machine/test_program.hpp"
@@ -224,6 +226,17 @@ struct Test {
   std::optional<Past> past;  ///< none: it is new
 };
 
+/// Where the method asks for it, of knots that slide.
+Margin margin_of(const Test& test, const Results& results) {
+  const Method& method = test.method;
+  Margin none;
+  if (!method.analysis.margin) return none;
+  none.reason = "the knots did not slide";
+  if (results.motion_pattern != MotionPattern::kSliding) return none;
+  return find_margin({method.specimen, method.material, method.machine, method.physics, method.program},
+                     [] { return stop_asked != 0; });
+}
+
 /// What becomes of a test that has ended, or was interrupted.
 Results write_results(const Test& test, Writers& writers, const WallClock& clock, bool interrupted) {
   writers.close();
@@ -232,6 +245,7 @@ Results write_results(const Test& test, Writers& writers, const WallClock& clock
   facts.reason = interrupted ? kInterrupted : test.program.reason();
   facts.wall_time = clock.seconds();
   const Results results = writers.run.results(test.program.ended_by());
+  facts.margin = margin_of(test, results);
   writers.run.finish(results, facts, test.bench.state().position);
   for (const std::vector<std::string>& all :
        {events(results), speed_warnings(results.rate, facts.inertia), facts.warnings})
@@ -340,6 +354,9 @@ int run(const Arguments& arguments) {
   const Checkpoint checkpoint(out, method_file_text(method));
   const Test test{method, out, bench, program, checkpoint, past};
   int code = kDone;
+  if (method.specimen.to_be_tied)
+    for (const std::string& warning : tying_warnings(method.specimen, method.material, method.physics))
+      std::fprintf(stderr, "%s: %s\n", kTool, warning.c_str());
   try {
     code = run_to_end(test, claimed.journal, arguments.checkpoint, arguments.quiet);
   } catch (const InvalidInput&) {

@@ -109,6 +109,8 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
                           "final_excess_length",
                           "plateau_slope",
                           "breakaway_force",
+                          "margin_friction",
+                          "margin_preload",
                           "lock_extension_by_load",
                           "true_plateau_force",
                           "true_breakaway_force",

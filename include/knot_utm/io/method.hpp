@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/io/analysis_options.hpp"
 #include "knot_utm/io/report_options.hpp"
 #include "knot_utm/machine/end_options.hpp"
 #include "knot_utm/machine/options.hpp"
@@ -24,6 +25,7 @@ struct Method {
   Program program;
   EndOptions ends;
   PhysicsOptions physics;
+  AnalysisOptions analysis;
   ReportOptions report;
   Specification specification;
 };

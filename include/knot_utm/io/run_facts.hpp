@@ -6,6 +6,7 @@
 
 #include "knot_utm/io/report_options.hpp"
 #include "knot_utm/machine/accuracy.hpp"
+#include "knot_utm/machine/margin.hpp"
 #include "knot_utm/machine/options.hpp"
 #include "knot_utm/machine/sample.hpp"
 
@@ -14,9 +15,11 @@ namespace knot_utm {
 /// What a run knows of itself that its samples do not say; what they say is in `Results`.
 struct RunFacts {
   std::string reason;                 ///< one line; empty: as programmed
+  std::vector<std::string> foreseen;  ///< warnings, one line each, that were known before anything was tied
   std::vector<std::string> warnings;  ///< one line each, beside those that follow from the results
   double preload = Sample::kNone;     ///< F_p [N]; NaN: nothing was tied
   ReadingErrors errors;               ///< of the readings, as fractions of them
+  Margin margin;                      ///< where it was asked for
   double wall_time = 0.0;             ///< [s]
   std::uint64_t peak_memory = 0;      ///< of the process [bytes]; 0: not known
   double inertia = 1.0;               ///< mass that is accelerated, over the rod's own [-]

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/analysis/loop_turn.hpp"
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/io/csv.hpp"
 #include "knot_utm/io/method.hpp"
@@ -33,7 +34,7 @@ class RunWriter {
   /// caller knows.
   void finish(const Results& results, const RunFacts& facts, const Points& final_shape);
 
-  RunFacts facts() const;                   ///< what the method and this process say
+  RunFacts facts() const;                   ///< what the method, the shapes and this process say
   Results results(EndedBy ended_by) const;  ///< what the time steps and readings so far mean
 
   std::size_t rows() const { return curve_.rows(); }            ///< of curve.csv
@@ -42,8 +43,10 @@ class RunWriter {
  private:
   std::string folder_;
   RunFacts known_;
-  std::vector<Sample> samples_;   ///< every time step, that of an answer as it was answered
-  std::vector<Sample> readings_;  ///< of the load cell: the rows of curve.csv
+  std::vector<Sample> samples_;              ///< every time step, that of an answer as it was answered
+  std::vector<Sample> readings_;             ///< of the load cell: the rows of curve.csv
+  LoopTurn turn_;                            ///< since it was mounted, of a loop on rollers
+  std::optional<double> radius_on_rollers_;  ///< of the rod [m]; empty: it is not a loop on rollers
   CurveWriter curve_;
   CurveWriter full_curve_;
 };

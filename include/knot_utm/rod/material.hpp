@@ -22,6 +22,7 @@ struct Material {
   std::optional<double> tying_preload;      ///< F_p [N]; unset: default_preload
   std::optional<double> breaking_force;     ///< F_b, tension at which it parts [N]; unset: it does not
   std::optional<double> breaking_strain;    ///< eps_b of its outermost fibre (machine/fracture.hpp) [-]; unset: none
+  std::optional<double> yield_strain;       ///< of its outermost fibre, from which on it stays bent; not simulated [-]
   std::string load_cell;                    ///< name of the load cell that suits it
   std::string notes;
 

@@ -74,6 +74,9 @@ class TimeStep {
   const RodState& state() const { return state_; }
   const StepSettings& settings() const { return settings_; }
 
+  /// From the next step on; the same in `settings`, not kept by `state`. g [m/s^2].
+  void set_gravity(const Vec3& gravity) { settings_.gravity = gravity; }
+
   /// From now on `watcher` is told of every iterate; none: nobody is.
   void watch(std::function<void(const Iterate&)> watcher) { watcher_ = std::move(watcher); }
 

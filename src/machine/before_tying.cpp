@@ -1,0 +1,118 @@
+#include "knot_utm/machine/before_tying.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "knot_utm/machine/accuracy.hpp"
+#include "knot_utm/machine/specimen_centreline.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/specimen/fisherman.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr double kClosed = 2.0;        // radius of a coil that lies on the strands in it [h]
+constexpr double kSharpestBend = 0.5;  // of a tied knot, 1/kClosed [1/h]
+constexpr double kCoarsestEdge =
+    0.9;  // of a rope whose knots slide as with finer ones [h]: bench/before_tying.py --study meshes
+constexpr double kMostStretch = 2.0;  // by a pre-load, in which the linear law of tension still says something [-]
+constexpr double kSolid = 10.0;       // k_s h^2/k_b: a solid rod's is 4, those of ropes are hundreds
+constexpr double kMetal = 20e9;       // modulus that no polymer reaches, but metals, glass and carbon do [Pa]
+
+double drawn_coil() { return FishermanShape().looseness; }  // R_0 [h]
+
+double bending_force(const Material& material) {
+  return material.bending_stiffness / (material.radius * material.radius);
+}
+
+/// Pre-load below which the coils stay as they are drawn, but no more than closes them without friction: strands that
+/// hold each other by friction alone may be pulled tight later.
+double least_preload(const Material& material) {
+  const double closed = closing_preload(material), share = kClosed / drawn_coil();
+  return std::min(closed * share * share, bending_force(material) / (2.0 * kClosed * kClosed));
+}
+
+std::string digits(double value) {
+  std::ostringstream out;
+  out.precision(3);
+  out << value;
+  return out.str();
+}
+
+bool is_solid(const Material& material) {
+  const double h = material.radius;
+  return material.stretching_stiffness * h * h < kSolid * material.bending_stiffness;
+}
+
+/// Of what a tied knot asks of the outermost fibre. Empty: nothing is known to fail.
+std::string strain_warning(double strain, const Material& material) {
+  const std::string needed = "tied knots strain the outermost fibre by up to " + digits(strain);
+  if (material.breaking_strain && *material.breaking_strain < strain)
+    return needed + ", and the rod parts at " + digits(*material.breaking_strain) +
+           " (material.breaking_strain): it may part while it is tied";
+  if (material.yield_strain && *material.yield_strain < strain)
+    return needed + ", and the material yields at " + digits(*material.yield_strain) +
+           " (material.yield_strain), which is not simulated";
+  if (material.breaking_strain || material.yield_strain || !is_solid(material)) return "";
+  const double modulus = material.stretching_stiffness / (M_PI * material.radius * material.radius);
+  if (modulus < kMetal) return "";
+  return needed + ", and this is a solid rod of a modulus of " + digits(1e-9 * modulus) +
+         " GPa: nothing so stiff bears that without yielding; material.yield_strain and material.breaking_strain say "
+         "what it bears";
+}
+
+/// Of edges that are too long for the bends of a tied rope; knots of solid rods were the same with edges of 2 h.
+std::string mesh_warning(double edge, const Material& material) {
+  const double h = material.radius;
+  if (edge <= kCoarsestEdge * h || is_solid(material)) return "";
+  return "edges of " + digits(edge / h) + " radii turn by " + digits(edge / (kClosed * h)) +
+         " rad each in the bends of a tied knot, so that it may open where a finer one holds: choose a smaller "
+         "specimen.edge_length or a higher specimen.refinement, for edges of at most " +
+         digits(kCoarsestEdge) + " radii";
+}
+
+}  // namespace
+
+double closing_preload(const Material& material) {
+  return std::exp(M_PI * material.friction_coefficient) * bending_force(material) / (2.0 * kClosed * kClosed);
+}
+
+double coil_radius(const Material& material, double preload) {
+  return kClosed * material.radius * std::sqrt(closing_preload(material) / preload);
+}
+
+void check_tying(const SpecimenOptions& specimen, const Material& material) {
+  const double preload = tying_load(specimen, material), least = least_preload(material);
+  if (preload < least)
+    throw InvalidInput("specimen.preload", digits(preload),
+                       "at least " + digits(least) + " N: less than that does not move the coils, which close at " +
+                           digits(closing_preload(material)) + " N");
+  const double strain = preload / material.stretching_stiffness + 1.0 / drawn_coil();
+  if (material.breaking_strain && *material.breaking_strain <= strain)
+    throw InvalidInput("material.breaking_strain", digits(*material.breaking_strain),
+                       "more than " + digits(strain) +
+                           ", the strain of the outermost fibre in the loose coil from which a knot is tied");
+}
+
+std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const Material& material,
+                                        const PhysicsOptions& physics) {
+  std::vector<std::string> all;
+  const double h = material.radius;
+  const double preload = tying_load(specimen, material), closing = closing_preload(material);
+  if (preload < closing)
+    all.push_back("a pre-load of " + digits(preload) + " N leaves the coils open, at a radius of about " +
+                  digits(std::min(coil_radius(material, preload) / h, drawn_coil())) +
+                  " radii of the rod: they close at " + digits(closing) + " N");
+  const double stretch = preload / material.stretching_stiffness;
+  if (stretch > kMostStretch)
+    all.push_back("a pre-load of " + digits(preload) + " N stretches the rod to " + digits(1.0 + stretch) +
+                  " times its length");
+  const double edge = specimen.edge_length / tolerances(physics, specimen, material).refinement;
+  for (const std::string& found : {strain_warning(stretch + kSharpestBend, material), mesh_warning(edge, material)})
+    if (!found.empty()) all.push_back(found);
+  return all;
+}
+
+}  // namespace knot_utm

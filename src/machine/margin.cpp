@@ -1,0 +1,120 @@
+#include "knot_utm/machine/margin.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "knot_utm/analysis/results.hpp"
+#include "knot_utm/machine/run_test.hpp"
+#include "knot_utm/machine/specimen_centreline.hpp"
+#include "knot_utm/machine/test_bench.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr int kBisections = 3;
+constexpr double kPulledPart = 0.2;  // of the first knot distance
+constexpr double kLetOut =
+    0.05;  // of it: between what knots that jumped open took in and what others did (jump in curve_readings.hpp)
+
+/// Up to the first step that pulls, and of that a part.
+Program beginning(const Program& program, double extension) {
+  Program out;
+  for (const ProgramStep& step : program) {
+    out.push_back(step);
+    if (!pulls(step.phase)) continue;
+    out.back() = ProgramStep{};
+    out.back().phase = Phase::kPull;
+    out.back().speed = step.speed;
+    out.back().until.extension = extension;
+    break;
+  }
+  return out;
+}
+
+/// Whether the rod hidden in the knots grew by `much` [m], at once or by and by, since they were tied tightest.
+bool let_out(const std::vector<Sample>& samples, double much) {
+  double least = INFINITY;
+  for (const Sample& sample : samples) {
+    const double hidden = sample.excess_length[0] + sample.excess_length[1];
+    least = std::min(least, hidden);
+    if (hidden - least > much) return true;
+  }
+  return false;
+}
+
+/// What became of one short test.
+enum class Outcome { kHeld, kOpened, kFailed, kInterrupted };
+
+struct ShortTests {
+  const MarginTest& test;
+  const std::function<bool()>& interrupted;
+
+  Outcome run(double friction, double preload) const {
+    MarginTest now = test;
+    now.physics.accuracy = Accuracy::kDraft;
+    now.material.friction_coefficient *= friction;
+    now.specimen.preload = preload * tying_load(test.specimen, test.material);
+    TestBench bench(now.specimen, now.material, now.machine, now.physics);
+    TestProgram::Limits limits;
+    limits.load = INFINITY;
+    limits.travel = now.machine.travel;
+    TestProgram program(beginning(now.program, kPulledPart * now.specimen.knot_distance),
+                        now.machine.load_cell.sampling_rate, bench.longest_step(), limits);
+    std::vector<Sample> samples;
+    run_test(
+        bench, program,
+        [&](const Command&, const Sample&) {
+          samples.insert(samples.end(), bench.substeps().begin(), bench.substeps().end());
+        },
+        interrupted);
+    if (!program.ended()) return Outcome::kInterrupted;
+    if (program.ended_by() == EndedBy::kUntangled) return Outcome::kOpened;
+    if (program.ended_by() == EndedBy::kSolver) return Outcome::kFailed;
+    const bool opened =
+        let_out(samples, kLetOut * now.specimen.knot_distance) || analyse(samples, program.ended_by()).untangled_at;
+    return opened ? Outcome::kOpened : Outcome::kHeld;
+  }
+};
+
+}  // namespace
+
+double share_until_it_opens(const std::function<bool(double)>& opens) {
+  double open = 1.0 - Margin::kMost, holds = 1.0;
+  if (!opens(open)) return Margin::kMost;
+  for (int i = 0; i < kBisections; ++i) {
+    const double middle = std::sqrt(open * holds);
+    (opens(middle) ? open : holds) = middle;
+  }
+  return 1.0 - std::sqrt(open * holds);
+}
+
+Margin find_margin(const MarginTest& test, const std::function<bool()>& interrupted) {
+  const ShortTests tests{test, interrupted};
+  Margin out;
+  Outcome worst = tests.run(1.0, 1.0);
+  if (worst == Outcome::kOpened) {
+    out.reason = "at accuracy draft, which the runs for the margin have, the knot opens as it is";
+    return out;
+  }
+  const auto opens = [&](double friction, double preload) {
+    if (worst != Outcome::kHeld) return true;  // nothing more is to be learnt
+    const Outcome outcome = tests.run(friction, preload);
+    if (outcome == Outcome::kFailed || outcome == Outcome::kInterrupted) worst = outcome;
+    return outcome != Outcome::kHeld;
+  };
+  const double friction = share_until_it_opens([&](double factor) { return opens(factor, 1.0); });
+  const double preload = share_until_it_opens([&](double factor) { return opens(1.0, factor); });
+  if (worst == Outcome::kInterrupted) {
+    out.reason = "the runs for the margin were interrupted";
+  } else if (worst == Outcome::kFailed) {
+    out.reason = "the physics gave up in one of the runs for the margin";
+  } else {
+    out.friction = friction;
+    out.preload = preload;
+  }
+  return out;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,117 @@
+#include "knot_utm/machine/before_tying.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "knot_utm/rod/invalid_input.hpp"
+#include "rod/materials.hpp"
+
+namespace knot_utm {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+struct Loop {
+  SpecimenOptions specimen;
+  Material material = nylon();
+  PhysicsOptions physics;
+
+  Loop() {
+    specimen.to_be_tied = true;
+    specimen.preload = 150.0;
+  }
+  std::vector<std::string> warnings() const { return tying_warnings(specimen, material, physics); }
+  /// The key that is refused; empty: none is.
+  std::string refused() const {
+    try {
+      check_tying(specimen, material);
+    } catch (const InvalidInput& invalid) {
+      return invalid.key;
+    }
+    return "";
+  }
+};
+
+/// In units of k_b/h^2 [N].
+double bending_force(const Material& material) {
+  return material.bending_stiffness / (material.radius * material.radius);
+}
+
+TEST(BeforeTying, NothingIsSaidOfTheShippedRope) {
+  const Loop loop;
+  EXPECT_EQ(loop.refused(), "");
+  EXPECT_THAT(loop.warnings(), IsEmpty());
+}
+
+TEST(BeforeTying, WithoutFrictionACoilClosesAtAnEighthOfTheBendingForce) {
+  Loop loop;
+  loop.material.friction_coefficient = 0.0;
+  EXPECT_DOUBLE_EQ(closing_preload(loop.material), bending_force(loop.material) / 8.0);
+  EXPECT_DOUBLE_EQ(coil_radius(loop.material, closing_preload(loop.material)), 2.0 * loop.material.radius);
+  EXPECT_NEAR(coil_radius(loop.material, 0.5 * bending_force(loop.material)), loop.material.radius, 1e-12);
+}
+
+TEST(BeforeTying, FrictionKeepsHalfATurnOfThePullFromTheCoil) {
+  Loop loop;
+  loop.material.friction_coefficient = 0.3;
+  EXPECT_DOUBLE_EQ(closing_preload(loop.material), std::exp(0.3 * M_PI) * bending_force(loop.material) / 8.0);
+}
+
+TEST(BeforeTying, APreloadThatLeavesTheCoilsOpenIsAWarning) {
+  Loop loop;
+  loop.specimen.preload = 0.5 * closing_preload(loop.material);
+  EXPECT_EQ(loop.refused(), "");
+  EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("leaves the coils open, at a radius of about 2.83 radii")));
+}
+
+TEST(BeforeTying, APreloadThatMovesNoCoilIsRefused) {
+  Loop loop;
+  loop.specimen.preload = 0.02 * bending_force(loop.material);
+  EXPECT_EQ(loop.refused(), "specimen.preload");
+  // Friction alone may hold such strands until the pull closes them.
+  loop.material.friction_coefficient = 1.5;
+  loop.specimen.preload = 0.13 * bending_force(loop.material);
+  EXPECT_EQ(loop.refused(), "");
+}
+
+TEST(BeforeTying, AStrainThatTheLooseCoilHasAlreadyIsRefusedAndThatOfATiedOneIsAWarning) {
+  Loop loop;
+  loop.material.breaking_strain = 0.2;
+  EXPECT_EQ(loop.refused(), "material.breaking_strain");
+  loop.material.breaking_strain = 0.3;
+  EXPECT_EQ(loop.refused(), "");
+  EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("up to 0.502, and the rod parts at 0.3")));
+  loop.material.breaking_strain = 0.6;
+  EXPECT_THAT(loop.warnings(), IsEmpty());
+}
+
+TEST(BeforeTying, ARodThatYieldsOrASolidOneAsStiffAsAMetalIsAWarning) {
+  Loop loop;
+  loop.material.yield_strain = 0.07;
+  EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("the material yields at 0.07")));
+  Loop wire;
+  const double h = wire.material.radius = 1e-4;
+  wire.specimen.edge_length = h;
+  wire.material.stretching_stiffness = 2.1e11 * M_PI * h * h;
+  wire.material.bending_stiffness = 0.25 * wire.material.stretching_stiffness * h * h;
+  wire.specimen.preload = 4.0 * bending_force(wire.material);
+  EXPECT_THAT(wire.warnings(), ElementsAre(HasSubstr("a modulus of 210 GPa")));
+  wire.specimen.preload = 10.0 * bending_force(wire.material);
+  EXPECT_THAT(wire.warnings(), testing::Contains(HasSubstr("stretches the rod to 3.5 times its length")));
+}
+
+TEST(BeforeTying, EdgesTooLongForTheBendsOfARopeAreAWarning) {
+  Loop loop;
+  loop.specimen.refinement = 1.0;
+  EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("edges of 1.01 radii turn by 0.504 rad")));
+  loop.material.stretching_stiffness =
+      4.0 * loop.material.bending_stiffness / (loop.material.radius * loop.material.radius);
+  EXPECT_THAT(loop.warnings(), Not(testing::Contains(HasSubstr("edges of"))));
+}
+
+}  // namespace
+}  // namespace knot_utm
