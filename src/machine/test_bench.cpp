@@ -69,6 +69,7 @@ struct TestBench::Impl {
   double mount_distance = 0.0;  // of the knots when mounting began [m]
   int step_index = -1;
   Phase phase = Phase::kIdle;
+  Vec3 gravity;            // on the mass that is accelerated [m/s^2]
   bool has_weight = true;  // what is tied has none until it is mounted
   bool pulled = false;     // a step of the program has pulled it
   StepWork work;           // of all accepted steps
@@ -97,7 +98,9 @@ struct TestBench::Impl {
     state.velocity = Points::Zero(3, nodes);
     const RodProperties rod = make_rod(material, rest);
     if (solves_for_twist(rod)) initialise_frames(&state);
-    stepper = TimeStep::make(rod, state, step_settings(specimen, material_, machine, physics));
+    const StepSettings settings = step_settings(specimen, material_, machine, physics);
+    gravity = settings.gravity;
+    stepper = TimeStep::make(rod, state, settings);
     const double bending_time = specimen_scales(material).own_time;
     StepControl::Options options;
     options.longest = options.first = tolerances(physics, specimen, material).longest_step;
@@ -127,7 +130,7 @@ struct TestBench::Impl {
     apply_gravity();
   }
 
-  void apply_gravity() { stepper->set_gravity(has_weight ? physics.gravity : Vec3::Zero()); }
+  void apply_gravity() { stepper->set_gravity(has_weight ? gravity : Vec3::Zero()); }
 
   /// `auto`: where frames are held at two places, or the rod at rest is curved or twisted. A rod whose ends are free
   /// to turn has no twist, contacts acting on its centreline; nor has one that stays straight.
