@@ -91,6 +91,8 @@ GROUPS = [
         "drag_loss": energy("Energy lost to drag"),
         "numerical_dissipation": energy("Energy lost in the time steps (numerical dissipation)"),
         "reweighting_loss": energy("Energy lost as the weights of contacts change"),
+        "drag_share": Quantity("Share of drag in the force"),
+        "inertia_share": Quantity("Share of inertia in the force"),
     }),
     ("The computation", {
         "steps": Quantity("Time steps"),

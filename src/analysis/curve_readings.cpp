@@ -97,8 +97,8 @@ std::string why_not_level(const Plateau& level, bool locked) {
     return text("the knots do not slide steadily: de/ds is %.2f, where %.0f is sliding", level.slope, kSliding);
   const bool slides = locked || std::isfinite(level.slope);
   if (std::abs(level.rise) < (slides ? kProportional : kLevel) * level.force) return {};
-  return text("the load is not level: from 0.3 to 0.8 of the way it changes by %.3g N about a mean of %.3g N",
-              level.rise, level.force);
+  return text("the load is not level: from 0.3 to 0.8 of the way it changes by %.0f %% of its mean",
+              100.0 * level.rise / level.force);
 }
 
 std::optional<double> lock_by_load(const Pull& pull) {
@@ -196,7 +196,7 @@ namespace {
 std::string why_interrupted(const Pull& pull, double end, double mean) {
   const std::optional<Drop> fall = largest_drop(pull, plateau_range(pull, end), sudden(pull, end));
   if (!fall || fall->force(pull) < kLevel * mean) return {};
-  return text("the load is not level: it drops by %.3g N at %.3g m", fall->force(pull), pull[fall->from].extension);
+  return text("the load is not level: it falls at once by %.0f %% of its mean", 100.0 * fall->force(pull) / mean);
 }
 
 void read_plateau(const Pull& pull, double end, const std::optional<Drop>& jumped, CurveReadings& out) {
@@ -204,7 +204,7 @@ void read_plateau(const Pull& pull, double end, const std::optional<Drop>& jumpe
   if (!level) {
     out.no_plateau = "the pull has too few readings";
   } else if (jumped && pull[jumped->from].extension <= plateau_range(pull, end).high) {
-    out.no_plateau = text("a knot jumped open at %.3g m", *out.jump_extension);
+    out.no_plateau = "a knot jumped open";
   } else {
     out.no_plateau = why_interrupted(pull, end, level->force);
     if (out.no_plateau.empty()) out.no_plateau = why_not_level(*level, out.lock_extension_by_load.has_value());

@@ -131,7 +131,7 @@ TEST(MethodDefaults, ALoadCellSuitsTheStrength) {
   const auto capacity = [&](const std::string& more, const std::vector<std::string>& set = {}) {
     std::vector<std::string> all = {rod + more + "}"};
     all.insert(all.end(), set.begin(), set.end());
-    return load_method(kConfig + "tighten.yaml", all).machine.load_cell.capacity;
+    return load_method(kConfig + "straight.yaml", all).machine.load_cell.capacity;
   };
   EXPECT_EQ(capacity(""), 10e3);                        // twice its stretching stiffness and more
   EXPECT_EQ(capacity(", breaking_force: 6000"), 20e3);  // two strands and more
@@ -144,8 +144,8 @@ TEST(MethodDefaults, ALoadCellSuitsTheStrength) {
 TEST(MethodDefaults, ATyingPreloadLeavesTheRodWhole) {
   const Method m =
       load_method(kConfig + "tighten.yaml",
-                  {"material={radius: 0.001, density: 7800, stretching_stiffness: 6.0e5, bending_stiffness: 0.15, "
-                   "twisting_stiffness: 0.1, friction_coefficient: 0.3, breaking_force: 3000}"});
+                  {"material={radius: 0.001, density: 7800, stretching_stiffness: 6.0e5, bending_stiffness: 1.5e-3, "
+                   "twisting_stiffness: 1.0e-3, friction_coefficient: 0.3, breaking_force: 3000}"});
   EXPECT_EQ(m.specimen.preload, 1500.0);
 }
 
