@@ -20,8 +20,7 @@ constexpr char kTf[] = "tf";
 
 Grips grips_of(const Method& method) {
   return {method.specimen, method.machine,
-          specimen_centreline(method.specimen, method.material, method.machine, method.physics),
-          method.material};
+          specimen_centreline(method.specimen, method.material, method.machine, method.physics), method.material};
 }
 
 }  // namespace

@@ -78,7 +78,8 @@ TEST(TiedOffTheRollers, TheSameKnotsInLoopsOfAnyLength) {
   EXPECT_EQ(near.most_force(), 0.0) << "a roller was touched";
 }
 
-/// Where rollers at their places would leave no straight strands beyond the knots, the loop is drawn longer and narrower.
+/// Where rollers at their places would leave no straight strands beyond the knots, the loop is drawn longer and
+/// narrower.
 TEST(TiedOffTheRollers, KnotsNearTheRollersAreTiedAsAnyOthers) {
   Driver crowded(loop(0.25, 0.19), {}), roomy(loop(0.5, 0.19), {});
   const Sample a = tied_and_released(crowded), b = tied_and_released(roomy);

@@ -87,10 +87,9 @@ TEST(TyingRig, ClampsHoldAndGripsNeverPullHarderThanThePreload) {
   loop.rig->tie(0.02, 0.0, loop.stepper->state().position);
   EXPECT_EQ(loop.rig->stage(), TyingRig::Stage::kSettling);
   loop.run(1.5);
-  const std::size_t far_side =
-      static_cast<std::size_t>(loop.centreline.nearest_node(loop.centreline.loop.far_end) -
-                               loop.centreline.nearest_node(loop.centreline.loop.far_begin)) +
-      1;
+  const std::size_t far_side = static_cast<std::size_t>(loop.centreline.nearest_node(loop.centreline.loop.far_end) -
+                                                        loop.centreline.nearest_node(loop.centreline.loop.far_begin)) +
+                               1;
   EXPECT_EQ(loop.boundary.fixed_nodes.size(), far_side + 2u * (1u + 3u));
   EXPECT_LT(loop.farthest_clamp, 1e-12);
   EXPECT_GT(loop.largest_tail_force, 0.0);

@@ -9,8 +9,9 @@ namespace knot_utm {
 /// How far a loop goes around its rollers, shape by shape.
 ///
 /// The rod runs from one knot over the upper roller, down the far side and around the lower roller to the other knot.
-/// Half-way between its highest and its lowest node, its outer fifths aside, lies the middle of the far side. Pulling the rollers apart leaves
-/// that point of the rod where it is, and so does stretching; a loop that turns carries another one there.
+/// Half-way between its highest and its lowest node, its outer fifths aside, lies the middle of the far side. Pulling
+/// the rollers apart leaves that point of the rod where it is, and so does stretching; a loop that turns carries
+/// another one there.
 class LoopTurn {
  public:
   /// A shape, its nodes in the order of the rod. The first one counts as not turned.

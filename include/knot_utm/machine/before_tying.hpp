@@ -22,8 +22,9 @@ namespace knot_utm {
 ///
 ///   R = sqrt(k_b exp(pi mu)/(2 F_p)),     F_p(closed) = exp(pi mu) k_b/(8 h^2).
 ///
-/// Measured over mu = 0.1 to 0.8 and F_p h^2/k_b = 0.02 to 20 (bench/before_tying.py --study coils): at that pre-load a coil is
-/// left wider than one tied by 20 k_b/h^2 by 0.2 to 0.7 h. A pull of exp(pi mu) k_b/(2 R_0^2) does not move the coil that is drawn with R_0 = 4.7 h.
+/// Measured over mu = 0.1 to 0.8 and F_p h^2/k_b = 0.02 to 20 (bench/before_tying.py --study coils): at that pre-load a
+/// coil is left wider than one tied by 20 k_b/h^2 by 0.2 to 0.7 h. A pull of exp(pi mu) k_b/(2 R_0^2) does not move the
+/// coil that is drawn with R_0 = 4.7 h.
 ///
 /// Strain. The outermost fibre of a bend of radius R bears h/R beside the tension's F_p/k_s: 1/4.7 in the coil as it is
 /// drawn, up to 1/2 in one that lies on the strands in it.
