@@ -41,8 +41,8 @@ Tolerances of(Accuracy accuracy, bool stretches) {
 constexpr double kPlateau = 0.05;  // of knots of the same hand
 constexpr double kEasilyOpened =
     0.65;                        // mu below which knots of opposite hands are the less sure, the nearer to opening
-constexpr double kLock = 0.018;  // of knots of the same hand
-constexpr double kOppositeLock = 0.0195, kOppositeLockOfPreload = 0.0009;  // the latter by k_b/h^2 of pre-load
+constexpr double kLock = 0.016;  // of knots of the same hand
+constexpr double kOppositeLock = 0.0125, kOppositeLockOfPreload = 0.0009;  // the latter by k_b/h^2 of pre-load
 constexpr double kRopesStiffness = 0.0065, kOppositeRopesStiffness = 0.0125;
 constexpr double kSolidsStiffness = 0.0035,
                  kSolidsStiffnessOfKnots = 0.8;  // the latter by h/L: their share of the loop

@@ -15,8 +15,6 @@ namespace {
 
 constexpr int kBisections = 3;
 constexpr double kPulledPart = 0.2;  // of the first knot distance
-constexpr double kLetOut =
-    0.05;  // of it: between what knots that jumped open took in and what others did (jump in curve_readings.hpp)
 
 /// Up to the first step that pulls, and of that a part.
 Program beginning(const Program& program, double extension) {
@@ -31,17 +29,6 @@ Program beginning(const Program& program, double extension) {
     break;
   }
   return out;
-}
-
-/// Whether the rod hidden in the knots grew by `much` [m], at once or by and by, since they were tied tightest.
-bool let_out(const std::vector<Sample>& samples, double much) {
-  double least = INFINITY;
-  for (const Sample& sample : samples) {
-    const double hidden = sample.excess_length[0] + sample.excess_length[1];
-    least = std::min(least, hidden);
-    if (hidden - least > much) return true;
-  }
-  return false;
 }
 
 /// What became of one short test.
@@ -72,8 +59,8 @@ struct ShortTests {
     if (!program.ended()) return Outcome::kInterrupted;
     if (program.ended_by() == EndedBy::kUntangled) return Outcome::kOpened;
     if (program.ended_by() == EndedBy::kSolver) return Outcome::kFailed;
-    const bool opened =
-        let_out(samples, kLetOut * now.specimen.knot_distance) || analyse(samples, program.ended_by()).untangled_at;
+    const Results results = analyse(samples, program.ended_by());
+    const bool opened = results.curve.jump_force || results.untangled_at;
     return opened ? Outcome::kOpened : Outcome::kHeld;
   }
 };
