@@ -177,7 +177,8 @@ struct TestBench::Impl {
   /// Of the strands below the upper grip, as far as the lower one or the rig's clamps, as mounted [m].
   double held_length(double from, double to) const {
     double length = grips.end_to_end(0.0);
-    if (!rig || rig->stage() == TyingRig::Stage::kIdle) return length;
+    // Off the rollers nothing bears on the grip.
+    if (!rig || rig->stage() == TyingRig::Stage::kIdle || rig->off_rollers()) return length;
     Boundary held;
     rig->hold(held, from, to);
     for (const FixedNode& node : held.fixed_nodes) length = std::min(length, grips.upper(0.0)[2] - node.position[2]);
