@@ -18,8 +18,8 @@ struct PhysicsOptions {
   ContactLaw contact_law = ContactLaw::kSmooth;       ///< contact.law: smooth | edge
   TwistMode twist = TwistMode::kAuto;                 ///< twist: auto (where the scene can twist) | on | off
   Accuracy accuracy = Accuracy::kNormal;              ///< accuracy: draft | normal | fine
-  std::optional<double> drag;     ///< viscous drag per length of rod [N s/m^2]; unset: until it is pulled (scales.hpp)
-  std::optional<double> inertia;  ///< mass that is accelerated, over the rod's own [-]; unset: see scales.hpp
+  std::optional<double> drag;  ///< viscous drag per length of rod [N s/m^2]; unset: what brings it to rest (scales.hpp)
+  std::optional<double> inertia;            ///< mass that is accelerated, over the rod's own [-]; unset: see scales.hpp
   std::optional<double> contact_tolerance;  ///< contact.tolerance delta [fraction of radius]
   std::optional<double>
       presliding;  ///< friction.presliding, slip at which memory friction saturates [fraction of radius]

@@ -15,12 +15,12 @@ namespace knot_utm {
 /// Similar: k_s h^2/k_b, k_t/k_b, mu, K h^4/k_b, F_p/F_0, and all lengths over h are equal. What is left is inertia, by
 /// the time tau = h^2 sqrt(m/k_b) in which a wave as long as the rod is thick bends, m the mass per length. A slow test
 /// is one that tau has no part in, as long as tau is much shorter than a second and the strands do not jump; where they
-/// jump, it decides what they jump to. Rods have tau = 3e-9 (a stiff thread) to 2 s (a soft hawser).
+/// jump, it decides what they jump to. Rods have tau = 8e-9 (a stiff thread) to 8 s (a soft hawser).
 struct SpecimenScales {
   double length = 0.0;      ///< h [m]
   double force = 0.0;       ///< F_0 [N]
-  double own_time = 0.0;    ///< tau of the rod's own mass [s]
-  double mass = 0.0;        ///< m of the rod's own density, per length [kg/m]
+  double own_time = 0.0;    ///< tau of the material's mass [s]
+  double mass = 0.0;        ///< m of the material's density, per length [kg/m]
   double rest_speed = 0.0;  ///< slower than this it is at rest [m/s]
 };
 SpecimenScales specimen_scales(const Material& material);
