@@ -31,8 +31,8 @@ TEST(Margin, OfAKnotThatHoldsEverywhereIsAtLeastTheMost) {
   EXPECT_EQ(runs, 1);
 }
 
-/// Polypropylene's knots hold with a friction of 0.55 and jump open with 0.5, at `draft` as at `normal`; its own is 0.63.
-/// The search leaves a tenth of the friction.
+/// Polypropylene's knots hold with a friction of 0.55 and jump open with 0.5, at `draft` as at `normal`; its own is
+/// 0.63. The search leaves a tenth of the friction.
 TEST(Margin, OfPolypropyleneLiesWhereItsKnotsJumpOpen) {
   MarginTest test;
   test.material = polypropylene();

@@ -38,7 +38,8 @@ struct MarginTest {
 
 /// Runs short tests one after the other, of accuracy `draft`: each ties, mounts and pulls the specimen until a fifth of
 /// the knot distance is passed, which is behind breakaway. The knot opens in a test in which it comes undone or jumps
-/// open (curve_readings.hpp). The same test gives the same margin, to the bit. `interrupted()` is asked between commands.
+/// open (curve_readings.hpp). The same test gives the same margin, to the bit. `interrupted()` is asked between
+/// commands.
 Margin find_margin(const MarginTest& test, const std::function<bool()>& interrupted);
 
 }  // namespace knot_utm
