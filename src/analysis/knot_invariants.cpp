@@ -148,6 +148,113 @@ bool LoopTopology::Reading::same_overhands(const Reading& other) const {
   return overhand_determinant == other.overhand_determinant && coil_found == other.coil_found;
 }
 
+namespace {
+
+/// Directions and lengths by which the ends of a loop are joined.
+struct LoopAxes {
+  Vec3 axis;  ///< from the lower grip to the upper one
+  Vec3 away;  ///< normal to it, from the loop's far side to the knots
+  Vec3 side;
+  double distance;      ///< larger than anything in the scene
+  Eigen::Index middle;  ///< a node of the far side
+
+  Vec3 outwards(std::size_t k) const { return k == 0 ? Vec3(-axis) : axis; }
+};
+
+LoopAxes axes_of(const Points& points, const std::array<OverhandStrand, 2>& strands, const Vec3& axis) {
+  LoopAxes out;
+  out.axis = axis;
+  out.middle = points.cols() / 2;
+  out.distance = far_away(points);
+  const Vec3 knots = 0.5 * (points.col(strands[0].begin) + points.col(strands[1].begin));
+  const Vec3 away = knots - points.col(out.middle);
+  out.away = (away - away.dot(axis) * axis).normalized();
+  out.side = axis.cross(out.away);
+  return out;
+}
+
+/// Where the strand that knot k holds, which is the other knot's own, passes the level of the cut, or comes nearest
+/// to it.
+Eigen::Index threaded_at_cut(const Points& points, const std::array<OverhandStrand, 2>& strands, const LoopAxes& axes,
+                             std::size_t k) {
+  const Vec3 outwards = axes.outwards(k);
+  const auto height = [&](Eigen::Index i) { return points.col(i).dot(outwards); };
+  const double level = strands[k].level;
+  const Eigen::Index back = k == 0 ? -1 : 1;
+  // Once the knots have slid together its standing part may begin beyond the level: back then, towards its coil.
+  Eigen::Index pass = strands[1 - k].begin;
+  const Eigen::Index other_end = strands[1 - k].end;
+  while (pass != other_end && std::min(height(pass), height(pass - back)) >= level) pass -= back;
+  for (Eigen::Index j = pass; j != axes.middle; j += back) {
+    if (height(j) > height(pass)) pass = j;
+    if (height(pass) >= level) break;
+  }
+  return pass;
+}
+
+/// From the cut of tail k to far away. `followed`: the angle by which the cut has gone around, at the reading before;
+/// then at this one.
+std::vector<Vec3> closure_of_tail(const Points& points, const std::array<OverhandStrand, 2>& strands,
+                                  const LoopAxes& axes, std::size_t k, double& followed) {
+  const OverhandStrand& strand = strands[k];
+  const Vec3 outwards = axes.outwards(k);
+  const Vec3 cut = points.col(strand.cut);
+  const Vec3 offset = cut - points.col(threaded_at_cut(points, strands, axes, k));
+  const double x = offset.dot(axes.away);
+  const double y = offset.dot(axes.side);
+  const double apart = std::hypot(x, y);
+  followed += std::remainder(std::atan2(y, x) - followed, 2.0 * M_PI);
+
+  std::vector<Vec3> closure;
+  const Vec3 level_cut = cut + (strand.level - cut.dot(outwards)) * outwards;
+  const Vec3 hub = level_cut - x * axes.away - y * axes.side;
+  closure.push_back(level_cut);
+  // A spiral that widens as it unwinds, so that several turns do not meet each other nor the way out.
+  const int pieces = static_cast<int>(std::ceil(std::abs(followed) / (M_PI / 12.0)));
+  for (int piece = pieces - 1; piece >= 0; --piece) {
+    const double angle = followed * piece / pieces;
+    const double wider = 1.0 + 0.02 * std::abs(followed - angle);
+    closure.push_back(hub + wider * apart * (std::cos(angle) * axes.away + std::sin(angle) * axes.side));
+  }
+  closure.push_back(hub + axes.distance * axes.away);
+  return closure;
+}
+
+/// From far away over both tails' closures to far away.
+Points whole_loop(const Points& points, const std::array<OverhandStrand, 2>& strands,
+                  const std::array<std::vector<Vec3>, 2>& closures) {
+  std::vector<Vec3> loop(closures[0].rbegin(), closures[0].rend());
+  for (Eigen::Index i = strands[0].cut; i <= strands[1].cut; ++i) loop.emplace_back(points.col(i));
+  loop.insert(loop.end(), closures[1].begin(), closures[1].end());
+  return joined(loop);
+}
+
+/// The halves part in the middle of the far side. Each goes from there away from the knots, over its own knot's end
+/// of the loop, and meets its tail's closure; where they cross behind the far side the lower knot's passes in front.
+Points half_of_loop(const Points& points, const OverhandStrand& strand, const std::vector<Vec3>& closure,
+                    const LoopAxes& axes, std::size_t k) {
+  const double distance = axes.distance, sign = k == 0 ? -1.0 : 1.0;
+  std::vector<Vec3> half;
+  if (k == 0) {
+    for (Eigen::Index i = axes.middle; i >= strand.cut; --i) half.emplace_back(points.col(i));
+  } else {
+    for (Eigen::Index i = axes.middle + 1; i <= strand.cut; ++i) half.emplace_back(points.col(i));
+  }
+  half.insert(half.end(), closure.begin(), closure.end());
+  half.push_back(half.back() + distance * axes.outwards(k));
+  half.push_back(half.back() - 2.0 * distance * axes.away + sign * 0.5 * distance * axes.side);
+  half.push_back(half.front() - distance * axes.away + sign * 0.5 * distance * axes.side);
+  half.push_back(half.front() - 0.5 * distance * axes.away);
+  return joined(half);
+}
+
+std::int64_t determinant_of_overhand(const Points& points, const OverhandStrand& strand, const Vec3& axis) {
+  const Eigen::Index from = std::min(strand.begin, strand.cut), to = std::max(strand.begin, strand.cut);
+  return knot_determinant(alexander_polynomial(closed_far_away(points.middleCols(from, to - from + 1), axis)));
+}
+
+}  // namespace
+
 LoopTopology::LoopTopology(Eigen::Index lower_standing, Eigen::Index upper_standing, double radius)
     : standing_{lower_standing, upper_standing}, radius_(radius) {}
 
@@ -168,89 +275,21 @@ LoopTopology::Reading LoopTopology::read_as(const Reading& known, const Points& 
 }
 
 LoopTopology::Reading LoopTopology::read(const Points& points, const Vec3& load_axis) {
-  const Eigen::Index nodes = points.cols();
-  const Eigen::Index middle = nodes / 2;
   const Vec3 axis = load_axis.normalized();
-  const double distance = far_away(points);
   const std::array<OverhandStrand, 2> strands{OverhandStrand::follow(points, 0, standing_[0], axis, radius_),
                                               OverhandStrand::follow(points, 1, standing_[1], axis, radius_)};
-  const Vec3 knots = 0.5 * (points.col(strands[0].begin) + points.col(strands[1].begin));
-  Vec3 away = knots - points.col(middle);
-  away = (away - away.dot(axis) * axis).normalized();
-  const Vec3 side = axis.cross(away);
-
-  std::array<std::vector<Vec3>, 2> closures;
+  const LoopAxes axes = axes_of(points, strands, axis);
   Reading reading;
+  std::array<std::vector<Vec3>, 2> closures;
   for (std::size_t k = 0; k < 2; ++k) {
-    const OverhandStrand& strand = strands[k];
-    const Vec3 outwards = k == 0 ? Vec3(-axis) : axis;
-    const auto height = [&](Eigen::Index i) { return points.col(i).dot(outwards); };
-    reading.coil_found[k] = strand.coil_found;
-
-    // The threaded strand is the other knot's own; where it passes the level of the cut, or comes nearest to it.
-    const Eigen::Index back = k == 0 ? -1 : 1;
-    // Once the knots have slid together its standing part may begin beyond the level: back then, towards its coil.
-    Eigen::Index pass = strands[1 - k].begin;
-    const Eigen::Index other_end = strands[1 - k].end;
-    while (pass != other_end && std::min(height(pass), height(pass - back)) >= strand.level) pass -= back;
-    for (Eigen::Index j = pass; j != middle; j += back) {
-      if (height(j) > height(pass)) pass = j;
-      if (height(pass) >= strand.level) break;
-    }
-    const Vec3 cut = points.col(strand.cut);
-    const Vec3 offset = cut - points.col(pass);
-    const double x = offset.dot(away);
-    const double y = offset.dot(side);
-    const double apart = std::hypot(x, y);
-    angle_[k] += std::remainder(std::atan2(y, x) - angle_[k], 2.0 * M_PI);
-
-    std::vector<Vec3>& closure = closures[k];
-    const Vec3 level_cut = cut + (strand.level - height(strand.cut)) * outwards;
-    const Vec3 hub = level_cut - x * away - y * side;
-    closure.push_back(level_cut);
-    // A spiral that widens as it unwinds, so that several turns do not meet each other nor the way out.
-    const int pieces = static_cast<int>(std::ceil(std::abs(angle_[k]) / (M_PI / 12.0)));
-    for (int piece = pieces - 1; piece >= 0; --piece) {
-      const double angle = angle_[k] * piece / pieces;
-      const double wider = 1.0 + 0.02 * std::abs(angle_[k] - angle);
-      closure.push_back(hub + wider * apart * (std::cos(angle) * away + std::sin(angle) * side));
-    }
-    closure.push_back(hub + distance * away);
+    closures[k] = closure_of_tail(points, strands, axes, k, angle_[k]);
+    reading.coil_found[k] = strands[k].coil_found;
+    reading.overhand_determinant[k] = determinant_of_overhand(points, strands[k], axis);
   }
-
-  std::vector<Vec3> loop(closures[0].rbegin(), closures[0].rend());
-  for (Eigen::Index i = strands[0].cut; i <= strands[1].cut; ++i) loop.emplace_back(points.col(i));
-  loop.insert(loop.end(), closures[1].begin(), closures[1].end());
-  reading.polynomial = alexander_polynomial(joined(loop));
+  reading.polynomial = alexander_polynomial(whole_loop(points, strands, closures));
   reading.determinant = knot_determinant(reading.polynomial);
-
-  // The halves part in the middle of the far side. Each goes from there away from the knots, over its own knot's end
-  // of the loop, and meets its tail's closure; where they cross behind the far side the lower knot's passes in front.
-  std::array<Points, 2> halves;
-  for (std::size_t k = 0; k < 2; ++k) {
-    const double sign = k == 0 ? -1.0 : 1.0;
-    const Vec3 outwards = sign * axis;
-    std::vector<Vec3> half;
-    if (k == 0) {
-      for (Eigen::Index i = middle; i >= strands[0].cut; --i) half.emplace_back(points.col(i));
-    } else {
-      for (Eigen::Index i = middle + 1; i <= strands[1].cut; ++i) half.emplace_back(points.col(i));
-    }
-    half.insert(half.end(), closures[k].begin(), closures[k].end());
-    half.push_back(half.back() + distance * outwards);
-    half.push_back(half.back() - 2.0 * distance * away + sign * 0.5 * distance * side);
-    half.push_back(half.front() - distance * away + sign * 0.5 * distance * side);
-    half.push_back(half.front() - 0.5 * distance * away);
-    halves[k] = joined(half);
-  }
-  reading.linking = linking_number(halves[0], halves[1]);
-
-  for (std::size_t k = 0; k < 2; ++k) {
-    const Eigen::Index from = std::min(strands[k].begin, strands[k].cut);
-    const Eigen::Index to = std::max(strands[k].begin, strands[k].cut);
-    const Points own = points.middleCols(from, to - from + 1);
-    reading.overhand_determinant[k] = knot_determinant(alexander_polynomial(closed_far_away(own, axis)));
-  }
+  reading.linking = linking_number(half_of_loop(points, strands[0], closures[0], axes, 0),
+                                   half_of_loop(points, strands[1], closures[1], axes, 1));
   return reading;
 }
 

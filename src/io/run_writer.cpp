@@ -48,9 +48,8 @@ std::vector<std::string> warnings(const Results& results) {
   }
   if (results.knot_type == KnotType::kChanged && !results.untangled_at) {
     all.push_back(
-        "the ends of the rod, joined outside, are another knot than at the start, but the load is borne, so that "
-        "nothing "
-        "came undone");
+        "with its two ends joined, the rod is another knot than at the start; as it still bears the load, nothing came "
+        "undone");
   }
   if (results.max_penetration > kDeep) {
     all.push_back("strands are pressed into each other by up to " + format_number(results.max_penetration) + " radii");
@@ -105,7 +104,7 @@ std::vector<std::string> events(const Results& results) {
   if (curve.jump_force)
     all.push_back("a knot jumped open at an extension of " + short_number(*curve.jump_extension) +
                   " m: the load fell from " + short_number(*curve.jump_force) + " N to " +
-                  short_number(*curve.force_after_jump) + " N, and what follows is that of a looser knot");
+                  short_number(*curve.force_after_jump) + " N, and later readings belong to a looser knot");
   if (results.roller_touched_at)
     all.push_back("a roller bore on a knot or its tail from an extension of " +
                   short_number(*results.roller_touched_at) + " m on");
@@ -185,26 +184,38 @@ void RunWriter::finish(const Results& results, const RunFacts& facts, const Poin
 
 namespace {
 
-YamlLines result_lines(const Results& r, const RunFacts& f) {
-  const ReadingErrors errors = known_errors(r, f);
-  YamlLines lines;
+/// Of all that a reader should know before he believes a reading.
+std::vector<std::string> all_warnings(const Results& r, const RunFacts& f, const ReadingErrors& errors) {
+  std::vector<std::string> all = warnings(r);
+  for (const std::vector<std::string>& more :
+       {events(r), speed_warnings(r.rate, f.inertia), warnings(r, f.load_cell), f.foreseen, f.warnings})
+    all.insert(all.end(), more.begin(), more.end());
+  const std::string unsure = accuracy_warning(r, errors);
+  if (!unsure.empty()) all.push_back(unsure);
+  if (!f.margin.reason.empty()) all.push_back("no margin: " + f.margin.reason);
+  return all;
+}
+
+/// How the test went.
+void add_course(const Results& r, const RunFacts& f, const ReadingErrors& errors, YamlLines& lines) {
   lines.word("motion_pattern", motion_pattern_name(r.motion_pattern));
   lines.number("motion_pattern_confidence", r.motion_pattern_confidence);
   lines.word("ended_by", ended_by_name(r.ended_by));
   lines.text("reason", f.reason);
-  std::vector<std::string> all_warnings = warnings(r);
-  for (const std::vector<std::string>& more :
-       {events(r), speed_warnings(r.rate, f.inertia), warnings(r, f.load_cell), f.foreseen, f.warnings})
-    all_warnings.insert(all_warnings.end(), more.begin(), more.end());
-  const std::string unsure = accuracy_warning(r, errors);
-  if (!unsure.empty()) all_warnings.push_back(unsure);
-  if (!f.margin.reason.empty()) all_warnings.push_back("no margin: " + f.margin.reason);
-  lines.list("warnings", all_warnings);
+  lines.list("warnings", all_warnings(r, f, errors));
   lines.flag("not_equilibrated", !r.not_equilibrated.empty());
+}
+
+/// The knots as they were tied.
+void add_tying(const Results& r, const RunFacts& f, YamlLines& lines) {
   lines.number("preload", f.preload);
   lines.number("tied_knot_distance", r.tied_knot_distance);
   lines.pair("excess_length", r.tied_excess_length);
   lines.pair("final_excess_length", r.final_excess_length);
+}
+
+/// While the knots slide, errors included.
+void add_sliding(const Results& r, const RunFacts& f, const ReadingErrors& errors, YamlLines& lines) {
   lines.number("plateau_force", r.curve.plateau_force);
   lines.number("plateau_force_sd", r.curve.plateau_force_sd);
   lines.number("plateau_force_low", r.curve.plateau_force_low);
@@ -220,6 +231,10 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.number("largest_drop_at", r.curve.largest_drop_at);
   lines.number("jump_force", r.curve.jump_force);
   lines.number("force_after_jump", r.curve.force_after_jump);
+}
+
+/// Where the knots lock, and what the loop is like then.
+void add_locks(const Results& r, const ReadingErrors& errors, YamlLines& lines) {
   lines.number("first_contact_extension", r.first_contact_extension);
   lines.number("lock_extension", r.lock_extension);
   lines.number("lock_extension_error", share_of(r.lock_extension, errors.lock_extension));
@@ -227,12 +242,20 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.number("locked_stiffness", r.curve.locked_stiffness);
   lines.number("locked_stiffness_error", share_of(r.curve.locked_stiffness, errors.locked_stiffness));
   lines.number("peak_force", r.curve.peak_force);
+}
+
+/// Without what the balance has set to zero.
+void add_true_forces(const Results& r, YamlLines& lines) {
   lines.number("true_plateau_force", r.true_plateau_force);
   lines.number("true_breakaway_force", r.true_breakaway_force);
   lines.number("true_peak_force", r.true_peak_force);
   lines.number("true_jump_force", r.true_jump_force);
   lines.number("true_force_after_jump", r.true_force_after_jump);
   lines.number("balance_offset", r.balance_offset);
+}
+
+/// Where the rod parted or the knot came undone.
+void add_failure(const Results& r, YamlLines& lines) {
   lines.number("break_extension", r.break_extension);
   lines.number("break_arclength", r.break_arclength);
   lines.word("break_place", break_place_name(r.break_place));
@@ -240,12 +263,20 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.number("roller_touched_at", r.roller_touched_at);
   lines.number("untangled_at", r.untangled_at);
   lines.flag("knot_type_preserved", r.knot_type == KnotType::kKept);
+}
+
+/// What the run should be judged by.
+void add_checks(const Results& r, YamlLines& lines) {
   lines.number("max_penetration", r.max_penetration);
   lines.number("fastest_node", r.fastest_node);
   lines.number("drag_share", r.rate.drag);
   lines.number("inertia_share", r.rate.inertia);
   lines.number("force_balance_error", r.force_balance_error);
   lines.number("moment_balance_error", r.moment_balance_error);
+}
+
+/// Where the work went.
+void add_energies(const Results& r, YamlLines& lines) {
   const auto part = [&](double EnergyParts::*of) { return r.energy ? (*r.energy).*of : Sample::kNone; };
   lines.number("work", part(&EnergyParts::work));
   lines.number("stored_energy", part(&EnergyParts::stored));
@@ -255,6 +286,10 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.number("numerical_dissipation", part(&EnergyParts::numerical));
   lines.number("reweighting_loss", part(&EnergyParts::reweighting));
   lines.number("energy_balance_error", r.energy_balance_error);
+}
+
+/// More of the curve, as standards ask for it.
+void add_curve(const Results& r, const RunFacts& f, YamlLines& lines) {
   lines.number("load_cell_error", class_error(f.load_cell, r.true_peak_force));
   lines.number("plateau_load_cell_error", class_error(f.load_cell, r.true_plateau_force));
   lines.number("energy_to_peak", r.energy_to_peak);
@@ -267,6 +302,10 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.number("relaxation", r.relaxation ? r.relaxation->lost() : Sample::kNone);
   lines.count("cycles", r.cycles);
   lines.number("hysteresis", r.hysteresis);
+}
+
+/// What the run cost.
+void add_effort(const Results& r, const RunFacts& f, YamlLines& lines) {
   lines.count("steps", r.steps);
   lines.count("rejected_steps", r.rejected_steps);
   lines.count("newton_iterations", r.newton_iterations);
@@ -280,6 +319,21 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   }
   lines.count("seed", f.load_cell.seed);
   lines.word("version", f.version);
+}
+
+YamlLines result_lines(const Results& r, const RunFacts& f) {
+  const ReadingErrors errors = known_errors(r, f);
+  YamlLines lines;
+  add_course(r, f, errors, lines);
+  add_tying(r, f, lines);
+  add_sliding(r, f, errors, lines);
+  add_locks(r, errors, lines);
+  add_true_forces(r, lines);
+  add_failure(r, lines);
+  add_checks(r, lines);
+  add_energies(r, lines);
+  add_curve(r, f, lines);
+  add_effort(r, f, lines);
   return lines;
 }
 

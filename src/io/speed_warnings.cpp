@@ -9,12 +9,15 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kFast = 0.01;      // share of F that is told
-constexpr double kTiedSlow = 9.45;  // three times the default: plateaus are still the same [radii/s]
+constexpr double kFast = 0.01;           // share of F that is told
+constexpr double kTiedByDefault = 3.15;  // `program.tie.speed: auto` of src/io/method.cpp [radii/s]
+/// Here the plateaus of nylon and polypropylene are 1.1 and 0.3 % lower: config/tighten.yaml with
+/// program.tie.speed=0.029 [radii/s].
+constexpr double kTiedSlow = 3.0 * kTiedByDefault;
 /// Ten times the default moved the plateau of nylon by -8 %, of polypropylene by -7 %
 /// (config/tighten.yaml with program.tie.speed=0.1).
 constexpr const char* kTiedFast =
-    "; ten times that speed moves a sliding force by up to 8 %, so choose a lower program.tie.speed";
+    "; ten times the default changes a sliding force by up to 8 %, so choose a lower program.tie.speed";
 
 std::string in_per_cent(double share) { return format_number(std::round(1000.0 * share) / 10.0) + " %"; }
 
@@ -37,11 +40,12 @@ std::vector<std::string> speed_warnings(const RateShares& rate, double inertia) 
     all.push_back("drag makes up " + in_per_cent(by_drag) +
                   " of the force until the knots lock: choose a smaller physics.drag or pull more slowly");
   if (by_inertia > kFast)
-    all.push_back("inertia moves the force by " + in_per_cent(by_inertia) + " until the knots lock: pull more slowly");
+    all.push_back("inertia changes the force by " + in_per_cent(by_inertia) +
+                  " until the knots lock: pull more slowly");
   else if (by_own > kFast)
-    all.push_back("only " + two_digits(inertia) +
-                  " of the rod's own mass is accelerated (physics.inertia), and all of it would move the force by " +
-                  about(by_own) + " until the knots lock: a real test at this speed is not slow, so pull more slowly");
+    all.push_back("the simulation accelerates only " + two_digits(inertia) +
+                  " of the rod's own mass (physics.inertia); all of it would change the force by " + about(by_own) +
+                  " until the knots lock, so a real test would have to be pulled more slowly");
   return all;
 }
 
@@ -51,7 +55,7 @@ std::vector<std::string> speed_warnings(const Method& method) {
     const double speed = step.speed / method.material.radius;
     if (step.phase == Phase::kTie && speed > kTiedSlow)
       all.push_back("the knots are tied at " + format_number(std::round(10.0 * speed) / 10.0) +
-                    " radii a second, by default at 3.1" + kTiedFast);
+                    " radii a second, by default at " + format_number(kTiedByDefault) + kTiedFast);
   }
   return all;
 }

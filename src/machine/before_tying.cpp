@@ -18,7 +18,6 @@ constexpr double kSharpestBend = 0.5;  // of a tied knot, 1/kClosed [1/h]
 constexpr double kCoarsestEdge =
     0.9;  // of a rope whose knots slide as with finer ones [h]: bench/before_tying.py --study meshes
 constexpr double kMostStretch = 2.0;  // by a pre-load, in which the linear law of tension still says something [-]
-constexpr double kSolid = 10.0;       // k_s h^2/k_b: a solid rod's is 4, those of ropes are hundreds
 constexpr double kMetal = 20e9;       // modulus that no polymer reaches, but metals, glass and carbon do [Pa]
 
 double drawn_coil() { return FishermanShape().looseness; }  // R_0 [h]
@@ -41,36 +40,33 @@ std::string digits(double value) {
   return out.str();
 }
 
-bool is_solid(const Material& material) {
-  const double h = material.radius;
-  return material.stretching_stiffness * h * h < kSolid * material.bending_stiffness;
-}
-
 /// Of what a tied knot asks of the outermost fibre. Empty: nothing is known to fail.
 std::string strain_warning(double strain, const Material& material) {
   const std::string needed = "tied knots strain the outermost fibre by up to " + digits(strain);
   if (material.breaking_strain && *material.breaking_strain < strain)
-    return needed + ", and the rod parts at " + digits(*material.breaking_strain) +
-           " (material.breaking_strain): it may part while it is tied";
+    return needed + ", and the rod parts at a strain of " + digits(*material.breaking_strain) +
+           " (material.breaking_strain), so it may part while it is tied";
   if (material.yield_strain && *material.yield_strain < strain)
-    return needed + ", and the material yields at " + digits(*material.yield_strain) +
+    return needed + ", and the material yields at a strain of " + digits(*material.yield_strain) +
            " (material.yield_strain), which is not simulated";
   if (material.breaking_strain || material.yield_strain || !is_solid(material)) return "";
   const double modulus = material.stretching_stiffness / (M_PI * material.radius * material.radius);
   if (modulus < kMetal) return "";
-  return needed + ", and this is a solid rod of a modulus of " + digits(1e-9 * modulus) +
-         " GPa: nothing so stiff bears that without yielding; material.yield_strain and material.breaking_strain say "
-         "what it bears";
+  return needed + ", but a solid rod with a modulus of " + digits(1e-9 * modulus) +
+         " GPa yields or breaks at a much smaller strain, which is not simulated; set material.yield_strain or "
+         "material.breaking_strain if "
+         "you know them";
 }
 
 /// Of edges that are too long for the bends of a tied rope; knots of solid rods were the same with edges of 2 h.
 std::string mesh_warning(double edge, const Material& material) {
   const double h = material.radius;
   if (edge <= kCoarsestEdge * h || is_solid(material)) return "";
-  return "edges of " + digits(edge / h) + " radii turn by " + digits(edge / (kClosed * h)) +
-         " rad each in the bends of a tied knot, so that it may open where a finer one holds: choose a smaller "
-         "specimen.edge_length or a higher specimen.refinement, for edges of at most " +
-         digits(kCoarsestEdge) + " radii";
+  return "edges of " + digits(edge / h) +
+         " radii are too long for the bends of a tied knot, in which the rod turns by " + digits(edge / (kClosed * h)) +
+         " rad from one to the next, so the knot may open where it would hold with shorter edges; choose a smaller "
+         "specimen.edge_length or a higher specimen.refinement, so that edges in knots are at most " +
+         digits(kCoarsestEdge) + " radii long";
 }
 
 }  // namespace
@@ -87,7 +83,7 @@ void check_tying(const SpecimenOptions& specimen, const Material& material) {
   const double preload = tying_load(specimen, material), least = least_preload(material);
   if (preload < least)
     throw InvalidInput("specimen.preload", digits(preload),
-                       "at least " + digits(least) + " N: less than that does not move the coils, which close at " +
+                       "at least " + digits(least) + " N: a smaller one does not move the coils, which close only at " +
                            digits(closing_preload(material)) + " N");
   const double strain = preload / material.stretching_stiffness + 1.0 / drawn_coil();
   if (material.breaking_strain && *material.breaking_strain <= strain)

@@ -158,6 +158,7 @@ double Grips::force_lower(const TimeStep& step) const {
 }
 
 void Grips::state(Archive& archive) {
+  archive.section("GRIP");
   archive(lift_, holds_far_side_);
   if (far_middle_) archive(far_middle_->place);
   for (Roller& roller : rollers_) archive(roller);

@@ -82,7 +82,9 @@ Margin find_margin(const MarginTest& test, const std::function<bool()>& interrup
   Margin out;
   Outcome worst = tests.run(1.0, 1.0);
   if (worst == Outcome::kOpened) {
-    out.reason = "at accuracy draft, which the runs for the margin have, the knot opens as it is";
+    out.reason =
+        "the runs for the margin are made at accuracy draft, at which the knot opens even with all of its friction and "
+        "pre-load";
     return out;
   }
   const auto opens = [&](double friction, double preload) {

@@ -26,7 +26,6 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
   out.roller_friction = out.friction;
   out.roller_friction.coefficient = machine.roller_friction;
   out.gravity = physics.gravity / inertia_factor(material, physics);  // the mass of the steps is not the rod's own
-  out.drag = physics.drag.value_or(0.0);
   out.spin_inertia = false;  // a slow test; and a rod that is free to turn is then the same with twist and without
   out.residual = tolerance.residual * material.bending_stiffness / (h * h);
   out.residual_from_step = kFullResidual * tolerance.longest_step;

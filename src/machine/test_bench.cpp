@@ -169,7 +169,7 @@ struct TestBench::Impl {
       }
     boundary.forces.clear();
     boundary.grips.clear();
-    boundary.extra_drag = settling_drag(to);
+    boundary.extra_drag = drag_of_settling(to);
     if (rig && rig->stage() != TyingRig::Stage::kIdle) rig->hold(boundary, from, to);
     return boundary;
   }
@@ -187,11 +187,10 @@ struct TestBench::Impl {
 
   /// A drawn shape's stored energy is an artefact of the drawing, and would throw it about. A straight rod has none;
   /// what the rig ties settles there.
-  double settling_drag(double at_time) const {
+  double drag_of_settling(double at_time) const {
     if (specimen.knot == KnotKind::kStraight || specimen.to_be_tied || at_time >= kSettlingTime) return 0.0;
     const double left = 1.0 - at_time / kSettlingTime;
-    const double wave_number = 2.0 * M_PI / (kSettlingWave * material.radius);
-    return 0.1 * kSettlingTime * material.bending_stiffness * std::pow(wave_number, 4) * left * left;
+    return settling_drag(material, kSettlingWave * material.radius, kSettlingTime) * left * left;
   }
 
   /// `auto`: what brings it to rest. In the forces of a loop and of a straight rod it stays far below a thousandth. A
@@ -428,7 +427,7 @@ struct TestBench::Impl {
       return substeps.back();
     }
     if (command.step != step_index) enter_step(command);
-    stepper->drag(drag());
+    stepper->set_drag(drag());
     if (command.balance) {
       cell.balance(grips.force_upper(*stepper), time);
       extension_zero = grips.end_to_end(grip);

@@ -75,10 +75,8 @@ void check_fisherman(const FishermanShape& shape) {
   }
 }
 
-}  // namespace
-
-Centreline fisherman_loop(const FishermanShape& shape) {
-  check_fisherman(shape);
+/// Of equal gaps between standing part, threaded strand, tail and coil.
+Coil coil_of(const FishermanShape& shape) {
   const double h = shape.radius;
   Coil coil{};
   coil.strand = (2.0 - std::sqrt(3.0)) * shape.looseness * h;
@@ -87,22 +85,35 @@ Centreline fisherman_loop(const FishermanShape& shape) {
   coil.half = 2.0 * h;
   coil.outer = coil.half + 0.5 * (coil.radius - coil.strand);
   coil.inner = coil.half + 0.5 * (coil.radius - coil.tail);
+  return coil;
+}
 
-  // Distance of the rod on a roller from the roller's axis, and where to draw it. A coil must clear the far side.
-  const double rolled = shape.roller_radius + h;
-  if (!(rolled >= 0.5 * (coil.radius + 2.5 * h) && shape.roller_radius <= 10.0)) {
+/// Half the width of the narrowest loop whose far side a coil clears.
+double narrowest_loop(const Coil& coil, double h) { return 0.5 * (coil.radius + 2.5 * h); }
+
+/// Distance of a rod on a roller from the roller's axis.
+double distance_on_roller(const FishermanShape& shape, const Coil& coil) {
+  const double rolled = shape.roller_radius + shape.radius;
+  if (!(rolled >= narrowest_loop(coil, shape.radius) && shape.roller_radius <= 10.0)) {
     throw InvalidInput("machine.roller_diameter", text(2.0 * shape.roller_radius),
-                       text(coil.radius + 0.5 * h) + " to 20 m");
+                       text(coil.radius + 0.5 * shape.radius) + " to 20 m");
   }
+  return rolled;
+}
 
-  // The knots clear each other; their strands reach the rollers; their coils clear the rollers.
+/// Beyond the middle of a knot, where the other end's strand leaves it for its roller.
+double strand_leaves(const Coil& coil, double h) { return coil.outer + 2.0 * h; }
+
+/// Distance of each coil's middle from that of the loop. The knots clear each other; their strands reach the rollers;
+/// their coils clear the rollers.
+double knot_height(const FishermanShape& shape, const Coil& coil, double rolled) {
+  const double h = shape.radius;
   const double c = 0.5 * (shape.knot_distance - shape.outward_shift);
   const double middle = 0.5 * shape.end_to_end;
-  const double past = coil.outer + 2.0 * h;
   const double beside_axis = std::max(0.0, rolled - coil.radius);
   const double roller_reach = coil.radius > rolled ? rolled : std::sqrt(rolled * rolled - beside_axis * beside_axis);
   const double c_min = coil.inner + 1.25 * h;
-  const double c_max = middle - std::max(past + h, coil.outer + h + roller_reach);
+  const double c_max = middle - std::max(strand_leaves(coil, h) + h, coil.outer + h + roller_reach);
   if (!(c_max > c_min)) {
     throw InvalidInput("specimen.end_to_end", text(shape.end_to_end),
                        "at least " + text(2.0 * (c_min + middle - c_max)) + " m for this rod and these rollers");
@@ -112,83 +123,139 @@ Centreline fisherman_loop(const FishermanShape& shape) {
                        text(2.0 * c_min + shape.outward_shift) + " to " + text(2.0 * c_max + shape.outward_shift) +
                            " m for this rod and these rollers");
   }
+  return c;
+}
 
-  // Both ends of the near side are drawn further out where the straight strands ask for it, and the half circles
-  // narrower.
-  const double narrowest = std::min(rolled, 0.5 * (coil.radius + 2.5 * h));
+/// The loop without its knots: two straight sides at x = near and far, from z = bottom to top, and two half circles.
+struct Outline {
+  double length;  ///< of the straight sides
+  double narrow;  ///< radius of the half circles as it is wanted
+  double rho;     ///< that to be drawn, which the smoothing makes the wanted one
+  double near, far, centre;
+  double bottom, top;
+};
+
+/// Both ends are drawn further out where the straight strands beyond the knots ask for it, and the half circles
+/// narrower, so that the rod is as long as before.
+Outline outline_of(const FishermanShape& shape, const Coil& coil, double rolled, double c) {
+  const double narrowest = std::min(rolled, narrowest_loop(coil, shape.radius));
   const double wanted = std::max(shape.end_to_end, 2.0 * (c + shape.straight));
-  const double drawn = std::min(wanted, shape.end_to_end + M_PI * (rolled - narrowest));
-  const double narrow = rolled - (drawn - shape.end_to_end) / M_PI;
-  const double rho = before_smoothing(narrow, h);
-  const double near = rolled + rho - narrow, far = near - 2.0 * rho, centre = near - rho;
-  const double bottom = middle - 0.5 * drawn, top = middle + 0.5 * drawn;
+  Outline out{};
+  out.length = std::min(wanted, shape.end_to_end + M_PI * (rolled - narrowest));
+  out.narrow = rolled - (out.length - shape.end_to_end) / M_PI;
+  out.rho = before_smoothing(out.narrow, shape.radius);
+  out.near = rolled + out.rho - out.narrow;
+  out.far = out.near - 2.0 * out.rho;
+  out.centre = out.near - out.rho;
+  const double middle = 0.5 * shape.end_to_end;
+  out.bottom = middle - 0.5 * out.length;
+  out.top = middle + 0.5 * out.length;
+  return out;
+}
 
-  // Standing parts lie at +-u from the axis. Opposite-handed tails lie on either side of the loop's plane, so u lies in
-  // the plane; the axis is then set off so that the inner strand runs straight to its roller.
+struct KnotFrames {
+  KnotFrame lower, upper;
+  // Where strands meet their rollers, along y: away from the neighbouring tail.
+  double lower_y, upper_y;
+};
+
+/// Standing parts lie at +-u from the axis. Opposite-handed tails lie on either side of the loop's plane, so u lies in
+/// the plane; the axis is then set off so that the inner strand runs straight to its roller.
+KnotFrames frames_of(const FishermanShape& shape, const Coil& coil, const Outline& outline) {
   const bool same = shape.handedness == Handedness::kSame;
   const Vec3 u = same ? Vec3::UnitY() : Vec3::UnitX();
   const Vec3 v = same ? Vec3::UnitX() : Vec3::UnitY();
-  const Vec3 origin(same ? near : near + coil.strand, 0.0, middle);
-  const KnotFrame lower{origin, -u, same ? v : Vec3(-v), -Vec3::UnitZ()};
-  const KnotFrame upper{origin, u, v, Vec3::UnitZ()};
-  // Where strands meet their rollers, along y: away from the neighbouring tail, back into the plane around the roller.
-  const double upper_y = same ? -coil.strand : 0.0;
-  const double lower_y = coil.strand;
-  const auto ease = [](double t) { return t * t * (3.0 - 2.0 * t); };
+  const Vec3 origin(same ? outline.near : outline.near + coil.strand, 0.0, 0.5 * shape.end_to_end);
+  return {{origin, -u, same ? v : Vec3(-v), -Vec3::UnitZ()},
+          {origin, u, v, Vec3::UnitZ()},
+          coil.strand,
+          same ? -coil.strand : 0.0};
+}
 
-  const double spacing = drawing_spacing(h, shape.edge_length);
+/// The whole rod, and where along it what begins and ends.
+struct Drawing {
+  Path path;
+  KnotMarks marks;  ///< of either knot
+  double first_middle = 0.0, second_middle = 0.0;
+  double upper_begin = 0.0, upper_end = 0.0, lower_begin = 0.0, lower_end = 0.0;  ///< of the half circles
+};
+
+Drawing draw_loop(const FishermanShape& shape, const Coil& coil, const Outline& o, const KnotFrames& knots, double c) {
+  const double spacing = drawing_spacing(shape.radius, shape.edge_length);
+  const double past = strand_leaves(coil, shape.radius);
+  const auto ease = [](double t) { return t * t * (3.0 - 2.0 * t); };  // back into the plane around the roller
   Path knot_path(spacing);
-  const KnotMarks marks = draw_knot(lower, coil, c, h, shape.tail, knot_path);
-  Path path(spacing);
+  Drawing out{Path(spacing), draw_knot(knots.lower, coil, c, shape.radius, shape.tail, knot_path)};
+  Path& path = out.path;
   for (auto point = knot_path.points().rbegin(); point != knot_path.points().rend(); ++point) path.add(*point);
-  const double first_middle = path.length();
-  path.add(upper.at(coil.strand, M_PI, c + past));
-  path.add(Vec3(near, upper_y, top));
-  const double upper_begin = path.length();
-  path.add_curve(M_PI * rho, [&](double t) {
-    return Vec3(centre + rho * std::cos(M_PI * t), upper_y * (1.0 - ease(t)), top + rho * std::sin(M_PI * t));
+  out.first_middle = path.length();
+  path.add(knots.upper.at(coil.strand, M_PI, c + past));
+  path.add(Vec3(o.near, knots.upper_y, o.top));
+  out.upper_begin = path.length();
+  path.add_curve(M_PI * o.rho, [&](double t) {
+    return Vec3(o.centre + o.rho * std::cos(M_PI * t), knots.upper_y * (1.0 - ease(t)),
+                o.top + o.rho * std::sin(M_PI * t));
   });
-  const double upper_end = path.length();
-  const double upper_apex = 0.5 * (upper_begin + upper_end);
-  path.add(Vec3(far, 0.0, bottom));
-  const double lower_begin = path.length();
-  path.add_curve(M_PI * rho, [&](double t) {
-    return Vec3(centre - rho * std::cos(M_PI * t), lower_y * ease(t), bottom - rho * std::sin(M_PI * t));
+  out.upper_end = path.length();
+  path.add(Vec3(o.far, 0.0, o.bottom));
+  out.lower_begin = path.length();
+  path.add_curve(M_PI * o.rho, [&](double t) {
+    return Vec3(o.centre - o.rho * std::cos(M_PI * t), knots.lower_y * ease(t), o.bottom - o.rho * std::sin(M_PI * t));
   });
-  const double lower_end = path.length();
-  const double lower_apex = 0.5 * (lower_begin + lower_end);
-  path.add(lower.at(coil.strand, M_PI, c + past));
-  path.add(lower.at(coil.strand, M_PI, 0.0));
-  const double second_middle = path.length();
-  draw_knot(upper, coil, c, h, shape.tail, path);
+  out.lower_end = path.length();
+  path.add(knots.lower.at(coil.strand, M_PI, c + past));
+  path.add(knots.lower.at(coil.strand, M_PI, 0.0));
+  out.second_middle = path.length();
+  draw_knot(knots.upper, coil, c, shape.radius, shape.tail, path);
+  return out;
+}
 
-  // Each knot's own strand, and between it and its roller the strand that the other knot holds.
+/// Fine edges are each knot's own strand; ordinary ones the strand that the other knot holds, as far as its roller.
+EdgeGrading grading_of(const FishermanShape& shape, const Drawing& drawn) {
   const double fine = shape.edge_length / shape.refinement;
+  const KnotMarks& marks = drawn.marks;
   EdgeGrading grading;
-  grading.coarse = std::min(shape.coarsening * shape.edge_length, 2.0 * h);
-  grading.zones = {{first_middle - marks.tail_exit, first_middle - marks.standing_begin, fine},
-                   {second_middle + marks.standing_begin, second_middle + marks.tail_exit, fine},
-                   {0.0, upper_begin, shape.edge_length},
-                   {lower_end, path.length(), shape.edge_length}};
-  const Resampled rod(path, smoothed(path, h, spacing), grading);
+  grading.coarse = std::min(shape.coarsening * shape.edge_length, 2.0 * shape.radius);
+  grading.zones = {{drawn.first_middle - marks.tail_exit, drawn.first_middle - marks.standing_begin, fine},
+                   {drawn.second_middle + marks.standing_begin, drawn.second_middle + marks.tail_exit, fine},
+                   {0.0, drawn.upper_begin, shape.edge_length},
+                   {drawn.lower_end, drawn.path.length(), shape.edge_length}};
+  return grading;
+}
+
+/// `way` leads from `middle`, where the knot's own strand begins, to its tail: 1 or -1 along the rod. `threaded`: where
+/// this knot's coil holds the other end's strand.
+KnotLandmarks landmarks_of(const Resampled& rod, const KnotMarks& marks, double middle, double way, double tail_end,
+                           double threaded) {
+  KnotLandmarks out{};
+  out.tail_end = rod(tail_end);
+  out.tail_exit = rod(middle + way * marks.tail_exit);
+  out.coil_middle = rod(middle + way * marks.coil_middle);
+  out.standing_begin = rod(middle + way * marks.standing_begin);
+  out.threaded = rod(threaded);
+  return out;
+}
+
+}  // namespace
+
+Centreline fisherman_loop(const FishermanShape& shape) {
+  check_fisherman(shape);
+  const double h = shape.radius;
+  const Coil coil = coil_of(shape);
+  const double rolled = distance_on_roller(shape, coil);
+  const double c = knot_height(shape, coil, rolled);
+  const Outline outline = outline_of(shape, coil, rolled, c);
+  const Drawing drawn = draw_loop(shape, coil, outline, frames_of(shape, coil, outline), c);
+  const Resampled rod(drawn.path, smoothed(drawn.path, h, drawing_spacing(h, shape.edge_length)),
+                      grading_of(shape, drawn));
   Centreline centreline;
   centreline.points = rod.points;
-  centreline.upper_apex = rod(upper_apex);
-  centreline.lower_apex = rod(lower_apex);
-  centreline.loop = {drawn, narrow, rod(upper_end), rod(lower_begin)};
-  KnotLandmarks first{};
-  first.tail_end = 0.0;
-  first.tail_exit = rod(first_middle - marks.tail_exit);
-  first.coil_middle = rod(first_middle - marks.coil_middle);
-  first.standing_begin = rod(first_middle - marks.standing_begin);
-  first.threaded = rod(second_middle - c);
-  KnotLandmarks second{};
-  second.tail_end = rod(path.length());
-  second.tail_exit = rod(second_middle + marks.tail_exit);
-  second.coil_middle = rod(second_middle + marks.coil_middle);
-  second.standing_begin = rod(second_middle + marks.standing_begin);
-  second.threaded = rod(first_middle + c);
-  centreline.knots = {first, second};
+  centreline.upper_apex = rod(0.5 * (drawn.upper_begin + drawn.upper_end));
+  centreline.lower_apex = rod(0.5 * (drawn.lower_begin + drawn.lower_end));
+  centreline.loop = {outline.length, outline.narrow, rod(drawn.upper_end), rod(drawn.lower_begin)};
+  centreline.knots = {
+      landmarks_of(rod, drawn.marks, drawn.first_middle, -1.0, 0.0, drawn.second_middle - c),
+      landmarks_of(rod, drawn.marks, drawn.second_middle, 1.0, drawn.path.length(), drawn.first_middle + c)};
   check_no_overlap(centreline, h, "specimen.knot_distance", text(shape.knot_distance));
   return centreline;
 }

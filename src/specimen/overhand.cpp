@@ -54,9 +54,7 @@ EdgeGrading grading(const OverhandShape& shape, double path_length) {
   return {shape.edge_length, {{middle - half, middle + half, shape.edge_length / shape.refinement}}};
 }
 
-}  // namespace
-
-Centreline overhand(const OverhandShape& shape) {
+void check_overhand(const OverhandShape& shape) {
   check_radius(shape.radius);
   check_edge_length(shape.edge_length, shape.radius);
   if (shape.turns < 1 || shape.turns > 4) throw InvalidInput("specimen.turns", std::to_string(shape.turns), "1 to 4");
@@ -66,57 +64,79 @@ Centreline overhand(const OverhandShape& shape) {
   if (!(shape.end_to_end > 0.0 && shape.end_to_end < shape.length)) {
     throw InvalidInput("specimen.end_to_end", text(shape.end_to_end), "above 0 and less than specimen.length");
   }
-  const double h = shape.radius;
-  const double spacing = drawing_spacing(h, shape.edge_length);
-  const auto rod_length = [&](double loop_radius) {
-    const Path path = draw_overhand(shape, loop_radius, spacing);
-    const Points smooth = smoothed(path, h, spacing);
-    return (smooth.rightCols(smooth.cols() - 1) - smooth.leftCols(smooth.cols() - 1)).colwise().norm().sum();
-  };
-  // The smallest loop, and the largest that leaves straight tails of 4 h at both ends.
-  const double smallest = 2.5 * h;
-  const auto room = [&](double loop_radius) {
-    return shape.end_to_end - braid_length(h, shape.turns, loop_radius) - 8.0 * h;
-  };
-  if (!(room(smallest) > 0.0)) {
+}
+
+/// What a loop of some radius leaves between the grips, with straight tails of 4 h at both ends [m].
+double room(const OverhandShape& shape, double loop_radius) {
+  return shape.end_to_end - braid_length(shape.radius, shape.turns, loop_radius) - 8.0 * shape.radius;
+}
+
+double rod_length(const OverhandShape& shape, double loop_radius, double spacing) {
+  const Path path = draw_overhand(shape, loop_radius, spacing);
+  const Points smooth = smoothed(path, shape.radius, spacing);
+  return (smooth.rightCols(smooth.cols() - 1) - smooth.leftCols(smooth.cols() - 1)).colwise().norm().sum();
+}
+
+double largest_loop(const OverhandShape& shape, double smallest) {
+  double radius = smallest;
+  for (double step = shape.length; step > 1e-3 * shape.radius; step *= 0.5) {
+    if (room(shape, radius + step) > 0.0) radius += step;
+  }
+  return radius;
+}
+
+/// A radius of the loop, and by how much the rod is then longer than asked for.
+struct Try {
+  double loop_radius, excess;
+};
+
+/// The rod's length grows smoothly with the loop's radius: false position with a bracket (Illinois).
+double loop_of_right_length(const OverhandShape& shape, Try low, Try high, double spacing) {
+  double loop_radius = high.loop_radius;
+  for (int i = 0; i < 60 && high.excess > low.excess; ++i) {
+    loop_radius = (low.loop_radius * high.excess - high.loop_radius * low.excess) / (high.excess - low.excess);
+    const double excess = rod_length(shape, loop_radius, spacing) - shape.length;
+    if (std::abs(excess) < 1e-3 * spacing) break;
+    if (excess > 0.0) {
+      high = {loop_radius, excess};
+      low.excess *= 0.5;
+    } else {
+      low = {loop_radius, excess};
+      high.excess *= 0.5;
+    }
+  }
+  return loop_radius;
+}
+
+/// The radius of the loop with which the rod has its length.
+double fitting_loop(const OverhandShape& shape, double spacing) {
+  const double smallest = 2.5 * shape.radius;
+  if (!(room(shape, smallest) > 0.0)) {
     throw InvalidInput(
         "specimen.end_to_end", text(shape.end_to_end),
-        "more than " + text(shape.end_to_end - room(smallest)) + " m, the room that the smallest knot takes up");
+        "more than " + text(shape.end_to_end - room(shape, smallest)) + " m, the room that the smallest knot takes up");
   }
-  const double shortest = rod_length(smallest) - shape.end_to_end;
-  double high = smallest;
-  for (double step = shape.length; step > 1e-3 * h; step *= 0.5) {
-    if (room(high + step) > 0.0) high += step;
-  }
-  const double longest = rod_length(high) - shape.end_to_end;
+  const double shortest = rod_length(shape, smallest, spacing) - shape.end_to_end;
+  const double largest = largest_loop(shape, smallest);
+  const double longest = rod_length(shape, largest, spacing) - shape.end_to_end;
   if (!(shape.length - shape.end_to_end >= shortest) || shape.length - shape.end_to_end > longest) {
     throw InvalidInput(
         "specimen.end_to_end", text(shape.end_to_end),
         "shorter than specimen.length by " + range_text(shortest, longest) + " m, for a knot of this rod");
   }
-  // The rod's length grows smoothly with the loop's radius: false position with a bracket (Illinois).
-  double low = smallest;
-  double below = shortest + shape.end_to_end - shape.length;
-  double above = longest + shape.end_to_end - shape.length;
-  double loop_radius = high;
-  for (int i = 0; i < 60 && above > below; ++i) {
-    loop_radius = (low * above - high * below) / (above - below);
-    const double excess = rod_length(loop_radius) - shape.length;
-    if (std::abs(excess) < 1e-3 * spacing) break;
-    if (excess > 0.0) {
-      high = loop_radius;
-      above = excess;
-      below *= 0.5;
-    } else {
-      low = loop_radius;
-      below = excess;
-      above *= 0.5;
-    }
-  }
-  const Path path = draw_overhand(shape, loop_radius, spacing);
+  return loop_of_right_length(shape, {smallest, shortest + shape.end_to_end - shape.length},
+                              {largest, longest + shape.end_to_end - shape.length}, spacing);
+}
+
+}  // namespace
+
+Centreline overhand(const OverhandShape& shape) {
+  check_overhand(shape);
+  const double spacing = drawing_spacing(shape.radius, shape.edge_length);
+  const Path path = draw_overhand(shape, fitting_loop(shape, spacing), spacing);
   Centreline centreline;
-  centreline.points = Resampled(path, smoothed(path, h, spacing), grading(shape, path.length())).points;
-  check_no_overlap(centreline, h, "specimen.end_to_end", text(shape.end_to_end));
+  centreline.points = Resampled(path, smoothed(path, shape.radius, spacing), grading(shape, path.length())).points;
+  check_no_overlap(centreline, shape.radius, "specimen.end_to_end", text(shape.end_to_end));
   return centreline;
 }
 

@@ -18,8 +18,6 @@ constexpr double kRestSpeed = 0.0063;  // [radii/s]
 SpecimenScales specimen_scales(const Material& material) {
   const double h = material.radius;
   SpecimenScales out;
-  out.length = h;
-  out.force = material.bending_stiffness / (h * h);
   out.mass = material.density * M_PI * h * h;
   out.own_time = h * h * std::sqrt(out.mass / material.bending_stiffness);
   out.rest_speed = kRestSpeed * h;
@@ -38,5 +36,9 @@ Material as_it_moves(Material material, const PhysicsOptions& physics) {
 }
 
 double drag_to_rest(const Material& as_it_moves) { return kFading * specimen_scales(as_it_moves).mass; }
+
+double settling_drag(const Material& material, double wave, double time) {
+  return 0.1 * time * material.bending_stiffness * std::pow(2.0 * M_PI / wave, 4);
+}
 
 }  // namespace knot_utm

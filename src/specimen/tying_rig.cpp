@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "knot_utm/rod/isotropic_bending.hpp"
+#include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
 
@@ -25,10 +26,7 @@ constexpr double kSettlingWave = 17.0;
 constexpr double kPuttingOnWave = 73.0;
 constexpr double kLetGoTime = 1.0 / 3.0;  // [s]
 
-/// Relaxes waves of a length in about a tenth of the settling time [N s/m^2].
-double drag_for(double wave, double bending_stiffness) {
-  return 0.1 * kSettlingTime * bending_stiffness * std::pow(2.0 * M_PI / wave, 4);
-}
+constexpr double kSlips = 0.999;  // of the force at which a grip slips: it counts as slipping [-]
 
 double fastest_node(const TimeStep& stepper) {
   return std::sqrt(stepper.state().velocity.colwise().squaredNorm().maxCoeff());
@@ -42,8 +40,8 @@ TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const
   const int nodes = static_cast<int>(rod.nodes());
   const Points& x = centreline.points;
   const std::size_t count = centreline.knots.size();
-  settling_drag_ = drag_for(kSettlingWave * h, rod.material.bending_stiffness);
-  putting_on_drag_ = drag_for(kPuttingOnWave * h, rod.material.bending_stiffness);
+  settling_drag_ = settling_drag(rod.material, kSettlingWave * h, kSettlingTime);
+  putting_on_drag_ = settling_drag(rod.material, kPuttingOnWave * h, kSettlingTime);
   double middle = 0.0;
   for (const KnotLandmarks& knot : centreline.knots)
     middle += x(2, centreline.nearest_node(knot.coil_middle)) / static_cast<double>(count);
@@ -200,8 +198,7 @@ void TyingRig::hold_knots(Boundary& boundary, double ramp) const {
   }
 }
 
-void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
-  const Points& x = stepper.state().position;
+bool TyingRig::let_grips_slip(const Points& x, double dt) {
   bool all_slip = true;
   for (std::size_t k = 0; k < grips_.size(); ++k) {
     SlippingGrip& grip = grips_[k];
@@ -211,8 +208,14 @@ void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
       grip.place = std::min(grip.place, slipped);
     }
     tail_force_[k] = stage_ <= Stage::kTied ? grip.force(x.col(grip.node)) : 0.0;
-    if (tail_force_[k] < 0.999 * grip.slip_force) all_slip = false;
+    if (tail_force_[k] < kSlips * grip.slip_force) all_slip = false;
   }
+  return all_slip;
+}
+
+void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
+  const Points& x = stepper.state().position;
+  const bool all_slip = let_grips_slip(x, dt);
   const double elapsed = time - stage_begin_;
   rested_ = fastest_node(stepper) > options_.rest_speed ? 0.0 : rested_ + dt;
   if (stage_ == Stage::kPulling && all_slip && reached_ < 0.0) reached_ = time;

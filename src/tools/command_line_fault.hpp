@@ -18,8 +18,19 @@ inline std::string hint_at_option(const CLI::App& app, const std::string& tool, 
   return nearest.empty() ? "; see " + tool + " --help" : "; did you mean " + nearest + "?";
 }
 
+/// Where the name of an option stands in place of the value of the one before it: that, in a sentence. Else empty.
+inline std::string missing_value(const CLI::App& app) {
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& value : option->results())
+      if (value.rfind("--", 0) == 0 && app.get_option_no_throw(value) != nullptr)
+        return option->get_name() + " needs a value, but the option " + value + " follows it";
+  return {};
+}
+
 /// What is wrong with a command line, in a sentence that names the argument. CLI11's own name its types and its limits.
 inline std::string command_line_fault(const CLI::App& app, const std::string& tool, const CLI::ParseError& error) {
+  const std::string missing = missing_value(app);
+  if (!missing.empty()) return missing;
   const std::vector<std::string> unknown = app.remaining();
   if (!unknown.empty() && unknown.front().rfind('-', 0) == 0) {
     const std::string given = shown(unknown.front().substr(0, unknown.front().find('=')));

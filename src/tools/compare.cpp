@@ -165,7 +165,7 @@ int main(int argc, char** argv) {
     CLI::Option* balance = app.add_flag("--balance", arguments.balance,
                                         "raw data: load and extension are zero where the crosshead begins to move");
     app.add_option("--begins-at", arguments.begins_at,
-                   "raw data that were cut: extension of their first reading; the load there is that of the other "
+                   "raw data that were cut: extension of their first reading; the load there is taken from the other "
                    "curve [m]")
         ->needs(balance);
     app.add_option("--tolerance", arguments.tolerance, "end with exit code 1 where a relative difference is larger [-]")

@@ -28,6 +28,7 @@ std::optional<int> parse(CLI::App& app, const char* tool, int argc, char** argv,
   app.set_version_flag("--version", version());
   try {
     app.parse(argc, argv);
+    if (!missing_value(app).empty()) throw CLI::ArgumentMismatch("a value");
     check();
   } catch (const CLI::ParseError& error) {
     return error.get_exit_code() == 0 ? app.exit(error)

@@ -66,6 +66,14 @@ class Method(unittest.TestCase):
         for key in re.findall(r'(?:number|integer|text|flag|choice|vector)\("(\w+)"', text("src/io/method_fields.hpp")):
             self.assertTrue(re.search(rf"`(\w+\.)*{key}`", self.page), key)
 
+    def test_fuzzing_knows_every_key(self):
+        words = re.findall(r'^"([^"]+)"$', text("test/fuzz/method.dict"), re.MULTILINE)
+        keys = re.findall(r'\b(?:f|top|friction|contact|until|units)\.\w+\("(\w+)"',
+                          text("src/io/method_fields.hpp") + text("src/io/method.cpp"))
+        self.assertGreater(len(keys), 80)
+        for key in keys:
+            self.assertIn(key, words)
+
     def test_ranges_are_those_of_the_code(self):
         allowed = {}  # a name may stand in two sections, with a range in each
         for key, low, high in re.findall(r'number\("(\w+)", [\w.]+, Range\{([^,]+), ([^,]+),',

@@ -139,7 +139,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"program=[{release: {}}]", "program.0", "release", "right after tie"},
       {"program.pull.until.load=60000", "program.4.pull.until.load", "60000", "capacity, 50000 N"},
       {"program=[{cycle: {count: 1}}]", "program.0.cycle", "neither extension nor load", "give one of them"},
-      {"specimen.preload=0.05", "specimen.preload", "0.05", "does not move the coils, which close at 2.27 N"},
+      {"specimen.preload=0.05", "specimen.preload", "0.05", "does not move the coils, which close only at 2.27 N"},
       {"material.breaking_strain=0.2", "material.breaking_strain", "0.2", "more than 0.215, the strain of"},
       {"analysis.margin=maybe", "analysis.margin", "maybe", "true or false"},
       {"analysis={margin: true, program: 1}", "analysis.program is no key of a method", "",

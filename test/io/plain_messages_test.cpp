@@ -75,6 +75,8 @@ TEST_F(PlainMessages, OfTensileTest) {
       {"tighten.yaml --set machine.grips=clamp",
        "tighten.yaml: machine.grips is \"clamp\", but must be rollers, nodes or clamps; did you mean clamps?"},
       {"tighten.yaml --sett specimen.preload=3", "--sett is no option of tensile_test; did you mean --set?"},
+      {"tighten.yaml --set --out bad", "--set needs a value, but the option --out follows it"},
+      {"tighten.yaml --out --quiet", "--out needs a value, but the option --quiet follows it"},
       {"tighten.yaml another.yaml", "\"another.yaml\" is one argument too many; see tensile_test --help"},
       {"tighten.yaml --checkpoint -1", "--checkpoint is -1, but must be a number of at least 0"},
       {"tighten.yaml --set",

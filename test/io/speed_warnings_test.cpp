@@ -3,6 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "knot_utm/io/number.hpp"
+
 namespace knot_utm {
 namespace {
 
@@ -16,22 +20,25 @@ TEST(SpeedWarnings, SayWhatShareSpeedHasInTheForce) {
   EXPECT_THAT(speed_warnings(RateShares{0.009, 0.009}, 1.0), IsEmpty());
   EXPECT_THAT(speed_warnings(RateShares{}, 1e-6), IsEmpty());
   EXPECT_THAT(speed_warnings(RateShares{0.5, 0.02}, 1.0),
-              ElementsAre(HasSubstr("drag makes up 50 % of the force"), HasSubstr("inertia moves the force by 2 %")));
+              ElementsAre(HasSubstr("drag makes up 50 % of the force"), HasSubstr("inertia changes the force by 2 %")));
 }
 
 TEST(SpeedWarnings, SayWhatTheMassThatIsLeftOutWouldDo) {
   const RateShares rate{0.0, 1e-4};
   EXPECT_THAT(speed_warnings(rate, 0.1), IsEmpty());
-  EXPECT_THAT(speed_warnings(rate, 2e-3), ElementsAre(HasSubstr("all of it would move the force by about 5 %")));
+  EXPECT_THAT(speed_warnings(rate, 2e-3), ElementsAre(HasSubstr("all of it would change the force by about 5 %")));
   EXPECT_THAT(speed_warnings(rate, 1e-6), ElementsAre(HasSubstr("by more than itself")));
   EXPECT_THAT(speed_warnings(rate, 400.0), IsEmpty());
 }
 
 TEST(SpeedWarnings, SayThatKnotsAreTiedInHaste) {
-  EXPECT_THAT(speed_warnings(load_method(kTighten)), IsEmpty());
+  const Method plain = load_method(kTighten);
+  EXPECT_THAT(speed_warnings(plain), IsEmpty());
+  const std::string by_default =
+      format_number(std::round(100.0 * plain.program[0].speed / plain.material.radius) / 100.0);
   EXPECT_THAT(speed_warnings(load_method(kTighten, {"program.tie.speed=0.029"})), IsEmpty());
   EXPECT_THAT(speed_warnings(load_method(kTighten, {"program.tie.speed=0.1"})),
-              ElementsAre(HasSubstr("tied at 31.5 radii a second")));
+              ElementsAre(HasSubstr("tied at 31.5 radii a second, by default at " + by_default + ";")));
 }
 
 }  // namespace

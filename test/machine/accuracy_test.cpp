@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+
+#include "knot_utm/io/method.hpp"
+#include "knot_utm/io/run_writer.hpp"
+
 namespace knot_utm {
 namespace {
 
@@ -19,6 +24,12 @@ struct Loop {
   Tolerances tolerances() const { return knot_utm::tolerances(physics, specimen, material); }
   ReadingErrors errors() const { return reading_errors(specimen, material, physics); }
 };
+
+Results plateau() {
+  Results out;
+  out.true_plateau_force = 5.0;
+  return out;
+}
 
 TEST(ReadingErrors, FallWithTheAccuracy) {
   Loop loop;
@@ -55,12 +66,19 @@ TEST(ReadingErrors, OfOppositeHandsGrowWithSlipperinessAndPreload) {
   EXPECT_GT(hard.errors().lock_extension.value(), 2.0 * rough.errors().lock_extension.value());
 }
 
-TEST(ReadingErrors, OfTheDefaultNeedNoWarning) {
-  Loop nylon;
-  nylon.specimen.edge_length = nylon.material.radius;
-  nylon.material.friction_coefficient = 0.46;
-  nylon.specimen.preload = 35.0 * default_preload(nylon.material) / 4.0;
-  EXPECT_LE(nylon.errors().plateau_force.value(), 0.05 + 1e-12);
+TEST(ReadingErrors, OfEdgesOfOneRadiusAtNormalIsThatOfTheStudy) {
+  Loop loop;
+  loop.specimen.edge_length = loop.material.radius;
+  EXPECT_DOUBLE_EQ(loop.errors().plateau_force.value(), 0.05);
+}
+
+/// Its edges are a little longer than a radius, and so is the error than 5 %.
+TEST(ReadingErrors, OfTheShippedMethodNeedNoWarning) {
+  const Method shipped = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml");
+  const ReadingErrors errors = reading_errors(shipped.specimen, shipped.material, shipped.physics);
+  EXPECT_NEAR(shipped.specimen.edge_length / shipped.material.radius, 1.008, 5e-4);
+  EXPECT_NEAR(errors.plateau_force.value(), 0.0504, 5e-5);
+  EXPECT_EQ(accuracy_warning(plateau(), errors), "");
 }
 
 TEST(Tolerances, AreLooserWhereTheLoopStretches) {

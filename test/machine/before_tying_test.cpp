@@ -84,7 +84,7 @@ TEST(BeforeTying, AStrainThatTheLooseCoilHasAlreadyIsRefusedAndThatOfATiedOneIsA
   EXPECT_EQ(loop.refused(), "material.breaking_strain");
   loop.material.breaking_strain = 0.3;
   EXPECT_EQ(loop.refused(), "");
-  EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("up to 0.502, and the rod parts at 0.3")));
+  EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("up to 0.502, and the rod parts at a strain of 0.3")));
   loop.material.breaking_strain = 0.6;
   EXPECT_THAT(loop.warnings(), IsEmpty());
 }
@@ -92,7 +92,7 @@ TEST(BeforeTying, AStrainThatTheLooseCoilHasAlreadyIsRefusedAndThatOfATiedOneIsA
 TEST(BeforeTying, ARodThatYieldsOrASolidOneAsStiffAsAMetalIsAWarning) {
   Loop loop;
   loop.material.yield_strain = 0.07;
-  EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("the material yields at 0.07")));
+  EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("the material yields at a strain of 0.07")));
   Loop wire;
   const double h = wire.material.radius = 1e-4;
   wire.specimen.edge_length = h;
@@ -107,7 +107,10 @@ TEST(BeforeTying, ARodThatYieldsOrASolidOneAsStiffAsAMetalIsAWarning) {
 TEST(BeforeTying, EdgesTooLongForTheBendsOfARopeAreAWarning) {
   Loop loop;
   loop.specimen.refinement = 1.0;
-  EXPECT_THAT(loop.warnings(), ElementsAre(HasSubstr("edges of 1.01 radii turn by 0.504 rad")));
+  EXPECT_THAT(
+      loop.warnings(),
+      ElementsAre(HasSubstr(
+          "edges of 1.01 radii are too long for the bends of a tied knot, in which the rod turns by 0.504 rad")));
   loop.material.stretching_stiffness =
       4.0 * loop.material.bending_stiffness / (loop.material.radius * loop.material.radius);
   EXPECT_THAT(loop.warnings(), Not(testing::Contains(HasSubstr("edges of"))));

@@ -17,12 +17,10 @@ Material similar(double lengths, double forces) {
   return out;
 }
 
-TEST(SpecimenScales, AreRadiusBendingForceAndTheTimeInWhichItBends) {
+TEST(SpecimenScales, AreMassAndTheTimeInWhichItBends) {
   const Material material = nylon();
   const double h = material.radius, mass = material.density * M_PI * h * h;
   const SpecimenScales scales = specimen_scales(material);
-  EXPECT_EQ(scales.length, h);
-  EXPECT_DOUBLE_EQ(scales.force, material.bending_stiffness / (h * h));
   EXPECT_DOUBLE_EQ(scales.mass, mass);
   EXPECT_DOUBLE_EQ(scales.own_time, h * h * std::sqrt(mass / material.bending_stiffness));
 }
@@ -38,6 +36,13 @@ TEST(SpecimenScales, SimilarSpecimensOfAnyDensityMoveAlike) {
       EXPECT_NEAR(drag_to_rest(moving) * h2 * h2 / material.bending_stiffness, 1.2e-7, 1e-19);
       EXPECT_NEAR(specimen_scales(moving).rest_speed / material.radius, 0.0063, 1e-15);
     }
+}
+
+TEST(SettlingDrag, RelaxesWavesOfALengthInATenthOfItsTime) {
+  const Material material = nylon();
+  const double wave = 20.0 * material.radius, time = 0.5;
+  const double fading_rate = material.bending_stiffness * std::pow(2.0 * M_PI / wave, 4);  // times the drag [1/s]
+  EXPECT_NEAR(settling_drag(material, wave, time) / fading_rate, 0.1 * time, 1e-12);
 }
 
 TEST(SpecimenScales, AMethodMayAskForTheRodsOwnMass) {

@@ -8,7 +8,8 @@
 
 namespace knot_utm {
 
-/// How the steps of a test are solved: what its method says, in units of its rod.
+/// How the steps of a test are solved: what its method says, in units of its rod. Without drag, which changes during a
+/// test (TimeStep::set_drag).
 StepSettings step_settings(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                            const PhysicsOptions& physics);
 

@@ -44,4 +44,11 @@ inline double default_contact_stiffness(const Material& material) {
   return material.contact_stiffness.value_or(300.0 * material.bending_stiffness / (h2 * h2));
 }
 
+/// Whether a rod bends as a solid one does, for which k_s h^2/k_b is 4; that of ropes is in the hundreds or more.
+inline bool is_solid(const Material& material) {
+  constexpr double kStiffest = 10.0;  // k_s h^2/k_b of what still counts as solid
+  const double h = material.radius;
+  return material.stretching_stiffness * h * h < kStiffest * material.bending_stiffness;
+}
+
 }  // namespace knot_utm

@@ -74,8 +74,9 @@ class TimeStep {
   const RodState& state() const { return state_; }
   const StepSettings& settings() const { return settings_; }
 
-  /// From the next step on; the same in `settings`, not kept by `state`. g [m/s^2].
-  void set_gravity(const Vec3& gravity) { settings_.gravity = gravity; }
+  // From the next step on; the same in `settings`, not kept by `state`.
+  void set_gravity(const Vec3& gravity) { settings_.gravity = gravity; }  ///< g [m/s^2]
+  void set_drag(double per_length) { settings_.drag = per_length; }       ///< c [N s/m^2]
 
   /// From now on `watcher` is told of every iterate; none: nobody is.
   void watch(std::function<void(const Iterate&)> watcher) { watcher_ = std::move(watcher); }
@@ -97,9 +98,6 @@ class TimeStep {
   virtual double roller_normal_force(const NodeRange& piece) const = 0;
   /// Tension of each edge [N]; of a parted one none.
   Eigen::VectorXd tension() const;
-
-  /// The drag c of the steps to come [N s/m^2], in place of that of the settings.
-  void drag(double per_length) { settings_.drag = per_length; }
 
   /// That of the last accepted step, on which the next one depends.
   virtual void state(Archive& archive);

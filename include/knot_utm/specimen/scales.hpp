@@ -17,8 +17,6 @@ namespace knot_utm {
 /// is one that tau has no part in, as long as tau is much shorter than a second and the strands do not jump; where they
 /// jump, it decides what they jump to. Rods have tau = 8e-9 (a stiff thread) to 8 s (a soft hawser).
 struct SpecimenScales {
-  double length = 0.0;      ///< h [m]
-  double force = 0.0;       ///< F_0 [N]
   double own_time = 0.0;    ///< tau of the material's mass [s]
   double mass = 0.0;        ///< m of the material's density, per length [kg/m]
   double rest_speed = 0.0;  ///< slower than this it is at rest [m/s]
@@ -35,5 +33,8 @@ Material as_it_moves(Material material, const PhysicsOptions& physics);
 /// Drag per length under which a specimen comes to rest where `physics.drag` is `auto` [N s/m^2]: motion of the whole
 /// fades to 1/e in a third of a second. c = 3/s m, so with tau = 2e-4 s it is 1.2e-7 s k_b/h^4 in all of them.
 double drag_to_rest(const Material& as_it_moves);
+
+/// Drag per length under which waves of the rod so long relax in about a tenth of a time [N s/m^2].
+double settling_drag(const Material& material, double wave, double time);
 
 }  // namespace knot_utm

@@ -35,7 +35,7 @@ class TyingRig {
   struct Options {
     double preload = 0.0;         ///< F_p, at which the tail grips slip [N]
     double grip_stiffness = 2e4;  ///< [N/m]
-    double rest_speed = 2e-5;     ///< every node slower than this ... [m/s]
+    double rest_speed = 0.0;      ///< every node slower than this ... [m/s]
     double rest_time = 0.3;       ///< ... for this long: at rest [s]
     double patience = 60.0;       ///< without rest for so long: goes on all the same, not equilibrated [s]
     double pull_patience = 90.0;  ///< grips that have not reached the pre-load by then: not to be tied [s] ...
@@ -78,7 +78,6 @@ class TyingRig {
   Stage stage() const { return stage_; }
   bool tied() const { return stage_ == Stage::kTied; }
   bool released() const { return stage_ == Stage::kReleased; }
-  bool lets_go() const { return stage_ == Stage::kLettingGo; }
   bool puts_on() const { return stage_ == Stage::kPuttingOn; }
   bool guides() const { return stage_ == Stage::kGuided; }
   /// The loop hangs free of the rollers.
@@ -126,6 +125,8 @@ class TyingRig {
   SpringHold guide(const Clamp& clamp) const;
   void hold_knots(Boundary& boundary, double ramp) const;
   void enter(Stage stage, double time);
+  /// Moves the grips on, and lets them slip at the pre-load. Whether all of them do.
+  bool let_grips_slip(const Points& x, double dt);
   /// At rest, or no longer waited for since `begin`.
   bool waited_for_rest(const TimeStep& stepper, double time, double begin, const char* since);
   void judge_pull(double time);
