@@ -217,6 +217,13 @@ Scene twisted_loop() {
 
 class SavedState : public testing::TestWithParam<Scene> {};
 
+/// What was saved by another version is then refused where the parts no longer follow each other.
+TEST(SavedBench, HasAMarkBeforeEachPartOfABench) {
+  const std::string saved = straight().begin().saved();
+  for (const char* mark : {"BNCJ", "CELT", "STEP", "GRIP", "PRG5"})
+    EXPECT_NE(saved.find(mark), std::string::npos) << mark;
+}
+
 TEST_P(SavedState, GoesOnToTheSameBits) {
   WholeTest unbroken = GetParam().begin();
   unbroken.go_on(kToTheEnd, [](std::size_t) {});
