@@ -124,15 +124,29 @@ Pull true_pull_of(std::vector<CurveRow> rows, const std::vector<Sample>& reading
   // Balanced, as loads are, so that the origin is zero where a balance made it so.
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].load = readings[i].force_upper - offset;
   Pull pull = pull_of(rows);
-  for (PullPoint& point : pull) point.force += offset;
+  for (PullPoint& point : pull) {
+    point.force += offset;
+    point.zero_force = 0.0;  // F is what the rod bears
+  }
   return pull;
 }
 
-void drop_plateau(const char* why, CurveReadings& curve) {
+void drop_plateau(const std::string& why, CurveReadings& curve) {
   for (std::optional<double>* reading : {&curve.plateau_force, &curve.plateau_force_sd, &curve.plateau_force_low,
                                          &curve.plateau_force_high, &curve.plateau_force_slope, &curve.breakaway_force})
     reading->reset();
   curve.no_plateau = why;
+}
+
+/// A level force is a sliding force only where knots slide.
+void drop_what_does_not_slide(MotionPattern pattern, CurveReadings& curve) {
+  if (pattern == MotionPattern::kUntangling) {
+    drop_plateau("the knot came undone", curve);  // what is left without a knot is no sliding force
+  } else if (curve.plateau_force && pattern == MotionPattern::kStretching) {
+    drop_plateau("the load is level, but the knots do not slide: they stretch", curve);
+  } else if (curve.plateau_force && pattern == MotionPattern::kNone) {
+    drop_plateau("the load is level, but there are no two knots that slide", curve);
+  }
 }
 
 // A tail that brushes along a roller bears less [of the true force].
@@ -147,8 +161,8 @@ void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>
   const std::vector<CurveRow> rows = rows_of(readings);
   const Pull pull = pull_of(rows), true_pull = true_pull_of(rows, readings);
   results.curve = curve_readings(pull);
-  const double end = pull.empty() ? 0.0 : results.curve.lock_extension_by_load.value_or(pull.back().extension);
-  if (const std::optional<Drop> jumped = jump(pull, end)) {
+  if (const std::optional<Drop>& jumped = results.curve.jumped) {
+    results.lock_extension.reset();  // what comes after it is another knot
     results.true_jump_force = true_pull[jumped->from].force;
     results.true_force_after_jump = true_pull[jumped->to].force;
   }
@@ -161,9 +175,9 @@ void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>
   if (results.motion_pattern == MotionPattern::kUntangling ||
       (results.motion_pattern == MotionPattern::kSliding && !locked))
     results.curve.locked_stiffness.reset();
-  // What is left without a knot is no sliding force.
-  if (results.motion_pattern == MotionPattern::kUntangling) drop_plateau("the knot came undone", results.curve);
+  drop_what_does_not_slide(results.motion_pattern, results.curve);
   if (!results.curve.plateau_force) return;
+  const double end = results.curve.slides_to;
   results.true_plateau_force = plateau(true_pull, end)->force;
   results.true_breakaway_force = breakaway_force(true_pull, end);
   results.plateau_slope = known(plateau(pull, end)->slope);

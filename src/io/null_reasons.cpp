@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "knot_utm/io/number.hpp"
+
 namespace knot_utm {
 namespace {
 
@@ -32,6 +34,9 @@ std::string why_no_error(const std::string& reading, const Results& results, con
 }
 
 std::string why_no_lock(const Results& results) {
+  if (results.curve.jump_force)
+    return "a knot jumped open at " + short_number(*results.curve.jump_force) +
+           " N, and the load-extension curve after it is that of another knot";
   switch (results.motion_pattern) {
     case MotionPattern::kSliding:
       return "the knots still slid at the end of the pull";
@@ -48,6 +53,7 @@ std::string why_no_lock(const Results& results) {
 /// Of what any pull has.
 std::string why_not_of_the_pull(const std::string& key, const Results& results) {
   if (key == "lock_extension") return results.lock_extension ? "" : why_no_lock(results);
+  if (key == "lock_extension_by_load" && results.curve.jump_force) return why_no_lock(results);
   if (key == "lock_extension_by_load")
     return results.curve.lock_extension_by_load ? ""
                                                 : "the load does not rise for good from a plateau to twice its mean";

@@ -1,9 +1,7 @@
 #include "knot_utm/io/run_writer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
 #include "knot_utm/io/null_reasons.hpp"
@@ -95,11 +93,6 @@ std::optional<double> share_of(const std::optional<double>& reading, const std::
 }  // namespace
 
 std::vector<std::string> events(const Results& results) {
-  const auto short_number = [](double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.3g", value);
-    return std::string(text.data());
-  };
   std::vector<std::string> all;
   const CurveReadings& curve = results.curve;
   if (curve.jump_force)
@@ -109,6 +102,11 @@ std::vector<std::string> events(const Results& results) {
   if (results.roller_touched_at)
     all.push_back("a roller bore on a knot or its tail from an extension of " +
                   short_number(*results.roller_touched_at) + " m on");
+  constexpr double kMuchBalanced = 0.1;
+  const double balanced = results.balance_offset.value_or(0.0), plateau = results.true_plateau_force.value_or(0.0);
+  if (plateau > 0.0 && std::abs(balanced) > kMuchBalanced * plateau)
+    all.push_back("the balance set " + short_number(balanced) + " N to zero, of a sliding force that is in truth " +
+                  short_number(plateau) + " N: see true_plateau_force");
   return all;
 }
 
