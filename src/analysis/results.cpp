@@ -149,6 +149,8 @@ void drop_what_does_not_slide(MotionPattern pattern, CurveReadings& curve) {
   }
 }
 
+constexpr double kOpened = 0.05;  // of e, as where a knot jumps open while it is pulled
+
 // A tail that brushes along a roller bears less [of the true force].
 constexpr double kTouch = 0.05;
 
@@ -277,6 +279,10 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
     if (tied) results.tied_excess_length[k] = known(tied->excess_length[k]);
   }
   if (tied) results.tied_knot_distance = known(tied->knot_distance);
+  if (tied && pull_begin) {
+    const double nearer = tied->knot_distance - pull_begin->knot_distance;
+    if (nearer > kOpened * tied->knot_distance) results.opened_when_mounted = nearer;
+  }
 
   const Pull& pull = tracker.pull();
   if (pull.empty()) return results;

@@ -29,6 +29,7 @@ constexpr std::array kOfKnots{"tied_knot_distance", "excess_length", "final_exce
 std::string why_no_error(const std::string& reading, const Results& results, const RunFacts& facts) {
   if (!results.not_equilibrated.empty()) return "the specimen was not at rest before it was pulled";
   if (results.curve.jump_force) return "a knot jumped open, which no convergence study covers";
+  if (results.opened_when_mounted) return "a knot opened as the loop was mounted, which no convergence study covers";
   const std::string none = why_null(reading, results, facts);
   return none.empty() ? "no convergence study covers this case" : none;
 }

@@ -81,9 +81,11 @@ std::optional<double> class_error(const LoadCellOptions& cell, const std::option
   return force ? class_error(cell, *force) : std::nullopt;
 }
 
-/// Of readings whose specimen had not come to rest, or jumped open, no study says how far off they are.
+/// Of readings whose specimen had not come to rest, or whose knots opened, no study says how far off they are.
 ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
-  return results.not_equilibrated.empty() && !results.curve.jump_force ? facts.errors : ReadingErrors{};
+  return results.not_equilibrated.empty() && !results.curve.jump_force && !results.opened_when_mounted
+             ? facts.errors
+             : ReadingErrors{};
 }
 
 std::optional<double> share_of(const std::optional<double>& reading, const std::optional<double>& share) {
@@ -95,6 +97,9 @@ std::optional<double> share_of(const std::optional<double>& reading, const std::
 std::vector<std::string> events(const Results& results) {
   std::vector<std::string> all;
   const CurveReadings& curve = results.curve;
+  if (results.opened_when_mounted)
+    all.push_back("a knot opened as the loop was mounted: before the pull the knots had come nearer to each other by " +
+                  short_number(*results.opened_when_mounted) + " m");
   if (curve.jump_force)
     all.push_back("a knot jumped open at an extension of " + short_number(*curve.jump_extension) +
                   " m: the load fell from " + short_number(*curve.jump_force) + " N to " +
