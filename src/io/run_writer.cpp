@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "knot_utm/io/gravity_warnings.hpp"
 #include "knot_utm/io/null_reasons.hpp"
 #include "knot_utm/io/number.hpp"
 #include "knot_utm/io/run_folder.hpp"
@@ -125,6 +126,17 @@ std::string accuracy_warning(const Results& results, const ReadingErrors& errors
          "error";
 }
 
+std::vector<std::string> told(const Results& results, const RunFacts& facts) {
+  std::vector<std::string> all = events(results);
+  for (const std::vector<std::string>& more :
+       {gravity_warnings(results, facts), speed_warnings(results.rate, facts.inertia), facts.warnings})
+    all.insert(all.end(), more.begin(), more.end());
+  const std::string unsure = accuracy_warning(results, known_errors(results, facts));
+  if (!unsure.empty()) all.push_back(unsure);
+  if (!facts.margin.reason.empty()) all.push_back("no margin: " + facts.margin.reason);
+  return all;
+}
+
 RunWriter::RunWriter(const std::string& folder, const Method& method)
     : folder_(begin(folder, method)),
       curve_((fs::path(folder) / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
@@ -134,6 +146,9 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
     known_.preload = method.specimen.preload.value_or(Sample::kNone);
     known_.foreseen = tying_warnings(method.specimen, method.material, method.physics);
   }
+  known_.radius = method.material.radius;
+  weight_per_length_ =
+      method.physics.gravity.norm() * method.material.density * M_PI * method.material.radius * method.material.radius;
   if (method.specimen.knot == KnotKind::kFisherman && method.machine.grips == GripKind::kRollers)
     radius_on_rollers_ = method.material.radius;
   if (method.analysis.margin)
@@ -156,6 +171,11 @@ void RunWriter::add(const Record& record) {
   if (sample.status == BenchStatus::kFailed) return;
   const bool mounted = sample.phase != Phase::kIdle && sample.phase != Phase::kTie && sample.phase != Phase::kRelease;
   if (mounted && record.shape.cols() > 0 && sample.status != BenchStatus::kBroken) turn_.add(record.shape);
+  if (record.shape.cols() > 1)
+    length_ = (record.shape.rightCols(record.shape.cols() - 1) - record.shape.leftCols(record.shape.cols() - 1))
+                  .colwise()
+                  .norm()
+                  .sum();
   const Sample* reading = cell_reading(record);
   if (reading && (readings_.empty() || reading->time > readings_.back().time)) {
     curve_.write(*reading);
@@ -173,6 +193,8 @@ Results RunWriter::results(EndedBy ended_by) const { return analyse(samples_, re
 RunFacts RunWriter::facts() const {
   RunFacts facts = known_;
   facts.peak_memory = peak_memory();
+  facts.weight = weight_per_length_ * length_;
+  if (radius_on_rollers_) facts.slid_along = turn_.along();
   if (radius_on_rollers_ && turn_.largest() > kTurned * *radius_on_rollers_)
     facts.warnings.push_back("the loop turned around its rollers by " +
                              format_number(std::round(turn_.largest() / *radius_on_rollers_)) +
@@ -196,8 +218,8 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.word("ended_by", ended_by_name(r.ended_by));
   lines.text("reason", f.reason);
   std::vector<std::string> all_warnings = warnings(r);
-  for (const std::vector<std::string>& more :
-       {events(r), speed_warnings(r.rate, f.inertia), warnings(r, f.load_cell), f.foreseen, f.warnings})
+  for (const std::vector<std::string>& more : {events(r), gravity_warnings(r, f), speed_warnings(r.rate, f.inertia),
+                                               warnings(r, f.load_cell), f.foreseen, f.warnings})
     all_warnings.insert(all_warnings.end(), more.begin(), more.end());
   const std::string unsure = accuracy_warning(r, errors);
   if (!unsure.empty()) all_warnings.push_back(unsure);
@@ -222,6 +244,7 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   lines.number("largest_drop", r.curve.largest_drop);
   lines.number("largest_drop_at", r.curve.largest_drop_at);
   lines.number("jump_force", r.curve.jump_force);
+  lines.number("jump_extension", r.curve.jump_extension);
   lines.number("force_after_jump", r.curve.force_after_jump);
   lines.number("first_contact_extension", r.first_contact_extension);
   lines.number("lock_extension", r.lock_extension);
