@@ -193,7 +193,8 @@ def draw_knot_distance(axes, run, marks):
     axes.plot(s[rows], e[rows], color=VIOLET, lw=1.4, label="e")
     known = np.flatnonzero(np.isfinite(e))
     lock = run.value("lock_extension")
-    if lock is not None or run.result.get("motion_pattern") == "sliding":
+    slid = run.result.get("motion_pattern") == "sliding" and run.value("jump_force") is None
+    if lock is not None or slid:
         end = length.scale * lock if lock is not None else s[-1]
         axes.plot([s[known[0]], end], [e[known[0]], e[known[0]] - 2.0 * (end - s[known[0]])], color=GREY, lw=0.9,
                   ls=(0, (4, 3)), label="de/ds = –2: rigid sliding")

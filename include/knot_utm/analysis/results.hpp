@@ -109,8 +109,8 @@ struct Results {
   /// By which the knots came nearer to each other between release and pull, where that is a twentieth of e or more: a
   /// knot opened as the loop was mounted [m].
   std::optional<double> opened_when_mounted;
-  RateShares rate;                                           ///< what speed has a share in
-  double fastest_node = 0.0;                                 ///< of the pull until the knots lock [m/s]
+  RateShares rate;            ///< what speed has a share in
+  double fastest_node = 0.0;  ///< of the pull until the knots lock [m/s]
 
   std::uint64_t steps = 0;
   std::uint64_t rejected_steps = 0;
