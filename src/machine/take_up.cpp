@@ -15,10 +15,12 @@ constexpr double kKnotsMoved = 0.3;  // by which knots slide [h]
 
 }  // namespace
 
-void TakeUp::begin(double displacement, double knot_distance) {
+void TakeUp::begin(double load, double displacement, double knot_distance) {
   *this = TakeUp(taut_, radius_);
   begin_ = displacement;
   knot_distance_ = knot_distance;
+  follow(load, displacement, knot_distance);
+  moved_ = false;
 }
 
 void TakeUp::follow(double load, double displacement, double knot_distance) {

@@ -222,7 +222,7 @@ struct TestBench::Impl {
     } else if (rig->guides() && phase != Phase::kMount) {
       let_loop_go();
     }
-    if (phase == Phase::kMount) take_up.begin(displacement, knot_distance());
+    if (phase == Phase::kMount) take_up.begin(load_on_both(), displacement, knot_distance());
   }
 
   void put_on() {
@@ -245,12 +245,16 @@ struct TestBench::Impl {
     return rig->guides() ? command.speed * take_up.velocity() : 0.0;
   }
 
+  double load_on_both() const { return std::min(grips.force_upper(*stepper), grips.force_lower(*stepper)); }
+
   void follow_tying(double to, double dt) {
     const bool put_on = rig->puts_on();
     rig->follow(*stepper, to, dt);
     if (!mounts() || !rig->guides()) return;
-    if (put_on) take_up.begin(displacement, knot_distance());
-    take_up.follow(std::min(grips.force_upper(*stepper), grips.force_lower(*stepper)), displacement, knot_distance());
+    if (put_on)
+      take_up.begin(load_on_both(), displacement, knot_distance());
+    else
+      take_up.follow(load_on_both(), displacement, knot_distance());
   }
 
   double knot_distance() const {

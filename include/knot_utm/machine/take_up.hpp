@@ -17,9 +17,9 @@ class TakeUp {
   /// A taut loop bears this [N]; radius of the rod [m].
   TakeUp(double taut_load, double radius) : taut_(taut_load), radius_(radius) {}
 
-  void begin(double displacement, double knot_distance);
+  void begin(double load, double displacement, double knot_distance);
 
-  /// After an accepted step: the smaller one of the loads on the two grips [N], where the crosshead is [m], how far
+  /// After an accepted step, as when it begins: the smaller one of the loads on the two grips [N], where the crosshead is [m], how far
   /// the knots are apart [m].
   void follow(double load, double displacement, double knot_distance);
 
