@@ -19,8 +19,8 @@ class TakeUp {
 
   void begin(double load, double displacement, double knot_distance);
 
-  /// After an accepted step, as when it begins: the smaller one of the loads on the two grips [N], where the crosshead is [m], how far
-  /// the knots are apart [m].
+  /// After an accepted step, as when it begins: the smaller one of the loads on the two grips [N], where the crosshead
+  /// is [m], how far the knots are apart [m].
   void follow(double load, double displacement, double knot_distance);
 
   /// Of the crosshead, outwards, in the step's own speed.
