@@ -196,10 +196,10 @@ RunFacts RunWriter::facts() const {
   facts.weight = weight_per_length_ * length_;
   if (radius_on_rollers_) facts.slid_along = turn_.along();
   if (radius_on_rollers_ && turn_.largest() > kTurned * *radius_on_rollers_)
-    facts.warnings.push_back("the loop turned around its rollers by " +
-                             format_number(std::round(turn_.largest() / *radius_on_rollers_)) +
-                             " radii of the rod, which carries its knots along: physics.gravity turns it, and "
-                             "machine.roller_friction holds it");
+    facts.warnings.push_back(
+        "the loop turned around its rollers by " + format_number(std::round(turn_.largest() / *radius_on_rollers_)) +
+        " radii of the rod, which carries its knots along" + (facts.weight > 0.0 ? ": physics.gravity turns it" : "") +
+        "; machine.far_side: held or machine.roller_friction keeps it in place");
   return facts;
 }
 

@@ -232,10 +232,7 @@ struct TestBench::Impl {
   }
 
   /// Guides off: the loop is on the rollers alone.
-  void let_loop_go() {
-    rig->take_guides_off(*stepper, time);
-    grips.hold_far_side(stepper->state().position, grip);
-  }
+  void let_loop_go() { rig->take_guides_off(*stepper, time); }
 
   /// The crosshead takes up the slack by itself, no faster than it is told.
   bool mounts() const { return rig && phase == Phase::kMount; }
@@ -250,6 +247,8 @@ struct TestBench::Impl {
   void follow_tying(double to, double dt) {
     const bool put_on = rig->puts_on();
     rig->follow(*stepper, to, dt);
+    // From here on weight, if there is any, would carry the slack loop round.
+    if (put_on && rig->guides()) grips.hold_far_side(stepper->state().position, grip);
     if (!mounts() || !rig->guides()) return;
     if (put_on)
       take_up.begin(load_on_both(), displacement, knot_distance());
