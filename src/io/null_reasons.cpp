@@ -19,7 +19,8 @@ bool one_of(const std::string& key, const std::array<const char*, N>& keys) {
 }
 
 constexpr std::array kOfBreak{"break_extension", "break_arclength", "energy_to_break"};
-constexpr std::array kOfJump{"jump_force", "jump_extension", "force_after_jump", "true_jump_force", "true_force_after_jump"};
+constexpr std::array kOfJump{"jump_force", "jump_extension", "force_after_jump", "true_jump_force",
+                             "true_force_after_jump"};
 constexpr std::array kOfHold{"hold_force_begin", "hold_force_end", "relaxation"};
 constexpr std::array kOfPlateau{
     "plateau_force", "plateau_force_sd", "plateau_force_low",  "plateau_force_high",   "plateau_force_slope",
