@@ -118,9 +118,10 @@ def extension_limits(run):
 
 
 def near_the_plateau(run):
-    """Loads to show once more: those of sliding, where they are small beside the peak; else None."""
-    plateau, peak = run.value("plateau_force"), run.value("peak_force")
-    if plateau is None or peak is None or peak < MANY * plateau:
+    """Loads to show once more: those of sliding, or up to a knot's jump, where they are small beside the peak; else
+    None."""
+    plateau, peak = run.value("plateau_force") or run.value("jump_force"), run.value("peak_force")
+    if plateau is None or plateau <= 0.0 or peak is None or peak < MANY * plateau:
         return None
     top = max(2.5 * plateau, 1.3 * (run.value("breakaway_force") or 0.0))
     lowest = min(0.0, float(run.curve.tested()["load"].min()))
@@ -192,7 +193,8 @@ def draw_knot_distance(axes, run, marks):
     axes.plot(s[rows], e[rows], color=VIOLET, lw=1.4, label="e")
     known = np.flatnonzero(np.isfinite(e))
     lock = run.value("lock_extension")
-    if lock is not None or run.result.get("motion_pattern") == "sliding":
+    slid = run.result.get("motion_pattern") == "sliding" and run.value("jump_force") is None
+    if lock is not None or slid:
         end = length.scale * lock if lock is not None else s[-1]
         axes.plot([s[known[0]], end], [e[known[0]], e[known[0]] - 2.0 * (end - s[known[0]])], color=GREY, lw=0.9,
                   ls=(0, (4, 3)), label="de/ds = –2: rigid sliding")
@@ -227,6 +229,9 @@ def shade_motion(axes, run):
     touch = run.value("first_contact_extension")
     if touch is not None:
         axes.axvline(scale * touch, color=VIOLET, lw=0.9, ls=(0, (1, 2)))
+    jumped = run.value("jump_extension")
+    if jumped is not None:
+        axes.axvline(scale * jumped, color=RED, lw=0.9, ls=(0, (4, 3)))
     if broke is not None:
         axes.axvline(scale * broke, color=RED, lw=1.1)
 
@@ -236,6 +241,10 @@ def name_motion(axes, run, look):
     lock, broke, length = run.value("lock_extension"), run.value("break_extension"), run.units.length
     end, pattern = end_of_test(run), run.result.get("motion_pattern")
     above = axes.get_xaxis_transform()
+    if run.value("jump_force") is not None:
+        place = length.scale * run.value("jump_extension")
+        axes.text(place, 1.015, "a knot jumped open at " + with_unit(run.value("jump_force"), run.units.force), color=RED,
+                  ha="left" if place < 0.5 * end else "right", fontsize=SMALL, transform=above)
     if lock is not None:
         at, words = length.scale * lock, "lock " + with_unit(lock, length, run.value("lock_extension_error"))
         axes.text(0.5 * at, 0.955, "the knots slide", ha="center", color=GREEN, fontsize=USUAL, transform=above)
@@ -249,6 +258,7 @@ def name_motion(axes, run, look):
     if broke is not None:
         # One line higher where it would stand on the name of the lock.
         near = lock is not None and broke - lock < (0.6 if look.is_narrow else 0.3) * broke
-        axes.text(length.scale * broke, 1.07 if near and look.is_narrow else 1.015,
+        raised = (near and look.is_narrow) or run.value("jump_force") is not None
+        axes.text(length.scale * broke, 1.07 if raised else 1.015,
                   f"break {shown(broke, length.scale)} {length.name}", ha="right", color=RED, fontsize=SMALL,
                   transform=above)

@@ -21,13 +21,14 @@ def time_of_break(marks):
 
 
 def marks_of(run):
-    """Start of the pull, lock, largest load, break and end, in order of time; none where nothing was tested."""
+    """Start of the pull, a knot's jump, lock, largest load, break and end, in order of time; none where nothing was tested."""
     tested = run.curve.tested()
     if not len(tested):
         return []
     pull = run.pull()
     begin = pull if len(pull) else tested
     found = [("start of the pull" if len(pull) else "start", begin, 0)]
+    found += reached(pull, "a knot jumped open", run.value("jump_extension"))
     found += reached(pull, "lock", run.value("lock_extension"))
     largest = largest_load(run)
     if largest:

@@ -51,6 +51,7 @@ GROUPS = [
         "largest_drop": force("Largest sudden fall of the force before the lock"),
         "largest_drop_at": length("Extension at which it began"),
         "jump_force": force("Force at which a knot jumped open"),
+        "jump_extension": length("Extension at which it jumped open"),
         "force_after_jump": force("Force that was left when it had jumped"),
         "first_contact_extension": length("Extension at which the two knots first touch each other"),
         "lock_extension": length("Lock extension, where the motion of the knots shows that they lock"),

@@ -158,14 +158,16 @@ std::optional<Drop> largest_drop(const Pull& pull, double end) {
   return largest_drop(pull, {pull.front().extension, end}, sudden(pull, end));
 }
 
-std::optional<Drop> jump(const Pull& pull, double end) {
+std::optional<Drop> jump(const Pull& pull) {
   if (pull.empty()) return std::nullopt;
   const auto less = [&](const PullPoint& a, const PullPoint& b) { return a.force < b.force; };
   const auto point = [&](std::size_t i) { return pull.begin() + static_cast<std::ptrdiff_t>(i); };
-  double most = kLetOut * pull.front().knot_distance;
+  const double first = pull.front().knot_distance, end = pull.back().extension;
+  const double at_once = kSudden * first / std::abs(kSliding);  // knots have met after half of e at the latest
+  double most = kLetOut * first;
   std::optional<Drop> out;
-  for (std::size_t i = 0; i < pull.size() && pull[i].extension <= end; ++i) {
-    const std::size_t last = last_within(pull, i, sudden(pull, end), end);
+  for (std::size_t i = 0; i < pull.size(); ++i) {
+    const std::size_t last = last_within(pull, i, at_once, end);
     for (std::size_t j = i + 1; j <= last; ++j)
       if (pull[j].force < pull[i].force && let_out(pull[i], pull[j]) > most) {
         most = let_out(pull[i], pull[j]);
@@ -173,7 +175,7 @@ std::optional<Drop> jump(const Pull& pull, double end) {
       }
   }
   if (!out) return std::nullopt;
-  const std::size_t left = last_within(pull, out->to, sudden(pull, end), end);
+  const std::size_t left = last_within(pull, out->to, at_once, end);
   out->to = static_cast<std::size_t>(std::min_element(point(out->to), point(left + 1), less) - pull.begin());
   out->from = static_cast<std::size_t>(std::max_element(point(out->from), point(out->to), less) - pull.begin());
   return out;
@@ -199,17 +201,25 @@ std::string why_interrupted(const Pull& pull, double end, double mean) {
   return text("the load is not level: it falls at once by %.0f %% of its mean", 100.0 * fall->force(pull) / mean);
 }
 
-void read_plateau(const Pull& pull, double end, const std::optional<Drop>& jumped, CurveReadings& out) {
+/// Of the force that the rod bears; empty: there is a plateau.
+std::string why_no_plateau(const Pull& borne, const CurveReadings& found) {
+  const std::optional<Plateau> level = plateau(borne, found.slides_to);
+  if (!level) return "the pull has too few readings";
+  if (found.jumped) return "a knot jumped open";
+  const std::string interrupted = why_interrupted(borne, found.slides_to, level->force);
+  return interrupted.empty() ? why_not_level(*level, found.lock_extension_by_load.has_value()) : interrupted;
+}
+
+/// What the rod bears.
+Pull borne_of(Pull pull) {
+  for (PullPoint& point : pull)
+    if (std::isfinite(point.zero_force)) point.force += point.zero_force;
+  return pull;
+}
+
+void read_plateau(const Pull& pull, CurveReadings& out) {
+  const double end = out.slides_to;
   const std::optional<Plateau> level = plateau(pull, end);
-  if (!level) {
-    out.no_plateau = "the pull has too few readings";
-  } else if (jumped && pull[jumped->from].extension <= plateau_range(pull, end).high) {
-    out.no_plateau = "a knot jumped open";
-  } else {
-    out.no_plateau = why_interrupted(pull, end, level->force);
-    if (out.no_plateau.empty()) out.no_plateau = why_not_level(*level, out.lock_extension_by_load.has_value());
-  }
-  if (!out.no_plateau.empty()) return;
   out.plateau_force = level->force;
   out.plateau_force_sd = level->force_sd;
   out.plateau_force_low = level->low;
@@ -224,20 +234,25 @@ CurveReadings curve_readings(const Pull& pull) {
   CurveReadings out;
   out.no_plateau = "nothing was pulled";
   if (pull.empty()) return out;
+  const Pull borne = borne_of(pull);
+  const std::optional<double> lock = lock_by_load(borne);
+  out.slides_to = lock.value_or(pull.back().extension);
+  out.jumped = jump(borne);
   out.peak_force = peak_force(pull);
-  const std::optional<double> lock = lock_by_load(pull);
-  out.lock_extension_by_load = lock;
-  const double end = lock.value_or(pull.back().extension);
-  const std::optional<Drop> fall = largest_drop(pull, end), jumped = jump(pull, end);
+  const std::optional<Drop> fall = largest_drop(pull, out.slides_to);
   out.largest_drop = fall ? fall->force(pull) : 0.0;
   if (fall) out.largest_drop_at = pull[fall->from].extension;
-  if (jumped) {
-    out.jump_force = pull[jumped->from].force;
-    out.jump_extension = pull[jumped->from].extension;
-    out.force_after_jump = pull[jumped->to].force;
+  if (out.jumped) {
+    out.jump_force = pull[out.jumped->from].force;
+    out.jump_extension = pull[out.jumped->from].extension;
+    out.force_after_jump = pull[out.jumped->to].force;
+  } else {
+    out.lock_extension_by_load = lock;
   }
-  read_plateau(pull, end, jumped, out);
-  if (lock || !out.plateau_force) out.locked_stiffness = locked_stiffness(pull, lock.value_or(pull.front().extension));
+  out.no_plateau = why_no_plateau(borne, out);
+  if (out.no_plateau.empty()) read_plateau(pull, out);
+  if (!out.jumped && (lock || !out.plateau_force))
+    out.locked_stiffness = locked_stiffness(pull, lock.value_or(pull.front().extension));
   return out;
 }
 

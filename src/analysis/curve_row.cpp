@@ -16,10 +16,12 @@ PullPoint point_of(const CurveRow& row, ExtensionOf extension) {
   return {row.time, s, row.knot_distance, row.load};
 }
 
-/// From where the pull began.
+/// From where the pull began. Nothing balances the force on the lower grip.
 PullPoint origin_of(const CurveRow& before, const CurveRow& first, ExtensionOf extension) {
-  if (balanced_between(before, first)) return {before.time, 0.0, before.knot_distance, 0.0};
-  return point_of(before, extension);
+  PullPoint origin = point_of(before, extension);
+  if (balanced_between(before, first)) origin = {before.time, 0.0, before.knot_distance, 0.0};
+  origin.zero_force = before.load_lower - origin.force;
+  return origin;
 }
 
 }  // namespace
@@ -48,13 +50,18 @@ bool balanced_between(const CurveRow& before, const CurveRow& after) {
 
 Pull pull_of(const std::vector<CurveRow>& rows, ExtensionOf extension) {
   Pull pull;
+  bool first = true;
+  double zero_force = Sample::kNone;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!pulls(rows[i].phase)) continue;
-    const PullPoint point = point_of(rows[i], extension);
-    if (pull.empty() && i > 0) {
+    PullPoint point = point_of(rows[i], extension);
+    if (first && i > 0) {
       const PullPoint origin = origin_of(rows[i - 1], rows[i], extension);
+      zero_force = origin.zero_force;
       if (origin.extension < point.extension) pull.push_back(origin);
     }
+    first = false;
+    point.zero_force = zero_force;
     if (pull.empty() || point.extension > pull.back().extension) pull.push_back(point);
   }
   return pull;

@@ -83,18 +83,22 @@ void MotionPatternTracker::add(const Sample& sample) {
   if (sample.status == BenchStatus::kBroken) broken_ = true;
   if (sample.status == BenchStatus::kFailed) return;
   if (sample.phase == Phase::kPull || sample.phase == Phase::kHold) borne_ = sample.force_upper;
-  if (!pulls(sample.phase)) {
-    if (pull_.empty() && (sample.phase == Phase::kTie || sample.phase == Phase::kRelease)) {
-      for (int k = 0; k < 2; ++k) {
-        // The end of tying sets the mark; a release that lets the knot open does not move it.
-        const double excess = sample.excess_length[k];
-        if (std::isfinite(excess) && (sample.phase == Phase::kTie || !std::isfinite(tied_excess_[k]))) {
-          tied_excess_[k] = excess;
-        }
-      }
-    }
-    return;
+  if (pulls(sample.phase))
+    add_pulled(sample);
+  else if (pull_.empty() && (sample.phase == Phase::kTie || sample.phase == Phase::kRelease))
+    add_tied(sample);
+}
+
+/// The end of tying sets the mark; a release that lets the knot open does not move it.
+void MotionPatternTracker::add_tied(const Sample& sample) {
+  for (int k = 0; k < 2; ++k) {
+    const double excess = sample.excess_length[k];
+    if (std::isfinite(excess) && (sample.phase == Phase::kTie || !std::isfinite(tied_excess_[k])))
+      tied_excess_[k] = excess;
   }
+}
+
+void MotionPatternTracker::add_pulled(const Sample& sample) {
   if (!std::isfinite(sample.extension) || !std::isfinite(sample.force_upper)) return;
   for (int k = 0; k < 2; ++k) {
     const double excess = sample.excess_length[k];
@@ -117,18 +121,20 @@ void MotionPatternTracker::add(const Sample& sample) {
     gone_since_ = sample.time;
     gone_extension_ = sample.extension;
   }
+  follow_slope(sample.extension, before);
+}
 
-  if (!(window_ > 0.0) || sample.extension - pull_.front().extension < window_) return;
-  while (window_begin_ + 3 < pull_.size() && sample.extension - pull_[window_begin_ + 1].extension >= window_) {
-    ++window_begin_;
-  }
+/// de/ds over the last window, and how far and where the knots last slid.
+void MotionPatternTracker::follow_slope(double extension, double before) {
+  if (!(window_ > 0.0) || extension - pull_.front().extension < window_) return;
+  while (window_begin_ + 3 < pull_.size() && extension - pull_[window_begin_ + 1].extension >= window_) ++window_begin_;
   const Line line = fit(pull_, window_begin_, pull_.size(), [](const PullPoint& p) { return p.knot_distance; });
   const double slope_before = slope_;
   const double centre_before = centre_;
   const bool first = !std::isfinite(slope_before);
   slope_ = line.slope;
   centre_ = line.mean_s;
-  const double passed = first ? sample.extension - pull_.front().extension : sample.extension - before;
+  const double passed = first ? extension - pull_.front().extension : extension - before;
   if (slope_ < kTurnover) {
     slid_ += passed;
     last_sliding_ = centre_;

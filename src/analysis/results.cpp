@@ -124,16 +124,32 @@ Pull true_pull_of(std::vector<CurveRow> rows, const std::vector<Sample>& reading
   // Balanced, as loads are, so that the origin is zero where a balance made it so.
   for (std::size_t i = 0; i < rows.size(); ++i) rows[i].load = readings[i].force_upper - offset;
   Pull pull = pull_of(rows);
-  for (PullPoint& point : pull) point.force += offset;
+  for (PullPoint& point : pull) {
+    point.force += offset;
+    point.zero_force = 0.0;  // F is what the rod bears
+  }
   return pull;
 }
 
-void drop_plateau(const char* why, CurveReadings& curve) {
+void drop_plateau(const std::string& why, CurveReadings& curve) {
   for (std::optional<double>* reading : {&curve.plateau_force, &curve.plateau_force_sd, &curve.plateau_force_low,
                                          &curve.plateau_force_high, &curve.plateau_force_slope, &curve.breakaway_force})
     reading->reset();
   curve.no_plateau = why;
 }
+
+/// A level force is a sliding force only where knots slide.
+void drop_what_does_not_slide(MotionPattern pattern, CurveReadings& curve) {
+  if (pattern == MotionPattern::kUntangling) {
+    drop_plateau("the knot came undone", curve);  // what is left without a knot is no sliding force
+  } else if (curve.plateau_force && pattern == MotionPattern::kStretching) {
+    drop_plateau("the load is level, but the knots do not slide: they stretch", curve);
+  } else if (curve.plateau_force && pattern == MotionPattern::kNone) {
+    drop_plateau("the load is level, but there are no two knots that slide", curve);
+  }
+}
+
+constexpr double kOpened = 0.05;  // of e, as where a knot jumps open while it is pulled
 
 // A tail that brushes along a roller bears less [of the true force].
 constexpr double kTouch = 0.05;
@@ -147,8 +163,8 @@ void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>
   const std::vector<CurveRow> rows = rows_of(readings);
   const Pull pull = pull_of(rows), true_pull = true_pull_of(rows, readings);
   results.curve = curve_readings(pull);
-  const double end = pull.empty() ? 0.0 : results.curve.lock_extension_by_load.value_or(pull.back().extension);
-  if (const std::optional<Drop> jumped = jump(pull, end)) {
+  if (const std::optional<Drop>& jumped = results.curve.jumped) {
+    results.lock_extension.reset();  // what comes after it is another knot
     results.true_jump_force = true_pull[jumped->from].force;
     results.true_force_after_jump = true_pull[jumped->to].force;
   }
@@ -161,9 +177,9 @@ void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>
   if (results.motion_pattern == MotionPattern::kUntangling ||
       (results.motion_pattern == MotionPattern::kSliding && !locked))
     results.curve.locked_stiffness.reset();
-  // What is left without a knot is no sliding force.
-  if (results.motion_pattern == MotionPattern::kUntangling) drop_plateau("the knot came undone", results.curve);
+  drop_what_does_not_slide(results.motion_pattern, results.curve);
   if (!results.curve.plateau_force) return;
+  const double end = results.curve.slides_to;
   results.true_plateau_force = plateau(true_pull, end)->force;
   results.true_breakaway_force = breakaway_force(true_pull, end);
   results.plateau_slope = known(plateau(pull, end)->slope);
@@ -187,95 +203,144 @@ EnergyParts energy_between(const Sample& from, const Sample& to) {
   return parts;
 }
 
+namespace {
+
+/// One way through all samples, in order.
+class Course {
+ public:
+  Course(const std::vector<Sample>& samples, Results& results) : samples_(samples), results_(results) {
+    for (const Sample& sample : samples) add(sample);
+  }
+
+  const MotionPatternTracker& motion() const { return motion_; }
+  const std::optional<Sample>& at_break() const { return at_break_; }
+  const Sample* before_pull() const { return before_pull_; }
+  const Sample* pull_begin() const { return pull_begin_; }
+  /// Once tied and released; where nothing is tied: when the pull begins.
+  const Sample* tied() const { return tied_ ? tied_ : pull_begin_; }
+
+  void read_balances() const {
+    if (energy_scale_ > 0.0) results_.energy_balance_error = energy_error_ / energy_scale_;
+    if (motion_.pull().empty()) return;
+    const double peak = std::max(peak_force(motion_.pull()), at_break_ ? at_break_->force_upper : 0.0);
+    if (!(peak > 0.0)) return;
+    results_.force_balance_error = imbalance_ / peak;
+    results_.moment_balance_error = moment_imbalance_ / peak;
+  }
+
+ private:
+  void add(const Sample& sample) {
+    const bool recoils = at_break_.has_value();  // says nothing about the test
+    if (sample.status == BenchStatus::kBroken && !recoils) {
+      results_.break_extension = sample.extension;
+      at_break_ = sample;
+    }
+    motion_.add(sample);
+    if (!recoils) results_.max_penetration = std::max(results_.max_penetration, sample.max_penetration);
+    if (sample.status == BenchStatus::kNotEquilibrated) results_.not_equilibrated = sample.message;
+    add_energies(sample);
+    if (sample.phase == Phase::kTie || sample.phase == Phase::kRelease) tied_ = &sample;
+    if (pulls(sample.phase))
+      add_pull(sample, recoils);
+    else if (!pull_begin_)
+      before_pull_ = &sample;
+  }
+
+  void add_energies(const Sample& sample) {
+    const EnergyParts parts = energy_between(samples_.front(), sample);
+    energy_error_ = std::max(energy_error_, std::abs(parts.gap()));
+    energy_scale_ = std::max(
+        {energy_scale_, std::abs(parts.stored + parts.kinetic), std::abs(parts.losses()), std::abs(parts.work)});
+  }
+
+  void add_pull(const Sample& sample, bool recoils) {
+    if (!pull_begin_) {
+      pull_begin_ = &sample;
+      results_.energy = energy_between(before_pull_ ? *before_pull_ : sample, samples_.back());
+    }
+    if (recoils) return;
+    keep_first(sample, sample.knots_force, 0.0, results_.first_contact_extension);
+    keep_first(sample, sample.knot_on_roller, kTouch * std::abs(sample.force_upper), results_.roller_touched_at);
+    imbalance_ = std::max(imbalance_, std::abs(sample.force_upper - sample.force_lower));
+    moment_imbalance_ = std::max(moment_imbalance_, sample.moment_imbalance / sample.end_to_end);
+  }
+
+  const std::vector<Sample>& samples_;
+  Results& results_;
+  MotionPatternTracker motion_;
+  double imbalance_ = 0.0;
+  double moment_imbalance_ = 0.0;  // over L [N]
+  double energy_error_ = 0.0, energy_scale_ = 0.0;
+  std::optional<Sample> at_break_;
+  const Sample* before_pull_ = nullptr;
+  const Sample* pull_begin_ = nullptr;
+  const Sample* tied_ = nullptr;
+};
+
+void read_motion(const std::vector<Sample>& samples, const MotionPatternTracker& motion, Results& results) {
+  results.motion_pattern = motion.pattern();
+  results.motion_pattern_confidence = motion.confidence();
+  results.lock_extension = motion.lock_extension();
+  results.fastest_node = fastest_node_while_sliding(samples, results.lock_extension);
+  results.untangled_at = motion.untangled_at();
+  results.rate = rate_shares(samples, results.lock_extension, results.untangled_at);
+  results.failure_mode = failure_mode(results);
+}
+
+void read_end(const Sample& last, Results& results) {
+  results.knot_type = last.knot_type;
+  results.break_arclength = known(last.break_arclength);
+  results.break_place = last.break_place;
+  results.steps = last.steps;
+  results.rejected_steps = last.rejected_steps;
+  results.newton_iterations = last.newton_iterations;
+  results.simulated_time = last.time;
+  for (std::size_t k = 0; k < 2; ++k) results.final_excess_length[k] = known(last.excess_length[k]);
+}
+
+void read_holds_and_cycles(const std::vector<Sample>& samples, Results& results) {
+  results.relaxation = last_relaxation(samples);
+  const std::vector<Cycle> cycles = last_cycles(samples);
+  results.cycles = cycles.size();
+  if (!cycles.empty()) results.hysteresis = cycles.back().hysteresis;
+}
+
+void read_tied(const Course& course, Results& results) {
+  const Sample *tied = course.tied(), *pull_begin = course.pull_begin();
+  if (pull_begin) results.balance_offset = pull_begin->balance_offset;
+  if (!tied) return;
+  for (std::size_t k = 0; k < 2; ++k) results.tied_excess_length[k] = known(tied->excess_length[k]);
+  results.tied_knot_distance = known(tied->knot_distance);
+  if (!pull_begin) return;
+  const double nearer = tied->knot_distance - pull_begin->knot_distance;
+  if (nearer > kOpened * tied->knot_distance) results.opened_when_mounted = nearer;
+}
+
+void read_whole_pull(const Course& course, Results& results) {
+  const Pull& pull = course.motion().pull();
+  if (pull.empty()) return;
+  std::optional<Sample> origin, at_break = course.at_break();
+  if (course.before_pull()) origin = origin_of(*course.pull_begin(), *course.before_pull());
+  if (at_break && at_break->balance_offset != course.pull_begin()->balance_offset) at_break.reset();  // another s
+  read_pull(with_ends(pull, origin, at_break), results);
+}
+
+}  // namespace
+
 Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) { return analyse(samples, samples, ended_by); }
 
 Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by) {
   Results results;
   results.ended_by = ended_by;
   if (samples.empty()) return results;
-
-  MotionPatternTracker tracker;
-  double imbalance = 0.0;
-  double moment_imbalance = 0.0;  // over L [N]
-  double energy_error = 0.0;
-  double energy_scale = 0.0;
-  bool broken = false;
-  std::optional<Sample> at_break;
-  const Sample& first = samples.front();
-  const Sample* before_pull = nullptr;
-  const Sample* pull_begin = nullptr;
-  const Sample* tied = nullptr;
-  for (const Sample& sample : samples) {
-    const bool recoils = broken;  // says nothing about the test
-    if (sample.status == BenchStatus::kBroken && !broken) {
-      broken = true;
-      results.break_extension = sample.extension;
-      at_break = sample;
-    }
-    tracker.add(sample);
-    if (!recoils) results.max_penetration = std::max(results.max_penetration, sample.max_penetration);
-    if (sample.status == BenchStatus::kNotEquilibrated) results.not_equilibrated = sample.message;
-    const EnergyParts parts = energy_between(first, sample);
-    energy_error = std::max(energy_error, std::abs(parts.gap()));
-    energy_scale = std::max(
-        {energy_scale, std::abs(parts.stored + parts.kinetic), std::abs(parts.losses()), std::abs(parts.work)});
-    if (sample.phase == Phase::kTie || sample.phase == Phase::kRelease) tied = &sample;
-    if (!pulls(sample.phase)) {
-      if (!pull_begin) before_pull = &sample;
-      continue;
-    }
-    if (!pull_begin) {
-      pull_begin = &sample;
-      results.energy = energy_between(before_pull ? *before_pull : sample, samples.back());
-    }
-    if (recoils) continue;
-    keep_first(sample, sample.knots_force, 0.0, results.first_contact_extension);
-    keep_first(sample, sample.knot_on_roller, kTouch * std::abs(sample.force_upper), results.roller_touched_at);
-    imbalance = std::max(imbalance, std::abs(sample.force_upper - sample.force_lower));
-    moment_imbalance = std::max(moment_imbalance, sample.moment_imbalance / sample.end_to_end);
-  }
-  results.knot_type = samples.back().knot_type;
-  results.break_arclength = known(samples.back().break_arclength);
-  results.break_place = samples.back().break_place;
-  results.motion_pattern = tracker.pattern();
-  results.motion_pattern_confidence = tracker.confidence();
-  results.lock_extension = tracker.lock_extension();
-  results.fastest_node = fastest_node_while_sliding(samples, results.lock_extension);
-  results.untangled_at = tracker.untangled_at();
-  results.rate = rate_shares(samples, results.lock_extension, results.untangled_at);
-  results.failure_mode = failure_mode(results);
-  read_curve(readings, at_break, results);
-  if (energy_scale > 0.0) results.energy_balance_error = energy_error / energy_scale;
-
-  results.relaxation = last_relaxation(samples);
-  const std::vector<Cycle> cycles = last_cycles(samples);
-  results.cycles = cycles.size();
-  if (!cycles.empty()) results.hysteresis = cycles.back().hysteresis;
-  if (!tied) tied = pull_begin;
-  if (pull_begin) results.balance_offset = pull_begin->balance_offset;
-  const Sample& last = samples.back();
-  results.steps = last.steps;
-  results.rejected_steps = last.rejected_steps;
-  results.newton_iterations = last.newton_iterations;
-  results.simulated_time = last.time;
-  for (std::size_t k = 0; k < 2; ++k) {
-    results.final_excess_length[k] = known(last.excess_length[k]);
-    if (tied) results.tied_excess_length[k] = known(tied->excess_length[k]);
-  }
-  if (tied) results.tied_knot_distance = known(tied->knot_distance);
-
-  const Pull& pull = tracker.pull();
-  if (pull.empty()) return results;
-  const double peak = std::max(peak_force(pull), at_break ? at_break->force_upper : 0.0);
-  if (peak > 0.0) {
-    results.force_balance_error = imbalance / peak;
-    results.moment_balance_error = moment_imbalance / peak;
-  }
-
-  std::optional<Sample> origin;
-  if (before_pull) origin = origin_of(*pull_begin, *before_pull);
-  if (at_break && at_break->balance_offset != pull_begin->balance_offset) at_break.reset();  // another s
-  read_pull(with_ends(pull, origin, at_break), results);
+  const Course course(samples, results);
+  read_end(samples.back(), results);
+  read_motion(samples, course.motion(), results);
+  read_curve(readings, course.at_break(), results);
+  course.read_balances();
+  read_holds_and_cycles(samples, results);
+  read_tied(course, results);
+  read_whole_pull(course, results);
   return results;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "knot_utm/io/number.hpp"
+
 namespace knot_utm {
 namespace {
 
@@ -12,7 +14,8 @@ bool one_of(const std::string& key, const std::array<const char*, N>& keys) {
 }
 
 constexpr std::array kOfBreak{"break_extension", "break_arclength", "energy_to_break"};
-constexpr std::array kOfJump{"jump_force", "force_after_jump", "true_jump_force", "true_force_after_jump"};
+constexpr std::array kOfJump{"jump_force", "jump_extension", "force_after_jump", "true_jump_force",
+                             "true_force_after_jump"};
 constexpr std::array kOfHold{"hold_force_begin", "hold_force_end", "relaxation"};
 constexpr std::array kOfPlateau{
     "plateau_force", "plateau_force_sd", "plateau_force_low",  "plateau_force_high",   "plateau_force_slope",
@@ -22,11 +25,15 @@ constexpr std::array kOfKnots{"tied_knot_distance", "excess_length", "final_exce
 std::string why_no_error(const std::string& reading, const Results& results, const RunFacts& facts) {
   if (!results.not_equilibrated.empty()) return "the specimen was not at rest before it was pulled";
   if (results.curve.jump_force) return "a knot jumped open, which no convergence study covers";
+  if (results.opened_when_mounted) return "a knot opened as the loop was mounted, which no convergence study covers";
   const std::string none = why_null(reading, results, facts);
   return none.empty() ? "no convergence study covers this case" : none;
 }
 
 std::string why_no_lock(const Results& results) {
+  if (results.curve.jump_force)
+    return "a knot jumped open at " + short_number(*results.curve.jump_force) +
+           " N, and the load-extension curve after it is that of another knot";
   switch (results.motion_pattern) {
     case MotionPattern::kSliding:
       return "the knots still slid at the end of the pull";
@@ -43,6 +50,7 @@ std::string why_no_lock(const Results& results) {
 /// Of what any pull has.
 std::string why_not_of_the_pull(const std::string& key, const Results& results) {
   if (key == "lock_extension") return results.lock_extension ? "" : why_no_lock(results);
+  if (key == "lock_extension_by_load" && results.curve.jump_force) return why_no_lock(results);
   if (key == "lock_extension_by_load")
     return results.curve.lock_extension_by_load ? ""
                                                 : "there is no plateau, or the load does not stay above twice its mean";

@@ -24,6 +24,14 @@ std::string format_yaml_number(double value) {
   return text;
 }
 
+std::string short_number(double value) {
+  if (!std::isfinite(value)) return format_number(value);
+  std::array<char, 32> text{};
+  const std::to_chars_result end =
+      std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
+  return std::string(text.data(), end.ptr);
+}
+
 std::optional<double> parse_number(std::string_view text) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (text == ".inf" || text == ".Inf" || text == "+.inf" || text == "inf") return kInfinity;

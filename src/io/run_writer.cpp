@@ -1,11 +1,10 @@
 #include "knot_utm/io/run_writer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
+#include "knot_utm/io/gravity_warnings.hpp"
 #include "knot_utm/io/null_reasons.hpp"
 #include "knot_utm/io/number.hpp"
 #include "knot_utm/io/run_folder.hpp"
@@ -82,9 +81,11 @@ std::optional<double> class_error(const LoadCellOptions& cell, const std::option
   return force ? class_error(cell, *force) : std::nullopt;
 }
 
-/// Of readings whose specimen had not come to rest, or jumped open, no study says how far off they are.
+/// Of readings whose specimen had not come to rest, or whose knots opened, no study says how far off they are.
 ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
-  return results.not_equilibrated.empty() && !results.curve.jump_force ? facts.errors : ReadingErrors{};
+  return results.not_equilibrated.empty() && !results.curve.jump_force && !results.opened_when_mounted
+             ? facts.errors
+             : ReadingErrors{};
 }
 
 std::optional<double> share_of(const std::optional<double>& reading, const std::optional<double>& share) {
@@ -94,13 +95,11 @@ std::optional<double> share_of(const std::optional<double>& reading, const std::
 }  // namespace
 
 std::vector<std::string> events(const Results& results) {
-  const auto short_number = [](double value) {
-    std::array<char, 32> text{};
-    std::snprintf(text.data(), text.size(), "%.3g", value);
-    return std::string(text.data());
-  };
   std::vector<std::string> all;
   const CurveReadings& curve = results.curve;
+  if (results.opened_when_mounted)
+    all.push_back("a knot opened as the loop was mounted: before the pull the knots had come nearer to each other by " +
+                  short_number(*results.opened_when_mounted) + " m");
   if (curve.jump_force)
     all.push_back("a knot jumped open at an extension of " + short_number(*curve.jump_extension) +
                   " m: the load fell from " + short_number(*curve.jump_force) + " N to " +
@@ -108,6 +107,11 @@ std::vector<std::string> events(const Results& results) {
   if (results.roller_touched_at)
     all.push_back("a roller bore on a knot or its tail from an extension of " +
                   short_number(*results.roller_touched_at) + " m on");
+  constexpr double kMuchBalanced = 0.1;
+  const double balanced = results.balance_offset.value_or(0.0), plateau = results.true_plateau_force.value_or(0.0);
+  if (plateau > 0.0 && std::abs(balanced) > kMuchBalanced * plateau)
+    all.push_back("the balance set " + short_number(balanced) + " N to zero, of a sliding force that is in truth " +
+                  short_number(plateau) + " N: see true_plateau_force");
   return all;
 }
 
@@ -121,6 +125,17 @@ std::string accuracy_warning(const Results& results, const ReadingErrors& errors
          "error";
 }
 
+std::vector<std::string> told(const Results& results, const RunFacts& facts) {
+  std::vector<std::string> all = events(results);
+  for (const std::vector<std::string>& more :
+       {gravity_warnings(results, facts), speed_warnings(results.rate, facts.inertia), facts.warnings})
+    all.insert(all.end(), more.begin(), more.end());
+  const std::string unsure = accuracy_warning(results, known_errors(results, facts));
+  if (!unsure.empty()) all.push_back(unsure);
+  if (!facts.margin.reason.empty()) all.push_back("no margin: " + facts.margin.reason);
+  return all;
+}
+
 RunWriter::RunWriter(const std::string& folder, const Method& method)
     : folder_(begin(folder, method)),
       curve_((fs::path(folder) / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
@@ -130,6 +145,9 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
     known_.preload = method.specimen.preload.value_or(Sample::kNone);
     known_.foreseen = tying_warnings(method.specimen, method.material, method.physics);
   }
+  known_.radius = method.material.radius;
+  weight_per_length_ =
+      method.physics.gravity.norm() * method.material.density * M_PI * method.material.radius * method.material.radius;
   if (method.specimen.knot == KnotKind::kFisherman && method.machine.grips == GripKind::kRollers)
     radius_on_rollers_ = method.material.radius;
   if (method.analysis.margin)
@@ -152,6 +170,11 @@ void RunWriter::add(const Record& record) {
   if (sample.status == BenchStatus::kFailed) return;
   const bool mounted = sample.phase != Phase::kIdle && sample.phase != Phase::kTie && sample.phase != Phase::kRelease;
   if (mounted && record.shape.cols() > 0 && sample.status != BenchStatus::kBroken) turn_.add(record.shape);
+  if (record.shape.cols() > 1)
+    length_ = (record.shape.rightCols(record.shape.cols() - 1) - record.shape.leftCols(record.shape.cols() - 1))
+                  .colwise()
+                  .norm()
+                  .sum();
   const Sample* reading = cell_reading(record);
   if (reading && (readings_.empty() || reading->time > readings_.back().time)) {
     curve_.write(*reading);
@@ -169,11 +192,13 @@ Results RunWriter::results(EndedBy ended_by) const { return analyse(samples_, re
 RunFacts RunWriter::facts() const {
   RunFacts facts = known_;
   facts.peak_memory = peak_memory();
+  facts.weight = weight_per_length_ * length_;
+  if (radius_on_rollers_) facts.slid_along = turn_.along();
   if (radius_on_rollers_ && turn_.largest() > kTurned * *radius_on_rollers_)
-    facts.warnings.push_back("the loop turned around its rollers by " +
-                             format_number(std::round(turn_.largest() / *radius_on_rollers_)) +
-                             " radii of the rod, which carries its knots along: physics.gravity turns it, and "
-                             "machine.roller_friction holds it");
+    facts.warnings.push_back(
+        "the loop turned around its rollers by " + format_number(std::round(turn_.largest() / *radius_on_rollers_)) +
+        " radii of the rod, which carries its knots along" + (facts.weight > 0.0 ? ": physics.gravity turns it" : "") +
+        "; machine.far_side: held or machine.roller_friction keeps it in place");
   return facts;
 }
 
@@ -188,7 +213,8 @@ namespace {
 std::vector<std::string> all_warnings(const Results& r, const RunFacts& f, const ReadingErrors& errors) {
   std::vector<std::string> all = warnings(r);
   for (const std::vector<std::string>& more :
-       {events(r), speed_warnings(r.rate, f.inertia), warnings(r, f.load_cell), f.foreseen, f.warnings})
+       {events(r), gravity_warnings(r, f), speed_warnings(r.rate, f.inertia), warnings(r, f.load_cell), f.foreseen,
+        f.warnings})
     all.insert(all.end(), more.begin(), more.end());
   const std::string unsure = accuracy_warning(r, errors);
   if (!unsure.empty()) all.push_back(unsure);
@@ -230,6 +256,7 @@ void add_sliding(const Results& r, const RunFacts& f, const ReadingErrors& error
   lines.number("largest_drop", r.curve.largest_drop);
   lines.number("largest_drop_at", r.curve.largest_drop_at);
   lines.number("jump_force", r.curve.jump_force);
+  lines.number("jump_extension", r.curve.jump_extension);
   lines.number("force_after_jump", r.curve.force_after_jump);
 }
 

@@ -36,7 +36,10 @@ std::vector<std::string> speed_warnings(const RateShares& rate, double inertia) 
   std::vector<std::string> all;
   const double by_drag = rate.drag.value_or(0.0), by_inertia = rate.inertia.value_or(0.0);
   const double by_own = by_inertia / std::min(1.0, inertia);
-  if (by_drag > kFast)
+  if (by_drag > 1.0)
+    all.push_back("drag takes " + two_digits(by_drag) +
+                  " times the work of the pull: the specimen moves by something else than the pull");
+  else if (by_drag > kFast)
     all.push_back("drag makes up " + in_per_cent(by_drag) +
                   " of the force until the knots lock: choose a smaller physics.drag or pull more slowly");
   if (by_inertia > kFast)

@@ -60,7 +60,7 @@ struct ShortTests {
     if (program.ended_by() == EndedBy::kUntangled) return Outcome::kOpened;
     if (program.ended_by() == EndedBy::kSolver) return Outcome::kFailed;
     const Results results = analyse(samples, program.ended_by());
-    const bool opened = results.curve.jump_force || results.untangled_at;
+    const bool opened = results.curve.jump_force || results.untangled_at || results.opened_when_mounted;
     return opened ? Outcome::kOpened : Outcome::kHeld;
   }
 };

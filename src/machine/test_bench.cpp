@@ -15,6 +15,7 @@
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/step_settings.hpp"
+#include "knot_utm/machine/take_up.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/sim/saved_step.hpp"
 #include "knot_utm/sim/step_control.hpp"
@@ -26,9 +27,8 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kGripStretch = 2.4;   // of a tail's grip when it slips [h]
-constexpr double kTakeUpLoad = 0.02;   // slack is taken up once the load has risen by this much [k_b/h^2] ...
-constexpr double kTakeUpMotion = 0.3;  // ... or once the knots have moved by this much [h]
+constexpr double kGripStretch = 2.4;  // of a tail's grip when it slips [h]
+constexpr double kTautLoad = 0.03;    // of a loop whose slack is taken up [k_b/h^2]
 
 constexpr double kShortestStep = 0.01;  // below it the run gives up, where that is less than usual [bending time]
 
@@ -65,8 +65,8 @@ struct TestBench::Impl {
   double exposure = 0.0;    // share of the way to a break
   double recoil_end = 0.0;  // of a rod that has just parted [s]
   BreakPlace break_place = BreakPlace::kNone;
-  double mount_load = 0.0;      // when mounting began [N]
-  double mount_distance = 0.0;  // of the knots when mounting began [m]
+  TakeUp take_up;
+  double travel_tried = 0.0;  // of the crosshead, in the step that is being made [m]
   int step_index = -1;
   Phase phase = Phase::kIdle;
   Vec3 gravity;            // on the mass that is accelerated [m/s^2]
@@ -125,6 +125,7 @@ struct TestBench::Impl {
       watch.emplace(rig ? rig->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
                     centreline.points);
     }
+    take_up = TakeUp(kTautLoad * specimen_scales(material).force, material.radius);
     extension_zero = grips.end_to_end(grip);
     has_weight = !specimen.to_be_tied;
     apply_gravity();
@@ -152,7 +153,9 @@ struct TestBench::Impl {
     const double whole = command.time - start_time;
     // A recoil may go on behind the command; the crosshead does not.
     const double share = whole > 0.0 ? std::min(1.0, (to - start_time) / whole) : 1.0;
-    const double travel = start_displacement + share * (command.displacement - start_displacement);
+    const double travel = mounts() ? displacement + mounting_speed(command) * (to - from)
+                                   : start_displacement + share * (command.displacement - start_displacement);
+    travel_tried = travel;
     // Of what was last accepted alone: a step that is tried again at another length begins from the same.
     grip_tried = frame.rigid()
                      ? travel
@@ -218,7 +221,7 @@ struct TestBench::Impl {
     } else if (rig->guides() && phase != Phase::kMount) {
       let_loop_go();
     }
-    if (phase == Phase::kMount) begin_mounting();
+    if (phase == Phase::kMount) take_up.begin(load_on_both(), displacement, knot_distance());
   }
 
   void put_on() {
@@ -228,20 +231,28 @@ struct TestBench::Impl {
   }
 
   /// Guides off: the loop is on the rollers alone.
-  void let_loop_go() {
-    rig->take_guides_off(*stepper, time);
-    grips.hold_far_side(stepper->state().position, grip);
+  void let_loop_go() { rig->take_guides_off(*stepper, time); }
+
+  /// The crosshead takes up the slack by itself, no faster than it is told.
+  bool mounts() const { return rig && phase == Phase::kMount; }
+
+  /// It stands while the loop is put on [m/s].
+  double mounting_speed(const Command& command) const {
+    return rig->guides() ? command.speed * take_up.velocity() : 0.0;
   }
 
-  void begin_mounting() {
-    mount_distance = knot_distance();
-    mount_load = std::min(grips.force_upper(*stepper), grips.force_lower(*stepper));
-  }
+  double load_on_both() const { return std::min(grips.force_upper(*stepper), grips.force_lower(*stepper)); }
 
-  bool slack_taken_up() const {
-    const double load = std::min(grips.force_upper(*stepper), grips.force_lower(*stepper));
-    return load - mount_load >= kTakeUpLoad * material.bending_stiffness / (material.radius * material.radius) ||
-           (rig && std::abs(knot_distance() - mount_distance) > kTakeUpMotion * material.radius);
+  void follow_tying(double to, double dt) {
+    const bool put_on = rig->puts_on();
+    rig->follow(*stepper, to, dt);
+    // From here on weight, if there is any, would carry the slack loop round.
+    if (put_on && rig->guides()) grips.hold_far_side(stepper->state().position, grip);
+    if (!mounts() || !rig->guides()) return;
+    if (put_on)
+      take_up.begin(load_on_both(), displacement, knot_distance());
+    else
+      take_up.follow(load_on_both(), displacement, knot_distance());
   }
 
   double knot_distance() const {
@@ -304,7 +315,7 @@ struct TestBench::Impl {
         done = !rig || rig->released();
         break;
       case Phase::kMount:
-        done = !rig || (rig->guides() && slack_taken_up());
+        done = !rig || (rig->guides() && take_up.done());
         break;
       default:
         break;
@@ -371,14 +382,14 @@ struct TestBench::Impl {
   }
 
   void state(Archive& archive) {
-    archive.section("BNCJ");  // "BNCI" had no word on weight, "BNCG" was tied on the rollers
+    archive.section("BNCK");  // "BNCJ" mounted as far as its commands went
     int parted_edge = stepper->parted_edge();
     archive.number("parted edge", parted_edge, -1, static_cast<int>(stepper->rod().edges()) - 1);
     if (archive.loads() && parted_edge >= 0) stepper->part(parted_edge);
     archive.choice("place of the break", break_place, BreakPlace::kGrip);
     archive(exposure);
-    archive(time, displacement, grip, extension_zero, raw_extension_zero, mount_load, mount_distance, step_index,
-            has_weight, work, message);
+    archive(time, displacement, grip, extension_zero, raw_extension_zero, take_up, step_index, has_weight, work,
+            message);
     archive.choice("phase", phase, Phase::kDone);
     archive(pulled);
     archive.choice("status", status, BenchStatus::kFailed);
@@ -410,10 +421,12 @@ struct TestBench::Impl {
           return boundary_at(command, from, to, start.time, start.displacement);
         },
         [&](double to, double dt, const StepSummary&) {
-          displacement = to < command.time ? start.displacement + speed * (to - start.time) : command.displacement;
+          displacement = mounts()            ? travel_tried
+                         : to < command.time ? start.displacement + speed * (to - start.time)
+                                             : command.displacement;
           grip = frame.rigid() ? displacement : grip_tried;
           work += stepper->work();
-          if (rig) rig->follow(*stepper, to, dt);
+          if (rig) follow_tying(to, dt);
           if (touch) touch->follow(*stepper);
           watch_for_break(dt);
           substeps.push_back(read(command, to));
@@ -433,7 +446,6 @@ struct TestBench::Impl {
       extension_zero = grips.end_to_end(grip);
       raw_extension_zero = displacement;
     }
-    const bool puts_on = rig && rig->puts_on();
     std::string gave_up = advance(command, {time, displacement}, command.time);
     if (parted()) {
       gave_up = advance(command, {time, displacement}, recoil_end);
@@ -443,11 +455,10 @@ struct TestBench::Impl {
       message = gave_up;
       failed_step = save_step(*stepper, boundary, time, control.last_tried());
     } else {
-      displacement = command.displacement;
+      if (!mounts()) displacement = command.displacement;
       if (frame.rigid()) grip = displacement;
       // What the knots and the load do while they are let go is not the slack's.
       if (rig && rig->released() && phase != Phase::kRelease && phase != Phase::kHold) put_on();
-      if (puts_on && rig->guides()) begin_mounting();
       if (rig && rig->guides() && phase != Phase::kMount) let_loop_go();
       judge_phase();
     }

@@ -325,12 +325,13 @@ void TestProgram::begin_step(const Sample& sample) {
   turns_ = 0;
   load_control_.begin();
   break_detector_.begin();
-  begin_leg(first_velocity(step()));
+  begin_leg(sample, first_velocity(step()));
 }
 
-void TestProgram::begin_leg(double velocity) {
+/// Mounting, the crosshead takes up the slack by itself, and says where it is.
+void TestProgram::begin_leg(const Sample& sample, double velocity) {
   leg_.begin = last_.sequence;
-  leg_.displacement = last_.displacement;
+  leg_.displacement = last_.phase == Phase::kMount ? sample.displacement : last_.displacement;
   leg_.velocity = velocity;
 }
 
@@ -342,30 +343,33 @@ void TestProgram::steer(const Sample& sample) {
     return load_control_.meeting(sample, load, period(), s.speed, creeps);
   };
   switch (s.phase) {
+    case Phase::kMount:
+      begin_leg(sample, s.speed);
+      break;
     case Phase::kPreload:
-      begin_leg(balancing_ ? 0.0 : s.load_rate ? velocity_at_load_rate(sample) : meet(s.load, true));
+      begin_leg(sample, balancing_ ? 0.0 : s.load_rate ? velocity_at_load_rate(sample) : meet(s.load, true));
       break;
     case Phase::kPull:
       if (s.load_rate) {
-        begin_leg(velocity_at_load_rate(sample));
+        begin_leg(sample, velocity_at_load_rate(sample));
       } else if (s.until.load) {
         const double speed = meet(*s.until.load, false);
-        if (speed != leg_.velocity) begin_leg(speed);
+        if (speed != leg_.velocity) begin_leg(sample, speed);
       }
       break;
     case Phase::kHold:
-      if (s.hold_load) begin_leg(load_control_.following(sample, wanted_load_, period(), s.speed));
+      if (s.hold_load) begin_leg(sample, load_control_.following(sample, wanted_load_, period(), s.speed));
       break;
     case Phase::kCycle:
-      begin_leg(velocity_of_cycle(sample));
+      begin_leg(sample, velocity_of_cycle(sample));
       break;
     case Phase::kReturn: {
       const double to_extension = std::min(0.0, velocity_to_extension(s.return_extension - sample.extension));
-      begin_leg(s.until.load ? std::max(to_extension, -meet(*s.until.load, true)) : to_extension);
+      begin_leg(sample, s.until.load ? std::max(to_extension, -meet(*s.until.load, true)) : to_extension);
       break;
     }
     case Phase::kFollow:
-      begin_leg((recorded_way(next_time) - recorded_way(seconds(last_.sequence - step_begin_))) / period());
+      begin_leg(sample, (recorded_way(next_time) - recorded_way(seconds(last_.sequence - step_begin_))) / period());
       break;
     default:
       break;

@@ -18,6 +18,7 @@ constexpr double kRestSpeed = 0.0063;  // [radii/s]
 SpecimenScales specimen_scales(const Material& material) {
   const double h = material.radius;
   SpecimenScales out;
+  out.force = material.bending_stiffness / (h * h);
   out.mass = material.density * M_PI * h * h;
   out.own_time = h * h * std::sqrt(out.mass / material.bending_stiffness);
   out.rest_speed = kRestSpeed * h;

@@ -25,7 +25,6 @@
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/io/shipped.hpp"
-#include "knot_utm/io/speed_warnings.hpp"
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/margin.hpp"
 #include "knot_utm/machine/run_test.hpp"
@@ -247,11 +246,7 @@ Results write_results(const Test& test, Writers& writers, const WallClock& clock
   const Results results = writers.run.results(test.program.ended_by());
   facts.margin = margin_of(test, results);
   writers.run.finish(results, facts, test.bench.state().position);
-  for (const std::vector<std::string>& all :
-       {events(results), speed_warnings(results.rate, facts.inertia), facts.warnings})
-    for (const std::string& warning : all) std::fprintf(stderr, "%s: %s\n", kTool, warning.c_str());
-  const std::string unsure = accuracy_warning(results, facts.errors);
-  if (!unsure.empty()) std::fprintf(stderr, "%s: %s\n", kTool, unsure.c_str());
+  for (const std::string& warning : told(results, facts)) std::fprintf(stderr, "%s: %s\n", kTool, warning.c_str());
   return results;
 }
 

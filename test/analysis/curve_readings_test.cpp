@@ -124,6 +124,35 @@ TEST(CurveReadings, AKnotThatJumpsOpenHasTheForceAtWhichItDidAndNoPlateau) {
   EXPECT_NEAR(*curve_readings(large).jump_force, 1e3 * *jumped.jump_force, 1e-6);
 }
 
+TEST(CurveReadings, NoLockAndNoStiffnessStandBehindAJump) {
+  const CurveReadings jumped = curve_readings(with_knots(pull(sliding), 0.02));
+  EXPECT_FALSE(jumped.lock_extension_by_load);
+  EXPECT_FALSE(jumped.locked_stiffness);
+}
+
+/// Its load rises from nothing to its breakaway and then only falls, which looks like a lock.
+TEST(CurveReadings, AKnotThatJumpsBehindItsPeakDidSo) {
+  Pull falling = pull([](double s) { return s < 0.01 ? 600.0 * s : std::max(0.1, 6.0 - 150.0 * (s - 0.01)); });
+  for (PullPoint& point : falling)
+    point.knot_distance = 0.2 - 2.0 * point.extension - (point.extension > 0.03 ? 0.03 : 0.0);
+  EXPECT_TRUE(curve_readings(falling).jump_force);
+}
+
+TEST(CurveReadings, AreJudgedByTheForceThatTheRodBears) {
+  const Pull borne = with_knots(pull(sliding), 0.0);
+  const CurveReadings a = curve_readings(borne);
+  Pull balanced = borne;
+  for (PullPoint& point : balanced) {
+    point.force -= 3.6;
+    point.zero_force = 3.6;
+  }
+  const CurveReadings b = curve_readings(balanced);
+  ASSERT_TRUE(a.plateau_force && b.plateau_force);
+  EXPECT_NEAR(*b.plateau_force, *a.plateau_force - 3.6, 1e-9);
+  EXPECT_NEAR(*b.lock_extension_by_load, *a.lock_extension_by_load, 1e-9);
+  EXPECT_NEAR(*b.locked_stiffness, *a.locked_stiffness, 1e-6 * *a.locked_stiffness);
+}
+
 TEST(CurveReadings, AMeanOverKnotsThatHoldIsNone) {
   const CurveReadings readings = curve_readings(with_knots(pull(sliding), 0.0, -1.0));
   EXPECT_TRUE(readings.lock_extension_by_load);

@@ -47,7 +47,7 @@ TEST_F(OneNumber, OfABalancedCellWithoutErrors) {
   const YAML::Node result = run({kWhole});
   expect_that_compare_says(result);
   const double offset = result["balance_offset"].as<double>();
-  EXPECT_GT(offset, 0.5);
+  EXPECT_GT(offset, 0.05);
   for (const std::string key : {"plateau_force", "breakaway_force", "peak_force"}) {
     const double load = result[key].as<double>();
     EXPECT_NEAR(result["true_" + key].as<double>(), load + offset, 1e-12 * load + 1e-12) << key;

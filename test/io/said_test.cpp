@@ -8,11 +8,13 @@
 
 #include "io/command.hpp"
 #include "io/own_folder.hpp"
+#include "knot_utm/io/run_folder.hpp"
 
 namespace knot_utm {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 /// A loop that is tied and pulled in a second or two, with more to set.
 class Said : public OwnFolder {
@@ -54,6 +56,76 @@ TEST_F(Said, AKnotThatJumpedOpenIsNotReadAsOneThatSlides) {
   EXPECT_TRUE(result["lock_extension_error"].IsNull());
   EXPECT_GT(result["true_jump_force"].as<double>(), 2.0 * result["true_force_after_jump"].as<double>());
   EXPECT_THAT(result["no_plateau_because"].as<std::string>(), HasSubstr("a knot jumped open"));
+}
+
+/// Its load follows 17 mm behind where the other knot's distance stops falling.
+TEST_F(Said, AfterAJumpThereIsNoLock) {
+  const YAML::Node result = run("--set material=nylon --set specimen.preload=40 --set material.breaking_force=none");
+  ASSERT_FALSE(result["jump_force"].IsNull());
+  EXPECT_GT(result["jump_extension"].as<double>(), 0.0);
+  EXPECT_GT(result["peak_force"].as<double>(), 1000.0);
+  for (const char* key : {"lock_extension", "lock_extension_error", "lock_extension_by_load", "locked_stiffness",
+                          "locked_stiffness_error", "plateau_force"})
+    EXPECT_TRUE(result[key].IsNull()) << key;
+  EXPECT_THAT(read_whole(folder() + "/result.yaml"), HasSubstr("locked_stiffness: null  # a knot jumped open at "));
+}
+
+/// Of loops that bear different loads as they are put on.
+TEST_F(Said, TheBalanceTakesLittleOfThePlateau) {
+  for (const char* length : {"0.25", "0.3", "0.5"}) {
+    const YAML::Node result =
+        run("--overwrite --set material=polypropylene --set specimen.end_to_end=" + std::string(length));
+    ASSERT_FALSE(result["true_plateau_force"].IsNull()) << length;
+    EXPECT_LT(result["balance_offset"].as<double>(), 0.08 * result["true_plateau_force"].as<double>()) << length;
+    EXPECT_THAT(said_, Not(HasSubstr("balance"))) << length;
+  }
+}
+
+TEST_F(Said, WhatTheBalanceTookOfALowPlateau) {
+  run("--set material=polypropylene --set specimen.handedness=opposite");
+  EXPECT_THAT(said_, HasSubstr("the balance set 0."));
+  EXPECT_THAT(said_, HasSubstr("see true_plateau_force"));
+}
+
+TEST_F(Said, TheSameWithAndWithoutABalance) {
+  const std::string begin =
+                        "--overwrite --set material=polypropylene --set 'program=[{tie: {}}, {release: {}}, {mount: "
+                        "{}}, ",
+                    end = "{pull: {until: {extension: 0.12}}}]' ";
+  for (const std::string more : {"", "--set material.friction_coefficient=0.45"}) {
+    const YAML::Node balanced = run(begin + "{balance: {}}, " + end + more), as_it_is = run(begin + end + more);
+    const char* key = more.empty() ? "true_plateau_force" : "true_jump_force";
+    ASSERT_FALSE(balanced[key].IsNull());
+    ASSERT_FALSE(as_it_is[key].IsNull());
+    // The guides go a command earlier where nothing is balanced.
+    EXPECT_NEAR(as_it_is[key].as<double>() / balanced[key].as<double>(), 1.0, more.empty() ? 0.02 : 0.15);
+    EXPECT_EQ(as_it_is["lock_extension"].IsNull(), balanced["lock_extension"].IsNull());
+  }
+}
+
+TEST_F(Said, AnOverhandDoesNotSlide) {
+  const YAML::Node result = run(
+      "--set 'specimen={knot: overhand, length: 0.5, edge_length: 0.004}' --set 'material={radius: 0.002, density: "
+      "1100, stretching_stiffness: 2e4, bending_stiffness: 2e-5, twisting_stiffness: 2e-5, friction_coefficient: 0.3}' "
+      "--set machine.grips=clamps --set 'program=[{hold: {duration: 5}}, {balance: {}}, {pull: {until: {load: 20}}}]'");
+  EXPECT_EQ(result["motion_pattern"].as<std::string>(), "none");
+  EXPECT_TRUE(result["plateau_force"].IsNull());
+  EXPECT_FALSE(result["no_plateau_because"].IsNull());
+}
+
+TEST_F(Said, WhatGravityMayDo) {
+  run("--set material=polypropylene --set 'physics.gravity=[9.81, 0, 0]'");
+  EXPECT_THAT(said_, HasSubstr("the rod weighs 0.3"));
+  EXPECT_THAT(said_, HasSubstr("% of the sliding force"));
+  run("--overwrite --set material=polypropylene --set 'physics.gravity=[0, 9.81, 0]' --set 'program=[{tie: {}}, "
+      "{release: {}}, {mount: {}}, {balance: {}}, {pull: {until: {extension: 0.005}}}]'");
+  EXPECT_THAT(said_, HasSubstr("the loop slid along the axes of its rollers by "));
+}
+
+TEST_F(Said, WhyThereIsNoMargin) {
+  run("--set material=green_vps --set analysis.margin=true --set 'program=[{tie: {}}, {release: {}}, {mount: {}}, "
+      "{balance: {}}, {pull: {until: {extension: 0.02}}}]'");
+  EXPECT_THAT(said_, HasSubstr("no margin: the knots did not slide"));
 }
 
 TEST_F(Said, ALoopHeldByTwoNodesHasNoSlidingForce) {

@@ -49,7 +49,7 @@ TEST_F(Untangled, ToBeWatchedItIsNoFailure) {
 TEST_F(Untangled, NotWhatIsMountedAndPulledAsItWasTied) {
   const Answer answer = test(
       "--set specimen.preload=20 --set 'program=[{tie: {}}, {mount: {}}, {balance: {}}, {pull: {until: "
-      "{extension: 0.005}}}]'");
+      "{extension: 0.01}}}]'");
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_THAT(result(), AllOf(HasSubstr("ended_by: extension\n"), HasSubstr("knot_type_preserved: true\n"),
                               HasSubstr("motion_pattern: sliding\n")));

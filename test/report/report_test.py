@@ -469,6 +469,18 @@ class Figures(unittest.TestCase):
             sizes = [text.get_fontsize() for text in figure.findobj(matplotlib.text.Text) if text.get_text().strip()]
             self.assertGreaterEqual(min(sizes), style.SMALL)
 
+    def test_show_where_a_knot_jumped_open_and_the_small_loads(self):
+        run = Run(with_report(fisherman, jump_force=1.626, jump_extension=0.0121, lock_extension=None, plateau_force=None,
+                              lock_extension_by_load=None, locked_stiffness=None))
+        found, drawn = marks.marks_of(run), []
+        self.assertIn("a knot jumped open", [mark.title() for mark in found])
+        self.addCleanup(setattr, curve_figures, "as_svg", curve_figures.as_svg)
+        curve_figures.as_svg = lambda figure, *_: drawn.append(figure) or ""
+        curve_figures.force_extension(run, found, style.LOOKS[0])
+        texts = [text.get_text() for text in drawn[0].findobj(matplotlib.text.Text)]
+        self.assertIn("a knot jumped open at 1.626 N", texts)
+        self.assertIn("small loads [N]", texts)
+
     def test_of_scripts_picture_are_of_the_same_style(self):
         source = read(ROOT, "scripts/picture")
         self.assertNotRegex(source, r"#[0-9a-fA-F]{6}|fontsize=\d")

@@ -15,6 +15,7 @@ struct PullPoint {
   double knot_distance = Sample::kNone;  ///< e [m]
   double force = 0.0;                    ///< F on the upper grip [N]
   double normal_force = Sample::kNone;   ///< sum over all contacts of strands [N]
+  double zero_force = Sample::kNone;     ///< what the rod bears where F is 0 [N]; NaN: not known, F counts
 };
 using Pull = std::vector<PullPoint>;
 
@@ -56,12 +57,13 @@ struct Drop {
 /// The largest fall of F on the way to s = `end`; none where F only rises.
 std::optional<Drop> largest_drop(const Pull& pull, double end);
 
-/// A knot that jumped open lets out rod at once: within a twentieth of the way to s = `end` the knots come nearer to
-/// each other by more than twice what the grips moved apart, which is all that sliding can do, and more than that by a
-/// twentieth of the first e; and F falls. The fall is that from the largest F in there to the smallest from then on,
-/// within another twentieth. None where no knot did, or e is not known. In simulations of drawn methods those that
-/// jumped let out 6 to 65 % of e, and all others at most 4 %, as their knots nested into each other.
-std::optional<Drop> jump(const Pull& pull, double end);
+/// A knot that jumped open lets out rod at once: within a twentieth of half the first e, which is about the way to the
+/// lock, the knots come nearer to each other by more than twice what the grips moved apart, which is all that sliding
+/// can do, and more than that by a twentieth of the first e; and F falls. The fall is that from the largest F in there
+/// to the smallest from then on, within as long a way. None where no knot did, or e is not known. In simulations of
+/// drawn methods those that jumped let out 6 to 65 % of e, and all others at most 4 %, as their knots nested into each
+/// other. It does not ask for a lock: a load that rises to its breakaway and then falls has a false one.
+std::optional<Drop> jump(const Pull& pull);
 
 /// Slope of F(s) where the rod carries the load: over the points from s = `from` on, up to the peak, whose F lies
 /// between half the peak and the peak, at least the last three. The middle one of the least-squares slopes in three
@@ -71,6 +73,8 @@ std::optional<double> locked_stiffness(const Pull& pull, double from);
 /// What a force-extension curve says by itself, be it measured or simulated. A test's own, those of its load cell, are
 /// in result.yaml by the same names and to the last digit.
 struct CurveReadings {
+  double slides_to = 0.0;            ///< s of the lock by the load, of whatever knot; else of the pull's end [m]
+  std::optional<Drop> jumped;        ///< of the points of the pull, where a knot jumped open
   std::optional<double> peak_force;  ///< [N]
   std::optional<double>
       plateau_force;  ///< mean F before the lock, or to the end of a pull without one, where it is a plateau [N]
@@ -89,9 +93,14 @@ struct CurveReadings {
   std::optional<double> locked_stiffness;        ///< behind s_l; of the whole pull where there is no plateau [N/m]
 };
 
+/// What the curve is, is judged by the force that the rod bears, F + `PullPoint::zero_force`, so that it is the same
+/// whether something was balanced or not. The readings themselves are of F.
+///
 /// A mean of F is a plateau where the knots slide and F is level in between:
-///   - nothing jumped open before the range ends;
+///   - nothing jumped open before the lock: what comes after a jump is another knot, which has no lock and no stiffness
+///     of its own here either;
 ///   - where e is known, de/ds lies within a quarter of the -2 of rigid sliding: half-way to -1, where sliding ends;
+///   - F does not fall at once by more than half of its mean: that would be a mean of before and behind;
 ///   - F changes over the range by less than it would if it grew in proportion to s from the beginning of the pull,
 ///     10/11 of its mean: such a force has no level of its own. Where neither a lock nor e tells that anything slides,
 ///     by less than half of its mean.

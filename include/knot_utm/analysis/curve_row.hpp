@@ -15,7 +15,7 @@ struct CurveRow {
   double load = 0.0;                     ///< [N]
   double knot_distance = Sample::kNone;  ///< e [m]; NaN: no two knots
   double end_to_end = 0.0;               ///< L [m]; NaN: not known, of a measured curve
-  double load_lower = 0.0;               ///< [N]
+  double load_lower = Sample::kNone;     ///< [N]; NaN: not known, of a measured curve
   Phase phase = Phase::kIdle;
   double corrected_extension = Sample::kNone;  ///< s where the frame is compliant [m]; NaN: it is rigid, or not known
 };
@@ -31,7 +31,7 @@ enum class ExtensionOf { kSpecimen, kMachine };
 
 /// The rows in which the specimen is pulled (pulls(phase)) that reach a new largest extension. Before them, as their
 /// origin, stands the row before the first of them, as a rule that of the balance. Where a balance lies between the
-/// two, the origin is s = 0 and F = 0, as it makes them.
+/// two, the origin is s = 0 and F = 0, as it makes them. What the rod bears there is told by the lower grip.
 Pull pull_of(const std::vector<CurveRow>& rows, ExtensionOf extension = ExtensionOf::kSpecimen);
 
 }  // namespace knot_utm

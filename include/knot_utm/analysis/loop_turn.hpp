@@ -6,7 +6,7 @@
 
 namespace knot_utm {
 
-/// How far a loop goes around its rollers, shape by shape.
+/// How far a loop goes around its rollers and along their axes (y), shape by shape.
 ///
 /// The rod runs from one knot over the upper roller, down the far side and around the lower roller to the other knot.
 /// Half-way between its highest and its lowest node, its outer fifths aside, lies the middle of the far side. Pulling
@@ -20,9 +20,13 @@ class LoopTurn {
   /// Largest way since then [m]. Known to the length of an edge.
   double largest() const { return largest_; }
 
+  /// Largest way along the rollers' axes, of the loop's middle half [m].
+  double along() const { return along_; }
+
  private:
   std::optional<double> first_;  ///< arclength of the middle of the far side, from the middle of the rod [m]
   double largest_ = 0.0;
+  double first_y_ = 0.0, along_ = 0.0;
 };
 
 }  // namespace knot_utm

@@ -65,6 +65,9 @@ class MotionPatternTracker {
   const Pull& pull() const { return pull_; }
 
  private:
+  void add_tied(const Sample& sample);
+  void add_pulled(const Sample& sample);
+  void follow_slope(double extension, double before);
   bool slid() const;
   bool opened() const;
   bool knot_lost() const;

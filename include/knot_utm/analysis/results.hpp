@@ -106,8 +106,11 @@ struct Results {
   std::optional<double> tied_knot_distance;                  ///< e [m]
   std::array<std::optional<double>, 2> tied_excess_length;   ///< rod hidden in each knot [m]
   std::array<std::optional<double>, 2> final_excess_length;  ///< and at the end of the test [m]
-  RateShares rate;                                           ///< what speed has a share in
-  double fastest_node = 0.0;                                 ///< of the pull until the knots lock [m/s]
+  /// By which the knots came nearer to each other between release and pull, where that is a twentieth of e or more: a
+  /// knot opened as the loop was mounted [m].
+  std::optional<double> opened_when_mounted;
+  RateShares rate;            ///< what speed has a share in
+  double fastest_node = 0.0;  ///< of the pull until the knots lock [m/s]
 
   std::uint64_t steps = 0;
   std::uint64_t rejected_steps = 0;

@@ -13,6 +13,9 @@ std::string format_number(double value);
 /// The same as every YAML reader takes it for a number: ".nan", ".inf", "-.inf", and a point before an exponent.
 std::string format_yaml_number(double value);
 
+/// To three digits, for sentences.
+std::string short_number(double value);
+
 /// The whole text as a number ("1", "-2.5e-3", ".inf", "nan"); nothing where it is not one.
 std::optional<double> parse_number(std::string_view text);
 

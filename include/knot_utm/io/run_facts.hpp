@@ -23,6 +23,9 @@ struct RunFacts {
   double wall_time = 0.0;             ///< [s]
   std::uint64_t peak_memory = 0;      ///< of the process [bytes]; 0: not known
   double inertia = 1.0;               ///< mass that is accelerated, over the rod's own [-]
+  double weight = 0.0;                ///< of the rod where gravity acts on it [N]
+  double slid_along = 0.0;            ///< of a loop on rollers along their axes, at most [m]
+  double radius = 0.0;                ///< of the rod [m]
   LoadCellOptions load_cell;          ///< that read the forces
   Specification specification;        ///< what the user asks of the results
   std::string version;                ///< of this package

@@ -45,6 +45,8 @@ class RunWriter {
   RunFacts known_;
   std::vector<Sample> samples_;              ///< every time step, that of an answer as it was answered
   std::vector<Sample> readings_;             ///< of the load cell: the rows of curve.csv
+  double weight_per_length_ = 0.0;           ///< of the rod [N/m]
+  double length_ = 0.0;                      ///< of the rod as it was last seen [m]
   LoopTurn turn_;                            ///< since it was mounted, of a loop on rollers
   std::optional<double> radius_on_rollers_;  ///< of the rod [m]; empty: it is not a loop on rollers
   CurveWriter curve_;
@@ -56,6 +58,9 @@ std::vector<std::string> events(const Results& results);
 
 /// One line where the specimen had not come to rest, or the plateau force may be off by more than a tenth; else empty.
 std::string accuracy_warning(const Results& results, const ReadingErrors& errors);
+
+/// All that is said on the console, too, a line each.
+std::vector<std::string> told(const Results& results, const RunFacts& facts);
 
 /// result.yaml: the keys in a fixed order, SI units, null for what is not there; warnings of the results first.
 std::string result_yaml(const Results& results, const RunFacts& facts);

@@ -114,7 +114,7 @@ class TestProgram {
   bool reached(double load, double target, double sense, double tolerance) const;
   void take_balance(const Sample& sample);
   void begin_step(const Sample& sample);
-  void begin_leg(double velocity);
+  void begin_leg(const Sample& sample, double velocity);
   void steer(const Sample& sample);
   double velocity_to_extension(double left) const;
   double velocity_of_cycle(const Sample& sample);

@@ -17,6 +17,7 @@ namespace knot_utm {
 /// is one that tau has no part in, as long as tau is much shorter than a second and the strands do not jump; where they
 /// jump, it decides what they jump to. Rods have tau = 8e-9 (a stiff thread) to 8 s (a soft hawser).
 struct SpecimenScales {
+  double force = 0.0;       ///< F_0 [N]
   double own_time = 0.0;    ///< tau of the material's mass [s]
   double mass = 0.0;        ///< m of the material's density, per length [kg/m]
   double rest_speed = 0.0;  ///< slower than this it is at rest [m/s]
