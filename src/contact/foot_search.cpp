@@ -105,13 +105,24 @@ void FootSearch::begin(const Points& position, const std::vector<int>& segments)
   }
 }
 
-void FootSearch::look(const Lanes& a0, const Lanes& a1, const Candidates::Run* begin, const Candidates::Run* end) {
-  sieve_.sieve(a0, a1, begin, end);
-  for (int p = 0; p < 2; ++p) {
-    const int point = static_cast<int>(points_.size());
-    points_.push_back(p == 0 ? a0 : a1);
-    for (const int* segment = sieve_.begin(p); segment != sieve_.end(p); ++segment) pairs_.push_back({point, *segment});
-  }
+void FootSearch::look(const Lanes& point, const Candidates::Run* begin, const Candidates::Run* end) {
+  look_at<1>(&point, begin, end);
+}
+
+void FootSearch::look(const Lanes& first, const Lanes& second, const Candidates::Run* begin,
+                      const Candidates::Run* end) {
+  const Lanes points[2] = {first, second};
+  look_at<2>(points, begin, end);
+}
+
+template <int Count>
+void FootSearch::look_at(const Lanes* points, const Candidates::Run* begin, const Candidates::Run* end) {
+  sieve_.sieve<Count>(points, begin, end);
+  const int number = static_cast<int>(points_.size());
+  for (int p = 0; p < 2; ++p) points_.push_back(points[std::min(p, Count - 1)]);
+  for (int p = 0; p < Count; ++p)
+    for (const int* segment = sieve_.begin(p); segment != sieve_.end(p); ++segment)
+      pairs_.push_back({number + p, *segment});
 }
 
 void FootSearch::find() {

@@ -39,31 +39,36 @@ void FootSieve::set_centreline(const Points& position) {
   }
 }
 
-void FootSieve::sieve(const Lanes& a0, const Lanes& a1, const Candidates::Run* begin, const Candidates::Run* end) {
-  const Lanes* a[2] = {&a0, &a1};
-  std::size_t count[2] = {0, 0};
+template <int Count>
+void FootSieve::sieve(const Lanes* points, const Candidates::Run* begin, const Candidates::Run* end) {
+  std::size_t count[Count] = {};
   for (const Candidates::Run* run = begin; run != end; ++run) {
     const int first = run->first / kLanes, last = run->last / kLanes;
-    Lanes before[2] = {};
+    Lanes before[Count] = {};
     if (first > 0)
-      for (int p = 0; p < 2; ++p) before[p] = edges_[static_cast<std::size_t>(first - 1)].slope(*a[p]);
+      for (int p = 0; p < Count; ++p) before[p] = edges_[static_cast<std::size_t>(first - 1)].slope(points[p]);
     for (int i = first; i <= last; ++i) {
       const FourEdges& four = edges_[static_cast<std::size_t>(i)];
-      LanesMask left[2];
-      for (int p = 0; p < 2; ++p) {
-        const Lanes ends = four.slope(*a[p]);
+      LanesMask left[Count];
+      LanesMask some = {};
+      for (int p = 0; p < Count; ++p) {
+        const Lanes ends = four.slope(points[p]);
         const Lanes begins = one_later(before[p], ends);
         left[p] = (begins < four.least_begin) & (ends >= four.least_end);
         before[p] = ends;
+        some |= left[p];
       }
-      if (!any(left[0] | left[1])) continue;
+      if (!any(some)) continue;
       const int low = std::max(run->first - kLanes * i, 0), high = std::min(run->last - kLanes * i, kLanes - 1);
       for (int lane = low; lane <= high; ++lane)
-        for (int p = 0; p < 2; ++p)
+        for (int p = 0; p < Count; ++p)
           if (left[p][lane]) left_[p][count[p]++] = kLanes * i + lane;
     }
   }
-  std::copy_n(count, 2, count_);
+  std::copy_n(count, Count, count_);
 }
+
+template void FootSieve::sieve<1>(const Lanes*, const Candidates::Run*, const Candidates::Run*);
+template void FootSieve::sieve<2>(const Lanes*, const Candidates::Run*, const Candidates::Run*);
 
 }  // namespace knot_utm

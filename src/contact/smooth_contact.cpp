@@ -11,8 +11,10 @@ namespace knot_utm {
 namespace {
 
 constexpr double kUnknown = -1.0;     // share of a foot that recalls none yet
-constexpr double kSharpest = 1.0;     // turn of the centreline at a node that is no longer resolved [rad]
+constexpr double kSharpest = 2.0;     // turn of the centreline at a node that is no longer resolved [rad]
 constexpr double kReachMargin = 0.3;  // feet are followed up to this gap [fraction of radius]
+constexpr double kDeepest = 0.5;      // overlap of a contact that may begin [fraction of radius]
+constexpr double kShort = 0.7;        // a segment with one point of integration is at most so long [fraction of radius]
 
 /// Arclength at rest of parameter u on a segment: from the middle of one edge to the middle of the next.
 double arclength_at(const Eigen::VectorXd& arclength, int segment, double u) {
@@ -51,7 +53,11 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
   accepted_.begin.assign(2 * static_cast<std::size_t>(nodes) + 1, 0);
   iterate_ = accepted_;
   moved_.resize(static_cast<std::size_t>(nodes));
-  outwards_ = Eigen::VectorXd::Constant(nodes, PointWeights::kWholeShare);
+  for (const double length : voronoi_) whole_.push_back(length <= kShort * rod.material.radius);
+}
+
+double SmoothContact::parameter(int segment, int point) const {
+  return whole_[static_cast<std::size_t>(segment)] ? kWholeSegment : kIntegrationPoints[point];
 }
 
 void SmoothContact::begin_step() {
@@ -73,18 +79,26 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
     const auto node = static_cast<Eigen::Index>(i);
     moved_[i] = to_lanes(position.col(node).data()) - to_lanes(start.col(node).data());
   }
+  if (outwards_.size() == 0) put_outwards(start);
   search_.begin(position, segments);
   for (const int segment : segments) {
     const SegmentParabola& c = search_.parabola(segment);
     const Lanes outwards = outwards_[segment] * c.k;
     const auto point = [&](double u) { return c.m + u * c.t + (0.5 * u * u) * c.k - outwards; };
-    search_.look(point(kIntegrationPoints[0]), point(kIntegrationPoints[1]), candidates_.begin(segment),
-                 candidates_.end(segment));
+    const Candidates::Run *begin = candidates_.begin(segment), *end = candidates_.end(segment);
+    if (whole_[static_cast<std::size_t>(segment)])
+      search_.look(point(kWholeSegment), begin, end);
+    else
+      search_.look(point(kIntegrationPoints[0]), point(kIntegrationPoints[1]), begin, end);
   }
   search_.find();
   for (std::size_t i = 0; i < search_.feet().size();) i = follow(i);
   for (Tracked& foot : tracked_) {
-    if (foot.memory.share < 0.0) foot.memory.share = share(search_.feet()[foot.foot], position);
+    if (foot.memory.share < 0.0) {
+      foot.memory.share = share(search_.feet()[foot.foot], position);
+      foot.memory.outwards = outwards(search_.feet()[foot.foot], position);
+      foot.memory.inside = !first_step_ && overlap(foot) > kDeepest * 0.5 * diameter_;
+    }
     if (takes_part(foot)) add_contact(foot);
   }
   evaluate_forces(normal_, friction_, friction_.scale(dt), contacts_);
@@ -93,12 +107,12 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
 std::size_t SmoothContact::follow(std::size_t foot) {
   const std::vector<FootSearch::Foot>& feet = search_.feet();
   const int point = feet[foot].point;
-  const double arclength_a = arclength_at(arclength_, segment_of(point), kIntegrationPoints[point % 2]);
+  const double arclength_a = arclength_at(arclength_, segment_of(point), parameter(segment_of(point), point % 2));
   const std::size_t first = tracked_.size();
   for (; foot < feet.size() && feet[foot].point == point; ++foot) {
     const double arclength_b = arclength_at(arclength_, feet[foot].segment, feet[foot].u);
     if (std::abs(arclength_a - arclength_b) < candidates_.exclusion()) continue;
-    tracked_.push_back({{arclength_b, kUnknown, -1.0, Vec3::Zero(), false}, foot, kNone});
+    tracked_.push_back({{arclength_b, kUnknown, 0.0, -1.0, Vec3::Zero(), false, false}, foot, kNone});
   }
   recall(row_of(point), first);
   return foot;
@@ -130,36 +144,40 @@ void SmoothContact::recall(std::size_t row, std::size_t first) {
   }
 }
 
+double SmoothContact::overlap(const Tracked& foot) const {
+  return diameter_ - search_.feet()[foot.foot].x[3] + foot.memory.outwards;
+}
+
 bool SmoothContact::takes_part(const Tracked& foot) const {
-  const double overlap = diameter_ - search_.feet()[foot.foot].x[3];
-  return foot.memory.pressed || foot.memory.pressure > 0.0 || overlap > 2.0 * normal_.begin();
+  if (foot.memory.inside) return false;
+  return foot.memory.pressed || foot.memory.pressure > 0.0 || overlap(foot) > 2.0 * normal_.begin();
 }
 
 void SmoothContact::add_contact(Tracked& tracked) {
   const FootSearch::Foot& foot = search_.feet()[tracked.foot];
   const int segment = segment_of(foot.point);
-  const double u = foot.u;
+  const double u = foot.u, u_a = parameter(segment, foot.point % 2);
   tracked.contact = contacts_.size();
   ContactPoint& contact = contacts_.emplace_back();
   contact.point = foot.point % 2;
   contact.a0 = segment - 1;
   contact.b0 = foot.segment - 1;
-  const PointWeights wa(kIntegrationPoints[contact.point], outwards_[segment]);
+  const PointWeights wa(u_a, outwards_[segment]);
   const SegmentWeights wb(u);
   for (int k = 0; k < 3; ++k) {
     contact.c[k] = wa.value[k];
     contact.c[3 + k] = -wb.value[k];
     contact.beta[3 + k] = wb.derivative[k];
   }
-  contact.arclength_a = arclength_at(arclength_, segment, kIntegrationPoints[contact.point]);
+  contact.arclength_a = arclength_at(arclength_, segment, u_a);
   contact.arclength_b = tracked.memory.arclength_b;
   contact.d = foot.x[3];
   contact.x = to_vec3(foot.x);
   contact.n = to_vec3((1.0 / contact.d) * foot.x);
-  contact.overlap = diameter_ - contact.d;
+  contact.overlap = overlap(tracked);
   contact.begins = normal_.begin();
   contact.share = tracked.memory.share;
-  contact.weight = 0.5 * voronoi_[segment] * contact.share;
+  contact.weight = (whole_[static_cast<std::size_t>(segment)] ? 1.0 : 0.5) * voronoi_[segment] * contact.share;
   contact.estimate = tracked.memory.pressure;
   contact.memory = tracked.memory.slip;
   const SegmentParabola& c = search_.parabola(foot.segment);
@@ -196,13 +214,13 @@ ContactMotion SmoothContact::motion(const ContactPoint& contact, const Points& p
   const Vec3 x = contact.x - out.slip;
   const double uphill = x.dot(contact.db - turn);
   const double d2 = x.squaredNorm() - uphill * uphill * contact.inverse_g;
-  out.overlap_before = diameter_ - std::sqrt(std::max(d2, 0.0));
+  out.overlap_before = contact.overlap + contact.d - std::sqrt(std::max(d2, 0.0));
   return out;
 }
 
 double SmoothContact::share(const FootSearch::Foot& foot, const Points& position) const {
   const int segment = segment_of(foot.point);
-  const double ua = kIntegrationPoints[foot.point % 2];
+  const double ua = parameter(segment, foot.point % 2);
   const Vec3 x = to_vec3(foot.x);
   const Vec3 da = combine(SegmentWeights(ua).derivative, position, segment);
   const Vec3 db = combine(SegmentWeights(foot.u).derivative, position, foot.segment);
@@ -212,6 +230,15 @@ double SmoothContact::share(const FootSearch::Foot& foot, const Points& position
   // Where each strand stands in the other's centre of curvature neither side has a foot that means anything.
   constexpr double kBlind = 1e-4;
   return b4 / (a4 + b4 + kBlind);
+}
+
+double SmoothContact::outwards(const FootSearch::Foot& foot, const Points& position) const {
+  const int last = static_cast<int>(position.cols()) - 2;
+  const int other = foot.u < 0.5 ? std::max(foot.segment - 1, 1) : std::min(foot.segment + 1, last);
+  const double away = std::abs(foot.u - 0.5);
+  const Vec3 moved = (1.0 - away) * outwards_[foot.segment] * second_difference(position, foot.segment) +
+                     away * outwards_[other] * second_difference(position, other);
+  return -to_vec3(foot.x).dot(moved) / foot.x[3];
 }
 
 void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
@@ -226,7 +253,9 @@ void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
       if (contact) memory.pressure = contact->estimate;
       continue;
     }
+    memory.inside = memory.inside && overlap(tracked) > 0.0;
     memory.share += catch_up_ * (share(foot, *accepted) - memory.share);
+    memory.outwards += catch_up_ * (outwards(foot, *accepted) - memory.outwards);
     memory.pressure = contact ? contact->pressure : 0.0;
     const bool sticks = friction_.on() && friction_.remembers() && contact && contact->touches();
     memory.slip = sticks ? Vec3(friction_.presliding * contact->z) : Vec3::Zero();
@@ -235,6 +264,7 @@ void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
 }
 
 void SmoothContact::put_outwards(const Points& position) {
+  outwards_.setZero(position.cols());
   for (int i = 1; i + 1 < static_cast<int>(position.cols()); ++i) {
     const double turn2 = second_difference(position, i).squaredNorm() / (voronoi_[i] * voronoi_[i]);
     const double left = std::max(0.0, 1.0 - turn2 / (kSharpest * kSharpest));
@@ -245,9 +275,10 @@ void SmoothContact::put_outwards(const Points& position) {
 void SmoothContact::commit(const Points& position) {
   put_outwards(position);
   remember(&position, accepted_);
+  first_step_ = false;
 }
 
-void SmoothContact::Memory::state(Archive& archive) { archive(arclength_b, share, pressure, slip); }
+void SmoothContact::Memory::state(Archive& archive) { archive(arclength_b, share, outwards, pressure, slip, inside); }
 
 void SmoothContact::MemoryList::state(Archive& archive) {
   archive.list(entries);
@@ -258,8 +289,9 @@ void SmoothContact::MemoryList::state(Archive& archive) {
 }
 
 void SmoothContact::state(Archive& archive) {
-  archive.section("SMTH");
-  archive(outwards_, candidates_, accepted_);
+  archive.section("SMTI");  // "SMTH" did not know how far feet stand outwards
+  archive.list(outwards_);
+  archive(candidates_, accepted_, first_step_);
 }
 
 }  // namespace knot_utm

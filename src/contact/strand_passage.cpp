@@ -17,7 +17,7 @@ Lanes load(const Points& points, Eigen::Index i) { return Lanes{points(0, i), po
 
 }  // namespace
 
-StrandPassage::StrandPassage(Eigen::Index nodes) {
+StrandPassage::StrandPassage(Eigen::Index nodes, bool bare_ends) : bare_ends_(bare_ends) {
   pieces_.emplace_back(static_cast<std::size_t>(nodes - 1));
   while (pieces_.back().size() > 1) pieces_.emplace_back((pieces_.back().size() + 1) / 2);
 }
@@ -115,7 +115,14 @@ std::optional<Passage> StrandPassage::edges_meet(int a, int b) const {
   };
   const std::optional<EdgeMeeting> at = meeting(pair(*start_), pair(*end_));
   if (!at) return std::nullopt;
-  return Passage{a, b, at->on_a, at->on_b};
+  const Passage passage{a, b, at->on_a, at->on_b};
+  if (bare_ends_ && !closed_ && slips_over_an_end(passage)) return std::nullopt;
+  return passage;
+}
+
+bool StrandPassage::slips_over_an_end(const Passage& passage) const {
+  const int last = static_cast<int>(start_->cols()) - 2;
+  return (passage.edge_a == 0 && passage.on_a < 0.5) || (passage.edge_b == last && passage.on_b > 0.5);
 }
 
 }  // namespace knot_utm

@@ -7,8 +7,8 @@ namespace knot_utm {
 namespace {
 
 constexpr Tolerances kDraft{0.34, 2e-4, 0.06, 4e-3, 1.3};
-constexpr Tolerances kNormal{0.17, 1e-4, 0.015, 2e-3, 2.0};
-constexpr Tolerances kFine{0.05, 1e-5, 0.01, 1e-3, 3.0};
+constexpr Tolerances kNormal{0.17, 1e-4, 0.005, 2e-3, 2.0};
+constexpr Tolerances kFine{0.05, 1e-5, 0.0025, 1e-3, 3.0};
 
 // For the loop of a rod that stretches.
 constexpr Tolerances kStretchingDraft{0.34, 3e-4, 0.12, 2e-2, 1.0};

@@ -55,7 +55,7 @@ class ImplicitStep final : public TimeStep {
       : TimeStep(rod, state, settings),
         contact_(strand_contact<StrandContact>(rod, settings)),
         rollers_(rod, settings.normal, settings.roller_friction, settings.motion_limit),
-        passage_(rod.nodes()),
+        passage_(rod.nodes(), std::is_same_v<StrandContact, SmoothContact>),
         centreline_(rod_, rod.natural_curvature.cols() == 0),
         frames_(rod_, settings_),
         rule_(settings_),

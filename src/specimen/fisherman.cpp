@@ -11,6 +11,8 @@ namespace knot_utm {
 
 namespace {
 
+constexpr double kFineBeyondCoil = 3.0;  // of the strand that a coil holds [h]
+
 /// One overhand of the fisherman's loop, in lengths.
 struct Coil {
   double strand;  ///< a, of standing part and threaded strand from the axis
@@ -210,14 +212,16 @@ Drawing draw_loop(const FishermanShape& shape, const Coil& coil, const Outline& 
   return out;
 }
 
-/// Fine edges are each knot's own strand; ordinary ones the strand that the other knot holds, as far as its roller.
-EdgeGrading grading_of(const FishermanShape& shape, const Drawing& drawn) {
+/// Fine edges are the two strands between and within the knots: a coil presses as hard on the strand that it holds as
+/// that does on the coil, and slides along it towards the other knot.
+EdgeGrading grading_of(const FishermanShape& shape, const Coil& coil, const Drawing& drawn) {
   const double fine = shape.edge_length / shape.refinement;
   const KnotMarks& marks = drawn.marks;
   EdgeGrading grading;
   grading.coarse = std::min(shape.coarsening * shape.edge_length, 2.0 * shape.radius);
-  grading.zones = {{drawn.first_middle - marks.tail_exit, drawn.first_middle - marks.standing_begin, fine},
-                   {drawn.second_middle + marks.standing_begin, drawn.second_middle + marks.tail_exit, fine},
+  const double beyond = 0.5 * shape.knot_distance + coil.outer + kFineBeyondCoil * shape.radius;
+  grading.zones = {{drawn.first_middle - marks.tail_exit, drawn.first_middle + beyond, fine},
+                   {drawn.second_middle - beyond, drawn.second_middle + marks.tail_exit, fine},
                    {0.0, drawn.upper_begin, shape.edge_length},
                    {drawn.lower_end, drawn.path.length(), shape.edge_length}};
   return grading;
@@ -247,7 +251,7 @@ Centreline fisherman_loop(const FishermanShape& shape) {
   const Outline outline = outline_of(shape, coil, rolled, c);
   const Drawing drawn = draw_loop(shape, coil, outline, frames_of(shape, coil, outline), c);
   const Resampled rod(drawn.path, smoothed(drawn.path, h, drawing_spacing(h, shape.edge_length)),
-                      grading_of(shape, drawn));
+                      grading_of(shape, coil, drawn));
   Centreline centreline;
   centreline.points = rod.points;
   centreline.upper_apex = rod(0.5 * (drawn.upper_begin + drawn.upper_end));

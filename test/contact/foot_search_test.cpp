@@ -55,10 +55,17 @@ TEST(FootSearch, FindsTheFeetThatBisectionFindsWhateverTheShape) {
     for (Eigen::Index i = 0; i < nodes.size(); ++i) nodes.data()[i] = place(random);
     search.begin(nodes, segments);
     std::vector<Vec3> points;
+    std::vector<int> numbers;
     for (int look = 0; look < 15; ++look) {
-      for (int p = 0; p < 2; ++p)
+      const int count = 1 + look % 2;
+      for (int p = 0; p < count; ++p) {
         points.push_back(nodes.col(some(random)) + 0.3 * Vec3(place(random), place(random), place(random)));
-      search.look(to_lanes(points[points.size() - 2]), to_lanes(points.back()), std::begin(all), std::end(all));
+        numbers.push_back(2 * look + p);
+      }
+      if (count == 1)
+        search.look(to_lanes(points.back()), std::begin(all), std::end(all));
+      else
+        search.look(to_lanes(points[points.size() - 2]), to_lanes(points.back()), std::begin(all), std::end(all));
     }
     search.find();
     auto found = search.feet().begin();
@@ -66,7 +73,7 @@ TEST(FootSearch, FindsTheFeetThatBisectionFindsWhateverTheShape) {
       int last_segment = 0;
       for (const Place& foot : feet_by_bisection(nodes, points[p], kReach)) {
         ASSERT_NE(found, search.feet().end());
-        EXPECT_EQ(found->point, static_cast<int>(p));
+        EXPECT_EQ(found->point, numbers[p]);
         EXPECT_EQ(found->segment, foot.segment);
         // Halley's last step leaves its cube; where F' hardly rises, a foot is ill defined but its distance is not.
         EXPECT_NEAR(found->x[3], foot.d, 1e-12);

@@ -125,7 +125,7 @@ TEST(TiedOffTheRollers, TheFarSideIsHeldHalfWay) {
     MachineOptions machine;
     machine.far_side = far_side;
     SpecimenOptions specimen = loop(0.3);
-    PhysicsOptions physics = draft();
+    PhysicsOptions physics;
     physics.gravity = {0.0, 0.0, -9.81};
     specimen.to_be_tied = false;
     TestBench bench(specimen, polypropylene(), machine, physics);

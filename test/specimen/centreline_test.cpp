@@ -77,7 +77,9 @@ TEST(FishermanLoop, IsFineInItsKnotsAndCoarseOnTheFarSide) {
   };
   for (const KnotLandmarks& knot : line.knots) {
     EXPECT_NEAR(edge_at(knot.coil_middle), 0.5 * shape.edge_length, 0.03 * shape.edge_length);
-    EXPECT_NEAR(edge_at(knot.threaded), shape.edge_length, 0.05 * shape.edge_length);
+    EXPECT_NEAR(edge_at(knot.threaded), 0.5 * shape.edge_length, 0.03 * shape.edge_length);
+    const double on_tail = 0.5 * (knot.tail_exit + knot.tail_end);
+    EXPECT_NEAR(edge_at(on_tail), shape.edge_length, 0.05 * shape.edge_length);
   }
   EXPECT_NEAR(edge_at(0.5 * (line.upper_apex + line.lower_apex)), 1.5 * shape.edge_length, 0.05 * shape.edge_length);
 }

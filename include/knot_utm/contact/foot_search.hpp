@@ -14,7 +14,7 @@ class FootSearch {
   struct Foot {
     Lanes x;      ///< a - c(u), and its length [m]
     double u;     ///< [-]
-    int point;    ///< number of the point, in the order in which they were looked at
+    int point;    ///< 2 n or 2 n + 1: first or second point of the n-th look
     int segment;  ///< that the foot stands on
   };
 
@@ -23,8 +23,9 @@ class FootSearch {
 
   /// Forgets all points. The centreline as it stands now; feet will be looked for on these segments only.
   void begin(const Points& position, const std::vector<int>& segments);
-  /// Two points that have the segments of these runs as candidates.
-  void look(const Lanes& a0, const Lanes& a1, const Candidates::Run* begin, const Candidates::Run* end);
+  /// One point, or two, that have the segments of these runs as candidates.
+  void look(const Lanes& point, const Candidates::Run* begin, const Candidates::Run* end);
+  void look(const Lanes& first, const Lanes& second, const Candidates::Run* begin, const Candidates::Run* end);
   /// Of all points, ascending in their number, then along the rod.
   void find();
   const std::vector<Foot>& feet() const { return feet_; }
@@ -38,6 +39,8 @@ class FootSearch {
 
   struct Four;
 
+  template <int Count>
+  void look_at(const Lanes* points, const Candidates::Run* begin, const Candidates::Run* end);
   Four four(const Pair* pairs, std::size_t count) const;
   /// Of the pairs, those that may be within reach.
   void leave_near_ones();
@@ -46,7 +49,7 @@ class FootSearch {
   double reach_;
   FootSieve sieve_;
   std::vector<SegmentParabola> parabola_;  // of the segments asked for
-  std::vector<Lanes> points_;
+  std::vector<Lanes> points_;  // two a look, whether or not there is a second one
   std::vector<Pair> pairs_;  // what the sieve left, then what is near
   std::vector<Foot> feet_;
 };

@@ -9,9 +9,10 @@
 
 namespace knot_utm {
 
-/// Self-contact of the rod along its smooth centreline: each strand is integrated by two midpoint points a segment,
-/// each of which presses on its feet, its closest-point projections on the other strands. A pair of points is seen from
-/// both sides; the two sides share it by
+/// Self-contact of the rod along its smooth centreline: each strand is integrated by the midpoint rule, with one point
+/// on a segment shorter than 0.7 h and two on a longer one. Each point presses on its feet, its closest-point projections
+/// on the other strands. Points and feet stand outwards of the spline, where the arc of the rod's own length runs
+/// (PointWeights). A pair of points is seen from both sides; the two sides share it by
 ///
 ///     omega = g_b^4 / (g_a^4 + g_b^4 + 1e-4),   g_b = 1 - x.b''/|b'|^2,   g_a = 1 + x.a''/|a'|^2,
 ///
@@ -19,9 +20,9 @@ namespace knot_utm {
 /// at the distance of contact, the other one stands in its centre of curvature and has no foot on it.
 /// g is linear between the middle of a segment, where it is its own, and its ends, where it is the smaller one of the
 /// two segments that meet: a foot that is about to vanish has lost its share by then.
-/// omega follows the shape within a set time: were it to follow at once, two places of a tight knot could throw a
-/// contact to and fro in steps however short, a flutter that no step resolves. omega and the friction's memory belong
-/// to the last accepted step and are constant within a step: they are carried by the point of integration and found
+/// omega, and how far the foot stands outwards, follow the shape within a set time: were they to follow at once, two
+/// places of a tight knot could throw a contact to and fro in steps however short, a flutter that no step resolves.
+/// They and the friction's memory belong to the last accepted step and are constant within a step: they are carried by the point of integration and found
 /// again by the nearest arclength of the foot, iterate by iterate, each by one foot only: a foot that is new starts
 /// without memory, with the share its place gives it.
 class SmoothContact {
@@ -71,13 +72,15 @@ class SmoothContact {
   struct Memory {
     double arclength_b;
     double share;          // omega
+    double outwards;       // of the spline stands the foot, towards its point [m]
     double pressure;       // estimate of it; < 0: none
     Vec3 slip;             // xi [m]
     bool pressed = false;  // at the beginning of the step
+    bool inside = false;   // was deep inside when it appeared, and has not come out yet
 
     void state(Archive& archive);
   };
-  /// Feet of every point of integration 2 segment + point, as compressed rows.
+  /// Feet of every point of integration 2 segment + point, as compressed rows; a segment with one point has point 0.
   struct MemoryList {
     std::vector<Memory> entries;
     std::vector<int> begin;
@@ -101,14 +104,22 @@ class SmoothContact {
   std::size_t follow(std::size_t foot);
   /// Gives the feet of a point, those tracked from `first` on, what the last iterate remembers of them.
   void recall(std::size_t row, std::size_t first);
-  /// A foot takes part where it presses, is expected to or did when the step began, or is about to.
+  /// Of a foot and its point [m]
+  double overlap(const Tracked& foot) const;
+  /// A foot takes part where it presses, is expected to or did when the step began, or is about to. Not so one that
+  /// appears deep inside, where a contact cannot have come to within a step: a bend as sharp as the strand is thick has
+  /// closed around the point, as around the end of a tail, and would throw it out with what force the depth gives.
   bool takes_part(const Tracked& foot) const;
   void add_contact(Tracked& tracked);
   void set_slip(ContactPoint& contact) const;
   void remember(const Points* position, MemoryList& list) const;
-  /// Of the accepted position; where the rod is bent more sharply than its edges resolve, less and less.
+  /// Of the accepted position, at first that of the start; where the rod is bent more sharply than its edges resolve,
+  /// less and less.
   void put_outwards(const Points& position);
   double share(const FootSearch::Foot& foot, const Points& position) const;
+  double outwards(const FootSearch::Foot& foot, const Points& position) const;
+  /// Parameter on its segment of an integration point.
+  double parameter(int segment, int point) const;
 
   NormalLaw normal_;
   Friction friction_;
@@ -118,7 +129,8 @@ class SmoothContact {
   double reach_;               // of centrelines within which feet are followed [m]
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd voronoi_;
-  Eigen::VectorXd outwards_;  // share of the second difference by which points of a segment stand outwards
+  std::vector<char> whole_;   // of a segment: it has one point of integration
+  Eigen::VectorXd outwards_;  // share of the second difference by which a segment's points stand outwards; at first empty
   Candidates candidates_;
   FootSearch search_;
   std::vector<Tracked> tracked_;
@@ -130,6 +142,7 @@ class SmoothContact {
   double catch_up_time_;
   double catch_up_ = 1.0;  // by which the shares follow in this step
   bool first_evaluation_ = true;
+  bool first_step_ = true;  // none was accepted yet
 };
 
 }  // namespace knot_utm

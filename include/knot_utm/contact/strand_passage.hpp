@@ -29,7 +29,9 @@ struct Passage {
 /// The few pairs of edges that are left are asked one by one (moving_edges.hpp).
 class StrandPassage {
  public:
-  explicit StrandPassage(Eigen::Index nodes);
+  /// `bare_ends`: a contact law that begins half an edge from the rod's ends (SmoothContact) lets strands slip over
+  /// them. What meets an outer half of an end edge then does not count.
+  explicit StrandPassage(Eigen::Index nodes, bool bare_ends = false);
 
   /// From now on the rod has parted at an edge, which anything may pass.
   void part(int edge) { parted_ = edge; }
@@ -55,6 +57,7 @@ class StrandPassage {
   /// Looks for a passage between pieces i <= j of a level, or within one.
   std::optional<Passage> search(std::size_t level, int i, int j) const;
   std::optional<Passage> edges_meet(int a, int b) const;
+  bool slips_over_an_end(const Passage& passage) const;
 
   static Box join(const Box& a, const Box& b);
   static bool apart(const Box& a, const Box& b);
@@ -63,6 +66,7 @@ class StrandPassage {
   std::vector<std::vector<Piece>> pieces_;  // [level][i]: edges i 2^level to (i + 1) 2^level - 1
   const Points* start_ = nullptr;
   const Points* end_ = nullptr;
+  bool bare_ends_;
   bool closed_ = false;
   int parted_ = -1;  // edge; -1: none
 };
