@@ -31,7 +31,7 @@ def variants_of(material):
 
 
 HALVED = ("edges x1/2", "longest step halved", "contact tolerance halved", "presliding halved")
-FINE_RUN = {"physics.accuracy": "fine", "specimen.refinement": 4}
+FINE_RUN = {"physics.accuracy": "fine", "specimen.refinement": 4.5}
 PRELOADS = [0.7, 1.5]                 # of the material's own
 PRELOAD = "pre-load x"
 # Loops that no estimate of an error was chosen for.
@@ -75,7 +75,7 @@ def report(runner, materials, seeds=3):
                   "are the worst of the starts. At the same excess length: the plateau against that as shipped at the "
                   "pre-load that leaves as much rod in the knots (the parabola through three pre-loads; missing beyond them), "
                   "so that what moves the sliding is told apart from what moves the tying. Errors: the reading's true difference to a fine run "
-                  "(`physics.accuracy=fine`, `specimen.refinement=4`) of the same start, pre-load and loop, against the "
+                  "(`physics.accuracy=fine`, `specimen.refinement=4.5`) of the same start, pre-load and loop, against the "
                   "error that the run itself gives; one that only one of them has counts as not within, what neither has does not count. "
                   f"No error was chosen after {', '.join(OTHER_LOOPS)} and friction x{FRICTION:g}. The picture has the "
                   "first start of each variant.", tables,

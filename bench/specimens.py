@@ -33,7 +33,7 @@ def variants_of(material):
     """In a knot that slides, edges have half the length that is set, of loops that stretch the whole. The gated ones
     come first, then the meshes of the distributions."""
     slides = SLIDES.get(material, True)
-    contact_tolerance, presliding = (0.015, 2e-3) if slides else (0.08, 1e-2)  # of `normal` [h]
+    contact_tolerance, presliding = (0.005, 2e-3) if slides else (0.08, 1e-2)  # of `normal` [h]
     gated = {
         "edges x1/2": {"specimen.edge_length": EDGE / 2},
         "contact tolerance x1/4": {"physics.contact.tolerance": contact_tolerance / 4},

@@ -6,8 +6,8 @@ namespace knot_utm {
 
 namespace {
 
-constexpr Tolerances kDraft{0.34, 2e-4, 0.06, 4e-3, 1.3};
-constexpr Tolerances kNormal{0.17, 1e-4, 0.005, 2e-3, 2.0};
+constexpr Tolerances kDraft{0.34, 2e-4, 0.06, 4e-3, 1.15};
+constexpr Tolerances kNormal{0.17, 1e-4, 0.005, 2e-3, 2.25};
 constexpr Tolerances kFine{0.05, 1e-5, 0.0025, 1e-3, 3.0};
 
 // For the loop of a rod that stretches.

@@ -14,25 +14,25 @@ constexpr double kApart = 10.0;    // along the rod, before two nodes are of dif
 constexpr double kKnot = 11.0;     // half of the width of a knot with its surroundings [radius]
 constexpr int kRounds = 20;
 
-/// For each node, whether another strand lies against it. As no edge is longer than `longest`, a pair that is far apart
-/// lets the next ones be left out.
+/// For each node, whether another strand lies against it. A node that is a gap away from touching lets those be left out
+/// that are less than the gap further along the rod.
 std::vector<bool> touched(const Points& points, double radius) {
   const Eigen::Index n = points.cols();
   std::vector<double> along(static_cast<std::size_t>(n), 0.0);
-  double longest = 0.0;
-  for (Eigen::Index i = 1; i < n; ++i) {
-    const double edge = (points.col(i) - points.col(i - 1)).norm();
-    longest = std::max(longest, edge);
-    along[static_cast<std::size_t>(i)] = along[static_cast<std::size_t>(i - 1)] + edge;
-  }
-  std::vector<bool> out(static_cast<std::size_t>(n), false);
-  if (!(longest > 0.0)) return out;
-  for (Eigen::Index i = 0; i < n; ++i) {
-    for (Eigen::Index j = i + 1; j < n;) {
-      const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(j);
-      const double gap = (points.col(j) - points.col(i)).norm() - kTouching * radius;
-      if (gap < 0.0 && along[b] - along[a] > kApart * radius) out[a] = out[b] = true;
-      j += std::max<Eigen::Index>(1, static_cast<Eigen::Index>(std::min(gap / longest, 1e6)));
+  for (Eigen::Index i = 1; i < n; ++i)
+    along[static_cast<std::size_t>(i)] =
+        along[static_cast<std::size_t>(i - 1)] + (points.col(i) - points.col(i - 1)).norm();
+  std::vector<bool> out(along.size(), false);
+  for (std::size_t a = 0; a < along.size(); ++a) {
+    auto next = std::upper_bound(along.begin(), along.end(), along[a] + kApart * radius);
+    while (next != along.end()) {
+      const auto b = static_cast<std::size_t>(next - along.begin());
+      const double gap =
+          (points.col(static_cast<Eigen::Index>(b)) - points.col(static_cast<Eigen::Index>(a))).norm() -
+          kTouching * radius;
+      if (gap < 0.0) out[a] = out[b] = true;
+      ++next;
+      if (gap > 0.0) next = std::lower_bound(next, along.end(), along[b] + gap);
     }
   }
   return out;
