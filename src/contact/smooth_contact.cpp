@@ -291,6 +291,8 @@ void SmoothContact::MemoryList::state(Archive& archive) {
 void SmoothContact::state(Archive& archive) {
   archive.section("SMTI");  // "SMTH" did not know how far feet stand outwards
   archive.list(outwards_);
+  const bool of_this_rod = outwards_.size() == 0 || outwards_.size() == arclength_.size();
+  archive.require(of_this_rod, "shares of points outwards", "of " + std::to_string(outwards_.size()) + " nodes");
   archive(candidates_, accepted_, first_step_);
 }
 
