@@ -1,5 +1,5 @@
-// A foot that appears deep inside the rod belongs to a bend that has closed around its point. It takes no part until
-// it has come out. Lengths in radii of the rod.
+// A foot that appears deep inside the rod, where its point lay as the step began, belongs to a bend that has closed
+// around the point. It takes no part until it has come out. Lengths in radii of the rod.
 
 #include <gtest/gtest.h>
 
@@ -38,6 +38,8 @@ class Beside {
         });
     return static_cast<double>(pressing) / (2.0 * static_cast<double>(std::size(kMiddle)));
   }
+  /// As if a bend closed around the points: the strands overlap, and no foot has been followed yet.
+  void close(double overlap) { accepted_ = at(overlap); }
   void begin_step() {
     contact_.refresh(accepted_);
     contact_.begin_step();
@@ -96,15 +98,23 @@ TEST(DeepFoot, PressesWhereTheRodIsDrawnSoDeep) {
 TEST(DeepFoot, TakesNoPartWhereItAppears) {
   Beside strands;
   EXPECT_EQ(strands.step_to(kFar), 0.0);
+  strands.close(0.9);
   EXPECT_EQ(strands.step_to(1.0), 0.0);
   EXPECT_EQ(strands.step_to(0.2), 0.0) << "it has not come out yet";
   EXPECT_EQ(strands.step_to(-0.1), 0.0);
   EXPECT_EQ(strands.step_to(0.2), 1.0) << "it has come out";
 }
 
+TEST(DeepFoot, PressesWhereTheStrandsCameIntoEachOtherInTheStep) {
+  Beside strands;
+  EXPECT_EQ(strands.step_to(kFar), 0.0);
+  EXPECT_EQ(strands.step_to(1.0), 1.0);
+}
+
 TEST(DeepFoot, PressesWhereItAppearsNoDeeperThanAContactCanBegin) {
   Beside strands;
   EXPECT_EQ(strands.step_to(kFar), 0.0);
+  strands.close(0.2);
   EXPECT_EQ(strands.step_to(0.2), 1.0);
   EXPECT_EQ(strands.step_to(1.0), 1.0) << "one that pressed before does so however deep it is pushed";
 }
@@ -118,6 +128,7 @@ TEST(DeepFoot, PressesHoweverDeepWhereItWasFollowedBefore) {
 TEST(DeepFoot, IsTheSameAfterAStepThatWasNotAccepted) {
   Beside strands;
   EXPECT_EQ(strands.step_to(kFar), 0.0);
+  strands.close(0.9);
   strands.begin_step();
   EXPECT_EQ(strands.pressing(1.0), 0.0);
   EXPECT_EQ(strands.step_to(0.2), 1.0) << "the step begins anew: it has not been deep inside";
@@ -127,6 +138,7 @@ TEST(DeepFoot, IsKeptWithTheState) {
   for (const double before : {1.0, -0.1}) {
     Beside strands;
     strands.step_to(kFar);
+    strands.close(0.9);
     strands.step_to(1.0);
     strands.step_to(before);
     Beside elsewhere;
@@ -137,7 +149,7 @@ TEST(DeepFoot, IsKeptWithTheState) {
   // So is that the first step is over, where no foot was followed yet.
   Beside strands, elsewhere;
   strands.step_to(kFar);
-  elsewhere.load(strands.saved(), kFar);
+  elsewhere.load(strands.saved(), 0.9);
   EXPECT_EQ(elsewhere.step_to(1.0), 0.0);
 }
 

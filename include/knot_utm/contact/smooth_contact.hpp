@@ -106,8 +106,10 @@ class SmoothContact {
   void recall(std::size_t row, std::size_t first);
   /// Of a foot and its point [m]
   double overlap(const Tracked& foot) const;
+  /// Whether the foot and its point overlapped as the step began, and so did not come into each other in it.
+  bool began_inside(const Tracked& foot) const;
   /// A foot takes part where it presses, is expected to or did when the step began, or is about to. Not so one that
-  /// appears deep inside, where a contact cannot have come to within a step: a bend as sharp as the strand is thick has
+  /// appears deep inside between places that overlapped as the step began: a bend as sharp as the strand is thick has
   /// closed around the point, as around the end of a tail, and would throw it out with what force the depth gives.
   bool takes_part(const Tracked& foot) const;
   void add_contact(Tracked& tracked);
