@@ -97,7 +97,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
     if (foot.memory.share < 0.0) {
       foot.memory.share = share(search_.feet()[foot.foot], position);
       foot.memory.outwards = outwards(search_.feet()[foot.foot], position);
-      foot.memory.inside = !first_step_ && overlap(foot) > kDeepest * 0.5 * diameter_;
+      foot.memory.inside = !first_step_ && overlap(foot) > kDeepest * 0.5 * diameter_ && began_inside(foot);
     }
     if (takes_part(foot)) add_contact(foot);
   }
@@ -146,6 +146,19 @@ void SmoothContact::recall(std::size_t row, std::size_t first) {
 
 double SmoothContact::overlap(const Tracked& foot) const {
   return diameter_ - search_.feet()[foot.foot].x[3] + foot.memory.outwards;
+}
+
+bool SmoothContact::began_inside(const Tracked& tracked) const {
+  const FootSearch::Foot& foot = search_.feet()[tracked.foot];
+  const int segment = segment_of(foot.point);
+  const PointWeights wa(parameter(segment, foot.point % 2), outwards_[segment]);
+  const SegmentWeights wb(foot.u);
+  Lanes x = foot.x;
+  for (int k = 0; k < 3; ++k) {
+    x -= wa.value[k] * moved_[static_cast<std::size_t>(segment - 1 + k)];
+    x += wb.value[k] * moved_[static_cast<std::size_t>(foot.segment - 1 + k)];
+  }
+  return to_vec3(x).norm() < diameter_ + tracked.memory.outwards;
 }
 
 bool SmoothContact::takes_part(const Tracked& foot) const {
@@ -291,6 +304,8 @@ void SmoothContact::MemoryList::state(Archive& archive) {
 void SmoothContact::state(Archive& archive) {
   archive.section("SMTI");  // "SMTH" did not know how far feet stand outwards
   archive.list(outwards_);
+  const bool of_this_rod = outwards_.size() == 0 || outwards_.size() == arclength_.size();
+  archive.require(of_this_rod, "shares of points outwards", "of " + std::to_string(outwards_.size()) + " nodes");
   archive(candidates_, accepted_, first_step_);
 }
 

@@ -147,5 +147,61 @@ TEST(StrandPassage, EndsThatSlipOverAStrandPassNothing) {
   EXPECT_TRUE(passage(hook(-1.0), through));
 }
 
+/// A strand along x, a wide detour, and the rod's tail: a last edge of length two along y, which lies across the strand
+/// at height one or minus one. `across`: the share of that edge, from its inner node, that lies over the strand.
+Points tail_across(double across, double height) {
+  Points x(3, 8);
+  for (int i = 0; i < 5; ++i) x.col(i) << 2.0 * i, 0.0, 0.0;
+  x.col(5) << 10.0, 10.0, 3.0;
+  x.col(6) << 4.3, 2.0 * across, height;
+  x.col(7) << 4.3, 2.0 * across - 2.0, height;
+  return x;
+}
+
+TEST(StrandPassage, OverTheOuterHalfOfAnEndEdgeCountsOnlyWhereTheEndsAreNotBare) {
+  for (const bool from_the_other_end : {false, true})
+    for (const double across : {0.05, 0.45, 0.55, 0.95}) {
+      Points start = tail_across(across, 1.0), end = tail_across(across, -1.0);
+      if (from_the_other_end) {
+        start = start.rowwise().reverse().eval();
+        end = end.rowwise().reverse().eval();
+      }
+      const bool inner = across < 0.5;
+      EXPECT_TRUE(StrandPassage(8).find(start, end)) << across;
+      EXPECT_EQ(StrandPassage(8, true).find(start, end).has_value(), inner) << across;
+    }
+}
+
+TEST(StrandPassage, OverABareEndHidesNoOtherOne) {
+  // The strand's far part is pushed through the edge next to the tail's last one as well.
+  Points start = tail_across(0.95, 1.0), end = tail_across(0.95, -1.0);
+  start.col(5) << 4.3, 4.0, 1.0;
+  end.col(5) << 4.3, 4.0, -1.0;
+  EXPECT_FALSE(StrandPassage(8, true).find(start, end));
+  start.col(6).y() = end.col(6).y() = -0.5;
+  const auto found = StrandPassage(8, true).find(start, end);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->edge_b, 5);
+}
+
+TEST(StrandPassage, AClosedRodHasNoBareEnds) {
+  // A wide ring with one edge to either side of where its ends lie on each other. Opposite, an edge of it, a needle
+  // along y, is drawn through that half of the first or of the last edge which would be bare.
+  for (const double x : {0.5, -0.5}) {
+    Points start(3, 9);
+    start << Vec3(0.0, 0.0, 0.0), Vec3(2.0, 0.0, 0.0), Vec3(20.0, 0.0, 9.0), Vec3(20.0, 20.0, 9.0), Vec3(x, 1.0, 5.0),
+        Vec3(x, -1.0, 5.0), Vec3(-20.0, -20.0, 9.0), Vec3(-2.0, 0.0, 0.0), Vec3(0.0, 0.0, 0.0);
+    Points end = start;
+    end.col(4).z() = end.col(5).z() = -1.0;
+    const auto found = StrandPassage(9, true).find(start, end);
+    ASSERT_TRUE(found) << x;
+    EXPECT_EQ(std::pair(found->edge_a, found->edge_b), x > 0.0 ? std::pair(0, 4) : std::pair(4, 7));
+    Points open = start, open_end = end;
+    open.col(8).y() = open_end.col(8).y() = -0.1;
+    EXPECT_FALSE(StrandPassage(9, true).find(open, open_end)) << x;
+    EXPECT_TRUE(StrandPassage(9).find(open, open_end)) << x;
+  }
+}
+
 }  // namespace
 }  // namespace knot_utm

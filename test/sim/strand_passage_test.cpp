@@ -147,6 +147,37 @@ INSTANTIATE_TEST_SUITE_P(Throws, NothingPassesThrough,
                                   std::to_string(static_cast<int>(thrown.way)) + "RadiiAStep";
                          });
 
+TEST(StrandsThrownAtEachOther, PressWhereOneStepBringsThemIntoEachOther) {
+  // With the limits of a step as a test has them, neither strand alone gets from beyond the gap within which feet are
+  // followed to where a foot is deep inside. Both together do.
+  const Thrown scene{ContactLaw::kSmooth, 3e-3, 0.78};
+  StepSettings settings = closed_form_settings(scene.material());
+  settings.residual = 1e-6 * settings.normal.stiffness * scene.radius * scene.radius;
+  RodState state;
+  state.position = scene.shape();
+  state.velocity = Points::Zero(3, Thrown::nodes());
+  state.velocity.leftCols(Thrown::kStrand).row(2).setConstant(Thrown::kSpeed);
+  state.velocity.rightCols(Thrown::kStrand).row(2).setConstant(-Thrown::kSpeed);
+  const std::unique_ptr<TimeStep> stepper = TimeStep::make(scene.rod(), state, settings);
+  auto distance = [&] {  // of the middles, which lie over each other [radii]
+    const Points& now = stepper->state().position;
+    return (now.col(10) - now.col(Thrown::nodes() - 11)).norm() / scene.radius;
+  };
+  const Boundary boundary;
+  ASSERT_TRUE(stepper->step(boundary, 0.41 * scene.step()).accepted());
+  ASSERT_GT(distance(), 2.31) << "no foot yet";
+  double dt = scene.step();
+  for (int accepted = 0; accepted < 10;) {
+    if (stepper->step(boundary, dt).accepted()) {
+      ++accepted;
+      EXPECT_GT(distance(), 1.5) << "deeper than a step may leave them";
+    } else {
+      dt *= 0.5;
+      ASSERT_GT(dt, 1e-6 * scene.step());
+    }
+  }
+}
+
 TEST(StrandPassageOfASimulation, IsNeverSeenWhereAnOverhandIsPulledTight) {
   const Material material = polypropylene();
   const DrawnOverhand drawn(material, 2.0);

@@ -22,7 +22,7 @@ namespace knot_utm {
 struct ContactPoint {
   int a0 = 0;
   int b0 = -1;                 ///< -1: none, on a roller
-  int point = 0;               ///< which one of its segment's points of integration a is
+  int point = 0;               ///< which one of its segment's one or two points of integration a is
   int roller = -1;             ///< number of the roller; -1: between strands
   double c[6] = {};            ///< [-]
   double beta[6] = {};         ///< [-], zero for a
@@ -31,7 +31,7 @@ struct ContactPoint {
   Vec3 x = Vec3::Zero();       ///< a - b [m]
   Vec3 n = Vec3::Zero();       ///< x/d
   double d = 0.0;              ///< [m]
-  double overlap = 0.0;        ///< D [m]
+  double overlap = 0.0;        ///< D, more than 2h - d where the strand of b stands outwards of it [m]
   double begins = 0.0;         ///< overlap at which the normal law begins [m]
   double share = 1.0;          ///< omega, of the contact that this side carries
   double weight = 0.0;         ///< w: rest length it stands for, times its share of the contact [m]

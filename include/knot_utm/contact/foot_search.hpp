@@ -49,8 +49,8 @@ class FootSearch {
   double reach_;
   FootSieve sieve_;
   std::vector<SegmentParabola> parabola_;  // of the segments asked for
-  std::vector<Lanes> points_;  // two a look, whether or not there is a second one
-  std::vector<Pair> pairs_;  // what the sieve left, then what is near
+  std::vector<Lanes> points_;              // two a look, whether or not there is a second one
+  std::vector<Pair> pairs_;                // what the sieve left, then what is near
   std::vector<Foot> feet_;
 };
 

@@ -32,7 +32,7 @@ class FootSieve {
   template <int Count>
   void sieve(const Lanes* points, const Candidates::Run* begin, const Candidates::Run* end);
 
-  /// What was left for point 0 or 1, in the order of the runs.
+  /// What was left for point 0, or of two points for 1, in the order of the runs.
   const int* begin(int point) const { return left_[point].data(); }
   const int* end(int point) const { return left_[point].data() + count_[point]; }
 

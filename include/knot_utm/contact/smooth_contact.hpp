@@ -10,9 +10,10 @@
 namespace knot_utm {
 
 /// Self-contact of the rod along its smooth centreline: each strand is integrated by the midpoint rule, with one point
-/// on a segment shorter than 0.7 h and two on a longer one. Each point presses on its feet, its closest-point projections
-/// on the other strands. Points and feet stand outwards of the spline, where the arc of the rod's own length runs
-/// (PointWeights). A pair of points is seen from both sides; the two sides share it by
+/// on a segment of at most 0.7 h and two on a longer one. Each point presses on its feet, its closest-point projections
+/// on the other strands. Points and feet stand outwards of the spline, where the arc of the rod's own length runs: the
+/// points by their weights (PointWeights), the feet, which are searched on the spline, by what their overlap gains. A
+/// pair of points is seen from both sides; the two sides share it by
 ///
 ///     omega = g_b^4 / (g_a^4 + g_b^4 + 1e-4),   g_b = 1 - x.b''/|b'|^2,   g_a = 1 + x.a''/|a'|^2,
 ///
@@ -22,14 +23,14 @@ namespace knot_utm {
 /// two segments that meet: a foot that is about to vanish has lost its share by then.
 /// omega, and how far the foot stands outwards, follow the shape within a set time: were they to follow at once, two
 /// places of a tight knot could throw a contact to and fro in steps however short, a flutter that no step resolves.
-/// They and the friction's memory belong to the last accepted step and are constant within a step: they are carried by the point of integration and found
-/// again by the nearest arclength of the foot, iterate by iterate, each by one foot only: a foot that is new starts
-/// without memory, with the share its place gives it.
+/// They and the friction's memory belong to the last accepted step and are constant within a step: they are carried by
+/// the point of integration and found again by the nearest arclength of the foot, iterate by iterate, each by one foot
+/// only: a foot that is new starts without memory, with what its place gives it for both.
 class SmoothContact {
  public:
   using Model = ContactModel;
 
-  /// `catch_up`: time within which omega follows the shape [s].
+  /// `catch_up`: time within which omega, and how far feet stand outwards, follow the shape [s].
   SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,
                 double catch_up = 0.05);
 
@@ -106,8 +107,10 @@ class SmoothContact {
   void recall(std::size_t row, std::size_t first);
   /// Of a foot and its point [m]
   double overlap(const Tracked& foot) const;
+  /// Whether the foot and its point overlapped as the step began, and so did not come into each other in it.
+  bool began_inside(const Tracked& foot) const;
   /// A foot takes part where it presses, is expected to or did when the step began, or is about to. Not so one that
-  /// appears deep inside, where a contact cannot have come to within a step: a bend as sharp as the strand is thick has
+  /// appears deep inside between places that overlapped as the step began: a bend as sharp as the strand is thick has
   /// closed around the point, as around the end of a tail, and would throw it out with what force the depth gives.
   bool takes_part(const Tracked& foot) const;
   void add_contact(Tracked& tracked);
@@ -130,7 +133,7 @@ class SmoothContact {
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd voronoi_;
   std::vector<char> whole_;   // of a segment: it has one point of integration
-  Eigen::VectorXd outwards_;  // share of the second difference by which a segment's points stand outwards; at first empty
+  Eigen::VectorXd outwards_;  // share of the second difference by which a segment stands outwards; at first empty
   Candidates candidates_;
   FootSearch search_;
   std::vector<Tracked> tracked_;
@@ -140,7 +143,7 @@ class SmoothContact {
   MemoryList iterate_;          // of the last evaluation; before the first of a step, the accepted ones
   std::vector<Lanes> moved_;    // by which the nodes moved in this step [m]
   double catch_up_time_;
-  double catch_up_ = 1.0;  // by which the shares follow in this step
+  double catch_up_ = 1.0;  // by which the shares and feet follow in this step
   bool first_evaluation_ = true;
   bool first_step_ = true;  // none was accepted yet
 };

@@ -1,0 +1,208 @@
+// How many points a segment has, and how true the force and the distance of bent strands are for the length of their
+// edges. Lengths in radii of the rod.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "contact/strands.hpp"
+#include "knot_utm/contact/smooth_contact.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kShort = 0.7;  // a segment with one point of integration is at most so long
+constexpr double kStep = 0.01, kCatchUp = 0.05;
+
+SmoothContact contact_of(const RodProperties& rod) { return {rod, {1.0, 0.01}, Friction(), 0.5, kCatchUp}; }
+
+void evaluate(SmoothContact& contact, const Points& position, const Points& start) {
+  contact.refresh(start);
+  contact.begin_step();
+  contact.evaluate(position, start, kStep);
+}
+
+TEST(IntegrationPoints, AreOneOnAShortSegmentAndTwoOnALongOneAndStandForItsVoronoiLength) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> length(0.3, 1.2);
+  std::vector<double> edges(40);
+  for (double& edge : edges) edge = length(random);
+  const Points one = straight_strand(Vec3::Zero(), Vec3::UnitZ(), edges);
+  const TwoStrandsOfARod strands(one, straight_strand(Vec3(1.9, 0.0, -3.0), Vec3::UnitZ(), std::vector(60, 0.65)));
+  SmoothContact contact = contact_of(strands.rod);
+  evaluate(contact, strands.position, strands.position);
+  int seen[3] = {};
+  for (int segment = 1; segment + 1 < static_cast<int>(edges.size()); ++segment) {
+    const double voronoi = strands.rod.voronoi_length[segment];
+    const std::vector<ContactPoint> points = on_segment(contact.contacts(), segment);
+    ASSERT_EQ(points.size(), voronoi > kShort ? 2U : 1U) << voronoi;
+    double weight = 0.0, place = 0.0;
+    for (const ContactPoint& point : points) {
+      EXPECT_NEAR(point.overlap, 0.1, 1e-12);
+      weight += point.weight / point.share;
+      place += point.arclength_a / static_cast<double>(points.size());
+    }
+    EXPECT_NEAR(weight, voronoi, 1e-12);
+    const Eigen::VectorXd arclength = strands.rod.arclength();
+    EXPECT_NEAR(place, 0.25 * arclength[segment - 1] + 0.5 * arclength[segment] + 0.25 * arclength[segment + 1], 1e-12);
+    ++seen[points.size()];
+  }
+  EXPECT_GT(seen[1], 10);
+  EXPECT_GT(seen[2], 10);
+}
+
+/// What a strand wound around a straight one at a diameter's distance is out by, with so many edges a turn. Chords of
+/// the ring are the rod's own length: it stands for a ring of just that circumference.
+struct Wound {
+  double overlap;  ///< error of it [radii]
+  double force;    ///< by which the pressure on the inner strand is not that of the tension, relatively
+  std::size_t points = 0;
+
+  explicit Wound(int edges_a_turn) {
+    const double angle = 2.0 * M_PI / edges_a_turn, arc_radius = 1.9, edge = arc_radius * angle;
+    const double node_radius = 0.5 * edge / std::sin(0.5 * angle);
+    constexpr int kNodes = 7, kMiddle = 3;
+    Points ring(3, kNodes);
+    for (int i = 0; i < kNodes; ++i) {
+      const double at = angle * (i - kMiddle);
+      ring.col(i) << node_radius * std::cos(at), node_radius * std::sin(at), 0.0;
+    }
+    const Points inner = straight_strand(Vec3(0.0, 0.0, -4.6), Vec3::UnitZ(), std::vector(16, 0.6));
+    const TwoStrandsOfARod strands(ring, inner);
+    SmoothContact contact = contact_of(strands.rod);
+    evaluate(contact, strands.position, strands.position);
+
+    // The middle node is pressed outwards through the points of three segments. Were they to carry all of their
+    // contacts and no share of them, that would be what the tension T of its two edges balances, 2 T sin(angle/2).
+    double on_node = 0.0, on_segment_itself = 0.0;
+    for (int segment = kMiddle - 1; segment <= kMiddle + 1; ++segment)
+      for (const ContactPoint& point : on_segment(contact.contacts(), segment)) {
+        const Vec3 whole = point.force / point.share;
+        on_node += point.c[kMiddle - point.a0] * whole.x();
+        if (segment != kMiddle) continue;
+        on_segment_itself += whole.norm();
+        ++points;
+        overlap = point.overlap - (2.0 - arc_radius);
+      }
+    const double tension = 0.5 * on_node / std::sin(0.5 * angle);
+    force = on_segment_itself / (tension * angle) - 1.0;
+  }
+};
+
+struct EdgesATurn {
+  int coarse, fine;
+  std::size_t points;  ///< of integration on each segment
+};
+
+class WoundStrand : public testing::TestWithParam<EdgesATurn> {};
+
+TEST_P(WoundStrand, PressesAndStandsTrueToFourthOrder) {
+  const EdgesATurn edges = GetParam();
+  const Wound coarse(edges.coarse), fine(edges.fine);
+  ASSERT_EQ(coarse.points, edges.points);
+  ASSERT_EQ(fine.points, edges.points);
+  const double ratio = static_cast<double>(edges.fine) / edges.coarse;
+  auto order = [&](double from, double to) { return std::log(std::abs(from / to)) / std::log(ratio); };
+  // Between 2 and 4, as edges of half a radian have errors of sixth order, too.
+  EXPECT_GT(order(coarse.overlap, fine.overlap), 3.5);
+  EXPECT_GT(order(coarse.force, fine.force), 3.5);
+}
+
+INSTANTIATE_TEST_SUITE_P(Edges, WoundStrand,
+                         testing::Values(EdgesATurn{11, 16, 2}, EdgesATurn{18, 25, 1}, EdgesATurn{18, 36, 1}),
+                         [](const auto& edges) {
+                           return std::to_string(edges.param.coarse) + "And" + std::to_string(edges.param.fine) +
+                                  "ATurn";
+                         });
+
+/// A straight strand across an arc of radius 6, outside of it or within.
+struct OnAnArc {
+  static constexpr double kArc = 6.0, kOverlap = 0.05;
+  static constexpr int kHalf = 7;     // edges of the arc to either side
+  static constexpr int kAcross = 14;  // the straight strand's segment whose middle stands on the arc
+  double angle;
+  TwoStrandsOfARod strands;
+
+  /// `shift`: by which part of an edge the straight strand stands beside the arc's middle node.
+  OnAnArc(double edge, double shift, bool outside)
+      : angle(edge / kArc), strands(arc(edge / kArc, shift), straight(outside)) {}
+
+  static Points arc(double angle, double shift) {
+    const double node_radius = 0.5 * kArc * angle / std::sin(0.5 * angle);
+    Points out(3, 2 * kHalf + 1);
+    for (int i = -kHalf; i <= kHalf; ++i)
+      out.col(i + kHalf) << node_radius * std::cos(angle * (i + shift)), node_radius * std::sin(angle * (i + shift)),
+          0.0;
+    return out;
+  }
+  static Points straight(bool outside) {
+    const double x = outside ? kArc + 2.0 - kOverlap : kArc - 2.0 + kOverlap;
+    return straight_strand(Vec3(x, 0.0, -0.5 * kAcross), Vec3::UnitZ(), std::vector(2 * kAcross, 0.5));
+  }
+
+  ContactPoint point(const SmoothContact& contact) const {
+    const std::vector<ContactPoint> points = on_segment(contact.contacts(), strands.second + kAcross);
+    EXPECT_EQ(points.size(), 1U);
+    return points.empty() ? ContactPoint() : points.front();
+  }
+};
+
+/// The largest of the error of the overlap wherever the straight strand stands between two nodes of the arc.
+double error_on_arc(double edge, bool outside) {
+  double worst = 0.0;
+  for (const double shift : {0.0, 0.125, 0.25, 0.4, 0.5}) {
+    const OnAnArc scene(edge, shift, outside);
+    SmoothContact contact = contact_of(scene.strands.rod);
+    evaluate(contact, scene.strands.position, scene.strands.position);
+    worst = std::max(worst, std::abs(scene.point(contact).overlap - OnAnArc::kOverlap));
+  }
+  return worst;
+}
+
+class FootOnAnArc : public testing::TestWithParam<bool> {};
+
+TEST_P(FootOnAnArc, StandsAtItsOwnDistanceToFourthOrder) {
+  const double coarse = error_on_arc(1.6, GetParam()), middle = error_on_arc(0.8, GetParam()),
+               fine = error_on_arc(0.4, GetParam());
+  // The spline itself lies 1.6^2/(12 6) = 0.036 inside of the arc.
+  EXPECT_LT(coarse, 0.1 * 0.036);
+  EXPECT_LT(middle, coarse / 13.0);
+  EXPECT_LT(fine, middle / 13.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sides, FootOnAnArc, testing::Bool(),
+                         [](const auto& side) { return side.param ? "Outside" : "Within"; });
+
+/// By how far the foot stands outwards of the spline, towards its point.
+double outwards(const ContactPoint& point) { return point.overlap - (2.0 - point.d); }
+
+TEST(FootOfABendingStrand, StaysWithinAStepAndFollowsTheAcceptedShapeLikeTheShares) {
+  // An arc as long as a straight rod was when the step began; the straight strand across it is carried along.
+  const OnAnArc bent(1.2, 0.0, true);
+  Points straight = bent.strands.position;
+  for (int i = -OnAnArc::kHalf; i <= OnAnArc::kHalf; ++i) straight.col(i + OnAnArc::kHalf) << 6.0, 1.2 * i, 0.0;
+  SmoothContact contact = contact_of(bent.strands.rod);
+  evaluate(contact, straight, straight);
+  EXPECT_NEAR(outwards(bent.point(contact)), 0.0, 1e-12);
+  contact.commit(straight);
+
+  SmoothContact elsewhere = contact_of(bent.strands.rod);
+  evaluate(elsewhere, bent.strands.position, bent.strands.position);
+  const double whole = outwards(bent.point(elsewhere));
+  ASSERT_GT(whole, 0.01);
+
+  evaluate(contact, bent.strands.position, straight);
+  EXPECT_NEAR(outwards(bent.point(contact)), 0.0, 1e-12) << "in a step it stays where it was when that began";
+  double expected = 0.0;
+  for (int step = 0; step < 3; ++step) {
+    contact.commit(bent.strands.position);
+    evaluate(contact, bent.strands.position, bent.strands.position);
+    expected += kStep / (kStep + kCatchUp) * (whole - expected);
+    EXPECT_NEAR(outwards(bent.point(contact)), expected, 1e-9) << step;
+  }
+}
+
+}  // namespace
+}  // namespace knot_utm
