@@ -14,7 +14,7 @@ constexpr double kUnknown = -1.0;     // share of a foot that recalls none yet
 constexpr double kSharpest = 2.0;     // turn of the centreline at a node that is no longer resolved [rad]
 constexpr double kReachMargin = 0.3;  // feet are followed up to this gap [fraction of radius]
 constexpr double kDeepest = 0.5;      // overlap of a contact that may begin [fraction of radius]
-constexpr double kShort = 0.7;        // a segment with one point of integration is at most so long [fraction of radius]
+constexpr double kShort = 0.3;        // a segment with one point of integration is at most so long [fraction of radius]
 
 /// Arclength at rest of parameter u on a segment: from the middle of one edge to the middle of the next.
 double arclength_at(const Eigen::VectorXd& arclength, int segment, double u) {

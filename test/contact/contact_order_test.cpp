@@ -13,7 +13,7 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kShort = 0.7;  // a segment with one point of integration is at most so long
+constexpr double kShort = 0.3;  // a segment with one point of integration is at most so long
 constexpr double kStep = 0.01, kCatchUp = 0.05;
 
 SmoothContact contact_of(const RodProperties& rod) { return {rod, {1.0, 0.01}, Friction(), 0.5, kCatchUp}; }
@@ -26,7 +26,7 @@ void evaluate(SmoothContact& contact, const Points& position, const Points& star
 
 TEST(IntegrationPoints, AreOneOnAShortSegmentAndTwoOnALongOneAndStandForItsVoronoiLength) {
   std::mt19937 random(2);
-  std::uniform_real_distribution<double> length(0.3, 1.2);
+  std::uniform_real_distribution<double> length(0.1, 0.5);
   std::vector<double> edges(40);
   for (double& edge : edges) edge = length(random);
   const Points one = straight_strand(Vec3::Zero(), Vec3::UnitZ(), edges);
@@ -111,7 +111,8 @@ TEST_P(WoundStrand, PressesAndStandsTrueToFourthOrder) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Edges, WoundStrand,
-                         testing::Values(EdgesATurn{11, 16, 2}, EdgesATurn{18, 25, 1}, EdgesATurn{18, 36, 1}),
+                         testing::Values(EdgesATurn{11, 16, 2}, EdgesATurn{18, 25, 2}, EdgesATurn{40, 56, 1},
+                                         EdgesATurn{40, 80, 1}),
                          [](const auto& edges) {
                            return std::to_string(edges.param.coarse) + "And" + std::to_string(edges.param.fine) +
                                   "ATurn";
@@ -121,7 +122,7 @@ INSTANTIATE_TEST_SUITE_P(Edges, WoundStrand,
 struct OnAnArc {
   static constexpr double kArc = 6.0, kOverlap = 0.05;
   static constexpr int kHalf = 7;     // edges of the arc to either side
-  static constexpr int kAcross = 14;  // the straight strand's segment whose middle stands on the arc
+  static constexpr int kAcross = 28;  // the straight strand's segment whose middle stands on the arc
   double angle;
   TwoStrandsOfARod strands;
 
@@ -139,7 +140,7 @@ struct OnAnArc {
   }
   static Points straight(bool outside) {
     const double x = outside ? kArc + 2.0 - kOverlap : kArc - 2.0 + kOverlap;
-    return straight_strand(Vec3(x, 0.0, -0.5 * kAcross), Vec3::UnitZ(), std::vector(2 * kAcross, 0.5));
+    return straight_strand(Vec3(x, 0.0, -0.25 * kAcross), Vec3::UnitZ(), std::vector(2 * kAcross, 0.25));
   }
 
   ContactPoint point(const SmoothContact& contact) const {

@@ -36,7 +36,7 @@ class Beside {
                                              [&](int i) { return point.a0 == i || point.a0 == strands_.second + i; });
           return in_middle && point.force.norm() > 0.0;
         });
-    return static_cast<double>(pressing) / (2.0 * static_cast<double>(std::size(kMiddle)));
+    return static_cast<double>(pressing) / (4.0 * static_cast<double>(std::size(kMiddle)));  // two a segment and strand
   }
   /// As if a bend closed around the points: the strands overlap, and no foot has been followed yet.
   void close(double overlap) { accepted_ = at(overlap); }

@@ -10,7 +10,7 @@
 namespace knot_utm {
 
 /// Self-contact of the rod along its smooth centreline: each strand is integrated by the midpoint rule, with one point
-/// on a segment of at most 0.7 h and two on a longer one. Each point presses on its feet, its closest-point projections
+/// on a segment of at most 0.3 h and two on a longer one. Each point presses on its feet, its closest-point projections
 /// on the other strands. Points and feet stand outwards of the spline, where the arc of the rod's own length runs: the
 /// points by their weights (PointWeights), the feet, which are searched on the spline, by what their overlap gains. A
 /// pair of points is seen from both sides; the two sides share it by
