@@ -5,7 +5,7 @@ import runs
 from table import Report, Table
 
 MATERIALS = ["nylon", "polypropylene"]
-PRELOADS = {"nylon": [40.0, 55.0, 58.0, 70.0, 100.0, 150.0, 495.0]}                # [N]
+PRELOADS = {"nylon": [40.0, 60.0, 64.0, 66.0, 70.0, 100.0, 150.0, 495.0]}                # [N]
 STARTS = [0.14985, 0.15, 0.15015]                       # knot distances, 0.1 % apart [m]
 BREAKS_AT = {"nylon": 0.10, "polypropylene": 0.13}      # the paper's extensions [m]
 MET_AT = 0.066                                          # where the paper's knots have met [m]
