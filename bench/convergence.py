@@ -17,7 +17,7 @@ EDGE, STEP = 0.0032, 0.17             # as shipped, and of `normal` [m, s]
 
 def variants_of(material):
     """What is halved is that of `normal` for loops that slide, or that stretch [h, h, k_b/h^2]."""
-    contact_tolerance, presliding, residual = (0.015, 2e-3, 1e-4) if SLIDES.get(material, True) else (0.08, 1e-2, 2e-4)
+    contact_tolerance, presliding, residual = (0.005, 2e-3, 1e-4) if SLIDES.get(material, True) else (0.08, 1e-2, 2e-4)
     return {
         "edges x3/4": {"specimen.edge_length": 0.75 * EDGE},
         "edges x1/2": {"specimen.edge_length": EDGE / 2},

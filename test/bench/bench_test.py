@@ -420,7 +420,7 @@ class Convergence(unittest.TestCase):
                 for key in ("specimen.knot_distance", "specimen.preload", "specimen.handedness",
                             "specimen.end_to_end", "material"):
                     self.assertEqual(run.settings.get(key), fine.settings.get(key))
-                self.assertEqual(fine.settings["specimen.refinement"], 4)
+                self.assertEqual(fine.settings["specimen.refinement"], 4.5)
 
     def test_knots_that_do_not_slide_are_judged_by_their_peak(self):
         def change(name, result):
