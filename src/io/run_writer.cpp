@@ -212,9 +212,8 @@ namespace {
 /// Of all that a reader should know before he believes a reading.
 std::vector<std::string> all_warnings(const Results& r, const RunFacts& f, const ReadingErrors& errors) {
   std::vector<std::string> all = warnings(r);
-  for (const std::vector<std::string>& more :
-       {events(r), gravity_warnings(r, f), speed_warnings(r.rate, f.inertia), warnings(r, f.load_cell), f.foreseen,
-        f.warnings})
+  for (const std::vector<std::string>& more : {events(r), gravity_warnings(r, f), speed_warnings(r.rate, f.inertia),
+                                               warnings(r, f.load_cell), f.foreseen, f.warnings})
     all.insert(all.end(), more.begin(), more.end());
   const std::string unsure = accuracy_warning(r, errors);
   if (!unsure.empty()) all.push_back(unsure);

@@ -14,8 +14,8 @@ constexpr double kApart = 10.0;    // along the rod, before two nodes are of dif
 constexpr double kKnot = 11.0;     // half of the width of a knot with its surroundings [radius]
 constexpr int kRounds = 20;
 
-/// For each node, whether another strand lies against it. A node that is a gap away from touching lets those be left out
-/// that are less than the gap further along the rod.
+/// For each node, whether another strand lies against it. A node that is a gap away from touching lets those be left
+/// out that are less than the gap further along the rod.
 std::vector<bool> touched(const Points& points, double radius) {
   const Eigen::Index n = points.cols();
   std::vector<double> along(static_cast<std::size_t>(n), 0.0);
@@ -27,9 +27,8 @@ std::vector<bool> touched(const Points& points, double radius) {
     auto next = std::upper_bound(along.begin(), along.end(), along[a] + kApart * radius);
     while (next != along.end()) {
       const auto b = static_cast<std::size_t>(next - along.begin());
-      const double gap =
-          (points.col(static_cast<Eigen::Index>(b)) - points.col(static_cast<Eigen::Index>(a))).norm() -
-          kTouching * radius;
+      const double gap = (points.col(static_cast<Eigen::Index>(b)) - points.col(static_cast<Eigen::Index>(a))).norm() -
+                         kTouching * radius;
       if (gap < 0.0) out[a] = out[b] = true;
       ++next;
       if (gap > 0.0) next = std::lower_bound(next, along.end(), along[b] + gap);
