@@ -53,7 +53,7 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
   accepted_.begin.assign(2 * static_cast<std::size_t>(nodes) + 1, 0);
   iterate_ = accepted_;
   moved_.resize(static_cast<std::size_t>(nodes));
-  for (const double length : voronoi_) whole_.push_back(length <= kShort * rod.material.radius);
+  for (const double length : voronoi_) whole_.push_back(length <= kShort * rod.material.radius ? 1 : 0);
 }
 
 double SmoothContact::parameter(int segment, int point) const {
