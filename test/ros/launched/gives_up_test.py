@@ -55,6 +55,8 @@ class GivesUpTest(unittest.TestCase):
             from std_srvs.srv import Trigger
             rospy.init_node('gives_up_test', disable_signals=True)
             states, status = Latest('knot/state', KnotState), Latest('utm/status', TestStatus)
+            # What is answered before somebody listens is not said again.
+            wait_for('who answers', states.connected)
             start_test()
             self.assertTrue(call('utm/pause', Trigger).success)
             sequence = status.wait('paused', lambda s: s.state == TestStatus.PAUSED).sequence
