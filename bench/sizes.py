@@ -24,6 +24,7 @@ READINGS = [("plateau force (true)", "true_plateau_force", "F_0", "force"),
             ("lock extension", "lock_extension", "h", "length"),
             ("locked stiffness", "locked_stiffness", "F_0/h", "stiffness"),
             ("peak force (true)", "true_peak_force", "F_0", "force")]
+SAMPLING_RATE = 3.0  # the default [Hz]
 
 
 def draws():
@@ -91,8 +92,10 @@ def of_speeds(runner, material):
         speed = next((entry[step]["speed"] for entry in first.method.get("program", []) if step in entry), None)
         for times in SPEEDS if speed else []:
             names.append(f"{step} x{times:g}")
-            each.append(runner.run(f"{material}_speeds/{step}_{times:g}",
-                                   {"material": material, f"program.{step}.speed": times * speed}))
+            settings = {"material": material, f"program.{step}.speed": times * speed}
+            if step == "pull":      # the load is read at the same extensions
+                settings["machine.load_cell"] = {"sampling_rate": times * SAMPLING_RATE}
+            each.append(runner.run(f"{material}_speeds/{step}_{times:g}", settings))
     table = Table(f"{material}, speeds", names)
     table.add("exit code", "-", [run.exit_code for run in each], is_(0))
     warned = [any("radii a second" in text or "inertia" in text for text in run.value("warnings") or [])

@@ -94,6 +94,7 @@ GROUPS = [
         "reweighting_loss": energy("Energy lost as the weights of contacts change"),
         "drag_share": Quantity("Share of drag in the force"),
         "inertia_share": Quantity("Share of inertia in the force"),
+        "numerical_share": Quantity("Share of numerical dissipation in the force"),
     }),
     ("The computation", {
         "steps": Quantity("Time steps"),

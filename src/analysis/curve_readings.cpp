@@ -14,6 +14,7 @@ namespace {
 constexpr double kPlateauBegin = 0.3, kPlateauEnd = 0.8;  // of the way to the lock
 constexpr double kLockedLoad = 2.0;                       // times the plateau's mean
 constexpr double kEarliestLock = 0.15;                    // of the pull
+constexpr std::ptrdiff_t kFewestReadings = 3;             // within a plateau
 constexpr double kLevel = 0.5;                            // change of a plateau over its mean ...
 constexpr double kProportional = 1.0 / 1.1;               // ... and that of a force in proportion to s
 constexpr double kSliding = -2.0, kOffSliding = 0.5;      // de/ds of rigid sliding, and how far off it a plateau's is
@@ -201,10 +202,22 @@ std::string why_interrupted(const Pull& pull, double end, double mean) {
   return text("the load is not level: it falls at once by %.0f %% of its mean", 100.0 * fall->force(pull) / mean);
 }
 
+/// Between readings that are far apart F may do anything.
+std::string why_too_few(const Pull& pull, double end) {
+  const Range range = plateau_range(pull, end);
+  const std::ptrdiff_t within = std::count_if(pull.begin(), pull.end(), [&](const PullPoint& point) {
+    return point.extension >= range.low && point.extension <= range.high;
+  });
+  if (within >= kFewestReadings) return {};
+  return text("the load was read %.0f times from 0.3 to 0.8 of the way, where a mean takes at least %.0f",
+              static_cast<double>(within), static_cast<double>(kFewestReadings));
+}
+
 /// Of the force that the rod bears; empty: there is a plateau.
 std::string why_no_plateau(const Pull& borne, const CurveReadings& found) {
   const std::optional<Plateau> level = plateau(borne, found.slides_to);
   if (!level) return "the pull has too few readings";
+  if (std::string few = why_too_few(borne, found.slides_to); !few.empty()) return few;
   if (found.jumped) return "a knot jumped open";
   const std::string interrupted = why_interrupted(borne, found.slides_to, level->force);
   return interrupted.empty() ? why_not_level(*level, found.lock_extension_by_load.has_value()) : interrupted;

@@ -8,7 +8,8 @@ namespace knot_utm {
 namespace {
 
 double drag_loss(const Sample& sample) { return sample.dissipation - sample.friction_loss; }
-double difference(const Sample& sample) { return sample.force_upper - sample.force_lower; }
+double motion(const Sample& sample) { return sample.kinetic_energy; }
+double numerical_loss(const Sample& sample) { return sample.numerical_dissipation; }
 
 /// The samples of what pulls up to `furthest` and until `end`, with the one that it begins from.
 std::vector<const Sample*> pull_to(const std::vector<Sample>& samples, double furthest, double end) {
@@ -26,32 +27,32 @@ std::vector<const Sample*> pull_to(const std::vector<Sample>& samples, double fu
   return out;
 }
 
-/// Mean over time of `value`, as it is at the end of each step.
-template <class Value>
-double mean(const std::vector<const Sample*>& pull, const Value& value) {
+/// Mean over time of |F|, as it is at the end of each step.
+double mean_force(const std::vector<const Sample*>& pull) {
   double sum = 0.0;
-  for (std::size_t i = 1; i < pull.size(); ++i) sum += (pull[i]->time - pull[i - 1]->time) * value(*pull[i]);
+  for (std::size_t i = 1; i < pull.size(); ++i)
+    sum += (pull[i]->time - pull[i - 1]->time) * std::abs(pull[i]->force_upper);
   return sum / (pull.back()->time - pull.front()->time);
 }
 
-/// Where half of the way has less.
-double median_drag(const std::vector<const Sample*>& pull) {
+/// |change of `energy`| on a way, over that way: half of the way has less [N].
+double median_force(const std::vector<const Sample*>& pull, double (*energy)(const Sample&)) {
   struct Piece {
-    double drag, way;
+    double force, way;
   };
   std::vector<Piece> pieces;
   double whole = 0.0;
   for (std::size_t i = 1; i < pull.size(); ++i) {
     const double way = std::abs(pull[i]->extension - pull[i - 1]->extension);
     if (!(way > 0.0)) continue;
-    pieces.push_back({(drag_loss(*pull[i]) - drag_loss(*pull[i - 1])) / way, way});
+    pieces.push_back({std::abs(energy(*pull[i]) - energy(*pull[i - 1])) / way, way});
     whole += way;
   }
-  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.drag < b.drag; });
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.force < b.force; });
   double passed = 0.0;
   for (const Piece& piece : pieces) {
     passed += piece.way;
-    if (passed >= 0.5 * whole) return piece.drag;
+    if (passed >= 0.5 * whole) return piece.force;
   }
   return 0.0;
 }
@@ -65,11 +66,11 @@ RateShares rate_shares(const std::vector<Sample>& samples, std::optional<double>
   const std::vector<const Sample*> pull =
       pull_to(samples, lock_extension.value_or(kNever), untangled_at.value_or(kNever));
   if (pull.size() < 2 || !(pull.back()->time > pull.front()->time)) return out;
-  const double force = mean(pull, [](const Sample& sample) { return std::abs(sample.force_upper); });
+  const double force = mean_force(pull);
   if (!(force > 0.0)) return out;
-  out.drag = median_drag(pull) / force;
-  const double steady = mean(pull, difference);
-  out.inertia = mean(pull, [steady](const Sample& s) { return std::abs(difference(s) - steady); }) / force;
+  out.drag = median_force(pull, drag_loss) / force;
+  out.inertia = median_force(pull, motion) / force;
+  out.numerical = median_force(pull, numerical_loss) / force;
   return out;
 }
 

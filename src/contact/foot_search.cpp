@@ -105,22 +105,13 @@ void FootSearch::begin(const Points& position, const std::vector<int>& segments)
   }
 }
 
-void FootSearch::look(const Lanes& point, const Candidates::Run* begin, const Candidates::Run* end) {
-  look_at<1>(&point, begin, end);
-}
-
 void FootSearch::look(const Lanes& first, const Lanes& second, const Candidates::Run* begin,
                       const Candidates::Run* end) {
-  const Lanes points[2] = {first, second};
-  look_at<2>(points, begin, end);
-}
-
-template <int Count>
-void FootSearch::look_at(const Lanes* points, const Candidates::Run* begin, const Candidates::Run* end) {
-  sieve_.sieve<Count>(points, begin, end);
+  sieve_.sieve(first, second, begin, end);
   const int number = static_cast<int>(points_.size());
-  for (int p = 0; p < 2; ++p) points_.push_back(points[std::min(p, Count - 1)]);
-  for (int p = 0; p < Count; ++p)
+  points_.push_back(first);
+  points_.push_back(second);
+  for (int p = 0; p < 2; ++p)
     for (const int* segment = sieve_.begin(p); segment != sieve_.end(p); ++segment)
       pairs_.push_back({number + p, *segment});
 }

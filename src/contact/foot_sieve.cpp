@@ -6,7 +6,7 @@ namespace knot_utm {
 
 namespace {
 
-constexpr int kLanes = 4;
+constexpr int kLanes = 4, kPoints = 2;
 constexpr double kRounding = 1e-9;  // more than what rounding does to F' [fraction of the edge squared]
 
 }  // namespace
@@ -39,19 +39,20 @@ void FootSieve::set_centreline(const Points& position) {
   }
 }
 
-template <int Count>
-void FootSieve::sieve(const Lanes* points, const Candidates::Run* begin, const Candidates::Run* end) {
-  std::size_t count[Count] = {};
+void FootSieve::sieve(const Lanes& first_point, const Lanes& second_point, const Candidates::Run* begin,
+                      const Candidates::Run* end) {
+  const Lanes points[kPoints] = {first_point, second_point};
+  std::size_t count[kPoints] = {};
   for (const Candidates::Run* run = begin; run != end; ++run) {
     const int first = run->first / kLanes, last = run->last / kLanes;
-    Lanes before[Count] = {};
+    Lanes before[kPoints] = {};
     if (first > 0)
-      for (int p = 0; p < Count; ++p) before[p] = edges_[static_cast<std::size_t>(first - 1)].slope(points[p]);
+      for (int p = 0; p < kPoints; ++p) before[p] = edges_[static_cast<std::size_t>(first - 1)].slope(points[p]);
     for (int i = first; i <= last; ++i) {
       const FourEdges& four = edges_[static_cast<std::size_t>(i)];
-      LanesMask left[Count];
+      LanesMask left[kPoints];
       LanesMask some = {};
-      for (int p = 0; p < Count; ++p) {
+      for (int p = 0; p < kPoints; ++p) {
         const Lanes ends = four.slope(points[p]);
         const Lanes begins = one_later(before[p], ends);
         left[p] = (begins < four.least_begin) & (ends >= four.least_end);
@@ -61,14 +62,11 @@ void FootSieve::sieve(const Lanes* points, const Candidates::Run* begin, const C
       if (!any(some)) continue;
       const int low = std::max(run->first - kLanes * i, 0), high = std::min(run->last - kLanes * i, kLanes - 1);
       for (int lane = low; lane <= high; ++lane)
-        for (int p = 0; p < Count; ++p)
+        for (int p = 0; p < kPoints; ++p)
           if (left[p][lane]) left_[p][count[p]++] = kLanes * i + lane;
     }
   }
-  std::copy_n(count, Count, count_);
+  std::copy_n(count, kPoints, count_);
 }
-
-template void FootSieve::sieve<1>(const Lanes*, const Candidates::Run*, const Candidates::Run*);
-template void FootSieve::sieve<2>(const Lanes*, const Candidates::Run*, const Candidates::Run*);
 
 }  // namespace knot_utm

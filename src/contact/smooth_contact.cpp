@@ -14,7 +14,6 @@ constexpr double kUnknown = -1.0;     // share of a foot that recalls none yet
 constexpr double kSharpest = 2.0;     // turn of the centreline at a node that is no longer resolved [rad]
 constexpr double kReachMargin = 0.3;  // feet are followed up to this gap [fraction of radius]
 constexpr double kDeepest = 0.5;      // overlap of a contact that may begin [fraction of radius]
-constexpr double kShort = 0.3;        // a segment with one point of integration is at most so long [fraction of radius]
 
 /// Arclength at rest of parameter u on a segment: from the middle of one edge to the middle of the next.
 double arclength_at(const Eigen::VectorXd& arclength, int segment, double u) {
@@ -53,11 +52,6 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
   accepted_.begin.assign(2 * static_cast<std::size_t>(nodes) + 1, 0);
   iterate_ = accepted_;
   moved_.resize(static_cast<std::size_t>(nodes));
-  for (const double length : voronoi_) whole_.push_back(length <= kShort * rod.material.radius ? 1 : 0);
-}
-
-double SmoothContact::parameter(int segment, int point) const {
-  return whole_[static_cast<std::size_t>(segment)] ? kWholeSegment : kIntegrationPoints[point];
 }
 
 void SmoothContact::begin_step() {
@@ -86,10 +80,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
     const Lanes outwards = outwards_[segment] * c.k;
     const auto point = [&](double u) { return c.m + u * c.t + (0.5 * u * u) * c.k - outwards; };
     const Candidates::Run *begin = candidates_.begin(segment), *end = candidates_.end(segment);
-    if (whole_[static_cast<std::size_t>(segment)])
-      search_.look(point(kWholeSegment), begin, end);
-    else
-      search_.look(point(kIntegrationPoints[0]), point(kIntegrationPoints[1]), begin, end);
+    search_.look(point(kIntegrationPoints[0]), point(kIntegrationPoints[1]), begin, end);
   }
   search_.find();
   for (std::size_t i = 0; i < search_.feet().size();) i = follow(i);
@@ -107,7 +98,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
 std::size_t SmoothContact::follow(std::size_t foot) {
   const std::vector<FootSearch::Foot>& feet = search_.feet();
   const int point = feet[foot].point;
-  const double arclength_a = arclength_at(arclength_, segment_of(point), parameter(segment_of(point), point % 2));
+  const double arclength_a = arclength_at(arclength_, segment_of(point), kIntegrationPoints[point % 2]);
   const std::size_t first = tracked_.size();
   for (; foot < feet.size() && feet[foot].point == point; ++foot) {
     const double arclength_b = arclength_at(arclength_, feet[foot].segment, feet[foot].u);
@@ -151,7 +142,7 @@ double SmoothContact::overlap(const Tracked& foot) const {
 bool SmoothContact::began_inside(const Tracked& tracked) const {
   const FootSearch::Foot& foot = search_.feet()[tracked.foot];
   const int segment = segment_of(foot.point);
-  const PointWeights wa(parameter(segment, foot.point % 2), outwards_[segment]);
+  const PointWeights wa(kIntegrationPoints[foot.point % 2], outwards_[segment]);
   const SegmentWeights wb(foot.u);
   Lanes x = foot.x;
   for (int k = 0; k < 3; ++k) {
@@ -169,7 +160,7 @@ bool SmoothContact::takes_part(const Tracked& foot) const {
 void SmoothContact::add_contact(Tracked& tracked) {
   const FootSearch::Foot& foot = search_.feet()[tracked.foot];
   const int segment = segment_of(foot.point);
-  const double u = foot.u, u_a = parameter(segment, foot.point % 2);
+  const double u = foot.u, u_a = kIntegrationPoints[foot.point % 2];
   tracked.contact = contacts_.size();
   ContactPoint& contact = contacts_.emplace_back();
   contact.point = foot.point % 2;
@@ -190,7 +181,7 @@ void SmoothContact::add_contact(Tracked& tracked) {
   contact.overlap = overlap(tracked);
   contact.begins = normal_.begin();
   contact.share = tracked.memory.share;
-  contact.weight = (whole_[static_cast<std::size_t>(segment)] ? 1.0 : 0.5) * voronoi_[segment] * contact.share;
+  contact.weight = 0.5 * voronoi_[segment] * contact.share;
   contact.estimate = tracked.memory.pressure;
   contact.memory = tracked.memory.slip;
   const SegmentParabola& c = search_.parabola(foot.segment);
@@ -233,7 +224,7 @@ ContactMotion SmoothContact::motion(const ContactPoint& contact, const Points& p
 
 double SmoothContact::share(const FootSearch::Foot& foot, const Points& position) const {
   const int segment = segment_of(foot.point);
-  const double ua = parameter(segment, foot.point % 2);
+  const double ua = kIntegrationPoints[foot.point % 2];
   const Vec3 x = to_vec3(foot.x);
   const Vec3 da = combine(SegmentWeights(ua).derivative, position, segment);
   const Vec3 db = combine(SegmentWeights(foot.u).derivative, position, foot.segment);

@@ -47,6 +47,14 @@ std::string why_no_lock(const Results& results) {
   return "there are no two knots that could lock";
 }
 
+std::string why_no_stiffness(const Results& results) {
+  const bool locked = results.lock_extension || results.curve.lock_extension_by_load;
+  if (locked && results.curve.lock_extension_by_load)
+    return "the load was read fewer than three times between the lock and the peak";
+  if (locked) return "the lock does not show in the load";
+  return why_no_lock(results);
+}
+
 /// Of what any pull has.
 std::string why_not_of_the_pull(const std::string& key, const Results& results) {
   if (key == "lock_extension") return results.lock_extension ? "" : why_no_lock(results);
@@ -54,7 +62,7 @@ std::string why_not_of_the_pull(const std::string& key, const Results& results) 
   if (key == "lock_extension_by_load")
     return results.curve.lock_extension_by_load ? ""
                                                 : "there is no plateau, or the load does not stay above twice its mean";
-  if (key == "locked_stiffness") return results.curve.locked_stiffness ? "" : why_no_lock(results);
+  if (key == "locked_stiffness") return results.curve.locked_stiffness ? "" : why_no_stiffness(results);
   if (key == "chord_stiffness") return "the true force was never below a tenth of the peak";
   if (key == "first_contact_extension") return "no two knots touched each other while pulled";
   if (key == "roller_touched_at") return "no roller bore on a knot or its tail while pulled";

@@ -57,15 +57,11 @@ TEST(FootSearch, FindsTheFeetThatBisectionFindsWhateverTheShape) {
     std::vector<Vec3> points;
     std::vector<int> numbers;
     for (int look = 0; look < 15; ++look) {
-      const int count = 1 + look % 2;
-      for (int p = 0; p < count; ++p) {
+      for (int p = 0; p < 2; ++p) {
         points.push_back(nodes.col(some(random)) + 0.3 * Vec3(place(random), place(random), place(random)));
         numbers.push_back(2 * look + p);
       }
-      if (count == 1)
-        search.look(to_lanes(points.back()), std::begin(all), std::end(all));
-      else
-        search.look(to_lanes(points[points.size() - 2]), to_lanes(points.back()), std::begin(all), std::end(all));
+      search.look(to_lanes(points[points.size() - 2]), to_lanes(points.back()), std::begin(all), std::end(all));
     }
     search.find();
     auto found = search.feet().begin();

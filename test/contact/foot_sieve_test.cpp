@@ -40,15 +40,10 @@ struct Look {
     std::uniform_int_distribution<Eigen::Index> some(0, edges);
     std::normal_distribution<double> away(0.0, 1.0);
     for (int look = 0; look < 100; ++look) {
-      const int count = 1 + look % 2;
       Vec3 a[2];
       for (Vec3& point : a) point = nodes.col(some(random)) + Vec3(away(random), away(random), away(random));
-      const Lanes points[2] = {to_lanes(a[0]), to_lanes(a[1])};
-      if (count == 1)
-        sieve.sieve<1>(points, std::begin(runs), std::end(runs));
-      else
-        sieve.sieve<2>(points, std::begin(runs), std::end(runs));
-      for (int p = 0; p < count; ++p) {
+      sieve.sieve(to_lanes(a[0]), to_lanes(a[1]), std::begin(runs), std::end(runs));
+      for (int p = 0; p < 2; ++p) {
         in_order = in_order && std::is_sorted(sieve.begin(p), sieve.end(p));
         left += static_cast<int>(sieve.end(p) - sieve.begin(p));
         for (int segment = 1; segment < edges; ++segment) {

@@ -119,6 +119,7 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
                           "fastest_node",
                           "drag_share",
                           "inertia_share",
+                          "numerical_share",
                           "preload",
                           "warnings",
                           "reason",
@@ -294,6 +295,36 @@ TEST(ResultYaml, AKnotThatJumpedOpenHasNoErrors) {
   const std::string yaml = result_yaml(results, facts);
   for (const char* key : {"plateau_force_error", "lock_extension_error", "locked_stiffness_error"})
     EXPECT_THAT(yaml, HasSubstr(std::string(key) + ": null  # a knot jumped open"));
+}
+
+/// Beside what mesh and tolerances move, which is all that a convergence study tells.
+TEST(ResultYaml, WhatSpeedTakesOfTheForceIsInTheErrorsOfForces) {
+  Results results;
+  results.true_plateau_force = 5.0;
+  results.lock_extension = 0.05;
+  results.curve.locked_stiffness = 1e5;
+  results.rate.drag = 0.02;
+  results.rate.inertia = 0.03;
+  RunFacts facts;
+  facts.errors = {0.1, 0.1, 0.1};
+  const YAML::Node result = YAML::Load(result_yaml(results, facts));
+  EXPECT_DOUBLE_EQ(result["plateau_force_error"].as<double>(), 0.15 * 5.0);
+  EXPECT_DOUBLE_EQ(result["lock_extension_error"].as<double>(), 0.1 * 0.05);
+  EXPECT_DOUBLE_EQ(result["locked_stiffness_error"].as<double>(), 0.15 * 1e5);
+}
+
+/// Its lock is known from how the knots move.
+TEST(ResultYaml, AStiffnessOfTooFewReadingsIsNoneAndSaysSo) {
+  Results results;
+  results.motion_pattern = MotionPattern::kSliding;
+  results.true_peak_force = 100.0;
+  results.lock_extension = results.curve.lock_extension_by_load = 0.05;
+  EXPECT_THAT(result_yaml(results, RunFacts()),
+              HasSubstr("locked_stiffness: null  # the load was read fewer than three times between the lock and the "
+                        "peak\n"));
+  results.curve.lock_extension_by_load.reset();
+  EXPECT_THAT(result_yaml(results, RunFacts()),
+              HasSubstr("locked_stiffness: null  # the lock does not show in the load\n"));
 }
 
 TEST(ResultYaml, SaysHowFarTheLoadCellMayBeOff) {

@@ -17,15 +17,15 @@ using ::testing::IsEmpty;
 const std::string kTighten = std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml";
 
 TEST(SpeedWarnings, SayWhatShareSpeedHasInTheForce) {
-  EXPECT_THAT(speed_warnings(RateShares{0.009, 0.009}, 1.0), IsEmpty());
+  EXPECT_THAT(speed_warnings(RateShares{0.009, 0.009, 0.0}, 1.0), IsEmpty());
   EXPECT_THAT(speed_warnings(RateShares{}, 1e-6), IsEmpty());
-  EXPECT_THAT(speed_warnings(RateShares{0.5, 0.02}, 1.0),
+  EXPECT_THAT(speed_warnings(RateShares{0.5, 0.02, 0.0}, 1.0),
               ElementsAre(HasSubstr("drag makes up 50 % of the force"), HasSubstr("inertia changes the force by 2 %")));
-  EXPECT_THAT(speed_warnings(RateShares{35.0, 0.0}, 1.0), ElementsAre(HasSubstr("drag takes 35 times the work")));
+  EXPECT_THAT(speed_warnings(RateShares{35.0, 0.0, 0.0}, 1.0), ElementsAre(HasSubstr("drag takes 35 times the work")));
 }
 
 TEST(SpeedWarnings, SayWhatTheMassThatIsLeftOutWouldDo) {
-  const RateShares rate{0.0, 1e-4};
+  const RateShares rate{0.0, 1e-4, 0.0};
   EXPECT_THAT(speed_warnings(rate, 0.1), IsEmpty());
   EXPECT_THAT(speed_warnings(rate, 2e-3), ElementsAre(HasSubstr("all of it would change the force by about 5 %")));
   EXPECT_THAT(speed_warnings(rate, 1e-6), ElementsAre(HasSubstr("by more than itself")));

@@ -97,6 +97,7 @@ struct CurveReadings {
 /// whether something was balanced or not. The readings themselves are of F.
 ///
 /// A mean of F is a plateau where the knots slide and F is level in between:
+///   - F was read at least three times within it;
 ///   - nothing jumped open before the lock: what comes after a jump is another knot, which has no lock and no stiffness
 ///     of its own here either;
 ///   - where e is known, de/ds lies within a quarter of the -2 of rigid sliding: half-way to -1, where sliding ends;

@@ -34,9 +34,8 @@ struct SegmentParabola {
   }
 };
 
-/// Contact is integrated along a segment by the midpoint rule, on its halves or on the whole of it.
+/// Contact is integrated along a segment by the midpoint rule on its halves.
 constexpr double kIntegrationPoints[2] = {0.25, 0.75};
-constexpr double kWholeSegment = 0.5;
 
 /// Weights of a point of integration. The spline of a rod of edges l that is bent by kappa runs l^2 kappa/12 inside of
 /// the arc that has the rod's own length. The point is put back outwards by a share of x_{i-1} - 2 x_i + x_{i+1}: with

@@ -23,8 +23,7 @@ class FootSearch {
 
   /// Forgets all points. The centreline as it stands now; feet will be looked for on these segments only.
   void begin(const Points& position, const std::vector<int>& segments);
-  /// One point, or two, that have the segments of these runs as candidates.
-  void look(const Lanes& point, const Candidates::Run* begin, const Candidates::Run* end);
+  /// Two points that have the segments of these runs as candidates.
   void look(const Lanes& first, const Lanes& second, const Candidates::Run* begin, const Candidates::Run* end);
   /// Of all points, ascending in their number, then along the rod.
   void find();
@@ -39,8 +38,6 @@ class FootSearch {
 
   struct Four;
 
-  template <int Count>
-  void look_at(const Lanes* points, const Candidates::Run* begin, const Candidates::Run* end);
   Four four(const Pair* pairs, std::size_t count) const;
   /// Of the pairs, those that may be within reach.
   void leave_near_ones();
@@ -49,7 +46,7 @@ class FootSearch {
   double reach_;
   FootSieve sieve_;
   std::vector<SegmentParabola> parabola_;  // of the segments asked for
-  std::vector<Lanes> points_;              // two a look, whether or not there is a second one
+  std::vector<Lanes> points_;              // two a look
   std::vector<Pair> pairs_;                // what the sieve left, then what is near
   std::vector<Foot> feet_;
 };

@@ -27,12 +27,11 @@ class FootSieve {
   /// The centreline as it stands now.
   void set_centreline(const Points& position);
 
-  /// Sieves the segments of these runs for one point, or for two. As the points of a segment have their candidates in
-  /// common, one walk serves both.
-  template <int Count>
-  void sieve(const Lanes* points, const Candidates::Run* begin, const Candidates::Run* end);
+  /// Sieves the segments of these runs for two points. As the points of a segment have their candidates in common, one
+  /// walk serves both.
+  void sieve(const Lanes& first, const Lanes& second, const Candidates::Run* begin, const Candidates::Run* end);
 
-  /// What was left for point 0, or of two points for 1, in the order of the runs.
+  /// What was left for point 0 or 1, in the order of the runs.
   const int* begin(int point) const { return left_[point].data(); }
   const int* end(int point) const { return left_[point].data() + count_[point]; }
 
@@ -52,8 +51,5 @@ class FootSieve {
   std::vector<int> left_[2];
   std::size_t count_[2] = {0, 0};
 };
-
-extern template void FootSieve::sieve<1>(const Lanes*, const Candidates::Run*, const Candidates::Run*);
-extern template void FootSieve::sieve<2>(const Lanes*, const Candidates::Run*, const Candidates::Run*);
 
 }  // namespace knot_utm

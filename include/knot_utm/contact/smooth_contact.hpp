@@ -9,8 +9,8 @@
 
 namespace knot_utm {
 
-/// Self-contact of the rod along its smooth centreline: each strand is integrated by the midpoint rule, with one point
-/// on a segment of at most 0.3 h and two on a longer one. Each point presses on its feet, its closest-point projections
+/// Self-contact of the rod along its smooth centreline: each strand is integrated by the midpoint rule, with two points
+/// on a segment. Each point presses on its feet, its closest-point projections
 /// on the other strands. Points and feet stand outwards of the spline, where the arc of the rod's own length runs: the
 /// points by their weights (PointWeights), the feet, which are searched on the spline, by what their overlap gains. A
 /// pair of points is seen from both sides; the two sides share it by
@@ -122,7 +122,6 @@ class SmoothContact {
   double share(const FootSearch::Foot& foot, const Points& position) const;
   double outwards(const FootSearch::Foot& foot, const Points& position) const;
   /// Parameter on its segment of an integration point.
-  double parameter(int segment, int point) const;
 
   NormalLaw normal_;
   Friction friction_;
@@ -132,7 +131,6 @@ class SmoothContact {
   double reach_;               // of centrelines within which feet are followed [m]
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd voronoi_;
-  std::vector<char> whole_;   // of a segment: it has one point of integration
   Eigen::VectorXd outwards_;  // share of the second difference by which a segment stands outwards; at first empty
   Candidates candidates_;
   FootSearch search_;
