@@ -4,6 +4,7 @@ import os
 
 import plots
 import runs
+import starts
 import yaml
 from table import Report, Table, at_most, is_
 
@@ -25,6 +26,7 @@ READINGS = [("plateau force (true)", "true_plateau_force", "F_0", "force"),
             ("locked stiffness", "locked_stiffness", "F_0/h", "stiffness"),
             ("peak force (true)", "true_peak_force", "F_0", "force")]
 SAMPLING_RATE = 3.0  # the default [Hz]
+STARTS = 5           # of each speed
 
 
 def draws():
@@ -47,7 +49,8 @@ def report(runner, materials):
                   "k_s h²/k_b, k_t/k_b, μ and F_p h²/k_b of a shipped material, its density, and any other diameter "
                   "and F_0 = k_b/h²; every length and speed is the default. The first column has the shipped diameter "
                   "and stiffness, and the others are compared with it. The own bending time is h² √(ρ A/k_b). With its "
-                  "own mass (`--set physics.inertia=1`) each rod would be another specimen. A speed that moves the "
+                  "own mass (`--set physics.inertia=1`) each rod would be another specimen. Readings of speeds are means over "
+                  f"{STARTS} starts, whose knots are tied 0.37 mm further apart from one to the next. A speed that moves the "
                   "plateau by more than a gate allows must have been warned of.",
                   tables, lambda file: plots.ratios(file, curves, "F_0 [N]", "reading / that of the first column",
                                                     SAME_SHARE))
@@ -85,32 +88,41 @@ def of_sizes(runner, method, material, curves):
 
 
 def of_speeds(runner, material):
-    """What pulling and tying more slowly and faster than by default moves."""
-    first = runner.run(f"{material}_speeds/default", {"material": material})
-    names, each = ["default"], [first]
+    """What pulling and tying more slowly and faster than by default moves: means over starts, as one of them scatters."""
+    def over_starts(name, settings):
+        return [runner.run(f"{material}_speeds/{name}/{k}", {"material": material, **settings, **starts.start(k)})
+                for k in range(STARTS)]
+
+    names, each = ["default"], [over_starts("default", {})]
+    program = each[0][0].method.get("program", [])
     for step in ("pull", "tie"):
-        speed = next((entry[step]["speed"] for entry in first.method.get("program", []) if step in entry), None)
+        speed = next((entry[step]["speed"] for entry in program if step in entry), None)
         for times in SPEEDS if speed else []:
             names.append(f"{step} x{times:g}")
-            settings = {"material": material, f"program.{step}.speed": times * speed}
+            settings = {f"program.{step}.speed": times * speed}
             if step == "pull":      # the load is read at the same extensions
                 settings["machine.load_cell"] = {"sampling_rate": times * SAMPLING_RATE}
-            each.append(runner.run(f"{material}_speeds/{step}_{times:g}", settings))
+            each.append(over_starts(f"{step}_{times:g}", settings))
     table = Table(f"{material}, speeds", names)
-    table.add("exit code", "-", [run.exit_code for run in each], is_(0))
-    warned = [any("radii a second" in text or "inertia" in text for text in run.value("warnings") or [])
-              for run in each]
+    table.add("exit code", "-", [max(run.exit_code for run in some) for some in each], is_(0))
+    warned = [any("radii a second" in text or "inertia" in text for run in some
+                  for text in run.value("warnings") or []) for some in each]
     table.add("warned of speed", "-", warned)
     for words, key, unit, _ in READINGS[:3]:
-        values = [run.value(key) for run in each]
+        values = [mean([run.value(key) for run in some]) for some in each]
         if values[0] is None:
             continue
         table.add(words, "N" if "force" in words else "m" if unit == "h" else "N/m", values)
         table.add(f"{words}: relative change", "-", changes(values),
                   [None if told else SLOW_ENOUGH for told in warned], ".2g")
     for words, key in (("share of drag in the force", "drag_share"), ("share of inertia in it", "inertia_share")):
-        table.add(words, "-", [run.value(key) for run in each], None, ".2g")
+        table.add(words, "-", [mean([run.value(key) for run in some]) for some in each], None, ".2g")
     return table
+
+
+def mean(values):
+    """None where one is."""
+    return None if None in values else sum(values) / len(values)
 
 
 def changes(values):
