@@ -207,6 +207,18 @@ def mean_relative_difference(curve, reference, points=200):
     return float(np.mean(np.abs(np.interp(x, *curve) - expected) / np.abs(expected)))
 
 
+def mean_relative_difference_of_parts(curve, reference, parts):
+    """The same of the means of y over so many equal parts of x."""
+    if not curve[0] or not reference[0]:
+        return None
+    low, high = max(curve[0][0], reference[0][0]), min(curve[0][-1], reference[0][-1])
+    if low >= high:
+        return None
+    x = low + (np.arange(parts * 50) + 0.5) * (high - low) / (parts * 50)
+    mean, expected = (np.interp(x, *one).reshape(parts, 50).mean(axis=1) for one in (curve, reference))
+    return float(np.mean(np.abs(mean - expected) / np.abs(expected)))
+
+
 def least_squares_slope(points):
     if len(points) < 3:
         return None

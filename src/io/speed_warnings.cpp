@@ -19,6 +19,14 @@ constexpr double kTiedSlow = 3.0 * kTiedByDefault;
 constexpr const char* kTiedFast =
     "; ten times the default changes a sliding force by up to 8 %, so choose a lower program.tie.speed";
 
+constexpr double kPulledAsShipped = 1.04;  // [radii/s]
+/// At three times that the plateaus of nylon and polypropylene are the same to 0.4 % (scripts/bench sizes, five
+/// starts).
+constexpr double kPulledSlow = 5.0 * kPulledAsShipped;
+/// Ten times moved the plateau of nylon by 2.9 %, of polypropylene by 1.2 %.
+constexpr const char* kPulledFast =
+    "; ten times that changes a sliding force by up to 3 %, so choose a lower program.pull.speed";
+
 std::string in_per_cent(double share) { return format_number(std::round(1000.0 * share) / 10.0) + " %"; }
 
 std::string two_digits(double value) {
@@ -56,9 +64,13 @@ std::vector<std::string> speed_warnings(const Method& method) {
   std::vector<std::string> all;
   for (const ProgramStep& step : method.program) {
     const double speed = step.speed / method.material.radius;
+    const std::string told = format_number(std::round(10.0 * speed) / 10.0);
     if (step.phase == Phase::kTie && speed > kTiedSlow)
-      all.push_back("the knots are tied at " + format_number(std::round(10.0 * speed) / 10.0) +
-                    " radii a second, by default at " + format_number(kTiedByDefault) + kTiedFast);
+      all.push_back("the knots are tied at " + told + " radii a second, by default at " +
+                    format_number(kTiedByDefault) + kTiedFast);
+    if (pulls(step.phase) && speed > kPulledSlow && method.specimen.knot == KnotKind::kFisherman)
+      all.push_back("the loop is pulled at " + told + " radii a second, as shipped at " +
+                    format_number(kPulledAsShipped) + kPulledFast);
   }
   return all;
 }

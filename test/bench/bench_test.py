@@ -125,6 +125,16 @@ class Runs(unittest.TestCase):
         self.assertIsNone(runs.mean_relative_difference(short, ([2.0, 3.0], [1.0, 1.0])))
         self.assertIsNone(runs.mean_relative_difference(([], []), reference))
 
+    def test_what_swings_about_the_same_mean_differs_point_by_point_alone(self):
+        x = [k / 1000.0 for k in range(1001)]
+        reference = (x, [2.0] * len(x))
+        swings = (x, [2.0 + math.sin(2.0 * math.pi * 4.0 * at) for at in x])
+        self.assertGreater(runs.mean_relative_difference(swings, reference), 0.3)
+        self.assertLess(runs.mean_relative_difference_of_parts(swings, reference, 4), 1e-3)
+        higher = (x, [2.2] * len(x))
+        self.assertAlmostEqual(runs.mean_relative_difference_of_parts(higher, reference, 4), 0.1)
+        self.assertIsNone(runs.mean_relative_difference_of_parts(([], []), reference, 4))
+
     def test_a_runs_memory_is_not_that_of_python(self):
         ballast = bytearray(400_000_000)
         ballast[::4096] = b"x" * len(ballast[::4096])

@@ -42,5 +42,14 @@ TEST(SpeedWarnings, SayThatKnotsAreTiedInHaste) {
               ElementsAre(HasSubstr("tied at 31.5 radii a second, by default at " + by_default + ";")));
 }
 
+TEST(SpeedWarnings, SayThatALoopIsPulledInHaste) {
+  EXPECT_THAT(speed_warnings(load_method(kTighten, {"program.pull.speed=0.016"})), IsEmpty());
+  EXPECT_THAT(speed_warnings(load_method(kTighten, {"program.pull.speed=0.033"})),
+              ElementsAre(HasSubstr("pulled at 10.4 radii a second, as shipped at 1.04;")));
+  EXPECT_THAT(speed_warnings(
+                  load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml", {"program.pull.speed=0.1"})),
+              IsEmpty());
+}
+
 }  // namespace
 }  // namespace knot_utm
