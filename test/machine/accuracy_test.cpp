@@ -69,15 +69,15 @@ TEST(ReadingErrors, OfOppositeHandsGrowWithSlipperinessAndPreload) {
 TEST(ReadingErrors, OfEdgesOfOneRadiusAtNormalIsThatOfTheStudy) {
   Loop loop;
   loop.specimen.edge_length = loop.material.radius;
-  EXPECT_DOUBLE_EQ(loop.errors().plateau_force.value(), 0.05);
+  EXPECT_DOUBLE_EQ(loop.errors().plateau_force.value(), 0.055);
 }
 
-/// Its edges are a little longer than a radius, and so is the error than 5 %.
+/// Its edges are a little longer than a radius, and so is the error than 5.5 %.
 TEST(ReadingErrors, OfTheShippedMethodNeedNoWarning) {
   const Method shipped = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml");
   const ReadingErrors errors = reading_errors(shipped.specimen, shipped.material, shipped.physics);
   EXPECT_NEAR(shipped.specimen.edge_length / shipped.material.radius, 1.008, 5e-4);
-  EXPECT_NEAR(errors.plateau_force.value(), 0.0504, 5e-5);
+  EXPECT_NEAR(errors.plateau_force.value(), 0.0554, 5e-5);
   EXPECT_EQ(accuracy_warning(plateau(), errors), "");
 }
 
