@@ -48,11 +48,10 @@ std::string why_no_lock(const Results& results) {
 }
 
 std::string why_no_stiffness(const Results& results) {
-  const bool locked = results.lock_extension || results.curve.lock_extension_by_load;
-  if (locked && results.curve.lock_extension_by_load)
+  if (results.motion_pattern != MotionPattern::kSliding) return why_no_lock(results);
+  if (results.curve.lock_extension_by_load)
     return "the load was read fewer than three times between the lock and the peak";
-  if (locked) return "the lock does not show in the load";
-  return why_no_lock(results);
+  return results.lock_extension ? "the lock does not show in the load" : why_no_lock(results);
 }
 
 /// Of what any pull has.

@@ -325,6 +325,9 @@ TEST(ResultYaml, AStiffnessOfTooFewReadingsIsNoneAndSaysSo) {
   results.curve.lock_extension_by_load.reset();
   EXPECT_THAT(result_yaml(results, RunFacts()),
               HasSubstr("locked_stiffness: null  # the lock does not show in the load\n"));
+  results.curve.lock_extension_by_load = 0.05;
+  results.motion_pattern = MotionPattern::kUntangling;
+  EXPECT_THAT(result_yaml(results, RunFacts()), HasSubstr("locked_stiffness: null  # the knot came undone\n"));
 }
 
 TEST(ResultYaml, SaysHowFarTheLoadCellMayBeOff) {
