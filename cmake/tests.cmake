@@ -27,6 +27,16 @@ endforeach()
 add_dependencies(core_tests compare tensile_test recover replay_step)
 gtest_discover_tests(core_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800)
 
+# What stands on lanes, for processors without AVX2: it compiles there too. What it costs there is measured by
+# `scripts/bench registers`.
+if(KNOT_UTM_X86_64_V3)
+  file(GLOB lane_sources CONFIGURE_DEPENDS src/solver/*.cpp src/contact/*.cpp src/sim/*.cpp)
+  add_library(narrow_lanes OBJECT ${lane_sources})
+  target_compile_options(narrow_lanes PRIVATE -O0 -mno-avx)
+  target_include_directories(narrow_lanes PRIVATE include)
+  target_link_libraries(narrow_lanes PRIVATE Eigen3::Eigen knot_utm_compiler)
+endif()
+
 # Counts what a step takes from the heap by a malloc of its own, where no sanitizer has one.
 if(NOT KNOT_UTM_SANITIZE)
   add_executable(allocation_test test/allocation/allocation_test.cpp)

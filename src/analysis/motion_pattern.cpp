@@ -11,6 +11,7 @@ constexpr double kTurnover = -1.0;      // de/ds between sliding (-2) and stretc
 constexpr double kLeastSliding = 0.15;  // of all extension
 constexpr double kGone = 0.05;          // of the largest load
 constexpr double kOpened = 1.5;         // times the tied excess length
+constexpr double kVanished = 0.25;      // of the tied excess length
 
 /// Least-squares line y(s) through the samples from `begin` to `end`, each weighted by the extension it stands for.
 struct Line {
@@ -104,6 +105,7 @@ void MotionPatternTracker::add_pulled(const Sample& sample) {
     const double excess = sample.excess_length[k];
     if (!std::isfinite(excess)) continue;
     if (!std::isfinite(tied_excess_[k])) tied_excess_[k] = excess;
+    excess_[k] = excess;
     if (!(largest_excess_[k] > excess)) largest_excess_[k] = excess;
   }
   if (!pull_.empty() && sample.extension <= pull_.back().extension) return;
@@ -151,6 +153,13 @@ bool MotionPatternTracker::opened() const {
   return false;
 }
 
+bool MotionPatternTracker::vanished() const {
+  for (int k = 0; k < 2; ++k) {
+    if (excess_[k] < kVanished * tied_excess_[k]) return true;
+  }
+  return false;
+}
+
 bool MotionPatternTracker::load_gone() const {
   if (!gone_since_ || pull_.back().extension - gone_extension_ < window_) return false;
   const bool known = std::isfinite(largest_excess_[0]) || std::isfinite(largest_excess_[1]);
@@ -158,7 +167,7 @@ bool MotionPatternTracker::load_gone() const {
 }
 
 bool MotionPatternTracker::knot_lost() const {
-  return type_lost_ && (crossed_ || pull_.empty() || borne_ < kGone * peak_);
+  return type_lost_ && (crossed_ || pull_.empty() || borne_ < kGone * peak_ || vanished());
 }
 
 bool MotionPatternTracker::slid() const {

@@ -110,19 +110,17 @@ std::optional<Passage> StrandPassage::search(std::size_t level, int i, int j) co
 std::optional<Passage> StrandPassage::edges_meet(int a, int b) const {
   if (a == parted_ || b == parted_) return std::nullopt;
   if (closed_ && a == 0 && b + 2 == start_->cols()) return std::nullopt;  // they share the node that closes the rod
+  // Of an end edge that is bare the inner half is asked: its middle goes straight as its ends do.
+  const bool bare = bare_ends_ && !closed_;
+  const bool inner_a = bare && a == 0, inner_b = bare && b + 2 == start_->cols();
+  auto middle = [](const Points& nodes, int edge) { return Vec3(0.5 * (nodes.col(edge) + nodes.col(edge + 1))); };
   auto pair = [&](const Points& nodes) -> EdgePair {
-    return {nodes.col(a), nodes.col(a + 1), nodes.col(b), nodes.col(b + 1)};
+    return {inner_a ? middle(nodes, a) : Vec3(nodes.col(a)), nodes.col(a + 1), nodes.col(b),
+            inner_b ? middle(nodes, b) : Vec3(nodes.col(b + 1))};
   };
   const std::optional<EdgeMeeting> at = meeting(pair(*start_), pair(*end_));
   if (!at) return std::nullopt;
-  const Passage passage{a, b, at->on_a, at->on_b};
-  if (bare_ends_ && !closed_ && slips_over_an_end(passage)) return std::nullopt;
-  return passage;
-}
-
-bool StrandPassage::slips_over_an_end(const Passage& passage) const {
-  const int last = static_cast<int>(start_->cols()) - 2;
-  return (passage.edge_a == 0 && passage.on_a < 0.5) || (passage.edge_b == last && passage.on_b > 0.5);
+  return Passage{a, b, inner_a ? 0.5 + 0.5 * at->on_a : at->on_a, inner_b ? 0.5 * at->on_b : at->on_b};
 }
 
 }  // namespace knot_utm

@@ -22,14 +22,6 @@ constexpr std::array kOfPlateau{
     "plateau_slope", "breakaway_force",  "true_plateau_force", "true_breakaway_force", "plateau_load_cell_error"};
 constexpr std::array kOfKnots{"tied_knot_distance", "excess_length", "final_excess_length"};
 
-std::string why_no_error(const std::string& reading, const Results& results, const RunFacts& facts) {
-  if (!results.not_equilibrated.empty()) return "the specimen was not at rest before it was pulled";
-  if (results.curve.jump_force) return "a knot jumped open, which no convergence study covers";
-  if (results.opened_when_mounted) return "a knot opened as the loop was mounted, which no convergence study covers";
-  const std::string none = why_null(reading, results, facts);
-  return none.empty() ? "no convergence study covers this case" : none;
-}
-
 std::string why_no_lock(const Results& results) {
   if (results.curve.jump_force)
     return "a knot jumped open at " + short_number(*results.curve.jump_force) +
@@ -45,6 +37,15 @@ std::string why_no_lock(const Results& results) {
       break;
   }
   return "there are no two knots that could lock";
+}
+
+std::string why_no_error(const std::string& reading, const Results& results, const RunFacts& facts) {
+  if (!results.not_equilibrated.empty()) return "the specimen was not at rest before it was pulled";
+  if (results.curve.jump_force) return "a knot jumped open, which no convergence study covers";
+  if (results.opened_when_mounted) return "a knot opened as the loop was mounted, which no convergence study covers";
+  const std::string none = why_null(reading, results, facts);
+  if (none.empty() && slid_to_the_end(results) && reading == "locked_stiffness") return why_no_lock(results);
+  return none.empty() ? "no convergence study covers this case" : none;
 }
 
 std::string why_no_stiffness(const Results& results) {
@@ -70,6 +71,10 @@ std::string why_not_of_the_pull(const std::string& key, const Results& results) 
 }
 
 }  // namespace
+
+bool slid_to_the_end(const Results& results) {
+  return results.motion_pattern == MotionPattern::kSliding && !results.lock_extension;
+}
 
 std::string why_null(const std::string& key, const Results& results, const RunFacts& facts) {
   if (key == "load_cell_error")

@@ -38,11 +38,10 @@ constexpr double kUnbalanced = 0.01;
 std::vector<std::string> warnings(const Results& results) {
   std::vector<std::string> all;
   if (results.knot_type == KnotType::kCrossed) {
-    all.push_back("the rod ran through itself at " + format_number(results.untangled_at.value_or(Sample::kNone)) +
-                  " s");
+    all.push_back("the rod ran through itself at " + short_number(results.untangled_at.value_or(Sample::kNone)) + " s");
   }
   if (results.untangled_at && results.knot_type != KnotType::kCrossed && results.ended_by != EndedBy::kUntangled) {
-    all.push_back("the knot came undone at " + format_number(*results.untangled_at) +
+    all.push_back("the knot came undone at " + short_number(*results.untangled_at) +
                   " s, while it was pulled, so there is no sliding force");
   }
   if (results.knot_type == KnotType::kChanged && !results.untangled_at) {
@@ -86,6 +85,8 @@ std::optional<double> class_error(const LoadCellOptions& cell, const std::option
 ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
   if (!results.not_equilibrated.empty() || results.curve.jump_force || results.opened_when_mounted) return {};
   ReadingErrors out = facts.errors;
+  // Studied are locks that the knots have come to, not loads that rise while they still slide.
+  if (slid_to_the_end(results)) out.locked_stiffness.reset();
   const double speed = results.rate.drag.value_or(0.0) + results.rate.inertia.value_or(0.0);
   for (std::optional<double>* error : {&out.plateau_force, &out.locked_stiffness})
     if (*error) **error += speed;
@@ -154,6 +155,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
       method.physics.gravity.norm() * method.material.density * M_PI * method.material.radius * method.material.radius;
   if (method.specimen.knot == KnotKind::kFisherman && method.machine.grips == GripKind::kRollers)
     radius_on_rollers_ = method.material.radius;
+  far_side_held_ = method.machine.far_side == FarSide::kHeld;
   if (method.analysis.margin)
     known_.margin.reason = "only tensile_test makes the runs for the margin: run method.yaml of this folder with it";
   known_.load_cell = method.machine.load_cell;
@@ -202,7 +204,8 @@ RunFacts RunWriter::facts() const {
     facts.warnings.push_back(
         "the loop turned around its rollers by " + format_number(std::round(turn_.largest() / *radius_on_rollers_)) +
         " radii of the rod, which carries its knots along" + (facts.weight > 0.0 ? ": physics.gravity turns it" : "") +
-        "; machine.far_side: held or machine.roller_friction keeps it in place");
+        (far_side_held_ ? ", though machine.far_side holds it: machine.roller_friction would keep it in place"
+                        : "; machine.far_side: held or machine.roller_friction keeps it in place"));
   return facts;
 }
 

@@ -38,8 +38,8 @@ double StepControl::next_after(double dt, const StepSummary& summary) const {
   // Growth starts from what was wanted: the step taken may have been cut to meet an end.
   if (summary.newton.iterations <= options_.easy_iterations)
     next = std::max(next, dt) * (summary.newton.iterations <= kVeryEasy ? kFastGrowth : kGrowth);
-  else if (summary.newton.iterations >= options_.hard_iterations)
-    next = dt * kShrink;
+  else if (summary.newton.iterations >= options_.hard_iterations && dt >= kShort * options_.longest)
+    next = dt * kShrink;  // no help where a step is hard however short
   // The rod as a whole may move further than its strands against each other: that is no harder to solve.
   if (summary.largest_motion > 0.0) next = std::min(next, dt * options_.motion / summary.largest_motion);
   if (summary.largest_slip > 0.0) next = std::min(next, dt * options_.slip / summary.largest_slip);

@@ -188,6 +188,21 @@ TEST(MotionPattern, UntanglingWhenTheKnotTypeIsLostAndTheLoadIsGone) {
   EXPECT_FALSE(results.curve.locked_stiffness);
 }
 
+/// The loop that is left may bear a load: its own weight, or a strand around a roller.
+TEST(MotionPattern, UntanglingWhenTheKnotTypeIsLostAndTheRodHasRunOutOfAKnot) {
+  std::vector<Sample> samples = Curve().samples();
+  for (Sample& sample : samples) {
+    sample.excess_length[0] = sample.excess_length[1] = 0.04;
+    if (sample.time < 12.5) continue;
+    sample.knot_type = KnotType::kChanged;
+    sample.excess_length[0] = 1e-9;
+  }
+  const Results results = analyse(samples, EndedBy::kExtension);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kUntangling);
+  EXPECT_FALSE(results.true_plateau_force);
+  EXPECT_FALSE(results.lock_extension);
+}
+
 /// The ends of the rod are joined outside to tell the knot type, where a roller can be in the way.
 TEST(MotionPattern, AKnotTypeThatChangesUnderLoadIsNoUntangling) {
   std::vector<Sample> samples = Curve().samples();

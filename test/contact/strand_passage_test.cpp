@@ -172,6 +172,23 @@ TEST(StrandPassage, OverTheOuterHalfOfAnEndEdgeCountsOnlyWhereTheEndsAreNotBare)
     }
 }
 
+TEST(StrandPassage, OverABareEndFirstAndThenOverTheInnerHalfCounts) {
+  // The tail goes along the strand while that tilts from one side to the other: the strand sinks through the tail's
+  // outer half after a quarter of the time, and rises through its inner half after three quarters.
+  const auto at = [](double time) {
+    Points x = tail_across(0.9 - 0.8 * time, 0.2);
+    x.col(2).z() = 1.0 - 2.0 * time;
+    x.col(3).z() = 2.0 * time - 1.0;
+    x.col(6).x() = x.col(7).x() = 4.2 + 1.6 * time;
+    return x;
+  };
+  const auto found = StrandPassage(8, true).find(at(0.0), at(1.0));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(std::pair(found->edge_a, found->edge_b), std::pair(2, 6));
+  EXPECT_NEAR(found->on_b, 0.3, 1e-3);
+  EXPECT_FALSE(StrandPassage(8, true).find(at(0.0), at(0.5))) << "over the outer half alone";
+}
+
 TEST(StrandPassage, OverABareEndHidesNoOtherOne) {
   // The strand's far part is pushed through the edge next to the tail's last one as well.
   Points start = tail_across(0.95, 1.0), end = tail_across(0.95, -1.0);

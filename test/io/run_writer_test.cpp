@@ -330,6 +330,21 @@ TEST(ResultYaml, AStiffnessOfTooFewReadingsIsNoneAndSaysSo) {
   EXPECT_THAT(result_yaml(results, RunFacts()), HasSubstr("locked_stiffness: null  # the knot came undone\n"));
 }
 
+/// Locks are studied that the knots have come to.
+TEST(ResultYaml, AStiffnessReadWhileTheKnotsStillSlideHasNoError) {
+  Results results;
+  results.motion_pattern = MotionPattern::kSliding;
+  results.true_peak_force = 56.0;
+  results.curve.lock_extension_by_load = 0.0847;
+  results.curve.locked_stiffness = 1.9e4;
+  RunFacts facts;
+  facts.errors = {0.1, 0.1, 0.1};
+  EXPECT_THAT(result_yaml(results, facts),
+              HasSubstr("locked_stiffness_error: null  # the knots still slid at the end of the pull\n"));
+  results.lock_extension = 0.085;
+  EXPECT_DOUBLE_EQ(YAML::Load(result_yaml(results, facts))["locked_stiffness_error"].as<double>(), 1.9e3);
+}
+
 TEST(ResultYaml, SaysHowFarTheLoadCellMayBeOff) {
   Results results;
   results.true_peak_force = 2000.0;

@@ -65,6 +65,12 @@ TEST(LanesInTwo, ComparesAndSelectsByLane) {
     EXPECT_EQ((~(a < b))[i] != 0, !(kA[i] < kB[i])) << i;
     EXPECT_EQ(select(a < b, a, b)[i], kA[i] < kB[i] ? kA[i] : kB[i]) << i;
     EXPECT_EQ(((a < b) | (a > b))[i] != 0, kA[i] != kB[i]) << i;
+    LanesInTwoMask either = a < b;
+    either |= a > b;
+    EXPECT_EQ(either[i] != 0, kA[i] != kB[i]) << i;
+    LanesInTwoMask both = a < b;
+    both &= a <= b;
+    EXPECT_EQ(both[i] != 0, kA[i] < kB[i]) << i;
     LanesInTwo only = LanesInTwo{};
     only[i] = 1.0;
     EXPECT_TRUE(any(only > 0.0)) << i;

@@ -84,6 +84,23 @@ TEST(FishermanLoop, IsFineInItsKnotsAndCoarseOnTheFarSide) {
   EXPECT_NEAR(edge_at(0.5 * (line.upper_apex + line.lower_apex)), 1.5 * shape.edge_length, 0.05 * shape.edge_length);
 }
 
+/// A coil presses as hard on the strand that it holds as that does on the coil, and slides along it.
+TEST(FishermanLoop, IsFineAlongBothStrandsFromOneKnotThroughTheOther) {
+  FishermanShape shape;
+  shape.refinement = 2.0;
+  const Centreline line = fisherman_loop(shape);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const double own = line.knots[k].coil_middle, held = line.knots[1 - k].threaded;
+    const double beyond = held + std::copysign(3.0 * shape.radius, held - own);
+    const int first = line.nearest_node(std::min(own, beyond)), last = line.nearest_node(std::max(own, beyond));
+    ASSERT_GT(last - first, 60);
+    for (int node = first; node < last; ++node) {
+      const double edge = (line.points.col(node + 1) - line.points.col(node)).norm();
+      ASSERT_NEAR(edge, 0.5 * shape.edge_length, 0.05 * shape.edge_length) << node;
+    }
+  }
+}
+
 TEST(FishermanLoop, KeepsItsStrandsApartInEqualEdges) {
   const double h = FishermanShape().radius;
   for (const Handedness handedness : {Handedness::kSame, Handedness::kOpposite}) {

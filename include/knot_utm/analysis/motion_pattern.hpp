@@ -30,9 +30,9 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 ///   sliding     at least one window, and 15 % of all extension, was passed at de/ds < -1; and up to where it last was
 ///               the knots came nearer to each other by more than s grew: else something beside them gave way
 ///   untangling  the knot type is another one, and nothing is borne: F is below 5 % of its largest value, or nothing
-///   has
-///               been pulled; or F fell for a window below that, has not come back, and the excess length in a knot,
-///               where known, grew beyond 1.5 times that of the tied knot; or the rod ran through itself
+///               has been pulled, or the excess length in a knot, where known, is below a quarter of that of the tied
+///               knot; or F fell for a window below 5 %, has not come back, and the excess length in a knot, where
+///               known, grew beyond 1.5 times that of the tied knot; or the rod ran through itself
 ///   stretching  anything else
 ///
 /// A knot type alone says nothing while the load is borne: it is told by a closure of the open ends, which a knot on a
@@ -70,6 +70,7 @@ class MotionPatternTracker {
   void follow_slope(double extension, double before);
   bool slid() const;
   bool opened() const;
+  bool vanished() const;
   bool knot_lost() const;
   bool load_gone() const;
 
@@ -82,6 +83,7 @@ class MotionPatternTracker {
   double last_sliding_ = 0.0;     ///< where de/ds last rose through -1 or was still below [m]
   double peak_ = 0.0;             ///< largest F [N]
   double tied_excess_[2] = {Sample::kNone, Sample::kNone};     ///< [m]
+  double excess_[2] = {Sample::kNone, Sample::kNone};          ///< last of the pull [m]
   double largest_excess_[2] = {Sample::kNone, Sample::kNone};  ///< during the pull [m]
   std::optional<double> gone_since_;                           ///< time since which F is gone [s]
   double gone_extension_ = 0.0;                                ///< extension there [m]

@@ -22,7 +22,7 @@ namespace knot_utm {
 struct ContactPoint {
   int a0 = 0;
   int b0 = -1;                 ///< -1: none, on a roller
-  int point = 0;               ///< which one of its segment's one or two points of integration a is
+  int point = 0;               ///< which of its segment's two points of integration a is
   int roller = -1;             ///< number of the roller; -1: between strands
   double c[6] = {};            ///< [-]
   double beta[6] = {};         ///< [-], zero for a

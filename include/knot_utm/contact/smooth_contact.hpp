@@ -81,7 +81,7 @@ class SmoothContact {
 
     void state(Archive& archive);
   };
-  /// Feet of every point of integration 2 segment + point, as compressed rows; a segment with one point has point 0.
+  /// Feet of every point of integration 2 segment + point, as compressed rows.
   struct MemoryList {
     std::vector<Memory> entries;
     std::vector<int> begin;
@@ -121,7 +121,6 @@ class SmoothContact {
   void put_outwards(const Points& position);
   double share(const FootSearch::Foot& foot, const Points& position) const;
   double outwards(const FootSearch::Foot& foot, const Points& position) const;
-  /// Parameter on its segment of an integration point.
 
   NormalLaw normal_;
   Friction friction_;

@@ -57,7 +57,6 @@ class StrandPassage {
   /// Looks for a passage between pieces i <= j of a level, or within one.
   std::optional<Passage> search(std::size_t level, int i, int j) const;
   std::optional<Passage> edges_meet(int a, int b) const;
-  bool slips_over_an_end(const Passage& passage) const;
 
   static Box join(const Box& a, const Box& b);
   static bool apart(const Box& a, const Box& b);

@@ -49,6 +49,7 @@ class RunWriter {
   double length_ = 0.0;                      ///< of the rod as it was last seen [m]
   LoopTurn turn_;                            ///< since it was mounted, of a loop on rollers
   std::optional<double> radius_on_rollers_;  ///< of the rod [m]; empty: it is not a loop on rollers
+  bool far_side_held_ = false;
   CurveWriter curve_;
   CurveWriter full_curve_;
 };

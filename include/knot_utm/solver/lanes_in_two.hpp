@@ -47,6 +47,7 @@ class InTwo {
   InTwo& operator-=(const InTwo& o) { return *this = *this - o; }
   InTwo& operator*=(const InTwo& o) { return *this = *this * o; }
   InTwo& operator&=(const InTwo& o) { return *this = *this & o; }
+  InTwo& operator|=(const InTwo& o) { return *this = *this | o; }
 
  private:
   Half low_, high_;

@@ -29,7 +29,7 @@ struct FishermanShape {
   Handedness handedness = Handedness::kSame;
   double looseness = 4.7;       ///< R/h, radius of the coil over that of the rod (3.9 to 8)
   double edge_length = 0.0032;  ///< wanted where strands may slide along each other [m]
-  double refinement = 1.0;      ///< edges in the knots' own strands are shorter by this factor [-]
+  double refinement = 1.0;      ///< edges of both strands between and within the knots are shorter by this factor [-]
   double straight = 0.0;  ///< its strands run straight for so long beyond the middles of the drawn coils, at least [m]
   double coarsening = 1.0;  ///< those of the far side are longer by this one, up to the rod's diameter [-]
 };

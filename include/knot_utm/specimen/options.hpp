@@ -21,7 +21,7 @@ struct SpecimenOptions {
   double tail = 0.03;                         ///< free tails [m]
   std::optional<double> preload;              ///< F_p [N]; unset (auto): material's tying_preload, else 4 k_b/h^2
   double edge_length = 0.0032;                ///< discretisation [m]
-  std::optional<double> refinement;           ///< edges in knots are shorter by this; unset (auto): of the accuracy
+  std::optional<double> refinement;           ///< edges between and within knots are shorter by this; unset: auto
   bool to_be_tied =
       false;  ///< the program ties it (not a key): e is that of the tied knots, the drawn ones start closer
 };
