@@ -70,7 +70,8 @@ def report(runner, materials, seeds=COUNT):
                   "of the mean is that of the same specimens, and its standard error is that of the mean of their "
                   "differences. A gate holds where the change is at most 2 % beyond its standard error and every "
                   "specimen has its reading. Edges h/3 and h/5: the edges in the knots are the radius over 3 and 5 "
-                  "long, where `normal` has h/2.25. The picture has every specimen, and the mean with its standard error.", tables,
+                  "long, where `normal` has h/2.25, and for nylon, which is tied hard, h/3. The picture has every "
+                  "specimen, and the mean with its standard error.", tables,
                   lambda file: plots.strips(file, pictures, "plateau or peak force [N]"))
 
 

@@ -201,9 +201,9 @@ class ImplicitStep final : public TimeStep {
   }
 
   /// In the shortest steps the residual shrinks to a thousandth, and two sides of a trifling jump (a foot that has two
-  /// places to be) may be as far apart as that: a change of 1e-8 h between them moves nothing.
+  /// places to be) may be as far apart as that: a change of 1e-7 h between them moves nothing.
   bool stands_still() const {
-    constexpr double kStill = 1e-8;
+    constexpr double kStill = 1e-7;
     return share_ == 1.0 && motion_ <= kStill * rod_.material.radius && worst_.residual <= settings_.residual;
   }
 
