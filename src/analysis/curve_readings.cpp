@@ -26,15 +26,14 @@ double mean_force(const Pull& pull, const Range& range) {
   return part.force / part.width;
 }
 
-/// Of the slopes over three parts of equal length.
-double middle_slope(const Pull& pull, const Range& range) {
+/// Least-squares slopes over three parts of equal length.
+std::array<double, 3> slopes_of_thirds(const Pull& pull, const Range& range) {
   std::array<double, 3> slope;
   for (std::size_t k = 0; k < 3; ++k) {
     const double part = (range.high - range.low) / 3.0, from = range.low + static_cast<double>(k) * part;
     slope[k] = slope_over(pull, {from, from + part});
   }
-  std::sort(slope.begin(), slope.end());
-  return slope[1];
+  return slope;
 }
 
 /// Smallest and largest F, F being straight from point to point.
@@ -182,7 +181,7 @@ std::optional<Drop> jump(const Pull& pull) {
   return out;
 }
 
-std::optional<double> locked_stiffness(const Pull& pull, double from) {
+std::optional<LockedPart> locked_part(const Pull& pull, double from) {
   if (pull.empty()) return std::nullopt;
   const double peak = peak_force(pull);
   const std::size_t end = peak_of(pull) + 1;
@@ -190,7 +189,11 @@ std::optional<double> locked_stiffness(const Pull& pull, double from) {
   while (begin > 0 && pull[begin - 1].extension >= from && (pull[begin - 1].force >= 0.5 * peak || end - begin < 3))
     --begin;
   if (end < begin + 3) return std::nullopt;
-  return middle_slope(pull, {pull[begin].extension, pull[end - 1].extension});
+  const Range range{pull[begin].extension, pull[end - 1].extension};
+  std::array<double, 3> slope = slopes_of_thirds(pull, range);
+  const double change = 1.5 * (slope[2] - slope[0]);  // the middles of the outer thirds are 2/3 of the part apart
+  std::sort(slope.begin(), slope.end());
+  return LockedPart{slope[1], change, range.high - range.low};
 }
 
 namespace {
@@ -265,7 +268,8 @@ CurveReadings curve_readings(const Pull& pull) {
   out.no_plateau = why_no_plateau(borne, out);
   if (out.no_plateau.empty()) read_plateau(pull, out);
   if (!out.jumped && (lock || !out.plateau_force))
-    out.locked_stiffness = locked_stiffness(pull, lock.value_or(pull.front().extension));
+    out.locked = locked_part(pull, lock.value_or(pull.front().extension));
+  if (out.locked) out.locked_stiffness = out.locked->stiffness;
   return out;
 }
 

@@ -80,6 +80,17 @@ std::optional<double> class_error(const LoadCellOptions& cell, const std::option
   return force ? class_error(cell, *force) : std::nullopt;
 }
 
+/// By how much a stiffness changes where the part that it is read from lies a little further along the curve: by as
+/// much as the lock may be off, or where there is none by a fifth of the part [-].
+double change_along_the_curve(const Results& results, const ReadingErrors& errors) {
+  constexpr double kFifth = 0.2;
+  const std::optional<LockedPart>& part = results.curve.locked;
+  if (!part || !(part->width > 0.0)) return 0.0;
+  const bool locks = results.lock_extension && errors.lock_extension;
+  const double further = locks ? *errors.lock_extension * *results.lock_extension / part->width : kFifth;
+  return std::abs(part->change / part->stiffness) * further;
+}
+
 /// Of readings whose specimen had not come to rest, or whose knots opened, no study says how far off they are. What
 /// drag and inertia take of the force is in forces and their slopes, beside what mesh and tolerances move.
 ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
@@ -87,6 +98,7 @@ ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
   ReadingErrors out = facts.errors;
   // Studied are locks that the knots have come to, not loads that rise while they still slide.
   if (slid_to_the_end(results)) out.locked_stiffness.reset();
+  if (out.locked_stiffness) *out.locked_stiffness += change_along_the_curve(results, out);
   const double speed = results.rate.drag.value_or(0.0) + results.rate.inertia.value_or(0.0);
   for (std::optional<double>* error : {&out.plateau_force, &out.locked_stiffness})
     if (*error) **error += speed;

@@ -33,6 +33,17 @@ TEST(CurveReadings, ASlidingKnotHasAPlateauALockAndAStiffness) {
   EXPECT_DOUBLE_EQ(*readings.breakaway_force, 6.0);
 }
 
+/// F = k s^2/2: the slope is k s.
+TEST(CurveReadings, TellsHowTheStiffnessChangesOverThePartThatItIsReadFrom) {
+  const CurveReadings readings = curve_readings(pull([](double s) { return 0.5 * 1e4 * s * s; }, 0.1, 20000));
+  ASSERT_TRUE(readings.locked);
+  const double from = 0.1 / std::sqrt(2.0), width = 0.1 - from;
+  EXPECT_NEAR(readings.locked->width, width, 1e-5);
+  EXPECT_NEAR(readings.locked->stiffness, 1e4 * (from + 0.5 * width), 0.1);
+  EXPECT_NEAR(readings.locked->change, 1e4 * width, 0.1);
+  EXPECT_DOUBLE_EQ(*readings.locked_stiffness, readings.locked->stiffness);
+}
+
 TEST(CurveReadings, AStretchingRodHasAStiffnessAlone) {
   const CurveReadings readings = curve_readings(pull([](double s) { return 160.0 * s; }));
   EXPECT_FALSE(readings.plateau_force);

@@ -313,6 +313,23 @@ TEST(ResultYaml, WhatSpeedTakesOfTheForceIsInTheErrorsOfForces) {
   EXPECT_DOUBLE_EQ(result["locked_stiffness_error"].as<double>(), 0.15 * 1e5);
 }
 
+/// A lock 2 mm further out is 0.2 of the part, over which the stiffness grows by half.
+TEST(ResultYaml, AStiffnessThatGrowsAlongTheCurveIsAsUnsureAsItsLock) {
+  Results results;
+  results.motion_pattern = MotionPattern::kSliding;
+  results.lock_extension = 0.05;
+  results.curve.locked_stiffness = 1e5;
+  results.curve.locked = LockedPart{1e5, 5e4, 0.01};
+  RunFacts facts;
+  facts.errors = {0.1, 0.04, 0.1};
+  EXPECT_DOUBLE_EQ(YAML::Load(result_yaml(results, facts))["locked_stiffness_error"].as<double>(), (0.1 + 0.1) * 1e5);
+  results.motion_pattern = MotionPattern::kStretching;
+  results.lock_extension.reset();
+  results.curve.locked = LockedPart{1e5, -5e4, 0.02};
+  EXPECT_DOUBLE_EQ(YAML::Load(result_yaml(results, facts))["locked_stiffness_error"].as<double>(), (0.1 + 0.1) * 1e5)
+      << "a fifth of the part";
+}
+
 /// Its lock is known from how the knots move.
 TEST(ResultYaml, AStiffnessOfTooFewReadingsIsNoneAndSaysSo) {
   Results results;

@@ -65,10 +65,17 @@ std::optional<Drop> largest_drop(const Pull& pull, double end);
 /// other. It does not ask for a lock: a load that rises to its breakaway and then falls has a false one.
 std::optional<Drop> jump(const Pull& pull);
 
-/// Slope of F(s) where the rod carries the load: over the points from s = `from` on, up to the peak, whose F lies
-/// between half the peak and the peak, at least the last three. The middle one of the least-squares slopes in three
-/// parts of equal extension: strands that slip inside a locked knot let F fall at one place. [N/m]
-std::optional<double> locked_stiffness(const Pull& pull, double from);
+/// F(s) where the rod carries the load: over the points from s = `from` on, up to the peak, whose F lies between half
+/// the peak and the peak, at least the last three.
+struct LockedPart {
+  /// The middle one of the least-squares slopes in three parts of equal extension: strands that slip inside a locked
+  /// knot let F fall at one place [N/m].
+  double stiffness = 0.0;
+  double change = 0.0;  ///< of the slope from one end to the other, by the outer two of the three [N/m]
+  double width = 0.0;   ///< of s [m]
+};
+
+std::optional<LockedPart> locked_part(const Pull& pull, double from);
 
 /// What a force-extension curve says by itself, be it measured or simulated. A test's own, those of its load cell, are
 /// in result.yaml by the same names and to the last digit.
@@ -91,6 +98,7 @@ struct CurveReadings {
   std::optional<double> breakaway_force;         ///< largest F before the plateau, where there is one [N]
   std::optional<double> lock_extension_by_load;  ///< s_l [m]
   std::optional<double> locked_stiffness;        ///< behind s_l; of the whole pull where there is no plateau [N/m]
+  std::optional<LockedPart> locked;              ///< of which that is the stiffness
 };
 
 /// What the curve is, is judged by the force that the rod bears, F + `PullPoint::zero_force`, so that it is the same
