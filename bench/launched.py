@@ -17,10 +17,17 @@ FILES = ['curve.csv', 'curve_full.csv', 'final_shape.csv', 'method.yaml', 'test.
 LAST_RESORT = 180.0  # [s] on a machine however busy: whoever waits does so for what is to happen, not for time
 
 
+GIVEN = set()  # ports: one stays free until the master that got it has begun to listen, and may be offered again
+
+
 def free_port():
-    with socket.socket() as probe:
-        probe.bind(('127.0.0.1', 0))
-        return probe.getsockname()[1]
+    while True:
+        with socket.socket() as probe:
+            probe.bind(('127.0.0.1', 0))
+            port = probe.getsockname()[1]
+        if port not in GIVEN:
+            GIVEN.add(port)
+            return port
 
 
 def wait_for(what, condition, timeout=LAST_RESORT):

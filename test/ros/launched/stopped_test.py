@@ -29,6 +29,8 @@ class StoppedTest(unittest.TestCase):
                 for node in [node for node in running if launches[node].rows() >= 3]:
                     os.kill(launches[node].pid(node), signal.SIGSTOP)
                     running.remove(node)
+                for node in running:
+                    self.assertIsNone(launches[node].process.poll(), launches[node].console())
                 time.sleep(0.05)
             time.sleep(STANDSTILL)
             for node, launch in launches.items():
