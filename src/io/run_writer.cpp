@@ -83,11 +83,11 @@ std::optional<double> class_error(const LoadCellOptions& cell, const std::option
 /// By how much a stiffness changes where the part that it is read from lies a little further along the curve: by as
 /// much as the lock may be off, or where there is none by a fifth of the part [-].
 double change_along_the_curve(const Results& results, const ReadingErrors& errors) {
-  constexpr double kFifth = 0.2;
+  constexpr double kFurther = 0.2;  // of the part, by choice
   const std::optional<LockedPart>& part = results.curve.locked;
-  if (!part || !(part->width > 0.0)) return 0.0;
+  if (!part || !(part->width > 0.0) || part->stiffness == 0.0) return 0.0;
   const bool locks = results.lock_extension && errors.lock_extension;
-  const double further = locks ? *errors.lock_extension * *results.lock_extension / part->width : kFifth;
+  const double further = locks ? *errors.lock_extension * *results.lock_extension / part->width : kFurther;
   return std::abs(part->change / part->stiffness) * further;
 }
 

@@ -39,7 +39,7 @@ double StepControl::next_after(double dt, const StepSummary& summary) const {
   if (summary.newton.iterations <= options_.easy_iterations)
     next = std::max(next, dt) * (summary.newton.iterations <= kVeryEasy ? kFastGrowth : kGrowth);
   else if (summary.newton.iterations >= options_.hard_iterations && dt >= kShort * options_.longest)
-    next = dt * kShrink;  // no help where a step is hard however short
+    next = dt * kShrink;  // shorter yet, steps are as hard: two places to be remain two
   // The rod as a whole may move further than its strands against each other: that is no harder to solve.
   if (summary.largest_motion > 0.0) next = std::min(next, dt * options_.motion / summary.largest_motion);
   if (summary.largest_slip > 0.0) next = std::min(next, dt * options_.slip / summary.largest_slip);

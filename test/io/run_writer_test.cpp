@@ -328,6 +328,9 @@ TEST(ResultYaml, AStiffnessThatGrowsAlongTheCurveIsAsUnsureAsItsLock) {
   results.curve.locked = LockedPart{1e5, -5e4, 0.02};
   EXPECT_DOUBLE_EQ(YAML::Load(result_yaml(results, facts))["locked_stiffness_error"].as<double>(), (0.1 + 0.1) * 1e5)
       << "a fifth of the part";
+  results.curve.locked_stiffness = 0.0;
+  results.curve.locked = LockedPart{0.0, 5e4, 0.02};
+  EXPECT_EQ(YAML::Load(result_yaml(results, facts))["locked_stiffness_error"].as<double>(), 0.0) << "a level load";
 }
 
 /// Its lock is known from how the knots move.

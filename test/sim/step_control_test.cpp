@@ -234,5 +234,17 @@ TEST(StepControl, AimsAtAMovementAndIsShorterWhereNewtonFindsItHard) {
   EXPECT_LT(run.taken[1], 0.75 * run.taken[0]);
 }
 
+/// Else a run would give up in which every step is accepted.
+TEST(StepControl, DoesNotShortenStepsThatAreHardHoweverShort) {
+  StepControl::Options from = options();
+  StepControl control(from);
+  ScriptedStep hard;
+  hard.iterations = 10;
+  const Outcome run = advance(control, hard, 0.7);
+  EXPECT_EQ(run.gave_up, "");
+  EXPECT_LT(run.taken.back(), 1e-3 * from.longest);
+  EXPECT_GT(*std::min_element(run.taken.begin(), run.taken.end()), 0.5e-3 * from.longest);
+}
+
 }  // namespace
 }  // namespace knot_utm
