@@ -229,6 +229,8 @@ def shade_motion(axes, run):
     touch = run.value("first_contact_extension")
     if touch is not None:
         axes.axvline(scale * touch, color=VIOLET, lw=0.9, ls=(0, (1, 2)))
+        axes.text(scale * touch, 0.03, "knots touch ", color=VIOLET, ha="right", va="bottom", rotation=90,
+                  fontsize=SMALL, transform=axes.get_xaxis_transform())
     jumped = run.value("jump_extension")
     if jumped is not None:
         axes.axvline(scale * jumped, color=RED, lw=0.9, ls=(0, (4, 3)))

@@ -32,7 +32,7 @@ def largest_load(run):
         return LargestLoad(pulled, row, "peak", "where the rod parted", True)
     if not is_near(pulled, row, float(pulled["extension"].max())):
         return LargestLoad(pulled, row, "peak", f"at an extension of {length(run, pulled['extension'][row])}", True)
-    return LargestLoad(pulled, row, "largest load", end_of_pull(run, tested, pulled), False)
+    return LargestLoad(pulled, row, "largest load", end_of_pull(run, tested, pulled, row), False)
 
 
 def is_near(pulled, row, extension):
@@ -40,17 +40,18 @@ def is_near(pulled, row, extension):
     return abs(float(s[row]) - extension) <= NEAR * float(np.ptp(s))
 
 
-def end_of_pull(run, tested, pulled):
+def end_of_pull(run, tested, pulled, row):
     """Why the load went no higher."""
+    place = length(run, pulled["extension"][row])
     if len(set(pulled.phase)) == 1 and pulled.phase[0] == "cycle":
         return "at the upper turning point of the cycles"
     if tested["time"][-1] > pulled["time"][-1]:
-        return f"at the end of the pull, at {length(run, pulled['extension'].max())}"
+        return f"at the end of the pull, at {place}"
     ended_by = run.result.get("ended_by")
     if ended_by in NOT_STOPPED:
         return NOT_STOPPED[ended_by]
     stopped = "the operator stopped" if ended_by == "operator" else "was stopped"
-    return f"at the end of the test, which {stopped} at {length(run, pulled['extension'].max())}"
+    return f"at the end of the test, which {stopped} at {place}"
 
 
 def length(run, metres):

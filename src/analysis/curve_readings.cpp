@@ -19,7 +19,9 @@ constexpr double kLevel = 0.5;                            // change of a plateau
 constexpr double kProportional = 1.0 / 1.1;               // ... and that of a force in proportion to s
 constexpr double kSliding = -2.0, kOffSliding = 0.5;      // de/ds of rigid sliding, and how far off it a plateau's is
 constexpr double kSudden = 0.05;                          // of the way to the lock
-constexpr double kLetOut = 0.05;                          // of the first e
+constexpr double kTakenIn = 0.125;                        // of the first excess length
+constexpr double kLetOut = 0.05, kLetGo = 0.5;            // of the first e; of F
+constexpr int kFewestForDrops = 20;                       // readings on the way to the lock
 
 double mean_force(const Pull& pull, const Range& range) {
   const Integrals part = integrate(pull, range);
@@ -80,9 +82,26 @@ std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double wa
   return out;
 }
 
-/// By which the knots came nearer to each other beyond what sliding can do [m].
-double let_out(const PullPoint& from, const PullPoint& to) {
-  return from.knot_distance - to.knot_distance + kSliding * (to.extension - from.extension);
+/// Of the rod that a knot holds: what it took in over what it held at first, the larger of both knots; NaN: not known.
+double taken_in(const Pull& pull, const PullPoint& from, const PullPoint& to) {
+  double most = Sample::kNone;
+  for (std::size_t k = 0; k < 2; ++k)
+    most = std::fmax(most, (to.excess_length[k] - from.excess_length[k]) / pull.front().excess_length[k]);
+  return most;
+}
+
+/// By which the knots came nearer to each other beyond what sliding can do, over the first e; 0 where F did not fall by
+/// half.
+double let_out(const Pull& pull, const PullPoint& from, const PullPoint& to) {
+  if (to.force > kLetGo * from.force) return 0.0;
+  return (from.knot_distance - to.knot_distance + kSliding * (to.extension - from.extension)) /
+         pull.front().knot_distance;
+}
+
+/// How much a knot opened from one point to another, over the least that is a jump; NaN: nothing tells.
+double opened(const Pull& pull, const PullPoint& from, const PullPoint& to) {
+  const double known = taken_in(pull, from, to) / kTakenIn;
+  return std::isfinite(known) ? known : let_out(pull, from, to) / kLetOut;
 }
 
 std::string text(const char* format, double a, double b = 0.0) {
@@ -126,6 +145,11 @@ Range plateau_range(const Pull& pull, double end) {
   return {start + kPlateauBegin * (end - start), start + kPlateauEnd * (end - start)};
 }
 
+bool has_few_for_drops(const Pull& pull, double end) {
+  return std::count_if(pull.begin(), pull.end(), [&](const PullPoint& p) { return p.extension <= end; }) <
+         kFewestForDrops;
+}
+
 double peak_force(const Pull& pull) { return pull[peak_of(pull)].force; }
 
 std::optional<Plateau> plateau(const Pull& pull, double end) {
@@ -154,7 +178,7 @@ double breakaway_force(const Pull& pull, double end) {
 }
 
 std::optional<Drop> largest_drop(const Pull& pull, double end) {
-  if (pull.empty()) return std::nullopt;
+  if (has_few_for_drops(pull, end)) return std::nullopt;
   return largest_drop(pull, {pull.front().extension, end}, sudden(pull, end));
 }
 
@@ -164,13 +188,13 @@ std::optional<Drop> jump(const Pull& pull) {
   const auto point = [&](std::size_t i) { return pull.begin() + static_cast<std::ptrdiff_t>(i); };
   const double first = pull.front().knot_distance, end = pull.back().extension;
   const double at_once = kSudden * first / std::abs(kSliding);  // knots have met after half of e at the latest
-  double most = kLetOut * first;
+  double most = 1.0;
   std::optional<Drop> out;
   for (std::size_t i = 0; i < pull.size(); ++i) {
     const std::size_t last = last_within(pull, i, at_once, end);
     for (std::size_t j = i + 1; j <= last; ++j)
-      if (pull[j].force < pull[i].force && let_out(pull[i], pull[j]) > most) {
-        most = let_out(pull[i], pull[j]);
+      if (const double much = opened(pull, pull[i], pull[j]); pull[j].force < pull[i].force && much > most) {
+        most = much;
         out = Drop{i, j};
       }
   }
@@ -193,7 +217,7 @@ std::optional<LockedPart> locked_part(const Pull& pull, double from) {
   std::array<double, 3> slope = slopes_of_thirds(pull, range);
   const double change = 1.5 * (slope[2] - slope[0]);  // the middles of the outer thirds are 2/3 of the part apart
   std::sort(slope.begin(), slope.end());
-  return LockedPart{slope[1], change, range.high - range.low};
+  return LockedPart{slope[1], change, range.high - range.low, static_cast<int>(end - begin)};
 }
 
 namespace {
@@ -223,14 +247,27 @@ std::string why_no_plateau(const Pull& borne, const CurveReadings& found) {
   if (std::string few = why_too_few(borne, found.slides_to); !few.empty()) return few;
   if (found.jumped) return "a knot jumped open";
   const std::string interrupted = why_interrupted(borne, found.slides_to, level->force);
-  return interrupted.empty() ? why_not_level(*level, found.lock_extension_by_load.has_value()) : interrupted;
+  return interrupted.empty() ? why_not_level(*level, found.rises_at.has_value()) : interrupted;
 }
 
 /// What the rod bears.
 Pull borne_of(Pull pull) {
   for (PullPoint& point : pull)
-    if (std::isfinite(point.zero_force)) point.force += point.zero_force;
+    if (std::isfinite(point.borne)) point.force = point.borne;
   return pull;
+}
+
+/// Of the force that the rod bears; empty: it locks where F rises for good.
+std::string why_no_lock(const Pull& borne, const CurveReadings& found) {
+  if (found.jumped) return "a knot jumped open";
+  if (!found.no_plateau.empty()) return "there is no plateau";
+  if (!found.rises_at) return "the load does not stay above twice the mean of its plateau";
+  const auto after = std::lower_bound(borne.begin() + 1, borne.end() - 1, *found.rises_at,
+                                      [](const PullPoint& p, double s) { return p.extension < s; });
+  const double way = *found.rises_at - borne.front().extension;
+  const double apart = (after->extension - (after - 1)->extension) / way;
+  if (apart <= kSudden) return {};
+  return text("the readings around it are %.2g of the way apart, where %.2g is close enough", apart, kSudden);
 }
 
 void read_plateau(const Pull& pull, CurveReadings& out) {
@@ -248,27 +285,27 @@ void read_plateau(const Pull& pull, CurveReadings& out) {
 
 CurveReadings curve_readings(const Pull& pull) {
   CurveReadings out;
-  out.no_plateau = "nothing was pulled";
+  out.no_plateau = out.no_lock_by_load = "nothing was pulled";
   if (pull.empty()) return out;
   const Pull borne = borne_of(pull);
-  const std::optional<double> lock = lock_by_load(borne);
-  out.slides_to = lock.value_or(pull.back().extension);
+  out.rises_at = lock_by_load(borne);
+  out.slides_to = out.rises_at.value_or(pull.back().extension);
   out.jumped = jump(borne);
   out.peak_force = peak_force(pull);
-  const std::optional<Drop> fall = largest_drop(pull, out.slides_to);
-  out.largest_drop = fall ? fall->force(pull) : 0.0;
+  const std::optional<Drop> fall = largest_drop(borne, out.slides_to);
+  if (!has_few_for_drops(borne, out.slides_to)) out.largest_drop = fall ? fall->force(borne) : 0.0;
   if (fall) out.largest_drop_at = pull[fall->from].extension;
   if (out.jumped) {
     out.jump_force = pull[out.jumped->from].force;
     out.jump_extension = pull[out.jumped->from].extension;
     out.force_after_jump = pull[out.jumped->to].force;
-  } else {
-    out.lock_extension_by_load = lock;
   }
   out.no_plateau = why_no_plateau(borne, out);
   if (out.no_plateau.empty()) read_plateau(pull, out);
-  if (!out.jumped && (lock || !out.plateau_force))
-    out.locked = locked_part(pull, lock.value_or(pull.front().extension));
+  out.no_lock_by_load = why_no_lock(borne, out);
+  if (out.no_lock_by_load.empty()) out.lock_extension_by_load = out.rises_at;
+  if (!out.jumped && (out.rises_at || !out.plateau_force))
+    out.locked = locked_part(pull, out.rises_at.value_or(pull.front().extension));
   if (out.locked) out.locked_stiffness = out.locked->stiffness;
   return out;
 }

@@ -13,14 +13,16 @@ constexpr double kSameZero = 1e-9;  // far above rounding, far below what anybod
 
 PullPoint point_of(const CurveRow& row, ExtensionOf extension) {
   const double s = extension == ExtensionOf::kMachine ? row.extension : own_extension(row);
-  return {row.time, s, row.knot_distance, row.load};
+  PullPoint point{row.time, s, row.knot_distance, row.load};
+  point.borne = row.load_lower;
+  point.excess_length = row.excess_length;
+  return point;
 }
 
 /// From where the pull began. Nothing balances the force on the lower grip.
 PullPoint origin_of(const CurveRow& before, const CurveRow& first, ExtensionOf extension) {
   PullPoint origin = point_of(before, extension);
-  if (balanced_between(before, first)) origin = {before.time, 0.0, before.knot_distance, 0.0};
-  origin.zero_force = before.load_lower - origin.force;
+  if (balanced_between(before, first)) origin.extension = origin.force = 0.0;
   return origin;
 }
 
@@ -39,6 +41,7 @@ CurveRow curve_row(const Sample& sample) {
   row.end_to_end = sample.end_to_end;
   row.load_lower = sample.force_lower;
   row.phase = sample.phase;
+  row.excess_length = {sample.excess_length[0], sample.excess_length[1]};
   return row;
 }
 
@@ -51,17 +54,14 @@ bool balanced_between(const CurveRow& before, const CurveRow& after) {
 Pull pull_of(const std::vector<CurveRow>& rows, ExtensionOf extension) {
   Pull pull;
   bool first = true;
-  double zero_force = Sample::kNone;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!pulls(rows[i].phase)) continue;
-    PullPoint point = point_of(rows[i], extension);
+    const PullPoint point = point_of(rows[i], extension);
     if (first && i > 0) {
       const PullPoint origin = origin_of(rows[i - 1], rows[i], extension);
-      zero_force = origin.zero_force;
       if (origin.extension < point.extension) pull.push_back(origin);
     }
     first = false;
-    point.zero_force = zero_force;
     if (pull.empty() || point.extension > pull.back().extension) pull.push_back(point);
   }
   return pull;

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pull_integrals.hpp"
+
 namespace knot_utm {
 namespace {
 
 constexpr double kWindow = 0.03;        // of the first knot distance
 constexpr double kTurnover = -1.0;      // de/ds between sliding (-2) and stretching (> 0)
 constexpr double kLeastSliding = 0.15;  // of all extension
+constexpr double kLevel = 2.0;          // times the mean load of the way on which the knots slid
 constexpr double kGone = 0.05;          // of the largest load
 constexpr double kOpened = 1.5;         // times the tied excess length
 constexpr double kVanished = 0.25;      // of the tied excess length
@@ -138,6 +141,7 @@ void MotionPatternTracker::follow_slope(double extension, double before) {
   centre_ = line.mean_s;
   const double passed = first ? extension - pull_.front().extension : extension - before;
   if (slope_ < kTurnover) {
+    if (slid_ == 0.0) first_sliding_ = first ? pull_.front().extension : centre_;
     slid_ += passed;
     last_sliding_ = centre_;
   } else if (!first && slope_before < kTurnover) {
@@ -171,12 +175,24 @@ bool MotionPatternTracker::knot_lost() const {
 }
 
 bool MotionPatternTracker::slid() const {
-  const PullPoint& first = pull_.front();
-  const auto there = std::lower_bound(pull_.begin(), pull_.end() - 1, last_sliding_,
-                                      [](const PullPoint& p, double extension) { return p.extension < extension; });
-  const double all = pull_.back().extension - first.extension;
-  return slid_ >= window_ && slid_ >= kLeastSliding * all &&
-         there->knot_distance - first.knot_distance < kTurnover * (there->extension - first.extension);
+  const PullPoint &start = pull_.front(), &first = point_at(first_sliding_), &last = point_at(last_sliding_);
+  const auto came_nearer = [&](const PullPoint& from) {
+    return last.knot_distance - from.knot_distance < kTurnover * (last.extension - from.extension);
+  };
+  if (slid_ < window_ || slid_ < kLeastSliding * (pull_.back().extension - start.extension)) return false;
+  return came_nearer(start) || (came_nearer(first) && last.force < kLevel * mean_between(first, last));
+}
+
+/// The first at or behind s = `extension`; the last one at the latest.
+const PullPoint& MotionPatternTracker::point_at(double extension) const {
+  return *std::lower_bound(pull_.begin(), pull_.end() - 1, extension,
+                           [](const PullPoint& p, double s) { return p.extension < s; });
+}
+
+/// Of the load [N].
+double MotionPatternTracker::mean_between(const PullPoint& first, const PullPoint& last) const {
+  const Integrals way = integrate(pull_, {first.extension, last.extension});
+  return way.width > 0.0 ? way.force / way.width : first.force;
 }
 
 MotionPattern MotionPatternTracker::pattern() const {

@@ -126,7 +126,7 @@ Pull true_pull_of(std::vector<CurveRow> rows, const std::vector<Sample>& reading
   Pull pull = pull_of(rows);
   for (PullPoint& point : pull) {
     point.force += offset;
-    point.zero_force = 0.0;  // F is what the rod bears
+    point.borne = point.force;
   }
   return pull;
 }
@@ -136,6 +136,9 @@ void drop_plateau(const std::string& why, CurveReadings& curve) {
                                          &curve.plateau_force_high, &curve.plateau_force_slope, &curve.breakaway_force})
     reading->reset();
   curve.no_plateau = why;
+  if (!curve.lock_extension_by_load) return;
+  curve.lock_extension_by_load.reset();
+  curve.no_lock_by_load = "there is no plateau";
 }
 
 /// A level force is a sliding force only where knots slide.
@@ -173,7 +176,7 @@ void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>
     results.curve.peak_force = std::max(results.curve.peak_force, std::optional<double>(at_break->load));
     results.true_peak_force = std::max(results.true_peak_force, std::optional<double>(at_break->force_upper));
   }
-  const bool locked = results.lock_extension || results.curve.lock_extension_by_load;
+  const bool locked = results.lock_extension || results.curve.rises_at;
   if (results.motion_pattern == MotionPattern::kUntangling ||
       (results.motion_pattern == MotionPattern::kSliding && !locked))
     results.curve.locked_stiffness.reset();

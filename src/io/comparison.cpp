@@ -44,12 +44,12 @@ std::string flow(const std::optional<double>& a, const std::optional<double>& b)
 
 }  // namespace
 
-Comparison compare(const Pull& with_zero_a, const Pull& with_zero_b) {
-  const auto knows = [](const Pull& pull) { return pull.empty() || std::isfinite(pull.front().zero_force); };
-  Pull a = with_zero_a, b = with_zero_b;
+Comparison compare(const Pull& first, const Pull& second) {
+  const auto knows = [](const Pull& pull) { return pull.empty() || std::isfinite(pull.front().borne); };
+  Pull a = first, b = second;
   if (!knows(a) || !knows(b))
     for (Pull* pull : {&a, &b})
-      for (PullPoint& point : *pull) point.zero_force = Sample::kNone;
+      for (PullPoint& point : *pull) point.borne = Sample::kNone;
   return {curve_readings(a), curve_readings(b), curve_difference(a, b)};
 }
 

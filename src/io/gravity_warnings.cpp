@@ -7,7 +7,7 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kHeavy = 0.01;  // weight over the sliding force
+constexpr double kHeavy = 0.01;  // weight over the sliding force, or the largest one
 // By choice, far more than a loop that is held by its rollers' friction moves along them [h].
 constexpr double kSlidAlong = 3.0;
 
@@ -19,11 +19,13 @@ std::vector<std::string> gravity_warnings(const Results& results, const RunFacts
   if (facts.slid_along > kSlidAlong * facts.radius)
     all.push_back("the loop slid along the axes of its rollers by " + short_number(facts.slid_along) +
                   " m: physics.gravity pushes it there, and nothing but machine.roller_friction holds it");
-  if (const double plateau = results.true_plateau_force.value_or(0.0); facts.weight > kHeavy * plateau && plateau > 0.0)
-    all.push_back(
-        "the rod weighs " + short_number(facts.weight) + " N, " + short_number(100.0 * facts.weight / plateau) +
-        " % of the sliding force: physics.gravity bends strands and tails and may change that force by several "
-        "times this share; a run without it tells");
+  const bool slides = results.true_plateau_force.has_value();
+  const double force = results.true_plateau_force.value_or(results.true_peak_force.value_or(0.0));
+  if (facts.weight > kHeavy * force && force > 0.0)
+    all.push_back("the rod weighs " + short_number(facts.weight) + " N, " + short_number(100.0 * facts.weight / force) +
+                  " % of the " + (slides ? "sliding" : "largest") +
+                  " force: physics.gravity bends strands and tails and may change that force by several times this "
+                  "share; a run without it tells");
   return all;
 }
 

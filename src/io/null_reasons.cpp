@@ -49,24 +49,23 @@ std::string why_no_error(const std::string& reading, const Results& results, con
 }
 
 std::string why_no_stiffness(const Results& results) {
-  if (results.motion_pattern != MotionPattern::kSliding) return why_no_lock(results);
-  if (results.curve.lock_extension_by_load)
-    return "the load was read fewer than three times between the lock and the peak";
+  if (results.curve.jump_force || results.motion_pattern != MotionPattern::kSliding) return why_no_lock(results);
+  if (results.curve.rises_at) return "the load was read fewer than three times between the lock and the peak";
   return results.lock_extension ? "the lock does not show in the load" : why_no_lock(results);
 }
 
 /// Of what any pull has.
 std::string why_not_of_the_pull(const std::string& key, const Results& results) {
   if (key == "lock_extension") return results.lock_extension ? "" : why_no_lock(results);
-  if (key == "lock_extension_by_load" && results.curve.jump_force) return why_no_lock(results);
-  if (key == "lock_extension_by_load")
-    return results.curve.lock_extension_by_load ? ""
-                                                : "there is no plateau, or the load does not stay above twice its mean";
+  if (key == "lock_extension_by_load") return results.curve.no_lock_by_load;
   if (key == "locked_stiffness") return results.curve.locked_stiffness ? "" : why_no_stiffness(results);
   if (key == "chord_stiffness") return "the true force was never below a tenth of the peak";
   if (key == "first_contact_extension") return "no two knots touched each other while pulled";
   if (key == "roller_touched_at") return "no roller bore on a knot or its tail while pulled";
-  if (key == "largest_drop_at") return "the load only rose before the lock";
+  if (key == "largest_drop") return "the load was read fewer than 20 times before the lock";
+  if (key == "largest_drop_at")
+    return results.curve.largest_drop ? "the load only rose before the lock"
+                                      : why_not_of_the_pull("largest_drop", results);
   return {};
 }
 

@@ -91,6 +91,14 @@ double change_along_the_curve(const Results& results, const ReadingErrors& error
   return std::abs(part->change / part->stiffness) * further;
 }
 
+/// What the cell's noise makes of a stiffness, at 95 % [-]. Each of its three slopes, from n/3 readings over a third of
+/// the width w, has a standard deviation of (12/(n/3))^1/2 noise/(w/3), and the middle one of them 0.67 times that.
+double noise_of_stiffness(const Results& results, double noise) {
+  const std::optional<LockedPart>& part = results.curve.locked;
+  if (!part || !(part->width > 0.0) || part->stiffness == 0.0) return 0.0;
+  return std::abs(1.96 * 0.67 * std::sqrt(36.0 / part->points) * noise / (part->width / 3.0) / part->stiffness);
+}
+
 /// Of readings whose specimen had not come to rest, or whose knots opened, no study says how far off they are. What
 /// drag and inertia take of the force is in forces and their slopes, beside what mesh and tolerances move.
 ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
@@ -102,6 +110,7 @@ ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
   const double speed = results.rate.drag.value_or(0.0) + results.rate.inertia.value_or(0.0);
   for (std::optional<double>* error : {&out.plateau_force, &out.locked_stiffness})
     if (*error) **error += speed;
+  if (out.locked_stiffness) *out.locked_stiffness += noise_of_stiffness(results, facts.load_cell.noise);
   return out;
 }
 
@@ -121,6 +130,11 @@ std::vector<std::string> events(const Results& results) {
     all.push_back("a knot jumped open at an extension of " + short_number(*curve.jump_extension) +
                   " m: the load fell from " + short_number(*curve.jump_force) + " N to " +
                   short_number(*curve.force_after_jump) + " N, and later readings belong to a looser knot");
+  if (slid_to_the_end(results) && results.true_plateau_force)
+    all.push_back(
+        "the pull ended while the knots still slid: the plateau force is the mean over the way that was pulled, and "
+        "where "
+        "the load rises it is smaller than the mean up to the lock");
   if (results.roller_touched_at)
     all.push_back("a roller bore on a knot or its tail from an extension of " +
                   short_number(*results.roller_touched_at) + " m on");
@@ -145,7 +159,8 @@ std::string accuracy_warning(const Results& results, const ReadingErrors& errors
 std::vector<std::string> told(const Results& results, const RunFacts& facts) {
   std::vector<std::string> all = events(results);
   for (const std::vector<std::string>& more :
-       {gravity_warnings(results, facts), speed_warnings(results.rate, facts.inertia), facts.warnings})
+       {gravity_warnings(results, facts), speed_warnings(results.rate, facts.inertia),
+        snap_warnings(results, facts.pull_speed), facts.warnings})
     all.insert(all.end(), more.begin(), more.end());
   const std::string unsure = accuracy_warning(results, known_errors(results, facts));
   if (!unsure.empty()) all.push_back(unsure);
@@ -173,6 +188,8 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
   known_.load_cell = method.machine.load_cell;
   known_.inertia = inertia_factor(method.material, method.physics);
   known_.warnings = speed_warnings(method);
+  for (const ProgramStep& step : method.program)
+    if (pulls(step.phase)) known_.pull_speed = std::max(known_.pull_speed, step.speed);
   known_.specification = method.specification;
   known_.version = version();
 }
@@ -228,25 +245,21 @@ void RunWriter::finish(const Results& results, const RunFacts& facts, const Poin
 
 namespace {
 
-/// Of all that a reader should know before he believes a reading.
-std::vector<std::string> all_warnings(const Results& r, const RunFacts& f, const ReadingErrors& errors) {
+/// All that a reader should know before he believes a reading.
+std::vector<std::string> all_warnings(const Results& r, const RunFacts& f) {
   std::vector<std::string> all = warnings(r);
-  for (const std::vector<std::string>& more : {events(r), gravity_warnings(r, f), speed_warnings(r.rate, f.inertia),
-                                               warnings(r, f.load_cell), f.foreseen, f.warnings})
+  for (const std::vector<std::string>& more : {warnings(r, f.load_cell), f.foreseen, told(r, f)})
     all.insert(all.end(), more.begin(), more.end());
-  const std::string unsure = accuracy_warning(r, errors);
-  if (!unsure.empty()) all.push_back(unsure);
-  if (!f.margin.reason.empty()) all.push_back("no margin: " + f.margin.reason);
   return all;
 }
 
 /// How the test went.
-void add_course(const Results& r, const RunFacts& f, const ReadingErrors& errors, YamlLines& lines) {
+void add_course(const Results& r, const RunFacts& f, YamlLines& lines) {
   lines.word("motion_pattern", motion_pattern_name(r.motion_pattern));
   lines.number("motion_pattern_confidence", r.motion_pattern_confidence);
   lines.word("ended_by", ended_by_name(r.ended_by));
   lines.text("reason", f.reason);
-  lines.list("warnings", all_warnings(r, f, errors));
+  lines.list("warnings", all_warnings(r, f));
   lines.flag("not_equilibrated", !r.not_equilibrated.empty());
 }
 
@@ -370,7 +383,7 @@ void add_effort(const Results& r, const RunFacts& f, YamlLines& lines) {
 YamlLines result_lines(const Results& r, const RunFacts& f) {
   const ReadingErrors errors = known_errors(r, f);
   YamlLines lines;
-  add_course(r, f, errors, lines);
+  add_course(r, f, lines);
   add_tying(r, f, lines);
   add_sliding(r, f, errors, lines);
   add_locks(r, errors, lines);

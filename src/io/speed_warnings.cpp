@@ -27,6 +27,10 @@ constexpr double kPulledSlow = 5.0 * kPulledAsShipped;
 constexpr const char* kPulledFast =
     "; ten times that changes a sliding force by up to 3 %, so choose a lower program.pull.speed";
 
+/// Of the pull's speed. While shipped knots slide, nodes are 11 to 42 times as fast as the pull; where a strand or a
+/// frame lets go, 200 to 500 times.
+constexpr double kSnaps = 100.0;
+
 std::string in_per_cent(double share) { return format_number(std::round(1000.0 * share) / 10.0) + " %"; }
 
 std::string two_digits(double value) {
@@ -58,6 +62,13 @@ std::vector<std::string> speed_warnings(const RateShares& rate, double inertia) 
                   " of the rod's own mass (physics.inertia); all of it would change the force by " + about(by_own) +
                   " until the knots lock, so a real test would have to be pulled more slowly");
   return all;
+}
+
+std::vector<std::string> snap_warnings(const Results& results, double pull_speed) {
+  if (results.curve.jump_force || !(pull_speed > 0.0) || !(results.fastest_node > kSnaps * pull_speed)) return {};
+  return {"something let go at once before the knots locked: a node moved at " + short_number(results.fastest_node) +
+          " m/s, " + short_number(results.fastest_node / pull_speed) +
+          " times as fast as the pull; how far the load falls then depends on inertia and on the frame"};
 }
 
 std::vector<std::string> speed_warnings(const Method& method) {

@@ -238,6 +238,26 @@ TEST(MotionPattern, KnotsThatGiveWayALittleBeforeAnotherStrandBearsTheLoadDoNotS
   EXPECT_NE(results.curve.no_plateau, "");
 }
 
+/// A loop that stretches loads its knots until they give way, at a force that stays, and lock.
+TEST(MotionPattern, KnotsThatHeldFirstSlideWhereTheLoadThenStaysLevel) {
+  std::vector<Sample> samples = Curve().samples();
+  const auto with_load = [&](double grows) {
+    for (Sample& sample : samples) {
+      const double s = sample.extension, slid = std::clamp(s - 0.06, 0.0, 0.03);
+      sample.knot_distance = 0.15 + 0.4 * std::min(s, 0.06) - 1.8 * slid;
+      sample.force_upper = 500.0 * std::min(s, 0.06) * std::exp(grows * slid) + 500.0 * std::max(0.0, s - 0.09);
+      sample.load = sample.force_lower = sample.force_upper;
+    }
+    return analyse(samples, EndedBy::kExtension);
+  };
+  const Results level = with_load(0.0);
+  EXPECT_EQ(level.motion_pattern, MotionPattern::kSliding);
+  ASSERT_TRUE(level.lock_extension);
+  EXPECT_NEAR(*level.lock_extension, 0.09, 3e-3);
+  EXPECT_FALSE(level.curve.lock_extension_by_load);
+  EXPECT_EQ(with_load(150.0).motion_pattern, MotionPattern::kStretching) << "another strand bears the load";
+}
+
 TEST(Results, SayWhereTheKnotsFirstTouchEachOtherAndARoller) {
   std::vector<Sample> samples = Curve().samples();
   for (Sample& sample : samples) {
@@ -258,9 +278,10 @@ TEST(Results, AJumpIsToldInBothForces) {
   for (Sample& sample : samples) {
     sample.balance_offset = 1.5;
     if (sample.extension > 0.03) {
-      sample.knot_distance -= 0.03;
+      sample.excess_length[1] += 0.02;
       sample.force_upper *= 0.2;
     }
+    sample.force_lower = sample.force_upper;
     sample.load = sample.force_upper - 1.5;
   }
   const Results results = analyse(samples, EndedBy::kExtension);

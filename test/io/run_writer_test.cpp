@@ -7,8 +7,10 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <random>
 #include <sstream>
 
+#include "knot_utm/io/gravity_warnings.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "machine/fake_bench.hpp"
 
@@ -319,18 +321,61 @@ TEST(ResultYaml, AStiffnessThatGrowsAlongTheCurveIsAsUnsureAsItsLock) {
   results.motion_pattern = MotionPattern::kSliding;
   results.lock_extension = 0.05;
   results.curve.locked_stiffness = 1e5;
-  results.curve.locked = LockedPart{1e5, 5e4, 0.01};
+  results.curve.locked = LockedPart{1e5, 5e4, 0.01, 30};
   RunFacts facts;
   facts.errors = {0.1, 0.04, 0.1};
   EXPECT_DOUBLE_EQ(YAML::Load(result_yaml(results, facts))["locked_stiffness_error"].as<double>(), (0.1 + 0.1) * 1e5);
   results.motion_pattern = MotionPattern::kStretching;
   results.lock_extension.reset();
-  results.curve.locked = LockedPart{1e5, -5e4, 0.02};
+  results.curve.locked = LockedPart{1e5, -5e4, 0.02, 30};
   EXPECT_DOUBLE_EQ(YAML::Load(result_yaml(results, facts))["locked_stiffness_error"].as<double>(), (0.1 + 0.1) * 1e5)
       << "a fifth of the part";
   results.curve.locked_stiffness = 0.0;
-  results.curve.locked = LockedPart{0.0, 5e4, 0.02};
+  results.curve.locked = LockedPart{0.0, 5e4, 0.02, 30};
   EXPECT_EQ(YAML::Load(result_yaml(results, facts))["locked_stiffness_error"].as<double>(), 0.0) << "a level load";
+}
+
+/// Straight lines of 1e5 N/m, drawn with 5 N of noise: 95 % of their slopes lie within the errors beside them.
+TEST(ResultYaml, TheNoiseOfTheLoadCellIsInTheErrorOfAStiffness) {
+  std::mt19937 random(7);
+  std::normal_distribution<double> noise(0.0, 5.0);
+  RunFacts facts;
+  facts.errors.locked_stiffness = 0.0;
+  facts.load_cell.noise = 5.0;
+  constexpr int kDraws = 400;
+  int within = 0;
+  for (int draw = 0; draw < kDraws; ++draw) {
+    Pull pull;
+    for (int i = 0; i <= 200; ++i) pull.push_back({0.1 * i, 5e-5 * i, Sample::kNone, 5.0 * i + noise(random)});
+    Results results;
+    results.curve = curve_readings(pull);
+    results.curve.locked->change = 0.0;  // which has an error of its own
+    const double error = YAML::Load(result_yaml(results, facts))["locked_stiffness_error"].as<double>();
+    within += std::abs(*results.curve.locked_stiffness - 1e5) <= error;
+  }
+  EXPECT_GT(within, 0.92 * kDraws);
+  EXPECT_LT(within, 0.99 * kDraws);
+}
+
+TEST(GravityWarnings, HoldTheWeightAgainstTheSlidingForceAndElseAgainstTheLargest) {
+  Results results;
+  results.true_peak_force = 30.0;
+  RunFacts facts;
+  facts.weight = 0.4;
+  EXPECT_THAT(gravity_warnings(results, facts), ::testing::ElementsAre(HasSubstr("1.33 % of the largest force")));
+  results.true_plateau_force = 4.0;
+  EXPECT_THAT(gravity_warnings(results, facts), ::testing::ElementsAre(HasSubstr("10 % of the sliding force")));
+  facts.weight = 0.03;
+  EXPECT_THAT(gravity_warnings(results, facts), ::testing::IsEmpty());
+}
+
+TEST(ResultYaml, TellsOfAPullThatEndedBeforeTheKnotsLocked) {
+  Results results;
+  results.motion_pattern = MotionPattern::kSliding;
+  results.true_plateau_force = 3.8;
+  EXPECT_THAT(events(results), ::testing::ElementsAre(HasSubstr("the pull ended while the knots still slid")));
+  results.lock_extension = 0.08;
+  EXPECT_THAT(events(results), ::testing::IsEmpty());
 }
 
 /// Its lock is known from how the knots move.
@@ -338,14 +383,14 @@ TEST(ResultYaml, AStiffnessOfTooFewReadingsIsNoneAndSaysSo) {
   Results results;
   results.motion_pattern = MotionPattern::kSliding;
   results.true_peak_force = 100.0;
-  results.lock_extension = results.curve.lock_extension_by_load = 0.05;
+  results.lock_extension = results.curve.rises_at = 0.05;
   EXPECT_THAT(result_yaml(results, RunFacts()),
               HasSubstr("locked_stiffness: null  # the load was read fewer than three times between the lock and the "
                         "peak\n"));
-  results.curve.lock_extension_by_load.reset();
+  results.curve.rises_at.reset();
   EXPECT_THAT(result_yaml(results, RunFacts()),
               HasSubstr("locked_stiffness: null  # the lock does not show in the load\n"));
-  results.curve.lock_extension_by_load = 0.05;
+  results.curve.rises_at = 0.05;
   results.motion_pattern = MotionPattern::kUntangling;
   EXPECT_THAT(result_yaml(results, RunFacts()), HasSubstr("locked_stiffness: null  # the knot came undone\n"));
 }

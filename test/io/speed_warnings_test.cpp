@@ -24,6 +24,17 @@ TEST(SpeedWarnings, SayWhatShareSpeedHasInTheForce) {
   EXPECT_THAT(speed_warnings(RateShares{35.0, 0.0, 0.0}, 1.0), ElementsAre(HasSubstr("drag takes 35 times the work")));
 }
 
+TEST(SnapWarnings, TellOfWhatLetGoButNotOfKnotsThatSlideOrJump) {
+  Results results;
+  results.fastest_node = 0.14;  // pink VPS as shipped
+  EXPECT_THAT(snap_warnings(results, 3.3e-3), IsEmpty());
+  results.fastest_node = 1.635;  // nylon on a frame of 3 kN/m
+  EXPECT_THAT(snap_warnings(results, 3.3e-3), ElementsAre(HasSubstr("1.64 m/s, 495 times as fast as the pull")));
+  EXPECT_THAT(snap_warnings(results, 0.0), IsEmpty()) << "a record is followed";
+  results.curve.jump_force = 1.0;
+  EXPECT_THAT(snap_warnings(results, 3.3e-3), IsEmpty()) << "that is told already";
+}
+
 TEST(SpeedWarnings, SayWhatTheMassThatIsLeftOutWouldDo) {
   const RateShares rate{0.0, 1e-4, 0.0};
   EXPECT_THAT(speed_warnings(rate, 0.1), IsEmpty());

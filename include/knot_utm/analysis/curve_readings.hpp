@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -15,7 +16,8 @@ struct PullPoint {
   double knot_distance = Sample::kNone;  ///< e [m]
   double force = 0.0;                    ///< F on the upper grip [N]
   double normal_force = Sample::kNone;   ///< sum over all contacts of strands [N]
-  double zero_force = Sample::kNone;     ///< what the rod bears where F is 0 [N]; NaN: not known, F counts
+  double borne = Sample::kNone;  ///< by the rod, without the cell's zero and noise [N]; NaN: not known, F counts
+  std::array<double, 2> excess_length{Sample::kNone, Sample::kNone};  ///< hidden in each knot [m]; NaN: not known
 };
 using Pull = std::vector<PullPoint>;
 
@@ -54,15 +56,24 @@ struct Drop {
   double force(const Pull& pull) const { return pull[from].force - pull[to].force; }  ///< [N]
 };
 
-/// The largest fall of F on the way to s = `end`; none where F only rises.
+/// Whether less than 20 points stand on the way to s = `end`: what lies between two of them need not have come at once.
+bool has_few_for_drops(const Pull& pull, double end);
+
+/// The largest fall of F on the way to s = `end`; none where F only rises, and where too few points tell.
 std::optional<Drop> largest_drop(const Pull& pull, double end);
 
-/// A knot that jumped open lets out rod at once: within a twentieth of half the first e, which is about the way to the
-/// lock, the knots come nearer to each other by more than twice what the grips moved apart, which is all that sliding
-/// can do, and more than that by a twentieth of the first e; and F falls. The fall is that from the largest F in there
-/// to the smallest from then on, within as long a way. None where no knot did, or e is not known. In simulations of
-/// drawn methods those that jumped let out 6 to 65 % of e, and all others at most 4 %, as their knots nested into each
-/// other. It does not ask for a lock: a load that rises to its breakaway and then falls has a false one.
+/// A knot that jumped open: F falls, and its coils take in rod at once, within a twentieth of half the first e, which
+/// is about the way to the lock. They take in an eighth or more of what the knot held when the pull began. In
+/// simulations those that jumped took in 28 to 46 %, and all others at most 6 %.
+///
+/// Where that is not known, F falls by half or more, and the knots come nearer to each other by more than twice what
+/// the grips moved apart, which is all that sliding can do, and more than that by a twentieth of the first e. Those
+/// that jumped came nearer by 6 to 65 % of e, and others by at most 4 % as their knots nested into each other; strands
+/// that stretch come nearer by up to 15 % as a knot slips, but F then falls little.
+///
+/// The fall is that from the largest F in there to the smallest from then on, within as long a way. None where no knot
+/// jumped, or nothing tells. It does not ask for a lock: a load that rises to its breakaway and then falls has a false
+/// one.
 std::optional<Drop> jump(const Pull& pull);
 
 /// F(s) where the rod carries the load: over the points from s = `from` on, up to the peak, whose F lies between half
@@ -73,6 +84,7 @@ struct LockedPart {
   double stiffness = 0.0;
   double change = 0.0;  ///< of the slope from one end to the other, by the outer two of the three [N/m]
   double width = 0.0;   ///< of s [m]
+  int points = 0;       ///< from which it was read
 };
 
 std::optional<LockedPart> locked_part(const Pull& pull, double from);
@@ -80,7 +92,8 @@ std::optional<LockedPart> locked_part(const Pull& pull, double from);
 /// What a force-extension curve says by itself, be it measured or simulated. A test's own, those of its load cell, are
 /// in result.yaml by the same names and to the last digit.
 struct CurveReadings {
-  double slides_to = 0.0;            ///< s of the lock by the load, of whatever knot; else of the pull's end [m]
+  std::optional<double> rises_at;    ///< s where F rises for good, be there a plateau or not [m]
+  double slides_to = 0.0;            ///< there, else to the end of the pull: s up to which a mean counts [m]
   std::optional<Drop> jumped;        ///< of the points of the pull, where a knot jumped open
   std::optional<double> peak_force;  ///< [N]
   std::optional<double>
@@ -96,13 +109,15 @@ struct CurveReadings {
   std::optional<double> jump_extension;          ///< s there [m]
   std::optional<double> force_after_jump;        ///< F that was left [N]
   std::optional<double> breakaway_force;         ///< largest F before the plateau, where there is one [N]
-  std::optional<double> lock_extension_by_load;  ///< s_l [m]
+  std::optional<double> lock_extension_by_load;  ///< s_l, where there is a plateau [m]
+  std::string no_lock_by_load;                   ///< why there is no s_l; empty: there is one
   std::optional<double> locked_stiffness;        ///< behind s_l; of the whole pull where there is no plateau [N/m]
   std::optional<LockedPart> locked;              ///< of which that is the stiffness
 };
 
-/// What the curve is, is judged by the force that the rod bears, F + `PullPoint::zero_force`, so that it is the same
-/// whether something was balanced or not. The readings themselves are of F.
+/// What the curve is, is judged by the force that the rod bears, `PullPoint::borne` where it is known, so that it is
+/// the same whether something was balanced or not, and however much noise the load cell has. So is the largest drop.
+/// The other readings are of F.
 ///
 /// A mean of F is a plateau where the knots slide and F is level in between:
 ///   - F was read at least three times within it;
@@ -117,7 +132,8 @@ struct CurveReadings {
 ///
 /// The lock by the load alone is where F last rises through twice the mean of its plateau, which the lock itself
 /// bounds: s_l is the fixed point that is reached from the peak. A load in proportion to s has none, and none counts
-/// that lies in the first 15 % of the pull. In simulations of the shipped materials that lock, it lies 1 to 5 % of s_l
+/// that lies in the first 15 % of the pull, that has no plateau before it, or that lies between two readings further
+/// apart than a twentieth of the way. In simulations of the shipped materials that lock, it lies 1 to 5 % of s_l
 /// behind the one that the knots tell (`Results::lock_extension`): F doubles after they have begun to hold.
 CurveReadings curve_readings(const Pull& pull);
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "knot_utm/analysis/curve_readings.hpp"
@@ -18,6 +19,7 @@ struct CurveRow {
   double load_lower = Sample::kNone;     ///< [N]; NaN: not known, of a measured curve
   Phase phase = Phase::kIdle;
   double corrected_extension = Sample::kNone;  ///< s where the frame is compliant [m]; NaN: it is rigid, or not known
+  std::array<double, 2> excess_length{Sample::kNone, Sample::kNone};  ///< in each knot [m]; NaN: curve.csv has none
 };
 
 CurveRow curve_row(const Sample& sample);
@@ -31,7 +33,8 @@ enum class ExtensionOf { kSpecimen, kMachine };
 
 /// The rows in which the specimen is pulled (pulls(phase)) that reach a new largest extension. Before them, as their
 /// origin, stands the row before the first of them, as a rule that of the balance. Where a balance lies between the
-/// two, the origin is s = 0 and F = 0, as it makes them. What the rod bears there is told by the lower grip.
+/// two, the origin is s = 0 and F = 0, as it makes them. The lower grip, which nothing balances, tells what the rod
+/// bears.
 Pull pull_of(const std::vector<CurveRow>& rows, ExtensionOf extension = ExtensionOf::kSpecimen);
 
 }  // namespace knot_utm

@@ -28,7 +28,9 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 /// one turns into the other. The specimen **slides** as long as de/ds < -1, and has **locked** where it last was.
 ///
 ///   sliding     at least one window, and 15 % of all extension, was passed at de/ds < -1; and up to where it last was
-///               the knots came nearer to each other by more than s grew: else something beside them gave way
+///               the knots came nearer to each other by more than s grew: either from the beginning of the pull, or,
+///               where they held first, from where they began to slide, under a load that there was less than twice its
+///               mean. Else something beside them gave way
 ///   untangling  the knot type is another one, and nothing is borne: F is below 5 % of its largest value, or nothing
 ///               has been pulled, or the excess length in a knot, where known, is below a quarter of that of the tied
 ///               knot; or F fell for a window below 5 %, has not come back, and the excess length in a knot, where
@@ -69,6 +71,8 @@ class MotionPatternTracker {
   void add_pulled(const Sample& sample);
   void follow_slope(double extension, double before);
   bool slid() const;
+  const PullPoint& point_at(double extension) const;
+  double mean_between(const PullPoint& first, const PullPoint& last) const;
   bool opened() const;
   bool vanished() const;
   bool knot_lost() const;
@@ -80,6 +84,7 @@ class MotionPatternTracker {
   double slope_ = 0.0;            ///< de/ds in the current window, NaN before the first is full
   double centre_ = 0.0;           ///< mean extension of the current window [m]
   double slid_ = 0.0;             ///< extension passed while sliding [m]
+  double first_sliding_ = 0.0;    ///< where de/ds was first below -1 [m]
   double last_sliding_ = 0.0;     ///< where de/ds last rose through -1 or was still below [m]
   double peak_ = 0.0;             ///< largest F [N]
   double tied_excess_[2] = {Sample::kNone, Sample::kNone};     ///< [m]
