@@ -229,8 +229,6 @@ def shade_motion(axes, run):
     touch = run.value("first_contact_extension")
     if touch is not None:
         axes.axvline(scale * touch, color=VIOLET, lw=0.9, ls=(0, (1, 2)))
-        axes.text(scale * touch, 0.03, "knots touch ", color=VIOLET, ha="right", va="bottom", rotation=90,
-                  fontsize=SMALL, transform=axes.get_xaxis_transform())
     jumped = run.value("jump_extension")
     if jumped is not None:
         axes.axvline(scale * jumped, color=RED, lw=0.9, ls=(0, (4, 3)))
@@ -243,6 +241,10 @@ def name_motion(axes, run, look):
     lock, broke, length = run.value("lock_extension"), run.value("break_extension"), run.units.length
     end, pattern = end_of_test(run), run.result.get("motion_pattern")
     above = axes.get_xaxis_transform()
+    if run.value("first_contact_extension") is not None:
+        axes.annotate("knots touch", (length.scale * run.value("first_contact_extension"), 0.5), xycoords=above,
+                      xytext=(-3, 0), textcoords="offset points", color=VIOLET, ha="right", va="center", rotation=90,
+                      fontsize=SMALL)
     if run.value("jump_force") is not None:
         place = length.scale * run.value("jump_extension")
         axes.text(place, 1.015, "a knot jumped open at " + with_unit(run.value("jump_force"), run.units.force), color=RED,
