@@ -19,7 +19,7 @@ constexpr double kLevel = 0.5;                            // change of a plateau
 constexpr double kProportional = 1.0 / 1.1;               // ... and that of a force in proportion to s
 constexpr double kSliding = -2.0, kOffSliding = 0.5;      // de/ds of rigid sliding, and how far off it a plateau's is
 constexpr double kSudden = 0.05;                          // of the way to the lock
-constexpr double kTakenIn = 0.125;                        // of the first excess length
+constexpr double kTakenIn = 0.125, kStill = 1.5;          // of the first excess length; times F
 constexpr double kLetOut = 0.05, kLetGo = 0.5;            // of the first e; of F
 constexpr int kFewestForDrops = 20;                       // readings on the way to the lock
 
@@ -82,8 +82,10 @@ std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double wa
   return out;
 }
 
-/// Of the rod that a knot holds: what it took in over what it held at first, the larger of both knots; NaN: not known.
+/// Of the rod that a knot holds: what it took in over what it held at first, the larger of both knots; 0 where F grew
+/// by half; NaN: not known.
 double taken_in(const Pull& pull, const PullPoint& from, const PullPoint& to) {
+  if (to.force > kStill * from.force) return 0.0 * to.excess_length[0];
   double most = Sample::kNone;
   for (std::size_t k = 0; k < 2; ++k)
     most = std::fmax(most, (to.excess_length[k] - from.excess_length[k]) / pull.front().excess_length[k]);
@@ -193,7 +195,7 @@ std::optional<Drop> jump(const Pull& pull) {
   for (std::size_t i = 0; i < pull.size(); ++i) {
     const std::size_t last = last_within(pull, i, at_once, end);
     for (std::size_t j = i + 1; j <= last; ++j)
-      if (const double much = opened(pull, pull[i], pull[j]); pull[j].force < pull[i].force && much > most) {
+      if (const double much = opened(pull, pull[i], pull[j]); much > most) {
         most = much;
         out = Drop{i, j};
       }

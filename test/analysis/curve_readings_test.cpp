@@ -163,6 +163,8 @@ TEST(CurveReadings, AKnotThatTakesInRodAtOnceJumpedOpen) {
     return curve_readings(out);
   };
   EXPECT_TRUE(slips(0.0225, 0.95).jump_force) << "28 % of what it held";
+  EXPECT_TRUE(slips(0.0225, 1.1).jump_force) << "loose coils that hardly bear anything";
+  EXPECT_FALSE(slips(0.0225, 2.0).jump_force) << "it locks";
   EXPECT_FALSE(slips(0.0048, 0.95).jump_force) << "6 %";
   EXPECT_FALSE(slips(0.0, 0.1).jump_force);
   EXPECT_TRUE(slips(Sample::kNone, 0.4).jump_force);

@@ -62,9 +62,9 @@ bool has_few_for_drops(const Pull& pull, double end);
 /// The largest fall of F on the way to s = `end`; none where F only rises, and where too few points tell.
 std::optional<Drop> largest_drop(const Pull& pull, double end);
 
-/// A knot that jumped open: F falls, and its coils take in rod at once, within a twentieth of half the first e, which
-/// is about the way to the lock. They take in an eighth or more of what the knot held when the pull began. In
-/// simulations those that jumped took in 28 to 46 %, and all others at most 6 %.
+/// A knot that jumped open: its coils take in rod at once, within a twentieth of half the first e, which is about the
+/// way to the lock, and F does not grow by half, as in a lock. They take in an eighth or more of what the knot held
+/// when the pull began. In simulations those that jumped took in 28 to 46 %, and all others at most 8 %.
 ///
 /// Where that is not known, F falls by half or more, and the knots come nearer to each other by more than twice what
 /// the grips moved apart, which is all that sliding can do, and more than that by a twentieth of the first e. Those
