@@ -128,7 +128,7 @@ std::vector<std::string> events(const Results& results) {
                   short_number(*results.opened_when_mounted) + " m");
   if (curve.jump_force)
     all.push_back("a knot jumped open at an extension of " + short_number(*curve.jump_extension) +
-                  " m: the load fell from " + short_number(*curve.jump_force) + " N to " +
+                  " m: the load went from " + short_number(*curve.jump_force) + " N to " +
                   short_number(*curve.force_after_jump) + " N, and later readings belong to a looser knot");
   if (slid_to_the_end(results) && results.true_plateau_force)
     all.push_back(

@@ -259,7 +259,7 @@ TEST(ResultYaml, WarnsOfWhatTheResultsShow) {
   const std::vector<std::string> warnings = result["warnings"].as<std::vector<std::string>>();
   EXPECT_THAT(warnings, ::testing::ElementsAre(
                             HasSubstr("through itself at 12.5 s"), HasSubstr("0.06 radii"), HasSubstr("differ by 0.02"),
-                            HasSubstr("jumped open at an extension of 0.0123 m: the load fell from "
+                            HasSubstr("jumped open at an extension of 0.0123 m: the load went from "
                                       "1.25 N to 0.1 N"),
                             HasSubstr("a roller bore on a knot or its tail from an extension of 0.05 m"), "of the run",
                             HasSubstr("still moved")));
