@@ -82,10 +82,8 @@ std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double wa
   return out;
 }
 
-/// Of the rod that a knot holds: what it took in over what it held at first, the larger of both knots; 0 where F grew
-/// by half; NaN: not known.
+/// Of the rod that a knot holds: what it took in over what it held at first, the larger of both knots; NaN: not known.
 double taken_in(const Pull& pull, const PullPoint& from, const PullPoint& to) {
-  if (to.force > kStill * from.force) return 0.0 * to.excess_length[0];
   double most = Sample::kNone;
   for (std::size_t k = 0; k < 2; ++k)
     most = std::fmax(most, (to.excess_length[k] - from.excess_length[k]) / pull.front().excess_length[k]);
@@ -100,10 +98,12 @@ double let_out(const Pull& pull, const PullPoint& from, const PullPoint& to) {
          pull.front().knot_distance;
 }
 
-/// How much a knot opened from one point to another, over the least that is a jump; NaN: nothing tells.
+/// How much a knot opened from one point to another, over the least that is a jump: 0 where F grew by half, as in a
+/// lock; NaN: nothing tells.
 double opened(const Pull& pull, const PullPoint& from, const PullPoint& to) {
   const double known = taken_in(pull, from, to) / kTakenIn;
-  return std::isfinite(known) ? known : let_out(pull, from, to) / kLetOut;
+  if (!std::isfinite(known)) return let_out(pull, from, to) / kLetOut;
+  return to.force > kStill * from.force ? 0.0 : known;
 }
 
 std::string text(const char* format, double a, double b = 0.0) {
