@@ -152,6 +152,13 @@ void drop_what_does_not_slide(MotionPattern pattern, CurveReadings& curve) {
   }
 }
 
+/// What opened before the pull slides and locks as another knot, looser than the one that was tied.
+void drop_what_an_opened_knot_has_none_of(Results& results) {
+  if (results.curve.plateau_force) drop_plateau("a knot opened as the loop was mounted", results.curve);
+  results.lock_extension.reset();
+  results.curve.locked_stiffness.reset();
+}
+
 constexpr double kOpened = 0.05;  // of e, as where a knot jumps open while it is pulled
 
 // A tail that brushes along a roller bears less [of the true force].
@@ -181,6 +188,7 @@ void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>
       (results.motion_pattern == MotionPattern::kSliding && !locked))
     results.curve.locked_stiffness.reset();
   drop_what_does_not_slide(results.motion_pattern, results.curve);
+  if (results.opened_when_mounted) drop_what_an_opened_knot_has_none_of(results);
   if (!results.curve.plateau_force) return;
   const double end = results.curve.slides_to;
   results.true_plateau_force = plateau(true_pull, end)->force;
@@ -339,10 +347,10 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
   const Course course(samples, results);
   read_end(samples.back(), results);
   read_motion(samples, course.motion(), results);
+  read_tied(course, results);
   read_curve(readings, course.at_break(), results);
   course.read_balances();
   read_holds_and_cycles(samples, results);
-  read_tied(course, results);
   read_whole_pull(course, results);
   return results;
 }

@@ -26,6 +26,7 @@ std::string why_no_lock(const Results& results) {
   if (results.curve.jump_force)
     return "a knot jumped open at " + short_number(*results.curve.jump_force) +
            " N, and the load-extension curve after it is that of another knot";
+  if (results.opened_when_mounted) return "a knot opened as the loop was mounted";
   switch (results.motion_pattern) {
     case MotionPattern::kSliding:
       return "the knots still slid at the end of the pull";
@@ -49,7 +50,8 @@ std::string why_no_error(const std::string& reading, const Results& results, con
 }
 
 std::string why_no_stiffness(const Results& results) {
-  if (results.curve.jump_force || results.motion_pattern != MotionPattern::kSliding) return why_no_lock(results);
+  if (results.curve.jump_force || results.opened_when_mounted || results.motion_pattern != MotionPattern::kSliding)
+    return why_no_lock(results);
   if (results.curve.rises_at) return "the load was read fewer than three times between the lock and the peak";
   return results.lock_extension ? "the lock does not show in the load" : why_no_lock(results);
 }

@@ -293,6 +293,23 @@ TEST(Results, AJumpIsToldInBothForces) {
   EXPECT_NE(results.curve.no_plateau.find("jumped open"), std::string::npos);
 }
 
+/// As behind a jump: what is pulled is not the knot that was tied.
+TEST(Results, AKnotThatOpenedAsTheLoopWasMountedHasNoReadings) {
+  std::vector<Sample> samples = Curve().samples();
+  ASSERT_TRUE(analyse(samples, EndedBy::kExtension).lock_extension);
+  Sample tied = samples.front();
+  tied.phase = Phase::kRelease;
+  tied.knot_distance *= 1.1;
+  tied.time -= 1.0;
+  samples.insert(samples.begin(), tied);
+  const Results results = analyse(samples, EndedBy::kExtension);
+  ASSERT_TRUE(results.opened_when_mounted);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kSliding);
+  EXPECT_FALSE(results.curve.plateau_force || results.true_plateau_force || results.curve.lock_extension_by_load);
+  EXPECT_FALSE(results.lock_extension || results.curve.locked_stiffness);
+  EXPECT_NE(results.curve.no_plateau.find("opened as the loop was mounted"), std::string::npos);
+}
+
 TEST(MotionPattern, NoneWithoutAPullOrWithoutTwoKnots) {
   EXPECT_EQ(analyse({}, EndedBy::kOperator).motion_pattern, MotionPattern::kNone);
   std::vector<Sample> samples = Curve().samples();

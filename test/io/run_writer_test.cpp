@@ -299,6 +299,16 @@ TEST(ResultYaml, AKnotThatJumpedOpenHasNoErrors) {
     EXPECT_THAT(yaml, HasSubstr(std::string(key) + ": null  # a knot jumped open"));
 }
 
+TEST(ResultYaml, AKnotThatOpenedAsTheLoopWasMountedSaysWhyItHasNeitherLockNorStiffness) {
+  Results results;
+  results.motion_pattern = MotionPattern::kSliding;
+  results.true_peak_force = 100.0;
+  results.opened_when_mounted = 0.012;
+  const std::string yaml = result_yaml(results, RunFacts());
+  for (const char* key : {"lock_extension", "locked_stiffness"})
+    EXPECT_THAT(yaml, HasSubstr(std::string(key) + ": null  # a knot opened as the loop was mounted\n"));
+}
+
 /// Beside what mesh and tolerances move, which is all that a convergence study tells.
 TEST(ResultYaml, WhatSpeedTakesOfTheForceIsInTheErrorsOfForces) {
   Results results;
