@@ -29,15 +29,14 @@ int main(int argc, char** argv) {
   CLI::App app("A rod slides round a roller by its radius. Lengths are in radii of the roller, forces in B/radius^2.");
   knot_utm::Capstan::Options options;
   double load = 10.0;
-  const std::map<std::string, knot_utm::FrictionLaw> laws = {{"memory", knot_utm::FrictionLaw::kMemory},
-                                                             {"smoothed", knot_utm::FrictionLaw::kSmoothed}};
+  const std::map<std::string, bool> laws = {{"memory", false}, {"smoothed", true}};
   app.add_option("--load", load, "T1 on the slack side")->check(CLI::PositiveNumber);
   app.add_option("--edges", options.edges_a_turn, "edges a turn")->check(CLI::Range(12, 4096));
   app.add_option("--strides", options.strides_an_edge, "time steps an edge")->check(CLI::Range(1, 1000));
   app.add_option("--residual", options.residual, "of T1")->check(CLI::PositiveNumber);
   app.add_option("--contact-tolerance", options.contact_tolerance)->check(CLI::PositiveNumber);
   app.add_option("--presliding", options.presliding)->check(CLI::PositiveNumber);
-  app.add_option("--friction", options.friction_law, "memory or smoothed")->transform(CLI::CheckedTransformer(laws));
+  app.add_option("--friction", options.smoothed, "memory or smoothed")->transform(CLI::CheckedTransformer(laws));
   try {
     app.parse(argc, argv);
     return run(load, options);

@@ -52,9 +52,7 @@ struct Specimen {
   int nodes() const { return static_cast<int>(position.cols()); }
 
   SmoothContact contact() const {
-    Friction friction;
-    friction.coefficient = 0.6;
-    friction.presliding = 2e-3 * kRadius;
+    const MemoryFriction friction{0.6, 2e-3 * kRadius};
     return {rod, NormalLaw{1e10, 0.05 * kRadius}, friction, 0.5 * kRadius};
   }
 };

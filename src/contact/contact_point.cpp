@@ -40,19 +40,37 @@ class Parted {
   Lanes vectors_[4];
 };
 
-void evaluate_forces(const Friction& friction, double friction_scale, const std::array<ContactPoint*, 4>& contacts) {
+/// Of contacts side by side; `slip`: their part in the tangent plane.
+template <typename Contact>
+FrictionInput<FourVectors> friction_input(const std::array<Contact*, 4>& contacts, const Lanes& pressure,
+                                          const FourVectors& slip, double dt) {
+  return {pressure,
+          slip,
+          FourVectors::of(to_lanes(contacts[0]->memory.slip), to_lanes(contacts[1]->memory.slip),
+                          to_lanes(contacts[2]->memory.slip), to_lanes(contacts[3]->memory.slip)),
+          Four<Contact>(contacts)(&ContactPoint::db),
+          Lanes{contacts[0]->memory.own, contacts[1]->memory.own, contacts[2]->memory.own, contacts[3]->memory.own},
+          dt};
+}
+
+template <typename Law>
+void evaluate_forces(const Law& law, double dt, const std::array<ContactPoint*, 4>& contacts) {
   const Four<ContactPoint> four(contacts);
   const FourVectors n = four(&ContactPoint::n);
   FourVectors z = {}, force = n;
-  if (friction.on()) {
+  Lanes mu = {};
+  if (law.coefficient > 0.0) {
     const FourVectors slip = four(&ContactPoint::slip);
-    const FourVectors tangential = slip - dot(n, slip) * n;
-    z = friction_direction(friction.law, (1.0 / friction_scale) * tangential);
-    force -= friction.coefficient * z;
+    const FrictionTraction<FourVectors> t =
+        law.traction(friction_input(contacts, four(&ContactPoint::pressure), slip - dot(n, slip) * n, dt));
+    z = t.z;
+    mu = t.coefficient;
+    force -= mu * z;
   }
   const Parted forces(four(&ContactPoint::weight) * four(&ContactPoint::pressure) * force), directions(z);
   for (std::size_t i = 0; i < 4; ++i) {
     contacts[i]->z = to_vec3(directions[i]);
+    contacts[i]->mu = mu[static_cast<int>(i)];
     contacts[i]->force = to_vec3(forces[i]);
   }
 }
@@ -62,7 +80,8 @@ void set_pressures(const NormalLaw& normal, const std::array<ContactPoint*, 4>& 
   for (std::size_t i = 0; i < 4; ++i) contacts[i]->pressure = pressure[static_cast<int>(i)];
 }
 
-void linearise(const NormalLaw& normal, const Friction& friction, double friction_scale, bool expects,
+template <typename Law>
+void linearise(const NormalLaw& normal, const Law& law, double dt, const ContactLinearisation& how,
                const std::array<const ContactPoint*, 4>& contacts, ContactModel* models) {
   const Four<const ContactPoint> four(contacts);
   const Lanes overlap = four(&ContactPoint::overlap), estimate = four(&ContactPoint::estimate);
@@ -72,44 +91,46 @@ void linearise(const NormalLaw& normal, const Friction& friction, double frictio
   const Lanes tangent_at = select(estimate > 0.0, normal.overlap_at(estimate), without);
   const Lanes slope = normal.slope(tangent_at);
   const Lanes pressure = normal.pressure(tangent_at) + slope * (overlap - tangent_at);
-  const Lanes p = weight * (expects ? expected_pressure(estimate, pressure) : pressure);
+  const Lanes turning = how.expects ? expected_pressure(estimate, pressure) : pressure, p = weight * turning;
 
   const FourVectors n = four(&ContactPoint::n), db = four(&ContactPoint::db), axis = four(&ContactPoint::axis);
   const FourVectors n_u = -over_d * db;  // dn/du
   // With N = dn/dS = (P - axis axis^T)/d, P = 1 - n n^T (a roller's gap has no part along its axis), and dp/dS = -p' n,
-  //   dg/dS = p N - p' (n - mu z) n^T - s C Y,   s = mu p/scale,   p that turns,
+  //   dg/dS = p N - p' (n + dt/dp) n^T - s C Y,   s = p stiffness,   p that turns,
   //   Y = d(P r)/dS = P - (n.r) N - n (N r)^T.
-  // z and u being tangential, C P = across P + along u u^T and C n = across n: all of it is multiples of the identity,
-  // u u^T and columns times n^T, axis^T and (N r)^T.
-  Lanes on_identity = p * over_d, on_u = {}, on_pulled = {};
+  // with (1/scale) C the law's. z, left and right being tangential, C P = across P + along left right^T and
+  // C n = across n: all of it is multiples of the identity, left right^T and columns times n^T, axis^T and (N r)^T.
+  Lanes on_identity = p * over_d, on_left = {}, on_pulled = {};
   FourVectors axis_column = -on_identity * axis;
-  FourVectors pressing = n;  // n - mu z
-  FourVectors u = {}, pulled = {}, slide = p * n_u;
-  if (friction.on()) {
+  FourVectors direction = n, pressing = n;  // n - mu z and n + dt/dp
+  FourVectors left = {}, right = {}, pulled = {}, slide = p * n_u;
+  if (law.coefficient > 0.0) {
     const FourVectors r = four(&ContactPoint::slip), turn = four(&ContactPoint::turn);
-    const double over_scale = 1.0 / friction_scale;
-    const Lanes away = dot(n, r), left = 1.0 - away * over_d;
+    const Lanes away = dot(n, r), unturned = 1.0 - away * over_d;
     const FourVectors tangential = r - away * n;
-    const auto direction = linearised_direction(friction.law, friction.secant, over_scale * tangential);
-    u = direction.u;
-    const Lanes s = (friction.coefficient * over_scale) * p;
-    const Lanes across = s * direction.across, along = s * direction.along;
-    pressing -= friction.coefficient * direction.z;
-    on_identity -= across * left;
-    on_u = -along * left;
+    const FrictionTangent<FourVectors> t = law.tangent(friction_input(contacts, turning, tangential, dt), how.friction);
+    left = t.left;
+    right = t.right;
+    const Lanes s = t.stiffness * p;
+    const Lanes across = s * t.across, along = s * t.along;
+    direction -= t.coefficient * t.z;
+    pressing -= t.by_pressure;
+    on_identity -= across * unturned;
+    on_left = -along * unturned;
     on_pulled = across * over_d;
-    axis_column -= (away * over_d * s) * direction.slope_times(axis);
+    axis_column -= (away * over_d * s) * t.slope_times(axis);
     pulled = tangential - dot(axis, r) * axis;
-    slide += s * direction.slope_times(turn - dot(n, turn) * n + away * n_u + dot(r, n_u) * n);
+    slide += s * t.slope_times(turn - dot(n, turn) * n + away * n_u + dot(r, n_u) * n);
   }
-  const Parted forces(weight * pressure * pressing), slides(slide);
+  const Parted forces(weight * pressure * direction), slides(slide);
   pressing = weight * slope * pressing;
 
-  const auto column = [&](const Lanes& n_j, const Lanes& u_j, const Lanes& pulled_j, const Lanes& axis_j) {
-    return n_j * pressing - (on_pulled * pulled_j - on_identity * n_j) * n - (on_u * u_j) * u - axis_j * axis_column;
+  const auto column = [&](const Lanes& n_j, const Lanes& right_j, const Lanes& pulled_j, const Lanes& axis_j) {
+    return n_j * pressing - (on_pulled * pulled_j - on_identity * n_j) * n - (on_left * right_j) * left -
+           axis_j * axis_column;
   };
-  FourVectors still[3] = {column(n.x, u.x, pulled.x, axis.x), column(n.y, u.y, pulled.y, axis.y),
-                          column(n.z, u.z, pulled.z, axis.z)};
+  FourVectors still[3] = {column(n.x, right.x, pulled.x, axis.x), column(n.y, right.y, pulled.y, axis.y),
+                          column(n.z, right.z, pulled.z, axis.z)};
   still[0].x -= on_identity;
   still[1].y -= on_identity;
   still[2].z -= on_identity;
@@ -145,26 +166,42 @@ void visit_active(Contacts& contacts, Visit visit) {
 
 }  // namespace
 
-void evaluate_forces(const Friction& friction, double friction_scale, std::vector<ContactPoint>& contacts) {
-  visit_active(contacts, [&](const std::array<ContactPoint*, 4>& four, std::size_t) {
-    evaluate_forces(friction, friction_scale, four);
+void evaluate_forces(const Friction& friction, double dt, std::vector<ContactPoint>& contacts) {
+  friction.visit([&](const auto& law) {
+    visit_active(contacts,
+                 [&](const std::array<ContactPoint*, 4>& four, std::size_t) { evaluate_forces(law, dt, four); });
   });
 }
 
-void evaluate_forces(const NormalLaw& normal, const Friction& friction, double friction_scale,
+void evaluate_forces(const NormalLaw& normal, const Friction& friction, double dt,
                      std::vector<ContactPoint>& contacts) {
-  visit_active(contacts, [&](const std::array<ContactPoint*, 4>& four, std::size_t) {
-    set_pressures(normal, four);
-    evaluate_forces(friction, friction_scale, four);
+  friction.visit([&](const auto& law) {
+    visit_active(contacts, [&](const std::array<ContactPoint*, 4>& four, std::size_t) {
+      set_pressures(normal, four);
+      evaluate_forces(law, dt, four);
+    });
   });
 }
 
-void linearise(const NormalLaw& normal, const Friction& friction, double friction_scale, bool expects,
+FrictionInput<Vec3> friction_input(const ContactPoint& contact, double dt) {
+  return {contact.pressure,    contact.slip - contact.n.dot(contact.slip) * contact.n,
+          contact.memory.slip, contact.db,
+          contact.memory.own,  dt};
+}
+
+FrictionMemory remember(const Friction& friction, const ContactPoint& contact, double dt) {
+  if (!friction.on() || !contact.touches()) return {};
+  return friction.visit([&](const auto& law) { return law.remember(friction_input(contact, dt), contact.z); });
+}
+
+void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                const std::vector<ContactPoint>& contacts, std::vector<ContactModel>& models) {
   // Room for the fours that the last one fills up.
   models.resize(contacts.size() + 3);
-  visit_active(contacts, [&](const std::array<const ContactPoint*, 4>& four, std::size_t first) {
-    linearise(normal, friction, friction_scale, expects, four, &models[first]);
+  friction.visit([&](const auto& law) {
+    visit_active(contacts, [&](const std::array<const ContactPoint*, 4>& four, std::size_t first) {
+      linearise(normal, law, dt, how, four, &models[first]);
+    });
   });
 }
 

@@ -74,7 +74,8 @@ void EdgeContact::evaluate(const Points& position, const Points& start, double d
     const double limit = 2.0 * reach_ + length_[a] + length_[b];
     if (apart.squaredNorm() < limit * limit) add_contact(static_cast<int>(pair), position, start);
   }
-  evaluate_forces(friction_, friction_.scale(dt), contacts_);
+  evaluate_forces(friction_, dt, contacts_);
+  dt_ = dt;
   first_evaluation_ = false;
 }
 
@@ -125,8 +126,8 @@ void EdgeContact::add_contact(int pair, const Points& position, const Points& st
       feet.inverse_uu = 1.0 / bb;
     }
     if (friction_.on()) {
-      if (found && friction_.remembers()) contact.memory = found->slip;
-      contact.slip = contact.memory;
+      if (found) contact.memory = found->friction;
+      contact.slip = contact.memory.slip;
       for (int k = 0; k < 6; ++k) {
         const int node = k < 3 ? contact.a0 + k : contact.b0 + k - 3;
         const Vec3 moved = position.col(node) - start.col(node);
@@ -158,11 +159,15 @@ const EdgeContact::Memory* EdgeContact::recall(std::pair<int, int> edges, double
 
 void EdgeContact::linearise(double dt, std::vector<EdgeContactModel>& models) const {
   models.clear();
-  for (const ContactPoint& contact : contacts_)
-    if (contact.active()) linearise_contact(contact, dt, models.emplace_back());
+  friction_.visit([&](const auto& law) {
+    for (const ContactPoint& contact : contacts_)
+      if (contact.active()) linearise_contact(contact, law, dt, models.emplace_back());
+  });
 }
 
-void EdgeContact::linearise_contact(const ContactPoint& contact, double dt, EdgeContactModel& model) const {
+template <typename Law>
+void EdgeContact::linearise_contact(const ContactPoint& contact, const Law& law, double dt,
+                                    EdgeContactModel& model) const {
   const Feet& feet = feet_[static_cast<std::size_t>(&contact - contacts_.data())];
   const double tangent_at = contact.estimate > 0.0 ? normal_.overlap_at(contact.estimate) : contact.overlap;
   model.slope = normal_.slope(tangent_at);
@@ -182,23 +187,23 @@ void EdgeContact::linearise_contact(const ContactPoint& contact, double dt, Edge
   const Mat39 dx = moved + feet.da * t - contact.db * u;
   const Row9 dd = n.transpose() * dx;
   const Mat39 dn = (dx - n * dd) / contact.d;
-  Vec3 direction = n;  // of the force
+  Vec3 direction = n, pressing = n;  // n - mu z and n + dt/dp
   Mat39 turned = dn;
-  if (friction_.on()) {
-    const double scale = friction_.scale(dt);
+  if (law.coefficient > 0.0) {
     const Vec3& r = contact.slip;
     const double along = n.dot(r);
-    const Vec3 y = (r - along * n) / scale;
-    const FrictionDirection friction = linearised_direction(friction_.law, friction_.secant, y);
-    direction -= friction_.coefficient * friction.z;
+    const FrictionTangent<Vec3> friction = law.tangent(friction_input(contact, dt), how_.friction);
+    direction -= friction.coefficient * friction.z;
+    pressing -= friction.by_pressure;
     // d(P r) = -(n.r) dn - n (r.dn) + P dr
     const Mat39 dr = moved + feet.turn_a * t - contact.turn * u;
     const Mat39 tangential = dr - n * (n.transpose() * dr) - along * dn - n * (r.transpose() * dn);
-    turned -= (friction_.coefficient / scale) * friction.slope() * tangential;
+    turned -= friction.stiffness * (friction.across * tangential +
+                                    friction.along * friction.left * (friction.right.transpose() * tangential));
   }
   model.force = to_lanes(contact.weight * model.pressure * direction);
-  const double pressure = expects_ ? expected_pressure(contact.estimate, model.pressure) : model.pressure;
-  const Mat39 dg = contact.weight * (pressure * turned - model.slope * direction * dd);
+  const double pressure = how_.expects ? expected_pressure(contact.estimate, model.pressure) : model.pressure;
+  const Mat39 dg = contact.weight * (pressure * turned - model.slope * pressing * dd);
 
   for (int k = 0; k < 6; ++k) {
     const int turning = k < 3 ? 3 : 6;
@@ -235,19 +240,18 @@ void EdgeContact::commit(const Points&) {
   memory_.clear();
   for (const ContactPoint& contact : contacts_) {
     if (!contact.touches()) continue;
-    const bool sticks = friction_.on() && friction_.remembers();
     const Feet& feet = feet_[static_cast<std::size_t>(&contact - contacts_.data())];
     memory_.push_back({pairs_[static_cast<std::size_t>(feet.pair)], contact.arclength_a, contact.arclength_b,
-                       sticks ? Vec3(friction_.presliding * contact.z) : Vec3::Zero(), contact.pressure});
+                       remember(friction_, contact, dt_), contact.pressure});
   }
   std::stable_sort(memory_.begin(), memory_.end(),
                    [](const Memory& l, const Memory& r) { return l.arclength_a < r.arclength_a; });
 }
 
-void EdgeContact::Memory::state(Archive& archive) { archive(edges, arclength_a, arclength_b, slip, pressure); }
+void EdgeContact::Memory::state(Archive& archive) { archive(edges, arclength_a, arclength_b, friction, pressure); }
 
 void EdgeContact::state(Archive& archive) {
-  archive.section("EDGE");
+  archive.section("EDG2");  // "EDGE" had no number that a friction law keeps
   archive(candidates_);
   archive.list(memory_);
   if (archive.loads()) find_pairs();

@@ -43,14 +43,15 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
   if (start_.size() != rollers.size()) {
     start_ = rollers;
     estimate_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), -1.0);
-    memory_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), Vec3::Zero());
+    memory_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), FrictionMemory());
   }
+  dt_ = dt;
   if (first_evaluation_) find_near_segments(rollers, start);
   first_evaluation_ = false;
   for (const auto& [roller, segment] : near_)
     if (distance(rollers[roller], position.col(segment)) <= limit(rollers[roller], segment))
       add_contacts(rollers, roller, segment, position, start);
-  evaluate_forces(normal_, friction_, friction_.scale(dt), contacts_);
+  evaluate_forces(normal_, friction_, dt, contacts_);
 }
 
 double RollerContact::distance(const Roller& roller, const Vec3& x) {
@@ -93,8 +94,8 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
     contact.axis = roller.axis;
     contact.n = contact.x / contact.d;
     contact.weight = 0.5 * voronoi_[segment];
-    if (friction_.on() && friction_.remembers()) contact.memory = memory_[memory];
-    contact.slip = contact.memory - (roller.centre - start_[number].centre);
+    if (friction_.on()) contact.memory = memory_[memory];
+    contact.slip = contact.memory.slip - (roller.centre - start_[number].centre);
     for (int k = 0; k < 3; ++k) {
       contact.c[k] = w.value[k];
       contact.slip += w.value[k] * (position.col(segment - 1 + k) - start.col(segment - 1 + k));
@@ -120,7 +121,7 @@ Vec3 RollerContact::moment_on(const Roller& roller, int number, const Points& po
 
 ContactMotion RollerContact::motion(const ContactPoint& contact, const Points&, const Points&) const {
   ContactMotion out;
-  out.slip = contact.slip - contact.memory;
+  out.slip = contact.slip - contact.memory.slip;
   Vec3 x = contact.x - out.slip;
   x -= contact.axis * contact.axis.dot(x);
   out.overlap_before = contact.overlap + contact.d - x.norm();
@@ -132,13 +133,13 @@ void RollerContact::commit(const std::vector<Roller>& rollers) {
   std::fill(estimate_.begin(), estimate_.end(), -1.0);
   for (const ContactPoint& contact : contacts_) estimate_[index_of(contact)] = contact.pressure;
   committed_estimate_ = estimate_;
-  if (!friction_.on() || !friction_.remembers()) return;
-  std::fill(memory_.begin(), memory_.end(), Vec3::Zero());
-  for (const ContactPoint& contact : contacts_) memory_[index_of(contact)] = friction_.presliding * contact.z;
+  if (!friction_.on()) return;
+  std::fill(memory_.begin(), memory_.end(), FrictionMemory());
+  for (const ContactPoint& contact : contacts_) memory_[index_of(contact)] = remember(friction_, contact, dt_);
 }
 
 void RollerContact::state(Archive& archive) {
-  archive.section("ROLL");
+  archive.section("ROL2");  // "ROLL" had no number that a friction law keeps
   bool committed = !committed_estimate_.empty();
   archive(committed);
   // Before, what stands here is what a rejected step took for it.

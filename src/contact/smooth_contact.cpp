@@ -66,6 +66,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   contacts_.clear();
   tracked_.clear();
   recalled_.assign(iterate_.entries.size(), 0);
+  dt_ = dt;
   catch_up_ = dt / (dt + catch_up_time_);
   const std::vector<int>& segments = candidates_.segments();
   if (segments.empty()) return;
@@ -92,7 +93,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
     }
     if (takes_part(foot)) add_contact(foot);
   }
-  evaluate_forces(normal_, friction_, friction_.scale(dt), contacts_);
+  evaluate_forces(normal_, friction_, dt, contacts_);
 }
 
 std::size_t SmoothContact::follow(std::size_t foot) {
@@ -103,7 +104,7 @@ std::size_t SmoothContact::follow(std::size_t foot) {
   for (; foot < feet.size() && feet[foot].point == point; ++foot) {
     const double arclength_b = arclength_at(arclength_, feet[foot].segment, feet[foot].u);
     if (std::abs(arclength_a - arclength_b) < candidates_.exclusion()) continue;
-    tracked_.push_back({{arclength_b, kUnknown, 0.0, -1.0, Vec3::Zero(), false, false}, foot, kNone});
+    tracked_.push_back({{arclength_b, kUnknown, 0.0, -1.0, {}, false, false}, foot, kNone});
   }
   recall(row_of(point), first);
   return foot;
@@ -183,7 +184,7 @@ void SmoothContact::add_contact(Tracked& tracked) {
   contact.share = tracked.memory.share;
   contact.weight = 0.5 * voronoi_[segment] * contact.share;
   contact.estimate = tracked.memory.pressure;
-  contact.memory = tracked.memory.slip;
+  contact.memory = tracked.memory.friction;
   const SegmentParabola& c = search_.parabola(foot.segment);
   const Lanes db = c.t + u * c.k;
   contact.db = to_vec3(db);
@@ -194,7 +195,7 @@ void SmoothContact::add_contact(Tracked& tracked) {
 }
 
 void SmoothContact::set_slip(ContactPoint& contact) const {
-  Lanes slip = to_lanes(contact.memory), turn = {};
+  Lanes slip = to_lanes(contact.memory.slip), turn = {};
   const Lanes *a = &moved_[static_cast<std::size_t>(contact.a0)], *b = &moved_[static_cast<std::size_t>(contact.b0)];
   for (int k = 0; k < 3; ++k) {
     slip += contact.c[k] * a[k];
@@ -261,8 +262,7 @@ void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
     memory.share += catch_up_ * (share(foot, *accepted) - memory.share);
     memory.outwards += catch_up_ * (outwards(foot, *accepted) - memory.outwards);
     memory.pressure = contact ? contact->pressure : 0.0;
-    const bool sticks = friction_.on() && friction_.remembers() && contact && contact->touches();
-    memory.slip = sticks ? Vec3(friction_.presliding * contact->z) : Vec3::Zero();
+    memory.friction = contact ? knot_utm::remember(friction_, *contact, dt_) : FrictionMemory();
   }
   while (done < list.begin.size()) list.begin[done++] = static_cast<int>(list.entries.size());
 }
@@ -282,7 +282,9 @@ void SmoothContact::commit(const Points& position) {
   first_step_ = false;
 }
 
-void SmoothContact::Memory::state(Archive& archive) { archive(arclength_b, share, outwards, pressure, slip, inside); }
+void SmoothContact::Memory::state(Archive& archive) {
+  archive(arclength_b, share, outwards, pressure, friction, inside);
+}
 
 void SmoothContact::MemoryList::state(Archive& archive) {
   archive.list(entries);
@@ -293,7 +295,7 @@ void SmoothContact::MemoryList::state(Archive& archive) {
 }
 
 void SmoothContact::state(Archive& archive) {
-  archive.section("SMTI");  // "SMTH" did not know how far feet stand outwards
+  archive.section("SMTJ");  // "SMTI" had no number that a friction law keeps
   archive.list(outwards_);
   const bool of_this_rod = outwards_.size() == 0 || outwards_.size() == arclength_.size();
   archive.require(of_this_rod, "shares of points outwards", "of " + std::to_string(outwards_.size()) + " nodes");

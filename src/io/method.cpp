@@ -411,6 +411,12 @@ void read_record(const fs::path& folder, const std::string& follow, ProgramStep&
         key + ": " + shown(step.record) + " has fewer than 2 readings of the pull at different times");
 }
 
+/// The speed with which friction may creep, where its law has one.
+void set_creep(FrictionLaw law, double speed, FrictionOptions& friction) {
+  for (const FrictionKey& key : friction_keys())
+    if (key.otherwise == FrictionDefault::kCreep && entry_of(law).has(key.name)) friction.set(key.name, speed);
+}
+
 /// The method over defaults that suit its knot and material, and, once it has been read with these, what is `known` of
 /// the rest.
 Method read_method(const YAML::Node& root, const std::string& file, const Library& library, const Method* known) {
@@ -432,8 +438,7 @@ Method read_method(const YAML::Node& root, const std::string& file, const Librar
   method.program = read_program(top.take("program"), file, defaults);
   // Without effect they keep their plain value.
   if (known && known->ends.breaks.drop) method.ends.breaks.drop_extension = defaults.drop_extension;
-  if (known && known->physics.friction_law == FrictionLaw::kSmoothed)
-    method.physics.slip_tolerance = defaults.slip_tolerance;
+  if (known) set_creep(known->physics.friction.law, defaults.slip_tolerance, method.physics.friction);
   top.section("ends", [&](Reader& reader) { fields::ends(reader, method.ends); });
   top.section("physics", [&](Reader& reader) { fields::physics(reader, method.physics); });
   top.section("analysis", [&](Reader& reader) { fields::analysis(reader, method.analysis); });

@@ -10,6 +10,7 @@
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/number.hpp"
 #include "knot_utm/machine/before_tying.hpp"
+#include "method_reader.hpp"
 
 namespace knot_utm {
 namespace {
@@ -37,6 +38,20 @@ void has_effect(bool has, const char* key, const Value& value, const Value& unse
 /// A step of the program that cannot stand where it stands, and why not.
 [[noreturn]] void misplaced(const std::string& key, const std::string& name, const std::string& why) {
   throw InvalidInput::sentence(key, name, key + ": " + name + " " + why);
+}
+
+/// A law has all keys that it needs, and none of another law.
+void check_friction(const FrictionOptions& friction) {
+  const FrictionLawEntry& law = entry_of(friction.law);
+  for (const FrictionKey& key : friction_keys()) {
+    const std::string name = std::string("physics.friction.") + key.name;
+    const std::optional<double> value = friction.value(key.name);
+    const bool own = law.has(key.name);
+    if (own && !value && key.otherwise == FrictionDefault::kNone)
+      throw InvalidInput::missing(
+          name, fields::number_text({key.min, key.max, key.unit}) + ", which law: " + law.name + " needs");
+    if (value) has_effect(own, name.c_str(), *value, key.plain, "with law: " + laws_with(key.name));
+  }
 }
 
 void check_effects(const Method& m) {
@@ -68,12 +83,7 @@ void check_effects(const Method& m) {
   has_effect(loop && machine.grips == GripKind::kRollers, "machine.far_side", std::string(held ? "held" : "free"),
              std::string("held"), "for knot: fisherman, with grips: rollers");
 
-  const PhysicsOptions& physics = m.physics;
-  const PhysicsOptions plain;
-  const bool memory = physics.friction_law == FrictionLaw::kMemory;
-  has_effect(!memory, "physics.friction.slip_tolerance", physics.slip_tolerance, plain.slip_tolerance,
-             "with law: smoothed");
-  has_effect(memory, "physics.friction.presliding", physics.presliding.value_or(0.0), 0.0, "with law: memory");
+  check_friction(m.physics.friction);
 }
 
 void check_specimen(const Method& m) {

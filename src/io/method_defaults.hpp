@@ -12,7 +12,7 @@ struct Defaults {
   MachineOptions machine;       ///< its load cell has the capacity that suits, and no name
   double scale = 1.0;           ///< the rod's radius over that of the paper's rods; of speeds, too
   double way = 0.0;             ///< of a pull whose `until.extension` is auto [m]
-  double slip_tolerance = 0.0;  ///< of `law: smoothed` [m/s]
+  double slip_tolerance = 0.0;  ///< of friction that creeps [m/s]
   double drop_extension = 0.0;  ///< of a `drop` [m]
 };
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "knot_utm/contact/friction.hpp"
 #include "knot_utm/io/method.hpp"
 
 /// Every key of a method with its range, said once: reading and writing both walk these lists.
@@ -167,9 +168,17 @@ template <class Fields>
 void physics(Fields& f, PhysicsOptions& o) {
   f.vector("gravity", o.gravity, Range{-100.0, 100.0, "m/s2"});
   f.section("friction", [&o](auto& friction) {
-    friction.choice("law", o.friction_law, std::array{"memory", "smoothed"});
-    friction.scaled_number("slip_tolerance", o.slip_tolerance, Range{1e-7, 0.1, "m/s"});
-    friction.optional_number("presliding", o.presliding, Range{1e-5, 0.5, "of the radius"}, "auto");
+    friction.choice("law", o.friction.law, kFrictionLawNames);
+    for (const FrictionKey& key : friction_keys()) {
+      std::optional<double> value = o.friction.value(key.name);
+      const Range range{key.min, key.max, key.unit};
+      const char* word = key.otherwise == FrictionDefault::kNone ? "" : "auto";
+      if (value)
+        friction.optional_number(key.name, value, range, word, *value);
+      else
+        friction.optional_number(key.name, value, range, word);
+      o.friction.set(key.name, value);
+    }
   });
   f.section("contact", [&o](auto& contact) {
     contact.choice("law", o.contact_law, std::array{"smooth", "edge"});

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/contact/friction.hpp"
+
 namespace knot_utm {
 
 namespace {
@@ -94,7 +96,7 @@ Tolerances tolerances(const PhysicsOptions& physics, const SpecimenOptions& spec
   out.longest_step = physics.max_step.value_or(out.longest_step);
   out.residual = physics.residual.value_or(out.residual);
   out.contact_tolerance = physics.contact_tolerance.value_or(out.contact_tolerance);
-  out.presliding = physics.presliding.value_or(out.presliding);
+  out.presliding = physics.friction.value("presliding").value_or(out.presliding);
   out.refinement = specimen.refinement.value_or(out.refinement);
   return out;
 }
@@ -103,7 +105,7 @@ ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& ma
   ReadingErrors out;
   if (specimen.knot == KnotKind::kStraight) out.locked_stiffness = kStraightStiffness;
   const bool studied = specimen.knot == KnotKind::kFisherman && specimen.to_be_tied &&
-                       physics.contact_law == ContactLaw::kSmooth && physics.friction_law == FrictionLaw::kMemory;
+                       physics.contact_law == ContactLaw::kSmooth && entry_of(physics.friction.law).studied;
   if (!studied) return out;
   const double h = material.radius;
   const bool solid = stretches(specimen, material), opposite = specimen.handedness == Handedness::kOpposite;

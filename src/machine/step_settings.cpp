@@ -21,10 +21,8 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
   StepSettings out;
   out.contact_law = physics.contact_law;
   out.normal = {default_contact_stiffness(material), tolerance.contact_tolerance * h, kStiffeningDepth * h};
-  out.friction = {physics.friction_law, material.friction_coefficient, tolerance.presliding * h,
-                  physics.slip_tolerance};
-  out.roller_friction = out.friction;
-  out.roller_friction.coefficient = machine.roller_friction;
+  out.friction = Friction::of(physics.friction, {material.friction_coefficient, h, tolerance.presliding});
+  out.roller_friction = Friction::of(physics.friction, {machine.roller_friction, h, tolerance.presliding});
   out.gravity = physics.gravity / inertia_factor(material, physics);  // the mass of the steps is not the rod's own
   out.spin_inertia = false;  // a slow test; and a rod that is free to turn is then the same with twist and without
   out.residual = tolerance.residual * material.bending_stiffness / (h * h);

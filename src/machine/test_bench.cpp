@@ -113,10 +113,7 @@ struct TestBench::Impl {
     if (!centreline.knots.empty()) {
       TyingRig::Options tying;
       tying.preload = tying_load(specimen, material);
-      tying.rest_speed = specimen_scales(material).rest_speed;
-      // Smoothed friction holds nothing at rest: under any load it creeps, at up to about v_s.
-      if (physics.friction_law == FrictionLaw::kSmoothed)
-        tying.rest_speed = std::max(tying.rest_speed, physics.slip_tolerance);
+      tying.rest_speed = std::max(specimen_scales(material).rest_speed, settings.friction.creep_speed());
       tying.grip_stiffness = tying.preload / (kGripStretch * material.radius);
       rig.emplace(centreline, rod, tying);
       touch.emplace(rig->standing_nodes(), material.radius);

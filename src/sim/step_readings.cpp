@@ -141,7 +141,7 @@ void StepReadings::add_elastic(const CentrelineTerms::Energy& centreline, const 
 }
 
 template <typename Contacts>
-void StepReadings::add_contacts(const SolvedStep& step, const Contacts& contacts, const Friction& friction) {
+void StepReadings::add_contacts(const SolvedStep& step, const Contacts& contacts) {
   for (const ContactPoint& contact : contacts.contacts()) {
     const ContactMotion motion = contacts.motion(contact, step.end, step.start.position);
     const double now = contact.weight * contacts.normal().energy(contact.overlap);
@@ -152,7 +152,7 @@ void StepReadings::add_contacts(const SolvedStep& step, const Contacts& contacts
     if (!contact.touches()) continue;
     const double force = contact.weight * contact.pressure;
     work_.numerical -= force * contact.n.dot(motion.slip);
-    work_.friction += friction.coefficient * force * contact.z.dot(motion.slip);
+    work_.friction += contact.mu * force * contact.z.dot(motion.slip);
     if (contact.on_roller()) continue;
     ++contact_.touching;
     contact_.normal_force += force;
@@ -161,9 +161,9 @@ void StepReadings::add_contacts(const SolvedStep& step, const Contacts& contacts
   }
 }
 
-template void StepReadings::add_contacts(const SolvedStep&, const EdgeContact&, const Friction&);
-template void StepReadings::add_contacts(const SolvedStep&, const SmoothContact&, const Friction&);
-template void StepReadings::add_contacts(const SolvedStep&, const RollerContact&, const Friction&);
+template void StepReadings::add_contacts(const SolvedStep&, const EdgeContact&);
+template void StepReadings::add_contacts(const SolvedStep&, const SmoothContact&);
+template void StepReadings::add_contacts(const SolvedStep&, const RollerContact&);
 
 void StepReadings::state(Archive& archive) {
   archive.section("READ");

@@ -90,8 +90,8 @@ class ImplicitStep final : public TimeStep {
   void begin() {
     share_ = motion_ = 0.0;
     centreline_.take_present_tensions();
-    contact_.expect(false);
-    rollers_.expect(false);
+    how_.expects = false;
+    linearise_by(how_);
     contact_.refresh(state_.position);
     predict();
     contact_.begin_step();
@@ -102,7 +102,7 @@ class ImplicitStep final : public TimeStep {
 
   NewtonSummary by_tangents(bool hasty) {
     begin();
-    use_secants(false);
+    use(Linearisation::kTangent);
     if (hasty) expect();
     return newton(*this, {settings_.max_iterations, 1.0, hasty});
   }
@@ -126,7 +126,7 @@ class ImplicitStep final : public TimeStep {
     for (int turn = 0; turn < 2 * turns; ++turn) {
       const bool secants = turn % 2 == 0;
       const int before = out.iterations;
-      use_secants(secants);
+      use(secants ? Linearisation::kSecant : Linearisation::kTangent);
       out = newton(*this, {settings_.max_iterations, secants ? share : 1.0});
       out.iterations += before;
       if (out.end != NewtonSummary::End::kIterationLimit) break;
@@ -136,13 +136,18 @@ class ImplicitStep final : public TimeStep {
 
   void expect() {
     centreline_.expect(state_.position);
-    contact_.expect(true);
-    rollers_.expect(true);
+    how_.expects = true;
+    linearise_by(how_);
   }
 
-  void use_secants(bool secants) {
-    contact_.use_secants(secants);
-    rollers_.use_secants(secants);
+  void use(Linearisation of_friction) {
+    how_.friction = of_friction;
+    linearise_by(how_);
+  }
+
+  void linearise_by(const ContactLinearisation& how) {
+    contact_.linearise_by(how);
+    rollers_.linearise_by(how);
   }
 
   // ---- the system that Newton solves -----------------------------------------------------------------------------
@@ -465,8 +470,8 @@ class ImplicitStep final : public TimeStep {
     FrameTerms::Energy frames;
     if constexpr (D == 4) frames = frames_.energy(way_, force_);
     readings_.add_elastic(centreline_.energy(way_), frames);
-    readings_.add_contacts(step, contact_, settings_.friction);
-    readings_.add_contacts(step, rollers_, settings_.roller_friction);
+    readings_.add_contacts(step, contact_);
+    readings_.add_contacts(step, rollers_);
   }
 
   double initial_spin_energy() const {
@@ -474,6 +479,7 @@ class ImplicitStep final : public TimeStep {
     return 0.0;
   }
 
+  ContactLinearisation how_;
   StrandContact contact_;
   RollerContact rollers_;
   StrandPassage passage_;

@@ -202,13 +202,23 @@ class Studies(unittest.TestCase):
         self.assertEqual({len(row[2]) for row in rows}, {7})
         self.assertFalse(front.solves_for_twist("draft, twist off"))
 
-    def test_the_force_on_the_way_is_of_the_same_shares_of_every_way(self):
+    def test_loops_are_compared_at_the_same_shares_of_the_way_distances_and_loads(self):
         run = runs.Run("/nowhere", 1.0, 0, "")
-        run.result = {"lock_extension": 10.0, "tied_knot_distance": 30.0}
+        run.result = {"lock_extension": 10.0}
         run.curve = {"phase": ["pull"] * 13, "extension": [0.0, 1.0, 1.9, 1.95, 1.99] + [float(k) for k in range(2, 10)],
                      "load": 5 * [0.0] + 7 * [3.0] + [9.0]}
         self.assertAlmostEqual(lengths.force_on_the_way(run), 3.0)
-        self.assertAlmostEqual(lengths.distance_at_lock(run), 10.0)
+        # Nothing slides over the first of 10 m; from there on the knots come nearer by 2 m each.
+        s = [float(k) for k in range(14)]
+        distance = [max(0.1 - 0.02 * max(0.0, x - 1.0), -0.08) for x in s]
+        load = [10.0 * (1.0 - d) for d in distance[:11]] + [20.0, 40.0, 80.0]
+        run.curve = {"phase": ["pull"] * 14, "extension": s, "knot_distance": distance, "load": load}
+        self.assertAlmostEqual(lengths.distance_at_lock(run), -0.08)
+        self.assertAlmostEqual(lengths.way_of_slack(run), 10.0 - 0.09)
+        self.assertAlmostEqual(lengths.force_at_distances(run), 10.0 * (1.0 - 0.055), places=3)
+        run.method = {"material": {"stretching_stiffness": 5.0}}
+        self.assertAlmostEqual(lengths.stretched_length(run, 80.0), 4.0 * 5.0 / 40.0)
+        self.assertIsNone(lengths.stretched_length(run, 100.0))
         run.result = {}
         self.assertIsNone(lengths.force_on_the_way(run))
 

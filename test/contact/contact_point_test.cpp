@@ -8,6 +8,8 @@ namespace knot_utm {
 namespace {
 
 constexpr double kRadius = 3e-3;
+constexpr double kStep = 0.01;
+constexpr ContactLinearisation expecting{Linearisation::kTangent, true};
 
 /// Two crossed strands that a prediction has drawn apart, where the last step had them pressed together.
 ContactPoint drawn_apart() {
@@ -27,22 +29,20 @@ ContactPoint drawn_apart() {
 
 TEST(ContactModel, FrictionOfADrawnApartContactThatIsExpectedToPressHoldsIt) {
   const NormalLaw normal{1e6, 0.02 * kRadius};
-  Friction friction;
-  friction.coefficient = 0.5;
-  friction.presliding = 1e-5;
+  const MemoryFriction friction{0.5, 1e-5};
   std::vector<ContactPoint> contacts = {drawn_apart()};
   ContactPoint& contact = contacts[0];
   contact.estimate = 100.0;
-  evaluate_forces(normal, friction, friction.presliding, contacts);
+  evaluate_forces(normal, friction, kStep, contacts);
   EXPECT_EQ(contact.pressure, 0.0);
   std::vector<ContactModel> models;
-  linearise(normal, friction, friction.presliding, true, contacts, models);
+  linearise(normal, friction, kStep, expecting, contacts, models);
   EXPECT_LT(models[0].pressure, 0.0) << "the tangent at the estimate, so far out";
   // Across both strands: what holds is mu w p/xi_s, what turns with n is w p/d.
   const Vec3 across = to_vec3(models[0].still[1]);
   const double hold = friction.coefficient * contact.weight * contact.estimate / friction.presliding;
   EXPECT_NEAR(across.y(), hold, 0.02 * hold);
-  linearise(normal, friction, friction.presliding, false, contacts, models);
+  linearise(normal, friction, kStep, {}, contacts, models);
   EXPECT_LT(models[0].still[1][1], 0.0) << "the tangent's pressure drives it on";
 }
 
@@ -53,9 +53,7 @@ TEST(ContactModel, WithoutAnEstimateThePressureThatTurnsIsThatOfTheTangent) {
 
 TEST(ContactModel, EachContactHasItsOwnHoweverManyThereAre) {
   const NormalLaw normal{1e6, 0.02 * kRadius, 0.05 * kRadius};
-  Friction friction;
-  friction.coefficient = 0.5;
-  friction.presliding = 1e-5;
+  const MemoryFriction friction{0.5, 1e-5};
   std::vector<ContactPoint> many;
   for (int i = 0; i < 11; ++i) {
     ContactPoint& contact = many.emplace_back(drawn_apart());
@@ -68,15 +66,15 @@ TEST(ContactModel, EachContactHasItsOwnHoweverManyThereAre) {
     if (i % 3 == 0) contact.estimate = 10.0 * (i - 1);
   }
   std::vector<ContactModel> models;
-  evaluate_forces(normal, friction, friction.presliding, many);
-  linearise(normal, friction, friction.presliding, true, many, models);
+  evaluate_forces(normal, friction, kStep, many);
+  linearise(normal, friction, kStep, expecting, many, models);
   std::size_t n = 0;
   for (const ContactPoint& contact : many) {
     if (!contact.active()) continue;
     std::vector<ContactPoint> alone = {contact};
     std::vector<ContactModel> own;
-    evaluate_forces(normal, friction, friction.presliding, alone);
-    linearise(normal, friction, friction.presliding, true, alone, own);
+    evaluate_forces(normal, friction, kStep, alone);
+    linearise(normal, friction, kStep, expecting, alone, own);
     EXPECT_EQ(alone[0].force, contact.force);
     // The overlap of an estimate is found to 1e-9 of the pressure, or better beside one that takes longer.
     const double rounding = 1e-8 * (own[0].slope * kRadius + std::abs(own[0].pressure));

@@ -171,8 +171,7 @@ struct TwoEdges {
 
 struct Law {
   const char* name;
-  FrictionLaw law;
-  double mu, presliding, slip_tolerance;
+  Friction friction;
 };
 struct Place {
   const char* name;
@@ -184,8 +183,7 @@ class EdgeContactJacobian : public testing::TestWithParam<std::tuple<Law, Place>
 TEST_P(EdgeContactJacobian, IsTheDerivativeOfTheForces) {
   const auto& [law, place] = GetParam();
   TwoEdges scene(place.angle, place.where_a, place.where_b, place.gap * kRadius);
-  EdgeContact contact(scene.rod, {1e6, 0.05 * kRadius}, {law.law, law.mu, law.presliding, law.slip_tolerance},
-                      0.5 * kRadius);
+  EdgeContact contact(scene.rod, {1e6, 0.05 * kRadius}, law.friction, 0.5 * kRadius);
   const double dt = 0.01;
   contact.refresh(scene.start);
   contact.evaluate(scene.start, scene.start, dt);
@@ -200,10 +198,10 @@ TEST_P(EdgeContactJacobian, IsTheDerivativeOfTheForces) {
 
 INSTANTIATE_TEST_SUITE_P(
     Cases, EdgeContactJacobian,
-    testing::Combine(testing::Values(Law{"frictionless", FrictionLaw::kMemory, 0.0, 1.0, 0.0},
-                                     Law{"sticking", FrictionLaw::kMemory, 0.4, 0.5 * kRadius, 0.0},
-                                     Law{"slipping", FrictionLaw::kMemory, 0.4, 1e-4 * kRadius, 0.0},
-                                     Law{"smoothed", FrictionLaw::kSmoothed, 0.4, 0.0, 2e-3}),
+    testing::Combine(testing::Values(Law{"frictionless", MemoryFriction{0.0, 1.0}},
+                                     Law{"sticking", MemoryFriction{0.4, 0.5 * kRadius}},
+                                     Law{"slipping", MemoryFriction{0.4, 1e-4 * kRadius}},
+                                     Law{"smoothed", SmoothedFriction{0.4, 2e-3}}),
                      testing::Values(Place{"crossing", 1.2, 0.4, 0.7, 1.97},
                                      Place{"crossing_deep", 1.2, 0.4, 0.7, 1.85},
                                      Place{"nearly_parallel", 0.03, 0.5, 0.55, 1.97},
@@ -231,8 +229,7 @@ TEST(EdgeContact, PlacesOfTheJacobianCoverEveryCase) {
 
 TEST(EdgeContact, ForcesBalanceAndEdgesApartFeelNothing) {
   TwoEdges scene(1.2, 0.4, 0.7, 1.9 * kRadius);
-  EdgeContact contact(scene.rod, {1e6, 0.05 * kRadius}, {FrictionLaw::kMemory, 0.4, 1e-4 * kRadius, 0.0},
-                      0.5 * kRadius);
+  EdgeContact contact(scene.rod, {1e6, 0.05 * kRadius}, MemoryFriction{0.4, 1e-4 * kRadius}, 0.5 * kRadius);
   contact.refresh(scene.start);
   const Points force = unflat(scene.forces(contact, scene.position, 0.01));
   ASSERT_GT(force.norm(), 1e-3);
@@ -287,7 +284,7 @@ struct Crossing {
 TEST(EdgeContact, FrictionKeepsItsMemoryAsStrandsSlideOnFromEdgeToEdge) {
   Crossing scene;
   const double mu = 0.4, presliding = 1e-2 * kRadius;
-  EdgeContact contact(scene.rod, {1e6, 0.05 * kRadius}, {FrictionLaw::kMemory, mu, presliding, 0.0}, 0.5 * kRadius);
+  EdgeContact contact(scene.rod, {1e6, 0.05 * kRadius}, MemoryFriction{mu, presliding}, 0.5 * kRadius);
   const double stride = 0.25 * presliding;
   for (int i = 1; i <= 4; ++i) EXPECT_NEAR(scene.drive(contact, stride, 0.01), 0.25 * i * mu, 0.01 * mu);
   const int steps = static_cast<int>(3.0 * Crossing::kEdge / stride);
@@ -304,7 +301,7 @@ TEST(R11Creep, SmoothedFrictionBetweenEdgesFollowsTheSpeed) {
   const double mu = 0.4, tolerance = 1e-3, dt = 0.01;
   for (const double ratio : {0.5, 0.9, 0.99}) {
     Crossing scene;
-    EdgeContact contact(scene.rod, {1e6, 0.05 * kRadius}, {FrictionLaw::kSmoothed, mu, 0.0, tolerance}, 0.5 * kRadius);
+    EdgeContact contact(scene.rod, {1e6, 0.05 * kRadius}, SmoothedFriction{mu, tolerance}, 0.5 * kRadius);
     const double creep = tolerance * std::log((1.0 + ratio) / (1.0 - ratio)) / 15.0;
     const double driven = scene.drive(contact, creep * dt, dt);
     EXPECT_NEAR(driven, ratio * mu, 1e-3 * mu);

@@ -41,7 +41,7 @@ TEST(RollerContact, WhatTheRodPushesTheRollerPushesBack) {
   const Wound scene;
   Points end = scene.position;
   end.row(0).array() += 1e-5;  // and slides a little
-  const RollerContact contact = scene.touch({FrictionLaw::kMemory, 0.3, 2e-3 * scene.rod.material.radius, 0.0}, end);
+  const RollerContact contact = scene.touch(MemoryFriction{0.3, 2e-3 * scene.rod.material.radius}, end);
   ASSERT_GT(contact.contacts().size(), 10u);
   EXPECT_GT(force_on_rod(contact)[2], 0.0);
   EXPECT_LT((force_on_rod(contact) + contact.force_on(0)).norm(), 1e-12 * contact.force_on(0).norm());
@@ -49,7 +49,7 @@ TEST(RollerContact, WhatTheRodPushesTheRollerPushesBack) {
 
 TEST(RollerContact, WithoutFrictionItPushesStraightOutwards) {
   const Wound scene;
-  const RollerContact contact = scene.touch({FrictionLaw::kMemory, 0.0, 1e-5, 0.0}, scene.position);
+  const RollerContact contact = scene.touch(MemoryFriction{0.0, 1e-5}, scene.position);
   for (const ContactPoint& point : contact.contacts()) {
     EXPECT_LT(point.force.cross(point.n).norm(), 1e-12 * point.force.norm());
     EXPECT_GT(point.force.dot(point.n), 0.0);
@@ -63,7 +63,7 @@ TEST(RollerContact, FrictionIsAtMostItsShareAndAgainstTheSlip) {
   const Wound scene;
   Points end = scene.position;
   end.row(1).array() += 1e-3;  // along the roller, far beyond presliding
-  const RollerContact contact = scene.touch({FrictionLaw::kMemory, kMu, 1e-5, 0.0}, end);
+  const RollerContact contact = scene.touch(MemoryFriction{kMu, 1e-5}, end);
   for (const ContactPoint& point : contact.contacts())
     EXPECT_NEAR(point.force[1], -kMu * point.force.dot(point.n), 0.01 * kMu * point.force.norm());
 }
@@ -72,9 +72,7 @@ class RollerContactJacobian : public testing::TestWithParam<double> {};
 
 TEST_P(RollerContactJacobian, IsTheDerivativeOfTheForces) {
   const Wound scene;
-  Friction friction;
-  friction.coefficient = 0.3;
-  friction.presliding = 1e-5;
+  const MemoryFriction friction{0.3, 1e-5};
   Points end = scene.position;
   // Across the roller, along it and away from it: every term of the slip turns.
   end.row(0).array() += GetParam();
@@ -108,7 +106,7 @@ TEST(RollerContact, ARodThatDoesNotReachItFeelsNothing) {
   const Wound scene;
   Points away = scene.position;
   away.row(2).array() += 0.1;
-  const RollerContact contact = scene.touch({FrictionLaw::kMemory, 0.3, 1e-5, 0.0}, away);
+  const RollerContact contact = scene.touch(MemoryFriction{0.3, 1e-5}, away);
   EXPECT_TRUE(contact.contacts().empty());
   EXPECT_EQ(contact.force_on(0), Vec3::Zero());
 }

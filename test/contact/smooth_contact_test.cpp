@@ -77,8 +77,7 @@ struct TwoStrands {
 
 struct Law {
   const char* name;
-  FrictionLaw law;
-  double mu, presliding, slip_tolerance;
+  Friction friction;
 };
 
 class SmoothContactJacobian : public testing::TestWithParam<Law> {};
@@ -86,8 +85,7 @@ class SmoothContactJacobian : public testing::TestWithParam<Law> {};
 TEST_P(SmoothContactJacobian, IsTheDerivativeOfTheForces) {
   TwoStrands scene(1.93 * kRadius);
   const Law law = GetParam();
-  SmoothContact contact(scene.rod, {1e6, 0.05 * kRadius}, {law.law, law.mu, law.presliding, law.slip_tolerance},
-                        0.5 * kRadius);
+  SmoothContact contact(scene.rod, {1e6, 0.05 * kRadius}, law.friction, 0.5 * kRadius);
   const double dt = 0.01;
   contact.refresh(scene.start);
   contact.evaluate(scene.start, scene.start, dt);
@@ -102,16 +100,15 @@ TEST_P(SmoothContactJacobian, IsTheDerivativeOfTheForces) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, SmoothContactJacobian,
-                         testing::Values(Law{"frictionless", FrictionLaw::kMemory, 0.0, 1.0, 0.0},
-                                         Law{"sticking", FrictionLaw::kMemory, 0.4, 0.5 * kRadius, 0.0},
-                                         Law{"slipping", FrictionLaw::kMemory, 0.4, 1e-3 * kRadius, 0.0},
-                                         Law{"smoothed", FrictionLaw::kSmoothed, 0.4, 0.0, 2e-2}),
+                         testing::Values(Law{"frictionless", MemoryFriction{0.0, 1.0}},
+                                         Law{"sticking", MemoryFriction{0.4, 0.5 * kRadius}},
+                                         Law{"slipping", MemoryFriction{0.4, 1e-3 * kRadius}},
+                                         Law{"smoothed", SmoothedFriction{0.4, 2e-2}}),
                          [](const auto& law) { return law.param.name; });
 
 TEST(SmoothContact, ForcesAndMomentsBalance) {
   TwoStrands scene(1.93 * kRadius);
-  SmoothContact contact(scene.rod, {1e6, 0.05 * kRadius}, {FrictionLaw::kMemory, 0.4, 1e-3 * kRadius, 0.0},
-                        0.5 * kRadius);
+  SmoothContact contact(scene.rod, {1e6, 0.05 * kRadius}, MemoryFriction{0.4, 1e-3 * kRadius}, 0.5 * kRadius);
   contact.refresh(scene.start);
   const Points force = unflat(scene.forces(contact, scene.position, 0.01));
   Vec3 moment = Vec3::Zero();
@@ -126,8 +123,7 @@ TEST(SmoothContact, ForcesAndMomentsBalance) {
 
 TEST(SmoothContact, StrandsApartFeelNothing) {
   TwoStrands scene(2.1 * kRadius);
-  SmoothContact contact(scene.rod, {1e6, 0.05 * kRadius}, {FrictionLaw::kMemory, 0.4, 1e-3 * kRadius, 0.0},
-                        0.5 * kRadius);
+  SmoothContact contact(scene.rod, {1e6, 0.05 * kRadius}, MemoryFriction{0.4, 1e-3 * kRadius}, 0.5 * kRadius);
   contact.refresh(scene.start);
   EXPECT_EQ(scene.forces(contact, scene.start, 0.01).norm(), 0.0);
 }

@@ -36,7 +36,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"speciment.knot=overhand", "speciment is no key of a method", "", "did you mean specimen?"},
       {"specimen.prelaod=3", "specimen.prelaod is no key of a method", "", "did you mean specimen.preload?"},
       {"report_=3", "report_ is no key of a method", "", "did you mean report?"},
-      {"physics.friction.mu=0.3", "physics.friction.mu", "", "law, slip_tolerance and presliding"},
+      {"physics.friction.mu=0.3", "physics.friction.mu", "", "law, presliding and slip_tolerance"},
       {"material.colour=red", "material.colour", "", "radius, density"},
       {"machine.load_cell.range=20", "machine.load_cell.range", "", "capacity, sampling_rate"},
       {"program.pull.until.strain=0.1", "program.4.pull.until.strain", "", "extension, load, time and break"},

@@ -58,13 +58,14 @@ TEST(MethodDefaults, OfAThreadAndOfAHawserFollowFromTheRadius) {
     EXPECT_NEAR(m.specimen.edge_length, 1.00787 * h, 1e-5 * h);
     EXPECT_NEAR(m.program[0].speed, 3.14961 * h, 1e-5 * h);
     EXPECT_NEAR(m.program[4].speed, 1.03937 * h, 1e-5 * h);
-    EXPECT_NEAR(m.physics.slip_tolerance, 0.314961 * h, 1e-5 * h);
+    EXPECT_NEAR(*m.physics.friction.value("slip_tolerance"), 0.314961 * h, 1e-5 * h);
     EXPECT_NEAR(m.ends.breaks.drop_extension, 0.314961 * h, 1e-5 * h);
     EXPECT_FALSE(m.physics.drag);
     EXPECT_FALSE(m.physics.inertia);
     // Friction that creeps is Coulomb's only where the pull is faster than that.
     set.emplace_back("program.pull.speed=" + std::to_string(0.1 * h));
-    EXPECT_NEAR(load_method(kConfig + "tighten.yaml", set).physics.slip_tolerance, 0.1 * h / 3.3, 1e-6);
+    EXPECT_NEAR(load_method(kConfig + "tighten.yaml", set).physics.friction.value("slip_tolerance").value(),
+                0.1 * h / 3.3, 1e-6);
   }
 }
 

@@ -8,6 +8,8 @@
 #include <fstream>
 #include <limits>
 
+#include "knot_utm/contact/friction.hpp"
+
 namespace knot_utm {
 namespace {
 
@@ -43,7 +45,7 @@ TEST(Method, TightenIsThePapersTest) {
   EXPECT_EQ(m.program[4].until.extension, 0.12);
   EXPECT_TRUE(m.program[4].until.broken);
   EXPECT_FALSE(m.program[4].until.load);
-  EXPECT_EQ(m.physics.friction_law, FrictionLaw::kMemory);
+  EXPECT_STREQ(entry_of(m.physics.friction.law).name, "memory");
   EXPECT_EQ(m.physics.contact_law, ContactLaw::kSmooth);
   EXPECT_EQ(m.physics.twist, TwistMode::kAuto);
   EXPECT_EQ(m.physics.accuracy, Accuracy::kNormal);

@@ -4,6 +4,7 @@
 
 #include <string>
 
+#include "knot_utm/contact/friction.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/run_writer.hpp"
 
@@ -130,7 +131,7 @@ TEST(Tolerances, EdgesAreShorterInRopesThatAreTiedHard) {
 TEST(ReadingErrors, AreNotGivenWhereNoStudySays) {
   Loop edge, smoothed, untied, overhand;
   edge.physics.contact_law = ContactLaw::kEdge;
-  smoothed.physics.friction_law = FrictionLaw::kSmoothed;
+  smoothed.physics.friction.law = law_named("smoothed");
   untied.specimen.to_be_tied = false;
   overhand.specimen.knot = KnotKind::kOverhand;
   for (const Loop& loop : {edge, smoothed, untied, overhand}) {

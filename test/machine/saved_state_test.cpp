@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/contact/friction.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/test_bench.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
@@ -178,14 +179,14 @@ Scene on_a_compliant_frame() {
   return out;
 }
 
-Scene overhand(const std::string& name, FrictionLaw friction, ContactLaw contact) {
+Scene overhand(const std::string& name, const char* friction, ContactLaw contact) {
   Scene out{name, {}, pink_vps(), {}, {}, {step(Phase::kHold, 1.0), step(Phase::kBalance), pull(0.05)}, 11};
   out.specimen = overhand_specimen(0.4, 0.15, 0.006);
   out.machine.grips = GripKind::kClamps;
   out.machine.load_cell.noise = 0.01;
   out.physics.accuracy = Accuracy::kDraft;
   out.physics.twist = TwistMode::kOn;
-  out.physics.friction_law = friction;
+  out.physics.friction.law = law_named(friction);
   out.physics.contact_law = contact;
   return out;
 }
@@ -268,9 +269,9 @@ TEST_P(SavedState, GoesOnToTheSameBits) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, SavedState,
                          testing::Values(straight(), on_a_compliant_frame(), programmed(), broken(),
-                                         overhand("overhandWithTwist", FrictionLaw::kMemory, ContactLaw::kSmooth),
-                                         overhand("smoothedFriction", FrictionLaw::kSmoothed, ContactLaw::kSmooth),
-                                         overhand("edgeContact", FrictionLaw::kMemory, ContactLaw::kEdge),
+                                         overhand("overhandWithTwist", "memory", ContactLaw::kSmooth),
+                                         overhand("smoothedFriction", "smoothed", ContactLaw::kSmooth),
+                                         overhand("edgeContact", "memory", ContactLaw::kEdge),
                                          loop("loop", polypropylene(), 20.0, 0.01), twisted_loop()),
                          [](const auto& scene) { return scene.param.name; });
 
@@ -288,7 +289,7 @@ TEST(SavedBench, OfAnotherSpecimenIsRefused) {
   Scene coarse = straight();
   coarse.specimen.edge_length = 0.0063;
   EXPECT_THAT(complaint(straight(), coarse.begin().saved()), testing::HasSubstr("nodes: found 43, expected 53"));
-  const Scene twisted = overhand("", FrictionLaw::kMemory, ContactLaw::kSmooth);
+  const Scene twisted = overhand("", "memory", ContactLaw::kSmooth);
   Scene without = twisted, edge = twisted;
   without.physics.twist = TwistMode::kOff;
   edge.physics.contact_law = ContactLaw::kEdge;

@@ -59,10 +59,12 @@ struct Units {
   double speed() const { return length / time; }
 };
 
-inline Friction scaled(Friction friction, const Units& units) {
-  friction.presliding *= units.length;
-  friction.slip_tolerance *= units.speed();
-  return friction;
+inline Friction scaled(const Friction& friction, const Units& units) {
+  return friction.visit([&](auto law) {
+    if constexpr (std::is_same_v<decltype(law), MemoryFriction>) law.presliding *= units.length;
+    if constexpr (std::is_same_v<decltype(law), SmoothedFriction>) law.slip_tolerance *= units.speed();
+    return Friction(law);
+  });
 }
 
 inline Scene scaled(Scene scene, const Units& units) {

@@ -58,7 +58,7 @@ struct Incline {
     const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(24, material.radius));
     settings = closed_form_settings(material);
     settings.gravity = kGravity * Vec3(std::sin(angle), 0.0, -std::cos(angle));
-    settings.roller_friction = {FrictionLaw::kMemory, mu, 1e-3 * material.radius, 0.0};
+    settings.roller_friction = MemoryFriction{mu, 1e-3 * material.radius};
     settings.motion_limit = settings.newton_cap = 10.0;
     normal_force = rod.mass.sum() * kGravity * std::cos(angle);
     RodState state = straight_state(rod);
@@ -130,7 +130,7 @@ struct Running {
     settings.contact_law = scene.law;
     settings.gravity = Vec3(0.5, 0.0, -kGravity);
     settings.drag = 1.0;
-    settings.friction.coefficient = settings.roller_friction.coefficient = scene.friction;
+    settings.friction = settings.roller_friction = MemoryFriction{scene.friction, 1e-3 * material.radius};
     settings.normal = {300.0 * material.bending_stiffness / std::pow(material.radius, 4.0), 0.05 * material.radius};
     // A spin without inertia is in equilibrium, and so is the sum of all moments.
     settings.spin_inertia = scene.kind == Kind::kCurved;

@@ -43,7 +43,7 @@ struct Capstan {
     double residual = 1e-7;         ///< [T1]
     double contact_tolerance = 1e-3;
     double presliding = 1e-3;
-    FrictionLaw friction_law = FrictionLaw::kMemory;
+    bool smoothed = false;                  ///< friction that creeps, else one that remembers
     double slip_tolerance = 0.01 * kSpeed;  ///< smoothed friction
   };
 
@@ -91,7 +91,8 @@ struct Capstan {
 
     StepSettings settings = closed_form_settings(material);
     settings.normal = {2e3 * t1, options.contact_tolerance};
-    settings.roller_friction = {options.friction_law, kMu, options.presliding, options.slip_tolerance};
+    settings.roller_friction = MemoryFriction{kMu, options.presliding};
+    if (options.smoothed) settings.roller_friction = SmoothedFriction{kMu, options.slip_tolerance};
     settings.residual = options.residual * t1;
     settings.residual_of_tension = 0.0;
     settings.newton_cap = 0.05;

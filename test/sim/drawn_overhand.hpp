@@ -36,7 +36,7 @@ struct DrawnOverhand {
 /// Settings in which the strands of a knot press on each other as those of a rope do, and slide with its friction.
 inline StepSettings sliding_settings(const Material& material) {
   StepSettings out = closed_form_settings(material);
-  out.friction.coefficient = material.friction_coefficient;
+  out.friction = MemoryFriction{material.friction_coefficient, 1e-3 * material.radius};
   out.normal = {300.0 * material.bending_stiffness / std::pow(material.radius, 4.0), 0.05 * material.radius};
   out.drag = 1.0;
   out.residual = 1e-4;

@@ -49,7 +49,7 @@ struct Incline {
   double speed() const { return stepper->state().velocity.row(0).mean(); }
 };
 
-Friction memory(double presliding) { return {FrictionLaw::kMemory, kMu, presliding, 0.0}; }
+Friction memory(double presliding) { return MemoryFriction{kMu, presliding}; }
 
 TEST(R9Incline, BelowTheFrictionAngleTheRodStays) {
   // Presliding is part of what moves: 1e-4 h of it keeps the whole movement below the reference's 1e-6 m.
@@ -81,7 +81,10 @@ TEST(R9Incline, AboveTheFrictionAngleTheRodSlides) {
 TEST(R11Creep, DirectionUnderALoadRatio) {
   for (const double ratio : {0.5, 0.9, 0.99}) {
     const double speed = std::log((1.0 + ratio) / (1.0 - ratio)) / 15.0;
-    const double found = friction_direction(FrictionLaw::kSmoothed, Vec3(0.0, speed, 0.0))[1];
+    const double found =
+        SmoothedFriction{kMu, 1.0}
+            .traction(FrictionInput<Vec3>{1.0, Vec3(0.0, speed, 0.0), Vec3::Zero(), Vec3::UnitX(), 0.0, 1.0})
+            .z[1];
     EXPECT_NEAR(found, ratio, 1e-14);
     hold_against(formatted("R11 friction smoothed in velocity, v/v_s = %.3f: r", speed), ratio, found, 1e-14);
     // Eq. 12 as printed.
@@ -95,7 +98,7 @@ TEST(R11Creep, DirectionUnderALoadRatio) {
 TEST(R11Creep, SmoothedFrictionCreepsOnAnInclineOfAnySlope) {
   const double tolerance = 1e-3;
   for (const double ratio : {0.5, 0.9}) {
-    Incline scene(std::atan(ratio * kMu), {FrictionLaw::kSmoothed, kMu, 0.0, tolerance});
+    Incline scene(std::atan(ratio * kMu), SmoothedFriction{kMu, tolerance});
     scene.run(1.0, 0.05);
     const double from = scene.place();
     scene.run(10.0, 0.05);

@@ -24,7 +24,7 @@ struct Scene {
     settings.contact_law = law;
     settings.gravity = Vec3(0.5, 0.0, -9.81);
     settings.drag = 1.0;
-    settings.roller_friction.coefficient = 0.4;
+    settings.roller_friction = MemoryFriction{0.4, 1e-3 * material.radius};
     RodState state = straight_state(rod);
     if (twist) initialise_frames(&state);
     return TimeStep::make(rod, state, settings);

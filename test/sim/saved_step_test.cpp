@@ -28,7 +28,7 @@ struct FallingRod {
     StepSettings settings = closed_form_settings(material);
     settings.gravity = Vec3(0.5, 0.0, -9.81);
     settings.drag = 1.0;
-    settings.roller_friction.coefficient = 0.4;
+    settings.roller_friction = MemoryFriction{0.4, 1e-3 * material.radius};
     RodState state = straight_state(rod);
     if (twist) initialise_frames(&state);
     stepper = TimeStep::make(rod, state, settings);

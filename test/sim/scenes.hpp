@@ -17,7 +17,7 @@ inline StepSettings closed_form_settings(const Material& material) {
   const double h = material.radius;
   StepSettings out;
   out.normal = {2.0 * material.stretching_stiffness / (h * h), 0.05 * h};
-  out.friction = {FrictionLaw::kMemory, 0.0, 1e-3 * h, 0.0};
+  out.friction = MemoryFriction{0.0, 1e-3 * h};
   out.roller_friction = out.friction;
   out.residual = 1e-8;
   out.residual_of_tension = 1e-9;

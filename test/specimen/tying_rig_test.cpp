@@ -46,7 +46,7 @@ struct Loop {
     state.velocity = Points::Zero(3, state.position.cols());
     StepSettings settings;
     settings.normal = {300.0 * bend / (h * h), 0.1 * h, 0.02 * h};
-    settings.friction = {FrictionLaw::kMemory, material.friction_coefficient, 4e-3 * h, 0.0};
+    settings.friction = MemoryFriction{material.friction_coefficient, 4e-3 * h};
     settings.drag = 0.1;
     settings.residual = 1e-4 * bend;
     settings.newton_cap = 0.1 * h;

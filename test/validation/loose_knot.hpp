@@ -48,13 +48,14 @@ class LooseKnot {
     state.velocity = Points::Zero(3, rod_.nodes());
     lower_ = state.position.col(0);
     upper_ = state.position.col(last());
-    start(state, Friction{FrictionLaw::kMemory, 0.0, options.presliding, 0.0});
+    start(state, MemoryFriction{0.0, options.presliding});
   }
 
   /// Goes on from the present shape with this friction, which remembers nothing yet.
-  void set_friction(double mu, FrictionLaw law = FrictionLaw::kMemory, double slip_tolerance = 0.0) {
+  void set_friction(double mu) { set_friction(MemoryFriction{mu, options_.presliding}); }
+  void set_friction(const Friction& friction) {
     const RodState state = stepper_->state();
-    start(state, Friction{law, mu, options_.presliding, slip_tolerance});
+    start(state, friction);
   }
 
   /// To rest between ends that stand still, under a drag that fades.

@@ -3,6 +3,7 @@
 #include "validation/loose_knot.hpp"
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -169,7 +170,7 @@ TEST(K3_LooseTrefoil, TouchesAlongAnIntervalAndAtTwoPoints) {
 double stopping_radius(double mu) { return std::pow(2.0 * mu * kSigma.at(1), -2); }
 
 /// Released, with this friction, from a tighter knot.
-LooseKnot released(double mu, FrictionLaw law = FrictionLaw::kMemory, double slip_tolerance = 0.0) {
+LooseKnot released(double mu, const std::optional<Friction>& friction = {}) {
   constexpr double kTightest = 14.0;  // of a shape that can be drawn [h]
   const double begin = (0.7 - mu) * stopping_radius(mu), drawn = std::max(begin, kTightest);
   LooseKnotOptions options = loose(1.0 / std::sqrt(drawn));
@@ -179,7 +180,7 @@ LooseKnot released(double mu, FrictionLaw law = FrictionLaw::kMemory, double sli
   LooseKnot knot(options);
   knot.settle();
   if (drawn > begin) knot.pull(2.0 * M_PI * (drawn - begin));
-  knot.set_friction(mu, law, slip_tolerance);
+  knot.set_friction(friction.value_or(MemoryFriction{mu, options.presliding}));
   knot.release(40.0);
   return knot;
 }
@@ -209,7 +210,7 @@ TEST(K4_ReleasedTrefoilLimit, StopsAtTheLawsRadiusAsFrictionVanishes) {
 }
 
 TEST(K4_ReleasedTrefoilSmoothed, NeverStops) {
-  LooseKnot knot = released(0.1, FrictionLaw::kSmoothed, 1.0);
+  LooseKnot knot = released(0.1, SmoothedFriction{0.1, 1.0});
   const double before = knot.loop_length();
   knot.release(60.0);
   EXPECT_GT(knot.loop_length(), 1.02 * before);

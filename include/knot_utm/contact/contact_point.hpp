@@ -21,30 +21,31 @@ namespace knot_utm {
 /// Force on a: g = w (p n - mu p z); on node k: c_k g. Against a roller there is no b: nodes a only, du = 0.
 struct ContactPoint {
   int a0 = 0;
-  int b0 = -1;                 ///< -1: none, on a roller
-  int point = 0;               ///< which of its segment's two points of integration a is
-  int roller = -1;             ///< number of the roller; -1: between strands
-  double c[6] = {};            ///< [-]
-  double beta[6] = {};         ///< [-], zero for a
-  double arclength_a = 0.0;    ///< [m], at rest
-  double arclength_b = 0.0;    ///< [m], at rest; of strands only
-  Vec3 x = Vec3::Zero();       ///< a - b [m]
-  Vec3 n = Vec3::Zero();       ///< x/d
-  double d = 0.0;              ///< [m]
-  double overlap = 0.0;        ///< D, more than 2h - d where the strand of b stands outwards of it [m]
-  double begins = 0.0;         ///< overlap at which the normal law begins [m]
-  double share = 1.0;          ///< omega, of the contact that this side carries
-  double weight = 0.0;         ///< w: rest length it stands for, times its share of the contact [m]
-  double pressure = 0.0;       ///< p [N/m]
-  double estimate = -1.0;      ///< of the pressure at the solution, from the last linear solve [N/m]; < 0: none
-  Vec3 db = Vec3::Zero();      ///< b' [m]
-  double inverse_g = 0.0;      ///< 1/G [1/m^2]; 0 against a roller
-  Vec3 axis = Vec3::Zero();    ///< of the roller, unit; zero between strands
-  Vec3 memory = Vec3::Zero();  ///< xi_n [m]
-  Vec3 slip = Vec3::Zero();    ///< r = xi_n + slip of this step, before projection on the tangent plane [m]
-  Vec3 turn = Vec3::Zero();    ///< V = sum_k beta_k (q_k - q_k^n), how b' turned in this step [m]
-  Vec3 z = Vec3::Zero();       ///< friction direction
-  Vec3 force = Vec3::Zero();   ///< g [N]
+  int b0 = -1;                ///< -1: none, on a roller
+  int point = 0;              ///< which of its segment's two points of integration a is
+  int roller = -1;            ///< number of the roller; -1: between strands
+  double c[6] = {};           ///< [-]
+  double beta[6] = {};        ///< [-], zero for a
+  double arclength_a = 0.0;   ///< [m], at rest
+  double arclength_b = 0.0;   ///< [m], at rest; of strands only
+  Vec3 x = Vec3::Zero();      ///< a - b [m]
+  Vec3 n = Vec3::Zero();      ///< x/d
+  double d = 0.0;             ///< [m]
+  double overlap = 0.0;       ///< D, more than 2h - d where the strand of b stands outwards of it [m]
+  double begins = 0.0;        ///< overlap at which the normal law begins [m]
+  double share = 1.0;         ///< omega, of the contact that this side carries
+  double weight = 0.0;        ///< w: rest length it stands for, times its share of the contact [m]
+  double pressure = 0.0;      ///< p [N/m]
+  double estimate = -1.0;     ///< of the pressure at the solution, from the last linear solve [N/m]; < 0: none
+  Vec3 db = Vec3::Zero();     ///< b' [m]
+  double inverse_g = 0.0;     ///< 1/G [1/m^2]; 0 against a roller
+  Vec3 axis = Vec3::Zero();   ///< of the roller, unit; zero between strands
+  FrictionMemory memory;      ///< of the last accepted step: xi_n [m], and what the law keeps beside it
+  Vec3 slip = Vec3::Zero();   ///< r = xi_n + slip of this step, before projection on the tangent plane [m]
+  Vec3 turn = Vec3::Zero();   ///< V = sum_k beta_k (q_k - q_k^n), how b' turned in this step [m]
+  Vec3 z = Vec3::Zero();      ///< friction direction, |z| <= 1
+  double mu = 0.0;            ///< friction coefficient [-]
+  Vec3 force = Vec3::Zero();  ///< g [N]
 
   /// Not defaulted: else `emplace_back()` sets all of it to zero before the members' own values do.
   ContactPoint() {}
@@ -85,6 +86,12 @@ struct ContactModel {
   Lanes slide = {};       ///< gamma [N]
 };
 
+/// How Newton's method wants contacts linearised.
+struct ContactLinearisation {
+  Linearisation friction = Linearisation::kTangent;
+  bool expects = false;  ///< it is the expected pressure that turns with n and z, else that of the tangent
+};
+
 /// Of a linear model: the pressure that the change leads to, by its estimate, where there is one, or else by the
 /// tangent. Where a prediction has drawn strands apart, the tangent would have them pull, and friction drive them on.
 /// `Real`: double, or Lanes for four contacts at once.
@@ -93,17 +100,20 @@ Real expected_pressure(const Real& estimate, const Real& of_tangent) {
   return select(estimate > 0.0, estimate, of_tangent);
 }
 
-/// Fills z and force of the active contacts from pressure, n, slip and weight.
-void evaluate_forces(const Friction& friction, double friction_scale, std::vector<ContactPoint>& contacts);
+/// Fills z, mu and force of the active contacts from pressure, n, slip and weight, in a step of length dt [s].
+void evaluate_forces(const Friction& friction, double dt, std::vector<ContactPoint>& contacts);
 
 /// The same with the pressure from the overlap.
-void evaluate_forces(const NormalLaw& normal, const Friction& friction, double friction_scale,
-                     std::vector<ContactPoint>& contacts);
+void evaluate_forces(const NormalLaw& normal, const Friction& friction, double dt, std::vector<ContactPoint>& contacts);
+
+/// What friction's law is told of a contact that has been evaluated.
+FrictionInput<Vec3> friction_input(const ContactPoint& contact, double dt);
+/// What it keeps of that contact.
+FrictionMemory remember(const Friction& friction, const ContactPoint& contact, double dt);
 
 /// The consistent linearisation of `evaluate_forces`, movement of the foot included; weight w is held constant.
 /// `models`: of the active contacts, in order; some more may follow that mean nothing.
-/// `expects`: it is the expected pressure that turns with n and z.
-void linearise(const NormalLaw& normal, const Friction& friction, double friction_scale, bool expects,
+void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                const std::vector<ContactPoint>& contacts, std::vector<ContactModel>& models);
 
 }  // namespace knot_utm

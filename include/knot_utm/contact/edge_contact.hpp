@@ -70,16 +70,15 @@ class EdgeContact {
   void commit(const Points& position);
 
   const EdgeLaw& normal() const { return normal_; }
-  /// Of friction, in place of tangents.
-  void use_secants(bool secants) { friction_.secant = secants; }
-  /// From now on it is the expected pressure that turns with n and z, or that of the tangent (ContactModel).
-  void expect(bool pressures) { expects_ = pressures; }
+  /// From now on.
+  void linearise_by(const ContactLinearisation& how) { how_ = how; }
 
   /// Of the last accepted step.
   void state(Archive& archive);
 
  private:
-  void linearise_contact(const ContactPoint& contact, double dt, EdgeContactModel& model) const;
+  template <typename Law>
+  void linearise_contact(const ContactPoint& contact, const Law& law, double dt, EdgeContactModel& model) const;
 
   /// What a contact between edges knows beside its ContactPoint.
   struct Feet {
@@ -91,7 +90,7 @@ class EdgeContact {
   struct Memory {
     std::pair<int, int> edges;
     double arclength_a, arclength_b;
-    Vec3 slip;  // xi [m]
+    FrictionMemory friction;
     double pressure;
 
     void state(Archive& archive);
@@ -106,7 +105,8 @@ class EdgeContact {
 
   EdgeLaw normal_;
   Friction friction_;
-  bool expects_ = false;
+  ContactLinearisation how_;
+  double dt_ = 0.0;  // of this step [s]
   double diameter_;
   double window_;          // of arclengths within which a contact is the same one [m]
   double reach_;           // of centrelines within which contacts are kept [m]

@@ -39,7 +39,7 @@ class RollerContact {
 
   /// The consistent linearisation of the active contacts, in order; some more may follow that mean nothing.
   void linearise(double dt, std::vector<ContactModel>& models) const {
-    knot_utm::linearise(normal_, friction_, friction_.scale(dt), expects_, contacts_, models);
+    knot_utm::linearise(normal_, friction_, dt, how_, contacts_, models);
   }
 
   /// From now on the rod has parted at an edge, and what reaches into it touches nothing.
@@ -55,10 +55,8 @@ class RollerContact {
   void commit(const std::vector<Roller>& rollers);
 
   const NormalLaw& normal() const { return normal_; }
-  /// Of friction, in place of tangents.
-  void use_secants(bool secants) { friction_.secant = secants; }
-  /// From now on it is the expected pressure that turns with n and z, or that of the tangent (ContactModel).
-  void expect(bool pressures) { expects_ = pressures; }
+  /// From now on.
+  void linearise_by(const ContactLinearisation& how) { how_ = how; }
 
   /// Of the last accepted step.
   void state(Archive& archive);
@@ -80,7 +78,8 @@ class RollerContact {
 
   NormalLaw normal_;
   Friction friction_;
-  bool expects_ = false;
+  ContactLinearisation how_;
+  double dt_ = 0.0;  // of this step [s]
   double radius_;
   double farthest_;
   bool first_evaluation_ = true;
@@ -90,7 +89,7 @@ class RollerContact {
   std::vector<Roller> start_;
   std::vector<ContactPoint> contacts_;
   std::vector<double> estimate_, committed_estimate_;  // of the pressure, < 0: none; indexed as memory_
-  std::vector<Vec3> memory_;  // xi of roller r at point q of segment i: [(r segments + i) 2 + q]
+  std::vector<FrictionMemory> memory_;                 // of roller r at point q of segment i: [(r segments + i) 2 + q]
 };
 
 }  // namespace knot_utm

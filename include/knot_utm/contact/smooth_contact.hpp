@@ -50,7 +50,7 @@ class SmoothContact {
 
   /// The consistent linearisation of the active contacts, in order; some more may follow that mean nothing.
   void linearise(double dt, std::vector<ContactModel>& models) const {
-    knot_utm::linearise(normal_, friction_, friction_.scale(dt), expects_, contacts_, models);
+    knot_utm::linearise(normal_, friction_, dt, how_, contacts_, models);
   }
 
   /// Of one of `contacts()`; the overlap but for the third order of the way of its foot.
@@ -60,10 +60,8 @@ class SmoothContact {
   void commit(const Points& position);
 
   const NormalLaw& normal() const { return normal_; }
-  /// Of friction, in place of tangents.
-  void use_secants(bool secants) { friction_.secant = secants; }
-  /// From now on it is the expected pressure that turns with n and z, or that of the tangent (ContactModel).
-  void expect(bool pressures) { expects_ = pressures; }
+  /// From now on.
+  void linearise_by(const ContactLinearisation& how) { how_ = how; }
 
   /// Of the last accepted step.
   void state(Archive& archive);
@@ -72,10 +70,10 @@ class SmoothContact {
   /// What a foot carries from iteration to iteration, and from step to step.
   struct Memory {
     double arclength_b;
-    double share;          // omega
-    double outwards;       // of the spline stands the foot, towards its point [m]
-    double pressure;       // estimate of it; < 0: none
-    Vec3 slip;             // xi [m]
+    double share;     // omega
+    double outwards;  // of the spline stands the foot, towards its point [m]
+    double pressure;  // estimate of it; < 0: none
+    FrictionMemory friction;
     bool pressed = false;  // at the beginning of the step
     bool inside = false;   // was deep inside when it appeared, and has not come out yet
 
@@ -124,7 +122,8 @@ class SmoothContact {
 
   NormalLaw normal_;
   Friction friction_;
-  bool expects_ = false;
+  ContactLinearisation how_;
+  double dt_ = 0.0;  // of this step [s]
   double diameter_;
   double window_;              // of arclength within which a foot is the same one [m]
   double reach_;               // of centrelines within which feet are followed [m]

@@ -118,7 +118,7 @@ class StepReadings {
   void begin(const SolvedStep& step, const RollerContact& rollers);
   void add_elastic(const CentrelineTerms::Energy& centreline, const FrameTerms::Energy& frames);
   template <typename Contacts>
-  void add_contacts(const SolvedStep& step, const Contacts& contacts, const Friction& friction);
+  void add_contacts(const SolvedStep& step, const Contacts& contacts);
 
   /// What holds a node exerts on it [N]; on an edge's material frame [N m].
   Vec3 reaction(int node) const;

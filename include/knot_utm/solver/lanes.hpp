@@ -49,6 +49,11 @@ inline Lanes square_root(const Lanes& v) {
       Eigen::Map<const Four, Eigen::Aligned32>(reinterpret_cast<const double*>(&v)).sqrt();
   return out;
 }
+inline double larger(double a, double b) { return a > b ? a : b; }
+inline double exponential(double v) { return std::exp(v); }
+inline Lanes exponential(const Lanes& v) {
+  return Lanes{std::exp(v[0]), std::exp(v[1]), std::exp(v[2]), std::exp(v[3])};
+}
 inline double tanh(double v) { return std::tanh(v); }
 inline Lanes tanh(const Lanes& v) { return Lanes{std::tanh(v[0]), std::tanh(v[1]), std::tanh(v[2]), std::tanh(v[3])}; }
 

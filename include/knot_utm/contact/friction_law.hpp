@@ -1,0 +1,134 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/solver/lanes.hpp"
+
+namespace knot_utm {
+
+/// The face of a friction law. At every contact a law says which traction t [N/m] one strand exerts on the other along
+/// their surfaces, by a direction vector z and a friction coefficient mu,
+///
+///     t = -mu p z,   |z| <= 1,
+///
+/// as a function of the pressure p, of the slip r that it remembers and that comes with this increment, of a number of
+/// its own, and of the length dt of the increment. Both z and mu may depend on all of these.
+///
+/// A law is a pair of files and one line in `FrictionLaws` (friction.hpp). It is a plain struct, which
+///
+///     static constexpr const char* kName              is what a method calls it
+///     static constexpr std::array kKeys               its keys in physics.friction (FrictionKey)
+///     static Law of(options, scales)                  from a method
+///     double coefficient                              the largest mu [-]; 0: no friction at all
+///     traction(FrictionInput<Vector>)                 -> FrictionTraction<Vector>
+///     tangent(FrictionInput<Vector>, Linearisation)   -> FrictionTangent<Vector>
+///     remember(FrictionInput<Vec3>, z)                -> FrictionMemory, once the step is accepted with this z
+///     state(Archive&)                                 its parameters
+///
+/// Both formulas are templates: `Vector` is Vec3 for one contact, or FourVectors for four side by side; Real is the
+/// number that belongs to it. They call nothing virtual and take no memory.
+struct FrictionLawDefaults {
+  /// Speed with which contacts at rest creep under any load; 0: they hold [m/s].
+  double creep_speed() const { return 0.0; }
+  /// Whether the errors beside readings were studied with this law (machine/accuracy.hpp).
+  static constexpr bool kStudied = false;
+};
+
+/// What a contact keeps from step to step. A new contact begins with zeros.
+struct FrictionMemory {
+  Vec3 slip = Vec3::Zero();  ///< xi [m]
+  double own = 0.0;          ///< a law's own number
+
+  void state(Archive& archive) { archive(slip, own); }
+};
+
+/// What a law is told of one contact, or of four.
+template <typename Vector>
+struct FrictionInput {
+  using Real = decltype(dot(Vector(), Vector()));
+  Real pressure;      ///< p [N/m]
+  Vector slip;        ///< r: the remembered slip and that of this increment, in the tangent plane [m]
+  Vector remembered;  ///< xi_n, as it was remembered: not in the plane, which has turned since [m]
+  Vector along;       ///< tangent of the strand that is slid on, not of unit length; for laws with directions
+  Real own;           ///< the law's own number, as remembered
+  double dt;          ///< [s]
+};
+
+template <typename Vector>
+struct FrictionTraction {
+  using Real = typename FrictionInput<Vector>::Real;
+  Vector z;
+  Real coefficient;  ///< mu [-]
+};
+
+/// The traction and its derivatives,
+///
+///     -dt/dp = by_pressure,     -dt/dr = p stiffness C,     C = across 1 + along left right^T,
+///
+/// left and right in the tangent plane. For a law without directions both are r/|r|.
+template <typename Vector>
+struct FrictionTangent {
+  using Real = typename FrictionInput<Vector>::Real;
+  Vector z;
+  Real coefficient;    ///< mu [-]
+  Vector by_pressure;  ///< [-]
+  Real stiffness;      ///< [1/m]
+  Real across, along;  ///< [-]
+  Vector left, right;  ///< [-]
+
+  /// C v
+  Vector slope_times(const Vector& v) const { return across * v + (along * dot(right, v)) * left; }
+};
+
+/// Newton's method solves with the tangent, or with the secant |z|/|r| in every direction in its place. Where a slip is
+/// beyond saturation the tangent along it vanishes, and Newton's method may leap from one saturated side to the other
+/// for ever; the secant bounds the law from above (Kacanov's method): it converges slowly, but from any start.
+enum class Linearisation { kTangent, kSecant };
+
+/// Where a key takes its value from that a method does not give.
+enum class FrictionDefault {
+  kNone,        ///< a method must give it
+  kPresliding,  ///< from physics.accuracy
+  kCreep,       ///< from the slowest pull, which creeping friction must not feel
+};
+
+/// A key of physics.friction.
+struct FrictionKey {
+  const char* name;
+  double min, max;  ///< both allowed
+  const char* unit;
+  FrictionDefault otherwise;
+  double plain;  ///< may stand in a method whose law does not have the key: it was written there once; NaN: none
+};
+
+/// Number of a law in the registry (friction.hpp).
+enum class FrictionLaw : std::size_t {};
+
+/// `physics.friction` of a method.
+struct FrictionOptions {
+  FrictionLaw law{};
+  std::map<std::string, double> values;  ///< of the keys that are set, in the method's units
+
+  std::optional<double> value(const std::string& key) const {
+    const auto found = values.find(key);
+    return found == values.end() ? std::nullopt : std::optional<double>(found->second);
+  }
+  void set(const std::string& key, const std::optional<double>& value) {
+    if (value)
+      values[key] = *value;
+    else
+      values.erase(key);
+  }
+};
+
+/// What a law's parameters follow from beside its keys.
+struct FrictionScales {
+  double coefficient = 0.0;  ///< mu of the two that touch [-]
+  double radius = 0.0;       ///< h [m]
+  double presliding = 0.0;   ///< slip at which friction that remembers saturates [h]
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "knot_utm/contact/friction_law.hpp"
+
+namespace knot_utm {
+
+/// Coulomb friction that remembers: a tangential spring with a return mapping to Coulomb's cone,
+///
+///     z = y for |y| < 1, else y/|y|,      y = r / xi_s,     xi = xi_s z is remembered,
+///
+/// so that a knot at rest stays at rest. xi_s is the presliding displacement (Dahl 1968); as the traction is the
+/// pressure times z, its stiffness grows with the pressure.
+struct MemoryFriction : FrictionLawDefaults {
+  static constexpr const char* kName = "memory";
+  static constexpr std::array kKeys{FrictionKey{"presliding", 1e-5, 0.5, "of the radius", FrictionDefault::kPresliding,
+                                                std::numeric_limits<double>::quiet_NaN()}};
+  static constexpr bool kStudied = true;
+
+  double coefficient = 0.0;  ///< mu [-]
+  double presliding = 0.0;   ///< xi_s [m]
+
+  MemoryFriction() = default;
+  MemoryFriction(double mu, double xi_s) : coefficient(mu), presliding(xi_s) {}
+  static MemoryFriction of(const FrictionOptions& options, const FrictionScales& scales);
+
+  template <typename Vector>
+  FrictionTraction<Vector> traction(const FrictionInput<Vector>& in) const {
+    const Vector y = (1.0 / presliding) * in.slip;
+    const auto size = square_root(dot(y, y));
+    return {share(size) * y, constant<decltype(dot(y, y))>(coefficient)};
+  }
+
+  template <typename Vector>
+  FrictionTangent<Vector> tangent(const FrictionInput<Vector>& in, Linearisation linearisation) const {
+    using Real = typename FrictionInput<Vector>::Real;
+    const double over_scale = 1.0 / presliding;
+    const Vector y = over_scale * in.slip;
+    const Real size = square_root(dot(y, y)), across = share(size);
+    Real along = Real{};  // d|z|/d|y| - |z|/|y|
+    if (linearisation == Linearisation::kTangent) along = select(size < 1.0, along, -across);
+    const Vector unit = select(size > 1e-12, 1.0 / size, Real{}) * y;
+    const Vector z = across * y;
+    const Real mu = constant<Real>(coefficient);
+    return {z, mu, mu * z, constant<Real>(coefficient * over_scale), across, along, unit, unit};
+  }
+
+  FrictionMemory remember(const FrictionInput<Vec3>&, const Vec3& z) const { return {presliding * z, 0.0}; }
+
+  void state(Archive& archive) { archive(coefficient, presliding); }
+
+ private:
+  /// |z|/|y|
+  template <typename Real>
+  static Real share(const Real& size) {
+    return select(size < 1.0, constant<Real>(1.0), 1.0 / size);
+  }
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,78 @@
+#include "knot_utm/contact/friction.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "knot_utm/rod/known_names.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+template <std::size_t... I>
+FrictionLaws law_of(std::size_t number, const FrictionOptions& options, const FrictionScales& scales,
+                    std::index_sequence<I...>) {
+  FrictionLaws out;
+  ((number == I ? void(out = std::variant_alternative_t<I, FrictionLaws>::of(options, scales)) : void()), ...);
+  return out;
+}
+
+template <std::size_t... I>
+FrictionLaws plain_law(std::size_t number, std::index_sequence<I...>) {
+  FrictionLaws out;
+  ((number == I ? void(out.emplace<I>()) : void()), ...);
+  return out;
+}
+
+constexpr auto kNumbers = std::make_index_sequence<std::variant_size_v<FrictionLaws>>();
+
+}  // namespace
+
+bool FrictionLawEntry::has(const std::string& key) const {
+  return std::any_of(keys, keys + key_count, [&](const FrictionKey& own) { return key == own.name; });
+}
+
+FrictionLaw law_named(const std::string& name) {
+  const auto& all = friction::kEntries;
+  return static_cast<FrictionLaw>(
+      std::find_if(all.begin(), all.end(), [&](const FrictionLawEntry& law) { return name == law.name; }) -
+      all.begin());
+}
+
+const std::vector<FrictionKey>& friction_keys() {
+  static const std::vector<FrictionKey> all = [] {
+    std::vector<FrictionKey> out;
+    const auto known = [&](const std::string& name) {
+      return std::any_of(out.begin(), out.end(), [&](const FrictionKey& key) { return name == key.name; });
+    };
+    for (const FrictionLawEntry& law : friction::kEntries)
+      std::copy_if(law.keys, law.keys + law.key_count, std::back_inserter(out),
+                   [&](const FrictionKey& key) { return !known(key.name); });
+    return out;
+  }();
+  return all;
+}
+
+std::string laws_with(const std::string& key) {
+  std::vector<std::string> names;
+  for (const FrictionLawEntry& law : friction::kEntries)
+    if (law.has(key)) names.emplace_back(law.name);
+  return listed(names);
+}
+
+Friction Friction::of(const FrictionOptions& options, const FrictionScales& scales) {
+  Friction out;
+  out.law_ = law_of(static_cast<std::size_t>(options.law), options, scales, kNumbers);
+  out.on_ = out.coefficient() > 0.0;
+  return out;
+}
+
+void Friction::state(Archive& archive) {
+  int number = static_cast<int>(law_.index());
+  archive.number("friction law", number, 0, static_cast<int>(std::variant_size_v<FrictionLaws>) - 1);
+  if (archive.loads()) law_ = plain_law(static_cast<std::size_t>(number), kNumbers);
+  std::visit([&](auto& law) { law.state(archive); }, law_);
+  on_ = coefficient() > 0.0;
+}
+
+}  // namespace knot_utm
