@@ -81,7 +81,8 @@ inline std::string range_text(const Range& range) {
 
 /// "a number from 0.0001 to 100000 (in N)".
 inline std::string number_text(const Range& range) {
-  const std::string unit = std::string(range.unit) == "-" ? "" : std::string(" (in ") + range.unit + ")";
+  const std::string name = range.unit, in = name.rfind("of ", 0) == 0 ? "" : "in ";
+  const std::string unit = name == "-" ? "" : " (" + in + name + ")";
   if (std::isinf(range.max)) return "a number of at least " + plain_number(range.min) + unit;
   return "a number from " + plain_number(range.min) + " to " + plain_number(range.max) + unit;
 }

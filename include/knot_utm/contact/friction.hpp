@@ -8,11 +8,12 @@
 
 #include "knot_utm/contact/memory_friction.hpp"
 #include "knot_utm/contact/smoothed_friction.hpp"
+#include "knot_utm/contact/stribeck_friction.hpp"
 
 namespace knot_utm {
 
 /// All friction laws there are, in the order in which messages name them; the first is the default.
-using FrictionLaws = std::variant<MemoryFriction, SmoothedFriction>;
+using FrictionLaws = std::variant<MemoryFriction, SmoothedFriction, StribeckFriction>;
 
 /// What a law says of itself without being there.
 struct FrictionLawEntry {
