@@ -12,8 +12,6 @@ namespace {
 
 std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-Vec3 column(const Points& points, int j) { return points.col(j); }
-
 // Well above the rounding of the factorisation, far below anything that twists: over a thousand edges, a millionth of
 // the stiffness of one.
 constexpr double kRest = 1e-9;        // r_j [k_t/l_j]
@@ -26,65 +24,183 @@ void subtract(const StencilVector& gradient, int i, std::vector<Lanes>& force) {
   }
 }
 
+constexpr Lanes kSpin = {0.0, 0.0, 0.0, 1.0};
+
+FourVectors four(const std::vector<Lanes>& vectors, std::size_t first) {
+  return FourVectors::of(vectors[first], vectors[first + 1], vectors[first + 2], vectors[first + 3]);
+}
+Lanes four(const std::vector<double>& numbers, std::size_t first) {
+  return Lanes{numbers[first], numbers[first + 1], numbers[first + 2], numbers[first + 3]};
+}
+
+/// Four vectors, or four numbers, to where they belong.
+void put(const FourVectors& vectors, std::vector<Lanes>& to, std::size_t first) {
+  Lanes a = vectors.x, b = vectors.y, c = vectors.z, d = {};
+  transpose(a, b, c, d);
+  to[first] = a;
+  to[first + 1] = b;
+  to[first + 2] = c;
+  to[first + 3] = d;
+}
+void put(const Lanes& numbers, std::vector<double>& to, std::size_t first) {
+  for (int k = 0; k < 4; ++k) to[first + static_cast<std::size_t>(k)] = numbers[k];
+}
+
+/// Four rotations as quaternions of any length.
+struct Turns {
+  Lanes w;
+  FourVectors v;
+};
+/// Parallel transport from one tangent to another.
+Turns transport(const FourVectors& from, const FourVectors& to) { return {1.0 + dot(from, to), cross(from, to)}; }
+/// First the right one.
+Turns operator*(const Turns& l, const Turns& r) {
+  return {l.w * r.w - dot(l.v, r.v), l.w * r.v + r.w * l.v + cross(l.v, r.v)};
+}
+
+/// The angle of a turn about a unit vector, the smaller way round [rad]: 2 atan(tangent of its half), by its series
+/// where that is less than a tenth, where the first term left out is 1e-17 of it.
+Lanes angle_about(const FourVectors& axis, const Turns& turn) {
+  const Lanes sine = dot(turn.v, axis), size = larger(sine, -sine);
+  const auto small = size < 0.1 * turn.w;
+  const Lanes x = sine / select(small, turn.w, constant<Lanes>(1.0)), y = x * x;
+  Lanes series = constant<Lanes>(1.0 / 15.0);
+  for (const double term : {13.0, 11.0, 9.0, 7.0, 5.0, 3.0, 1.0}) series = 1.0 / term - y * series;
+  Lanes out = 2.0 * x * series;
+  for (int k = 0; k < 4; ++k)
+    if (!(size[k] < 0.1 * turn.w[k])) out[k] = std::remainder(2.0 * std::atan2(sine[k], turn.w[k]), 2.0 * M_PI);
+  return out;
+}
+
+/// w x
+struct Cross {
+  explicit Cross(const Lanes& w)
+      : column{Lanes{0.0, w[2], -w[1], 0.0}, Lanes{-w[2], 0.0, w[0], 0.0}, Lanes{w[1], -w[0], 0.0, 0.0}} {}
+  Lanes column[3];
+};
+
 }  // namespace
 
 FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
     : rod_(rod),
       curved_(rod.natural_curvature.cols() > 0),
       held_(static_cast<std::size_t>(rod.nodes()), 0),
-      start_tangent_(3, rod.edges()),
-      edge_(3, rod.edges()),
-      tangent_(3, rod.edges()),
-      length_(rod.edges()),
+      start_tangent_(held_.size() + 3, Lanes{1.0, 0.0, 0.0, 0.0}),
+      edge_(start_tangent_),
+      tangent_(start_tangent_),
+      inverse_length_(start_tangent_.size(), 1.0),
+      lean_(start_tangent_.size()),
+      stiffness_(start_tangent_.size(), 0.0),
+      binormal_(start_tangent_.size()),
+      over_chi_(start_tangent_.size(), 0.0),
+      moment_(start_tangent_.size(), 0.0),
       director_(3, rod.edges()),
-      angle_(rod.edges()),
-      reference_twist_(rod.nodes() - 2),
-      torque_(rod.edges()) {
+      angle_(start_tangent_.size(), 0.0),
+      start_twist_(start_tangent_.size(), 0.0),
+      reference_twist_(start_tangent_.size(), 0.0),
+      torque_(start_tangent_.size(), 0.0) {
   const double h2 = rod.material.radius * rod.material.radius;
   const double counts = settings.spin_inertia ? 1.0 : 0.0;
   inertia_ = (counts * 0.5 * rod.material.density * M_PI * h2 * h2) * rod.rest_length;
   drag_ = (counts * settings.drag * h2) * rod.rest_length;
   rest_ = ((1.0 - counts) * kRest * rod.material.twisting_stiffness) * rod.rest_length.cwiseInverse();
+  for (int i = 1; i + 1 < static_cast<int>(rod.nodes()); ++i)
+    stiffness_[at(i)] = rod.material.twisting_stiffness / rod.voronoi_length[i];
+}
+
+void FrameTerms::part(int edge) {
+  parted_ = edge;
+  stiffness_[at(edge)] = stiffness_[at(edge + 1)] = 0.0;
 }
 
 void FrameTerms::begin_step(const RodState& start, const std::vector<FixedTwist>& held, double dt) {
   start_ = &start;
   dt_ = dt;
   const int edges = static_cast<int>(rod_.edges());
-  for (int j = 0; j < edges; ++j)
-    start_tangent_.col(j) = (start.position.col(j + 1) - start.position.col(j)).normalized();
-  angle_ = start.twist + dt * start.twist_rate;
+  for (int j = 0; j < edges; ++j) {
+    start_tangent_[at(j)] = to_lanes(Vec3((start.position.col(j + 1) - start.position.col(j)).normalized()));
+    angle_[at(j)] = start.twist[j] + dt * start.twist_rate[j];
+  }
+  for (int i = 1; i < edges; ++i) {
+    reference_twist_[at(i)] = start.reference_twist[i - 1];
+    start_twist_[at(i)] =
+        start.reference_twist[i - 1] - (rod_.natural_twist.size() > 0 ? rod_.natural_twist[i - 1] : 0.0);
+  }
   std::fill(held_.begin(), held_.end(), 0);
   held_.back() = 1;
   for (const FixedTwist& fixed : held) {
     held_[at(fixed.edge)] = 1;
-    angle_[fixed.edge] = fixed.angle;
+    angle_[at(fixed.edge)] = fixed.angle;
   }
+}
+
+void FrameTerms::set_tangents(const Points& position) {
+  const std::size_t edges = static_cast<std::size_t>(rod_.edges());
+  for (std::size_t j = 0; j < edges; ++j) {
+    const double* x = position.data() + 3 * j;
+    edge_[j] = Lanes{x[3] - x[0], x[4] - x[1], x[5] - x[2], 0.0};
+    inverse_length_[j] = 1.0 / std::sqrt(dot(edge_[j], edge_[j]));
+    tangent_[j] = inverse_length_[j] * edge_[j];
+  }
+  for (std::size_t j = 0; j < edges; j += 4) {
+    const FourVectors before = four(start_tangent_, j), now = four(tangent_, j);
+    put(four(inverse_length_, j) / (1.0 + dot(before, now)) * cross(now, before), lean_, j);
+  }
+}
+
+/// m_ref, b, chi and the moment of every inner node.
+void FrameTerms::set_twist() {
+  const std::size_t edges = static_cast<std::size_t>(rod_.edges());
+  for (std::size_t i = 1; i < edges; i += 4) {
+    const FourVectors e = four(tangent_, i - 1), f = four(tangent_, i);
+    const FourVectors e_n = four(start_tangent_, i - 1), f_n = four(start_tangent_, i);
+    const Turns e_to_f = transport(e, f);
+    // Back from f to e as the conjugate; behind the last node there are no edges, and nothing is read.
+    const Turns around = transport(e_n, f_n) * transport(e, e_n) * Turns{e_to_f.w, -1.0 * e_to_f.v} * transport(f_n, f);
+    const Lanes turned = angle_about(f_n, around), over_chi = 1.0 / e_to_f.w;
+    const Lanes twist = four(angle_, i) - four(angle_, i - 1) + four(start_twist_, i) + turned;
+    put(2.0 * over_chi * e_to_f.v, binormal_, i);
+    put(over_chi, over_chi_, i);
+    put(four(stiffness_, i) * twist, moment_, i);
+    put(turned, reference_twist_, i);
+  }
+  for (std::size_t i = 1; i < edges; ++i)
+    reference_twist_[i] += start_->reference_twist[static_cast<Eigen::Index>(i) - 1];
+}
+
+void FrameTerms::carry_directors() {
+  for (int j = 0; j < static_cast<int>(rod_.edges()); ++j)
+    director_.col(j) = transported_director(start_->reference_director.col(j), to_vec3(start_tangent_[at(j)]),
+                                            to_vec3(tangent_[at(j)]));
 }
 
 void FrameTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
   const int edges = static_cast<int>(rod_.edges());
-  for (int j = 0; j < edges; ++j) {
-    edge_.col(j) = position.col(j + 1) - position.col(j);
-    length_[j] = edge_.col(j).norm();
-    tangent_.col(j) = edge_.col(j) / length_[j];
-    director_.col(j) =
-        transported_director(column(start_->reference_director, j), column(start_tangent_, j), column(tangent_, j));
+  set_tangents(position);
+  set_twist();
+  std::fill(torque_.begin(), torque_.end(), 0.0);
+  for (std::size_t i = 1; i < static_cast<std::size_t>(edges); ++i) {
+    const double half = 0.5 * moment_[i];
+    const Lanes on_e = (half * inverse_length_[i - 1]) * binormal_[i],
+                on_f = (half * inverse_length_[i]) * binormal_[i];
+    const Lanes torque = moment_[i] * kSpin;
+    force[i - 1] += on_e + torque;
+    force[i] -= on_e - on_f + torque;
+    force[i + 1] -= on_f;
+    torque_[i - 1] -= moment_[i];
+    torque_[i] += moment_[i];
   }
-  torque_.setZero();
-  for (int i = 1; i < edges; ++i) {
-    const int e = i - 1, f = i;
-    reference_twist_[e] = nearest_turn(
-        reference_twist(column(director_, e), column(tangent_, e), column(director_, f), column(tangent_, f)),
-        start_->reference_twist[e]);
-    StencilVector gradient = node_twisting(i).gradient;
-    if (curved_) gradient += node_bending(i).gradient;
-    torque_[e] += gradient[3];
-    torque_[f] += gradient[7];
-    subtract(gradient, i, force);
+  if (curved_) {
+    carry_directors();
+    for (int i = 1; i < edges; ++i) {
+      const StencilVector gradient = node_bending(i).gradient;
+      torque_[at(i - 1)] += gradient[3];
+      torque_[at(i)] += gradient[7];
+      subtract(gradient, i, force);
+    }
   }
   for (int j = 0; j < edges; ++j) {
-    const double turned = angle_[j] - start_->twist[j], rate = turned / dt_;
+    const double turned = angle_[at(j)] - start_->twist[j], rate = turned / dt_;
     force[at(j)][3] -= inertia_[j] * (rate - start_->twist_rate[j]) / dt_ + drag_[j] * rate + rest_[j] * turned;
   }
 }
@@ -101,48 +217,131 @@ BendingInput FrameTerms::bending_input(int i) const {
 }
 
 StencilGradient FrameTerms::node_twisting(int i) const {
-  const double twist = angle_[i] - angle_[i - 1] + reference_twist_[i - 1];
-  return twisting_gradient(twisting_input(i), column(edge_, i - 1), column(edge_, i), twist);
+  return twisting_gradient(twisting_input(i), to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), twist(i));
 }
 
 StencilGradient FrameTerms::node_bending(int i) const {
   const int e = i - 1, f = i;
-  return bending_gradient(bending_input(i), column(edge_, e), column(edge_, f),
-                          material_directors(column(tangent_, e), column(director_, e), angle_[e]),
-                          material_directors(column(tangent_, f), column(director_, f), angle_[f]));
+  return bending_gradient(bending_input(i), to_vec3(edge_[at(e)]), to_vec3(edge_[at(f)]), directors(e), directors(f));
+}
+
+double FrameTerms::twist(int i) const { return angle_[at(i)] - angle_[at(i - 1)] + reference_twist_[at(i)]; }
+
+Directors FrameTerms::directors(int j) const {
+  return material_directors(to_vec3(tangent_[at(j)]), director_.col(j), angle_[at(j)]);
+}
+
+StencilMatrix FrameTerms::bending_stiffness(int i) const {
+  return bending(bending_input(i), to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), directors(i - 1), directors(i))
+      .hessian;
 }
 
 FrameTerms::NodeStiffness FrameTerms::node_stiffness(int i) const {
-  const int e = i - 1, f = i;
-  const double twist = angle_[f] - angle_[e] + reference_twist_[e];
   NodeStiffness out = NodeStiffness::Zero();
-  out.topLeftCorner<kStencilSize, kStencilSize>() =
-      twisting(twisting_input(i), column(edge_, e), column(edge_, f), twist).hessian;
-  if (curved_)
-    out.topLeftCorner<kStencilSize, kStencilSize>() +=
-        bending(bending_input(i), column(edge_, e), column(edge_, f),
-                material_directors(column(tangent_, e), column(director_, e), angle_[e]),
-                material_directors(column(tangent_, f), column(director_, f), angle_[f]))
-            .hessian;
+  auto elastic = out.topLeftCorner<kStencilSize, kStencilSize>();
+  elastic = twisting(twisting_input(i), to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), twist(i)).hessian;
+  if (curved_) elastic += bending_stiffness(i);
   return out;
-}
-
-Vec3 FrameTerms::lean(int j) const {
-  const Vec3 before = start_tangent_.col(j), now = tangent_.col(j);
-  return now.cross(before) / ((1.0 + before.dot(now)) * length_[j]);
 }
 
 FrameTerms::EdgeStiffness FrameTerms::edge_stiffness(int j) const {
   EdgeStiffness out;
-  const Vec3 w = (0.5 * torque_[j] / (length_[j] * length_[j])) * column(tangent_, j);
-  out.sweep << 0.0, -w.z(), w.y(), w.z(), 0.0, -w.x(), -w.y(), w.x(), 0.0;
+  const Lanes w = (0.5 * torque_[at(j)] * inverse_length_[at(j)] * inverse_length_[at(j)]) * tangent_[at(j)];
+  out.sweep << 0.0, -w[2], w[1], w[2], 0.0, -w[0], -w[1], w[0], 0.0;
   out.spin = inertia_[j] / (dt_ * dt_) + drag_[j] / dt_ + rest_[j];
   out.lean = lean(j);
   return out;
 }
 
+/// With t = mean and s_e = u + t, the Hessian of twisting.hpp by its right factors b and s.
+FrameTerms::TwistStiffness FrameTerms::twist_stiffness(std::size_t node) const {
+  const double k = stiffness_[node], moment = moment_[node], over_chi = over_chi_[node];
+  const double over_e = inverse_length_[node - 1], over_f = inverse_length_[node];
+  const Lanes &b = binormal_[node], &u = tangent_[node - 1], &v = tangent_[node];
+  const Lanes mean = over_chi * (u + v), s_e = u + mean, s_f = v + mean;
+  const double turn_e = 0.25 * moment * over_e * over_e, turn_f = 0.25 * moment * over_f * over_f;
+  const double turn_ef = 0.5 * moment * over_e * over_f, twice = 2.0 * over_chi * turn_ef;
+  TwistStiffness out;
+  out.stiffness = k;
+  out.by_e = (0.5 * k * over_e) * b;
+  out.by_f = (0.5 * k * over_f) * b;
+  const Lanes ee_b = (0.5 * over_e) * out.by_e - turn_e * s_e, ff_b = (0.5 * over_f) * out.by_f - turn_f * s_f;
+  const Lanes on_s_e = turn_e * b, on_s_f = turn_f * b, both = (0.5 * over_f) * out.by_e, ef_mean = turn_ef * b;
+  const Lanes fe_b = both - turn_ef * mean;
+  const Cross across(twice * u);
+  for (int c = 0; c < 3; ++c) {
+    out.ee[c] = ee_b * b[c] - on_s_e * s_e[c];
+    out.ff[c] = ff_b * b[c] - on_s_f * s_f[c];
+    out.ef[c] = both * b[c] - ef_mean * mean[c] + across.column[c];
+    out.fe[c] = fe_b * b[c] - across.column[c];
+  }
+  return out;
+}
+
+void FrameTerms::add_stiffness(StepMatrix<4>& matrix) const {
+  const std::size_t nodes = held_.size(), edges = nodes - 1;
+  // As CentrelineTerms::set_stiffness: by A_j of every edge, here with its sweep, and B_i of the two edges of a node.
+  // With g = k_t/lbar (-m_e, m_e - m_f, m_f) of nodes i-1 to i+1, the spins before and behind node i add -g and g.
+  TwistStiffness here{}, after{};
+  Lanes edge_before[3] = {}, edge[3] = {};
+  for (std::size_t i = 0; i < nodes; ++i, here = after) {
+    const auto& stencil = matrix.stencil(static_cast<int>(i));
+    const bool last = i == edges;
+    after = i + 1 < edges ? twist_stiffness(i + 1) : TwistStiffness{};
+    const Lanes middle = here.by_e - here.by_f;
+    Block<4>& own = matrix.block(stencil[0]);
+    if (!last) {
+      const Cross sweep((0.5 * torque_[i] * inverse_length_[i] * inverse_length_[i]) * tangent_[i]);
+      for (int c = 0; c < 3; ++c) edge[c] = here.ff[c] + after.ee[c] + sweep.column[c];
+    } else {
+      std::fill_n(edge, 3, Lanes{});
+    }
+    const Lanes own_spin = last ? Lanes{} : middle + after.by_e;
+    for (int c = 0; c < 3; ++c)
+      own.column[c] += edge_before[c] + edge[c] - here.ef[c] - here.fe[c] + own_spin[c] * kSpin;
+    if (last) break;
+    const auto j = static_cast<Eigen::Index>(i);
+    const double spin = inertia_[j] / (dt_ * dt_) + drag_[j] / dt_ + rest_[j];
+    own.column[3] += own_spin + (here.stiffness + after.stiffness + spin) * kSpin;
+    const Lanes leans = spin * lean_[i], row = here.by_f - after.by_e + after.by_f;
+    Block<4>&next = matrix.block(stencil[1]), &next_back = matrix.block(stencil[3]);
+    for (int c = 0; c < 3; ++c) {
+      own.column[c] += leans[c] * kSpin;
+      next.column[c] += here.ef[c] + after.ef[c] - edge[c] + (row[c] - leans[c]) * kSpin;
+      next_back.column[c] += here.fe[c] + after.fe[c] - edge[c] - after.by_e[c] * kSpin;
+      edge_before[c] = edge[c];
+    }
+    next.column[3] -= after.by_e + after.stiffness * kSpin;
+    next_back.column[3] += row - after.stiffness * kSpin;
+    if (i + 1 == edges) continue;
+    Block<4>&second = matrix.block(stencil[2]), &second_back = matrix.block(stencil[6]);
+    for (int c = 0; c < 3; ++c) {
+      second.column[c] -= after.ef[c] + after.by_f[c] * kSpin;
+      second_back.column[c] -= after.fe[c];
+    }
+    second_back.column[3] -= after.by_f;
+  }
+  if (curved_) add_bending_stiffness(matrix);
+}
+
+void FrameTerms::add_bending_stiffness(StepMatrix<4>& matrix) const {
+  for (int i = 1; i + 1 < static_cast<int>(held_.size()); ++i) {
+    NodeStiffness local = NodeStiffness::Zero();
+    local.topLeftCorner<kStencilSize, kStencilSize>() = bending_stiffness(i);
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l) {
+        Block<4>& block = matrix.band(i - 1, k, l);
+        for (int j = 0; j < 4; ++j) {
+          Lanes column;
+          std::copy_n(&local(4 * k, 4 * l + j), 4, reinterpret_cast<double*>(&column));
+          block.column[j] += column;
+        }
+      }
+  }
+}
+
 double FrameTerms::angle_change(const std::vector<Lanes>& change, int j) const {
-  return held(j) ? 0.0 : change[at(j)][3] - lean(j).dot(to_vec3(change[at(j + 1)] - change[at(j)]));
+  return held(j) ? 0.0 : change[at(j)][3] - dot(lean_[at(j)], change[at(j + 1)] - change[at(j)]);
 }
 
 double FrameTerms::longest_share(const std::vector<Lanes>& change) const {
@@ -153,20 +352,28 @@ double FrameTerms::longest_share(const std::vector<Lanes>& change) const {
 }
 
 void FrameTerms::move(const std::vector<Lanes>& change, double share) {
-  for (int j = 0; j < static_cast<int>(rod_.edges()); ++j) angle_[j] += share * angle_change(change, j);
+  for (int j = 0; j < static_cast<int>(rod_.edges()); ++j) angle_[at(j)] += share * angle_change(change, j);
 }
 
-void FrameTerms::commit(RodState& state) const {
-  state.twist_rate = (angle_ - start_->twist) / dt_;
-  state.twist = angle_;
+void FrameTerms::commit(RodState& state) {
+  const int edges = static_cast<int>(rod_.edges());
+  carry_directors();
+  for (int j = 0; j < edges; ++j) {
+    state.twist_rate[j] = (angle_[at(j)] - start_->twist[j]) / dt_;
+    state.twist[j] = angle_[at(j)];
+  }
+  for (int i = 1; i < edges; ++i)
+    state.reference_twist[i - 1] =
+        nearest_turn(knot_utm::reference_twist(director_.col(i - 1), to_vec3(tangent_[at(i - 1)]), director_.col(i),
+                                               to_vec3(tangent_[at(i)])),
+                     reference_twist_[at(i)]);
   state.reference_director = director_;
-  state.reference_twist = reference_twist_;
 }
 
 FrameTerms::Energy FrameTerms::energy(const Points& way, const std::vector<Lanes>& force) const {
   Energy out;
   const int edges = static_cast<int>(rod_.edges());
-  const auto turn = [&](int j) { return angle_[j] - start_->twist[j]; };
+  const auto turn = [&](int j) { return angle_[at(j)] - start_->twist[j]; };
   for (int i = 1; i < edges; ++i) {
     const int e = i - 1, f = i;
     const StencilGradient twist = node_twisting(i);

@@ -176,7 +176,7 @@ class ImplicitStep final : public TimeStep {
     matrix_.locate(contact_.contacts());
     matrix_.set_zero_beyond_band();
     centreline_.set_stiffness(inertia_and_drag(), matrix_);
-    if constexpr (D == 4) add_frame_stiffness();
+    if constexpr (D == 4) frames_.add_stiffness(matrix_);
     change_ = force_;
     linearise(contact_, models_);
     linearise(rollers_, roller_models_);
@@ -275,31 +275,6 @@ class ImplicitStep final : public TimeStep {
     return diagonal_;
   }
 
-  void add_frame_stiffness() {
-    for (int i = 1; i + 1 < nodes_; ++i) {
-      const FrameTerms::NodeStiffness local = frames_.node_stiffness(i);
-      for (int k = 0; k < 3; ++k)
-        for (int l = 0; l < 3; ++l) {
-          Block<D>& block = matrix_.band(i - 1, k, l);
-          for (int j = 0; j < D; ++j) {
-            Lanes column;
-            std::copy_n(&local(4 * k, 4 * l + j), 4, reinterpret_cast<double*>(&column));
-            block.column[j] += column;
-          }
-        }
-    }
-    for (int i = 0; i + 1 < nodes_; ++i) {
-      const FrameTerms::EdgeStiffness local = frames_.edge_stiffness(i);
-      Block<D>&own = matrix_.band(i, 0, 0), &next = matrix_.band(i, 0, 1);
-      add(own, local.sweep, 1.0);
-      add(matrix_.band(i, 1, 1), local.sweep, 1.0);
-      add(next, local.sweep, -1.0);
-      add(matrix_.band(i, 1, 0), local.sweep, -1.0);
-      own.at(3, 3) += local.spin;
-      add_to_row(3, local.spin * local.lean, own, next);
-    }
-  }
-
   /// Adds the row `times` . (x_i - x_{i+1}) to blocks (i, i) and (i, i+1).
   static void add_to_row(int row, const Vec3& times, Block<D>& own, Block<D>& next) {
     for (int j = 0; j < 3; ++j) {
@@ -318,7 +293,7 @@ class ImplicitStep final : public TimeStep {
       change_[at(node)] *= keep;
       // A held angle is one of no change: the spin is what transport alone makes.
       if (turns == 0.0 && node + 1 < nodes_)
-        add_to_row(3, frames_.edge_stiffness(node).lean, matrix_.band(node, 0, 0), matrix_.band(node, 0, 1));
+        add_to_row(3, frames_.lean(node), matrix_.band(node, 0, 0), matrix_.band(node, 0, 1));
     } else {
       if (!held_[at(node)]) return;
       matrix_.values().set_identity_row(node);

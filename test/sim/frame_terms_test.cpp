@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
+#include <utility>
 
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
@@ -86,13 +89,9 @@ class FrameTermsOf : public testing::TestWithParam<bool> {
   }
 };
 
-TEST_P(FrameTermsOf, StiffnessIsTheForcesDerivative) {
-  FrameTerms terms(rod, settings);
-  const Eigen::MatrixXd expected =
-      -finite_difference([&](const Eigen::VectorXd& y) { return force_at(terms, y); }, trial, 1e-3);
-  force_at(terms, trial);
+/// By the slow formulas, node by node and edge by edge.
+Eigen::MatrixXd stiffness_of(const FrameTerms& terms) {
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(4 * kNodes, 4 * kNodes);
-  Eigen::MatrixXd spin = Eigen::MatrixXd::Identity(4 * kNodes, 4 * kNodes);  // d(x, s)/d(x, theta)
   for (int i = 1; i + 1 < kNodes; ++i) stiffness.block<12, 12>(4 * (i - 1), 4 * (i - 1)) += terms.node_stiffness(i);
   for (int j = 0; j + 1 < kNodes; ++j) {
     const FrameTerms::EdgeStiffness edge = terms.edge_stiffness(j);
@@ -104,11 +103,69 @@ TEST_P(FrameTermsOf, StiffnessIsTheForcesDerivative) {
     stiffness(a + 3, a + 3) += edge.spin;
     stiffness.block<1, 3>(a + 3, a) += edge.spin * edge.lean.transpose();
     stiffness.block<1, 3>(a + 3, b) -= edge.spin * edge.lean.transpose();
-    spin.block<1, 3>(a + 3, b) += edge.lean.transpose();
-    spin.block<1, 3>(a + 3, a) -= edge.lean.transpose();
   }
-  const double difference = relative_difference(stiffness * spin, expected);
+  return stiffness;
+}
+
+TEST_P(FrameTermsOf, StiffnessIsTheForcesDerivative) {
+  FrameTerms terms(rod, settings);
+  const Eigen::MatrixXd expected =
+      -finite_difference([&](const Eigen::VectorXd& y) { return force_at(terms, y); }, trial, 1e-3);
+  force_at(terms, trial);
+  Eigen::MatrixXd spin = Eigen::MatrixXd::Identity(4 * kNodes, 4 * kNodes);  // d(x, s)/d(x, theta)
+  for (int j = 0; j + 1 < kNodes; ++j) {
+    spin.block<1, 3>(4 * j + 3, 4 * (j + 1)) += terms.lean(j).transpose();
+    spin.block<1, 3>(4 * j + 3, 4 * j) -= terms.lean(j).transpose();
+  }
+  const double difference = relative_difference(stiffness_of(terms) * spin, expected);
   EXPECT_LT(difference, 1e-8);
+}
+
+TEST_P(FrameTermsOf, TheMatrixGetsTheStiffnessOfAllNodesAndEdges) {
+  FrameTerms terms(rod, settings);
+  for (const int parted : {-1, 3}) {
+    if (parted >= 0) terms.part(parted);
+    force_at(terms, trial);
+    StepMatrix<4> matrix(kNodes);
+    for (int i = 0; i < kNodes; ++i)
+      for (const int block : matrix.stencil(i))
+        if (block >= 0) matrix.block(block).set_zero();
+    terms.add_stiffness(matrix);
+    const Eigen::MatrixXd slow = stiffness_of(terms);
+    double largest = 0.0;
+    for (int i = 0; i < kNodes; ++i)
+      for (int k = 0; k < 3 && i + k < kNodes; ++k)
+        for (const auto& [row, column] : {std::pair{i, i + k}, std::pair{i + k, i}}) {
+          const Block<4>& block = matrix.band(i, row - i, column - i);
+          for (int r = 0; r < 4; ++r)
+            for (int c = 0; c < 4; ++c)
+              largest = std::max(largest, std::abs(block(r, c) - slow(4 * row + r, 4 * column + c)));
+        }
+    EXPECT_LT(largest, 1e-13 * slow.cwiseAbs().maxCoeff()) << "parted edge " << parted;
+  }
+}
+
+/// Near the step's beginning without an arctangent, far from it with one.
+TEST_P(FrameTermsOf, TheReferenceTwistIsThatOfCarriedFrames) {
+  FrameTerms terms(rod, settings);
+  for (const double share : {1.0, 0.1, 1e-3, 1e-9, 0.0}) {
+    Eigen::VectorXd y = trial;
+    for (int i = 0; i < kNodes; ++i)
+      y.segment<3>(4 * i) = start.position.col(i) + share * (trial.segment<3>(4 * i) - start.position.col(i));
+    std::vector<Lanes> force;
+    evaluate(terms, y, force);
+    RodState moved = start;
+    moved.position = positions(y);
+    for (int j = 0; j + 1 < kNodes; ++j) moved.twist[j] = y[4 * j + 3];
+    transport_frames(start.position, &moved);
+    const double carried = elastic_energy(rod, moved).twisting;
+    EXPECT_NEAR(terms.energy(moved.position - start.position, force).twisting, carried, 1e-13 * carried) << share;
+    RodState committed = start;
+    committed.position = moved.position;
+    terms.commit(committed);
+    EXPECT_LT((committed.reference_twist - moved.reference_twist).norm(), 1e-14);
+    EXPECT_LT((committed.reference_director - moved.reference_director).norm(), 1e-14);
+  }
 }
 
 TEST_P(FrameTermsOf, ForcesAreTheEnergysSlopeAtFixedSpin) {

@@ -3,9 +3,11 @@
 #include <vector>
 
 #include "knot_utm/rod/bending.hpp"
+#include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stencil.hpp"
 #include "knot_utm/rod/twisting.hpp"
 #include "knot_utm/sim/scene.hpp"
+#include "knot_utm/sim/step_matrix.hpp"
 #include "knot_utm/solver/block.hpp"
 
 namespace knot_utm {
@@ -41,6 +43,10 @@ namespace knot_utm {
 ///
 /// lean being the area that the transport from t^n sweeps over as t moves. Newton's method therefore solves for spins
 /// s in place of angles. What it solves with is not symmetric, but exact.
+/// The reference twist of a trial is that of the step's beginning and the angle by which a frame turns that is carried
+/// from t_f^n once around the tangents t_f, t_e, t_e^n of the two edges of a node, a product of four quaternions
+/// (1 + a.b, a x b). No frame is carried for it, and no arctangent is needed while that angle is small; d1 and m_ref
+/// are carried themselves once a step, so that no rounding piles up.
 /// Contacts act on the centreline: friction does not turn the rod about itself.
 /// Source: Bergou et al. 2010, sections 3 and 4; Jawed, Novelia, O'Reilly 2018, chapters 4 to 7; the derivative along
 /// the moving frame our own.
@@ -60,7 +66,7 @@ class FrameTerms {
   FrameTerms(const RodProperties& rod, const StepSettings& settings);
 
   /// From now on the rod has parted at an edge: at its ends nothing twists or bends.
-  void part(int edge) { parted_ = edge; }
+  void part(int edge);
 
   /// Begins a step of length dt [s] from `start`, a state with frames, which must stay unchanged until it ends. Held
   /// angles stand where they must, all others turn on as they did.
@@ -70,9 +76,16 @@ class FrameTerms {
   /// positions. The stiffness that is read later belongs to them.
   void add_forces(const Points& position, std::vector<Lanes>& force);
 
-  /// -d(force, torque)/d(x, s) of the elastic terms at inner node i, 1 <= i <= N-2.
+  /// Adds -d(force, torque)/d(x, s) to what the matrix has.
+  void add_stiffness(StepMatrix<4>& matrix) const;
+
+  /// The same node by node and edge by edge, from the formulas of twisting.hpp and bending.hpp: of the elastic terms at
+  /// inner node i, 1 <= i <= N-2, and of edge j. Slow; what the former is held against.
   NodeStiffness node_stiffness(int i) const;
   EdgeStiffness edge_stiffness(int j) const;
+
+  /// Of edge j, as FrameTerms says [1/m].
+  Vec3 lean(int j) const { return to_vec3(lean_[static_cast<std::size_t>(j)]); }
 
   /// The angle is prescribed; so is that of the last node, which has no edge behind it.
   bool held(int edge) const { return held_[static_cast<std::size_t>(edge)] != 0; }
@@ -96,16 +109,31 @@ class FrameTerms {
   double kinetic_energy(const Eigen::VectorXd& rate) const { return 0.5 * inertia_.dot(rate.cwiseAbs2()); }
 
   /// Writes angles, rates and frames into the state whose positions were evaluated last.
-  void commit(RodState& state) const;
+  void commit(RodState& state);
 
  private:
+  /// What twisting at one inner node adds, by edge vectors e and f before and behind it: columns of d2E/(de df), with
+  /// fe = ef^T, and m_e, m_f times k_t/lbar.
+  struct TwistStiffness {
+    Lanes ee[3], ef[3], fe[3], ff[3];
+    Lanes by_e, by_f;
+    double stiffness;  // k_t/lbar [N m]
+  };
+  TwistStiffness twist_stiffness(std::size_t node) const;
+  void add_bending_stiffness(StepMatrix<4>& matrix) const;
+  void set_tangents(const Points& position);
+  void set_twist();
+  void carry_directors();
+
   /// Stiffnesses of inner node i are zero where it ends a parted edge.
   TwistingInput twisting_input(int i) const;
   BendingInput bending_input(int i) const;
   StencilGradient node_twisting(int i) const;
   StencilGradient node_bending(int i) const;
+  StencilMatrix bending_stiffness(int i) const;
+  double twist(int i) const;  // m of inner node i
+  Directors directors(int edge) const;
   double angle_change(const std::vector<Lanes>& change, int edge) const;
-  Vec3 lean(int edge) const;
 
   const RodProperties& rod_;
   Eigen::VectorXd inertia_;  // I_j
@@ -116,13 +144,20 @@ class FrameTerms {
   const RodState* start_ = nullptr;
   double dt_ = 0.0;
   std::vector<char> held_;  // N
-  Points start_tangent_;    // t^n
-  Points edge_, tangent_;   // e_j, t_j of the trial positions
-  Eigen::VectorXd length_;  // |e_j|
-  Points director_;         // d1_j
-  Eigen::VectorXd angle_;   // theta_j
-  Eigen::VectorXd reference_twist_;
-  Eigen::VectorXd torque_;  // dE/dtheta_j [N m]
+  // Of edges and nodes; what is worked out for four at once has room for three more behind the last.
+  std::vector<Lanes> start_tangent_;     // t^n
+  std::vector<Lanes> edge_, tangent_;    // e_j, t_j of the trial positions
+  std::vector<double> inverse_length_;   // 1/|e_j|
+  std::vector<Lanes> lean_;              // lean_j
+  std::vector<double> stiffness_;        // k_t/lbar of every node, 0 at a parted edge [N m]
+  std::vector<Lanes> binormal_;          // b of every node, as twisting.hpp has it
+  std::vector<double> over_chi_;         // 1/chi
+  std::vector<double> moment_;           // k_t/lbar (m - mbar) [N m]
+  Points director_;                      // d1_j; of a rod that is straight at rest once a step
+  std::vector<double> angle_;            // theta_j
+  std::vector<double> start_twist_;      // m_ref - mbar of every node as the step began
+  std::vector<double> reference_twist_;  // m_ref of every node
+  std::vector<double> torque_;           // dE/dtheta_j [N m]
 };
 
 }  // namespace knot_utm

@@ -76,6 +76,9 @@ inline FourVectors operator+(const FourVectors& a, const FourVectors& b) { retur
 inline FourVectors operator-(const FourVectors& a, const FourVectors& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
 inline FourVectors operator*(const Lanes& s, const FourVectors& v) { return {s * v.x, s * v.y, s * v.z}; }
 inline FourVectors operator*(double s, const FourVectors& v) { return {s * v.x, s * v.y, s * v.z}; }
+inline FourVectors cross(const FourVectors& a, const FourVectors& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 inline Lanes dot(const FourVectors& a, const FourVectors& b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
 inline double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.dot(b); }
 
