@@ -16,6 +16,7 @@
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/machine/test_bench.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
+#include "knot_utm/sim/frame_terms.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 
 namespace knot_utm {
@@ -40,13 +41,15 @@ double time_of(Call call) {
   return least;
 }
 
-/// The matrix of a rod in self-contact, as a step has it but for what rollers add to its band.
+/// The matrix of a rod in self-contact, as a step has it but for what rollers add to its band; D = 4: with twist.
+template <int D>
 class Matrix {
  public:
   Matrix(const RodProperties& rod, const StepSettings& settings, double dt)
       : rod_(rod),
         contact_(rod, settings.normal, settings.friction, settings.candidate_margin, settings.share_time),
         centreline_(rod, true),
+        frames_(rod, settings),
         matrix_(static_cast<int>(rod.nodes())),
         dt_(dt) {
     for (Eigen::Index i = 0; i < rod.nodes(); ++i)
@@ -55,11 +58,11 @@ class Matrix {
 
   /// What its bare factorisation and solve take [s]. They use the matrix up, so that it is copied, which does not
   /// count.
-  double solve_time(const Points& position) {
-    set(position);
-    const BlockMatrix<3> whole = matrix_.values();
-    BlockMatrix<3> used = whole;
-    BlockMatrix<3>::Vector x(at(static_cast<int>(rod_.nodes())));
+  double solve_time(const RodState& state) {
+    set(state);
+    const BlockMatrix<D> whole = matrix_.values();
+    BlockMatrix<D> used = whole;
+    typename BlockMatrix<D>::Vector x(at(static_cast<int>(rod_.nodes())));
     const auto copy = [&] {
       used = whole;
       std::fill(x.begin(), x.end(), Lanes{1.0, 1.0, 1.0, 0.0});
@@ -73,7 +76,8 @@ class Matrix {
   }
 
  private:
-  void set(const Points& position) {
+  void set(const RodState& state) {
+    const Points& position = state.position;
     std::vector<Lanes> force(at(static_cast<int>(rod_.nodes())));
     centreline_.add_forces(position, force);
     contact_.refresh(position);
@@ -82,6 +86,12 @@ class Matrix {
     matrix_.locate(contact_.contacts());
     matrix_.set_zero_beyond_band();
     centreline_.set_stiffness(diagonal_, matrix_);
+    if constexpr (D == 4) {
+      frames_.begin_step(state, {}, dt_);
+      frames_.add_forces(position, force);
+      frames_.add_stiffness(matrix_);
+      matrix_.values().set_identity_row(static_cast<int>(rod_.nodes()) - 1, Lanes{1.0, 1.0, 1.0, 0.0});
+    }
     contact_.linearise(dt_, models_);
     std::size_t n = 0;
     for (const ContactPoint& contact : contact_.contacts())
@@ -95,20 +105,19 @@ class Matrix {
   const RodProperties& rod_;
   SmoothContact contact_;
   CentrelineTerms centreline_;
-  StepMatrix<3> matrix_;
+  FrameTerms frames_;
+  StepMatrix<D> matrix_;
   double dt_;
   std::vector<double> diagonal_;
   std::vector<ContactModel> models_;
 };
 
-void run(const std::string& file, const std::vector<std::string>& settings) {
-  const Method method = load_method(file, settings);
-  TestBench bench(method.specimen, method.material, method.machine, method.physics);
-  if (bench.state().twist.size() != 0 || method.physics.contact_law != ContactLaw::kSmooth)
-    throw std::runtime_error("only without twist, and with contact.law smooth");
+template <int D>
+void run(const Method& method, TestBench& bench) {
+  if (method.physics.contact_law != ContactLaw::kSmooth) throw std::runtime_error("only with contact.law smooth");
   TestProgram program = make_program(method, bench.longest_step());
-  Matrix matrix(bench.rod(), step_settings(method.specimen, method.material, method.machine, method.physics),
-                bench.longest_step());
+  Matrix<D> matrix(bench.rod(), step_settings(method.specimen, method.material, method.machine, method.physics),
+                   bench.longest_step());
   double pulled = 0.0, solved = 0.0;  // [s]
   std::uint64_t iterations = 0, before = 0;
   int commands = 0, solves = 0;
@@ -119,7 +128,7 @@ void run(const std::string& file, const std::vector<std::string>& settings) {
       pulled += seconds() - start;
       iterations += sample.newton_iterations - before;
       if (commands++ % kCommandsApart == 0) {
-        solved += matrix.solve_time(bench.state().position);
+        solved += matrix.solve_time(bench.state());
         ++solves;
       }
     }
@@ -130,6 +139,12 @@ void run(const std::string& file, const std::vector<std::string>& settings) {
   std::printf("nodes: %d\niterations: %llu\niteration: %.6g\nstates: %d\nsolve: %.6g\n",
               static_cast<int>(bench.rod().nodes()), static_cast<unsigned long long>(iterations),
               1e3 * pulled / static_cast<double>(iterations), solves, 1e3 * solved / solves);
+}
+
+void run(const std::string& file, const std::vector<std::string>& settings) {
+  const Method method = load_method(file, settings);
+  TestBench bench(method.specimen, method.material, method.machine, method.physics);
+  bench.state().twist.size() == 0 ? run<3>(method, bench) : run<4>(method, bench);
 }
 
 }  // namespace

@@ -216,10 +216,6 @@ BendingInput FrameTerms::bending_input(int i) const {
   return {whole * rod_.material.bending_stiffness, rod_.voronoi_length[i], rod_.natural_curvature.col(i - 1)};
 }
 
-StencilGradient FrameTerms::node_twisting(int i) const {
-  return twisting_gradient(twisting_input(i), to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), twist(i));
-}
-
 StencilGradient FrameTerms::node_bending(int i) const {
   const int e = i - 1, f = i;
   return bending_gradient(bending_input(i), to_vec3(edge_[at(e)]), to_vec3(edge_[at(f)]), directors(e), directors(f));
@@ -362,11 +358,7 @@ void FrameTerms::commit(RodState& state) {
     state.twist_rate[j] = (angle_[at(j)] - start_->twist[j]) / dt_;
     state.twist[j] = angle_[at(j)];
   }
-  for (int i = 1; i < edges; ++i)
-    state.reference_twist[i - 1] =
-        nearest_turn(knot_utm::reference_twist(director_.col(i - 1), to_vec3(tangent_[at(i - 1)]), director_.col(i),
-                                               to_vec3(tangent_[at(i)])),
-                     reference_twist_[at(i)]);
+  for (int i = 1; i < edges; ++i) state.reference_twist[i - 1] = reference_twist_[at(i)];
   state.reference_director = director_;
 }
 
@@ -374,19 +366,18 @@ FrameTerms::Energy FrameTerms::energy(const Points& way, const std::vector<Lanes
   Energy out;
   const int edges = static_cast<int>(rod_.edges());
   const auto turn = [&](int j) { return angle_[at(j)] - start_->twist[j]; };
+  const auto edge_change = [&](int j) { return to_lanes(Vec3(way.col(j + 1) - way.col(j))); };
   for (int i = 1; i < edges; ++i) {
-    const int e = i - 1, f = i;
-    const StencilGradient twist = node_twisting(i);
-    out.twisting += twist.energy;
-    StencilVector gradient = twist.gradient;
-    if (curved_) {
-      const StencilGradient bend = node_bending(i);
-      out.bending += bend.energy;
-      gradient += bend.gradient;
-    }
+    const double moment = moment_[at(i)], by_e = 0.5 * inverse_length_[at(i - 1)], by_f = 0.5 * inverse_length_[at(i)];
+    if (moment != 0.0) out.twisting += 0.5 * moment * moment / stiffness_[at(i)];
+    out.along +=
+        moment * (dot(binormal_[at(i)], by_e * edge_change(i - 1) + by_f * edge_change(i)) + turn(i) - turn(i - 1));
+    if (!curved_) continue;
+    const StencilGradient bend = node_bending(i);
+    out.bending += bend.energy;
     StencilVector moved;
-    moved << way.col(e), turn(e), way.col(i), turn(f), way.col(i + 1);
-    out.along += gradient.dot(moved);
+    moved << way.col(i - 1), turn(i - 1), way.col(i), turn(i), way.col(i + 1);
+    out.along += bend.gradient.dot(moved);
   }
   for (int j = 0; j < edges; ++j) {
     const double turned = turn(j), rate = turned / dt_, change = rate - start_->twist_rate[j];

@@ -45,8 +45,8 @@ namespace knot_utm {
 /// s in place of angles. What it solves with is not symmetric, but exact.
 /// The reference twist of a trial is that of the step's beginning and the angle by which a frame turns that is carried
 /// from t_f^n once around the tangents t_f, t_e, t_e^n of the two edges of a node, a product of four quaternions
-/// (1 + a.b, a x b). No frame is carried for it, and no arctangent is needed while that angle is small; d1 and m_ref
-/// are carried themselves once a step, so that no rounding piles up.
+/// (1 + a.b, a x b). No frame is carried for it, and no arctangent is needed while that angle is small; d1 is carried
+/// once a step.
 /// Contacts act on the centreline: friction does not turn the rod about itself.
 /// Source: Bergou et al. 2010, sections 3 and 4; Jawed, Novelia, O'Reilly 2018, chapters 4 to 7; the derivative along
 /// the moving frame our own.
@@ -128,7 +128,6 @@ class FrameTerms {
   /// Stiffnesses of inner node i are zero where it ends a parted edge.
   TwistingInput twisting_input(int i) const;
   BendingInput bending_input(int i) const;
-  StencilGradient node_twisting(int i) const;
   StencilGradient node_bending(int i) const;
   StencilMatrix bending_stiffness(int i) const;
   double twist(int i) const;  // m of inner node i
