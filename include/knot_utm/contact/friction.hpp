@@ -15,7 +15,7 @@ namespace knot_utm {
 /// All friction laws there are, in the order in which messages name them; the first is the default.
 using FrictionLaws = std::variant<MemoryFriction, SmoothedFriction, StribeckFriction>;
 
-/// What a law says of itself without being there.
+/// What is known of a law by its type alone.
 struct FrictionLawEntry {
   const char* name;
   const FrictionKey* keys;
@@ -50,7 +50,7 @@ inline constexpr const FrictionLawEntry& entry_of(FrictionLaw law) {
   return friction::kEntries[static_cast<std::size_t>(law)];
 }
 
-/// Of a known name.
+/// By its name, which must be one of kFrictionLawNames.
 FrictionLaw law_named(const std::string& name);
 /// The keys of all laws, each once.
 const std::vector<FrictionKey>& friction_keys();

@@ -28,8 +28,10 @@ namespace knot_utm {
 ///     remember(FrictionInput<Vec3>, z)                -> FrictionMemory, once the step is accepted with this z
 ///     state(Archive&)                                 its parameters
 ///
-/// Both formulas are templates: `Vector` is Vec3 for one contact, or FourVectors for four side by side; Real is the
-/// number that belongs to it. They call nothing virtual and take no memory.
+/// Traction and tangent are templates: `Vector` is Vec3 for one contact, or FourVectors for four side by side; Real is
+/// the number that belongs to it. They call nothing virtual and take no memory.
+///
+/// What a law inherits, and may say otherwise:
 struct FrictionLawDefaults {
   /// Speed with which contacts at rest creep under any load; 0: they hold [m/s].
   double creep_speed() const { return 0.0; }

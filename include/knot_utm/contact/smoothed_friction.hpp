@@ -20,14 +20,14 @@ struct SmoothedFriction : FrictionLawDefaults {
 
   double coefficient = 0.0;     ///< mu [-]
   double slip_tolerance = 0.0;  ///< v_s [m/s]
-  double least_slip = 0.0;      ///< of dt v_s [m], which would be lost in rounding in the shortest steps
+  double least_slip = 0.0;      ///< in the shortest steps dt v_s would be lost in rounding [m]
 
   SmoothedFriction() = default;
   SmoothedFriction(double mu, double v_s, double least = 0.0)
       : coefficient(mu), slip_tolerance(v_s), least_slip(least) {}
   static SmoothedFriction of(const FrictionOptions& options, const FrictionScales& scales);
 
-  /// The slip that y is over [m]. No step that is shorter than dt v_s = `least_slip` asks for is an easier one.
+  /// What the slip is divided by [m]: dt v_s, but not less than `least_slip`. A still shorter step would not be easier.
   double scale(double dt) const { return std::max(dt * slip_tolerance, least_slip); }
 
   template <typename Vector>
