@@ -98,7 +98,7 @@ void linearise(const NormalLaw& normal, const Law& law, double dt, const Contact
   // With N = dn/dS = (P - axis axis^T)/d, P = 1 - n n^T (a roller's gap has no part along its axis), and dp/dS = -p' n,
   //   dg/dS = p N - p' (n + dt/dp) n^T - s C Y,   s = p stiffness,   p that turns,
   //   Y = d(P r)/dS = P - (n.r) N - n (N r)^T.
-  // with (1/scale) C the law's. z, left and right being tangential, C P = across P + along left right^T and
+  // with C the law's own (FrictionTangent). z, left and right being tangential, C P = across P + along left right^T and
   // C n = across n: all of it is multiples of the identity, left right^T and columns times n^T, axis^T and (N r)^T.
   Lanes on_identity = p * over_d, on_left = {}, on_pulled = {};
   FourVectors axis_column = -on_identity * axis;

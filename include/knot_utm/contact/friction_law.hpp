@@ -54,7 +54,7 @@ struct FrictionInput {
   Real pressure;      ///< p [N/m]
   Vector slip;        ///< r: the remembered slip and that of this increment, in the tangent plane [m]
   Vector remembered;  ///< xi_n, as it was remembered: not in the plane, which has turned since [m]
-  Vector along;       ///< tangent of the strand that is slid on, not of unit length; for laws with directions
+  Vector along;       ///< of the strand that is slid on, not of unit length, for laws with directions; 0 on a roller
   Real own;           ///< the law's own number, as remembered
   double dt;          ///< [s]
 };
