@@ -14,9 +14,9 @@ namespace knot_utm {
 ///     t = -p mu_s y while |y| < mu(sigma)/mu_s, else -p mu(sigma) y/|y|,      y = r/xi_s.
 ///
 /// Below its cone it is the spring of `memory`. A contact that sticks at the end of a step is bound anew: sigma = 0. So
-/// is one that is new. k = 1 is `memory`. Where l is shorter than (1 - k) xi_s, friction falls faster than the spring lets
-/// go, and a step may have no solution.
-/// Source: Rabinowicz 1951 for the slip length; a return mapping with softening, as in Simo and Laursen 1992.
+/// is one that is new. k = 1 is `memory`. Where l is shorter than (1 - k) xi_s, friction falls faster than the spring
+/// lets go, and a step may have no solution. Source: Rabinowicz 1951 for the slip length; a return mapping with
+/// softening, as in Simo and Laursen 1992.
 struct StribeckFriction : FrictionLawDefaults {
   static constexpr const char* kName = "stribeck";
   static constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
