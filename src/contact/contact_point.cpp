@@ -1,57 +1,10 @@
 #include "knot_utm/contact/contact_point.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cstddef>
-
-#include "knot_utm/solver/lanes.hpp"
+#include "four_contacts.hpp"
 
 namespace knot_utm {
 
 namespace {
-
-/// Four contacts side by side.
-template <typename Contact>
-class Four {
- public:
-  explicit Four(const std::array<Contact*, 4>& contacts) : contacts_(contacts) {}
-
-  Lanes operator()(double ContactPoint::*number) const {
-    return Lanes{contacts_[0]->*number, contacts_[1]->*number, contacts_[2]->*number, contacts_[3]->*number};
-  }
-  FourVectors operator()(Vec3 ContactPoint::*vector) const {
-    return FourVectors::of(to_lanes(contacts_[0]->*vector), to_lanes(contacts_[1]->*vector),
-                           to_lanes(contacts_[2]->*vector), to_lanes(contacts_[3]->*vector));
-  }
-
- private:
-  std::array<Contact*, 4> contacts_;
-};
-
-/// What becomes of four vectors: each is one again.
-class Parted {
- public:
-  explicit Parted(const FourVectors& v) : vectors_{v.x, v.y, v.z, Lanes{}} {
-    transpose(vectors_[0], vectors_[1], vectors_[2], vectors_[3]);
-  }
-  const Lanes& operator[](std::size_t i) const { return vectors_[i]; }
-
- private:
-  Lanes vectors_[4];
-};
-
-/// Of contacts side by side; `slip`: their part in the tangent plane.
-template <typename Contact>
-FrictionInput<FourVectors> friction_input(const std::array<Contact*, 4>& contacts, const Lanes& pressure,
-                                          const FourVectors& slip, double dt) {
-  return {pressure,
-          slip,
-          FourVectors::of(to_lanes(contacts[0]->memory.slip), to_lanes(contacts[1]->memory.slip),
-                          to_lanes(contacts[2]->memory.slip), to_lanes(contacts[3]->memory.slip)),
-          Four<Contact>(contacts)(&ContactPoint::db),
-          Lanes{contacts[0]->memory.own, contacts[1]->memory.own, contacts[2]->memory.own, contacts[3]->memory.own},
-          dt};
-}
 
 template <typename Law>
 void evaluate_forces(const Law& law, double dt, const std::array<ContactPoint*, 4>& contacts) {
@@ -84,14 +37,9 @@ template <typename Law>
 void linearise(const NormalLaw& normal, const Law& law, double dt, const ContactLinearisation& how,
                const std::array<const ContactPoint*, 4>& contacts, ContactModel* models) {
   const Four<const ContactPoint> four(contacts);
-  const Lanes overlap = four(&ContactPoint::overlap), estimate = four(&ContactPoint::estimate);
-  const Lanes weight = four(&ContactPoint::weight), over_d = 1.0 / four(&ContactPoint::d);
-  // A contact that is new and deep: the depth where the rod stiffens is a better guess than a wall.
-  const Lanes without = select(overlap < normal.stiffening, overlap, constant<Lanes>(normal.stiffening));
-  const Lanes tangent_at = select(estimate > 0.0, normal.overlap_at(estimate), without);
-  const Lanes slope = normal.slope(tangent_at);
-  const Lanes pressure = normal.pressure(tangent_at) + slope * (overlap - tangent_at);
-  const Lanes turning = how.expects ? expected_pressure(estimate, pressure) : pressure, p = weight * turning;
+  const FourPressures law_of_pressure(normal, how, four);
+  const Lanes &slope = law_of_pressure.slope, &pressure = law_of_pressure.pressure, &turning = law_of_pressure.turning;
+  const Lanes weight = four(&ContactPoint::weight), over_d = 1.0 / four(&ContactPoint::d), p = weight * turning;
 
   const FourVectors n = four(&ContactPoint::n), db = four(&ContactPoint::db), axis = four(&ContactPoint::axis);
   const FourVectors n_u = -over_d * db;  // dn/du
@@ -143,25 +91,6 @@ void linearise(const NormalLaw& normal, const Law& law, double dt, const Contact
     model.slide = slides[i];
     for (std::size_t j = 0; j < 3; ++j) model.still[j] = columns[j][i];
   }
-}
-
-/// Calls visit(four, first) for the active contacts in order, four at a time, `first` being the number of the first of
-/// them; the last one fills up what is left.
-template <typename Contacts, typename Visit>
-void visit_active(Contacts& contacts, Visit visit) {
-  std::array<decltype(contacts.data()), 4> four;
-  std::size_t first = 0, count = 0;
-  for (auto& contact : contacts) {
-    if (!contact.active()) continue;
-    four[count++] = &contact;
-    if (count < 4) continue;
-    visit(four, first);
-    first += count;
-    count = 0;
-  }
-  if (count == 0) return;
-  std::fill(four.begin() + static_cast<std::ptrdiff_t>(count), four.end(), four[count - 1]);
-  visit(four, first);
 }
 
 }  // namespace

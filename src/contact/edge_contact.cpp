@@ -67,6 +67,8 @@ void EdgeContact::evaluate(const Points& position, const Points& start, double d
       estimate_[static_cast<std::size_t>(feet_[i].pair)] = contacts_[i].estimate;
   contacts_.clear();
   feet_.clear();
+  moving_.clear();
+  surfaces_.clear();
   length_ = (position.rightCols(length_.size()) - position.leftCols(length_.size())).colwise().norm();
   for (std::size_t pair = 0; pair < pairs_.size(); ++pair) {
     const auto [a, b] = pairs_[pair];
@@ -112,18 +114,19 @@ void EdgeContact::add_contact(int pair, const Points& position, const Points& st
   if (first_evaluation_ && found && found->edges == std::pair{a, b} && found->pressure > least_estimate_)
     contact.estimate = found->pressure;
 
-  Feet feet{pair, da, Vec3::Zero(), 0.0, 0.0, 0.0};
+  Feet feet{pair, da, Vec3::Zero()};
+  EdgeFeet moving;
   if (contact.active()) {
     const double aa = da.squaredNorm() + r, bb = db.squaredNorm() + r;
     if (at.t_free && at.u_free) {
       const double ab = da.dot(db), determinant = aa * bb - ab * ab;
-      feet.inverse_tt = bb / determinant;
-      feet.inverse_tu = ab / determinant;
-      feet.inverse_uu = aa / determinant;
+      moving.inverse_tt = bb / determinant;
+      moving.inverse_tu = ab / determinant;
+      moving.inverse_uu = aa / determinant;
     } else if (at.t_free) {
-      feet.inverse_tt = 1.0 / aa;
+      moving.inverse_tt = 1.0 / aa;
     } else if (at.u_free) {
-      feet.inverse_uu = 1.0 / bb;
+      moving.inverse_uu = 1.0 / bb;
     }
     if (friction_.on()) {
       if (found) contact.memory = found->friction;
@@ -137,8 +140,39 @@ void EdgeContact::add_contact(int pair, const Points& position, const Points& st
     }
   }
   contact.pressure = normal_.pressure(contact.overlap);
+  if (turns_) add_surface(contact, feet, a, b);
   contacts_.push_back(contact);
   feet_.push_back(feet);
+  moving_.push_back(moving);
+}
+
+void EdgeContact::add_surface(ContactPoint& contact, const Feet& feet, int a, int b) {
+  SurfacePoint& surface = surfaces_.emplace_back();
+  if (!contact.active() || !friction_.on()) return;
+  std::copy_n(contact.beta, 3, surface.d_a);
+  surface.along_a = feet.da;
+  surface.turn_a = feet.turn_a;
+  const double length_a = turns_->length[static_cast<std::size_t>(a)];
+  const double length_b = turns_->length[static_cast<std::size_t>(b)];
+  surface.s_a[a - contact.a0] = length_a;
+  surface.s_b[b - contact.b0] = length_b;
+  surface.spin_a = length_a * turns_->turn[static_cast<std::size_t>(a)];
+  surface.spin_b = length_b * turns_->turn[static_cast<std::size_t>(b)];
+  surface.lever = lever_;
+  contact.slip += surface_shift(contact, surface);
+}
+
+EdgePressure pressure_of(const EdgeLaw& normal, const ContactLinearisation& how, const ContactPoint& contact) {
+  EdgePressure out;
+  const double tangent_at = contact.estimate > 0.0 ? normal.overlap_at(contact.estimate) : contact.overlap;
+  out.slope = normal.slope(tangent_at);
+  out.pressure = normal.pressure(tangent_at) + out.slope * (contact.overlap - tangent_at);
+  out.turning = how.expects ? expected_pressure(contact.estimate, out.pressure) : out.pressure;
+  return out;
+}
+
+void EdgeContact::linearise(double dt, std::vector<SurfaceModel>& models) const {
+  knot_utm::linearise(normal_, friction_, dt, how_, contacts_, surfaces_, moving_, models);
 }
 
 const EdgeContact::Memory* EdgeContact::recall(std::pair<int, int> edges, double arclength_a,
@@ -169,18 +203,19 @@ template <typename Law>
 void EdgeContact::linearise_contact(const ContactPoint& contact, const Law& law, double dt,
                                     EdgeContactModel& model) const {
   const Feet& feet = feet_[static_cast<std::size_t>(&contact - contacts_.data())];
-  const double tangent_at = contact.estimate > 0.0 ? normal_.overlap_at(contact.estimate) : contact.overlap;
-  model.slope = normal_.slope(tangent_at);
-  model.pressure = normal_.pressure(tangent_at) + model.slope * (contact.overlap - tangent_at);
+  const EdgeFeet& moving = moving_[static_cast<std::size_t>(&contact - contacts_.data())];
+  const EdgePressure of_law = pressure_of(normal_, how_, contact);
+  model.slope = of_law.slope;
+  model.pressure = of_law.pressure;
 
   // Everything below is a linear map of (S, A, R).
   const Vec3& x = contact.x;
   const Vec3& n = contact.n;
   Row9 t, u;
-  t << (feet.inverse_tu * contact.db - feet.inverse_tt * feet.da).transpose(), -feet.inverse_tt * x.transpose(),
-      feet.inverse_tu * x.transpose();
-  u << (feet.inverse_uu * contact.db - feet.inverse_tu * feet.da).transpose(), -feet.inverse_tu * x.transpose(),
-      feet.inverse_uu * x.transpose();
+  t << (moving.inverse_tu * contact.db - moving.inverse_tt * feet.da).transpose(), -moving.inverse_tt * x.transpose(),
+      moving.inverse_tu * x.transpose();
+  u << (moving.inverse_uu * contact.db - moving.inverse_tu * feet.da).transpose(), -moving.inverse_tu * x.transpose(),
+      moving.inverse_uu * x.transpose();
   Mat39 moved = Mat39::Zero();
   moved.leftCols<3>().setIdentity();
 
@@ -202,8 +237,7 @@ void EdgeContact::linearise_contact(const ContactPoint& contact, const Law& law,
                                     friction.along * friction.left * (friction.right.transpose() * tangential));
   }
   model.force = to_lanes(contact.weight * model.pressure * direction);
-  const double pressure = how_.expects ? expected_pressure(contact.estimate, model.pressure) : model.pressure;
-  const Mat39 dg = contact.weight * (pressure * turned - model.slope * pressing * dd);
+  const Mat39 dg = contact.weight * (of_law.turning * turned - model.slope * pressing * dd);
 
   for (int k = 0; k < 6; ++k) {
     const int turning = k < 3 ? 3 : 6;
@@ -221,6 +255,11 @@ ContactMotion EdgeContact::motion(const ContactPoint& contact, const Points& pos
   for (int k = 0; k < 6; ++k) {
     const int node = k < 3 ? contact.a0 + k : contact.b0 + k - 3;
     out.slip += contact.c[k] * (position.col(node) - start.col(node));
+  }
+  if (turns_) {
+    const SurfacePoint& surface = surfaces_[static_cast<std::size_t>(&contact - contacts_.data())];
+    out.rolling = rolling(contact, surface);
+    out.passed_on = 2.0 * surface.lever;
   }
   const Feet& feet = feet_[static_cast<std::size_t>(&contact - contacts_.data())];
   const auto [a, b] = pairs_[static_cast<std::size_t>(feet.pair)];

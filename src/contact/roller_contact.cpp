@@ -1,6 +1,7 @@
 #include "knot_utm/contact/roller_contact.hpp"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <string>
 
 #include "knot_utm/contact/centreline_curve.hpp"
@@ -40,6 +41,7 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
                              double dt) {
   for (const ContactPoint& contact : contacts_) estimate_[index_of(contact)] = contact.estimate;
   contacts_.clear();
+  surfaces_.clear();
   if (start_.size() != rollers.size()) {
     start_ = rollers;
     estimate_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), -1.0);
@@ -100,8 +102,27 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
       contact.c[k] = w.value[k];
       contact.slip += w.value[k] * (position.col(segment - 1 + k) - start.col(segment - 1 + k));
     }
+    if (turns_) add_surface(contact, roller, position, start);
     contacts_.push_back(contact);
   }
+}
+
+void RollerContact::add_surface(ContactPoint& contact, const Roller& roller, const Points& position,
+                                const Points& start) {
+  SurfacePoint& surface = surfaces_.emplace_back();
+  if (!friction_.on()) return;
+  const double u = kIntegrationPoints[contact.point];
+  const SegmentWeights weights(u);
+  std::copy_n(weights.derivative, 3, surface.d_a);
+  surface.along_a = combine(weights.derivative, position, contact.a0 + 1);
+  surface.turn_a = surface.along_a - combine(weights.derivative, start, contact.a0 + 1);
+  for (int j = 0; j < 2; ++j) {
+    const auto edge = static_cast<std::size_t>(contact.a0 + j);
+    surface.s_a[j] = (j == 0 ? 1.0 - u : u) * turns_->length[edge];
+    surface.spin_a += surface.s_a[j] * turns_->turn[edge];
+  }
+  surface.lever = couple_ * radius_ / (roller.radius + radius_);
+  contact.slip += surface_shift(contact, surface);
 }
 
 Vec3 RollerContact::force_on(int roller) const {
@@ -114,14 +135,22 @@ Vec3 RollerContact::force_on(int roller) const {
 Vec3 RollerContact::moment_on(const Roller& roller, int number, const Points& position) const {
   Vec3 sum = Vec3::Zero();
   for (const ContactPoint& contact : contacts_)
-    if (contact.roller == number)
-      sum -= Vec3(combine(contact.c, position, contact.a0 + 1) - roller.centre).cross(contact.force);
+    if (contact.roller == number) {
+      const double lever = turns_ ? surfaces_[static_cast<std::size_t>(&contact - contacts_.data())].lever : 0.0;
+      const Vec3 place = combine(contact.c, position, contact.a0 + 1) - roller.centre - lever * contact.x;
+      sum -= place.cross(contact.force);
+    }
   return sum;
 }
 
 ContactMotion RollerContact::motion(const ContactPoint& contact, const Points&, const Points&) const {
   ContactMotion out;
   out.slip = contact.slip - contact.memory.slip;
+  if (turns_) {
+    const SurfacePoint& surface = surfaces_[static_cast<std::size_t>(&contact - contacts_.data())];
+    out.rolling = rolling(contact, surface);
+    out.slip -= surface_shift(contact, surface);
+  }
   Vec3 x = contact.x - out.slip;
   x -= contact.axis * contact.axis.dot(x);
   out.overlap_before = contact.overlap + contact.d - x.norm();

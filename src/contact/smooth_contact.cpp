@@ -64,6 +64,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   if (!first_evaluation_) remember(nullptr, iterate_);
   first_evaluation_ = false;
   contacts_.clear();
+  surfaces_.clear();
   tracked_.clear();
   recalled_.assign(iterate_.entries.size(), 0);
   dt_ = dt;
@@ -192,6 +193,37 @@ void SmoothContact::add_contact(Tracked& tracked) {
   // At a minimum G >= 0; it vanishes where the foot is about to jump, and there omega does too.
   contact.inverse_g = 1.0 / std::max(length2 - dot(foot.x, c.k), 1e-3 * length2);
   if (contact.active() && friction_.on()) set_slip(contact);
+  if (turns_) add_surface(contact, search_.parabola(segment), c, u);
+}
+
+void SmoothContact::add_surface(ContactPoint& contact, const SegmentParabola& a, const SegmentParabola& b, double u_b) {
+  SurfacePoint& surface = surfaces_.emplace_back();
+  if (!contact.active() || !friction_.on()) return;
+  const double u_a = kIntegrationPoints[contact.point];
+  const SegmentWeights weights(u_a);
+  const auto moved = [&](int node) -> const Lanes& { return moved_[static_cast<std::size_t>(node)]; };
+  const auto length = [&](int edge) { return turns_->length[static_cast<std::size_t>(edge)]; };
+  const auto turned = [&](int edge) { return turns_->turn[static_cast<std::size_t>(edge)]; };
+  Lanes turn = {};
+  for (int k = 0; k < 3; ++k) {
+    surface.d_a[k] = weights.derivative[k];
+    turn += weights.derivative[k] * moved(contact.a0 + k);
+  }
+  surface.along_a = to_vec3(a.t + u_a * a.k);
+  surface.turn_a = to_vec3(turn);
+  surface.bend_b = to_vec3(b.k);
+  surface.bend_turn_b = to_vec3(moved(contact.b0) - 2.0 * moved(contact.b0 + 1) + moved(contact.b0 + 2));
+  for (int j = 0; j < 2; ++j) {
+    const int on_a = contact.a0 + j, on_b = contact.b0 + j;
+    surface.s_a[j] = (j == 0 ? 1.0 - u_a : u_a) * length(on_a);
+    surface.s_b[j] = (j == 0 ? 1.0 - u_b : u_b) * length(on_b);
+    surface.s_slope_b[j] = (j == 0 ? -1.0 : 1.0) * length(on_b);
+    surface.spin_a += surface.s_a[j] * turned(on_a);
+    surface.spin_b += surface.s_b[j] * turned(on_b);
+    surface.spin_slope_b += surface.s_slope_b[j] * turned(on_b);
+  }
+  surface.lever = lever_;
+  contact.slip += surface_shift(contact, surface);
 }
 
 void SmoothContact::set_slip(ContactPoint& contact) const {
@@ -214,6 +246,11 @@ ContactMotion SmoothContact::motion(const ContactPoint& contact, const Points& p
     const Vec3 moved = position.col(contact.b0 + k) - start.col(contact.b0 + k);
     out.slip += contact.c[3 + k] * moved;
     turn += contact.beta[3 + k] * moved;
+  }
+  if (turns_) {
+    const SurfacePoint& surface = surfaces_[static_cast<std::size_t>(&contact - contacts_.data())];
+    out.rolling = rolling(contact, surface);
+    out.passed_on = 2.0 * surface.lever;
   }
   // From today's foot, which was near the nearest place then.
   const Vec3 x = contact.x - out.slip;

@@ -90,6 +90,8 @@ FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
       tangent_(start_tangent_),
       inverse_length_(start_tangent_.size(), 1.0),
       lean_(start_tangent_.size()),
+      turns_{std::vector<double>(start_tangent_.size()), std::vector<double>(start_tangent_.size()),
+             std::vector<Lanes>(start_tangent_.size()), std::vector<Lanes>(start_tangent_.size())},
       stiffness_(start_tangent_.size(), 0.0),
       binormal_(start_tangent_.size()),
       over_chi_(start_tangent_.size(), 0.0),
@@ -201,6 +203,10 @@ void FrameTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
   }
   for (int j = 0; j < edges; ++j) {
     const double turned = angle_[at(j)] - start_->twist[j], rate = turned / dt_;
+    turns_.turn[at(j)] = turned;
+    turns_.length[at(j)] = 1.0 / inverse_length_[at(j)];
+    turns_.tangent[at(j)] = tangent_[at(j)];
+    turns_.pull[at(j)] = lean_[at(j)] - (turned * inverse_length_[at(j)]) * tangent_[at(j)];
     force[at(j)][3] -= inertia_[j] * (rate - start_->twist_rate[j]) / dt_ + drag_[j] * rate + rest_[j] * turned;
   }
 }

@@ -12,6 +12,39 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr int kRoomNodes = 4;  // of the other strand: three of a segment, one that it may slide on to
 
+/// dPsi/dx of a section's three nodes.
+std::array<Lanes, 3> spin_of_nodes(const std::vector<Lanes>& pull, int first, const double* s) {
+  const Lanes before = s[0] * pull[at(first)], behind = s[1] * pull[at(first + 1)];
+  return {before, behind - before, -1.0 * behind};
+}
+
+/// What one unknown of a node does to a contact's forces: SurfaceModel::Response of several changes at once.
+struct SurfaceColumn {
+  Lanes force = {}, on_a = {}, on_b = {};
+  double foot_a = 0.0, foot_b = 0.0;
+
+  void add(double times, const SurfaceModel::Response& response) {
+    force += times * response.force;
+    on_a += times * response.on_a;
+    on_b += times * response.on_b;
+    foot_a += times * response.foot_a;
+    foot_b += times * response.foot_b;
+  }
+};
+
+/// The four columns of a node: c and d are its weights in S and in its section's V; `spin_share` its own spin's.
+std::array<SurfaceColumn, 4> columns_of(const SurfaceModel& model, int turn, int spin, double c, double d,
+                                        const Lanes& spin_of_node, double spin_share) {
+  std::array<SurfaceColumn, 4> out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    out[i].add(c, model.by[SurfaceModel::kShift + static_cast<int>(i)]);
+    out[i].add(d, model.by[turn + static_cast<int>(i)]);
+    out[i].add(spin_of_node[static_cast<int>(i)], model.by[spin]);
+  }
+  out[3].add(spin_share, model.by[spin]);
+  return out;
+}
+
 }  // namespace
 
 template <int D>
@@ -219,6 +252,60 @@ void StepMatrix<D>::add(const ContactPoint& contact, const EdgeContactModel& mod
       knot_utm::add(block(across.first), model.stiffness(k, 3 + l), 1.0);
       knot_utm::add(block(across.second), model.stiffness(3 + l, k), 1.0);
     }
+}
+
+template <int D>
+void StepMatrix<D>::add(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
+                        const SectionTurns& turns, std::size_t n) {
+  if constexpr (D == 4) {
+    constexpr double kSecondDifference[3] = {1.0, -2.0, 1.0};
+    const bool two = !contact.on_roller();
+    const double spins_a[3] = {surface.s_a[0], surface.s_a[1], 0.0}, spins_b[3] = {surface.s_b[0], surface.s_b[1], 0.0};
+    Lanes rows_a[3], rows_b[3], slides[3];  // weights of on_a and on_b in a node's row, and of the foot's way
+    for (int k = 0; k < 3; ++k) {
+      const double d = surface.d_a[k], beta = contact.beta[3 + k], bends = model.two_feet ? 0.0 : kSecondDifference[k];
+      rows_a[k] = Lanes{d, d, d, spins_a[k]};
+      rows_b[k] = Lanes{beta, beta, beta, spins_b[k]};
+      slides[k] = beta * model.force - Lanes{bends, bends, bends, k < 2 ? surface.s_slope_b[k] : 0.0} * model.on_b;
+    }
+    const auto spin_a = spin_of_nodes(turns.pull, contact.a0, surface.s_a);
+    const auto spin_b = two ? spin_of_nodes(turns.pull, contact.b0, surface.s_b) : std::array<Lanes, 3>{};
+    // What lengthens an edge lengthens the lever of its spin.
+    const auto add_lengthening = [&](int first, const double* shares, double torque) {
+      for (int j = 0; j < 2; ++j) {
+        const auto edge = at(first + j);
+        const Lanes pull = (-torque * shares[j] / turns.length[edge]) * turns.tangent[edge];
+        for (int i = 0; i < 3; ++i) {
+          band(first, j, j).column[i][3] -= pull[i];
+          band(first, j, j + 1).column[i][3] += pull[i];
+        }
+      }
+    };
+    add_lengthening(contact.a0, surface.s_a, model.on_a[3]);
+    if (two) add_lengthening(contact.b0, surface.s_b, model.on_b[3]);
+    for (int l = 0; l < (two ? 6 : 3); ++l) {
+      const bool of_a = l < 3;
+      const int node = l % 3;
+      const auto columns = of_a ? columns_of(model, SurfaceModel::kTurnA, SurfaceModel::kSpinA, contact.c[l],
+                                             surface.d_a[node], spin_a[at(node)], spins_a[node])
+                                : columns_of(model, SurfaceModel::kTurnB, SurfaceModel::kSpinB, contact.c[l],
+                                             contact.beta[l], spin_b[at(node)], spins_b[node]);
+      for (int k = 0; k < 3; ++k) {
+        Block<D>& on_a = of_a ? band(contact.a0, k, node) : block(contact_blocks(n)[at(3 * k + node)].first);
+        for (int i = 0; i < 4; ++i) {
+          const SurfaceColumn& column = columns[at(i)];
+          on_a.column[i] += contact.c[k] * column.force + rows_a[k] * column.on_a;
+          if (model.two_feet) on_a.column[i] -= (column.foot_a * surface.d_a[k]) * model.force;
+        }
+        if (!two) continue;
+        Block<D>& on_b = of_a ? block(contact_blocks(n)[at(3 * node + k)].second) : band(contact.b0, k, node);
+        for (int i = 0; i < 4; ++i) {
+          const SurfaceColumn& column = columns[at(i)];
+          on_b.column[i] += contact.c[3 + k] * column.force + rows_b[k] * column.on_b + column.foot_b * slides[k];
+        }
+      }
+    }
+  }
 }
 
 template class StepMatrix<3>;

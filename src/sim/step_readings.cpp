@@ -152,12 +152,12 @@ void StepReadings::add_contacts(const SolvedStep& step, const Contacts& contacts
     if (!contact.touches()) continue;
     const double force = contact.weight * contact.pressure;
     work_.numerical -= force * contact.n.dot(motion.slip);
-    work_.friction += contact.mu * force * contact.z.dot(motion.slip);
+    work_.friction += contact.mu * force * contact.z.dot(motion.slip + motion.rolling);
     if (contact.on_roller()) continue;
     ++contact_.touching;
     contact_.normal_force += force;
     contact_.largest_overlap = std::max(contact_.largest_overlap, contact.overlap);
-    contact_.couple += contact.x.cross(contact.force);
+    contact_.couple += (1.0 - motion.passed_on) * contact.x.cross(contact.force);
   }
 }
 

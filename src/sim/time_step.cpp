@@ -66,7 +66,13 @@ class ImplicitStep final : public TimeStep {
         change_(at(nodes_)),
         held_(at(nodes_), 0),
         readings_(rod_, state_, settings_, initial_spin_energy()),
-        way_(3, nodes_) {}
+        way_(3, nodes_) {
+    if constexpr (D == 4)
+      if (settings.friction_couple > 0.0) {
+        if (settings.friction.on()) contact_.act_at_surface(settings.friction_couple, frames_.turns());
+        if (settings.roller_friction.on()) rollers_.act_at_surface(settings.friction_couple, frames_.turns());
+      }
+  }
 
   StepSummary step(const Boundary& boundary, double dt, Solution solution) override {
     boundary_ = &boundary;
@@ -159,8 +165,8 @@ class ImplicitStep final : public TimeStep {
     if constexpr (D == 4) frames_.add_forces(x_, force_);
     contact_.evaluate(x_, state_.position, dt_);
     rollers_.evaluate(boundary_->rollers, x_, state_.position, dt_);
-    for (const ContactPoint& contact : contact_.contacts()) add_contact_force(contact);
-    for (const ContactPoint& contact : rollers_.contacts()) add_contact_force(contact);
+    add_contact_forces(contact_);
+    add_contact_forces(rollers_);
     add_grips_and_forces();
     worst_ = worst();
     if (watcher_) report();
@@ -178,8 +184,8 @@ class ImplicitStep final : public TimeStep {
     centreline_.set_stiffness(inertia_and_drag(), matrix_);
     if constexpr (D == 4) frames_.add_stiffness(matrix_);
     change_ = force_;
-    linearise(contact_, models_);
-    linearise(rollers_, roller_models_);
+    linearise(contact_, models_, surface_models_);
+    linearise(rollers_, roller_models_, roller_surface_models_);
     add_grip_stiffness();
     for (int node = 0; node < nodes_; ++node) hold(node);
     return matrix_.values().solve(change_);
@@ -201,8 +207,8 @@ class ImplicitStep final : public TimeStep {
     centreline_.expect(change_, share);
     share_ = share;
     motion_ = share * longest;
-    estimate_pressures(contact_, models_, share);
-    estimate_pressures(rollers_, roller_models_, share);
+    estimate_pressures(contact_, models_, surface_models_, share);
+    estimate_pressures(rollers_, roller_models_, roller_surface_models_, share);
   }
 
   /// In the shortest steps the residual shrinks to a thousandth, and two sides of a trifling jump (a foot that has two
@@ -301,37 +307,68 @@ class ImplicitStep final : public TimeStep {
     }
   }
 
-  void add_contact_force(const ContactPoint& contact) {
-    if (!contact.touches()) return;
-    const Lanes g = to_lanes(contact.force);
-    for (int k = 0; k < 3; ++k) force_[at(contact.a0 + k)] += contact.c[k] * g;
-    if (contact.on_roller()) return;
-    for (int k = 0; k < 3; ++k) force_[at(contact.b0 + k)] += contact.c[3 + k] * g;
-  }
-
-  /// Replaces the contacts' forces in the right-hand side by those of their linear models, and adds their stiffness.
   template <typename Contacts>
-  void linearise(const Contacts& contacts, std::vector<typename Contacts::Model>& models) {
-    contacts.linearise(dt_, models);
-    std::size_t n = 0;
-    for (const ContactPoint& contact : contacts.contacts()) {
-      if (!contact.active()) continue;
-      const typename Contacts::Model& model = models[n];
-      const Lanes difference = model.force - to_lanes(contact.force);
-      for (int k = 0; k < 3; ++k) change_[at(contact.a0 + k)] += contact.c[k] * difference;
-      if (!contact.on_roller())
-        for (int k = 0; k < 3; ++k) change_[at(contact.b0 + k)] += contact.c[3 + k] * difference;
-      matrix_.add(contact, model, n++);
+  void add_contact_forces(const Contacts& contacts) {
+    for (std::size_t i = 0; i < contacts.contacts().size(); ++i) {
+      const ContactPoint& contact = contacts.contacts()[i];
+      if (contact.touches()) add_contact_force(contacts, i, to_lanes(contact.force), force_);
     }
   }
 
-  /// What the linear models say of each contact's pressure after the change.
+  /// What the force g on a's side of the i-th contact does to the unknowns.
   template <typename Contacts>
-  void estimate_pressures(Contacts& contacts, const std::vector<typename Contacts::Model>& models, double share) {
+  void add_contact_force(const Contacts& contacts, std::size_t i, const Lanes& g, std::vector<Lanes>& to) {
+    const ContactPoint& contact = contacts.contacts()[i];
+    for (int k = 0; k < 3; ++k) to[at(contact.a0 + k)] += contact.c[k] * g;
+    if (!contact.on_roller())
+      for (int k = 0; k < 3; ++k) to[at(contact.b0 + k)] += contact.c[3 + k] * g;
+    if constexpr (D == 4)
+      if (contacts.at_surface()) add_couples(contact, contacts.surfaces()[i], g, to);
+  }
+
+  /// Replaces the contacts' forces in the right-hand side by those of their linear models, and adds their stiffness.
+  template <typename Contacts, typename Model>
+  void linearise(const Contacts& contacts, std::vector<Model>& models, std::vector<SurfaceModel>& surface_models) {
+    if constexpr (D == 4)
+      if (contacts.at_surface()) {
+        contacts.linearise(dt_, surface_models);
+        return add_models(contacts, surface_models, [&](std::size_t i, std::size_t n) {
+          matrix_.add(contacts.contacts()[i], contacts.surfaces()[i], surface_models[n], frames_.turns(), n);
+        });
+      }
+    contacts.linearise(dt_, models);
+    add_models(contacts, models,
+               [&](std::size_t i, std::size_t n) { matrix_.add(contacts.contacts()[i], models[n], n); });
+  }
+
+  /// `add_stiffness(i, n)` of the i-th contact, the n-th active one.
+  template <typename Contacts, typename Model, typename AddStiffness>
+  void add_models(const Contacts& contacts, const std::vector<Model>& models, AddStiffness add_stiffness) {
     std::size_t n = 0;
-    for (ContactPoint& contact : contacts.contacts()) {
+    for (std::size_t i = 0; i < contacts.contacts().size(); ++i) {
+      const ContactPoint& contact = contacts.contacts()[i];
       if (!contact.active()) continue;
-      const typename Contacts::Model& model = models[n++];
+      add_contact_force(contacts, i, models[n].force - to_lanes(contact.force), change_);
+      add_stiffness(i, n++);
+    }
+  }
+
+  template <typename Contacts, typename Model>
+  void estimate_pressures(Contacts& contacts, const std::vector<Model>& models,
+                          const std::vector<SurfaceModel>& surface_models, double share) {
+    if (contacts.at_surface())
+      estimate_pressures(contacts.contacts(), surface_models, share);
+    else
+      estimate_pressures(contacts.contacts(), models, share);
+  }
+
+  /// What the linear models say of each contact's pressure after the change.
+  template <typename Model>
+  void estimate_pressures(std::vector<ContactPoint>& contacts, const std::vector<Model>& models, double share) {
+    std::size_t n = 0;
+    for (ContactPoint& contact : contacts) {
+      if (!contact.active()) continue;
+      const Model& model = models[n++];
       Lanes moved = {};
       for (int k = 0; k < 3; ++k) {
         moved += contact.c[k] * change_[at(contact.a0 + k)];
@@ -476,6 +513,7 @@ class ImplicitStep final : public TimeStep {
   // Of the active contacts, in order.
   std::vector<typename StrandContact::Model> models_;
   std::vector<ContactModel> roller_models_;
+  std::vector<SurfaceModel> surface_models_, roller_surface_models_;  // where friction acts at the surface
 };
 
 }  // namespace

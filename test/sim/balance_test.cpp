@@ -106,11 +106,13 @@ struct Scene {
   bool twist;
   ContactLaw law;
   double friction;
+  double couple = 0.0;  // of friction at the surface
 
   std::string name() const {
     static const char* const kinds[] = {"Straight", "Overhand", "FallsOnARoller", "Curved"};
     return std::string(kinds[static_cast<int>(kind)]) + (twist ? "WithTwist" : "") +
-           (law == ContactLaw::kEdge ? "BetweenEdges" : "") + (friction > 0.0 ? "AndFriction" : "");
+           (law == ContactLaw::kEdge ? "BetweenEdges" : "") + (friction > 0.0 ? "AndFriction" : "") +
+           (couple > 0.0 ? "AtTheSurface" : "") + (couple > 0.0 && couple < 1.0 ? "InPart" : "");
   }
 };
 
@@ -132,6 +134,7 @@ struct Running {
     settings.drag = 1.0;
     settings.friction = settings.roller_friction = MemoryFriction{scene.friction, 1e-3 * material.radius};
     settings.normal = {300.0 * material.bending_stiffness / std::pow(material.radius, 4.0), 0.05 * material.radius};
+    settings.friction_couple = scene.couple;
     // A spin without inertia is in equilibrium, and so is the sum of all moments.
     settings.spin_inertia = scene.kind == Kind::kCurved;
 
@@ -230,7 +233,11 @@ const auto kScenes = testing::Values(
     Scene{Kind::kOverhand, false, ContactLaw::kSmooth, 0.0}, Scene{Kind::kOverhand, false, ContactLaw::kSmooth, 0.3},
     Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3}, Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3},
     Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4},
-    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.0});
+    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.0},
+    Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 1.0},
+    Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 0.4},
+    Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3, 1.0},
+    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0});
 INSTANTIATE_TEST_SUITE_P(Balance, EnergyOf, kScenes, name_of);
 INSTANTIATE_TEST_SUITE_P(Balance, LoadsOn, kScenes, name_of);
 

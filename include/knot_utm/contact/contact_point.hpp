@@ -59,6 +59,8 @@ struct ContactPoint {
 /// How a contact came to be where it is in a step.
 struct ContactMotion {
   Vec3 slip = Vec3::Zero();     ///< of the material points a and b against each other, across and along n [m]
+  Vec3 rolling = Vec3::Zero();  ///< what the sections' turn adds for points of their surfaces (surface_contact.hpp) [m]
+  double passed_on = 0.0;       ///< share of friction's couple about the gap that the sections take [-]
   double overlap_before = 0.0;  ///< D of point a at the step's beginning [m]
 };
 

@@ -7,6 +7,7 @@
 #include "knot_utm/contact/closest_points.hpp"
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/contact/edge_law.hpp"
+#include "knot_utm/contact/surface_contact.hpp"
 
 namespace knot_utm {
 
@@ -31,6 +32,14 @@ struct EdgeContactModel {
   }
 };
 
+/// The pressure of a contact between edges as ContactModel has it.
+struct EdgePressure {
+  double slope;     ///< p'(D^) [N/m^2]
+  double pressure;  ///< of the tangent at the present overlap [N/m]
+  double turning;   ///< what turns with n and z [N/m]
+};
+EdgePressure pressure_of(const EdgeLaw& normal, const ContactLinearisation& how, const ContactPoint& contact);
+
 /// Self-contact of the rod between its edges, as in the source paper: each pair of edges presses on one another at
 /// its closest points (Lumelsky, regularised, see closest_points.hpp) with EdgeLaw, a pair standing for its mean rest
 /// length. Near the ends of edges two pairs see the same contact and both count, as in the paper: the force ripples
@@ -44,6 +53,13 @@ class EdgeContact {
   using Model = EdgeContactModel;
 
   EdgeContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin);
+
+  /// As SmoothContact's.
+  void act_at_surface(double couple, const SectionTurns& turns) {
+    lever_ = 0.5 * couple;
+    turns_ = &turns;
+  }
+  bool at_surface() const { return turns_ != nullptr; }
 
   /// Rebuilds the candidates where something moved far enough; true if it did.
   bool refresh(const Points& position);
@@ -59,9 +75,12 @@ class EdgeContact {
   void evaluate(const Points& position, const Points& start, double dt);
   const std::vector<ContactPoint>& contacts() const { return contacts_; }
   std::vector<ContactPoint>& contacts() { return contacts_; }
+  /// Where friction acts at the surface: one for each contact.
+  const std::vector<SurfacePoint>& surfaces() const { return surfaces_; }
 
   /// The consistent linearisation of the active contacts, in order.
   void linearise(double dt, std::vector<EdgeContactModel>& models) const;
+  void linearise(double dt, std::vector<SurfaceModel>& models) const;
 
   /// Of one of `contacts()`.
   ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;
@@ -83,9 +102,8 @@ class EdgeContact {
   /// What a contact between edges knows beside its ContactPoint.
   struct Feet {
     int pair;
-    Vec3 da;                                    // a' [m]
-    Vec3 turn_a;                                // how a' turned in this step [m]
-    double inverse_tt, inverse_tu, inverse_uu;  // of H, zero where a foot stays [1/m^2]
+    Vec3 da;      // a' [m]
+    Vec3 turn_a;  // how a' turned in this step [m]
   };
   struct Memory {
     std::pair<int, int> edges;
@@ -100,6 +118,7 @@ class EdgeContact {
   /// Between two edges, drawn a trifle to their middles.
   ClosestPoints closest(int a, int b, const Points& position) const;
   void add_contact(int pair, const Points& position, const Points& start);
+  void add_surface(ContactPoint& contact, const Feet& feet, int a, int b);
   /// What is remembered of these edges' contact, or else of the nearest one; null where there was none near.
   const Memory* recall(std::pair<int, int> edges, double arclength_a, double arclength_b) const;
 
@@ -118,7 +137,11 @@ class EdgeContact {
   std::vector<std::pair<int, int>> pairs_;
   std::vector<double> estimate_;  // of the pressure of each pair, < 0: none
   std::vector<ContactPoint> contacts_;
-  std::vector<Feet> feet_;      // of the contacts
+  std::vector<Feet> feet_;               // of the contacts
+  std::vector<EdgeFeet> moving_;         // of the contacts
+  double lever_ = 0.0;                   // lambda of SurfacePoint
+  const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
+  std::vector<SurfacePoint> surfaces_;
   std::vector<Memory> memory_;  // ascending in arclength_a
   bool first_evaluation_ = true;
 };

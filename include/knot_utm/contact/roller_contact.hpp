@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/contact/surface_contact.hpp"
 
 namespace knot_utm {
 
@@ -28,6 +28,13 @@ class RollerContact {
   /// begins is not looked at in it.
   RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double farthest);
 
+  /// As SmoothContact's.
+  void act_at_surface(double couple, const SectionTurns& turns) {
+    couple_ = couple;
+    turns_ = &turns;
+  }
+  bool at_surface() const { return turns_ != nullptr; }
+
   /// Before the first evaluation of a step: estimates of the pressures are those of the last accepted step.
   void begin_step();
 
@@ -36,10 +43,16 @@ class RollerContact {
   void evaluate(const std::vector<Roller>& rollers, const Points& position, const Points& start, double dt);
   const std::vector<ContactPoint>& contacts() const { return contacts_; }
   std::vector<ContactPoint>& contacts() { return contacts_; }
+  /// Where friction acts at the surface: one for each contact.
+  const std::vector<SurfacePoint>& surfaces() const { return surfaces_; }
 
   /// The consistent linearisation of the active contacts, in order; some more may follow that mean nothing.
   void linearise(double dt, std::vector<ContactModel>& models) const {
     knot_utm::linearise(normal_, friction_, dt, how_, contacts_, models);
+  }
+
+  void linearise(double dt, std::vector<SurfaceModel>& models) const {
+    knot_utm::linearise(normal_, friction_, dt, how_, contacts_, surfaces_, models);
   }
 
   /// From now on the rod has parted at an edge, and what reaches into it touches nothing.
@@ -74,6 +87,7 @@ class RollerContact {
   void find_near_segments(const std::vector<Roller>& rollers, const Points& start);
   void add_contacts(const std::vector<Roller>& rollers, std::size_t number, int segment, const Points& position,
                     const Points& start);
+  void add_surface(ContactPoint& contact, const Roller& roller, const Points& position, const Points& start);
   std::size_t index_of(const ContactPoint& contact) const;
 
   NormalLaw normal_;
@@ -88,6 +102,9 @@ class RollerContact {
   Eigen::VectorXd voronoi_;
   std::vector<Roller> start_;
   std::vector<ContactPoint> contacts_;
+  double couple_ = 0.0;                  // that a section passes on
+  const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
+  std::vector<SurfacePoint> surfaces_;
   std::vector<double> estimate_, committed_estimate_;  // of the pressure, < 0: none; indexed as memory_
   std::vector<FrictionMemory> memory_;                 // of roller r at point q of segment i: [(r segments + i) 2 + q]
 };

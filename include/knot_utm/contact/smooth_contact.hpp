@@ -6,6 +6,7 @@
 #include "knot_utm/contact/centreline_curve.hpp"
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/contact/foot_search.hpp"
+#include "knot_utm/contact/surface_contact.hpp"
 
 namespace knot_utm {
 
@@ -34,6 +35,14 @@ class SmoothContact {
   SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,
                 double catch_up = 0.05);
 
+  /// Friction acts at the surfaces of the strands, whose sections pass on that share of its couple (SurfacePoint);
+  /// `turns` are those of the positions that are evaluated, and must outlive this. At first it acts on the centrelines.
+  void act_at_surface(double couple, const SectionTurns& turns) {
+    lever_ = 0.5 * couple;
+    turns_ = &turns;
+  }
+  bool at_surface() const { return turns_ != nullptr; }
+
   /// Rebuilds the candidates where something moved far enough; true if it did.
   bool refresh(const Points& position) { return candidates_.refresh(position); }
   /// From now on the rod has parted at an edge.
@@ -47,10 +56,16 @@ class SmoothContact {
   /// Of all feet within reach those that press, are expected to, did when the step began, or are about to.
   const std::vector<ContactPoint>& contacts() const { return contacts_; }
   std::vector<ContactPoint>& contacts() { return contacts_; }
+  /// Where friction acts at the surface: one for each contact.
+  const std::vector<SurfacePoint>& surfaces() const { return surfaces_; }
 
   /// The consistent linearisation of the active contacts, in order; some more may follow that mean nothing.
   void linearise(double dt, std::vector<ContactModel>& models) const {
     knot_utm::linearise(normal_, friction_, dt, how_, contacts_, models);
+  }
+
+  void linearise(double dt, std::vector<SurfaceModel>& models) const {
+    knot_utm::linearise(normal_, friction_, dt, how_, contacts_, surfaces_, models);
   }
 
   /// Of one of `contacts()`; the overlap but for the third order of the way of its foot.
@@ -113,6 +128,7 @@ class SmoothContact {
   bool takes_part(const Tracked& foot) const;
   void add_contact(Tracked& tracked);
   void set_slip(ContactPoint& contact) const;
+  void add_surface(ContactPoint& contact, const SegmentParabola& a, const SegmentParabola& b, double u_b);
   void remember(const Points* position, MemoryList& list) const;
   /// Of the accepted position, at first that of the start; where the rod is bent more sharply than its edges resolve,
   /// less and less.
@@ -134,6 +150,9 @@ class SmoothContact {
   FootSearch search_;
   std::vector<Tracked> tracked_;
   std::vector<ContactPoint> contacts_;
+  double lever_ = 0.0;                   // lambda of SurfacePoint
+  const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
+  std::vector<SurfacePoint> surfaces_;
   MemoryList accepted_;         // of the last accepted step
   std::vector<char> recalled_;  // of iterate_: given to a contact
   MemoryList iterate_;          // of the last evaluation; before the first of a step, the accepted ones

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "knot_utm/contact/surface_contact.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stencil.hpp"
@@ -47,7 +48,8 @@ namespace knot_utm {
 /// from t_f^n once around the tangents t_f, t_e, t_e^n of the two edges of a node, a product of four quaternions
 /// (1 + a.b, a x b). No frame is carried for it, and no arctangent is needed while that angle is small; d1 is carried
 /// once a step.
-/// Contacts act on the centreline: friction does not turn the rod about itself.
+/// Where friction acts at the rod's surface, its couples are torques on the spins (surface_contact.hpp); on the
+/// centreline it does not turn the rod about itself.
 /// Source: Bergou et al. 2010, sections 3 and 4; Jawed, Novelia, O'Reilly 2018, chapters 4 to 7; the derivative along
 /// the moving frame our own.
 class FrameTerms {
@@ -86,6 +88,9 @@ class FrameTerms {
 
   /// Of edge j, as FrameTerms says [1/m].
   Vec3 lean(int j) const { return to_vec3(lean_[static_cast<std::size_t>(j)]); }
+
+  /// How far the edges have spun in this step, at the trial positions.
+  const SectionTurns& turns() const { return turns_; }
 
   /// The angle is prescribed; so is that of the last node, which has no edge behind it.
   bool held(int edge) const { return held_[static_cast<std::size_t>(edge)] != 0; }
@@ -148,6 +153,7 @@ class FrameTerms {
   std::vector<Lanes> edge_, tangent_;    // e_j, t_j of the trial positions
   std::vector<double> inverse_length_;   // 1/|e_j|
   std::vector<Lanes> lean_;              // lean_j
+  SectionTurns turns_;                   // in this step
   std::vector<double> stiffness_;        // k_t/lbar of every node, 0 at a parted edge [N m]
   std::vector<Lanes> binormal_;          // b of every node, as twisting.hpp has it
   std::vector<double> over_chi_;         // 1/chi

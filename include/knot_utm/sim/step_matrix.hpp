@@ -7,6 +7,7 @@
 
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/contact/edge_contact.hpp"
+#include "knot_utm/contact/surface_contact.hpp"
 #include "knot_utm/solver/block_matrix.hpp"
 
 namespace knot_utm {
@@ -64,6 +65,9 @@ class StepMatrix {
   /// Adds the stiffness of a contact, between strands the n-th active one.
   void add(const ContactPoint& contact, const ContactModel& model, std::size_t n);
   void add(const ContactPoint& contact, const EdgeContactModel& model, std::size_t n);
+  /// The same with friction at the surfaces; `turns` as the contact was evaluated with.
+  void add(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
+           const SectionTurns& turns, std::size_t n);
 
  private:
   struct Located {

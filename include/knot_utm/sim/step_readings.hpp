@@ -23,8 +23,9 @@ struct ContactReading {
   int touching = 0;              ///< points of integration that carry force
   double normal_force = 0.0;     ///< sum of their normal forces [N]
   double largest_overlap = 0.0;  ///< between strands [m]
-  /// Sum of x x g, the couple that friction exerts as it acts on the centrelines, which are apart by x. Where the
-  /// strands' surfaces meet it would have none; the grips feel it. [N m]
+  /// Sum of (1 - eta) x x g, the couple of friction that the sections do not take (surface_contact.hpp): all of it
+  /// where it acts on the centrelines, which are apart by x. Where the strands' surfaces meet there would be none; the
+  /// grips feel it. [N m]
   Vec3 couple = Vec3::Zero();
 
   void state(Archive& archive) { archive(touching, normal_force, largest_overlap, couple); }

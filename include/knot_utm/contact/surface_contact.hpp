@@ -1,0 +1,109 @@
+#pragma once
+
+#include <vector>
+
+#include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/contact/edge_law.hpp"
+
+namespace knot_utm {
+
+/// By how much the edges turned about their tangents in this step, and how that follows from the unknowns that Newton's
+/// method solves for (frame_terms.hpp): d(|e_j| psi_j) = |e_j| (ds_j - pull_j . de_j).
+struct SectionTurns {
+  std::vector<double> turn;    ///< psi of every edge since the step's beginning [rad]
+  std::vector<double> length;  ///< |e| of every edge [m]
+  std::vector<Lanes> tangent;  ///< t of every edge
+  std::vector<Lanes> pull;     ///< lean - psi t/|e| of every edge [1/m]
+};
+
+/// What a contact knows beside its ContactPoint where friction acts at the surfaces of the strands.
+///
+/// The section of a strand that passes through a contact turns by
+///
+///     phi = c^ x V + Psi c^,    c^ = c'/|c'|^2,    Psi = sum_j sigma_j |e_j| psi_j,
+///
+/// c' being the derivative of the centreline there, V how c' changed in this step, psi_j how far the two edges about it
+/// spun, and sigma_j their shares in c' = sum_j sigma_j e_j: a rod that turns as a whole turns its sections with it,
+/// however it is bent. The strands' surfaces meet half way between the centrelines, at
+/// lambda x from either, lambda = 1/2, x the gap; a soft section (material.friction_couple = eta) passes on a share of
+/// the couple only, and its surface moves as if it stood at lambda = eta/2. On a roller of radius R, which does not
+/// turn, lambda = eta h/(R + h). Material points of the two surfaces slid against each other in this step by
+///
+///     u = Dx_a - Dx_b - (phi_a + phi_b) x lambda x,
+///
+/// in which friction's memory xi, carried by both sections, has turned with them: the law is told of
+/// r = xi + alpha n x xi + u, alpha = n.(phi_a + phi_b)/2 (on a roller phi_a alone, whole).
+///
+/// u is linear in what nodes and spins did in this step, u = sum J_k Dq_k, with J at the end of the step; the force g
+/// on a's surface acts on nodes and spins by J^T. So the work of all of them is g.u, exactly, for steps of any length:
+///
+///     on node k of a   c_k g + d_k a^ x m,     on its spins  -s_j a^.m,      m = lambda x x g,   s_j = sigma_j |e_j|,
+///     on node k of b   c_k g + beta_k b^ x m,                -s_j b^.m,
+///
+/// the couple -m acting on both sections: its part across the strand as forces on the nodes that turn it, that along it
+/// on the spins. With eta = 1 force and couples balance about every point.
+/// Source: our own; the kinematics are those of a rigid section (Cosserat rods, as in Antman 2005, chapter 8).
+struct SurfacePoint {
+  Vec3 along_a = Vec3::Zero();      ///< a' [m]; b' is ContactPoint::db
+  Vec3 turn_a = Vec3::Zero();       ///< V of a [m]; that of b is ContactPoint::turn
+  Vec3 bend_b = Vec3::Zero();       ///< b'' [m]
+  Vec3 bend_turn_b = Vec3::Zero();  ///< how b'' changed in this step [m]
+  double spin_a = 0.0;              ///< Psi of a [m]
+  double spin_b = 0.0;              ///< Psi of b [m]
+  double spin_slope_b = 0.0;        ///< dPsi_b/du [m]
+  double lever = 0.0;               ///< lambda [-]
+  double d_a[3] = {};               ///< da'/dq_k [-]
+  double s_a[2] = {}, s_b[2] = {};  ///< of the spins of edges a0, a0 + 1, and b0, b0 + 1 [m]
+  double s_slope_b[2] = {};         ///< ds_b/du [m]
+};
+
+/// How the feet of a contact between edges move (edge_contact.hpp): inverse of H, zero where a foot stays [1/m^2].
+struct EdgeFeet {
+  double inverse_tt = 0.0, inverse_tu = 0.0, inverse_uu = 0.0;
+};
+
+/// phi_a + phi_b: how the two sections of a contact turned in this step, added [rad].
+Vec3 section_rotation(const ContactPoint& contact, const SurfacePoint& surface);
+/// r - (xi + Dx_a - Dx_b): what the sections' turn adds to the slip that friction's law is told of [m].
+Vec3 surface_shift(const ContactPoint& contact, const SurfacePoint& surface);
+/// u - (Dx_a - Dx_b) [m]
+Vec3 rolling(const ContactPoint& contact, const SurfacePoint& surface);
+
+/// Adds the couples that the force g [N] on a's surface exerts beside c_k g: on nodes [N], and on spins [N m] (lane 3).
+void add_couples(const ContactPoint& contact, const SurfacePoint& surface, const Lanes& g, std::vector<Lanes>& force);
+
+/// The linear model of a contact with friction at the surfaces, by the changes xi that all its forces depend on:
+/// S = sum_k c_k dq_k, V_a = sum_k d_k dq_k, V_b = sum_k beta_k dq_k, Psi_a and Psi_b.
+struct SurfaceModel {
+  static constexpr int kShift = 0, kTurnA = 3, kTurnB = 6, kSpinA = 9, kSpinB = 10, kChanges = 11;
+
+  /// Of one change, with the foot's way that goes with it.
+  struct Response {
+    Lanes force = {};     ///< -dg/dxi
+    Lanes on_a = {};      ///< -d(a^ x m)/dxi, lane 3: d(a^.m)/dxi
+    Lanes on_b = {};      ///< the same of b
+    double foot_a = 0.0;  ///< dt/dxi, the way of a's foot, between edges only
+    double foot_b = 0.0;  ///< du/dxi
+  };
+
+  double pressure = 0.0;  ///< of the tangent at the present overlap [N/m]
+  double slope = 0.0;     ///< p'(D^) [N/m^2]
+  Lanes force = {};       ///< g with that pressure [N]
+  Lanes on_a = {};        ///< a^ x m with it; lane 3: -a^.m
+  Lanes on_b = {};        ///< b^ x m with it; lane 3: -b^.m
+  bool two_feet = false;  ///< between edges
+  Response by[kChanges];
+};
+
+/// The consistent linearisation of `evaluate_forces` and add_couples, as `linearise` of contact_point.hpp. `surfaces`:
+/// one for each of `contacts`.
+void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+               const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
+               std::vector<SurfaceModel>& models);
+
+/// The same between edges, which have two feet each.
+void linearise(const EdgeLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+               const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
+               const std::vector<EdgeFeet>& feet, std::vector<SurfaceModel>& models);
+
+}  // namespace knot_utm

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/solver/lanes.hpp"
+
+namespace knot_utm {
+
+/// Four contacts side by side.
+template <typename Contact>
+class Four {
+ public:
+  explicit Four(const std::array<Contact*, 4>& contacts) : contacts_(contacts) {}
+
+  Lanes operator()(double ContactPoint::*number) const {
+    return Lanes{contacts_[0]->*number, contacts_[1]->*number, contacts_[2]->*number, contacts_[3]->*number};
+  }
+  FourVectors operator()(Vec3 ContactPoint::*vector) const {
+    return FourVectors::of(to_lanes(contacts_[0]->*vector), to_lanes(contacts_[1]->*vector),
+                           to_lanes(contacts_[2]->*vector), to_lanes(contacts_[3]->*vector));
+  }
+
+ private:
+  std::array<Contact*, 4> contacts_;
+};
+
+/// What becomes of four vectors, and of four numbers beside them: each is one again, its number in the last lane.
+class Parted {
+ public:
+  explicit Parted(const FourVectors& v, const Lanes& numbers = Lanes{}) : vectors_{v.x, v.y, v.z, numbers} {
+    transpose(vectors_[0], vectors_[1], vectors_[2], vectors_[3]);
+  }
+  const Lanes& operator[](std::size_t i) const { return vectors_[i]; }
+
+ private:
+  Lanes vectors_[4];
+};
+
+/// Of contacts side by side; `slip`: their part in the tangent plane.
+template <typename Contact>
+FrictionInput<FourVectors> friction_input(const std::array<Contact*, 4>& contacts, const Lanes& pressure,
+                                          const FourVectors& slip, double dt) {
+  return {pressure,
+          slip,
+          FourVectors::of(to_lanes(contacts[0]->memory.slip), to_lanes(contacts[1]->memory.slip),
+                          to_lanes(contacts[2]->memory.slip), to_lanes(contacts[3]->memory.slip)),
+          Four<Contact>(contacts)(&ContactPoint::db),
+          Lanes{contacts[0]->memory.own, contacts[1]->memory.own, contacts[2]->memory.own, contacts[3]->memory.own},
+          dt};
+}
+
+/// The normal law as Newton's method takes it (ContactModel), of four contacts.
+struct FourPressures {
+  Lanes slope;     // p'(D^) [N/m^2]
+  Lanes pressure;  // of the tangent at the present overlap [N/m]
+  Lanes turning;   // what turns with n and z [N/m]
+
+  FourPressures() = default;
+  FourPressures(const NormalLaw& normal, const ContactLinearisation& how, const Four<const ContactPoint>& four) {
+    const Lanes overlap = four(&ContactPoint::overlap), estimate = four(&ContactPoint::estimate);
+    // A contact that is new and deep: the depth where the rod stiffens is a better guess than a wall.
+    const Lanes without = select(overlap < normal.stiffening, overlap, constant<Lanes>(normal.stiffening));
+    const Lanes tangent_at = select(estimate > 0.0, normal.overlap_at(estimate), without);
+    slope = normal.slope(tangent_at);
+    pressure = normal.pressure(tangent_at) + slope * (overlap - tangent_at);
+    turning = how.expects ? expected_pressure(estimate, pressure) : pressure;
+  }
+};
+
+/// Calls visit(four, first) for the active contacts in order, four at a time, `first` being the number of the first of
+/// them; the last one fills up what is left.
+template <typename Contacts, typename Visit>
+void visit_active(Contacts& contacts, Visit visit) {
+  std::array<decltype(contacts.data()), 4> four;
+  std::size_t first = 0, count = 0;
+  for (auto& contact : contacts) {
+    if (!contact.active()) continue;
+    four[count++] = &contact;
+    if (count < 4) continue;
+    visit(four, first);
+    first += count;
+    count = 0;
+  }
+  if (count == 0) return;
+  std::fill(four.begin() + static_cast<std::ptrdiff_t>(count), four.end(), four[count - 1]);
+  visit(four, first);
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,276 @@
+// Friction at the surfaces of strands: its linearisation, its work, its balance of moments.
+
+#include "knot_utm/contact/surface_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <random>
+
+#include "knot_utm/contact/edge_contact.hpp"
+#include "knot_utm/contact/roller_contact.hpp"
+#include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/sim/step_matrix.hpp"
+#include "rod/finite_difference.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kRadius = 3e-3, kEdge = 0.7 * kRadius, kStep = 0.01;
+constexpr int kHalf = 24, kDetour = 2;  // nodes of a strand, and far away between them
+
+/// A rod whose second half winds around its first one, or lies on a roller in its place; in the step every node has
+/// moved, and every edge has spun.
+struct Wound {
+  RodProperties rod;
+  Points start, position;
+  SectionTurns turns;
+  std::vector<Vec3> lean;  // of every edge, as if the frames had moved so
+  Roller roller;
+
+  Wound() {
+    Material material;
+    material.radius = kRadius;
+    material.density = 1000.0;
+    rod = make_rod(material, Eigen::VectorXd::Constant(2 * kHalf + kDetour - 1, kEdge));
+    position.resize(3, rod.nodes());
+    position.col(kHalf) << 1.0, 0.0, 0.0;
+    position.col(kHalf + 1) << 1.0, 0.0, 0.1;
+    const double away = 1.95 * kRadius;
+    for (int i = 0; i < kHalf; ++i) {
+      const double angle = 0.3 * i;
+      position.col(i) << 0.0, 0.0, kEdge * i;
+      position.col(kHalf + kDetour + i) << away * std::cos(angle), away * std::sin(angle), 0.4 * kRadius * (i + 3);
+    }
+    start = position;
+    std::mt19937 random(5);
+    std::normal_distribution<double> noise(0.0, 0.01 * kRadius);
+    for (Eigen::Index i = 0; i < position.size(); ++i) position.data()[i] += noise(random);
+    for (Eigen::Index j = 0; j < rod.edges(); ++j) {
+      turns.turn.push_back(40.0 * noise(random) / kRadius);
+      lean.emplace_back(40.0 / kRadius / kRadius * Vec3(noise(random), noise(random), noise(random)));
+    }
+    set_lengths();
+    roller.axis = Vec3::UnitZ();
+    roller.radius = kRadius;
+  }
+
+  Eigen::Index nodes() const { return rod.nodes(); }
+  /// x and the spin angle of all nodes and edges, one after the other.
+  Eigen::VectorXd unknowns() const {
+    Eigen::Matrix4Xd out = Eigen::Matrix4Xd::Zero(4, nodes());
+    out.topRows<3>() = position;
+    for (Eigen::Index j = 0; j < rod.edges(); ++j) out(3, j) = turns.turn[static_cast<std::size_t>(j)];
+    return Eigen::Map<Eigen::VectorXd>(out.data(), out.size());
+  }
+  void set_lengths() {
+    turns.length.resize(turns.turn.size());
+    turns.tangent.resize(turns.turn.size());
+    turns.pull.resize(turns.turn.size());
+    for (Eigen::Index j = 0; j < rod.edges(); ++j) {
+      const auto i = static_cast<std::size_t>(j);
+      const Vec3 edge = position.col(j + 1) - position.col(j);
+      turns.length[i] = edge.norm();
+      turns.tangent[i] = to_lanes(Vec3(edge.normalized()));
+      turns.pull[i] = to_lanes(Vec3(lean[i] - turns.turn[i] / edge.squaredNorm() * edge));
+    }
+  }
+  void set(const Eigen::VectorXd& unknowns) {
+    const Eigen::Map<const Eigen::Matrix4Xd> all(unknowns.data(), 4, nodes());
+    position = all.topRows<3>();
+    for (Eigen::Index j = 0; j < rod.edges(); ++j) turns.turn[static_cast<std::size_t>(j)] = all(3, j);
+    set_lengths();
+  }
+};
+
+constexpr double kStiffness = 1e6, kTolerance = 0.05 * kRadius;
+
+/// Each kind of contact in the scene, as it is evaluated.
+struct Smooth {
+  Wound& scene;
+  SmoothContact contact;
+  Smooth(Wound& wound, const Friction& friction)
+      : scene(wound), contact(wound.rod, {kStiffness, kTolerance}, friction, 0.5 * kRadius) {
+    contact.refresh(wound.start);
+    contact.evaluate(wound.start, wound.start, kStep);
+    contact.commit(wound.start);
+  }
+  void evaluate() { contact.evaluate(scene.position, scene.start, kStep); }
+};
+struct Edges {
+  Wound& scene;
+  EdgeContact contact;
+  Edges(Wound& wound, const Friction& friction)
+      : scene(wound), contact(wound.rod, {kStiffness, kTolerance}, friction, 0.5 * kRadius) {
+    contact.refresh(wound.start);
+  }
+  void evaluate() { contact.evaluate(scene.position, scene.start, kStep); }
+};
+struct OnARoller {
+  Wound& scene;
+  RollerContact contact;
+  OnARoller(Wound& wound, const Friction& friction)
+      : scene(wound), contact(wound.rod, {kStiffness, kTolerance}, friction, kRadius) {
+    scene.roller.first_node = kHalf + kDetour + 1;
+    contact.evaluate({scene.roller}, scene.start, scene.start, kStep);
+    contact.commit({scene.roller});
+    scene.roller.centre = Vec3(1e-2, -2e-2, 1e-2) * kRadius;
+  }
+  void evaluate() { contact.evaluate({scene.roller}, scene.position, scene.start, kStep); }
+};
+
+template <typename Kind>
+class Surface : public testing::Test {
+ protected:
+  Wound scene;
+
+  static Eigen::VectorXd forces(Kind& kind) {
+    kind.contact.begin_step();
+    kind.evaluate();
+    std::vector<Lanes> force(static_cast<std::size_t>(kind.scene.nodes()));
+    for (std::size_t i = 0; i < kind.contact.contacts().size(); ++i) {
+      const ContactPoint& contact = kind.contact.contacts()[i];
+      if (!contact.touches()) continue;
+      const Lanes g = to_lanes(contact.force);
+      for (int k = 0; k < 3; ++k) {
+        force[static_cast<std::size_t>(contact.a0 + k)] += contact.c[k] * g;
+        if (!contact.on_roller()) force[static_cast<std::size_t>(contact.b0 + k)] += contact.c[3 + k] * g;
+      }
+      add_couples(contact, kind.contact.surfaces()[i], g, force);
+    }
+    return Eigen::Map<Eigen::VectorXd>(reinterpret_cast<double*>(force.data()), 4 * kind.scene.nodes());
+  }
+
+  static Eigen::MatrixXd stiffness(Kind& kind) {
+    kind.contact.begin_step();
+    kind.evaluate();
+    for (ContactPoint& point : kind.contact.contacts()) point.estimate = point.pressure;  // tangents where it is
+    StepMatrix<4> matrix(static_cast<int>(kind.scene.nodes()));
+    matrix.locate(kind.contact.contacts());
+    const BlockPattern& pattern = matrix.values().pattern();
+    for (int block = 0; block < pattern.blocks(); ++block) matrix.block(block).set_zero();
+    std::vector<SurfaceModel> models;
+    kind.contact.linearise(kStep, models);
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < kind.contact.contacts().size(); ++i) {
+      const ContactPoint& contact = kind.contact.contacts()[i];
+      if (!contact.active()) continue;
+      matrix.add(contact, kind.contact.surfaces()[i], models[n], kind.scene.turns, n);
+      ++n;
+    }
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(4 * kind.scene.nodes(), 4 * kind.scene.nodes());
+    for (int i = 0; i < kind.scene.nodes(); ++i)
+      for (int j = 0; j < kind.scene.nodes(); ++j) {
+        const int block = pattern.index(i, j);
+        if (block < 0) continue;
+        for (int row = 0; row < 4; ++row)
+          for (int column = 0; column < 4; ++column)
+            out(4 * i + row, 4 * j + column) = matrix.block(block)(row, column);
+      }
+    return out;
+  }
+
+  void expect_exact(const Friction& friction, double couple) {
+    Kind kind(scene, friction);
+    kind.contact.act_at_surface(couple, scene.turns);
+    const Eigen::VectorXd at = scene.unknowns();
+    Eigen::MatrixXd analytic = stiffness(kind);
+    // Positions and angles differ in size.
+    Eigen::MatrixXd numeric(at.size(), at.size());
+    for (Eigen::Index j = 0; j < at.size(); ++j) {
+      const double step = j % 4 == 3 ? 1e-6 : 1e-6 * kRadius;
+      const auto force = [&](const Eigen::VectorXd& shift) {
+        Eigen::VectorXd moved = at;
+        moved[j] += shift[0];
+        scene.set(moved);
+        return forces(kind);
+      };
+      numeric.col(j) = -finite_difference(force, Eigen::VectorXd::Zero(1), step);
+    }
+    scene.set(at);
+    // Newton's method moves spins: dpsi_j = ds_j - lean_j . (dx_{j+1} - dx_j).
+    for (Eigen::Index j = 0; j < scene.rod.edges(); ++j) {
+      const Eigen::VectorXd by_spin = numeric.col(4 * j + 3);
+      const Vec3& lean = scene.lean[static_cast<std::size_t>(j)];
+      for (int i = 0; i < 3; ++i) {
+        numeric.col(4 * j + i) += by_spin * lean[i];
+        numeric.col(4 * j + 4 + i) -= by_spin * lean[i];
+      }
+    }
+    ASSERT_GT(analytic.norm(), 0.0);
+    // Forces, and torques over the radius; changes of positions, and of angles times the radius.
+    for (Eigen::Index j = 3; j < at.size(); j += 4)
+      for (Eigen::MatrixXd* m : {&analytic, &numeric}) {
+        m->row(j) /= kRadius;
+        m->col(j) /= kRadius;
+      }
+    EXPECT_LT((analytic - numeric).norm(), 2e-6 * numeric.norm());
+    const auto spins = [](const Eigen::MatrixXd& m) {
+      Eigen::MatrixXd out = m;
+      for (Eigen::Index j = 0; j < m.rows(); ++j)
+        if (j % 4 != 3) out.row(j).setZero();
+      return out;
+    };
+    EXPECT_GT(spins(numeric).norm(), 1e-4 * numeric.norm());
+    EXPECT_LT(spins(analytic - numeric).norm(), 1e-5 * spins(numeric).norm());
+  }
+};
+
+using Kinds = testing::Types<Smooth, Edges, OnARoller>;
+TYPED_TEST_SUITE(Surface, Kinds);
+
+TYPED_TEST(Surface, JacobianIsTheDerivativeOfTheForcesWhereItSlides) {
+  this->expect_exact(MemoryFriction{0.4, 1e-3 * kRadius}, 1.0);
+}
+TYPED_TEST(Surface, JacobianIsTheDerivativeOfTheForcesWhereItSticks) {
+  this->expect_exact(MemoryFriction{0.4, 5.0 * kRadius}, 1.0);
+}
+TYPED_TEST(Surface, JacobianIsTheDerivativeOfTheForcesWithSmoothedFrictionAndAShareOfTheCouple) {
+  this->expect_exact(SmoothedFriction{0.4, 2e-2}, 0.3);
+}
+
+/// The work of all forces and torques on what nodes and spins did in the step is that of g on the slip.
+TYPED_TEST(Surface, WorkIsThatOfTheForceOnTheSlipExactly) {
+  TypeParam kind(this->scene, MemoryFriction{0.4, 1e-3 * kRadius});
+  kind.contact.act_at_surface(0.7, this->scene.turns);
+  const Eigen::VectorXd force = this->forces(kind);
+  Eigen::VectorXd way = this->scene.unknowns();
+  for (Eigen::Index i = 0; i < this->scene.nodes(); ++i) way.segment<3>(4 * i) -= this->scene.start.col(i);
+  double work = force.dot(way), slip = 0.0, gross = 0.0;
+  for (const ContactPoint& contact : kind.contact.contacts()) {
+    if (!contact.touches()) continue;
+    const ContactMotion motion = kind.contact.motion(contact, this->scene.position, this->scene.start);
+    slip += contact.force.dot(motion.slip + motion.rolling);
+    gross += contact.force.norm() * motion.rolling.norm();
+    if (contact.on_roller()) slip += contact.force.dot(this->scene.roller.centre);  // which has moved by that
+  }
+  ASSERT_GT(gross, 0.0);
+  EXPECT_NEAR(work, slip, 1e-12 * gross + 1e-12 * std::abs(work));
+}
+
+/// With the whole couple the rod's own contacts exert no moment, wherever its strands overlap.
+TYPED_TEST(Surface, MomentsBalanceWithTheWholeCouple) {
+  if constexpr (!std::is_same_v<TypeParam, OnARoller>) {
+    TypeParam kind(this->scene, MemoryFriction{0.4, 1e-3 * kRadius});
+    kind.contact.act_at_surface(1.0, this->scene.turns);
+    const Eigen::VectorXd force = this->forces(kind);
+    Vec3 moment = Vec3::Zero();
+    double friction_arm = 0.0;
+    for (Eigen::Index i = 0; i < this->scene.nodes(); ++i)
+      moment += Vec3(this->scene.position.col(i)).cross(Vec3(force.segment<3>(4 * i)));
+    for (std::size_t i = 0; i < kind.contact.contacts().size(); ++i) {
+      const ContactPoint& contact = kind.contact.contacts()[i];
+      if (!contact.touches()) continue;
+      const SurfacePoint& surface = kind.contact.surfaces()[i];
+      // A torque on a spin is one about the section's tangent.
+      const Vec3 m = surface.lever * contact.x.cross(contact.force);
+      for (const Vec3& along : {surface.along_a, contact.db}) moment -= along.dot(m) / along.squaredNorm() * along;
+      friction_arm += contact.x.cross(contact.force).norm();
+    }
+    EXPECT_LT(moment.norm(), 1e-12 * friction_arm);
+  }
+}
+
+}  // namespace
+}  // namespace knot_utm
