@@ -10,6 +10,7 @@
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/number.hpp"
 #include "knot_utm/machine/before_tying.hpp"
+#include "knot_utm/machine/step_settings.hpp"
 #include "method_reader.hpp"
 
 namespace knot_utm {
@@ -120,6 +121,15 @@ void check_specimen(const Method& m) {
     if (s.file.empty()) throw InvalidInput::missing("specimen.file", "a CSV file with the columns x,y,z in m");
     if (!fs::is_regular_file(s.file, error)) throw InvalidInput::cannot_read(s.file, "specimen.file");
   }
+}
+
+/// Friction at the surface turns strands about themselves, which only a rod with twist can do.
+void check_twist(const Method& m) {
+  if (m.physics.twist != TwistMode::kOff || m.specimen.knot == KnotKind::kStraight) return;
+  if (friction_rolls(m.material, m.machine, m.physics))
+    throw InvalidInput::sentence("physics.twist", "off",
+                                 "physics.twist is off, but friction at the surface twists the rod: set "
+                                 "physics.friction.at: centreline or material.friction_couple: 0 to go without");
 }
 
 void check_machine(const Method& m) {
@@ -261,6 +271,7 @@ void check_report(const Method& m) {
 void check_method(const Method& method) {
   check_specimen(method);
   check_machine(method);
+  check_twist(method);
   check_program(method);
   check_ends(method);
   check_effects(method);

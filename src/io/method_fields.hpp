@@ -61,6 +61,7 @@ void material(Fields& f, Material& o) {
   f.required_number("bending_stiffness", o.bending_stiffness, Range{1e-18, 1e6, "N m2"});
   f.required_number("twisting_stiffness", o.twisting_stiffness, Range{1e-18, 1e6, "N m2"});
   f.required_number("friction_coefficient", o.friction_coefficient, Range{0.0, 5.0, "-"});
+  f.optional_number("friction_couple", o.friction_couple, Range{0.0, 1.0, "-"}, "auto");
   f.optional_number("contact_stiffness", o.contact_stiffness, Range{1.0, 1e13, "N/m2"}, "auto");
   f.optional_number("tying_preload", o.tying_preload, Range{1e-9, 1e9, "N"}, "auto");
   f.optional_number("breaking_force", o.breaking_force, Range{1e-6, 1e8, "N"}, "none");
@@ -169,6 +170,7 @@ void physics(Fields& f, PhysicsOptions& o) {
   f.vector("gravity", o.gravity, Range{-100.0, 100.0, "m/s2"});
   f.section("friction", [&o](auto& friction) {
     friction.choice("law", o.friction.law, kFrictionLawNames);
+    friction.choice("at", o.friction_at, std::array{"surface", "centreline"});
     for (const FrictionKey& key : friction_keys()) {
       std::optional<double> value = o.friction.value(key.name);
       const Range range{key.min, key.max, key.unit};

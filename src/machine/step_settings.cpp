@@ -14,6 +14,15 @@ constexpr double kResidualAtLittleTension = 1e-3;  // loose knots bear much less
 
 }  // namespace
 
+double friction_couple(const Material& material, const PhysicsOptions& physics) {
+  return physics.friction_at == FrictionAt::kSurface ? default_friction_couple(material) : 0.0;
+}
+
+bool friction_rolls(const Material& material, const MachineOptions& machine, const PhysicsOptions& physics) {
+  const bool rubs = material.friction_coefficient > 0.0 || machine.roller_friction > 0.0;
+  return rubs && friction_couple(material, physics) > 0.0;
+}
+
 StepSettings step_settings(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                            const PhysicsOptions& physics) {
   const Tolerances tolerance = tolerances(physics, specimen, material);
@@ -23,6 +32,7 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
   out.normal = {default_contact_stiffness(material), tolerance.contact_tolerance * h, kStiffeningDepth * h};
   out.friction = Friction::of(physics.friction, {material.friction_coefficient, h, tolerance.presliding});
   out.roller_friction = Friction::of(physics.friction, {machine.roller_friction, h, tolerance.presliding});
+  out.friction_couple = friction_couple(material, physics);
   out.gravity = physics.gravity / inertia_factor(material, physics);  // the mass of the steps is not the rod's own
   out.spin_inertia = false;  // a slow test; and a rod that is free to turn is then the same with twist and without
   out.residual = tolerance.residual * material.bending_stiffness / (h * h);

@@ -131,7 +131,7 @@ struct TestBench::Impl {
   void apply_gravity() { stepper->set_gravity(has_weight ? gravity : Vec3::Zero()); }
 
   /// `auto`: where frames are held at two places, or the rod at rest is curved or twisted. A rod whose ends are free
-  /// to turn has no twist, contacts acting on its centreline; nor has one that stays straight.
+  /// to turn has no twist where friction acts on its centreline; nor has one that stays straight.
   bool solves_for_twist(const RodProperties& rod) const {
     switch (physics.twist) {
       case TwistMode::kOn:
@@ -142,7 +142,8 @@ struct TestBench::Impl {
         break;
     }
     return rod.natural_curvature.cols() > 0 || rod.natural_twist.size() > 0 ||
-           (grips.hold_frames() && specimen.knot != KnotKind::kStraight);
+           ((grips.hold_frames() || friction_rolls(material, machine, physics)) &&
+            specimen.knot != KnotKind::kStraight);
   }
 
   const Boundary& boundary_at(const Command& command, double from, double to, double start_time,

@@ -18,6 +18,7 @@ struct Material {
   double bending_stiffness = 0.0;           ///< k_b [N m^2]
   double twisting_stiffness = 0.0;          ///< k_t [N m^2]
   double friction_coefficient = 0.0;        ///< mu [-]
+  std::optional<double> friction_couple;    ///< eta [-]; unset: default_friction_couple
   std::optional<double> contact_stiffness;  ///< K [N/m^2], that of the normal law; unset: default_contact_stiffness
   std::optional<double> tying_preload;      ///< F_p [N]; unset: default_preload
   std::optional<double> breaking_force;     ///< F_b, tension at which it parts [N]; unset: it does not
@@ -49,6 +50,13 @@ inline bool is_solid(const Material& material) {
   constexpr double kStiffest = 10.0;  // k_s h^2/k_b of what still counts as solid
   const double h = material.radius;
   return material.stretching_stiffness * h * h < kStiffest * material.bending_stiffness;
+}
+
+/// Share of friction's couple that the section passes on where `friction_couple: auto` stands: a solid rod can carry a
+/// moment only by bending and takes all of it, while a bundle of fibres that slide past one another carries it as a
+/// shift of its line of tension, and takes none.
+inline double default_friction_couple(const Material& material) {
+  return material.friction_couple.value_or(is_solid(material) ? 1.0 : 0.0);
 }
 
 }  // namespace knot_utm

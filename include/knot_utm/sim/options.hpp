@@ -9,12 +9,14 @@ namespace knot_utm {
 
 enum class ContactLaw { kSmooth, kEdge };
 enum class TwistMode { kAuto, kOn, kOff };
+enum class FrictionAt { kSurface, kCentreline };
 enum class Accuracy { kDraft, kNormal, kFine };
 
 /// The `physics` section of a method. Values left unset follow from `accuracy`.
 struct PhysicsOptions {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< g [m/s^2]
   FrictionOptions friction;                           ///< friction.law, and what keys that law has
+  FrictionAt friction_at = FrictionAt::kSurface;      ///< friction.at: surface | centreline
   ContactLaw contact_law = ContactLaw::kSmooth;       ///< contact.law: smooth | edge
   TwistMode twist = TwistMode::kAuto;                 ///< twist: auto (where the scene can twist) | on | off
   Accuracy accuracy = Accuracy::kNormal;              ///< accuracy: draft | normal | fine

@@ -1,0 +1,321 @@
+// Closed forms of friction at the surface of strands that roll and twist.
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numeric>
+#include <vector>
+
+#include "knot_utm/rod/frames.hpp"
+#include "knot_utm/sim/step_control.hpp"
+#include "reference.hpp"
+#include "sim/scenes.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+/// Runs a scene in steps of at most `longest` [s]; `boundary(to)` stands at the end of a step.
+template <typename BoundaryAt>
+void run(TimeStep& stepper, double from, double to, double longest, BoundaryAt boundary) {
+  StepControl::Options options;
+  options.longest = options.first = longest;
+  options.motion = options.slip = 1e3;
+  StepControl control(options);
+  double time = from;
+  const std::string gave_up = control.advance(
+      stepper, time, to, [&](double, double at) -> const Boundary& { return boundary(at); },
+      [](double, double, const StepSummary&) {});
+  ASSERT_EQ(gave_up, "");
+}
+
+// ---- R12 ------------------------------------------------------------------------------------------------------------
+
+constexpr double kMu = 0.3;
+
+/// A straight rod along x lies on a plane that falls towards +y by `angle`.
+struct AcrossAnIncline {
+  Boundary boundary;
+  std::unique_ptr<TimeStep> stepper;
+  double radius;
+
+  AcrossAnIncline(double angle, bool spin_inertia) {
+    const Material material = braided_rope();
+    radius = material.radius;
+    const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(16, material.radius));
+    StepSettings settings = closed_form_settings(material);
+    settings.gravity = kGravity * Vec3(0.0, std::sin(angle), -std::cos(angle));
+    settings.roller_friction = MemoryFriction{kMu, 1e-4 * material.radius};
+    settings.friction_couple = 1.0;
+    settings.spin_inertia = spin_inertia;
+    settings.motion_limit = settings.newton_cap = 10.0;
+    RodState state = straight_state(rod);
+    const double weight = rod.mass.sum() / rod.length() * kGravity * std::cos(angle);
+    state.position.row(2).setConstant(-settings.normal.overlap_at(weight));
+    initialise_frames(&state);
+    stepper = TimeStep::make(rod, state, settings);
+    boundary.rollers = {plane_below(material.radius)};
+  }
+
+  /// Between two times: means of the accelerations down the plane and of the spin.
+  std::pair<double, double> accelerations() {
+    const auto at = [this](double) -> const Boundary& { return boundary; };
+    run(*stepper, 0.0, 0.1, 2e-3, at);
+    const double speed = stepper->state().velocity.row(1).mean(), rate = stepper->state().twist_rate.mean();
+    run(*stepper, 0.1, 0.4, 2e-3, at);
+    return {(stepper->state().velocity.row(1).mean() - speed) / 0.3, (stepper->state().twist_rate.mean() - rate) / 0.3};
+  }
+};
+
+TEST(R12Rolling, ACylinderRollsAcrossAnInclineAtTwoThirds) {
+  for (const double angle : {0.1, 0.5, 0.95 * std::atan(3.0 * kMu)}) {
+    AcrossAnIncline scene(angle, true);
+    const auto [down, spin] = scene.accelerations();
+    const double expected = 2.0 / 3.0 * kGravity * std::sin(angle);
+    hold_against(formatted("R12 rolling across an incline of %.2f: acceleration [m/s^2]", angle), expected, down, 0.01);
+    EXPECT_NEAR(std::abs(spin) * scene.radius, expected, 0.01 * expected) << "it rolls";
+  }
+}
+
+TEST(R12Rolling, WithoutInertiaOfSpinItRollsForNothing) {
+  AcrossAnIncline scene(0.5, false);
+  hold_against("R12 the same without inertia of spin: acceleration [m/s^2]", kGravity * std::sin(0.5),
+               scene.accelerations().first, 0.01);
+}
+
+TEST(R12Rolling, BeyondThreeTimesTheFrictionAngleItSlidesAndSpinsUp) {
+  const double angle = 1.05 * std::atan(3.0 * kMu);
+  AcrossAnIncline scene(angle, true);
+  const auto [down, spin] = scene.accelerations();
+  hold_against("R12 beyond: acceleration [m/s^2]", kGravity * (std::sin(angle) - kMu * std::cos(angle)), down, 0.01);
+  hold_against("R12 beyond: spin [1/s^2]", 2.0 * kMu * kGravity * std::cos(angle) / scene.radius, std::abs(spin), 0.01);
+}
+
+// ---- R14 ------------------------------------------------------------------------------------------------------------
+
+/// Two strands of one rod cross at right angles, the first above the second one, pressed together by what they
+/// overlap; all nodes are held. The first is dragged along itself. The second one's edges are kept from turning at
+/// distance l on both sides, and free to spin between.
+struct CrossedRods {
+  static constexpr int kHalf = 160;              // edges from the crossing to where a strand is kept
+  static constexpr int kStrand = 2 * kHalf + 1;  // edges of a strand, the crossing in the middle of one
+  static constexpr double kRadius = 3e-3, kEdge = 0.1 * kRadius, kPresliding = 1e-3 * kRadius, kFriction = 0.5;
+  static constexpr double kSpeed = 1e-4;
+  RodProperties rod;
+  Boundary boundary;
+  std::unique_ptr<TimeStep> stepper;
+  Points begin;
+
+  explicit CrossedRods(double couple) {
+    Material material;
+    material.radius = kRadius;
+    material.density = 1000.0;
+    material.stretching_stiffness = 1e-3;  // what joins the strands pulls at neither
+    material.bending_stiffness = 1e-12;
+    material.twisting_stiffness = 2e-5;
+    const int nodes = 2 * (kStrand + 1) + 2;
+    StepSettings settings = closed_form_settings(material);
+    settings.normal = {1e5, 0.005 * kRadius};
+    settings.friction = MemoryFriction{kFriction, kPresliding};
+    settings.friction_couple = couple;
+    settings.spin_inertia = false;
+    RodState state;
+    state.position.resize(3, nodes);
+    const double height = 2.0 * lever();
+    for (int i = 0; i <= kStrand; ++i) {
+      const double s = kEdge * (i - 0.5 * kStrand);
+      state.position.col(i) << s, 0.0, height;
+      state.position.col(kStrand + 3 + i) << 0.0, s, 0.0;
+    }
+    state.position.col(kStrand + 1) << 1.0, 0.0, 1.0;
+    state.position.col(kStrand + 2) << 1.0, -1.0, 1.0;
+    state.velocity = Points::Zero(3, nodes);
+    initialise_frames(&state);
+    begin = state.position;
+    const Points edges = begin.rightCols(nodes - 1) - begin.leftCols(nodes - 1);
+    rod = make_rod(material, edges.colwise().norm().transpose());
+    stepper = TimeStep::make(rod, state, settings);
+    for (int i = 0; i < nodes; ++i) boundary.fixed_nodes.push_back({i, begin.col(i)});
+    const int crossing = kStrand + 3 + kHalf;
+    for (int j = 0; j < nodes - 1; ++j)
+      if (std::abs(j - crossing) >= kHalf) boundary.fixed_twists.push_back({j, 0.0});
+  }
+
+  double free_length() const { return kHalf * kEdge; }
+  /// The strands' surfaces meet half way between the centrelines; pressed so far that the patch has many points.
+  static double lever() { return 0.99 * kRadius; }
+  /// Drags the first strand to `way` from where it began, in as many steps; force along it [N].
+  double force_at(double from, double way, int steps) {
+    run(*stepper, from / kSpeed, way / kSpeed, (way - from) / kSpeed / steps, [&](double to) -> const Boundary& {
+      for (int i = 0; i <= kStrand; ++i)
+        boundary.fixed_nodes[static_cast<std::size_t>(i)].position[0] = begin(0, i) + kSpeed * to;
+      return boundary;
+    });
+    double force = 0.0;
+    for (int i = 0; i <= kStrand; ++i) force += stepper->reaction(i)[0];
+    return force;
+  }
+};
+
+TEST(R14CrossedRods, RollElasticallyThenSlip) {
+  CrossedRods scene(1.0);
+  const double pressed = [&] {
+    scene.force_at(0.0, 1e-9, 1);
+    return scene.stepper->contact_reading().normal_force;
+  }();
+  const double h = CrossedRods::lever(), limit = CrossedRods::kFriction * pressed;
+  const double roll = 2.0 * scene.rod.material.twisting_stiffness / (scene.free_length() * h * h);
+  const double sticks = limit / CrossedRods::kPresliding;
+  const double together = 1.0 / (1.0 / roll + 1.0 / sticks), slips_at = limit / together;
+  ASSERT_GT(slips_at, 5.0 * CrossedRods::kPresliding) << "it should roll, not only stick";
+  const double half = scene.force_at(1e-9, 0.5 * slips_at, 20);
+  hold_against("R14 crossed rods: stiffness while they roll [N/m]", together, half / (0.5 * slips_at), 0.02);
+  const double before = scene.force_at(0.5 * slips_at, 0.97 * slips_at, 20);
+  EXPECT_NEAR(before, 0.97 * limit, 0.02 * limit);
+  const double beyond = scene.force_at(0.97 * slips_at, 1.5 * slips_at, 20);
+  hold_against("R14 crossed rods: force as they slip [N]", limit, beyond, 0.02);
+}
+
+TEST(R14CrossedRods, HalfTheCoupleRollsFourTimesAsStiffly) {
+  CrossedRods scene(0.5);
+  scene.force_at(0.0, 1e-9, 1);
+  const double h = CrossedRods::lever(), limit = CrossedRods::kFriction * scene.stepper->contact_reading().normal_force;
+  const double roll = 4.0 * 2.0 * scene.rod.material.twisting_stiffness / (scene.free_length() * h * h);
+  const double together = 1.0 / (1.0 / roll + CrossedRods::kPresliding / limit);
+  const double way = 0.5 * limit / together;
+  hold_against("R14 crossed rods, half the couple: stiffness [N/m]", together, scene.force_at(1e-9, way, 20) / way,
+               0.02);
+}
+
+// ---- R15 ------------------------------------------------------------------------------------------------------------
+
+/// A limp rod over three quarters of a half turn of a fixed shaft along x, in the plane of y and z; its centreline runs
+/// at rho = 1, its radius is eta. T1 is a dead load on the first node; the last one is pulled along its tail.
+struct SurfaceCapstan {
+  static constexpr double kSpeed = 0.1, kWrap = 0.9 * M_PI, kFriction = 0.46;
+  Boundary boundary;
+  std::unique_ptr<TimeStep> stepper;
+  Vec3 pull;
+  double edge;
+  int last = 0;
+  double time = 0.0;
+
+  SurfaceCapstan(double eta, double t1, double edges_a_radian, double couple = 1.0) {
+    edge = 1.0 / edges_a_radian;
+    const double tail = 1.5 + 7.0 / std::sqrt(t1);
+    const int tails = static_cast<int>(std::ceil(tail / edge)), wrapped = static_cast<int>(std::lround(kWrap / edge));
+    last = 2 * tails + wrapped;
+    Material material;
+    material.radius = eta;
+    material.density = 1.0;
+    material.bending_stiffness = 1.0;
+    material.twisting_stiffness = 1.0;
+    material.stretching_stiffness = 1e4 * t1;
+    const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(last, edge));
+    const double half = 0.5 * kWrap;
+    const auto place = [&](double angle) { return Vec3(0.0, std::sin(angle), std::cos(angle)); };
+    const auto along = [&](double angle) { return Vec3(0.0, std::cos(angle), -std::sin(angle)); };
+    RodState state;
+    state.position.resize(3, last + 1);
+    state.velocity = Points::Zero(3, last + 1);
+    for (int i = 0; i <= last; ++i) {
+      const double s = edge * i - 0.5 * edge * last;
+      state.position.col(i) = s < -half  ? Vec3(place(-half) + (s + half) * along(-half))
+                              : s > half ? Vec3(place(half) + (s - half) * along(half))
+                                         : place(s);
+    }
+    pull = along(half);
+    initialise_frames(&state);
+    StepSettings settings = closed_form_settings(material);
+    settings.normal = {2e3 * t1, 1e-3};
+    settings.roller_friction = MemoryFriction{kFriction, 1e-3};
+    settings.friction_couple = couple;
+    settings.spin_inertia = false;
+    settings.residual = 1e-7 * t1;
+    settings.residual_of_tension = 0.0;
+    settings.newton_cap = 0.05;
+    settings.motion_limit = 0.5;
+    settings.overlap_limit = 0.05;
+    stepper = TimeStep::make(rod, state, settings);
+    Roller roller;
+    roller.axis = Vec3::UnitX();
+    roller.radius = 1.0 - eta;
+    boundary.rollers = {roller};
+    boundary.forces = {{0, -t1 * along(-half)}};
+    boundary.fixed_nodes = {{last, state.position.col(last)}};
+  }
+
+  void pull_by(double way) {
+    const Vec3 from = boundary.fixed_nodes[0].position;
+    const double begin = time;
+    run(*stepper, begin, begin + way / kSpeed, 0.2 * edge / kSpeed, [&](double to) -> const Boundary& {
+      boundary.fixed_nodes[0].position = from + kSpeed * (to - begin) * pull;
+      return boundary;
+    });
+    time = begin + way / kSpeed;
+  }
+
+  /// x of T ~ e^{x phi} inside the wrap, by least squares over the middle two radians and eight places a stride.
+  double exponent() {
+    pull_by(0.5);
+    double sum = 0.0;
+    constexpr int kReadings = 8;
+    for (int reading = 0; reading < kReadings; ++reading) {
+      pull_by(edge / kReadings);
+      const Eigen::VectorXd tension = stepper->tension();
+      double n = 0.0, a = 0.0, aa = 0.0, t = 0.0, at = 0.0;
+      for (int j = 0; j < last; ++j) {
+        const Vec3 middle = 0.5 * (stepper->state().position.col(j) + stepper->state().position.col(j + 1));
+        const double angle = std::atan2(middle[1], middle[2]);
+        if (middle.norm() > 1.1 || std::abs(angle) > 0.9) continue;
+        const double l = std::log(tension[j]);
+        n += 1.0;
+        a += angle;
+        aa += angle * angle;
+        t += l;
+        at += angle * l;
+      }
+      sum += (n * at - a * t) / (n * aa - a * a);
+    }
+    return sum / kReadings;
+  }
+  /// T2/T1 once it slides.
+  double ratio() {
+    pull_by(0.5);
+    double sum = 0.0;
+    constexpr int kReadings = 8;
+    for (int reading = 0; reading < kReadings; ++reading) {
+      pull_by(edge / kReadings);
+      sum += stepper->reaction(last).norm();
+    }
+    return sum / kReadings / boundary.forces[0].force.norm();
+  }
+};
+
+double surface_exponent(double mu, double eta) {
+  return (std::sqrt(1.0 + 4.0 * mu * mu * eta * (1.0 - eta)) - 1.0) / (2.0 * mu * eta);
+}
+
+class R15Capstan : public testing::TestWithParam<double> {};
+
+TEST_P(R15Capstan, TensionGrowsByTheLeverOfTheSurface) {
+  const double eta = GetParam();
+  SurfaceCapstan scene(eta, 3e4, 32.0);
+  hold_against(formatted("R15 capstan at the surface, h/rho = %.2f: exponent per radian", eta),
+               surface_exponent(SurfaceCapstan::kFriction, eta), scene.exponent(), 0.02);
+}
+
+INSTANTIATE_TEST_SUITE_P(Levers, R15Capstan, testing::Values(0.1, 0.25, 0.5, 0.7),
+                         [](const auto& eta) { return "Eta" + std::to_string(std::lround(100.0 * eta.param)); });
+
+TEST(R15CapstanOnTheCentreline, IsTheOldOne) {
+  SurfaceCapstan scene(0.5, 3e4, 32.0, 0.0);
+  EXPECT_NEAR(scene.exponent(), SurfaceCapstan::kFriction, 0.02 * SurfaceCapstan::kFriction);
+}
+
+}  // namespace
+}  // namespace knot_utm
