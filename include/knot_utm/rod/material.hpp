@@ -52,11 +52,9 @@ inline bool is_solid(const Material& material) {
   return material.stretching_stiffness * h * h < kStiffest * material.bending_stiffness;
 }
 
-/// Share of friction's couple that the section passes on where `friction_couple: auto` stands: a solid rod can carry a
-/// moment only by bending and takes all of it, while a bundle of fibres that slide past one another carries it as a
-/// shift of its line of tension, and takes none.
-inline double default_friction_couple(const Material& material) {
-  return material.friction_couple.value_or(is_solid(material) ? 1.0 : 0.0);
-}
+/// Share of friction's couple that the section passes on where `friction_couple: auto` stands: none. A bundle of fibres
+/// that slide past one another carries the couple as a shift of its line of tension; a solid rod takes all of it, but
+/// its knots then roll open, which those of the source paper did not (doc/model.md says more).
+inline double default_friction_couple(const Material& material) { return material.friction_couple.value_or(0.0); }
 
 }  // namespace knot_utm
