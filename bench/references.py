@@ -19,7 +19,7 @@ def number_of(text):
 
 
 def order(number):
-    """K1, K2 ... R1 ... R11."""
+    """K1, K2 ... R1 ... R15."""
     return number[0], int(number[1:])
 
 

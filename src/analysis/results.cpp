@@ -216,6 +216,8 @@ EnergyParts energy_between(const Sample& from, const Sample& to) {
 
 namespace {
 
+constexpr double kBears = 0.01;  // share of the largest force so far: what bears less is next to no load
+
 /// One way through all samples, in order.
 class Course {
  public:
@@ -236,7 +238,7 @@ class Course {
     const double peak = std::max(peak_force(motion_.pull()), at_break_ ? at_break_->force_upper : 0.0);
     if (!(peak > 0.0)) return;
     results_.force_balance_error = imbalance_ / peak;
-    results_.moment_balance_error = moment_imbalance_ / peak;
+    results_.moment_arm = moment_arm_;
   }
 
  private:
@@ -273,14 +275,17 @@ class Course {
     keep_first(sample, sample.knots_force, 0.0, results_.first_contact_extension);
     keep_first(sample, sample.knot_on_roller, kTouch * std::abs(sample.force_upper), results_.roller_touched_at);
     imbalance_ = std::max(imbalance_, std::abs(sample.force_upper - sample.force_lower));
-    moment_imbalance_ = std::max(moment_imbalance_, sample.moment_imbalance / sample.end_to_end);
+    largest_force_ = std::max(largest_force_, sample.force_upper);
+    if (sample.force_upper > kBears * largest_force_)
+      moment_arm_ = std::max(moment_arm_, sample.moment_imbalance / sample.force_upper);
   }
 
   const std::vector<Sample>& samples_;
   Results& results_;
   MotionPatternTracker motion_;
   double imbalance_ = 0.0;
-  double moment_imbalance_ = 0.0;  // over L [N]
+  double moment_arm_ = 0.0;     // [m]
+  double largest_force_ = 0.0;  // of the pull, so far [N]
   double energy_error_ = 0.0, energy_scale_ = 0.0;
   std::optional<Sample> at_break_;
   const Sample* before_pull_ = nullptr;

@@ -323,14 +323,15 @@ void add_failure(const Results& r, YamlLines& lines) {
 }
 
 /// What the run should be judged by.
-void add_checks(const Results& r, YamlLines& lines) {
+void add_checks(const Results& r, double radius, YamlLines& lines) {
   lines.number("max_penetration", r.max_penetration);
   lines.number("fastest_node", r.fastest_node);
   lines.number("drag_share", r.rate.drag);
   lines.number("inertia_share", r.rate.inertia);
   lines.number("numerical_share", r.rate.numerical);
   lines.number("force_balance_error", r.force_balance_error);
-  lines.number("moment_balance_error", r.moment_balance_error);
+  lines.number("moment_balance_error",
+               r.moment_arm ? std::optional<double>(*r.moment_arm / radius) : std::optional<double>());
 }
 
 /// Where the work went.
@@ -388,7 +389,7 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   add_locks(r, errors, lines);
   add_true_forces(r, lines);
   add_failure(r, lines);
-  add_checks(r, lines);
+  add_checks(r, f.radius, lines);
   add_energies(r, lines);
   add_curve(r, f, lines);
   add_effort(r, f, lines);

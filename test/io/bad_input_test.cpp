@@ -137,6 +137,8 @@ const std::vector<Wrong>& wrong_overrides() {
        "only with law: stribeck"},
       {"physics.friction={law: stribeck, slip_length: 0.1}", "physics.friction.kinetic_share", "",
        "is missing: give a number from 0 to 1 (of friction_coefficient), which law: stribeck needs"},
+      {"physics.friction.at=skin", "physics.friction.at", "skin", "surface or centreline"},
+      {"material.friction_couple=1.5", "material.friction_couple", "1.5", "from 0 to 1"},
       {"physics.friction={law: smoothed, presliding: 0.01}", "physics.friction.presliding", "0.01",
        "only with law: memory"},
       {"program=[{hold: {duration: 1}}, {tie: {}}]", "program.1", "tie", "can only be the first step"},
@@ -185,6 +187,15 @@ TEST(BadInput, IsNamedOnOneLineWithFileKeyValueAndWhatIsAllowed) {
                       HasSubstr(wrong.key), HasSubstr(wrong.value), HasSubstr(wrong.allowed), Not(HasSubstr("\n"))))
         << wrong.set;
   }
+}
+
+TEST(BadInput, FrictionAtTheSurfaceNeedsTwist) {
+  EXPECT_THAT(complaint(kTighten, {"material.friction_couple=0.5", "physics.twist=off"}),
+              AllOf(HasSubstr("tighten.yaml: physics.twist is off"),
+                    HasSubstr("friction at the surface twists the rod"), Not(HasSubstr("\n"))));
+  EXPECT_EQ(
+      complaint(kTighten, {"material.friction_couple=0.5", "physics.twist=off", "physics.friction.at=centreline"}),
+      "nothing was wrong");
 }
 
 class BadFile : public ::testing::Test {

@@ -67,6 +67,21 @@ TEST(TwistOnTheMachine, AutoIsOnWhereClampsHoldTwoFrames) {
   EXPECT_FALSE(has_twist(bench(open_overhand(), GripKind::kClamps, TwistMode::kOff)));
 }
 
+TEST(TwistOnTheMachine, AutoIsOnWhereFrictionRollsStrands) {
+  const auto by_itself = [](double couple, FrictionAt at, double mu) {
+    Material material = polypropylene();
+    material.friction_couple = couple;
+    material.friction_coefficient = mu;
+    PhysicsOptions physics;
+    physics.friction_at = at;
+    return has_twist(TestBench(loop(), material, MachineOptions(), physics));
+  };
+  EXPECT_TRUE(by_itself(0.5, FrictionAt::kSurface, 0.3));
+  EXPECT_FALSE(by_itself(0.5, FrictionAt::kCentreline, 0.3));
+  EXPECT_FALSE(by_itself(0.0, FrictionAt::kSurface, 0.3));
+  EXPECT_FALSE(by_itself(0.5, FrictionAt::kSurface, 0.0));
+}
+
 TEST(TwistOnTheMachine, ALoopTiesTheSameWithIt) {
   // Steps short enough that none is rejected, nor the first one shorter: where one of the two needs an iteration more
   // and takes another step next, paths that jump from contact to contact part by hundredths of a radius.

@@ -92,9 +92,10 @@ struct Results {
   double max_penetration = 0.0;               ///< [fraction of radius], over the whole test
   std::optional<double> force_balance_error;  ///< largest |upper - lower| of the pull / peak force
 
-  /// Largest size of the sum of all moments at the grips, of the pull / (peak force L). Inertia, drag and gravity leave
-  /// some, and friction, which acts on the strands' centrelines (ContactReading::couple).
-  std::optional<double> moment_balance_error;
+  /// Largest size of the sum of all moments at the grips over the present force [m], of readings of the pull that bear
+  /// a hundredth of the largest force before them. Inertia, drag and gravity leave some, and so does friction whose
+  /// couple the sections do not take (ContactReading::couple).
+  std::optional<double> moment_arm;
 
   /// Largest |work of the grips - change of stored and kinetic energy - losses| since the first sample, over the
   /// largest of these three. Losses are those by friction, drag, time steps and changed weights, each by its own
