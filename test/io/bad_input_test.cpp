@@ -138,7 +138,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"physics.friction={law: stribeck, slip_length: 0.1}", "physics.friction.kinetic_share", "",
        "is missing: give a number from 0 to 1 (of friction_coefficient), which law: stribeck needs"},
       {"physics.friction.at=skin", "physics.friction.at", "skin", "surface or centreline"},
-      {"material.friction_couple=1.5", "material.friction_couple", "1.5", "from 0 to 1"},
+      {"material.friction_couple=1.5", "material.friction_couple", "1.5", "must be 0 to 1"},
       {"physics.friction={law: smoothed, presliding: 0.01}", "physics.friction.presliding", "0.01",
        "only with law: memory"},
       {"program=[{hold: {duration: 1}}, {tie: {}}]", "program.1", "tie", "can only be the first step"},

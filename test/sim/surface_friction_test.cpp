@@ -312,6 +312,13 @@ TEST_P(R15Capstan, TensionGrowsByTheLeverOfTheSurface) {
 INSTANTIATE_TEST_SUITE_P(Levers, R15Capstan, testing::Values(0.1, 0.25, 0.5, 0.7),
                          [](const auto& eta) { return "Eta" + std::to_string(std::lround(100.0 * eta.param)); });
 
+TEST(R15CapstanMinimum, TheForceRatioFallsAndRisesWithTheLoad) {
+  for (const double t1 : {0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 100.0, 1000.0, 3e4}) {
+    SurfaceCapstan scene(0.5, t1, 32.0), old(0.5, t1, 32.0, 0.0);
+    printf("t1 %g ratio %g, centre %g\n", t1, scene.ratio(), old.ratio());
+  }
+}
+
 TEST(R15CapstanOnTheCentreline, IsTheOldOne) {
   SurfaceCapstan scene(0.5, 3e4, 32.0, 0.0);
   EXPECT_NEAR(scene.exponent(), SurfaceCapstan::kFriction, 0.02 * SurfaceCapstan::kFriction);

@@ -10,6 +10,7 @@
 
 #include "knot_utm/analysis/knot_invariants.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/overhand.hpp"
@@ -25,6 +26,7 @@ struct LooseKnotOptions {
   double presliding = 1e-3;  // xi_s [h]
   double drag = 1e-4;        // on the whole rod at speed 1 [eps^4/2]
   double residual = 1e-6;    // [eps^4/2]
+  double couple = 0.0;       // eta, of friction
 };
 
 /// A loose overhand knot in a long thin rod along z whose ends are held by nodes: no moment, no twist. Units: h = 1,
@@ -39,6 +41,7 @@ class LooseKnot {
     Material material;
     material.radius = 1.0;
     material.bending_stiffness = 1.0;
+    material.twisting_stiffness = 2.0 / 3.0;
     // A solid rod's for eps >= 0.1. Softer where the rod is longer: places far from the origin round to forces.
     material.stretching_stiffness = 4.0 * std::min(1.0, std::pow(10.0 * options.eps, 3));
     material.density = 0.02 * options.drag * force_ / (e + end_to_end);  // velocities die away in 0.06
@@ -54,7 +57,8 @@ class LooseKnot {
   /// Goes on from the present shape with this friction, which remembers nothing yet.
   void set_friction(double mu) { set_friction(MemoryFriction{mu, options_.presliding}); }
   void set_friction(const Friction& friction) {
-    const RodState state = stepper_->state();
+    RodState state = stepper_->state();
+    if (options_.couple > 0.0 && state.twist.size() == 0) initialise_frames(&state);
     start(state, friction);
   }
 
@@ -208,6 +212,8 @@ class LooseKnot {
     // Overlaps of about a quarter of the tolerance.
     settings_.normal = {48.0 * force_ / options_.tolerance, options_.tolerance};
     settings_.friction = friction;
+    settings_.friction_couple = options_.couple;
+    settings_.spin_inertia = false;
     settings_.drag = options_.drag * force_ / rod_.length();
     settings_.residual = options_.residual * force_;
     settings_.newton_cap = 0.5;

@@ -110,6 +110,23 @@ TEST(K1_OpenOverhandMesh, ForceStaysWithHalfTheEdgesAndAQuarterOfTheTolerance) {
   EXPECT_NEAR(force(finer), first, 0.01 * first);
 }
 
+TEST(K1_OpenOverhandAtTheSurface, TheCoupleOfFrictionVanishesAsTheKnotLoosens) {
+  for (const double eps : {0.2, 0.14, 0.1, 0.07, 0.05}) {
+    double forces[3];
+    for (int k = 0; k < 3; ++k) {
+      LooseKnotOptions options = loose(eps);
+      options.couple = 0.5 * k;
+      LooseKnot knot(options);
+      knot.settle();
+      knot.set_friction(0.1);
+      knot.pull(0.2 / (eps * eps));
+      const double side = knot.curvatures().side;
+      forces[k] = knot.force() - 0.5 * side * side;
+    }
+    printf("eps %g: %g %g %g\n", eps, forces[0], forces[1] / forces[0], forces[2] / forces[0]);
+  }
+}
+
 // ---- K2 ------------------------------------------------------------------------------------------------------------
 
 class K2_OverhandOfMoreTurns : public testing::TestWithParam<int> {};

@@ -42,7 +42,7 @@ struct SectionTurns {
 ///
 /// the couple -m acting on both sections: its part across the strand as forces on the nodes that turn it, that along it
 /// on the spins. With eta = 1 force and couples balance about every point.
-/// Source: our own; the kinematics are those of a rigid section (Cosserat rods, as in Antman 2005, chapter 8).
+/// Source: our own; the kinematics of rigid sections on the spline of the centreline.
 struct SurfacePoint {
   Vec3 along_a = Vec3::Zero();      ///< a' [m]; b' is ContactPoint::db
   Vec3 turn_a = Vec3::Zero();       ///< V of a [m]; that of b is ContactPoint::turn
