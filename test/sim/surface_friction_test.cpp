@@ -312,11 +312,13 @@ TEST_P(R15Capstan, TensionGrowsByTheLeverOfTheSurface) {
 INSTANTIATE_TEST_SUITE_P(Levers, R15Capstan, testing::Values(0.1, 0.25, 0.5, 0.7),
                          [](const auto& eta) { return "Eta" + std::to_string(std::lround(100.0 * eta.param)); });
 
-TEST(R15CapstanMinimum, TheForceRatioFallsAndRisesWithTheLoad) {
-  for (const double t1 : {0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 100.0, 1000.0, 3e4}) {
-    SurfaceCapstan scene(0.5, t1, 32.0), old(0.5, t1, 32.0, 0.0);
-    printf("t1 %g ratio %g, centre %g\n", t1, scene.ratio(), old.ratio());
-  }
+/// As the load grows, the rod first touches the shaft at a point and then along a band. Between them the force ratio
+/// has a minimum, which Grandgeorge, Sano and Reis measured.
+TEST(R15CapstanMinimum, TheForceRatioFallsWhereContactBecomesABandAndRisesAgain) {
+  const auto ratio = [](double load) { return SurfaceCapstan(0.5, load, 32.0).ratio(); };
+  const double point = ratio(2.0), between = ratio(5.0), band = ratio(100.0);
+  EXPECT_LT(between, 0.98 * point);
+  EXPECT_LT(between, 0.98 * band);
 }
 
 TEST(R15CapstanOnTheCentreline, IsTheOldOne) {

@@ -110,21 +110,28 @@ TEST(K1_OpenOverhandMesh, ForceStaysWithHalfTheEdgesAndAQuarterOfTheTolerance) {
   EXPECT_NEAR(force(finer), first, 0.01 * first);
 }
 
-TEST(K1_OpenOverhandAtTheSurface, TheCoupleOfFrictionVanishesAsTheKnotLoosens) {
-  for (const double eps : {0.2, 0.14, 0.1, 0.07, 0.05}) {
-    double forces[3];
-    for (int k = 0; k < 3; ++k) {
-      LooseKnotOptions options = loose(eps);
-      options.couple = 0.5 * k;
-      LooseKnot knot(options);
-      knot.settle();
-      knot.set_friction(0.1);
-      knot.pull(0.2 / (eps * eps));
-      const double side = knot.curvatures().side;
-      forces[k] = knot.force() - 0.5 * side * side;
-    }
-    printf("eps %g: %g %g %g\n", eps, forces[0], forces[1] / forces[0], forces[2] / forces[0]);
+/// By what share less the knot's friction is with the couple than on the centreline.
+double missing_friction(double eps, double couple) {
+  double friction[2];
+  for (const bool at_surface : {false, true}) {
+    LooseKnotOptions options = loose(eps);
+    options.couple = at_surface ? couple : 0.0;
+    LooseKnot knot(options);
+    knot.settle();
+    knot.set_friction(0.1);
+    knot.pull(0.2 / (eps * eps));
+    friction[at_surface] = knot.force() - 0.5 * std::pow(knot.curvatures().side, 2);
   }
+  return 1.0 - friction[1] / friction[0];
+}
+
+TEST(K1_OpenOverhandAtTheSurface, TheCoupleOfFrictionVanishesWithTheSquareOfEps) {
+  const double far = missing_friction(0.1, 1.0), near = missing_friction(0.05, 1.0);
+  EXPECT_GT(near, 1e-4);
+  EXPECT_LT(far, 0.01);
+  hold_against("K1 open overhand, friction at the surface: order in eps by which it differs from the centreline's", 2.0,
+               std::log2(far / near), 0.1);
+  EXPECT_NEAR(missing_friction(0.1, 0.5), 0.5 * far, 0.05 * far);
 }
 
 // ---- K2 ------------------------------------------------------------------------------------------------------------
