@@ -74,6 +74,9 @@ class Draw:
             "bending_stiffness": bending,
             "twisting_stiffness": significant(bending * self.uniform("twisting", 0.66, 1.0)),
             "friction_coefficient": self.uniform("friction_coefficient", 0.0, 1.5)}
+        # Half of them with friction at the surface: strands roll and twist.
+        if self.choice("friction_at_surface", [False, True]):
+            self.settings["material"]["friction_couple"] = significant(self.uniform("friction_couple", 0.0, 1.0))
         self.keep("bending_time", significant(h ** 2 * math.sqrt(density * math.pi * h ** 2 / bending)))
 
     def draw_physics(self):
@@ -81,6 +84,8 @@ class Draw:
                              "twist": ["auto", "on", "off"],
                              "accuracy": ["draft", "normal"] if self.quick else ["draft", "normal", "fine"]}.items():
             self.settings["physics." + key] = self.choice(key, options)
+        if self.settings["physics.twist"] == "off" and "friction_couple" in self.settings["material"]:
+            self.settings["physics.friction.at"] = "centreline"
 
     def draw_fisherman(self):
         # The smallest of each do not fit, and are refused.

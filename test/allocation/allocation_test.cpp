@@ -100,11 +100,12 @@ struct SlidingOverhand {
     return out;
   }
 
-  explicit SlidingOverhand(bool twist) {
+  explicit SlidingOverhand(bool twist, double couple) {
     const Material material = polypropylene();
     DrawnOverhand drawn(material);
     if (twist) initialise_frames(&drawn.state);
-    const StepSettings settings = sliding_settings(material);
+    StepSettings settings = sliding_settings(material);
+    settings.friction_couple = couple;
     candidate_margin = settings.candidate_margin;
     step = TimeStep::make(drawn.rod, drawn.state, settings);
     boundary = drawn.held();
@@ -130,10 +131,16 @@ struct SlidingOverhand {
   }
 };
 
-class WarmStep : public testing::TestWithParam<bool> {};
+struct Kind {
+  const char* name;
+  bool twist;
+  double couple;
+};
+
+class WarmStep : public testing::TestWithParam<Kind> {};
 
 TEST_P(WarmStep, TakesNothingFromTheHeap) {
-  SlidingOverhand scene(GetParam());
+  SlidingOverhand scene(GetParam().twist, GetParam().couple);
   scene.pull(0.05);
   EXPECT_GT(scene.taken, 0U) << "the first steps have to";
   scene.taken = 0;
@@ -147,8 +154,10 @@ TEST_P(WarmStep, TakesNothingFromTheHeap) {
   EXPECT_EQ(scene.taken, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Twist, WarmStep, testing::Bool(),
-                         [](const auto& twist) { return twist.param ? "On" : "Off"; });
+INSTANTIATE_TEST_SUITE_P(Twist, WarmStep,
+                         testing::Values(Kind{"Off", false, 0.0}, Kind{"On", true, 0.0},
+                                         Kind{"OnWithFrictionAtTheSurface", true, 0.3}),
+                         [](const auto& kind) { return kind.param.name; });
 
 }  // namespace
 }  // namespace knot_utm
