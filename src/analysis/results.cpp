@@ -216,7 +216,7 @@ EnergyParts energy_between(const Sample& from, const Sample& to) {
 
 namespace {
 
-constexpr double kBears = 0.01;  // share of the largest force so far: what bears less is next to no load
+constexpr double kBears = 0.5;  // share of the median force of a pull: what bears less is next to no load
 
 /// One way through all samples, in order.
 class Course {
@@ -238,10 +238,21 @@ class Course {
     const double peak = std::max(peak_force(motion_.pull()), at_break_ ? at_break_->force_upper : 0.0);
     if (!(peak > 0.0)) return;
     results_.force_balance_error = imbalance_ / peak;
-    results_.moment_arm = moment_arm_;
+    results_.moment_arm = largest_moment_arm();
   }
 
  private:
+  double largest_moment_arm() const {
+    std::vector<double> forces;
+    for (const Load& load : loads_) forces.push_back(load.force);
+    const auto middle = forces.begin() + static_cast<std::ptrdiff_t>(forces.size() / 2);
+    std::nth_element(forces.begin(), middle, forces.end());
+    double largest = 0.0;
+    for (const Load& load : loads_)
+      if (load.force > kBears * *middle && load.force > 0.0) largest = std::max(largest, load.moment / load.force);
+    return largest;
+  }
+
   void add(const Sample& sample) {
     const bool recoils = at_break_.has_value();  // says nothing about the test
     if (sample.status == BenchStatus::kBroken && !recoils) {
@@ -275,17 +286,17 @@ class Course {
     keep_first(sample, sample.knots_force, 0.0, results_.first_contact_extension);
     keep_first(sample, sample.knot_on_roller, kTouch * std::abs(sample.force_upper), results_.roller_touched_at);
     imbalance_ = std::max(imbalance_, std::abs(sample.force_upper - sample.force_lower));
-    largest_force_ = std::max(largest_force_, sample.force_upper);
-    if (sample.force_upper > kBears * largest_force_)
-      moment_arm_ = std::max(moment_arm_, sample.moment_imbalance / sample.force_upper);
+    loads_.push_back({sample.force_upper, sample.moment_imbalance});
   }
 
   const std::vector<Sample>& samples_;
   Results& results_;
   MotionPatternTracker motion_;
   double imbalance_ = 0.0;
-  double moment_arm_ = 0.0;     // [m]
-  double largest_force_ = 0.0;  // of the pull, so far [N]
+  struct Load {
+    double force, moment;  // [N], sum of all moments at the grips [N m]
+  };
+  std::vector<Load> loads_;  // of the pull
   double energy_error_ = 0.0, energy_scale_ = 0.0;
   std::optional<Sample> at_break_;
   const Sample* before_pull_ = nullptr;
