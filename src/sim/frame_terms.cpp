@@ -84,6 +84,7 @@ struct Cross {
 FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
     : rod_(rod),
       curved_(rod.natural_curvature.cols() > 0),
+      rolls_(settings.friction_couple > 0.0),
       held_(static_cast<std::size_t>(rod.nodes()), 0),
       start_tangent_(held_.size() + 3, Lanes{1.0, 0.0, 0.0, 0.0}),
       edge_(start_tangent_),
@@ -203,12 +204,16 @@ void FrameTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
   }
   for (int j = 0; j < edges; ++j) {
     const double turned = angle_[at(j)] - start_->twist[j], rate = turned / dt_;
-    turns_.turn[at(j)] = turned;
-    turns_.length[at(j)] = 1.0 / inverse_length_[at(j)];
-    turns_.tangent[at(j)] = tangent_[at(j)];
-    turns_.pull[at(j)] = lean_[at(j)] - (turned * inverse_length_[at(j)]) * tangent_[at(j)];
+    if (rolls_) set_turn(at(j), turned);
     force[at(j)][3] -= inertia_[j] * (rate - start_->twist_rate[j]) / dt_ + drag_[j] * rate + rest_[j] * turned;
   }
+}
+
+void FrameTerms::set_turn(std::size_t j, double turned) {
+  turns_.turn[j] = turned;
+  turns_.length[j] = 1.0 / inverse_length_[j];
+  turns_.tangent[j] = tangent_[j];
+  turns_.pull[j] = lean_[j] - (turned * inverse_length_[j]) * tangent_[j];
 }
 
 TwistingInput FrameTerms::twisting_input(int i) const {

@@ -89,7 +89,7 @@ class FrameTerms {
   /// Of edge j, as FrameTerms says [1/m].
   Vec3 lean(int j) const { return to_vec3(lean_[static_cast<std::size_t>(j)]); }
 
-  /// How far the edges have spun in this step, at the trial positions.
+  /// How far the edges have spun in this step, at the trial positions; only where friction acts at the surface.
   const SectionTurns& turns() const { return turns_; }
 
   /// The angle is prescribed; so is that of the last node, which has no edge behind it.
@@ -129,6 +129,7 @@ class FrameTerms {
   void set_tangents(const Points& position);
   void set_twist();
   void carry_directors();
+  void set_turn(std::size_t edge, double turned);
 
   /// Stiffnesses of inner node i are zero where it ends a parted edge.
   TwistingInput twisting_input(int i) const;
@@ -144,6 +145,7 @@ class FrameTerms {
   Eigen::VectorXd drag_;     // c h^2 l_j [N m s]
   Eigen::VectorXd rest_;     // r_j
   bool curved_;              // at rest
+  bool rolls_;               // turns_ are asked for
   int parted_ = -2;          // edge; no node ends this one
   const RodState* start_ = nullptr;
   double dt_ = 0.0;
