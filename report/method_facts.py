@@ -11,6 +11,7 @@ KEYS = {
     "file": ("Shape from", ""), "radius": ("Radius", "length"), "density": ("Density", "kg/m³"),
     "stretching_stiffness": ("Stretching stiffness", "force"), "bending_stiffness": ("Bending stiffness", "N m²"),
     "twisting_stiffness": ("Twisting stiffness", "N m²"), "friction_coefficient": ("Friction coefficient", ""),
+    "friction_couple": ("Share of the couple of friction", ""),
     "contact_stiffness": ("Contact stiffness", "N/m²"), "breaking_force": ("Breaking force", "force"),
     "grips": ("Grips", ""), "roller_diameter": ("Roller diameter", "length"),
     "roller_friction": ("Roller friction", ""), "stiffness": ("Frame stiffness", "stiffness"),

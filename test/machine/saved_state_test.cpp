@@ -216,6 +216,12 @@ Scene twisted_loop() {
   return out;
 }
 
+Scene rolling(Scene of, const std::string& name) {
+  of.name = name;
+  of.material.friction_couple = 0.3;
+  return of;
+}
+
 class SavedState : public testing::TestWithParam<Scene> {};
 
 /// What was saved by another version is then refused where the parts no longer follow each other.
@@ -272,7 +278,9 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SavedState,
                                          overhand("overhandWithTwist", "memory", ContactLaw::kSmooth),
                                          overhand("smoothedFriction", "smoothed", ContactLaw::kSmooth),
                                          overhand("edgeContact", "memory", ContactLaw::kEdge),
-                                         loop("loop", polypropylene(), 20.0, 0.01), twisted_loop()),
+                                         loop("loop", polypropylene(), 20.0, 0.01), twisted_loop(),
+                                         rolling(twisted_loop(), "rollingLoop"),
+                                         rolling(overhand("", "memory", ContactLaw::kEdge), "rollingEdges")),
                          [](const auto& scene) { return scene.param.name; });
 
 std::string complaint(const Scene& scene, const std::string& bytes) {
