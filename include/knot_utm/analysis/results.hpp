@@ -93,8 +93,8 @@ struct Results {
   std::optional<double> force_balance_error;  ///< largest |upper - lower| of the pull / peak force
 
   /// Largest size of the sum of all moments at the grips over the present force [m], of readings of the pull that bear
-  /// half of its median force: a slack loop that swings bears next to nothing. Inertia, drag and gravity leave some, and
-  /// so does friction whose couple the sections do not take (ContactReading::couple).
+  /// half of its median force: a slack loop that swings bears next to nothing. Inertia, drag and gravity leave some,
+  /// and so does friction whose couple the sections do not take (ContactReading::couple).
   std::optional<double> moment_arm;
 
   /// Largest |work of the grips - change of stored and kinetic energy - losses| since the first sample, over the
