@@ -212,6 +212,11 @@ class FourSurfaces {
   FourVectors pressing_, force_, m_;
 };
 
+/// phi_a + phi_b
+Vec3 section_rotation(const ContactPoint& contact, const SurfacePoint& surface) {
+  return rotation(surface.along_a, surface.turn_a, surface.spin_a) + rotation(contact.db, contact.turn, surface.spin_b);
+}
+
 using Contacts4 = std::array<const ContactPoint*, 4>;
 
 /// Calls `fill(law, four contacts, their surfaces, their models)`.
@@ -229,10 +234,6 @@ void linearise_with(const Friction& friction, const std::vector<ContactPoint>& c
 }
 
 }  // namespace
-
-Vec3 section_rotation(const ContactPoint& contact, const SurfacePoint& surface) {
-  return rotation(surface.along_a, surface.turn_a, surface.spin_a) + rotation(contact.db, contact.turn, surface.spin_b);
-}
 
 Vec3 rolling(const ContactPoint& contact, const SurfacePoint& surface) {
   return -surface.lever * section_rotation(contact, surface).cross(contact.x);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "knot_utm/contact/friction.hpp"
+#include "knot_utm/machine/step_settings.hpp"
 
 namespace knot_utm {
 
@@ -105,7 +106,8 @@ ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& ma
   ReadingErrors out;
   if (specimen.knot == KnotKind::kStraight) out.locked_stiffness = kStraightStiffness;
   const bool studied = specimen.knot == KnotKind::kFisherman && specimen.to_be_tied &&
-                       physics.contact_law == ContactLaw::kSmooth && entry_of(physics.friction.law).studied;
+                       physics.contact_law == ContactLaw::kSmooth && entry_of(physics.friction.law).studied &&
+                       friction_couple(material, physics) == 0.0;
   if (!studied) return out;
   const double h = material.radius;
   const bool solid = stretches(specimen, material), opposite = specimen.handedness == Handedness::kOpposite;

@@ -89,10 +89,11 @@ struct Wound {
 constexpr double kStiffness = 1e6, kTolerance = 0.05 * kRadius;
 
 /// Each kind of contact in the scene, as it is evaluated.
-struct Smooth {
+template <typename Contact>
+struct BetweenStrands {
   Wound& scene;
-  SmoothContact contact;
-  Smooth(Wound& wound, const Friction& friction)
+  Contact contact;
+  BetweenStrands(Wound& wound, const Friction& friction)
       : scene(wound), contact(wound.rod, {kStiffness, kTolerance}, friction, 0.5 * kRadius) {
     contact.refresh(wound.start);
     contact.evaluate(wound.start, wound.start, kStep);
@@ -100,15 +101,8 @@ struct Smooth {
   }
   void evaluate() { contact.evaluate(scene.position, scene.start, kStep); }
 };
-struct Edges {
-  Wound& scene;
-  EdgeContact contact;
-  Edges(Wound& wound, const Friction& friction)
-      : scene(wound), contact(wound.rod, {kStiffness, kTolerance}, friction, 0.5 * kRadius) {
-    contact.refresh(wound.start);
-  }
-  void evaluate() { contact.evaluate(scene.position, scene.start, kStep); }
-};
+using Smooth = BetweenStrands<SmoothContact>;
+using Edges = BetweenStrands<EdgeContact>;
 struct OnARoller {
   Wound& scene;
   RollerContact contact;

@@ -129,12 +129,13 @@ TEST(Tolerances, EdgesAreShorterInRopesThatAreTiedHard) {
 }
 
 TEST(ReadingErrors, AreNotGivenWhereNoStudySays) {
-  Loop edge, smoothed, untied, overhand;
+  Loop edge, smoothed, untied, overhand, rolling;
   edge.physics.contact_law = ContactLaw::kEdge;
   smoothed.physics.friction.law = law_named("smoothed");
   untied.specimen.to_be_tied = false;
   overhand.specimen.knot = KnotKind::kOverhand;
-  for (const Loop& loop : {edge, smoothed, untied, overhand}) {
+  rolling.material.friction_couple = 0.1;
+  for (const Loop& loop : {edge, smoothed, untied, overhand, rolling}) {
     EXPECT_FALSE(loop.errors().plateau_force);
     EXPECT_FALSE(loop.errors().lock_extension);
     EXPECT_FALSE(loop.errors().locked_stiffness);

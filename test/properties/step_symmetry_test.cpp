@@ -12,6 +12,7 @@ namespace {
 struct Kind {
   ContactLaw law;
   bool twist;
+  double couple = 0.0;  // of friction at the surface
 };
 
 class StepSymmetry : public testing::TestWithParam<Kind> {
@@ -20,7 +21,8 @@ class StepSymmetry : public testing::TestWithParam<Kind> {
   static void hold(const std::function<void(const Scene&, const Outcome&)>& property) {
     rc::detail::checkGTest([&] {
       const std::vector<int> numbers = random_numbers(RandomScene::kNumbers);
-      const Scene scene = RandomScene(numbers, GetParam().law, GetParam().twist).scene();
+      Scene scene = RandomScene(numbers, GetParam().law, GetParam().twist).scene();
+      scene.settings.friction_couple = GetParam().couple;
       const Outcome outcome = run(scene);
       // A step that only just converges, after many turns about a kink, may do so later after rounding.
       RC_PRE(outcome.accepted && 2 * outcome.most_iterations <= scene.settings.max_iterations);
@@ -137,10 +139,11 @@ TEST_P(StepSymmetry, ScenesTouchAndSlide) {
 
 INSTANTIATE_TEST_SUITE_P(Laws, StepSymmetry,
                          testing::Values(Kind{ContactLaw::kSmooth, false}, Kind{ContactLaw::kSmooth, true},
-                                         Kind{ContactLaw::kEdge, false}, Kind{ContactLaw::kEdge, true}),
+                                         Kind{ContactLaw::kEdge, false}, Kind{ContactLaw::kEdge, true},
+                                         Kind{ContactLaw::kSmooth, true, 1.0}, Kind{ContactLaw::kEdge, true, 0.5}),
                          [](const auto& kind) {
                            return std::string(kind.param.law == ContactLaw::kEdge ? "edge" : "smooth") +
-                                  (kind.param.twist ? "Twist" : "");
+                                  (kind.param.twist ? "Twist" : "") + (kind.param.couple > 0.0 ? "Rolling" : "");
                          });
 
 }  // namespace

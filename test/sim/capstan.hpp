@@ -28,6 +28,18 @@ inline double elastic_capstan(double t1, double mu, double phi) {
   return ratio;
 }
 
+/// A rod of bending stiffness 1 around a shaft of a radius near 1, pulled at T1 or more.
+inline StepSettings capstan_settings(const Material& material, double t1, double tolerance, double residual) {
+  StepSettings settings = closed_form_settings(material);
+  settings.normal = {2e3 * t1, tolerance};
+  settings.residual = residual * t1;
+  settings.residual_of_tension = 0.0;
+  settings.newton_cap = 0.05;
+  settings.motion_limit = 0.5;
+  settings.overlap_limit = 0.05;
+  return settings;
+}
+
 /// A rod in one turn around a fixed roller along x, as a helix of so small a pitch (two diameters of a thin rod) that
 /// its two tails, both in the plane y = rho, just pass one another. T1 is a dead load on the first node; the last one
 /// is pulled along its tail. Lengths in units of rho = 1, bending stiffness 1.
@@ -89,15 +101,9 @@ struct Capstan {
     }
     pull = along;
 
-    StepSettings settings = closed_form_settings(material);
-    settings.normal = {2e3 * t1, options.contact_tolerance};
+    StepSettings settings = capstan_settings(material, t1, options.contact_tolerance, options.residual);
     settings.roller_friction = MemoryFriction{kMu, options.presliding};
     if (options.smoothed) settings.roller_friction = SmoothedFriction{kMu, options.slip_tolerance};
-    settings.residual = options.residual * t1;
-    settings.residual_of_tension = 0.0;
-    settings.newton_cap = 0.05;
-    settings.motion_limit = 0.5;
-    settings.overlap_limit = 0.05;
     stepper = TimeStep::make(rod, state, settings);
 
     Roller roller;

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
-#include <numeric>
 #include <vector>
 
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "reference.hpp"
+#include "sim/capstan.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -193,7 +193,7 @@ TEST(R14CrossedRods, HalfTheCoupleRollsFourTimesAsStiffly) {
 
 // ---- R15 ------------------------------------------------------------------------------------------------------------
 
-/// A limp rod over three quarters of a half turn of a fixed shaft along x, in the plane of y and z; its centreline runs
+/// A limp rod over nine tenths of a half turn of a fixed shaft along x, in the plane of y and z; its centreline runs
 /// at rho = 1, its radius is eta. T1 is a dead load on the first node; the last one is pulled along its tail.
 struct SurfaceCapstan {
   static constexpr double kSpeed = 0.1, kWrap = 0.9 * M_PI, kFriction = 0.46;
@@ -230,16 +230,10 @@ struct SurfaceCapstan {
     }
     pull = along(half);
     initialise_frames(&state);
-    StepSettings settings = closed_form_settings(material);
-    settings.normal = {2e3 * t1, 1e-3};
+    StepSettings settings = capstan_settings(material, t1, 1e-3, 1e-7);
     settings.roller_friction = MemoryFriction{kFriction, 1e-3};
     settings.friction_couple = couple;
     settings.spin_inertia = false;
-    settings.residual = 1e-7 * t1;
-    settings.residual_of_tension = 0.0;
-    settings.newton_cap = 0.05;
-    settings.motion_limit = 0.5;
-    settings.overlap_limit = 0.05;
     stepper = TimeStep::make(rod, state, settings);
     Roller roller;
     roller.axis = Vec3::UnitX();
@@ -259,40 +253,40 @@ struct SurfaceCapstan {
     time = begin + way / kSpeed;
   }
 
-  /// x of T ~ e^{x phi} inside the wrap, by least squares over the middle two radians and eight places a stride.
-  double exponent() {
+  /// Mean of what `read()` gives at eight places while the rod slides by the length of an edge, once it slides.
+  template <typename Read>
+  double mean(Read read) {
+    constexpr int kReadings = 8;
     pull_by(0.5);
     double sum = 0.0;
-    constexpr int kReadings = 8;
     for (int reading = 0; reading < kReadings; ++reading) {
       pull_by(edge / kReadings);
+      sum += read();
+    }
+    return sum / kReadings;
+  }
+
+  /// x of T ~ e^{x phi} inside the wrap, by least squares over its middle 1.8 radians.
+  double exponent() {
+    return mean([this] {
       const Eigen::VectorXd tension = stepper->tension();
       double n = 0.0, a = 0.0, aa = 0.0, t = 0.0, at = 0.0;
       for (int j = 0; j < last; ++j) {
         const Vec3 middle = 0.5 * (stepper->state().position.col(j) + stepper->state().position.col(j + 1));
-        const double angle = std::atan2(middle[1], middle[2]);
+        const double angle = std::atan2(middle[1], middle[2]), l = std::log(tension[j]);
         if (middle.norm() > 1.1 || std::abs(angle) > 0.9) continue;
-        const double l = std::log(tension[j]);
         n += 1.0;
         a += angle;
         aa += angle * angle;
         t += l;
         at += angle * l;
       }
-      sum += (n * at - a * t) / (n * aa - a * a);
-    }
-    return sum / kReadings;
+      return (n * at - a * t) / (n * aa - a * a);
+    });
   }
-  /// T2/T1 once it slides.
+  /// T2/T1
   double ratio() {
-    pull_by(0.5);
-    double sum = 0.0;
-    constexpr int kReadings = 8;
-    for (int reading = 0; reading < kReadings; ++reading) {
-      pull_by(edge / kReadings);
-      sum += stepper->reaction(last).norm();
-    }
-    return sum / kReadings / boundary.forces[0].force.norm();
+    return mean([this] { return stepper->reaction(last).norm() / boundary.forces[0].force.norm(); });
   }
 };
 

@@ -7,8 +7,8 @@
 
 namespace knot_utm {
 
-/// By how much the edges turned about their tangents in this step, and how that follows from the unknowns that Newton's
-/// method solves for (frame_terms.hpp): d(|e_j| psi_j) = |e_j| (ds_j - pull_j . de_j).
+/// By how much the edges turned about their tangents in this step. With e_j the edge, s_j the spin that Newton's method
+/// solves for and lean_j as frame_terms.hpp has it, |e_j| psi_j changes by |e_j| (ds_j - pull_j . de_j).
 struct SectionTurns {
   std::vector<double> turn;    ///< psi of every edge since the step's beginning [rad]
   std::vector<double> length;  ///< |e| of every edge [m]
@@ -42,7 +42,7 @@ struct SectionTurns {
 ///
 /// the couple -m acting on both sections: its part across the strand as forces on the nodes that turn it, that along it
 /// on the spins. With eta = 1 force and couples balance about every point.
-/// Source: our own; the kinematics of rigid sections on the spline of the centreline.
+/// Source: our own; kinematics of rigid sections along the spline of the centreline.
 struct SurfacePoint {
   Vec3 along_a = Vec3::Zero();      ///< a' [m]; b' is ContactPoint::db
   Vec3 turn_a = Vec3::Zero();       ///< V of a [m]; that of b is ContactPoint::turn
@@ -62,9 +62,7 @@ struct EdgeFeet {
   double inverse_tt = 0.0, inverse_tu = 0.0, inverse_uu = 0.0;
 };
 
-/// phi_a + phi_b: how the two sections of a contact turned in this step, added [rad].
-Vec3 section_rotation(const ContactPoint& contact, const SurfacePoint& surface);
-/// r - (xi + Dx_a - Dx_b): what the sections' turn adds to the slip that friction's law is told of [m].
+/// r - (xi + Dx_a - Dx_b), what the sections' turn adds to the slip that friction's law is told of [m].
 Vec3 surface_shift(const ContactPoint& contact, const SurfacePoint& surface);
 /// u - (Dx_a - Dx_b) [m]
 Vec3 rolling(const ContactPoint& contact, const SurfacePoint& surface);
