@@ -1,5 +1,7 @@
 #include "knot_utm/contact/contact_point.hpp"
 
+#include <type_traits>
+
 #include "four_contacts.hpp"
 
 namespace knot_utm {
@@ -33,9 +35,30 @@ void set_pressures(const NormalLaw& normal, const std::array<ContactPoint*, 4>& 
   for (std::size_t i = 0; i < 4; ++i) contacts[i]->pressure = pressure[static_cast<int>(i)];
 }
 
-template <typename Law>
+/// What a roller's turn adds to the models of four contacts on it. It takes the surface along by psi a x X, with a its
+/// axis and X the gap, so that r changes by -a x X as psi does and by -psi a x S as the rod does.
+template <typename Tangent>
+void add_turn(const Four<const ContactPoint>& four, const Tangent& friction, const Lanes& stiffness,
+              RollerModel* models) {
+  const FourVectors n = four(&ContactPoint::n), axis = four(&ContactPoint::axis);
+  const Lanes zero = {}, turned = four(&ContactPoint::turned);
+  const auto slipped = [&](const FourVectors& surface) {
+    return stiffness * friction.slope_times(surface - dot(n, surface) * n);
+  };
+  const Parted by_turn(-1.0 * slipped(cross(axis, four(&ContactPoint::x))));
+  const FourVectors sweep = turned * axis;
+  const Parted still[3] = {Parted(slipped({zero, sweep.z, -1.0 * sweep.y})),
+                           Parted(slipped({-1.0 * sweep.z, zero, sweep.x})),
+                           Parted(slipped({sweep.y, -1.0 * sweep.x, zero}))};
+  for (std::size_t i = 0; i < 4; ++i) {
+    models[i].by_turn = by_turn[i];
+    for (std::size_t j = 0; j < 3; ++j) models[i].still[j] -= still[j][i];
+  }
+}
+
+template <typename Law, typename Model>
 void linearise(const NormalLaw& normal, const Law& law, double dt, const ContactLinearisation& how,
-               const std::array<const ContactPoint*, 4>& contacts, ContactModel* models) {
+               const std::array<const ContactPoint*, 4>& contacts, Model* models) {
   const Four<const ContactPoint> four(contacts);
   const FourPressures law_of_pressure(normal, how, four);
   const Lanes &slope = law_of_pressure.slope, &pressure = law_of_pressure.pressure, &turning = law_of_pressure.turning;
@@ -52,14 +75,16 @@ void linearise(const NormalLaw& normal, const Law& law, double dt, const Contact
   FourVectors axis_column = -on_identity * axis;
   FourVectors direction = n, pressing = n;  // n - mu z and n + dt/dp
   FourVectors left = {}, right = {}, pulled = {}, slide = p * n_u;
+  FrictionTangent<FourVectors> t;
+  Lanes s;
   if (law.coefficient > 0.0) {
     const FourVectors r = four(&ContactPoint::slip), turn = four(&ContactPoint::turn);
     const Lanes away = dot(n, r), unturned = 1.0 - away * over_d;
     const FourVectors tangential = r - away * n;
-    const FrictionTangent<FourVectors> t = law.tangent(friction_input(contacts, turning, tangential, dt), how.friction);
+    t = law.tangent(friction_input(contacts, turning, tangential, dt), how.friction);
     left = t.left;
     right = t.right;
-    const Lanes s = t.stiffness * p;
+    s = t.stiffness * p;
     const Lanes across = s * t.across, along = s * t.along;
     direction -= t.coefficient * t.z;
     pressing -= t.by_pressure;
@@ -84,13 +109,27 @@ void linearise(const NormalLaw& normal, const Law& law, double dt, const Contact
   still[2].z -= on_identity;
   const Parted columns[3] = {Parted(still[0]), Parted(still[1]), Parted(still[2])};
   for (std::size_t i = 0; i < 4; ++i) {
-    ContactModel& model = models[i];
+    Model& model = models[i];
     model.pressure = pressure[static_cast<int>(i)];
     model.slope = slope[static_cast<int>(i)];
     model.force = forces[i];
     model.slide = slides[i];
     for (std::size_t j = 0; j < 3; ++j) model.still[j] = columns[j][i];
   }
+  if constexpr (std::is_same_v<Model, RollerModel>)
+    if (law.coefficient > 0.0) add_turn(four, t, s, models);
+}
+
+template <typename Model>
+void linearise_all(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+                   const std::vector<ContactPoint>& contacts, std::vector<Model>& models) {
+  // Room for the fours that the last one fills up.
+  models.resize(contacts.size() + 3);
+  friction.visit([&](const auto& law) {
+    visit_active(contacts, [&](const std::array<const ContactPoint*, 4>& four, std::size_t first) {
+      linearise(normal, law, dt, how, four, &models[first]);
+    });
+  });
 }
 
 }  // namespace
@@ -125,13 +164,12 @@ FrictionMemory remember(const Friction& friction, const ContactPoint& contact, d
 
 void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                const std::vector<ContactPoint>& contacts, std::vector<ContactModel>& models) {
-  // Room for the fours that the last one fills up.
-  models.resize(contacts.size() + 3);
-  friction.visit([&](const auto& law) {
-    visit_active(contacts, [&](const std::array<const ContactPoint*, 4>& four, std::size_t first) {
-      linearise(normal, law, dt, how, four, &models[first]);
-    });
-  });
+  linearise_all(normal, friction, dt, how, contacts, models);
+}
+
+void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+               const std::vector<ContactPoint>& contacts, std::vector<RollerModel>& models) {
+  linearise_all(normal, friction, dt, how, contacts, models);
 }
 
 }  // namespace knot_utm

@@ -46,9 +46,16 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
     start_ = rollers;
     estimate_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), -1.0);
     memory_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), FrictionMemory());
+    turn_.assign(rollers.size(), RollerTurn());
+    for (std::size_t r = 0; r < rollers.size(); ++r) turn_[r].angle = rollers[r].turn;
   }
   dt_ = dt;
-  if (first_evaluation_) find_near_segments(rollers, start);
+  if (first_evaluation_) {
+    find_near_segments(rollers, start);
+    turned_.resize(rollers.size());
+    for (std::size_t r = 0; r < rollers.size(); ++r)
+      turned_[r] = rollers[r].free() ? dt * turn_[r].rate : rollers[r].turn - turn_[r].angle;
+  }
   first_evaluation_ = false;
   for (const auto& [roller, segment] : near_)
     if (distance(rollers[roller], position.col(segment)) <= limit(rollers[roller], segment))
@@ -102,15 +109,21 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
       contact.c[k] = w.value[k];
       contact.slip += w.value[k] * (position.col(segment - 1 + k) - start.col(segment - 1 + k));
     }
-    if (turns_) add_surface(contact, roller, position, start);
+    double lever = 0.0;
+    if (turns_) lever = add_surface(contact, roller, position, start);
+    if (friction_.on() && turned_[number] != 0.0) {
+      contact.turned = (1.0 - lever) * turned_[number];
+      contact.slip -= carried_along(contact);
+    }
     contacts_.push_back(contact);
   }
 }
 
-void RollerContact::add_surface(ContactPoint& contact, const Roller& roller, const Points& position,
-                                const Points& start) {
+/// The lever of friction on it.
+double RollerContact::add_surface(ContactPoint& contact, const Roller& roller, const Points& position,
+                                  const Points& start) {
   SurfacePoint& surface = surfaces_.emplace_back();
-  if (!friction_.on()) return;
+  if (!friction_.on()) return 0.0;
   const double u = kIntegrationPoints[contact.point];
   const SegmentWeights weights(u);
   std::copy_n(weights.derivative, 3, surface.d_a);
@@ -123,6 +136,11 @@ void RollerContact::add_surface(ContactPoint& contact, const Roller& roller, con
   }
   surface.lever = couple_ * radius_ / (roller.radius + radius_);
   contact.slip += surface_shift(contact, surface);
+  return surface.lever;
+}
+
+double RollerContact::lever_of(const ContactPoint& contact) const {
+  return turns_ ? surfaces_[static_cast<std::size_t>(&contact - contacts_.data())].lever : 0.0;
 }
 
 Vec3 RollerContact::force_on(int roller) const {
@@ -136,21 +154,29 @@ Vec3 RollerContact::moment_on(const Roller& roller, int number, const Points& po
   Vec3 sum = Vec3::Zero();
   for (const ContactPoint& contact : contacts_)
     if (contact.roller == number) {
-      const double lever = turns_ ? surfaces_[static_cast<std::size_t>(&contact - contacts_.data())].lever : 0.0;
-      const Vec3 place = combine(contact.c, position, contact.a0 + 1) - roller.centre - lever * contact.x;
+      const Vec3 place = combine(contact.c, position, contact.a0 + 1) - roller.centre - lever_of(contact) * contact.x;
       sum -= place.cross(contact.force);
     }
   return sum;
 }
 
+double RollerContact::torque_on(int roller) const {
+  double sum = 0.0;
+  for (const ContactPoint& contact : contacts_)
+    if (contact.roller == roller) sum -= (1.0 - lever_of(contact)) * contact.axis.cross(contact.x).dot(contact.force);
+  return sum;
+}
+
 ContactMotion RollerContact::motion(const ContactPoint& contact, const Points&, const Points&) const {
   ContactMotion out;
-  out.slip = contact.slip - contact.memory.slip;
+  const Vec3 carried = carried_along(contact);
+  out.slip = contact.slip - contact.memory.slip + carried;
   if (turns_) {
     const SurfacePoint& surface = surfaces_[static_cast<std::size_t>(&contact - contacts_.data())];
     out.rolling = rolling(contact, surface);
     out.slip -= surface_shift(contact, surface);
   }
+  out.rolling -= carried;
   Vec3 x = contact.x - out.slip;
   x -= contact.axis * contact.axis.dot(x);
   out.overlap_before = contact.overlap + contact.d - x.norm();
@@ -159,6 +185,7 @@ ContactMotion RollerContact::motion(const ContactPoint& contact, const Points&, 
 
 void RollerContact::commit(const std::vector<Roller>& rollers) {
   start_ = rollers;
+  for (std::size_t r = 0; r < rollers.size(); ++r) turn_[r] = {turn_[r].angle + turned_[r], turned_[r] / dt_};
   std::fill(estimate_.begin(), estimate_.end(), -1.0);
   for (const ContactPoint& contact : contacts_) estimate_[index_of(contact)] = contact.pressure;
   committed_estimate_ = estimate_;
@@ -168,7 +195,7 @@ void RollerContact::commit(const std::vector<Roller>& rollers) {
 }
 
 void RollerContact::state(Archive& archive) {
-  archive.section("ROL2");  // "ROLL" had no number that a friction law keeps
+  archive.section("ROL3");  // "ROL2" had rollers that do not turn
   bool committed = !committed_estimate_.empty();
   archive(committed);
   // Before, what stands here is what a rejected step took for it.
@@ -180,6 +207,8 @@ void RollerContact::state(Archive& archive) {
     memory_.clear();
     return;
   }
+  archive.list(turn_);
+  archive.require(turn_.size() == start_.size(), "turns of rollers", std::to_string(turn_.size()));
   archive.list(committed_estimate_);
   archive.list(memory_);
   const std::size_t places = memory_index(voronoi_.size(), start_.size(), 0, 0);

@@ -59,7 +59,7 @@ struct Section {
 /// What Newton's method changes, of four contacts.
 struct Change {
   FourVectors shift = {}, turn_a = {}, turn_b = {};
-  Lanes spin_a = {}, spin_b = {};
+  Lanes spin_a = {}, spin_b = {}, turned = {};
 
   /// One of the numbers that SurfaceModel counts, by 1.
   static Change unit(int number) {
@@ -73,7 +73,7 @@ struct Change {
     else if (number < SurfaceModel::kSpinA)
       component(out.turn_b, number - SurfaceModel::kTurnB);
     else
-      (number == SurfaceModel::kSpinA ? out.spin_a : out.spin_b) = one;
+      (number == SurfaceModel::kSpinA ? out.spin_a : number == SurfaceModel::kSpinB ? out.spin_b : out.turned) = one;
     return out;
   }
 };
@@ -129,6 +129,7 @@ class FourSurfaces {
     r_ = of(&ContactPoint::slip);
     over_d_ = 1.0 / of(&ContactPoint::d);
     da_ = four(surfaces, &SurfacePoint::along_a);
+    turned_ = of(&ContactPoint::turned);
     remembered_ = FourVectors::of(to_lanes(contacts[0]->memory.slip), to_lanes(contacts[1]->memory.slip),
                                   to_lanes(contacts[2]->memory.slip), to_lanes(contacts[3]->memory.slip));
     rotation_ = a_.rotation() + b_.rotation();
@@ -157,9 +158,9 @@ class FourSurfaces {
       models[i].two_feet = Feet::kTwo;
     }
     for (int number = 0; number < SurfaceModel::kChanges; ++number) {
-      if (on_roller_ &&
-          ((number >= SurfaceModel::kTurnB && number < SurfaceModel::kSpinA) || number == SurfaceModel::kSpinB))
-        continue;
+      const bool of_b =
+          (number >= SurfaceModel::kTurnB && number < SurfaceModel::kSpinA) || number == SurfaceModel::kSpinB;
+      if (on_roller_ ? of_b : number == SurfaceModel::kTurned) continue;
       respond(Change::unit(number), number, models);
     }
   }
@@ -184,8 +185,9 @@ class FourSurfaces {
     // Slip: d(xi + alpha n x xi + u)
     const FourVectors rotation = a.rotation + b.rotation;
     const Lanes alpha = carried_ * (dot(n_, rotation) + dot(dn, rotation_));
-    const FourVectors dr = slid_by - cross(rotation, lever_ * x_) - cross(rotation_, lever_ * dx) +
-                           alpha * cross(n_, remembered_) + alpha_ * cross(dn, remembered_);
+    FourVectors dr = slid_by - cross(rotation, lever_ * x_) - cross(rotation_, lever_ * dx) +
+                     alpha * cross(n_, remembered_) + alpha_ * cross(dn, remembered_);
+    if (on_roller_) dr -= cross(axis_, ((1.0 - lever_) * change.turned) * x_ + turned_ * dx);
     const FourVectors slid = dr - dot(n_, dr) * n_ - away_ * dn - dot(r_, dn) * n_;
     const FourVectors dg = nearer * pressing_ + turning_ * dn - stiffness_ * friction_.slope_times(slid);
     const FourVectors dm = cross(lever_ * dx, force_) + cross(lever_ * x_, dg);
@@ -203,7 +205,7 @@ class FourSurfaces {
   FourVectors bend_b_, bend_turn_b_;
   Lanes spin_slope_b_, lever_;
   FourVectors x_, n_, da_, db_, axis_, r_, remembered_;
-  Lanes over_d_;
+  Lanes over_d_, turned_;
   FourVectors rotation_;  // phi_a + phi_b
   double carried_;
   Lanes alpha_, away_;  // n.r

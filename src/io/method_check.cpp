@@ -80,6 +80,14 @@ void check_effects(const Method& m) {
   has_effect(loop, "machine.roller_diameter", machine.roller_diameter, bare.roller_diameter, "for knot: fisherman");
   has_effect(machine.grips == GripKind::kRollers, "machine.roller_friction", machine.roller_friction,
              bare.roller_friction, "with grips: rollers");
+  constexpr const char* kRotations[] = {"fixed", "free", "turned"};
+  has_effect(machine.roller_friction > 0.0, "machine.roller_rotation",
+             std::string(kRotations[static_cast<int>(machine.roller_rotation)]), std::string("fixed"),
+             "with a roller_friction above 0");
+  has_effect(machine.roller_rotation == RollerRotation::kTurned, "machine.roller_rate", machine.roller_rate,
+             bare.roller_rate, "with roller_rotation: turned");
+  if (machine.roller_rotation == RollerRotation::kTurned && machine.roller_rate == 0.0)
+    reject("machine.roller_rate", machine.roller_rate, "other than 0 where rollers are turned");
   const bool held = machine.far_side == FarSide::kHeld;
   has_effect(loop && machine.grips == GripKind::kRollers, "machine.far_side", std::string(held ? "held" : "free"),
              std::string("held"), "for knot: fisherman, with grips: rollers");

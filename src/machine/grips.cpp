@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "knot_utm/specimen/scales.hpp"
+
 namespace knot_utm {
 
 namespace {
@@ -25,6 +27,9 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
     roller.axis = Vec3::UnitY();
     roller.radius = 0.5 * machine.roller_diameter;
     roller.centre = Vec3::Zero();
+    if (machine.roller_rotation == RollerRotation::kFree)
+      roller.inertia = specimen_scales(material).mass * 2.0 * M_PI * std::pow(roller.radius, 3);
+    if (machine.roller_rotation == RollerRotation::kTurned) roller_rate_ = machine.roller_rate;
     rollers_.push_back(roller);
     narrower_ = roller.radius + radius - centreline.loop.radius;
     clearance_ = kClearance * radius;
@@ -73,6 +78,15 @@ bool Grips::hold(double displacement, const Vec3& point, double radius) const {
   }
   return std::any_of(boundary.fixed_nodes.begin(), boundary.fixed_nodes.end(),
                      [&](const FixedNode& node) { return (node.position - point).norm() < 2.0 * radius; });
+}
+
+void Grips::turn_rollers_from(double time) {
+  if (!turning_from_) turning_from_ = time;
+}
+
+void Grips::turn_rollers(double time, std::vector<Roller>& rollers) const {
+  if (roller_rate_ == 0.0 || !turning_from_) return;
+  for (Roller& roller : rollers) roller.turn = roller_rate_ * (time - *turning_from_);
 }
 
 void Grips::set(double displacement, double left, Boundary& boundary) const {
@@ -158,10 +172,15 @@ double Grips::force_lower(const TimeStep& step) const {
 }
 
 void Grips::state(Archive& archive) {
-  archive.section("GRIP");
+  archive.section("GRP2");  // "GRIP" had rollers that do not turn
   archive(lift_, holds_far_side_);
   if (far_middle_) archive(far_middle_->place);
   for (Roller& roller : rollers_) archive(roller);
+  bool turns = turning_from_.has_value();
+  archive(turns);
+  if (!turns) return turning_from_.reset();
+  if (!turning_from_) turning_from_ = 0.0;
+  archive(*turning_from_);
 }
 
 double Grips::moment_imbalance(double displacement, const TimeStep& step) const {

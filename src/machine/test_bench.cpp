@@ -85,7 +85,7 @@ struct TestBench::Impl {
         machine(machine_),
         physics(physics_),
         centreline(specimen_centreline(specimen_, material_, machine_, physics_)),
-        grips(specimen_, machine_, centreline, material_),
+        grips(specimen_, machine_, centreline, material),
         frame(machine_.stiffness, material, specimen_.knot == KnotKind::kFisherman ? 2 : 1,
               grips.length_around(material_.radius)),
         cell(machine_.load_cell) {
@@ -168,6 +168,7 @@ struct TestBench::Impl {
         roller.first_node = rig->loop_begin();
         roller.last_node = rig->loop_end();
       }
+    grips.turn_rollers(to, boundary.rollers);
     boundary.forces.clear();
     boundary.grips.clear();
     boundary.extra_drag = drag_of_settling(to);
@@ -205,6 +206,7 @@ struct TestBench::Impl {
     step_index = command.step;
     phase = command.phase;
     pulled |= pulls(phase) || phase == Phase::kPreload || phase == Phase::kReturn;
+    if (pulled) grips.turn_rollers_from(time);
     status = BenchStatus::kRunning;
     has_weight |= phase != Phase::kTie && phase != Phase::kRelease && phase != Phase::kHold;
     apply_gravity();

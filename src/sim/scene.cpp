@@ -12,7 +12,7 @@ constexpr int kMostIterations = 10000;
 }  // namespace
 
 void Boundary::state(Archive& archive, int nodes) {
-  archive.section("BND2");
+  archive.section("BND3");
   archive.list(rollers);
   archive.list(fixed_nodes);
   archive.list(fixed_twists);

@@ -76,6 +76,7 @@ void StepReadings::begin(const SolvedStep& step, const RollerContact& rollers) {
     work_.boundary += hold.force(step.end.col(hold.node)).dot(step.way.col(hold.node));
   for (const NodeForce& force : step.boundary.forces) work_.boundary += force.force.dot(step.way.col(force.node));
   add_motion(step);
+  add_free_turns(step, rollers);
   work_.reweighting = before_.contact;
   force_ = step.force;
   first_ = false;
@@ -110,8 +111,24 @@ void StepReadings::add_work_of_rollers(const SolvedStep& step, const RollerConta
     if (r >= rollers_.size()) continue;
     const Vec3 way = roller.centre - rollers_[r].centre;
     add_work_of_boundary(-roller_load_[r].force.dot(way), -load_before_[r].force.dot(way));
+    if (!roller.free()) {
+      const Vec3 turn = rollers.turned(number) * roller.axis;
+      add_work_of_boundary(-roller_load_[r].moment.dot(turn), -load_before_[r].moment.dot(turn));
+    }
   }
   rollers_ = step.boundary.rollers;
+}
+
+void StepReadings::add_free_turns(const SolvedStep& step, const RollerContact& rollers) {
+  for (std::size_t r = 0; r < step.boundary.rollers.size(); ++r) {
+    const Roller& roller = step.boundary.rollers[r];
+    if (!roller.free()) continue;
+    const int number = static_cast<int>(r);
+    const double turn = rollers.turned(number), rate = turn / step.dt, faster = rate - rollers.turn(number).rate;
+    energies_.kinetic += 0.5 * roller.inertia * rate * rate;
+    work_.numerical += 0.5 * roller.inertia * faster * faster;
+    work_.residual += (rollers.torque_on(number) - roller.inertia * faster / step.dt) * turn;
+  }
 }
 
 /// Inertia, gravity, drag, and what Newton's method left unbalanced.

@@ -13,6 +13,7 @@
 #include "knot_utm/rod/stretching.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
+#include "knot_utm/sim/roller_turns.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 #include "residual_rule.hpp"
 
@@ -179,6 +180,7 @@ class ImplicitStep final : public TimeStep {
   }
 
   bool solve() {
+    roller_turns_.begin(boundary_->rollers, rollers_, nodes_, dt_);
     matrix_.locate(contact_.contacts());
     matrix_.set_zero_beyond_band();
     centreline_.set_stiffness(inertia_and_drag(), matrix_);
@@ -188,7 +190,7 @@ class ImplicitStep final : public TimeStep {
     linearise(rollers_, roller_models_, roller_surface_models_);
     add_grip_stiffness();
     for (int node = 0; node < nodes_; ++node) hold(node);
-    return matrix_.values().solve(change_);
+    return roller_turns_.empty() ? matrix_.values().solve(change_) : roller_turns_.solve(matrix_.values(), change_);
   }
 
   void move(double wanted_share) {
@@ -197,13 +199,14 @@ class ImplicitStep final : public TimeStep {
       const double size2 = change[0] * change[0] + change[1] * change[1] + change[2] * change[2];
       longest2 = std::max(longest2, size2);
     }
-    const double longest = std::sqrt(longest2);
+    const double longest = std::max(std::sqrt(longest2), roller_turns_.largest_motion());
     double share = wanted_share * (longest > settings_.newton_cap ? settings_.newton_cap / longest : 1.0);
     if constexpr (D == 4) {
       share = std::min(share, wanted_share * frames_.longest_share(change_));
       frames_.move(change_, share);
     }
     for (int i = 0; i < nodes_; ++i) x_.col(i) += share * to_vec3(change_[at(i)]);
+    roller_turns_.move(rollers_, share);
     centreline_.expect(change_, share);
     share_ = share;
     motion_ = share * longest;
@@ -233,6 +236,7 @@ class ImplicitStep final : public TimeStep {
   double reaction_torque(int edge) const override { return D == 4 ? readings_.reaction_torque(edge) : 0.0; }
   Vec3 roller_force(int roller) const override { return readings_.roller_force(roller); }
   Vec3 roller_moment(int roller) const override { return readings_.roller_moment(roller); }
+  RollerTurn roller_turn(int roller) const override { return rollers_.turn(roller); }
   Energies energies() const override { return readings_.energies(); }
   ContactReading contact_reading() const override { return readings_.contact(); }
   StepWork work() const override { return readings_.work(); }
@@ -297,6 +301,7 @@ class ImplicitStep final : public TimeStep {
       const Lanes keep = {free, free, free, turns};
       matrix_.values().set_identity_row(node, keep);
       change_[at(node)] *= keep;
+      roller_turns_.hold(node, keep);
       // A held angle is one of no change: the spin is what transport alone makes.
       if (turns == 0.0 && node + 1 < nodes_)
         add_to_row(3, frames_.lean(node), matrix_.band(node, 0, 0), matrix_.band(node, 0, 1));
@@ -304,6 +309,7 @@ class ImplicitStep final : public TimeStep {
       if (!held_[at(node)]) return;
       matrix_.values().set_identity_row(node);
       change_[at(node)] = Lanes{0.0, 0.0, 0.0, 0.0};
+      roller_turns_.hold(node, Lanes{0.0, 0.0, 0.0, 0.0});
     }
   }
 
@@ -329,16 +335,22 @@ class ImplicitStep final : public TimeStep {
   /// Replaces the contacts' forces in the right-hand side by those of their linear models, and adds their stiffness.
   template <typename Contacts, typename Model>
   void linearise(const Contacts& contacts, std::vector<Model>& models, std::vector<SurfaceModel>& surface_models) {
+    constexpr bool kOnRollers = std::is_same_v<Contacts, RollerContact>;
     if constexpr (D == 4)
       if (contacts.at_surface()) {
         contacts.linearise(dt_, surface_models);
         return add_models(contacts, surface_models, [&](std::size_t i, std::size_t n) {
-          matrix_.add(contacts.contacts()[i], contacts.surfaces()[i], surface_models[n], frames_.turns(), n);
+          const ContactPoint& contact = contacts.contacts()[i];
+          matrix_.add(contact, contacts.surfaces()[i], surface_models[n], frames_.turns(), n);
+          if constexpr (kOnRollers)
+            roller_turns_.add(contact, contacts.surfaces()[i], surface_models[n], frames_.turns());
         });
       }
     contacts.linearise(dt_, models);
-    add_models(contacts, models,
-               [&](std::size_t i, std::size_t n) { matrix_.add(contacts.contacts()[i], models[n], n); });
+    add_models(contacts, models, [&](std::size_t i, std::size_t n) {
+      matrix_.add(contacts.contacts()[i], models[n], n);
+      if constexpr (kOnRollers) roller_turns_.add(contacts.contacts()[i], models[n]);
+    });
   }
 
   /// `add_stiffness(i, n)` of the i-th contact, the n-th active one.
@@ -419,6 +431,8 @@ class ImplicitStep final : public TimeStep {
         if (!std::isfinite(size)) return {size, i, true};
         if (size > out.residual) out = {size, i, true};
       }
+    // Whose it is then stays the worst of the rod's.
+    out.residual = std::max(out.residual, RollerTurns::largest_unbalanced(boundary_->rollers, rollers_, dt_));
     return out;
   }
 
@@ -503,6 +517,7 @@ class ImplicitStep final : public TimeStep {
   std::vector<double> diagonal_;
   const Boundary* boundary_ = nullptr;
   double dt_ = 0.0;
+  RollerTurns roller_turns_;
   double share_ = 0.0, motion_ = 0.0;  // of the last change; its largest movement [m]
   Points x_;
   std::vector<Lanes> force_, change_;
@@ -512,7 +527,7 @@ class ImplicitStep final : public TimeStep {
   Points way_;  // of the step that is accepted or diagnosed [m]
   // Of the active contacts, in order.
   std::vector<typename StrandContact::Model> models_;
-  std::vector<ContactModel> roller_models_;
+  std::vector<RollerModel> roller_models_;
   std::vector<SurfaceModel> surface_models_, roller_surface_models_;  // where friction acts at the surface
 };
 

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "contact/nodal_forces.hpp"
+#include "knot_utm/sim/roller_turns.hpp"
 #include "rod/finite_difference.hpp"
 #include "sim/scenes.hpp"
 
@@ -31,6 +32,16 @@ struct Wound {
     RollerContact contact(rod, normal, friction, rod.material.radius);
     contact.begin_step();
     contact.evaluate({roller}, end, position, 0.01);
+    return contact;
+  }
+  /// In a second step, in which the roller turns.
+  RollerContact touch(const Friction& friction, const Points& end, double turn) const {
+    RollerContact contact = touch(friction, position);
+    contact.commit({roller});
+    Roller turned = roller;
+    turned.turn = turn;
+    contact.begin_step();
+    contact.evaluate({turned}, end, position, 0.01);
     return contact;
   }
 };
@@ -68,7 +79,25 @@ TEST(RollerContact, FrictionIsAtMostItsShareAndAgainstTheSlip) {
     EXPECT_NEAR(point.force[1], -kMu * point.force.dot(point.n), 0.01 * kMu * point.force.norm());
 }
 
-class RollerContactJacobian : public testing::TestWithParam<double> {};
+TEST(RollerContact, ARollerThatTurnsTakesARodAlongAsARodThatMovesTheOtherWay) {
+  const Wound scene;
+  const MemoryFriction friction{0.3, 1e-3 * scene.rod.material.radius};
+  const double turn = 1e-3;
+  const RollerContact turned = scene.touch(friction, scene.position, turn);
+  Points back = scene.position.colwise() - scene.roller.centre;
+  back = Eigen::AngleAxisd(-turn, scene.roller.axis).toRotationMatrix() * back;
+  back.colwise() += scene.roller.centre;
+  const RollerContact moved = scene.touch(friction, back, 0.0);
+  EXPECT_NEAR(turned.torque_on(0), moved.torque_on(0), 1e-3 * std::abs(moved.torque_on(0)));
+  EXPECT_LT(turned.torque_on(0), 0.0) << "the rod resists";
+  EXPECT_NEAR(turned.torque_on(0), turned.moment_on(scene.roller, 0, scene.position).dot(scene.roller.axis),
+              1e-12 * std::abs(turned.torque_on(0)));
+}
+
+class RollerContactJacobian : public testing::TestWithParam<double> {
+ protected:
+  static constexpr double kTurn = 3e-5;  // of the roller in the step [rad]
+};
 
 TEST_P(RollerContactJacobian, IsTheDerivativeOfTheForces) {
   const Wound scene;
@@ -78,10 +107,10 @@ TEST_P(RollerContactJacobian, IsTheDerivativeOfTheForces) {
   end.row(0).array() += GetParam();
   end.row(1).array() += 2.0 * GetParam();
   end.row(2).array() += 1e-6;
-  RollerContact contact = scene.touch(friction, end);
+  RollerContact contact = scene.touch(friction, end, kTurn);
   for (ContactPoint& point : contact.contacts()) point.estimate = point.pressure;  // tangents at the present overlap
   Eigen::MatrixXd analytic = Eigen::MatrixXd::Zero(end.size(), end.size());
-  std::vector<ContactModel> models;
+  std::vector<RollerModel> models;
   contact.linearise(0.01, models);
   std::size_t n = 0;
   for (const ContactPoint& point : contact.contacts()) {
@@ -91,12 +120,55 @@ TEST_P(RollerContactJacobian, IsTheDerivativeOfTheForces) {
         analytic.block<3, 3>(3 * (point.a0 + k), 3 * (point.a0 + l)) += point.c[k] * point.c[l] * still;
   }
   const auto force = [&](const Eigen::VectorXd& x) {
-    return nodal_forces(scene.touch(friction, unflat(x)).contacts(), end.cols());
+    return nodal_forces(scene.touch(friction, unflat(x), kTurn).contacts(), end.cols());
   };
   const Eigen::MatrixXd numeric = -finite_difference(force, flat(end), 1e-7 * scene.rod.material.radius);
   // Central differences: rounding 1e-16 / 1e-7 relative, curvature of the laws over the step smaller still.
   ASSERT_GT(analytic.norm(), 0.0);
   EXPECT_LT((analytic - numeric).norm(), 2e-6 * numeric.norm());
+}
+
+TEST_P(RollerContactJacobian, OfATurningRollerIsTheDerivativeOfForcesAndTorque) {
+  const Wound scene;
+  const MemoryFriction friction{0.3, 1e-5};
+  Points end = scene.position;
+  end.row(0).array() += GetParam();
+  end.row(1).array() += 2.0 * GetParam();
+  RollerContact contact = scene.touch(friction, end, kTurn);
+  for (ContactPoint& point : contact.contacts()) point.estimate = point.pressure;
+  Roller free = scene.roller;
+  free.inertia = 1e-300;  // it is free, and nothing beside what is looked at
+  RollerTurns turns;
+  turns.begin({free}, contact, static_cast<int>(end.cols()), 0.01);
+  std::vector<RollerModel> models;
+  contact.linearise(0.01, models);
+  std::size_t n = 0;
+  for (const ContactPoint& point : contact.contacts()) turns.add(point, models[n++]);
+  const RollerTurns::Border& border = turns.border(0);
+
+  // The positions, and the turn behind them.
+  Eigen::VectorXd at(end.size() + 1);
+  at << flat(end), kTurn;
+  const auto all = [&](const Eigen::VectorXd& x) {
+    const RollerContact moved = scene.touch(friction, unflat(x.head(end.size())), x[end.size()]);
+    Eigen::VectorXd out(end.size() + 1);
+    out << nodal_forces(moved.contacts(), end.cols()), moved.torque_on(0);
+    return out;
+  };
+  const Eigen::MatrixXd numeric = -finite_difference(all, at, 1e-7 * scene.rod.material.radius);
+  Eigen::VectorXd column(end.size()), row(end.size());
+  for (Eigen::Index i = 0; i < end.cols(); ++i) {
+    column.segment<3>(3 * i) = to_vec3(border.column[static_cast<std::size_t>(i)]);
+    row.segment<3>(3 * i) = to_vec3(border.row[static_cast<std::size_t>(i)]);
+  }
+  ASSERT_GT(column.norm(), 0.0);
+  const Eigen::VectorXd numeric_column = numeric.col(end.size()).head(end.size());
+  const Eigen::VectorXd numeric_row = numeric.row(end.size()).head(end.size());
+  EXPECT_LT((column - numeric_column).norm(), 1e-5 * numeric_column.norm());
+  EXPECT_LT((row - numeric_row).norm(), 1e-5 * numeric_row.norm());
+  const double diagonal = numeric(end.size(), end.size());
+  EXPECT_NEAR(border.diagonal, diagonal, 1e-5 * std::abs(diagonal));
+  EXPECT_NEAR(border.torque, contact.torque_on(0), 1e-9 * std::abs(border.torque));
 }
 
 INSTANTIATE_TEST_SUITE_P(Slips, RollerContactJacobian, testing::Values(1e-6, 1e-4),

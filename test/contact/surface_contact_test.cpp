@@ -13,6 +13,7 @@
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/roller_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/sim/roller_turns.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 #include "rod/finite_difference.hpp"
 
@@ -112,6 +113,7 @@ struct OnARoller {
     contact.evaluate({scene.roller}, scene.start, scene.start, kStep);
     contact.commit({scene.roller});
     scene.roller.centre = Vec3(1e-2, -2e-2, 1e-2) * kRadius;
+    scene.roller.turn = 0.02;
   }
   void evaluate() { contact.evaluate({scene.roller}, scene.position, scene.start, kStep); }
 };
@@ -229,6 +231,75 @@ TYPED_TEST(Surface, JacobianIsTheDerivativeOfTheForcesWithSmoothedFrictionAndASh
   this->expect_exact(SmoothedFriction{0.4, 2e-2}, 0.3);
 }
 
+TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
+  Wound scene;
+  OnARoller kind(scene, MemoryFriction{0.4, 0.02 * kRadius});
+  kind.contact.act_at_surface(0.8, scene.turns);
+  const auto evaluated = [&](const Eigen::VectorXd& unknowns) {
+    scene.set(unknowns.head(4 * scene.nodes()));
+    scene.roller.turn = unknowns[4 * scene.nodes()];
+    kind.contact.begin_step();
+    kind.evaluate();
+    std::vector<Lanes> force(static_cast<std::size_t>(scene.nodes()));
+    for (std::size_t i = 0; i < kind.contact.contacts().size(); ++i) {
+      const ContactPoint& contact = kind.contact.contacts()[i];
+      for (int k = 0; k < 3; ++k)
+        force[static_cast<std::size_t>(contact.a0 + k)] += contact.c[k] * to_lanes(contact.force);
+      add_couples(contact, kind.contact.surfaces()[i], to_lanes(contact.force), force);
+    }
+    Eigen::VectorXd out(4 * scene.nodes() + 1);
+    out << Eigen::Map<Eigen::VectorXd>(reinterpret_cast<double*>(force.data()), 4 * scene.nodes()),
+        kind.contact.torque_on(0);
+    return out;
+  };
+  Eigen::VectorXd at(4 * scene.nodes() + 1);
+  at << scene.unknowns(), scene.roller.turn;
+  evaluated(at);
+  for (ContactPoint& point : kind.contact.contacts()) point.estimate = point.pressure;
+  Roller free = scene.roller;
+  free.inertia = 1e-300;
+  RollerTurns border_of;
+  border_of.begin({free}, kind.contact, static_cast<int>(scene.nodes()), kStep);
+  std::vector<SurfaceModel> models;
+  kind.contact.linearise(kStep, models);
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < kind.contact.contacts().size(); ++i)
+    if (kind.contact.contacts()[i].active())
+      border_of.add(kind.contact.contacts()[i], kind.contact.surfaces()[i], models[n++], scene.turns);
+  const RollerTurns::Border& border = border_of.border(0);
+
+  Eigen::VectorXd column(4 * scene.nodes()), row(4 * scene.nodes());
+  const auto by = [&](Eigen::Index j, double step) {
+    const auto moved = [&](const Eigen::VectorXd& shift) {
+      Eigen::VectorXd to = at;
+      to[j] += shift[0];
+      return evaluated(to);
+    };
+    return Eigen::VectorXd(-finite_difference(moved, Eigen::VectorXd::Zero(1), step));
+  };
+  const Eigen::VectorXd by_turn = by(at.size() - 1, 1e-6);
+  for (Eigen::Index j = 0; j < row.size(); ++j) row[j] = by(j, j % 4 == 3 ? 1e-6 : 1e-6 * kRadius)[at.size() - 1];
+  for (Eigen::Index j = 0; j < scene.rod.edges(); ++j)
+    for (int i = 0; i < 3; ++i) {
+      const double turned = row[4 * j + 3] * scene.lean[static_cast<std::size_t>(j)][i];
+      row[4 * j + i] += turned;
+      row[4 * j + 4 + i] -= turned;
+    }
+  column = by_turn.head(column.size());
+  Eigen::VectorXd own_column = column, own_row = row;
+  for (Eigen::Index j = 0; j < row.size(); ++j) {
+    own_column[j] = border.column[static_cast<std::size_t>(j / 4)][static_cast<int>(j % 4)];
+    own_row[j] = border.row[static_cast<std::size_t>(j / 4)][static_cast<int>(j % 4)];
+  }
+  // Torques over the radius, changes of angles times it.
+  for (Eigen::Index j = 3; j < row.size(); j += 4)
+    for (Eigen::VectorXd* v : {&column, &own_column, &row, &own_row}) (*v)[j] /= kRadius;
+  ASSERT_GT(column.norm(), 0.0);
+  EXPECT_LT((own_column - column).norm(), 2e-6 * column.norm());
+  EXPECT_LT((own_row - row).norm(), 2e-6 * row.norm());
+  EXPECT_NEAR(border.diagonal, by_turn[at.size() - 1], 2e-6 * std::abs(border.diagonal));
+}
+
 /// The work of all forces and torques on what nodes and spins did in the step is that of g on the slip.
 TYPED_TEST(Surface, WorkIsThatOfTheForceOnTheSlipExactly) {
   TypeParam kind(this->scene, MemoryFriction{0.4, 1e-3 * kRadius});
@@ -244,6 +315,7 @@ TYPED_TEST(Surface, WorkIsThatOfTheForceOnTheSlipExactly) {
     gross += contact.force.norm() * motion.rolling.norm();
     if (contact.on_roller()) slip += contact.force.dot(this->scene.roller.centre);  // which has moved by that
   }
+  if constexpr (std::is_same_v<TypeParam, OnARoller>) slip -= kind.contact.torque_on(0) * this->scene.roller.turn;
   ASSERT_GT(gross, 0.0);
   EXPECT_NEAR(work, slip, 1e-12 * gross + 1e-12 * std::abs(work));
 }

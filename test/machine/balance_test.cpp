@@ -21,12 +21,15 @@ struct Machine {
   MachineOptions machine;
   PhysicsOptions physics;
 
-  Machine(const char* name_, KnotKind knot, GripKind grips) : name(name_) {
+  Machine(const char* name_, KnotKind knot, GripKind grips, RollerRotation rotation = RollerRotation::kFixed)
+      : name(name_) {
     specimen.knot = knot;
     specimen.edge_length = 0.005;
     if (knot == KnotKind::kStraight) specimen.length = 0.25;
     machine.grips = grips;
     machine.roller_friction = grips == GripKind::kRollers ? 0.2 : 0.0;
+    machine.roller_rotation = rotation;
+    machine.roller_rate = rotation == RollerRotation::kTurned ? 0.1 : 0.0;
     physics.accuracy = Accuracy::kDraft;
     physics.residual = 1e-8;
     physics.gravity = {1.0, 0.0, -9.81};
@@ -76,13 +79,15 @@ TEST_P(SmallPull, ClosesToNewtonsTolerance) {
   EXPECT_LT(bound, 0.01 * scale) << "a bound that says nothing";
 }
 
-INSTANTIATE_TEST_SUITE_P(Balance, SmallPull,
-                         testing::Values(Machine("StraightInClamps", KnotKind::kStraight, GripKind::kClamps),
-                                         Machine("OverhandInClamps", KnotKind::kOverhand, GripKind::kClamps),
-                                         Machine("OverhandAtItsEnds", KnotKind::kOverhand, GripKind::kNodes),
-                                         Machine("LoopOnRollersWithFriction", KnotKind::kFisherman,
-                                                 GripKind::kRollers)),
-                         [](const auto& machine) { return machine.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Balance, SmallPull,
+    testing::Values(Machine("StraightInClamps", KnotKind::kStraight, GripKind::kClamps),
+                    Machine("OverhandInClamps", KnotKind::kOverhand, GripKind::kClamps),
+                    Machine("OverhandAtItsEnds", KnotKind::kOverhand, GripKind::kNodes),
+                    Machine("LoopOnRollersWithFriction", KnotKind::kFisherman, GripKind::kRollers),
+                    Machine("LoopOnFreeRollers", KnotKind::kFisherman, GripKind::kRollers, RollerRotation::kFree),
+                    Machine("LoopOnDrivenRollers", KnotKind::kFisherman, GripKind::kRollers, RollerRotation::kTurned)),
+    [](const auto& machine) { return machine.param.name; });
 
 }  // namespace
 }  // namespace knot_utm

@@ -99,6 +99,7 @@ TEST(EnergyBalance, AStickingRodLosesNothingAtRest) {
   EXPECT_GT(after.friction, 0.0) << "it slid into its hold";
 }
 
+enum class Turns { kNot, kFreely, kDriven };  // of a roller
 enum class Kind { kStraight, kOverhand, kFallsOnARoller, kCurved };
 
 struct Scene {
@@ -107,12 +108,16 @@ struct Scene {
   ContactLaw law;
   double friction;
   double couple = 0.0;  // of friction at the surface
+  Turns turns = Turns::kNot;
 
   std::string name() const {
     static const char* const kinds[] = {"Straight", "Overhand", "FallsOnARoller", "Curved"};
     return std::string(kinds[static_cast<int>(kind)]) + (twist ? "WithTwist" : "") +
            (law == ContactLaw::kEdge ? "BetweenEdges" : "") + (friction > 0.0 ? "AndFriction" : "") +
-           (couple > 0.0 ? "AtTheSurface" : "") + (couple > 0.0 && couple < 1.0 ? "InPart" : "");
+           (couple > 0.0 ? "AtTheSurface" : "") + (couple > 0.0 && couple < 1.0 ? "InPart" : "") +
+           (turns == Turns::kFreely   ? "ThatIsFree"
+            : turns == Turns::kDriven ? "ThatIsDriven"
+                                      : "");
   }
 };
 
@@ -159,6 +164,9 @@ struct Running {
       boundary.rollers[0].axis = Vec3::UnitY();
       boundary.rollers[0].radius = 6.0 * material.radius;
       boundary.rollers[0].centre = Vec3(0.0, 0.0, -7.0 * material.radius);
+      if (scene.turns == Turns::kFreely)
+        boundary.rollers[0].inertia = 20.0 * rod.mass[1] * std::pow(material.radius, 2);
+      if (scene.turns == Turns::kDriven) spin = 5.0;
       way = 2e-3 * material.radius * Vec3(0.3, 0.2, 1.0);
     } else {
       for (const int node : {0, 1, last - 1, last}) boundary.fixed_nodes.push_back({node, state.position.col(node)});
@@ -176,8 +184,10 @@ struct Running {
   }
 
   const Boundary& at(double time) {
-    for (std::size_t k = 0; k < boundary.rollers.size(); ++k)
+    for (std::size_t k = 0; k < boundary.rollers.size(); ++k) {
       boundary.rollers[k].centre = begin.rollers[k].centre + time * velocity;
+      boundary.rollers[k].turn = time * spin;
+    }
     for (std::size_t k = 2; k < boundary.fixed_nodes.size(); ++k)
       boundary.fixed_nodes[k].position = begin.fixed_nodes[k].position + time * velocity;
     if (!boundary.fixed_twists.empty()) boundary.fixed_twists[1].angle = time * spin;
@@ -237,7 +247,11 @@ const auto kScenes = testing::Values(
     Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 1.0},
     Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 0.4},
     Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3, 1.0},
-    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0});
+    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0},
+    Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kFreely},
+    Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kDriven},
+    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kFreely},
+    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kDriven});
 INSTANTIATE_TEST_SUITE_P(Balance, EnergyOf, kScenes, name_of);
 INSTANTIATE_TEST_SUITE_P(Balance, LoadsOn, kScenes, name_of);
 

@@ -34,10 +34,34 @@ TEST_P(R8Capstan, CoarseEdgesKeepTheRatio) {
   }
 }
 
+TEST_P(R8Capstan, ARollerThatIsDrivenUnderARestingRodDragsAtTheSameRatio) {
+  const auto [t1, expected] = GetParam();
+  Capstan scene(t1, {});
+  scene.by_roller = true;
+  hold_against("R8 the same, the roller driven: T2/T1, T1 rho^2/B = " + std::to_string(std::lround(t1)), expected,
+               scene.ratio(), 0.01);
+}
+
 INSTANTIATE_TEST_SUITE_P(Loads, R8Capstan,
                          testing::Values(std::pair{2.0, 5.319}, std::pair{10.0, 6.305}, std::pair{50.0, 6.527},
                                          std::pair{1000.0, 6.583}),
                          [](const auto& load) { return "T" + std::to_string(std::lround(load.param.first)); });
+
+/// Whatever mu, as nothing but the rod acts on it: the tension is the same on both sides, and it turns with the rod.
+/// What is left, 1e-4, is friction along the axis, on which the helix walks and the roller does not.
+TEST(AFreeRoller, TurnsWithTheRodAndTakesNothingFromItsTension) {
+  for (const double t1 : {10.0, 1000.0}) {
+    Capstan scene(t1, {});
+    const double rho = scene.boundary.rollers[0].radius + Capstan::kRadius;
+    scene.boundary.rollers[0].inertia = 1e-3;
+    EXPECT_NEAR(scene.ratio(), 1.0, 3e-4) << t1;
+    const double from = scene.stepper->roller_turn(0).angle;
+    scene.pull_by(0.5, 0.01);
+    const double tilt = std::hypot(1.0, Capstan::kPitch / (2.0 * M_PI));  // of the helix against the roller's turn
+    EXPECT_NEAR(scene.stepper->roller_turn(0).angle - from, 0.5 / rho / tilt, 2e-3 * 0.5) << t1;
+    EXPECT_LT(std::abs(scene.stepper->roller_moment(0)[0]), 1e-5 * t1 * rho);
+  }
+}
 
 }  // namespace
 }  // namespace knot_utm

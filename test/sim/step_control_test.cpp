@@ -40,6 +40,7 @@ class ScriptedStep : public TimeStep {
   double reaction_torque(int /*edge*/) const override { return 0.0; }
   Vec3 roller_force(int /*roller*/) const override { return Vec3::Zero(); }
   Vec3 roller_moment(int /*roller*/) const override { return Vec3::Zero(); }
+  RollerTurn roller_turn(int /*roller*/) const override { return {}; }
   Energies energies() const override { return {}; }
   ContactReading contact_reading() const override { return {}; }
   StepWork work() const override { return {}; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <limits>
 #include <vector>
 
@@ -14,15 +15,37 @@ struct Roller {
   double radius = 0.0;         ///< [m]
   /// Nodes between which the rod touches it; what lies beyond is laid beside it.
   int first_node = 0, last_node = std::numeric_limits<int>::max();
+  double turn = 0.0;  ///< about its axis, right-handed, at the end of the step, where it is not free [rad]
+  double inertia =
+      0.0;  ///< polar moment of one that is free to turn, which nothing but the rod drives; 0: not free [kg m2]
 
-  void state(Archive& archive) { archive(centre, axis, radius, first_node, last_node); }
+  bool free() const { return inertia > 0.0; }
+  void state(Archive& archive) { archive(centre, axis, radius, first_node, last_node, turn, inertia); }
 };
 
-/// Contact of the rod's smooth centreline with rollers that move without turning: the normal law of the rod with
+/// How far a roller has turned since the rod's first step [rad], and how fast it turns [rad/s].
+struct RollerTurn {
+  double angle = 0.0, rate = 0.0;
+  void state(Archive& archive) { archive(angle, rate); }
+};
+
+/// Contact of the rod's smooth centreline with rollers that move and turn: the normal law of the rod with
 /// D = r + h - d, d the distance from the axis, and a friction of their own.
+///
+/// A roller that turns by psi in a step takes its surface along. With a its axis, x the gap from the axis to the
+/// centreline, and lambda as SurfacePoint has it (0 where friction acts on the centreline), friction acts at
+/// (1 - lambda) x, and slip is less by psi times
+///
+///     s = a x (1 - lambda) x [m].
+///
+/// The torque of the rod on the roller, by virtual work, is tau = -sum s.g. A free roller obeys
+///
+///     I (psi - dt omega_n)/dt^2 = tau,
+///
+/// which is solved together with the rod's own equations (roller_turns.hpp).
 class RollerContact {
  public:
-  using Model = ContactModel;
+  using Model = RollerModel;
 
   /// `farthest`: no node moves further in a step that is accepted [m]. What is further from all rollers when a step
   /// begins is not looked at in it.
@@ -34,6 +57,15 @@ class RollerContact {
     turns_ = &turns;
   }
   bool at_surface() const { return turns_ != nullptr; }
+
+  /// How far a roller has turned in this step: as far as it must, or, of a free one, as far as Newton's method has it.
+  double turned(int roller) const { return turned_[static_cast<std::size_t>(roller)]; }
+  void turn_on(int roller, double by) { turned_[static_cast<std::size_t>(roller)] += by; }
+  /// As the last accepted step left it.
+  RollerTurn turn(int roller) const {
+    const auto number = static_cast<std::size_t>(roller);
+    return number < turn_.size() ? turn_[number] : RollerTurn();
+  }
 
   /// Before the first evaluation of a step: estimates of the pressures are those of the last accepted step.
   void begin_step();
@@ -47,7 +79,7 @@ class RollerContact {
   const std::vector<SurfacePoint>& surfaces() const { return surfaces_; }
 
   /// The consistent linearisation of the active contacts, in order; some more may follow that mean nothing.
-  void linearise(double dt, std::vector<ContactModel>& models) const {
+  void linearise(double dt, std::vector<RollerModel>& models) const {
     knot_utm::linearise(normal_, friction_, dt, how_, contacts_, models);
   }
 
@@ -64,6 +96,8 @@ class RollerContact {
   /// What the rod does to a roller, as last evaluated: force [N], and moment about the roller's centre [N m].
   Vec3 force_on(int roller) const;
   Vec3 moment_on(const Roller& roller, int number, const Points& position) const;
+  /// tau [N m]
+  double torque_on(int roller) const;
 
   void commit(const std::vector<Roller>& rollers);
 
@@ -87,8 +121,11 @@ class RollerContact {
   void find_near_segments(const std::vector<Roller>& rollers, const Points& start);
   void add_contacts(const std::vector<Roller>& rollers, std::size_t number, int segment, const Points& position,
                     const Points& start);
-  void add_surface(ContactPoint& contact, const Roller& roller, const Points& position, const Points& start);
+  double add_surface(ContactPoint& contact, const Roller& roller, const Points& position, const Points& start);
   std::size_t index_of(const ContactPoint& contact) const;
+  /// psi s of a contact [m]
+  static Vec3 carried_along(const ContactPoint& contact) { return contact.turned * contact.axis.cross(contact.x); }
+  double lever_of(const ContactPoint& contact) const;
 
   NormalLaw normal_;
   Friction friction_;
@@ -101,6 +138,8 @@ class RollerContact {
   int parted_ = -2;         // edge; no segment reaches into this one
   Eigen::VectorXd voronoi_;
   std::vector<Roller> start_;
+  std::vector<double> turned_;    // of every roller in this step [rad]
+  std::vector<RollerTurn> turn_;  // of every roller, as start_
   std::vector<ContactPoint> contacts_;
   double couple_ = 0.0;                  // that a section passes on
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface

@@ -26,8 +26,9 @@ struct SectionTurns {
 /// spun, and sigma_j their shares in c' = sum_j sigma_j e_j: a rod that turns as a whole turns its sections with it,
 /// however it is bent. The strands' surfaces meet half way between the centrelines, at
 /// lambda x from either, lambda = 1/2, x the gap; a soft section (material.friction_couple = eta) passes on a share of
-/// the couple only, and its surface moves as if it stood at lambda = eta/2. On a roller of radius R, which does not
-/// turn, lambda = eta h/(R + h). Material points of the two surfaces slid against each other in this step by
+/// the couple only, and its surface moves as if it stood at lambda = eta/2. On a roller of radius R, whose own turn
+/// RollerContact adds, lambda = eta h/(R + h). Material points of the two surfaces slid against each other in this step
+/// by
 ///
 ///     u = Dx_a - Dx_b - (phi_a + phi_b) x lambda x,
 ///
@@ -71,9 +72,9 @@ Vec3 rolling(const ContactPoint& contact, const SurfacePoint& surface);
 void add_couples(const ContactPoint& contact, const SurfacePoint& surface, const Lanes& g, std::vector<Lanes>& force);
 
 /// The linear model of a contact with friction at the surfaces, by the changes xi that all its forces depend on:
-/// S = sum_k c_k dq_k, V_a = sum_k d_k dq_k, V_b = sum_k beta_k dq_k, Psi_a and Psi_b.
+/// S = sum_k c_k dq_k, V_a = sum_k d_k dq_k, V_b = sum_k beta_k dq_k, Psi_a and Psi_b, and the turn of a roller.
 struct SurfaceModel {
-  static constexpr int kShift = 0, kTurnA = 3, kTurnB = 6, kSpinA = 9, kSpinB = 10, kChanges = 11;
+  static constexpr int kShift = 0, kTurnA = 3, kTurnB = 6, kSpinA = 9, kSpinB = 10, kTurned = 11, kChanges = 12;
 
   /// Of one change, with the foot's way that goes with it.
   struct Response {

@@ -33,6 +33,10 @@ class Grips {
   /// From now on the middle of the loop's far side keeps its place between the rollers, where it is to be held.
   void hold_far_side(const Points& position, double displacement);
 
+  /// Rollers that are driven turn from the first of these times on [s].
+  void turn_rollers_from(double time);
+  void turn_rollers(double time, std::vector<Roller>& rollers) const;
+
   void state(Archive& archive);
 
   /// Centres of rollers, or places of the nodes between which the specimen's length counts [m].
@@ -64,6 +68,8 @@ class Grips {
   std::vector<FixedNode> lower_nodes_, upper_nodes_;
   std::vector<FixedTwist> held_frames_;
   std::vector<Roller> rollers_;           // lower, upper
+  double roller_rate_ = 0.0;              // of driven ones [rad/s]
+  std::optional<double> turning_from_;    // [s]
   std::optional<SpringHold> far_middle_;  // keeps the loop from going round on the rollers; from half-way
   bool holds_far_side_ = false;
 };

@@ -11,6 +11,9 @@ enum class GripKind { kRollers, kNodes, kClamps };
 /// them.
 enum class FarSide { kHeld, kFree };
 
+/// Rollers stand still, turn as the rod drives them, or are driven themselves, from the first pull on.
+enum class RollerRotation { kFixed, kFree, kTurned };
+
 /// What the load cell makes of the force on the upper grip (load_cell.hpp).
 struct LoadCellOptions {
   std::string name;
@@ -29,8 +32,10 @@ struct LoadCellOptions {
 /// The `machine` section of a method.
 struct MachineOptions {
   GripKind grips = GripKind::kRollers;
-  double roller_diameter = 0.0381;    ///< [m]
-  double roller_friction = 0.0;       ///< mu of rod on roller [-]
+  double roller_diameter = 0.0381;  ///< [m]
+  double roller_friction = 0.0;     ///< mu of rod on roller [-]
+  RollerRotation roller_rotation = RollerRotation::kFixed;
+  double roller_rate = 0.0;           ///< of rollers that are turned, about +y [rad/s]
   FarSide far_side = FarSide::kHeld;  ///< of a loop on rollers
   LoadCellOptions load_cell;
   double stiffness = std::numeric_limits<double>::infinity();  ///< frame [N/m]

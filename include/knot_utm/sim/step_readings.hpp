@@ -73,6 +73,7 @@ std::vector<ContactForce> contact_forces(const std::vector<ContactPoint>& contac
 ///                feet come and go, and what is stored in them changes without a force; negative where it grows
 ///   residual     what Newton's method left unbalanced on free nodes, times their way
 ///
+/// A roller that is turned is part of the boundary, by its moment; one that is free has inertia as nodes have.
 /// An edge's spin counts as the nodes' motion does, with its own inertia, drag, torques and the regularisation r_j
 /// (frame_terms.hpp), whose part is numerical.
 struct StepWork {
@@ -145,6 +146,7 @@ class StepReadings {
   void add_work_of_holders(const SolvedStep& step);
   void add_work_of_rollers(const SolvedStep& step, const RollerContact& rollers);
   void add_motion(const SolvedStep& step);
+  void add_free_turns(const SolvedStep& step, const RollerContact& rollers);
 
   const RodProperties& rod_;
   const StepSettings& settings_;

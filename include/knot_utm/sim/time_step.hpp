@@ -52,8 +52,8 @@ struct Iterate {
 ///   M (x - x_n - dt v_n)/dt^2 = -dE/dx + F_contact + F_friction + F_grips + M g - c lbar (x - x_n)/dt,
 ///
 /// all of the right-hand side taken at t + dt. Where the scene solves for twist, the angles of the material frames are
-/// unknowns beside x, with equations of their own (frame_terms.hpp); where it does not, they cost nothing. A step that
-/// is not accepted changes nothing.
+/// unknowns beside x, with equations of their own (frame_terms.hpp); where it does not, they cost nothing. So are the
+/// turns of rollers that are free to turn (roller_turns.hpp). A step that is not accepted changes nothing.
 class TimeStep {
  public:
   virtual ~TimeStep() = default;
@@ -89,6 +89,8 @@ class TimeStep {
   /// step.
   virtual Vec3 roller_force(int roller) const = 0;
   virtual Vec3 roller_moment(int roller) const = 0;
+  /// How far a roller has turned about its axis since the first step, and its rate.
+  virtual RollerTurn roller_turn(int roller) const = 0;
   virtual Energies energies() const = 0;
   virtual ContactReading contact_reading() const = 0;
   virtual StepWork work() const = 0;

@@ -98,10 +98,20 @@ class BlockMatrix {
   /// Solves A x = b; b becomes x. False where a pivot block is singular. The matrix is used up: of its factors U and
   /// the inverse pivots are left, while L b is taken along as L comes about and L itself is not kept.
   bool solve(Vector& b);
+  /// The same where other right-hand sides are to follow: L is kept, too.
+  bool solve_and_keep(Vector& b);
+  /// Another right-hand side, after solve_and_keep.
+  void solve_another(Vector& b);
 
  private:
+  template <bool kKeeps>
+  bool solve_by(Vector& b);
+  template <bool kKeeps>
   bool eliminate();
+  void substitute_forward();
   void substitute_back();
+  void take(const Vector& b);
+  void give(Vector& b) const;
 
   const BlockPattern* pattern_ = nullptr;
   std::vector<Block<D>> values_;

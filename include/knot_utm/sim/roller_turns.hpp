@@ -1,0 +1,74 @@
+#pragma once
+
+#include <Eigen/LU>
+#include <vector>
+
+#include "knot_utm/contact/roller_contact.hpp"
+#include "knot_utm/solver/block_matrix.hpp"
+
+namespace knot_utm {
+
+/// The turns of free rollers as unknowns beside those of the rod. With K the rod's own matrix and psi the turns,
+///
+///     | K  C | |dq  |   |f  |       C = -df/dpsi       [N/rad], [N m/rad] on spins
+///     | R  D | |dpsi| = |tau|,      R = -dtau/dq       [N], [N m/rad] of spins
+///                                   D = -dtau/dpsi + I/dt^2  [N m/rad]
+///
+/// K^-1 C takes one more pair of substitutions a roller, and what is left is a system of as many rows as rollers are
+/// free (bordering). A scene without free rollers pays nothing.
+///
+/// Of a contact with gap x, force g and s = a x (1 - lambda) x (roller_contact.hpp),
+///
+///     -dtau/dq = s.dg/dq + (1 - lambda) (g x a).dx/dq,      -dtau/dpsi = s.dg/dpsi.
+class RollerTurns {
+ public:
+  /// Before the contacts of a linear system are added; `nodes`: of the rod.
+  void begin(const std::vector<Roller>& rollers, const RollerContact& contact, int nodes, double dt);
+  bool empty() const { return free_.empty(); }
+
+  /// The torque that is left unbalanced on a roller, its inertia counted [N m].
+  static double unbalanced(const std::vector<Roller>& rollers, const RollerContact& contact, int roller, double dt);
+  /// The largest of these over the radius of its roller [N].
+  static double largest_unbalanced(const std::vector<Roller>& rollers, const RollerContact& contact, double dt);
+
+  void add(const ContactPoint& contact, const RollerModel& model);
+  void add(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
+           const SectionTurns& turns);
+  /// Rows of the rod's matrix that prescribe an unknown: those of `keep` 0.
+  void hold(int node, const Lanes& keep);
+
+  /// Solves; `change`: right-hand side, then dq. False where the matrix is singular.
+  template <int D>
+  bool solve(BlockMatrix<D>& matrix, std::vector<Lanes>& change);
+
+  /// What the largest turn of the last solution moves a roller's surface by [m].
+  double largest_motion() const;
+  /// Takes that share of the turns.
+  void move(RollerContact& contact, double share) const;
+
+  /// Of one free roller.
+  struct Border {
+    int roller = 0;
+    double radius = 0.0;                  ///< [m]
+    std::vector<Lanes> column, row;       ///< C and R, of every node
+    double diagonal = 0.0, torque = 0.0;  ///< D; tau with the pressures of the linear models [N m]
+    double change = 0.0;                  ///< dpsi [rad]
+  };
+  /// Of the n-th free roller.
+  const Border& border(std::size_t n) const { return borders_[n]; }
+
+ private:
+  Border* border_of(const ContactPoint& contact);
+
+  std::vector<Border> borders_;  // room for as many as ever were free
+  std::vector<std::size_t> free_;
+  // What is left of the system; kept, so that no solve takes memory.
+  Eigen::MatrixXd left_;
+  Eigen::VectorXd right_, turns_;
+  Eigen::PartialPivLU<Eigen::MatrixXd> factors_;
+};
+
+extern template bool RollerTurns::solve(BlockMatrix<3>&, std::vector<Lanes>&);
+extern template bool RollerTurns::solve(BlockMatrix<4>&, std::vector<Lanes>&);
+
+}  // namespace knot_utm

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <vector>
+
+#include "knot_utm/contact/surface_contact.hpp"
+
+namespace knot_utm {
+
+/// dPsi/dx of a section's three nodes.
+inline std::array<Lanes, 3> spin_of_nodes(const std::vector<Lanes>& pull, int first, const double* s) {
+  const auto edge = static_cast<std::size_t>(first);
+  const Lanes before = s[0] * pull[edge], behind = s[1] * pull[edge + 1];
+  return {before, behind - before, -1.0 * behind};
+}
+
+/// What one unknown of a node does to a contact's forces: SurfaceModel::Response of several changes at once.
+struct SurfaceColumn {
+  Lanes force = {}, on_a = {}, on_b = {};
+  double foot_a = 0.0, foot_b = 0.0;
+
+  void add(double times, const SurfaceModel::Response& response) {
+    force += times * response.force;
+    on_a += times * response.on_a;
+    on_b += times * response.on_b;
+    foot_a += times * response.foot_a;
+    foot_b += times * response.foot_b;
+  }
+};
+
+/// The four columns of a node: c and d are its weights in S and in its section's V; `spin_share` its own spin's.
+inline std::array<SurfaceColumn, 4> columns_of(const SurfaceModel& model, int turn, int spin, double c, double d,
+                                               const Lanes& spin_of_node, double spin_share) {
+  std::array<SurfaceColumn, 4> out;
+  for (std::size_t i = 0; i < 3; ++i) {
+    out[i].add(c, model.by[SurfaceModel::kShift + static_cast<int>(i)]);
+    out[i].add(d, model.by[turn + static_cast<int>(i)]);
+    out[i].add(spin_of_node[static_cast<int>(i)], model.by[spin]);
+  }
+  out[3].add(spin_share, model.by[spin]);
+  return out;
+}
+
+}  // namespace knot_utm
