@@ -11,7 +11,7 @@ KEYS = {
     "file": ("Shape from", ""), "radius": ("Radius", "length"), "density": ("Density", "kg/m³"),
     "stretching_stiffness": ("Stretching stiffness", "force"), "bending_stiffness": ("Bending stiffness", "N m²"),
     "twisting_stiffness": ("Twisting stiffness", "N m²"), "friction_coefficient": ("Friction coefficient", ""),
-    "friction_couple": ("Share of the couple of friction", ""),
+    "friction_couple": ("Share of the couple of friction", ""), "bending_set": ("Share of the bend that sets", ""),
     "contact_stiffness": ("Contact stiffness", "N/m²"), "breaking_force": ("Breaking force", "force"),
     "grips": ("Grips", ""), "roller_diameter": ("Roller diameter", "length"),
     "roller_friction": ("Roller friction", ""), "roller_rotation": ("Rollers", ""),

@@ -16,7 +16,7 @@ constexpr double kSlidAlong = 3.0;
 std::vector<std::string> gravity_warnings(const Results& results, const RunFacts& facts) {
   std::vector<std::string> all;
   if (!(facts.weight > 0.0)) return all;
-  if (facts.slid_along > kSlidAlong * facts.radius)
+  if (facts.slid_along > kSlidAlong * facts.material.radius)
     all.push_back("the loop slid along the axes of its rollers by " + short_number(facts.slid_along) +
                   " m: physics.gravity pushes it there, and nothing but machine.roller_friction holds it");
   const bool slides = results.true_plateau_force.has_value();

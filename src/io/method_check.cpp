@@ -75,6 +75,8 @@ void check_effects(const Method& m) {
   has_effect(loop, "specimen.tail", s.tail, unset.tail, "for knot: fisherman");
   has_effect(loop, "specimen.preload", s.preload.value_or(0.0), 0.0, "for knot: fisherman, whose knots are tied");
 
+  has_effect(loop && s.to_be_tied, "material.bending_set", m.material.bending_set, 0.0,
+             "for knot: fisherman, whose knots are tied");
   const MachineOptions& machine = m.machine;
   const MachineOptions bare;
   has_effect(loop, "machine.roller_diameter", machine.roller_diameter, bare.roller_diameter, "for knot: fisherman");
@@ -138,6 +140,10 @@ void check_twist(const Method& m) {
     throw InvalidInput::sentence("physics.twist", "off",
                                  "physics.twist is off, but friction at the surface twists the rod: set "
                                  "physics.friction.at: centreline or material.friction_couple: 0 to go without");
+  if (m.material.bending_set > 0.0)
+    throw InvalidInput::sentence("physics.twist", "off",
+                                 "physics.twist is off, but material.bending_set curves the rod at rest, which takes "
+                                 "part in its twist: set material.bending_set: 0 to go without");
 }
 
 void check_machine(const Method& m) {

@@ -62,6 +62,7 @@ void material(Fields& f, Material& o) {
   f.required_number("twisting_stiffness", o.twisting_stiffness, Range{1e-18, 1e6, "N m2"});
   f.required_number("friction_coefficient", o.friction_coefficient, Range{0.0, 5.0, "-"});
   f.optional_number("friction_couple", o.friction_couple, Range{0.0, 1.0, "-"}, "auto");
+  f.number("bending_set", o.bending_set, Range{0.0, 1.0, "-"});
   f.optional_number("contact_stiffness", o.contact_stiffness, Range{1.0, 1e13, "N/m2"}, "auto");
   f.optional_number("tying_preload", o.tying_preload, Range{1e-9, 1e9, "N"}, "auto");
   f.optional_number("breaking_force", o.breaking_force, Range{1e-6, 1e8, "N"}, "none");

@@ -80,14 +80,14 @@ std::optional<double> class_error(const LoadCellOptions& cell, const std::option
   return force ? class_error(cell, *force) : std::nullopt;
 }
 
-/// By how much a stiffness changes where the part that it is read from lies a little further along the curve: by as
-/// much as the lock may be off, or where there is none by a fifth of the part [-].
+/// By how much a stiffness changes where the part that it is read from lies a little further along the curve: by twice
+/// as much as the lock may be off, or where there is none by a share of the part [-].
 double change_along_the_curve(const Results& results, const ReadingErrors& errors) {
-  constexpr double kFurther = 0.2;  // of the part, by choice
+  constexpr double kOfLock = 2.0, kFurther = 0.3;  // chosen with the constants of reading_errors (accuracy.cpp)
   const std::optional<LockedPart>& part = results.curve.locked;
   if (!part || !(part->width > 0.0) || part->stiffness == 0.0) return 0.0;
   const bool locks = results.lock_extension && errors.lock_extension;
-  const double further = locks ? *errors.lock_extension * *results.lock_extension / part->width : kFurther;
+  const double further = locks ? kOfLock * *errors.lock_extension * *results.lock_extension / part->width : kFurther;
   return std::abs(part->change / part->stiffness) * further;
 }
 
@@ -104,6 +104,8 @@ double noise_of_stiffness(const Results& results, double noise) {
 ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
   if (!results.not_equilibrated.empty() || results.curve.jump_force || results.opened_when_mounted) return {};
   ReadingErrors out = facts.errors;
+  if (out.plateau_force && results.true_plateau_force)
+    *out.plateau_force *= hardly_closed(*results.true_plateau_force, facts.material);
   // Studied are locks that the knots have come to, not loads that rise while they still slide.
   if (slid_to_the_end(results)) out.locked_stiffness.reset();
   if (out.locked_stiffness) *out.locked_stiffness += change_along_the_curve(results, out);
@@ -172,11 +174,11 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
       curve_((fs::path(folder) / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
       full_curve_((fs::path(folder) / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)) {
   known_.errors = reading_errors(method.specimen, method.material, method.physics);
+  known_.material = method.material;
   if (method.specimen.to_be_tied) {
     known_.preload = method.specimen.preload.value_or(Sample::kNone);
     known_.foreseen = tying_warnings(method.specimen, method.material, method.physics);
   }
-  known_.radius = method.material.radius;
   weight_per_length_ =
       method.physics.gravity.norm() * method.material.density * M_PI * method.material.radius * method.material.radius;
   if (method.specimen.knot == KnotKind::kFisherman && method.machine.grips == GripKind::kRollers)
@@ -389,7 +391,7 @@ YamlLines result_lines(const Results& r, const RunFacts& f) {
   add_locks(r, errors, lines);
   add_true_forces(r, lines);
   add_failure(r, lines);
-  add_checks(r, f.radius, lines);
+  add_checks(r, f.material.radius, lines);
   add_energies(r, lines);
   add_curve(r, f, lines);
   add_effort(r, f, lines);

@@ -96,7 +96,8 @@ struct TestBench::Impl {
     RodState state;
     state.position = centreline.points;
     state.velocity = Points::Zero(3, nodes);
-    const RodProperties rod = make_rod(material, rest);
+    RodProperties rod = make_rod(material, rest);
+    if (material.bending_set > 0.0) rod.natural_curvature.setZero(2, nodes - 2);
     if (solves_for_twist(rod)) initialise_frames(&state);
     const StepSettings settings = step_settings(specimen, material_, machine, physics);
     gravity = settings.gravity;
@@ -212,6 +213,7 @@ struct TestBench::Impl {
     apply_gravity();
     if (!rig) return;
     if (phase == Phase::kTie) rig->tie(command.speed, time, stepper->state().position);
+    if (rig->tied()) stepper->take_set(material.bending_set);
     if (phase == Phase::kRelease) {
       rig->release(command.duration, time);
     } else if (rig->tied()) {

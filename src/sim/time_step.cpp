@@ -9,7 +9,9 @@
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/contact/strand_passage.hpp"
+#include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/energy.hpp"
+#include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stretching.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
@@ -542,7 +544,21 @@ Eigen::VectorXd TimeStep::tension() const {
   return out;
 }
 
-void TimeStep::state(Archive& archive) { archive(state_); }
+void TimeStep::take_set(double share) {
+  const Points& x = state_.position;
+  const auto edge = [&](Eigen::Index j) { return Vec3(x.col(j + 1) - x.col(j)); };
+  const auto directors = [&](Eigen::Index j) {
+    return material_directors(edge(j).normalized(), state_.reference_director.col(j), state_.twist[j]);
+  };
+  for (Eigen::Index i = 1; i <= rod_.natural_curvature.cols(); ++i)
+    rod_.natural_curvature.col(i - 1) =
+        share * material_curvature(edge(i - 1), edge(i), directors(i - 1), directors(i));
+}
+
+void TimeStep::state(Archive& archive) {
+  archive(state_);
+  if (rod_.natural_curvature.cols() > 0) archive(rod_.natural_curvature);
+}
 
 std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodState& state,
                                          const StepSettings& settings) {

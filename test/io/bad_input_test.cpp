@@ -132,6 +132,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"specimen.length=0.5", "specimen.length", "0.5", "only for knot: straight or overhand"},
       {"specimen.file=shape.csv", "specimen.file", "shape.csv", "only for knot: file"},
       {"machine={grips: clamps, roller_friction: 0.2}", "machine.roller_friction", "0.2", "only with grips: rollers"},
+      {"material.bending_set=1.5", "material.bending_set", "1.5", "0 to 1"},
       {"machine={roller_rotation: free}", "machine.roller_rotation", "free", "only with a roller_friction above 0"},
       {"machine={roller_friction: 0.1, roller_rotation: spun}", "machine.roller_rotation", "spun",
        "fixed, free or turned"},

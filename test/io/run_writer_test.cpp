@@ -319,13 +319,14 @@ TEST(ResultYaml, WhatSpeedTakesOfTheForceIsInTheErrorsOfForces) {
   results.rate.inertia = 0.03;
   RunFacts facts;
   facts.errors = {0.1, 0.1, 0.1};
+  facts.material.radius = facts.material.bending_stiffness = 1.0;  // a force of 1 N is one of closed knots
   const YAML::Node result = YAML::Load(result_yaml(results, facts));
   EXPECT_DOUBLE_EQ(result["plateau_force_error"].as<double>(), 0.15 * 5.0);
   EXPECT_DOUBLE_EQ(result["lock_extension_error"].as<double>(), 0.1 * 0.05);
   EXPECT_DOUBLE_EQ(result["locked_stiffness_error"].as<double>(), 0.15 * 1e5);
 }
 
-/// A lock 2 mm further out is 0.2 of the part, over which the stiffness grows by half.
+/// A lock 2 mm further out is 0.2 of the part, over which the stiffness grows by half; the part moves by twice as much.
 TEST(ResultYaml, AStiffnessThatGrowsAlongTheCurveIsAsUnsureAsItsLock) {
   Results results;
   results.motion_pattern = MotionPattern::kSliding;
@@ -334,12 +335,12 @@ TEST(ResultYaml, AStiffnessThatGrowsAlongTheCurveIsAsUnsureAsItsLock) {
   results.curve.locked = LockedPart{1e5, 5e4, 0.01, 30};
   RunFacts facts;
   facts.errors = {0.1, 0.04, 0.1};
-  EXPECT_DOUBLE_EQ(YAML::Load(result_yaml(results, facts))["locked_stiffness_error"].as<double>(), (0.1 + 0.1) * 1e5);
+  EXPECT_DOUBLE_EQ(YAML::Load(result_yaml(results, facts))["locked_stiffness_error"].as<double>(), (0.1 + 0.2) * 1e5);
   results.motion_pattern = MotionPattern::kStretching;
   results.lock_extension.reset();
   results.curve.locked = LockedPart{1e5, -5e4, 0.02, 30};
-  EXPECT_DOUBLE_EQ(YAML::Load(result_yaml(results, facts))["locked_stiffness_error"].as<double>(), (0.1 + 0.1) * 1e5)
-      << "a fifth of the part";
+  EXPECT_DOUBLE_EQ(YAML::Load(result_yaml(results, facts))["locked_stiffness_error"].as<double>(), (0.1 + 0.15) * 1e5)
+      << "three tenths of the part";
   results.curve.locked_stiffness = 0.0;
   results.curve.locked = LockedPart{0.0, 5e4, 0.02, 30};
   EXPECT_EQ(YAML::Load(result_yaml(results, facts))["locked_stiffness_error"].as<double>(), 0.0) << "a level load";

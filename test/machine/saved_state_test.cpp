@@ -222,6 +222,18 @@ Scene rolling(Scene of, const std::string& name) {
   return of;
 }
 
+Scene with_a_set(Scene of, const std::string& name) {
+  of.name = name;
+  of.material.bending_set = 0.5;
+  return of;
+}
+
+Scene with_a_set(Scene of, const std::string& name) {
+  of.name = name;
+  of.material.bending_set = 0.5;
+  return of;
+}
+
 Scene on_turning_rollers(Scene of, const std::string& name, RollerRotation rotation) {
   of.name = name;
   of.machine.roller_rotation = rotation;
@@ -288,6 +300,7 @@ INSTANTIATE_TEST_SUITE_P(
                     overhand("edgeContact", "memory", ContactLaw::kEdge), loop("loop", polypropylene(), 20.0, 0.01),
                     twisted_loop(), rolling(twisted_loop(), "rollingLoop"),
                     rolling(overhand("", "memory", ContactLaw::kEdge), "rollingEdges"),
+                    with_a_set(rolling(loop("", polypropylene(), 20.0, 0.002), ""), "loopWithASet"),
                     on_turning_rollers(loop("", polypropylene(), 20.0, 0.002), "freeRollers", RollerRotation::kFree),
                     on_turning_rollers(rolling(twisted_loop(), ""), "rollingOnDrivenRollers", RollerRotation::kTurned)),
     [](const auto& scene) { return scene.param.name; });

@@ -25,7 +25,7 @@ struct RunFacts {
   double inertia = 1.0;               ///< mass that is accelerated, over the rod's own [-]
   double weight = 0.0;                ///< of the rod where gravity acts on it [N]
   double slid_along = 0.0;            ///< of a loop on rollers along their axes, at most [m]
-  double radius = 0.0;                ///< of the rod [m]
+  Material material;                  ///< of the rod
   double pull_speed = 0.0;            ///< the largest that is programmed [m/s]; 0: none is
   LoadCellOptions load_cell;          ///< that read the forces
   Specification specification;        ///< what the user asks of the results

@@ -19,6 +19,7 @@ struct Material {
   double twisting_stiffness = 0.0;          ///< k_t [N m^2]
   double friction_coefficient = 0.0;        ///< mu [-]
   std::optional<double> friction_couple;    ///< eta [-]; unset: default_friction_couple
+  double bending_set = 0.0;                 ///< share of the bend in its tied knots that the rod keeps at rest [-]
   std::optional<double> contact_stiffness;  ///< K [N/m^2], that of the normal law; unset: default_contact_stiffness
   std::optional<double> tying_preload;      ///< F_p [N]; unset: default_preload
   std::optional<double> breaking_force;     ///< F_b, tension at which it parts [N]; unset: it does not
