@@ -12,6 +12,7 @@
 #include "knot_utm/sim/step_control.hpp"
 #include "reference.hpp"
 #include "sim/capstan.hpp"
+#include "sim/rolling_log.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -93,6 +94,31 @@ TEST(R12Rolling, BeyondThreeTimesTheFrictionAngleItSlidesAndSpinsUp) {
   const auto [down, spin] = scene.accelerations();
   hold_against("R12 beyond: acceleration [m/s^2]", kGravity * (std::sin(angle) - kMu * std::cos(angle)), down, 0.01);
   hold_against("R12 beyond: spin [1/s^2]", 2.0 * kMu * kGravity * std::cos(angle) / scene.radius, std::abs(spin), 0.01);
+}
+
+// ---- a log under a plank ------------------------------------------------------------------------------------------
+
+/// The floor's lever is h, and that of the plank is half of what the centrelines are apart. What the surfaces stick by
+/// takes some of the way, too.
+TEST(RollingLog, GoesHalfTheWayOfThePlank) {
+  RollingLog scene;
+  const double h = scene.material.radius, way = 0.5 * M_PI * h, from = scene.moved(), turned = scene.turned();
+  scene.drag(way);
+  const double moved = scene.moved() - from;
+  EXPECT_NEAR(moved, way / (1.0 + 0.5 * scene.apart() / h), scene.presliding());
+  EXPECT_NEAR(moved, h * (scene.turned() - turned), scene.presliding());
+  // It rolls for nothing.
+  EXPECT_LT(std::abs(scene.stepper->roller_force(0)[0]), 2e-3 * scene.stepper->contact_reading().normal_force);
+}
+
+/// Until the plank slides it bends the middle of the log forward by 0.008 h. The ends stand off the floor and swing
+/// back.
+TEST(RollingLog, StaysWhereFrictionActsOnTheCentrelines) {
+  RollingLog scene(0.0);
+  const double from = scene.moved();
+  scene.drag(M_PI * scene.material.radius);
+  EXPECT_NEAR(scene.moved(), from, 0.008 * scene.material.radius);
+  EXPECT_LT(std::abs(scene.turned()), 1e-6);
 }
 
 // ---- R14 ------------------------------------------------------------------------------------------------------------

@@ -110,19 +110,39 @@ TEST(K1_OpenOverhandMesh, ForceStaysWithHalfTheEdgesAndAQuarterOfTheTolerance) {
   EXPECT_NEAR(force(finer), first, 0.01 * first);
 }
 
-/// By what share less the knot's friction is with the couple than on the centreline.
-double missing_friction(double eps, double couple) {
-  double friction[2];
-  for (const bool at_surface : {false, true}) {
-    LooseKnotOptions options = loose(eps);
-    options.couple = at_surface ? couple : 0.0;
+/// What friction's couple does to a quantity, and how loose the knot is by its own curvature.
+struct CoupleEffect {
+  double share;  // of the quantity on the centreline
+  double eps;    // sqrt(h kappa_jump), of the knot with friction on the centreline
+};
+
+/// Order in eps between two knots.
+double order_between(const CoupleEffect& far, const CoupleEffect& near) {
+  return std::log(far.share / near.share) / std::log(far.eps / near.eps);
+}
+
+/// A knot that slides with friction mu = 0.1.
+struct SlidingKnot {
+  double friction, limit, eps;  // beyond F of bending, mu N, sqrt(h kappa_jump)
+
+  SlidingKnot(double drawn_eps, double couple, int turns) {
+    constexpr double kMu = 0.1;
+    LooseKnotOptions options = loose(drawn_eps, turns);
+    options.couple = couple;
     LooseKnot knot(options);
     knot.settle();
-    knot.set_friction(0.1);
-    knot.pull(0.2 / (eps * eps));
-    friction[at_surface] = knot.force() - 0.5 * std::pow(knot.curvatures().side, 2);
+    knot.set_friction(kMu);
+    knot.pull(0.2 / (drawn_eps * drawn_eps));
+    const LooseKnot::Curvatures kappa = knot.curvatures();
+    friction = knot.force() - 0.5 * kappa.side * kappa.side;
+    limit = kMu * knot.normal_force();
+    eps = std::sqrt(kappa.jump);
   }
-  return 1.0 - friction[1] / friction[0];
+};
+
+/// By what share less the knot's friction is with the couple than on the centreline.
+double missing_friction(double eps, double couple) {
+  return 1.0 - SlidingKnot(eps, couple, 1).friction / SlidingKnot(eps, 0.0, 1).friction;
 }
 
 TEST(K1_OpenOverhandAtTheSurface, TheCoupleOfFrictionVanishesWithTheSquareOfEps) {
@@ -152,6 +172,29 @@ TEST_P(K2_OverhandOfMoreTurns, NormalForceAndSlidingForceOfTheLaw) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Turns, K2_OverhandOfMoreTurns, testing::Values(2, 3));
+
+/// By what share less friction makes of the same normal force with the couple.
+CoupleEffect weaker_friction(double eps, int turns) {
+  const SlidingKnot on_centreline(eps, 0.0, turns), at_surface(eps, 1.0, turns);
+  return {1.0 - at_surface.friction / at_surface.limit * on_centreline.limit / on_centreline.friction,
+          on_centreline.eps};
+}
+
+/// The loop of a knot of more turns is much tighter than its end shortening says: 1/kappa_jump is 37 h where e/(2 pi)
+/// is 97 h. So the order is that in the knot's own eps. Friction is held against the normal force because that scatters
+/// by less: with edges 0.7 times as long, or after 1.25 to 2 times the way, the share changes by 2 %, which is 0.03 of
+/// the order.
+TEST(K2_OverhandOfTwoTurnsAtTheSurface, TheCoupleOfFrictionVanishesWithTheSquareOfTheKnotsOwnEps) {
+  const CoupleEffect tight = weaker_friction(0.1, 2), far = weaker_friction(0.05, 2), near = weaker_friction(0.03, 2);
+  hold_below("K2 overhand of 2 turns, friction at the surface, eps = 0.1: share of mu N that is missing", 0.01,
+             tight.share);
+  hold_against("K2 overhand of 2 turns, friction at the surface, eps = 0.1 to 0.05: order in the knot's own eps", 2.0,
+               order_between(tight, far), 0.1);
+  hold_against("K2 overhand of 2 turns, friction at the surface, eps = 0.05 to 0.03: order in the knot's own eps", 2.0,
+               order_between(far, near), 0.1);
+  for (const auto& [name, effect] : {std::pair{"0.1", tight}, {"0.05", far}, {"0.03", near}})
+    RecordProperty(std::string("share of mu N that is missing at eps = ") + name, text(effect.share));
+}
 
 // ---- K3 ------------------------------------------------------------------------------------------------------------
 
@@ -194,13 +237,14 @@ TEST(K3_LooseTrefoil, TouchesAlongAnIntervalAndAtTwoPoints) {
 double stopping_radius(double mu) { return std::pow(2.0 * mu * kSigma.at(1), -2); }
 
 /// Released, with this friction, from a tighter knot.
-LooseKnot released(double mu, const std::optional<Friction>& friction = {}) {
+LooseKnot released(double mu, const std::optional<Friction>& friction = {}, double couple = 0.0) {
   constexpr double kTightest = 14.0;  // of a shape that can be drawn [h]
   const double begin = (0.7 - mu) * stopping_radius(mu), drawn = std::max(begin, kTightest);
   LooseKnotOptions options = loose(1.0 / std::sqrt(drawn));
   options.tail = 6.0;
   options.drag = 0.2 / drawn;  // opens within a time of about ten
   options.residual = 5e-7;
+  options.couple = couple;
   LooseKnot knot(options);
   knot.settle();
   if (drawn > begin) knot.pull(2.0 * M_PI * (drawn - begin));
@@ -231,6 +275,25 @@ TEST(K4_ReleasedTrefoilLimit, StopsAtTheLawsRadiusAsFrictionVanishes) {
   std::vector<double> frictions = {0.2, 0.1, 0.05}, radii;
   for (const double mu : frictions) radii.push_back(released(mu).loop_length() / (2.0 * M_PI) / stopping_radius(mu));
   hold_against("K4 released trefoil, mu -> 0: R over h/(2 mu sigma_3)^2", 1.0, at_zero(frictions, radii), 0.1);
+}
+
+/// By what share further a released knot opens with the couple.
+CoupleEffect opened_further(double mu, double couple) {
+  const LooseKnot on_centreline = released(mu), at_surface = released(mu, {}, couple);
+  return {at_surface.loop_length() / on_centreline.loop_length() - 1.0, std::sqrt(on_centreline.curvatures().jump)};
+}
+
+/// The share changes by 2 % with the place where the knot starts, with edges 0.7 times as long and with a quarter of
+/// the contact's tolerance. With less drag it changes by 6 % at mu = 0.1, which is 0.07 of the order. At mu = 0.05 the
+/// couple does less than the place where the knot starts.
+TEST(K4_ReleasedTrefoilAtTheSurface, OpensFurtherByTheSquareOfEps) {
+  const CoupleEffect far = opened_further(0.2, 1.0), near = opened_further(0.1, 1.0);
+  hold_below("K4 released trefoil, friction at the surface, mu = 0.1: share by which it opens further", 0.015,
+             near.share);
+  hold_against("K4 released trefoil, friction at the surface: order in the knot's own eps by which it opens further",
+               2.0, order_between(far, near), 0.1);
+  EXPECT_NEAR(opened_further(0.1, 0.5).share, 0.5 * near.share, 0.05 * near.share);
+  RecordProperty("order from mu = 0.3 to 0.2", text(order_between(opened_further(0.3, 1.0), far)));
 }
 
 TEST(K4_ReleasedTrefoilSmoothed, NeverStops) {
@@ -270,6 +333,33 @@ INSTANTIATE_TEST_SUITE_P(Turns, K5_LongOverhand,
                                          LongOverhand{3, 1.0, 8.149e-4, 6.094e-4},
                                          LongOverhand{4, 4.0, 7.445e-3, 3.900e-2},
                                          LongOverhand{4, 2.0, 2.579e-3, 4.875e-3}));
+
+/// By what share less force a knot bears with the couple, at an end shortening of the table.
+CoupleEffect missing_force(const LongOverhand& table) {
+  const double n2 = table.turns * table.turns, e = n2 / table.shortening;
+  double force[2], own_eps = 0.0;
+  for (const bool at_surface : {true, false}) {
+    LooseKnotOptions options = loose(std::sqrt(2.0 * M_PI / (1.05 * e)), table.turns);
+    options.couple = at_surface ? 1.0 : 0.0;
+    LooseKnot knot(options);
+    knot.settle();
+    knot.set_friction(0.1);
+    knot.pull(knot.end_shortening() - e);
+    force[at_surface] = knot.force();
+    own_eps = std::sqrt(knot.curvatures().jump);
+  }
+  return {1.0 - force[1] / force[0], own_eps};
+}
+
+TEST(K5_LongOverhandAtTheSurface, TheCoupleOfFrictionVanishesAndIsFarBelowTheTheorysError) {
+  const CoupleEffect far = missing_force({3, 4.0, 7.445e-3, 3.900e-2});
+  const CoupleEffect near = missing_force({3, 2.0, 2.579e-3, 4.875e-3});
+  hold_below("K5 overhand of 3 turns, friction at the surface, braid/R = 4: share of the force that is missing", 0.006,
+             far.share);
+  hold_below("K5 overhand of 3 turns, friction at the surface, braid/R = 2: share of the force that is missing", 0.002,
+             near.share);
+  RecordProperty("order in the knot's own eps", text(order_between(far, near)));
+}
 
 }  // namespace
 }  // namespace knot_utm
