@@ -205,6 +205,12 @@ TEST(BadInput, FrictionAtTheSurfaceNeedsTwist) {
       "nothing was wrong");
 }
 
+TEST(BadInput, ABendThatSetsNeedsTwist) {
+  EXPECT_THAT(
+      complaint(kTighten, {"material.bending_set=0.5", "physics.twist=off"}),
+      AllOf(HasSubstr("tighten.yaml: physics.twist is off"), HasSubstr("material.bending_set"), Not(HasSubstr("\n"))));
+}
+
 class BadFile : public ::testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder_ / "materials"); }

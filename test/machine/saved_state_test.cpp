@@ -228,12 +228,6 @@ Scene with_a_set(Scene of, const std::string& name) {
   return of;
 }
 
-Scene with_a_set(Scene of, const std::string& name) {
-  of.name = name;
-  of.material.bending_set = 0.5;
-  return of;
-}
-
 Scene on_turning_rollers(Scene of, const std::string& name, RollerRotation rotation) {
   of.name = name;
   of.machine.roller_rotation = rotation;

@@ -88,10 +88,10 @@ TEST(BendingSet, AHeldBendResistsBeingRolled) {
     ASSERT_TRUE(stepper->step(held, 0.02).accepted());
   }
   for (int j = 4; j < kEdges - 4; ++j) {
-    const double kappa = 0.5 * (turning_angle(arc.state.position, j) + turning_angle(arc.state.position, j + 1));
-    const double expected =
-        arc.material.bending_stiffness / arc.material.radius * kShare * kappa * kappa * std::sin(phi);
-    // Half of it from either node; their angles differ by a few per cent.
+    const double before = turning_angle(arc.state.position, j), behind = turning_angle(arc.state.position, j + 1);
+    const double expected = arc.material.bending_stiffness / arc.material.radius * kShare * 0.5 *
+                            (before * before + behind * behind) * std::sin(phi);
+    // Half of it from either node, whose edge is turned against its rest by phi, and the other edge, too.
     EXPECT_NEAR(std::abs(stepper->reaction_torque(j)), expected, 0.01 * expected) << j;
   }
 }
