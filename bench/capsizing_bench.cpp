@@ -1,75 +1,100 @@
-// A knot that stops a rod in a hole is pulled against it, until it capsizes.
+// A knot that stops a rod in a hole is pulled until it flips.
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "sim/stopper_knot.hpp"
 
 namespace {
+
 using knot_utm::StopperKnot;
 
-void print_shape(const StopperKnot& scene, const char* name) {
-  const knot_utm::Points& x = scene.stepper->state().position;
-  for (Eigen::Index i = 0; i < x.cols(); ++i)
-    std::printf("shape,%s,%.5g,%.5g,%.5g\n", name, x(0, i), x(1, i), x(2, i));
+void print_curve(const std::vector<StopperKnot::Reading>& readings) {
+  constexpr double kSpacing = 0.1;  // of the clamp's way; between two of them the largest force is printed
+  std::printf("curve:\n");
+  for (std::size_t i = 0; i < readings.size();) {
+    std::size_t largest = i;
+    const double until = readings[i].way + kSpacing;
+    for (; i < readings.size() && readings[i].way < until; ++i)
+      if (readings[i].force > readings[largest].force) largest = i;
+    const StopperKnot::Reading& one = readings[largest];
+    std::printf("- [%.6g, %.6g, %.6g, %.6g]\n", one.way, one.force, one.torque, one.passed);
+  }
 }
 
-void run(const StopperKnot::Options& options, double way) {
+void print_shape(const char* name, const knot_utm::Points& points) {
+  std::printf("%s:\n", name);
+  for (Eigen::Index i = 0; i < points.cols(); ++i)
+    std::printf("- [%.5g, %.5g, %.5g]\n", points(0, i), points(1, i), points(2, i));
+}
+
+void run(const StopperKnot::Options& options, double farthest) {
+  constexpr double kBeyond = 10.0;
+  const std::clock_t start = std::clock();
   StopperKnot scene(options);
-  print_shape(scene, "drawn");
-  double next = 0.0;
-  auto watch = [&](StopperKnot& self) {
-    if (self.time >= next) {
-      next = self.time + 0.5;
-      const StopperKnot::Reading r = self.read();
-      std::printf("row,%.4g,%.4g,%.5g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%d\n", self.time, r.way, r.force, r.torque, r.drawn,
-                  r.writhe, r.crossings, r.height, r.bending, r.twisting, (int)self.control.counters().iterations);
-      std::fflush(stdout);
-    }
-    return true;
-  };
-  try {
-    scene.tie(watch);
-    print_shape(scene, "tied");
-    for (int k = 1; k * 1.0 <= way; ++k) {
-      scene.pull(1.0, watch);
-      print_shape(scene, std::to_string(k).c_str());
-    }
-  } catch (...) {
-    print_shape(scene, "last");
-    throw;
+  scene.tie();
+  std::vector<knot_utm::Points> shapes;  // one after every radius of the way
+  std::optional<StopperKnot::Flip> flip;
+  while (scene.way < farthest && !flip) {
+    shapes.push_back(scene.stepper->state().position);
+    flip = scene.pull_until_it_flips(scene.way + 1.0);
   }
+  const knot_utm::Points after = scene.stepper->state().position;
+  if (flip) scene.pull_by(kBeyond);
+  const double cpu_time = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+  std::printf("cpu_time: %.6g\nnodes: %d\nsteps: %llu\nnewton_iterations: %llu\n", cpu_time, scene.last + 1,
+              static_cast<unsigned long long>(scene.control.counters().steps),
+              static_cast<unsigned long long>(scene.control.counters().iterations));
+  std::printf("end_way: %.17g\nend_force: %.17g\n", scene.way, scene.readings.back().force);
+  double largest_force = 0.0, largest_twisting = 0.0;
+  for (const StopperKnot::Reading& one : scene.readings) {
+    largest_force = std::max(largest_force, one.force);
+    largest_twisting = std::max(largest_twisting, one.twisting);
+  }
+  std::printf("largest_force: %.17g\nlargest_twisting: %.17g\n", largest_force, largest_twisting);
+  if (flip) {
+    const StopperKnot::Reading &from = scene.readings[flip->before], &to = scene.readings[flip->after];
+    std::printf("flip_force: %.17g\nflip_way: %.17g\nflip_passed: %.17g\nchange_of_shape: %.17g\n", from.force,
+                from.way, to.passed - from.passed, flip->change_of_shape);
+    std::printf("torque_let_go: %.17g\ntorque_before: %.17g\ntorque_after: %.17g\n", scene.readings.front().torque,
+                from.torque, scene.readings.back().torque);
+  }
+  print_curve(scene.readings);
+  const double flip_way = flip ? scene.readings[flip->before].way : farthest;
+  print_shape("before", shapes[std::min(shapes.size() - 1, static_cast<std::size_t>(flip_way))]);
+  print_shape("after", after);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app("Pulls a stopper knot against a hole. Lengths are in radii h of the rod, forces in k_b/h^2.");
+  CLI::App app(
+      "Pulls a knot against a hole until it flips. Lengths are in radii h of the rod, forces in k_b/h^2. Prints YAML.");
   StopperKnot::Options options;
-  double way = 60.0;
+  double farthest = 80.0;
   const std::map<std::string, StopperKnot::Kind> kinds = {{"overhand", StopperKnot::Kind::kOverhand},
                                                           {"figure-eight", StopperKnot::Kind::kFigureEight}};
-  app.add_option("--knot", options.kind)->transform(CLI::CheckedTransformer(kinds));
-  app.add_option("--edge", options.edge);
-  app.add_option("--friction", options.friction);
-  app.add_option("--couple", options.couple);
-  app.add_option("--twisting", options.twisting);
-  app.add_option("--preload", options.preload);
-  app.add_option("--seating", options.seating);
-  app.add_option("--below", options.below);
-  app.add_option("--gap", options.gap);
-  app.add_option("--rim", options.rim);
-  app.add_option("--stretching", options.stretching);
-  app.add_option("--speed", options.speed);
-  app.add_option("--tail", options.tail);
-  app.add_option("--longest", options.longest);
-  app.add_option("--residual", options.residual);
-  app.add_option("--way", way);
+  app.add_option("--knot", options.kind, "overhand or figure-eight")->transform(CLI::CheckedTransformer(kinds));
+  app.add_option("--edge", options.edge, "length of an edge")->check(CLI::Range(0.1, 1.5));
+  app.add_option("--friction", options.friction, "mu")->check(CLI::NonNegativeNumber);
+  app.add_option("--couple", options.couple, "eta")->check(CLI::Range(0.0, 1.0));
+  app.add_option("--twisting", options.twisting, "k_t/k_b")->check(CLI::PositiveNumber);
+  app.add_option("--stretching", options.stretching, "k_s h^2/k_b")->check(CLI::PositiveNumber);
+  app.add_option("--preload", options.preload, "at the tail, before it is let go")->check(CLI::PositiveNumber);
+  app.add_option("--speed", options.speed, "radii a second")->check(CLI::PositiveNumber);
+  app.add_option("--longest-step", options.longest_step, "[s]")->check(CLI::PositiveNumber);
+  app.add_option("--residual", options.residual)->check(CLI::PositiveNumber);
+  app.add_option("--presliding", options.presliding)->check(CLI::PositiveNumber);
+  app.add_option("--contact-tolerance", options.contact_tolerance)->check(CLI::PositiveNumber);
+  app.add_option("--farthest", farthest, "way of the clamp without a flip")->check(CLI::PositiveNumber);
   try {
     app.parse(argc, argv);
-    run(options, way);
+    run(options, farthest);
     return 0;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
