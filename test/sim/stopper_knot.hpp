@@ -41,6 +41,9 @@ struct StopperKnot {
     double twisting = 2.0 / 3.0;  ///< k_t/k_b; that of a solid rod that keeps its volume
     double stretching = 4.0;      ///< k_s h^2/k_b; that of a solid rod
     double preload = 1.0;         ///< at the tail's end, by which the knot is tightened before the tail is let go
+    double gap = 2.2;             ///< width of the hole
+    double rim = 4.0;             ///< radius of its edges
+    double below = 20.0;          ///< from the clamp to the hole, as it is drawn
     double speed = 0.5;           ///< of the clamp [1/s]
     double longest_step = 0.2;    ///< [s]
     double residual = 1e-4;
@@ -63,16 +66,14 @@ struct StopperKnot {
     double change_of_shape = 0.0;
   };
 
-  static constexpr double kFall = 0.1;             // of the force, by which it falls in a flip
-  static constexpr double kWithin = 1.0;           // way of the clamp in which it does
-  static constexpr double kOtherShape = 1.0;       // change of shape from which on it is another one
-  static constexpr double kGap = 2.2, kRim = 4.0;  // width of the hole, radius of its edges
-  static constexpr double kBelow = 20.0;           // from the clamp to the hole
-  static constexpr double kTail = 20.0;            // from the end of the knot, as drawn, to that of the tail
-  static constexpr double kSeating = 0.5;          // with which the knot is on the hole as the tail is let go
-  static constexpr double kKnotLength = 28.0;      // rod above the hole whose shape is looked at
-  static constexpr double kDrag = 3e-4;            // fades motion of the whole within a third of a second
-  static constexpr double kMass = 1e-4;            // per length: the time h^2 sqrt(m/k_b) is 0.01 s
+  static constexpr double kFall = 0.1;         // of the force, by which it falls in a flip
+  static constexpr double kWithin = 1.0;       // way of the clamp in which it does
+  static constexpr double kOtherShape = 1.0;   // change of shape from which on it is another one
+  static constexpr double kTail = 20.0;        // from the end of the knot, as drawn, to that of the tail
+  static constexpr double kSeating = 0.5;      // with which the knot is on the hole as the tail is let go
+  static constexpr double kKnotLength = 28.0;  // rod above the hole whose shape is looked at
+  static constexpr double kDrag = 3e-4;        // fades motion of the whole within a third of a second
+  static constexpr double kMass = 1e-4;        // per length: the time h^2 sqrt(m/k_b) is 0.01 s
 
   Options options;
   RodProperties rod;
@@ -91,17 +92,17 @@ struct StopperKnot {
     material.stretching_stiffness = options.stretching;
     material.twisting_stiffness = options.twisting;
     RodState state;
-    state.position = options.kind == Kind::kOverhand ? drawn_overhand(options.edge) : drawn_figure_eight(options.edge);
+    state.position = options.kind == Kind::kOverhand ? drawn_overhand() : drawn_figure_eight();
     if (options.mirrored) state.position.row(1) *= -1.0;
     last = static_cast<int>(state.position.cols()) - 1;
     rod = make_rod(material, (state.position.rightCols(last) - state.position.leftCols(last)).colwise().norm());
     state.velocity = Points::Zero(3, last + 1);
     initialise_frames(&state);
     stepper = TimeStep::make(rod, state, settings());
-    const double off = kRim + 0.5 * kGap;
+    const double off = options.rim + 0.5 * options.gap;
     for (const double side : {-off, off}) {
-      boundary.rollers.push_back({Vec3(side, 0.0, 0.0), Vec3::UnitY(), kRim});
-      boundary.rollers.push_back({Vec3(0.0, side, 0.0), Vec3::UnitX(), kRim});
+      boundary.rollers.push_back({Vec3(side, 0.0, 0.0), Vec3::UnitY(), options.rim});
+      boundary.rollers.push_back({Vec3(0.0, side, 0.0), Vec3::UnitX(), options.rim});
     }
     boundary.fixed_nodes = {{0, state.position.col(0)}, {1, state.position.col(1)}};
     boundary.fixed_twists = {{0, 0.0}};
@@ -118,27 +119,28 @@ struct StopperKnot {
     readings = {read()};
   }
 
-  /// Pulls until the knot has flipped and `beyond` more, but no further than `farthest`.
-  std::optional<Flip> pull_until_it_flips(double farthest, double beyond = 0.0) {
-    std::optional<Flip> flip;
-    while (way < farthest && !flip) {
+  /// Pulls until the knot flips, after it last did, but not beyond that way.
+  std::optional<Flip> pull_until_it_flips(double farthest) {
+    while (way < farthest) {
       pull_by(1.0);
-      flip = first_flip();
+      if (const std::optional<Flip> flip = first_flip(searched_)) {
+        searched_ = flip->after;
+        return flip;
+      }
     }
-    if (flip) pull_by(beyond);
-    return flip;
+    return {};
   }
 
   void pull_by(double distance) {
-    if (distance <= 0.0) return;
     pull_while(distance, [&] {
       readings.push_back(read());
       return true;
     });
   }
 
-  std::optional<Flip> first_flip() const {
-    for (std::size_t i = 0; i < readings.size() && readings[i].way + kWithin <= way; ++i) {
+  /// Of those after a reading.
+  std::optional<Flip> first_flip(std::size_t from) const {
+    for (std::size_t i = from; i < readings.size() && readings[i].way + kWithin <= way; ++i) {
       std::size_t end = i;
       double lowest = readings[i].force;
       bool highest = true;
@@ -169,6 +171,7 @@ struct StopperKnot {
   static constexpr double kUnit = 0.01;  // shapes are drawn for a rod of this radius [m]
 
   double passed_before_ = 0.0;
+  std::size_t searched_ = 0;  // up to that reading, for flips
 
   StepSettings settings() const {
     StepSettings out;
@@ -197,21 +200,21 @@ struct StopperKnot {
     return out;
   }
 
-  static Points drawn_overhand(double edge) {
+  Points drawn_overhand() const {
     constexpr double kExcess = 90.0, kMiddle = 30.0;  // length that the loop takes; height of the knot over the hole
     OverhandShape shape;
     shape.radius = kUnit;
-    shape.edge_length = kUnit * edge;
-    shape.end_to_end = kUnit * 2.0 * (kBelow + kMiddle);
+    shape.edge_length = kUnit * options.edge;
+    shape.end_to_end = kUnit * 2.0 * (options.below + kMiddle);
     shape.length = shape.end_to_end + kUnit * kExcess;
     Points out = overhand(shape).points / kUnit;
-    out.row(2).array() -= kBelow;
+    out.row(2).array() -= options.below;
     return out;
   }
 
   /// A B-spline of third degree. The strand comes up through the lower lobe, goes around the upper one, then around the
   /// lower one, and leaves through the upper one. At the four crossings it goes over (y > 0) and under in turn.
-  static Points drawn_figure_eight(double edge) {
+  Points drawn_figure_eight() const {
     constexpr double kMiddle = 20.0;  // height of the knot over the hole
     static const Vec3 kPlaces[] = {
         {0, 0, -24},   {0, 0, -20},    {0, 0, -17},                                     // from below
@@ -223,7 +226,7 @@ struct StopperKnot {
         {0, 0, 17},    {0, 0, 20},     {0, 0, 24}};                                     // to the tail
     constexpr int kPieces = 64;
     const Vec3 up(0.0, 0.0, kMiddle);
-    std::vector<Vec3> line = {Vec3(0.0, 0.0, -kBelow)};
+    std::vector<Vec3> line = {Vec3(0.0, 0.0, -options.below)};
     for (std::size_t i = 0; i + 3 < std::size(kPlaces); ++i) {
       for (int k = 0; k < kPieces; ++k) {
         const double u = static_cast<double>(k) / kPieces, v = 1.0 - u;
@@ -236,7 +239,7 @@ struct StopperKnot {
     line.emplace_back(0.0, 0.0, kMiddle + 24.0 + kTail);
     Points points(3, static_cast<Eigen::Index>(line.size()));
     for (std::size_t i = 0; i < line.size(); ++i) points.col(static_cast<Eigen::Index>(i)) = kUnit * line[i];
-    return from_points(points, false, kUnit, kUnit * edge).points / kUnit;
+    return from_points(points, false, kUnit, kUnit * options.edge).points / kUnit;
   }
 
   /// Throws where the physics gives up. `set` sets the boundary as it stands so long after the beginning; `go_on` is
