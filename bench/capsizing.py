@@ -12,7 +12,8 @@ COUPLES = (0.0, 0.5, 0.75, 1.0)
 TWISTING = (0.3, 1.0, 3.0)          # of the solid rod's k_t
 SCENES = {"mu 0.1": {"friction": 0.1}, "mu 0.15": {"friction": 0.15}, "mu 0.2": {"friction": 0.2}, "mu 0.3": {},
           "preload 0.5": {"preload": 0.5}, "preload 2": {"preload": 2.0},
-          "k_s h^2/k_b 12": {"stretching": 12.0}, "overhand, mu 0.3": {"knot": "overhand"}}
+          "k_s h^2/k_b 12": {"stretching": 12.0}, "overhand": {"knot": "overhand"},
+          "overhand, eta 0": {"knot": "overhand", "couple": 0.0}}
 MACHINE = {"as above": {}, "hole 2.5 h wide": {"gap": 2.5}, "edges of the hole 2 h": {"rim": 2.0},
            "clamp 10 h below": {"below": 10.0}, "clamp 40 h below": {"below": 40.0}}
 AGAIN = {"friction": 0.15, "flips": 3, "farthest": 60.0}
@@ -49,7 +50,7 @@ def report(runner, _):
     table.add("change of the load", "-", changes(numerics, reference), None, ".2g")
     tables.append(table)
     for name, one in [("eta 1", reference), ("eta 0", couples["eta 0"]), ("eta 1, 0.3 k_t", twisted["0.3 k_t"]),
-                      ("eta 1, 3 k_t", twisted["3 k_t"]), ("overhand, eta 1", scenes["overhand, mu 0.3"])]:
+                      ("eta 1, 3 k_t", twisted["3 k_t"]), ("overhand, eta 1", scenes["overhand"])]:
         curve = one.get("curve") or []
         curves[name] = ([row[0] for row in curve], [row[1] for row in curve])
     return Report("The load at which a stopper knot flips",
