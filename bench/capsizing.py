@@ -58,7 +58,7 @@ def report(runner, _):
                   "spin, is pulled by h/2 a second. Loads are in k_b/h^2, torques and energies in k_b/h. It flips where the force falls "
                   "by more than a tenth within a way of h, and the shape of the 28 h of rod above the hole is another one after "
                   "that (more than h apart in the root mean square, once laid onto each other). Unless a table says "
-                  f"otherwise, mu is 0.3, the couple eta is 1 and edges are h/3 long. Pulls without a flip end after 80 h.",
+                  "otherwise, mu is 0.3, the couple eta is 1 and edges are h/3 long. Pulls without a flip end after 80 h.",
                   tables, lambda file: plots.curves_and_shapes(
                       file, curves, {"before the flip": reference.get("before"), "after it": reference.get("after")},
                       "way of the clamp [h]", "force [k_b/h^2]"))
