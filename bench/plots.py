@@ -38,6 +38,34 @@ def curves_together(file, curves, x_label, y_label, log=False):
     save(figure, file)
 
 
+def curves_and_shapes(file, curves, shapes, x_label, y_label):
+    """`curves`: name -> (x, y); beside them rods as seen from two sides. `shapes`: name -> points, around the origin."""
+    figure, all_axes = plt.subplots(1, 1 + 2 * len(shapes), figsize=(6.4 + 2.6 * 2 * len(shapes), 4.4),
+                                    gridspec_kw={"width_ratios": [2.6] + [1.0] * 2 * len(shapes)})
+    for name, (x, y) in curves.items():
+        all_axes[0].plot(x, y, label=name, linewidth=0.9)
+    all_axes[0].set_xlabel(x_label)
+    all_axes[0].set_ylabel(y_label)
+    all_axes[0].legend(fontsize="x-small")
+    views = [(name, points, side) for name, points in shapes.items() for side in ("x", "y")]
+    for axes, (name, points, side) in zip(all_axes[1:], views):
+        for a, b in far_to_near(points or [], side):
+            axes.plot([a[0], b[0]], [a[1], b[1]], color="black", linewidth=13.5, solid_capstyle="round")
+            axes.plot([a[0], b[0]], [a[1], b[1]], color=plt.cm.viridis(a[3]), linewidth=11.0, solid_capstyle="round")
+        axes.set_xlim(-9.0, 9.0)
+        axes.set_ylim(-8.0, 22.0)
+        axes.set_aspect("equal")
+        axes.set_title(f"{name}, {side} to the right", fontsize="small")
+    save(figure, file)
+
+
+def far_to_near(points, side):
+    """Edges as pairs of (across, up, away, share of the rod's length), the furthest ones first."""
+    across, away, towards = (0, 1, 1.0) if side == "x" else (1, 0, -1.0)
+    placed = [(p[across], p[2], towards * p[away], i / len(points)) for i, p in enumerate(points)]
+    return sorted(zip(placed, placed[1:]), key=lambda edge: -(edge[0][2] + edge[1][2]))
+
+
 def panels(file, curves, x_label, y_label):
     """One panel a group of curves. `curves`: group -> name -> (x, y)."""
     figure, all_axes = plt.subplots(1, len(curves), figsize=(4.6 * len(curves), 4.2), squeeze=False)
