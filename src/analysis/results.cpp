@@ -294,7 +294,7 @@ class Course {
   MotionPatternTracker motion_;
   double imbalance_ = 0.0;
   struct Load {
-    double force, moment;  // [N], sum of all moments at the grips [N m]
+    double force, moment;  // [N], sum of all moments [N m]
   };
   std::vector<Load> loads_;  // of the pull
   double energy_error_ = 0.0, energy_scale_ = 0.0;

@@ -183,17 +183,4 @@ void Grips::state(Archive& archive) {
   archive(*turning_from_);
 }
 
-double Grips::moment_imbalance(double displacement, const TimeStep& step) const {
-  const Points& x = step.state().position;
-  Vec3 sum = Vec3::Zero();
-  if (on_rollers())
-    sum -= step.roller_moment(0) + step.roller_moment(1) + (upper(displacement) - lower()).cross(step.roller_force(1));
-  for (const std::vector<FixedNode>* grip : {&lower_nodes_, &upper_nodes_})
-    for (const FixedNode& held : *grip)
-      sum += (x.col(held.node) - lower_nodes_.front().position).cross(step.reaction(held.node));
-  for (const FixedTwist& held : held_frames_)
-    sum += step.reaction_torque(held.edge) * (x.col(held.edge + 1) - x.col(held.edge)).normalized();
-  return sum.norm();
-}
-
 }  // namespace knot_utm

@@ -371,7 +371,7 @@ struct TestBench::Impl {
     s.friction_loss = work.friction;
     s.numerical_dissipation = work.numerical;
     s.reweighting_loss = work.reweighting;
-    s.moment_imbalance = grips.moment_imbalance(grip, *stepper);
+    s.moment_imbalance = stepper->loads().moment.norm();
     s.steps = control.counters().steps;
     s.rejected_steps = control.counters().rejected;
     s.newton_iterations = control.counters().iterations;

@@ -397,6 +397,8 @@ FrameTerms::Energy FrameTerms::energy(const Points& way, const std::vector<Lanes
     out.rest += rest_[j] * turned * turned;
     out.inertia += 0.5 * inertia_[j] * change * change;
     out.kinetic += 0.5 * inertia_[j] * rate * rate;
+    // What holds a frame has its inertia and drag in its torque.
+    out.moment += (inertia_[j] * change / dt_ + drag_[j] * rate + rest_[j] * turned) * to_vec3(tangent_[at(j)]);
   }
   return out;
 }

@@ -79,7 +79,32 @@ void StepReadings::begin(const SolvedStep& step, const RollerContact& rollers) {
   add_free_turns(step, rollers);
   work_.reweighting = before_.contact;
   force_ = step.force;
+  add_loads(step);
   first_ = false;
+}
+
+void StepReadings::add_loads(const SolvedStep& step) {
+  loads_ = LoadSum();
+  const Points& x = step.end;
+  const Boundary& boundary = step.boundary;
+  for (const FixedNode& fixed : boundary.fixed_nodes) loads_.add(x.col(fixed.node), reaction(fixed.node));
+  if (step.start.twist.size() > 0)
+    for (const FixedTwist& fixed : boundary.fixed_twists)
+      loads_.moment += reaction_torque(fixed.edge) * Vec3(x.col(fixed.edge + 1) - x.col(fixed.edge)).normalized();
+  for (std::size_t r = 0; r < boundary.rollers.size(); ++r) {
+    loads_.add(boundary.rollers[r].centre, -roller_load_[r].force);
+    loads_.moment -= roller_load_[r].moment;
+  }
+  for (const SlippingGrip& grip : boundary.grips)
+    loads_.add(x.col(grip.node), grip.force(x.col(grip.node)) * grip.direction);
+  for (const SpringHold& hold : boundary.holds) loads_.add(x.col(hold.node), hold.force(x.col(hold.node)));
+  for (const NodeForce& force : boundary.forces) loads_.add(x.col(force.node), force.force);
+  const double drag = settings_.drag + boundary.extra_drag;
+  for (Eigen::Index i = 0; i < rod_.nodes(); ++i) {
+    const Vec3 velocity = step.way.col(i) / step.dt, faster = velocity - step.start.velocity.col(i);
+    loads_.add(x.col(i),
+               rod_.mass[i] * (settings_.gravity - faster / step.dt) - drag * rod_.voronoi_length[i] * velocity);
+  }
 }
 
 /// Of a force, by its mean over the step; the step itself took it as it is at the end.
@@ -150,6 +175,7 @@ void StepReadings::add_elastic(const CentrelineTerms::Energy& centreline, const 
   energies_.bending = centreline.bending + frames.bending;
   energies_.twisting = frames.twisting;
   energies_.kinetic += frames.kinetic;
+  loads_.moment -= frames.moment;
   work_.numerical += centreline.along;
   work_.numerical += frames.along + frames.inertia + frames.rest;
   work_.drag += frames.drag;
@@ -183,13 +209,14 @@ template void StepReadings::add_contacts(const SolvedStep&, const SmoothContact&
 template void StepReadings::add_contacts(const SolvedStep&, const RollerContact&);
 
 void StepReadings::state(Archive& archive) {
-  archive.section("READ");
+  archive.section("REA2");  // "READ" had no sum of loads
   for (Lanes& force : force_)
     for (int i = 0; i < 4; ++i) archive(reinterpret_cast<double*>(&force)[i]);
   archive(contact_, energies_, work_, first_);
   archive.list(rollers_);
   archive.list(roller_load_);
   archive.require(roller_load_.size() == rollers_.size(), "loads of rollers", std::to_string(roller_load_.size()));
+  archive(loads_);
 }
 
 }  // namespace knot_utm

@@ -242,6 +242,7 @@ class ImplicitStep final : public TimeStep {
   Energies energies() const override { return readings_.energies(); }
   ContactReading contact_reading() const override { return readings_.contact(); }
   StepWork work() const override { return readings_.work(); }
+  LoadSum loads() const override { return readings_.loads(); }
   std::vector<ContactForce> contact_forces() const override {
     return knot_utm::contact_forces(contact_.contacts(), state_.position);
   }

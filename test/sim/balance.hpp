@@ -55,6 +55,9 @@ class Balance {
   /// Newton's residual at every node, and rounding, may leave of them.
   Vec3 force() const { return force_; }
   Vec3 moment() const { return moment_; }
+  /// The same as the step itself reads it, with the inertia and drag of spin.
+  Vec3 read_force() const { return read_force_; }
+  Vec3 read_moment() const { return read_moment_; }
   double force_bound() const {
     return residual_ * static_cast<double>(stepper_->rod().nodes()) + 1e-12 * largest_load_;
   }
@@ -116,6 +119,8 @@ class Balance {
       load(x.col(i),
            rod.mass[i] * (settings_.gravity - change / dt) - settings_.drag * rod.voronoi_length[i] * velocity);
     }
+    read_force_ = stepper_->loads().force;
+    read_moment_ = stepper_->loads().moment + stepper_->contact_reading().couple;
     load(Vec3::Zero(), Vec3::Zero(), stepper_->contact_reading().couple);
   }
 
@@ -127,7 +132,7 @@ class Balance {
   RodState before_;
   StepWork sum_;
   double gross_ = 0.0, residual_bound_ = 0.0, residual_ = 0.0, largest_load_ = 0.0, largest_moment_ = 0.0;
-  Vec3 force_ = Vec3::Zero(), moment_ = Vec3::Zero();
+  Vec3 force_ = Vec3::Zero(), moment_ = Vec3::Zero(), read_force_ = Vec3::Zero(), read_moment_ = Vec3::Zero();
 };
 
 }  // namespace knot_utm

@@ -208,6 +208,8 @@ TEST_P(EnergyOf, EverySceneClosesStepByStep) {
   scene.run([&] {
     EXPECT_LT(std::abs(scene.balance->gap() - gap), scene.balance->rounding());
     gap = scene.balance->gap();
+    EXPECT_LT(scene.balance->read_force().norm(), scene.balance->force_bound());
+    EXPECT_LT(scene.balance->read_moment().norm(), scene.balance->moment_bound());
   });
   if (HasFatalFailure()) return;
   EXPECT_LT(std::abs(scene.balance->sum().residual), scene.balance->residual_bound());

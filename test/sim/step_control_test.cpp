@@ -44,6 +44,7 @@ class ScriptedStep : public TimeStep {
   Energies energies() const override { return {}; }
   ContactReading contact_reading() const override { return {}; }
   StepWork work() const override { return {}; }
+  LoadSum loads() const override { return {}; }
   std::vector<ContactForce> contact_forces() const override { return {}; }
   double normal_force_between(const NodeRange&, const NodeRange&) const override { return 0.0; }
   double roller_normal_force(const NodeRange&) const override { return 0.0; }

@@ -55,9 +55,6 @@ class Grips {
   double force_upper(const TimeStep& step) const;
   double force_lower(const TimeStep& step) const;
 
-  /// Size of the sum of all moments that the grips exert on the rod about the lower one [N m].
-  double moment_imbalance(double displacement, const TimeStep& step) const;
-
  private:
   double half_way(double displacement) const;
   void narrow(double left, std::vector<Roller>& rollers) const;

@@ -79,7 +79,7 @@ struct Sample {
   double friction_loss = 0.0;                ///< of which by friction [J]
   double numerical_dissipation = 0.0;        ///< by the time steps since the start [J]
   double reweighting_loss = 0.0;             ///< of contact energy as weights changed since the start [J]
-  double moment_imbalance = 0.0;             ///< size of the sum of all moments at the grips [N m]
+  double moment_imbalance = 0.0;             ///< size of the sum of all moments on the rod, inertia and drag among them [N m]
   std::uint64_t steps = 0;                   ///< time steps since the start
   std::uint64_t rejected_steps = 0;          ///< of which thrown away
   std::uint64_t newton_iterations = 0;       ///< since the start

@@ -108,6 +108,7 @@ class FrameTerms {
     double rest = 0.0;                     ///< r_j turn^2 [J]
     double inertia = 0.0;                  ///< 1/2 I_j (omega_j - omega_j^n)^2 [J]
     double kinetic = 0.0;                  ///< [J]
+    Vec3 moment = Vec3::Zero();            ///< of inertia, drag and r_j, about the edges' tangents [N m]
   };
   Energy energy(const Points& way, const std::vector<Lanes>& force) const;
   /// Of spinning at these rates [rad/s]; [J].

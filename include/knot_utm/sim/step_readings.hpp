@@ -1,5 +1,6 @@
 #pragma once
 
+#include <Eigen/Geometry>
 #include <vector>
 
 #include "knot_utm/contact/contact_point.hpp"
@@ -97,6 +98,21 @@ struct StepWork {
   void state(Archive& archive) { archive(boundary, friction, drag, numerical, reweighting, residual); }
 };
 
+/// Sum of all that acted on the rod in the last accepted step: holders, grips, springs, rollers, forces and weight,
+/// and, with the opposite sign, what its inertia and its drag take, those of spin among them. The force is what
+/// Newton's method left unbalanced, and so is the moment, but for the couple of friction that sections do not take
+/// (ContactReading::couple), which then is what is missing.
+struct LoadSum {
+  Vec3 force = Vec3::Zero();   ///< [N]
+  Vec3 moment = Vec3::Zero();  ///< about the origin [N m]
+
+  void add(const Vec3& place, const Vec3& f) {
+    force += f;
+    moment += place.cross(f);
+  }
+  void state(Archive& archive) { archive(force, moment); }
+};
+
 /// A step as its equations were solved, before the state moves on.
 struct SolvedStep {
   const RodState& start;
@@ -131,6 +147,7 @@ class StepReadings {
   const Energies& energies() const { return energies_; }
   const ContactReading& contact() const { return contact_; }
   const StepWork& work() const { return work_; }
+  const LoadSum& loads() const { return loads_; }
 
   void state(Archive& archive);
 
@@ -147,12 +164,14 @@ class StepReadings {
   void add_work_of_rollers(const SolvedStep& step, const RollerContact& rollers);
   void add_motion(const SolvedStep& step);
   void add_free_turns(const SolvedStep& step, const RollerContact& rollers);
+  void add_loads(const SolvedStep& step);
 
   const RodProperties& rod_;
   const StepSettings& settings_;
   Energies energies_, before_;  // of this step and the one before
   ContactReading contact_;
   StepWork work_;
+  LoadSum loads_;
   bool first_ = true;
   std::vector<Lanes> force_;  // SolvedStep::force
   std::vector<Roller> rollers_;

@@ -99,6 +99,7 @@ class TimeStep {
   virtual Energies energies() const = 0;
   virtual ContactReading contact_reading() const = 0;
   virtual StepWork work() const = 0;
+  virtual LoadSum loads() const = 0;
   /// Of the last step that was tried: what is read off an accepted one, before the next is tried.
   virtual std::vector<ContactForce> contact_forces() const = 0;
   virtual double normal_force_between(const NodeRange& a, const NodeRange& b) const = 0;
