@@ -46,7 +46,7 @@ struct Section {
 
   /// As c', V and Psi change.
   struct Change {
-    FourVectors over, rotation;
+    FourVectors over = {}, rotation = {};
   };
   Change change(const FourVectors& longer, const FourVectors& turned, const Lanes& spun) const {
     Change out;
@@ -54,39 +54,25 @@ struct Section {
     out.rotation = cross(out.over, turn) + cross(over, turned) + spun * over + spin * out.over;
     return out;
   }
+  /// As Psi alone changes, by 1.
+  Change spun() const { return {FourVectors{}, over}; }
 };
 
-/// What Newton's method changes, of four contacts.
-struct Change {
-  FourVectors shift = {}, turn_a = {}, turn_b = {};
-  Lanes spin_a = {}, spin_b = {}, turned = {};
-
-  /// One of the numbers that SurfaceModel counts, by 1.
-  static Change unit(int number) {
-    Change out;
-    const Lanes one = constant<Lanes>(1.0);
-    const auto component = [&](FourVectors& v, int i) { (i == 0 ? v.x : i == 1 ? v.y : v.z) = one; };
-    if (number < SurfaceModel::kTurnA)
-      component(out.shift, number);
-    else if (number < SurfaceModel::kTurnB)
-      component(out.turn_a, number - SurfaceModel::kTurnA);
-    else if (number < SurfaceModel::kSpinA)
-      component(out.turn_b, number - SurfaceModel::kTurnB);
-    else
-      (number == SurfaceModel::kSpinA ? out.spin_a : number == SurfaceModel::kSpinB ? out.spin_b : out.turned) = one;
-    return out;
-  }
-};
+FourVectors unit_vector(int component) {
+  FourVectors out = {};
+  (component == 0 ? out.x : component == 1 ? out.y : out.z) = constant<Lanes>(1.0);
+  return out;
+}
 
 /// The foot of a smooth strand, or none, on a roller: du = (b'.S + x.V_b)/G.
 struct OneFoot {
   static constexpr bool kTwo = false;
   Lanes inverse_g;
 
-  void find(const Change& change, const FourVectors&, const FourVectors& db, const FourVectors& x, Lanes& a,
-            Lanes& b) const {
+  void find(const FourVectors& shift, const FourVectors&, const FourVectors& turn_b, const FourVectors&,
+            const FourVectors& db, const FourVectors& x, Lanes& a, Lanes& b) const {
     a = Lanes{};
-    b = inverse_g * (dot(db, change.shift) + dot(x, change.turn_b));
+    b = inverse_g * (dot(db, shift) + dot(x, turn_b));
   }
 };
 
@@ -95,10 +81,10 @@ struct TwoFeet {
   static constexpr bool kTwo = true;
   Lanes tt, tu, uu;
 
-  void find(const Change& change, const FourVectors& da, const FourVectors& db, const FourVectors& x, Lanes& a,
-            Lanes& b) const {
-    const Lanes of_a = -1.0 * (dot(da, change.shift) + dot(x, change.turn_a));
-    const Lanes of_b = dot(db, change.shift) + dot(x, change.turn_b);
+  void find(const FourVectors& shift, const FourVectors& turn_a, const FourVectors& turn_b, const FourVectors& da,
+            const FourVectors& db, const FourVectors& x, Lanes& a, Lanes& b) const {
+    const Lanes of_a = -1.0 * (dot(da, shift) + dot(x, turn_a));
+    const Lanes of_b = dot(db, shift) + dot(x, turn_b);
     a = tt * of_a + tu * of_b;
     b = tu * of_a + uu * of_b;
   }
@@ -157,43 +143,94 @@ class FourSurfaces {
       models[i].on_b = on_b[i];
       models[i].two_feet = Feet::kTwo;
     }
-    for (int number = 0; number < SurfaceModel::kChanges; ++number) {
-      const bool of_b =
-          (number >= SurfaceModel::kTurnB && number < SurfaceModel::kSpinA) || number == SurfaceModel::kSpinB;
-      if (on_roller_ ? of_b : number == SurfaceModel::kTurned) continue;
-      respond(Change::unit(number), number, models);
+    Response by_foot_a, by_foot;
+    if constexpr (Feet::kTwo) by_foot_a = moved(da_, a_.turn);
+    if (!on_roller_) {
+      by_foot = moved(-1.0 * db_, -1.0 * b_.turn);
+      by_foot += turned(Section::Change(), b_.change(bend_b_, bend_turn_b_, spin_slope_b_));
     }
+    const auto add_feet = [&](Response response, const FourVectors& shift, const FourVectors& turn_a,
+                              const FourVectors& turn_b, int number) {
+      Lanes foot_a, foot;
+      feet_.find(shift, turn_a, turn_b, da_, db_, x_, foot_a, foot);
+      if constexpr (Feet::kTwo) response.add(foot_a, by_foot_a);
+      if (!on_roller_) response.add(foot, by_foot);
+      write(response, foot_a, foot, number, models);
+    };
+    const Lanes still = {};
+    const FourVectors none = {};
+    for (int i = 0; i < 3; ++i) {
+      const FourVectors unit = unit_vector(i);
+      add_feet(moved(unit - dot(axis_, unit) * axis_, unit), unit, none, none, SurfaceModel::kShift + i);
+      const Response turns_a = turned(a_.change(unit, unit, still), Section::Change());
+      if constexpr (Feet::kTwo)
+        add_feet(turns_a, none, unit, none, SurfaceModel::kTurnA + i);
+      else
+        write(turns_a, still, still, SurfaceModel::kTurnA + i, models);
+      if (on_roller_) continue;
+      add_feet(turned(Section::Change(), b_.change(unit, unit, still)), none, none, unit, SurfaceModel::kTurnB + i);
+    }
+    write(turned(a_.spun(), Section::Change()), still, still, SurfaceModel::kSpinA, models);
+    if (on_roller_)
+      write(slipped(-1.0 * cross(axis_, (1.0 - lever_) * x_)), still, still, SurfaceModel::kTurned, models);
+    else
+      write(turned(Section::Change(), b_.spun()), still, still, SurfaceModel::kSpinB, models);
   }
 
  private:
-  void respond(const Change& change, int number, SurfaceModel* models) const {
-    // The feet's ways, and what changes with them.
-    Lanes foot_a, foot;
-    feet_.find(change, da_, db_, x_, foot_a, foot);
-    FourVectors dx = change.shift - dot(axis_, change.shift) * axis_ - foot * db_,
-                slid_by = change.shift - foot * b_.turn;
-    if constexpr (Feet::kTwo) {
-      dx += foot_a * da_;
-      slid_by += foot_a * a_.turn;
+  /// How g, a^ x m, b^ x m, and a^.m and b^.m change.
+  struct Response {
+    FourVectors force = {}, on_a = {}, on_b = {};
+    Lanes torque_a = {}, torque_b = {};
+
+    void add(const Lanes& times, const Response& o) {
+      force += times * o.force;
+      on_a += times * o.on_a;
+      on_b += times * o.on_b;
+      torque_a += times * o.torque_a;
+      torque_b += times * o.torque_b;
     }
-    // At the foot of a smooth strand b' is across n.
-    const Lanes nearer = -1.0 * dot(n_, Feet::kTwo ? dx : change.shift);
+    void operator+=(const Response& o) { add(constant<Lanes>(1.0), o); }
+  };
+
+  /// To a force that changes by dg, and m by dm.
+  Response responds(const FourVectors& dg, const FourVectors& dm) const {
+    return {dg, cross(a_.over, dm), cross(b_.over, dm), dot(a_.over, dm), dot(b_.over, dm)};
+  }
+
+  /// To a gap that changes by dx, and with it the slip by `slid_by` and all that turns with n; the sections stay.
+  Response moved(const FourVectors& dx, const FourVectors& slid_by) const {
+    const Lanes nearer = -1.0 * dot(n_, dx);
     const FourVectors dn = over_d_ * (dx + nearer * n_);
-    const Section::Change a = a_.change(change.turn_a, change.turn_a, change.spin_a);
-    const Section::Change b = b_.change(change.turn_b + foot * bend_b_, change.turn_b + foot * bend_turn_b_,
-                                        change.spin_b + foot * spin_slope_b_);
     // Slip: d(xi + alpha n x xi + u)
-    const FourVectors rotation = a.rotation + b.rotation;
-    const Lanes alpha = carried_ * (dot(n_, rotation) + dot(dn, rotation_));
-    FourVectors dr = slid_by - cross(rotation, lever_ * x_) - cross(rotation_, lever_ * dx) +
-                     alpha * cross(n_, remembered_) + alpha_ * cross(dn, remembered_);
-    if (on_roller_) dr -= cross(axis_, ((1.0 - lever_) * change.turned) * x_ + turned_ * dx);
+    FourVectors dr = slid_by - cross(rotation_, lever_ * dx) +
+                     (carried_ * dot(dn, rotation_)) * cross(n_, remembered_) + alpha_ * cross(dn, remembered_);
+    if (on_roller_) dr -= cross(axis_, turned_ * dx);
     const FourVectors slid = dr - dot(n_, dr) * n_ - away_ * dn - dot(r_, dn) * n_;
     const FourVectors dg = nearer * pressing_ + turning_ * dn - stiffness_ * friction_.slope_times(slid);
-    const FourVectors dm = cross(lever_ * dx, force_) + cross(lever_ * x_, dg);
-    const FourVectors on_a = cross(a.over, m_) + cross(a_.over, dm), on_b = cross(b.over, m_) + cross(b_.over, dm);
-    const Parted forces(-1.0 * dg), all_a(-1.0 * on_a, dot(a.over, m_) + dot(a_.over, dm)),
-        all_b(-1.0 * on_b, dot(b.over, m_) + dot(b_.over, dm));
+    return responds(dg, cross(lever_ * dx, force_) + cross(lever_ * x_, dg));
+  }
+
+  /// To slip that changes by dr while the gap stays.
+  Response slipped(const FourVectors& dr) const {
+    const FourVectors dg = -1.0 * stiffness_ * friction_.slope_times(dr - dot(n_, dr) * n_);
+    return responds(dg, cross(lever_ * x_, dg));
+  }
+
+  /// To sections that change.
+  Response turned(const Section::Change& a, const Section::Change& b) const {
+    const FourVectors rotation = a.rotation + b.rotation;
+    Response out = slipped((carried_ * dot(n_, rotation)) * cross(n_, remembered_) - cross(rotation, lever_ * x_));
+    out.on_a += cross(a.over, m_);
+    out.on_b += cross(b.over, m_);
+    out.torque_a += dot(a.over, m_);
+    out.torque_b += dot(b.over, m_);
+    return out;
+  }
+
+  void write(const Response& response, const Lanes& foot_a, const Lanes& foot, int number, SurfaceModel* models) const {
+    const Parted forces(-1.0 * response.force), all_a(-1.0 * response.on_a, response.torque_a),
+        all_b(-1.0 * response.on_b, response.torque_b);
     for (std::size_t i = 0; i < 4; ++i)
       models[i].by[number] = {forces[i], all_a[i], all_b[i], foot_a[static_cast<int>(i)], foot[static_cast<int>(i)]};
   }
