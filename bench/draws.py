@@ -77,6 +77,8 @@ class Draw:
         # Half of them with friction at the surface: strands roll and twist.
         if self.choice("friction_at_surface", [False, True]):
             self.settings["material"]["friction_couple"] = significant(self.uniform("friction_couple", 0.0, 1.0))
+            if self.number % 10 == 3:  # not drawn, so that all other draws stay as they were
+                self.settings["material"]["bending_set"] = self.keep("bending_set", 0.4)
         self.keep("bending_time", significant(h ** 2 * math.sqrt(density * math.pi * h ** 2 / bending)))
 
     def draw_physics(self):
@@ -86,6 +88,7 @@ class Draw:
             self.settings["physics." + key] = self.choice(key, options)
         if self.settings["physics.twist"] == "off" and "friction_couple" in self.settings["material"]:
             self.settings["physics.friction.at"] = "centreline"
+            self.settings["material"].pop("bending_set", None)
 
     def draw_fisherman(self):
         # The smallest of each do not fit, and are refused.

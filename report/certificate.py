@@ -68,7 +68,7 @@ def checks_of(result):
                 value("energy_balance_error"), LIMITS["kUnbalanced"]),
         at_most("Difference of the forces at both grips, as a share of the largest force", "force_balance_error",
                 value("force_balance_error"), BENCH_FORCE_BALANCE),
-        unlimited("Error of the balance of moments, as a share of the present force times the radius",
+        unlimited("Moment that the model leaves out, over the present force times the radius",
                   ["moment_balance_error"], value("moment_balance_error")),
         *numerical_errors(result),
     ]

@@ -11,7 +11,7 @@ KEYS = {
     "file": ("Shape from", ""), "radius": ("Radius", "length"), "density": ("Density", "kg/m³"),
     "stretching_stiffness": ("Stretching stiffness", "force"), "bending_stiffness": ("Bending stiffness", "N m²"),
     "twisting_stiffness": ("Twisting stiffness", "N m²"), "friction_coefficient": ("Friction coefficient", ""),
-    "friction_couple": ("Share of the couple of friction", ""), "bending_set": ("Share of the bend that sets", ""),
+    "friction_couple": ("Share of friction's couple that sections take", ""), "bending_set": ("Share of the tied bend that sets", ""),
     "contact_stiffness": ("Contact stiffness", "N/m²"), "breaking_force": ("Breaking force", "force"),
     "grips": ("Grips", ""), "roller_diameter": ("Roller diameter", "length"),
     "roller_friction": ("Roller friction", ""), "roller_rotation": ("Rollers", ""),
@@ -78,8 +78,26 @@ def knot_of(method):
     return KNOTS.get(method["specimen"]["knot"], str(method["specimen"]["knot"]))
 
 
+def without_idle_keys(method):
+    """Without the keys that do nothing in this method, and would say what it is not."""
+    def without(section, *keys):
+        return {key: value for key, value in section.items() if key not in keys}
+
+    material, machine, physics = method["material"], method["machine"], method.get("physics", {})
+    if not material.get("bending_set"):
+        material = without(material, "bending_set")
+    if not material.get("friction_couple") and isinstance(physics.get("friction"), dict):
+        physics = {**physics, "friction": without(physics["friction"], "at")}
+    if machine.get("roller_rotation", "fixed") != "turned":
+        machine = without(machine, "roller_rate")
+    if not machine.get("roller_friction"):
+        machine = without(machine, "roller_rotation")
+    return {**method, "material": material, "machine": machine, "physics": physics}
+
+
 def method_facts(method, units):
     """[(title, [(label, text)], remark)]"""
+    method = without_idle_keys(method)
     specimen, material, machine = method["specimen"], method["material"], method["machine"]
     cell = machine.get("load_cell")
     cell = cell if isinstance(cell, dict) else {}

@@ -82,6 +82,17 @@ std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double wa
   return out;
 }
 
+/// Every point with the least that each knot holds of the rod from there over `way`: a tail that whips past has a knot
+/// take in rod for a moment, a knot that opens keeps it.
+Pull as_kept(const Pull& pull, double way) {
+  Pull out = pull;
+  for (std::size_t i = 0; i < pull.size(); ++i)
+    for (std::size_t j = i; j <= last_within(pull, i, way, pull.back().extension); ++j)
+      for (std::size_t k = 0; k < 2; ++k)
+        out[i].excess_length[k] = std::min(out[i].excess_length[k], pull[j].excess_length[k]);
+  return out;
+}
+
 /// Of the rod that a knot holds: what it took in over what it held at first, the larger of both knots; NaN: not known.
 double taken_in(const Pull& pull, const PullPoint& from, const PullPoint& to) {
   double most = Sample::kNone;
@@ -190,12 +201,13 @@ std::optional<Drop> jump(const Pull& pull) {
   const auto point = [&](std::size_t i) { return pull.begin() + static_cast<std::ptrdiff_t>(i); };
   const double first = pull.front().knot_distance, end = pull.back().extension;
   const double at_once = kSudden * first / std::abs(kSliding);  // knots have met after half of e at the latest
+  const Pull kept = as_kept(pull, at_once);
   double most = 1.0;
   std::optional<Drop> out;
   for (std::size_t i = 0; i < pull.size(); ++i) {
     const std::size_t last = last_within(pull, i, at_once, end);
     for (std::size_t j = i + 1; j <= last; ++j)
-      if (const double much = opened(pull, pull[i], pull[j]); much > most) {
+      if (const double much = opened(pull, pull[i], kept[j]); much > most) {
         most = much;
         out = Drop{i, j};
       }

@@ -75,17 +75,14 @@ void check_effects(const Method& m) {
   has_effect(loop, "specimen.tail", s.tail, unset.tail, "for knot: fisherman");
   has_effect(loop, "specimen.preload", s.preload.value_or(0.0), 0.0, "for knot: fisherman, whose knots are tied");
 
-  has_effect(loop && s.to_be_tied, "material.bending_set", m.material.bending_set, 0.0,
-             "for knot: fisherman, whose knots are tied");
   const MachineOptions& machine = m.machine;
   const MachineOptions bare;
   has_effect(loop, "machine.roller_diameter", machine.roller_diameter, bare.roller_diameter, "for knot: fisherman");
   has_effect(machine.grips == GripKind::kRollers, "machine.roller_friction", machine.roller_friction,
              bare.roller_friction, "with grips: rollers");
-  constexpr const char* kRotations[] = {"fixed", "free", "turned"};
   has_effect(machine.roller_friction > 0.0, "machine.roller_rotation",
-             std::string(kRotations[static_cast<int>(machine.roller_rotation)]), std::string("fixed"),
-             "with a roller_friction above 0");
+             std::string(fields::kRotations[static_cast<std::size_t>(machine.roller_rotation)]),
+             std::string(fields::kRotations[0]), "with a roller_friction above 0");
   has_effect(machine.roller_rotation == RollerRotation::kTurned, "machine.roller_rate", machine.roller_rate,
              bare.roller_rate, "with roller_rotation: turned");
   if (machine.roller_rotation == RollerRotation::kTurned && machine.roller_rate == 0.0)
@@ -140,7 +137,7 @@ void check_twist(const Method& m) {
     throw InvalidInput::sentence("physics.twist", "off",
                                  "physics.twist is off, but friction at the surface twists the rod: set "
                                  "physics.friction.at: centreline or material.friction_couple: 0 to go without");
-  if (m.material.bending_set > 0.0)
+  if (m.specimen.to_be_tied && m.material.bending_set > 0.0)
     throw InvalidInput::sentence("physics.twist", "off",
                                  "physics.twist is off, but material.bending_set curves the rod at rest, which takes "
                                  "part in its twist: set material.bending_set: 0 to go without");

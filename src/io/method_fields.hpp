@@ -87,13 +87,16 @@ void load_cell(Fields& f, LoadCellOptions& o) {
   f.text("notes", o.notes);
 }
 
+/// Of rollers, in the order of RollerRotation.
+inline constexpr std::array kRotations{"fixed", "free", "turned"};
+
 /// All of `machine` but the load cell, which may be a name.
 template <class Fields>
 void machine(Fields& f, MachineOptions& o) {
   f.choice("grips", o.grips, std::array{"rollers", "nodes", "clamps"});
   f.scaled_number("roller_diameter", o.roller_diameter, Range{1e-5, 1.0, "m"});
   f.number("roller_friction", o.roller_friction, Range{0.0, 5.0, "-"});
-  f.choice("roller_rotation", o.roller_rotation, std::array{"fixed", "free", "turned"});
+  f.choice("roller_rotation", o.roller_rotation, kRotations);
   f.number("roller_rate", o.roller_rate, Range{-100.0, 100.0, "rad/s"});
   f.choice("far_side", o.far_side, std::array{"held", "free"});
   f.number("stiffness", o.stiffness, Range{1.0, kInfinity, "N/m"});

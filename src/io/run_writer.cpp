@@ -28,7 +28,7 @@ std::string begin(const std::string& folder, const Method& method) {
 }
 
 /// Of a loop around its rollers, by choice: half of the diameter of the default roller [h].
-constexpr double kTurned = 6.0;
+constexpr double kLargestLoopTurn = 6.0;
 /// A contact deeper than this is no longer that of the rod it stands for [fraction of radius].
 constexpr double kDeep = 0.05;
 /// Where energies miss the work by more, what Newton's method leaves unbalanced has a part in the forces too: seen
@@ -157,12 +157,26 @@ std::string accuracy_warning(const Results& results, const ReadingErrors& errors
          "error";
 }
 
+namespace {
+
+/// Knots that go on their way as they are let go are tied at another distance than was asked for.
+std::string knots_travelled(const Results& results, const RunFacts& facts) {
+  constexpr double kFar = 0.05;  // of the distance, by choice: shipped methods are within 1e-3
+  if (!results.tied_knot_distance || !(facts.knot_distance > 0.0)) return {};
+  if (std::abs(*results.tied_knot_distance / facts.knot_distance - 1.0) <= kFar) return {};
+  return "the knots travelled as they were let go: they are " + short_number(*results.tied_knot_distance) +
+         " m apart, where specimen.knot_distance is " + short_number(facts.knot_distance) + " m";
+}
+
+}  // namespace
+
 std::vector<std::string> told(const Results& results, const RunFacts& facts) {
   std::vector<std::string> all = events(results);
   for (const std::vector<std::string>& more :
        {gravity_warnings(results, facts), speed_warnings(results.rate, facts.inertia),
         snap_warnings(results, facts.pull_speed), facts.warnings})
     all.insert(all.end(), more.begin(), more.end());
+  if (const std::string travelled = knots_travelled(results, facts); !travelled.empty()) all.push_back(travelled);
   const std::string unsure = accuracy_warning(results, known_errors(results, facts));
   if (!unsure.empty()) all.push_back(unsure);
   if (!facts.margin.reason.empty()) all.push_back("no margin: " + facts.margin.reason);
@@ -173,8 +187,14 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
     : folder_(begin(folder, method)),
       curve_((fs::path(folder) / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
       full_curve_((fs::path(folder) / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)) {
-  known_.errors = reading_errors(method.specimen, method.material, method.physics);
+  known_.errors = reading_errors(method.specimen, method.material, method.machine, method.physics);
   known_.material = method.material;
+  if (method.specimen.knot == KnotKind::kFisherman && method.specimen.to_be_tied)
+    known_.knot_distance = method.specimen.knot_distance;
+  if (method.machine.roller_rotation == RollerRotation::kTurned)
+    known_.warnings.push_back(
+        "the rollers are driven: what holds the far side bears a part of the load, and the two grips read different "
+        "forces");
   if (method.specimen.to_be_tied) {
     known_.preload = method.specimen.preload.value_or(Sample::kNone);
     known_.foreseen = tying_warnings(method.specimen, method.material, method.physics);
@@ -188,7 +208,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
     known_.margin.reason = "only tensile_test makes the runs for the margin: run method.yaml of this folder with it";
   known_.load_cell = method.machine.load_cell;
   known_.inertia = inertia_factor(method.material, method.physics);
-  known_.warnings = speed_warnings(method);
+  for (const std::string& warning : speed_warnings(method)) known_.warnings.push_back(warning);
   for (const ProgramStep& step : method.program)
     if (pulls(step.phase)) known_.pull_speed = std::max(known_.pull_speed, step.speed);
   known_.specification = method.specification;
@@ -230,12 +250,13 @@ RunFacts RunWriter::facts() const {
   facts.peak_memory = peak_memory();
   facts.weight = weight_per_length_ * length_;
   if (radius_on_rollers_) facts.slid_along = turn_.along();
-  if (radius_on_rollers_ && turn_.largest() > kTurned * *radius_on_rollers_)
+  if (radius_on_rollers_ && turn_.largest() > kLargestLoopTurn * *radius_on_rollers_)
     facts.warnings.push_back(
         "the loop turned around its rollers by " + format_number(std::round(turn_.largest() / *radius_on_rollers_)) +
         " radii of the rod, which carries its knots along" + (facts.weight > 0.0 ? ": physics.gravity turns it" : "") +
-        (far_side_held_ ? ", though machine.far_side holds it: machine.roller_friction would keep it in place"
-                        : "; machine.far_side: held or machine.roller_friction keeps it in place"));
+        (far_side_held_
+             ? ", though machine.far_side holds it: fixed rollers with machine.roller_friction would keep it in place"
+             : "; machine.far_side: held or machine.roller_friction keeps it in place"));
   return facts;
 }
 

@@ -104,12 +104,14 @@ double hardly_closed(double plateau_force, const Material& material) {
   return plateau_force >= closed ? 1.0 : std::pow(closed / plateau_force, 2);
 }
 
-ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const PhysicsOptions& physics) {
+ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
+                             const PhysicsOptions& physics) {
   ReadingErrors out;
   if (specimen.knot == KnotKind::kStraight) out.locked_stiffness = kStraightStiffness;
   const bool studied = specimen.knot == KnotKind::kFisherman && specimen.to_be_tied &&
                        physics.contact_law == ContactLaw::kSmooth && entry_of(physics.friction.law).studied &&
-                       friction_couple(material, physics) == 0.0 && material.bending_set == 0.0;
+                       friction_couple(material, physics) == 0.0 && material.bending_set == 0.0 &&
+                       machine.roller_friction == 0.0;
   if (!studied) return out;
   const double h = material.radius, edge = specimen.edge_length / h;
   const bool solid = stretches(specimen, material), opposite = specimen.handedness == Handedness::kOpposite;

@@ -27,6 +27,7 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
     roller.axis = Vec3::UnitY();
     roller.radius = 0.5 * machine.roller_diameter;
     roller.centre = Vec3::Zero();
+    // A ring as heavy as the rod would be all around the roller: nothing that a slow test feels.
     if (machine.roller_rotation == RollerRotation::kFree)
       roller.inertia = specimen_scales(material).mass * 2.0 * M_PI * std::pow(roller.radius, 3);
     if (machine.roller_rotation == RollerRotation::kTurned) roller_rate_ = machine.roller_rate;

@@ -97,7 +97,7 @@ struct TestBench::Impl {
     state.position = centreline.points;
     state.velocity = Points::Zero(3, nodes);
     RodProperties rod = make_rod(material, rest);
-    if (material.bending_set > 0.0) rod.natural_curvature.setZero(2, nodes - 2);
+    if (specimen.to_be_tied && material.bending_set > 0.0) rod.natural_curvature.setZero(2, nodes - 2);
     if (solves_for_twist(rod)) initialise_frames(&state);
     const StepSettings settings = step_settings(specimen, material_, machine, physics);
     gravity = settings.gravity;
@@ -213,7 +213,7 @@ struct TestBench::Impl {
     apply_gravity();
     if (!rig) return;
     if (phase == Phase::kTie) rig->tie(command.speed, time, stepper->state().position);
-    if (rig->tied()) stepper->take_set(material.bending_set);
+    if (rig->tied() && material.bending_set > 0.0) stepper->take_set(material.bending_set);
     if (phase == Phase::kRelease) {
       rig->release(command.duration, time);
     } else if (rig->tied()) {

@@ -1,6 +1,5 @@
 #include "examine_step.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <optional>
 #include <sstream>
@@ -16,7 +15,7 @@ Vec3 slip(const ContactPoint& contact, const Points& way) {
     out += contact.c[k] * way.col(contact.a0 + k);
     if (!contact.on_roller()) out += contact.c[3 + k] * way.col(contact.b0 + k);
   }
-  if (contact.on_roller()) out -= contact.turned * contact.axis.cross(contact.x);
+  if (contact.on_roller()) out -= carried_along(contact);
   return out;
 }
 

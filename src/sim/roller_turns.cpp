@@ -18,9 +18,6 @@ double product(const std::vector<Lanes>& a, const std::vector<Lanes>& b) {
   return sum[0] + sum[1] + sum[2] + sum[3];
 }
 
-/// s, by which friction's slip is less as the roller turns by one radian [m].
-Vec3 swept(const ContactPoint& contact, double lever) { return (1.0 - lever) * contact.axis.cross(contact.x); }
-
 }  // namespace
 
 void RollerTurns::begin(const std::vector<Roller>& rollers, const RollerContact& contact, int nodes, double dt) {
@@ -63,7 +60,7 @@ RollerTurns::Border* RollerTurns::border_of(const ContactPoint& contact) {
 void RollerTurns::add(const ContactPoint& contact, const RollerModel& model) {
   Border* border = border_of(contact);
   if (border == nullptr) return;
-  const Vec3 s = swept(contact, 0.0), g = to_vec3(model.force);
+  const Vec3 s = surface_way(contact, 0.0), g = to_vec3(model.force);
   Lanes row = to_lanes(Vec3(g.cross(contact.axis)));
   for (int i = 0; i < 3; ++i) row[i] -= dot(to_lanes(s), model.still[i]);
   for (int k = 0; k < 3; ++k) {
@@ -78,8 +75,8 @@ void RollerTurns::add(const ContactPoint& contact, const SurfacePoint& surface, 
                       const SectionTurns& turns) {
   Border* border = border_of(contact);
   if (border == nullptr) return;
-  const Vec3 g = to_vec3(model.force), swept_by = swept(contact, surface.lever);
-  const Lanes s = to_lanes(swept_by), pushed = to_lanes(Vec3((1.0 - surface.lever) * g.cross(contact.axis)));
+  const Vec3 g = to_vec3(model.force), way = surface_way(contact, surface.lever);
+  const Lanes s = to_lanes(way), pushed = to_lanes(Vec3((1.0 - surface.lever) * g.cross(contact.axis)));
   const SurfaceModel::Response& by_turn = model.by[SurfaceModel::kTurned];
   const double spins[3] = {surface.s_a[0], surface.s_a[1], 0.0};
   const auto spin = spin_of_nodes(turns.pull, contact.a0, surface.s_a);
@@ -93,7 +90,7 @@ void RollerTurns::add(const ContactPoint& contact, const SurfacePoint& surface, 
     border->row[at(contact.a0 + k)] += row;
   }
   border->diagonal -= dot(s, by_turn.force);
-  border->torque -= swept_by.dot(g - contact.force);
+  border->torque -= way.dot(g - contact.force);
 }
 
 void RollerTurns::hold(int node, const Lanes& keep) {

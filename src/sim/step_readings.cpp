@@ -7,6 +7,7 @@
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/rod/energy.hpp"
+#include "knot_utm/sim/roller_turns.hpp"
 
 namespace knot_utm {
 
@@ -152,7 +153,7 @@ void StepReadings::add_free_turns(const SolvedStep& step, const RollerContact& r
     const double turn = rollers.turned(number), rate = turn / step.dt, faster = rate - rollers.turn(number).rate;
     energies_.kinetic += 0.5 * roller.inertia * rate * rate;
     work_.numerical += 0.5 * roller.inertia * faster * faster;
-    work_.residual += (rollers.torque_on(number) - roller.inertia * faster / step.dt) * turn;
+    work_.residual += RollerTurns::unbalanced(step.boundary.rollers, rollers, number, step.dt) * turn;
   }
 }
 

@@ -12,6 +12,7 @@
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/rod/stretching.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
@@ -546,6 +547,8 @@ Eigen::VectorXd TimeStep::tension() const {
 }
 
 void TimeStep::take_set(double share) {
+  if (rod_.natural_curvature.cols() == 0)
+    throw InvalidInput("rod", "straight at rest", "made with natural curvatures, be they zero, to take a set");
   const Points& x = state_.position;
   const auto edge = [&](Eigen::Index j) { return Vec3(x.col(j + 1) - x.col(j)); };
   const auto directors = [&](Eigen::Index j) {

@@ -172,6 +172,20 @@ TEST(CurveReadings, AKnotThatTakesInRodAtOnceJumpedOpen) {
       << "green VPS that slips as it is stretched to 1.25 of its length";
 }
 
+/// The knot's rod is counted to the tail's end, which comes nearer and goes away again.
+TEST(CurveReadings, ATailThatWhipsPastIsNoJump) {
+  const auto whips = [](double until) {
+    Pull out = with_knots(pull(sliding), 0.0);
+    for (PullPoint& point : out) {
+      const bool near = point.extension > 0.03 && point.extension < until;
+      point.excess_length = {0.08, 0.08 + (near ? 0.0225 : 0.0)};
+    }
+    return curve_readings(out);
+  };
+  EXPECT_FALSE(whips(0.032).jump_force);
+  EXPECT_TRUE(whips(1.0).jump_force) << "it stays";
+}
+
 /// Its load rises from nothing to its breakaway and then only falls, which looks like a lock.
 TEST(CurveReadings, AKnotThatJumpsBehindItsPeakDidSo) {
   Pull falling = pull([](double s) { return s < 0.01 ? 600.0 * s : std::max(0.1, 6.0 - 150.0 * (s - 0.01)); });

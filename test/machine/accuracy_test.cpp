@@ -14,6 +14,7 @@ namespace {
 struct Loop {
   SpecimenOptions specimen;
   Material material;
+  MachineOptions machine;
   PhysicsOptions physics;
 
   Loop() {
@@ -24,7 +25,7 @@ struct Loop {
     material.friction_coefficient = 0.7;
   }
   Tolerances tolerances() const { return knot_utm::tolerances(physics, specimen, material); }
-  ReadingErrors errors() const { return reading_errors(specimen, material, physics); }
+  ReadingErrors errors() const { return reading_errors(specimen, material, machine, physics); }
 };
 
 Results plateau() {
@@ -95,7 +96,7 @@ TEST(ReadingErrors, OfKnotsThatAreHardlyClosedAreLarger) {
 /// Nylon's edges are shorter, as it is tied hard, and its error is smaller with their square.
 TEST(ReadingErrors, OfTheShippedMethodNeedNoWarning) {
   const Method shipped = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml");
-  const ReadingErrors errors = reading_errors(shipped.specimen, shipped.material, shipped.physics);
+  const ReadingErrors errors = reading_errors(shipped.specimen, shipped.material, shipped.machine, shipped.physics);
   EXPECT_NEAR(shipped.specimen.edge_length / shipped.material.radius, 1.008, 5e-4);
   const double edges = 1.008 * 2.25 / 3.0;
   EXPECT_NEAR(errors.plateau_force.value(), (0.5 + 0.5 * edges * edges) * 0.043 * 0.65 / 0.46, 5e-5);
@@ -147,14 +148,15 @@ TEST(Tolerances, EdgesAreShorterInRopesThatAreTiedHard) {
 }
 
 TEST(ReadingErrors, AreNotGivenWhereNoStudySays) {
-  Loop edge, smoothed, untied, overhand, rolling, set;
+  Loop edge, smoothed, untied, overhand, rolling, set, rough;
   edge.physics.contact_law = ContactLaw::kEdge;
   smoothed.physics.friction.law = law_named("smoothed");
   untied.specimen.to_be_tied = false;
   overhand.specimen.knot = KnotKind::kOverhand;
   rolling.material.friction_couple = 0.1;
   set.material.bending_set = 0.5;
-  for (const Loop& loop : {edge, smoothed, untied, overhand, rolling, set}) {
+  rough.machine.roller_friction = 0.2;
+  for (const Loop& loop : {edge, smoothed, untied, overhand, rolling, set, rough}) {
     EXPECT_FALSE(loop.errors().plateau_force);
     EXPECT_FALSE(loop.errors().lock_extension);
     EXPECT_FALSE(loop.errors().locked_stiffness);

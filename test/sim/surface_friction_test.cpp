@@ -269,11 +269,17 @@ struct SurfaceCapstan {
     boundary.fixed_nodes = {{last, state.position.col(last)}};
   }
 
+  bool by_shaft = false;  // the shaft turns the other way as far, and the rod is held
+
   void pull_by(double way) {
     const Vec3 from = boundary.fixed_nodes[0].position;
-    const double begin = time;
+    const double begin = time, turned = boundary.rollers[0].turn;
     run(*stepper, begin, begin + way / kSpeed, 0.2 * edge / kSpeed, [&](double to) -> const Boundary& {
-      boundary.fixed_nodes[0].position = from + kSpeed * (to - begin) * pull;
+      const double slid = kSpeed * (to - begin);
+      if (by_shaft)
+        boundary.rollers[0].turn = turned + slid;
+      else
+        boundary.fixed_nodes[0].position = from + slid * pull;
       return boundary;
     });
     time = begin + way / kSpeed;
@@ -326,6 +332,14 @@ TEST_P(R15Capstan, TensionGrowsByTheLeverOfTheSurface) {
   const double eta = GetParam();
   SurfaceCapstan scene(eta, 3e4, 32.0);
   hold_against(formatted("R15 capstan at the surface, h/rho = %.2f: exponent per radian", eta),
+               surface_exponent(SurfaceCapstan::kFriction, eta), scene.exponent(), 0.02);
+}
+
+TEST_P(R15Capstan, AShaftThatIsDrivenUnderARestingRodDragsByTheSameLever) {
+  const double eta = GetParam();
+  SurfaceCapstan scene(eta, 3e4, 32.0);
+  scene.by_shaft = true;
+  hold_against(formatted("R15 the same, the shaft driven, h/rho = %.2f: exponent per radian", eta),
                surface_exponent(SurfaceCapstan::kFriction, eta), scene.exponent(), 0.02);
 }
 

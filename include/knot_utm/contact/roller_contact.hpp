@@ -29,6 +29,13 @@ struct RollerTurn {
   void state(Archive& archive) { archive(angle, rate); }
 };
 
+/// s of a contact, by which a roller moves its surface there as it turns by one radian [m]; `lever`: lambda.
+inline Vec3 surface_way(const ContactPoint& contact, double lever) {
+  return (1.0 - lever) * contact.axis.cross(contact.x);
+}
+/// psi s, by which it has moved it in this step [m].
+inline Vec3 carried_along(const ContactPoint& contact) { return contact.turned * contact.axis.cross(contact.x); }
+
 /// Contact of the rod's smooth centreline with rollers that move and turn: the normal law of the rod with
 /// D = r + h - d, d the distance from the axis, and a friction of their own.
 ///
@@ -123,8 +130,6 @@ class RollerContact {
                     const Points& start);
   double add_surface(ContactPoint& contact, const Roller& roller, const Points& position, const Points& start);
   std::size_t index_of(const ContactPoint& contact) const;
-  /// psi s of a contact [m]
-  static Vec3 carried_along(const ContactPoint& contact) { return contact.turned * contact.axis.cross(contact.x); }
   double lever_of(const ContactPoint& contact) const;
 
   NormalLaw normal_;

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "knot_utm/machine/options.hpp"
 #include "knot_utm/rod/material.hpp"
 #include "knot_utm/sim/options.hpp"
 #include "knot_utm/specimen/options.hpp"
@@ -30,10 +31,11 @@ struct ReadingErrors {
 };
 
 /// Each is meant to hold 95 % of the differences to a run at `fine` with edges half as long as at `normal`. Its size at
-/// `normal` is that found over loops drawn at random (`scripts/bench readings`); it depends on the hands of the knots, on
-/// friction, and of rods that stretch on the length of the loop. Other edges and tolerances raise or lower it: edges by
-/// their square, contact tolerance, presliding, longest step and residual each by its share.
-ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const PhysicsOptions& physics);
+/// `normal` is that found over loops drawn at random (`scripts/bench readings`); it depends on the hands of the knots,
+/// on friction, and of rods that stretch on the length of the loop. Other edges and tolerances raise or lower it: edges
+/// by their square, contact tolerance, presliding, longest step and residual each by its share.
+ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
+                             const PhysicsOptions& physics);
 
 /// By how much the error of a plateau is larger since the knots slide under so little force [N] that they are hardly
 /// closed [-]: 1 where they are.

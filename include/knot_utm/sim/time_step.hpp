@@ -72,7 +72,7 @@ class TimeStep {
 
   /// Bends take a set, between two steps: from the next one on the rod is curved at rest by `share` of its present
   /// material curvatures. What bending energy that takes is lost as `StepWork::numerical`. Only of a rod that was made
-  /// with natural curvatures, be they zero, and kept by `state`.
+  /// with natural curvatures, be they zero (else it throws InvalidInput), and kept by `state`.
   void take_set(double share);
 
   const RodProperties& rod() const { return rod_; }
