@@ -11,7 +11,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import WrenchStamped
 from knot_utm.msg import Crosshead, RecorderStatus, TestStatus
-from node_test import Latest, start_test
+from node_test import Latest, start_test, wait_for_connection
 
 MEASURED = [(0.0, 0.10e-3, 3.0), (0.5, 0.60e-3, 150.0), (1.0, 1.20e-3, 310.0), (1.5, 1.50e-3, 402.0),
             (2.0, 1.40e-3, 371.0)]
@@ -26,6 +26,7 @@ class ExperimentTest(unittest.TestCase):
         load = Latest('experiment/load_cell', WrenchStamped)
         recorder = Latest('recorder/status', RecorderStatus)
         status = Latest('utm/status', TestStatus)
+        wait_for_connection('utm_node', 'utm/crosshead', 'experiment_node')
         start_test()
         self.assertEqual(status.wait('ended', lambda s: s.state == TestStatus.ENDED).ended_by, 'program')
         self.addCleanup(shutil.rmtree, recorder.wait('recorded', lambda r: r.complete).directory)

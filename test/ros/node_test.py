@@ -1,6 +1,7 @@
 """What the tests of the running nodes share."""
 import threading
 import time
+import xmlrpc.client
 
 import rospy
 from std_srvs.srv import Trigger
@@ -42,6 +43,20 @@ class Latest:
         """The latest message, once so many more have come."""
         known = len(self.messages)
         return self.wait('%d more messages' % number, lambda _: len(self.messages) >= known + number)
+
+
+def wait_for_connection(publisher, topic, subscriber):
+    """Until what one node publishes reaches another: what it publishes before is lost to that one."""
+    topic, subscriber = rospy.resolve_name(topic), rospy.resolve_name(subscriber)
+    end = time.monotonic() + LAST_RESORT
+    while time.monotonic() < end:
+        _, _, uri = rospy.get_master().lookupNode(rospy.resolve_name(publisher))
+        if uri:
+            _, _, connections = xmlrpc.client.ServerProxy(uri).getBusInfo(rospy.get_name())
+            if any(one[4] == topic and one[1] == subscriber and one[2] == 'o' for one in connections):
+                return
+        time.sleep(0.05)
+    raise AssertionError('%s does not reach %s' % (topic, subscriber))
 
 
 def start_test():
