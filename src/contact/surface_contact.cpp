@@ -96,8 +96,7 @@ class FourSurfaces {
  public:
   FourSurfaces(const FourPressures& pressures, const Law& law, double dt, const ContactLinearisation& how,
                const std::array<const ContactPoint*, 4>& contacts, const Points4& surfaces, const Feet& feet)
-      : on_roller_(contacts[0]->on_roller()),
-        pressures_(pressures),
+      : pressures_(pressures),
         feet_(feet),
         a_(four(surfaces, &SurfacePoint::along_a), four(surfaces, &SurfacePoint::turn_a),
            four(surfaces, &SurfacePoint::spin_a)),
@@ -106,7 +105,8 @@ class FourSurfaces {
         bend_b_(four(surfaces, &SurfacePoint::bend_b)),
         bend_turn_b_(four(surfaces, &SurfacePoint::bend_turn_b)),
         spin_slope_b_(four(surfaces, &SurfacePoint::spin_slope_b)),
-        lever_(four(surfaces, &SurfacePoint::lever)) {
+        lever_(four(surfaces, &SurfacePoint::lever)),
+        on_roller_(contacts[0]->on_roller()) {
     const Four<const ContactPoint> of(contacts);
     x_ = of(&ContactPoint::x);
     n_ = of(&ContactPoint::n);
@@ -235,7 +235,6 @@ class FourSurfaces {
       models[i].by[number] = {forces[i], all_a[i], all_b[i], foot_a[static_cast<int>(i)], foot[static_cast<int>(i)]};
   }
 
-  bool on_roller_;
   FourPressures pressures_;
   Feet feet_;
   Section a_, b_;
@@ -244,11 +243,12 @@ class FourSurfaces {
   FourVectors x_, n_, da_, db_, axis_, r_, remembered_;
   Lanes over_d_, turned_;
   FourVectors rotation_;  // phi_a + phi_b
-  double carried_;
-  Lanes alpha_, away_;  // n.r
+  Lanes alpha_, away_;    // n.r
   FrictionTangent<FourVectors> friction_;
   Lanes turning_, stiffness_;
   FourVectors pressing_, force_, m_;
+  double carried_ = 0.0;
+  bool on_roller_;
 };
 
 /// phi_a + phi_b

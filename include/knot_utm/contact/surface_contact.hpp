@@ -87,10 +87,10 @@ struct SurfaceModel {
 
   double pressure = 0.0;  ///< of the tangent at the present overlap [N/m]
   double slope = 0.0;     ///< p'(D^) [N/m^2]
+  bool two_feet = false;  ///< between edges
   Lanes force = {};       ///< g with that pressure [N]
   Lanes on_a = {};        ///< a^ x m with it; lane 3: -a^.m
   Lanes on_b = {};        ///< b^ x m with it; lane 3: -b^.m
-  bool two_feet = false;  ///< between edges
   Response by[kChanges];
 };
 
