@@ -79,10 +79,10 @@ struct Sample {
   double friction_loss = 0.0;                ///< of which by friction [J]
   double numerical_dissipation = 0.0;        ///< by the time steps since the start [J]
   double reweighting_loss = 0.0;             ///< of contact energy as weights changed since the start [J]
-  double moment_imbalance = 0.0;             ///< size of the sum of all moments on the rod, inertia and drag among them [N m]
-  std::uint64_t steps = 0;                   ///< time steps since the start
-  std::uint64_t rejected_steps = 0;          ///< of which thrown away
-  std::uint64_t newton_iterations = 0;       ///< since the start
+  double moment_imbalance = 0.0;     ///< size of the sum of all moments on the rod, inertia and drag among them [N m]
+  std::uint64_t steps = 0;           ///< time steps since the start
+  std::uint64_t rejected_steps = 0;  ///< of which thrown away
+  std::uint64_t newton_iterations = 0;  ///< since the start
   /// Balanced true force on the upper grip: largest and least of the command's time steps, of a time step its own [N].
   double highest_load = 0.0, lowest_load = 0.0;
   double break_arclength = kNone;  ///< of the place where the rod parted, from its first node [m]; NaN: it is whole
