@@ -61,8 +61,8 @@ Tolerances of(Accuracy accuracy, const SpecimenOptions& specimen, const Material
 }
 
 // At `normal` with edges of h/2.25 (of a solid rod of h), meant to hold 95 % of the differences to `fine` with edges
-// half as long, and to be hardly wider. Chosen after draws of scripts/bench readings, of seeds 21, 25 and 28 to 30;
-// doc/benchmarks.md says how many of them they hold, and how many of other seeds.
+// half as long, and to be hardly wider. Chosen after what scripts/bench readings drew with seeds 21, 25 and 28 to 30.
+// How many of them these hold, and how many of other seeds, stands in doc/benchmarks.md.
 constexpr double kPlateau = 0.043, kOppositePlateau = 0.067;  // of knots of the same hand, and of opposite ones
 // Below this mu the knots are the less sure the nearer to opening.
 constexpr double kSlippery = 0.65, kOppositeSlippery = 0.45, kLeastFriction = 0.1;
