@@ -10,11 +10,11 @@ std::string what_keeps_a_knot(const Method& method) {
       "a higher material.friction_coefficient (now " + format_number(method.material.friction_coefficient) + ")";
   const SpecimenOptions& specimen = method.specimen;
   if (specimen.knot == KnotKind::kOverhand) return friction + " or a larger specimen.end_to_end may keep it";
+  if (!specimen.to_be_tied) return friction + " may keep it";
   if (friction_rolls(method.material, method.machine, method.physics))
     return "the couple of friction rolls its strands: a smaller material.friction_couple (now " +
            format_number(friction_couple(method.material, method.physics)) +
            ") or a larger material.bending_set (now " + format_number(method.material.bending_set) + ") may keep it";
-  if (!specimen.to_be_tied) return friction + " may keep it";
   const double usual = default_preload(method.material), preload = specimen.preload.value_or(usual);
   std::string now = format_number(preload) + " N";
   if (preload < usual) now += "; auto is " + format_number(usual) + " N";
