@@ -29,8 +29,7 @@ EdgeContact::EdgeContact(const RodProperties& rod, const NormalLaw& normal, cons
       rest_length_(rod.rest_length),
       length_(rod.rest_length),
       // Candidates are segments around nodes; an edge is found by the node it ends at, and is the whole of its extent.
-      // Strands closer than 5 h along the rod bend, they do not touch.
-      candidates_(rod, reach_, margin, 5.0 * rod.material.radius, 1.0) {
+      candidates_(rod, reach_, margin, least_loop(rod.material.radius), 1.0) {
   arclength_ = rod.arclength();
 }
 

@@ -14,6 +14,7 @@ constexpr double kUnknown = -1.0;     // share of a foot that recalls none yet
 constexpr double kSharpest = 2.0;     // turn of the centreline at a node that is no longer resolved [rad]
 constexpr double kReachMargin = 0.3;  // feet are followed up to this gap [fraction of radius]
 constexpr double kDeepest = 0.5;      // overlap of a contact that may begin [fraction of radius]
+constexpr double kFading = 0.25;      // way to the end of the spline on which a foot loses its share [radii]
 
 /// Arclength at rest of parameter u on a segment: from the middle of one edge to the middle of the next.
 double arclength_at(const Eigen::VectorXd& arclength, int segment, double u) {
@@ -44,8 +45,7 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
       reach_((2.0 + kReachMargin) * rod.material.radius),
       arclength_(rod.arclength()),
       voronoi_(rod.voronoi_length),
-      // Strands closer than a half turn around themselves (pi h) bend, they do not touch.
-      candidates_(rod, reach_, margin, 5.0 * rod.material.radius),
+      candidates_(rod, reach_, margin, least_loop(rod.material.radius)),
       search_(rod.nodes(), reach_),
       catch_up_time_(catch_up) {
   const Eigen::Index nodes = rod.nodes();
@@ -88,7 +88,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   for (std::size_t i = 0; i < search_.feet().size();) i = follow(i);
   for (Tracked& foot : tracked_) {
     if (foot.memory.share < 0.0) {
-      foot.memory.share = share(search_.feet()[foot.foot], position);
+      foot.memory.share = std::min(share(search_.feet()[foot.foot], position), most_of_share(foot.memory));
       foot.memory.outwards = outwards(search_.feet()[foot.foot], position);
       foot.memory.inside = !first_step_ && overlap(foot) > kDeepest * 0.5 * diameter_ && began_inside(foot);
     }
@@ -274,6 +274,13 @@ double SmoothContact::share(const FootSearch::Foot& foot, const Points& position
   return b4 / (a4 + b4 + kBlind);
 }
 
+double SmoothContact::most_of_share(const Memory& memory) const {
+  const Eigen::Index last = arclength_.size() - 1;
+  const double begin = 0.5 * (arclength_[0] + arclength_[1]), end = 0.5 * (arclength_[last - 1] + arclength_[last]);
+  const double left = std::min(memory.arclength_b - begin, end - memory.arclength_b);
+  return std::clamp(left / (kFading * 0.5 * diameter_), 0.0, 1.0);
+}
+
 double SmoothContact::outwards(const FootSearch::Foot& foot, const Points& position) const {
   const int last = static_cast<int>(position.cols()) - 2;
   const int other = foot.u < 0.5 ? std::max(foot.segment - 1, 1) : std::min(foot.segment + 1, last);
@@ -297,6 +304,7 @@ void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
     }
     memory.inside = memory.inside && overlap(tracked) > 0.0;
     memory.share += catch_up_ * (share(foot, *accepted) - memory.share);
+    memory.share = std::min(memory.share, most_of_share(memory));
     memory.outwards += catch_up_ * (outwards(foot, *accepted) - memory.outwards);
     memory.pressure = contact ? contact->pressure : 0.0;
     memory.friction = contact ? knot_utm::remember(friction_, *contact, dt_) : FrictionMemory();

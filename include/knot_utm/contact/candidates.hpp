@@ -7,6 +7,14 @@
 
 namespace knot_utm {
 
+/// Length of rod within which a strand does not touch itself [m]: half a turn around a circle of its own radius, pi h.
+/// While no bend is sharper than 1/h, two places that lie s < pi h apart along the rod are further apart than 2 h
+/// sin(s/(2h)), the chord of that circle (Schur), and the nearest places of two strands never lie within pi h.
+inline double least_loop(double radius) {
+  constexpr double kPi = 3.14159265358979323846;
+  return kPi * radius;
+}
+
 /// Which segments of the rod may touch which. Segment i, 1 <= i <= N-2, is the piece of centreline around node i, out
 /// to the middles of the edges that meet there, as long as they now are. The list holds every pair closer than `reach`
 /// with a margin, and stays valid until a node has moved half of it. A step may take nodes further: that no strand then

@@ -134,6 +134,9 @@ class SmoothContact {
   /// less and less.
   void put_outwards(const Points& position);
   double share(const FootSearch::Foot& foot, const Points& position) const;
+  /// What the share of a foot cannot exceed: it falls to zero on the last radius before the spline ends, where a strand
+  /// slips off. A force that vanished there all at once would leave steps, however short, without a solution.
+  double most_of_share(const Memory& memory) const;
   double outwards(const FootSearch::Foot& foot, const Points& position) const;
 
   NormalLaw normal_;
