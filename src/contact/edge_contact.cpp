@@ -170,10 +170,6 @@ EdgePressure pressure_of(const EdgeLaw& normal, const ContactLinearisation& how,
   return out;
 }
 
-void EdgeContact::linearise(double dt, std::vector<SurfaceModel>& models) const {
-  knot_utm::linearise(normal_, friction_, dt, how_, contacts_, surfaces_, moving_, models);
-}
-
 const EdgeContact::Memory* EdgeContact::recall(std::pair<int, int> edges, double arclength_a,
                                                double arclength_b) const {
   auto memory = std::lower_bound(memory_.begin(), memory_.end(), arclength_a - window_,

@@ -258,18 +258,29 @@ Vec3 section_rotation(const ContactPoint& contact, const SurfacePoint& surface) 
 
 using Contacts4 = std::array<const ContactPoint*, 4>;
 
-/// Calls `fill(law, four contacts, their surfaces, their models)`.
+/// Calls `fill(law, four contacts, their surfaces)` for the next four active ones from `from` on; the last one fills up
+/// what is left.
 template <typename Fill>
-void linearise_with(const Friction& friction, const std::vector<ContactPoint>& contacts,
-                    const std::vector<SurfacePoint>& surfaces, std::vector<SurfaceModel>& models, Fill fill) {
-  models.resize(contacts.size() + 3);  // room for the fours that the last one fills up
-  friction.visit([&](const auto& law) {
-    visit_active(contacts, [&](const Contacts4& four, std::size_t first) {
-      Points4 points;
-      for (std::size_t i = 0; i < 4; ++i) points[i] = &surfaces[static_cast<std::size_t>(four[i] - contacts.data())];
-      fill(law, four, points, &models[first]);
-    });
-  });
+std::size_t linearise_next(const Friction& friction, const std::vector<ContactPoint>& contacts,
+                           const std::vector<SurfacePoint>& surfaces, std::size_t from, SurfaceModels& models,
+                           Fill fill) {
+  Contacts4 four;
+  Points4 points;
+  models.count = 0;
+  for (; from < contacts.size() && models.count < 4; ++from) {
+    if (!contacts[from].active()) continue;
+    const auto i = static_cast<std::size_t>(models.count++);
+    models.contact[i] = from;
+    four[i] = &contacts[from];
+    points[i] = &surfaces[from];
+  }
+  if (models.count == 0) return from;
+  for (auto i = static_cast<std::size_t>(models.count); i < 4; ++i) {
+    four[i] = four[i - 1];
+    points[i] = points[i - 1];
+  }
+  friction.visit([&](const auto& law) { fill(law, four, points); });
+  return from;
 }
 
 }  // namespace
@@ -297,37 +308,37 @@ void add_couples(const ContactPoint& contact, const SurfacePoint& surface, const
   if (!contact.on_roller()) add(contact.b0, contact.db, contact.beta + 3, surface.s_b);
 }
 
-void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
-               const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
-               std::vector<SurfaceModel>& models) {
-  linearise_with(friction, contacts, surfaces, models,
-                 [&](const auto& law, const Contacts4& four, const Points4& points, SurfaceModel* to) {
-                   const Four<const ContactPoint> of(four);
-                   const OneFoot foot{of(&ContactPoint::inverse_g)};
-                   FourSurfaces(FourPressures(normal, how, of), law, dt, how, four, points, foot).model(to);
-                 });
+std::size_t linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+                      const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
+                      std::size_t from, SurfaceModels& models) {
+  return linearise_next(
+      friction, contacts, surfaces, from, models, [&](const auto& law, const Contacts4& four, const Points4& points) {
+        const Four<const ContactPoint> of(four);
+        const OneFoot foot{of(&ContactPoint::inverse_g)};
+        FourSurfaces(FourPressures(normal, how, of), law, dt, how, four, points, foot).model(models.model);
+      });
 }
 
-void linearise(const EdgeLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
-               const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
-               const std::vector<EdgeFeet>& feet, std::vector<SurfaceModel>& models) {
-  linearise_with(friction, contacts, surfaces, models,
-                 [&](const auto& law, const Contacts4& four, const Points4& points, SurfaceModel* to) {
-                   FourPressures pressures;
-                   TwoFeet both;
-                   for (std::size_t i = 0; i < 4; ++i) {
-                     const int lane = static_cast<int>(i);
-                     const EdgePressure p = pressure_of(normal, how, *four[i]);
-                     pressures.slope[lane] = p.slope;
-                     pressures.pressure[lane] = p.pressure;
-                     pressures.turning[lane] = p.turning;
-                     const EdgeFeet& feet_of = feet[static_cast<std::size_t>(four[i] - contacts.data())];
-                     both.tt[lane] = feet_of.inverse_tt;
-                     both.tu[lane] = feet_of.inverse_tu;
-                     both.uu[lane] = feet_of.inverse_uu;
-                   }
-                   FourSurfaces(pressures, law, dt, how, four, points, both).model(to);
-                 });
+std::size_t linearise(const EdgeLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+                      const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
+                      const std::vector<EdgeFeet>& feet, std::size_t from, SurfaceModels& models) {
+  return linearise_next(friction, contacts, surfaces, from, models,
+                        [&](const auto& law, const Contacts4& four, const Points4& points) {
+                          FourPressures pressures;
+                          TwoFeet both;
+                          for (std::size_t i = 0; i < 4; ++i) {
+                            const int lane = static_cast<int>(i);
+                            const EdgePressure p = pressure_of(normal, how, *four[i]);
+                            pressures.slope[lane] = p.slope;
+                            pressures.pressure[lane] = p.pressure;
+                            pressures.turning[lane] = p.turning;
+                            const EdgeFeet& feet_of = feet[static_cast<std::size_t>(four[i] - contacts.data())];
+                            both.tt[lane] = feet_of.inverse_tt;
+                            both.tu[lane] = feet_of.inverse_tu;
+                            both.uu[lane] = feet_of.inverse_uu;
+                          }
+                          FourSurfaces(pressures, law, dt, how, four, points, both).model(models.model);
+                        });
 }
 
 }  // namespace knot_utm

@@ -33,6 +33,11 @@ struct Worst {
   bool spin = false;      // the torque on the edge behind the node, over the radius
 };
 
+/// Of the linear model of a contact.
+struct LinearPressure {
+  double pressure, slope;  // at the present overlap [N/m], and by it [N/m^2]
+};
+
 constexpr int kTurns = 3;                // of secants and tangents
 constexpr double kShareBySecants = 0.5;  // of a change
 
@@ -189,8 +194,8 @@ class ImplicitStep final : public TimeStep {
     centreline_.set_stiffness(inertia_and_drag(), matrix_);
     if constexpr (D == 4) frames_.add_stiffness(matrix_);
     change_ = force_;
-    linearise(contact_, models_, surface_models_);
-    linearise(rollers_, roller_models_, roller_surface_models_);
+    linearise(contact_, models_, pressures_);
+    linearise(rollers_, roller_models_, roller_pressures_);
     add_grip_stiffness();
     for (int node = 0; node < nodes_; ++node) hold(node);
     return roller_turns_.empty() ? matrix_.values().solve(change_) : roller_turns_.solve(matrix_.values(), change_);
@@ -213,8 +218,8 @@ class ImplicitStep final : public TimeStep {
     centreline_.expect(change_, share);
     share_ = share;
     motion_ = share * longest;
-    estimate_pressures(contact_, models_, surface_models_, share);
-    estimate_pressures(rollers_, roller_models_, roller_surface_models_, share);
+    estimate_pressures(contact_.contacts(), pressures_, share);
+    estimate_pressures(rollers_.contacts(), roller_pressures_, share);
   }
 
   /// In the shortest steps the residual shrinks to a thousandth, and two sides of a trifling jump (a foot that has two
@@ -338,59 +343,43 @@ class ImplicitStep final : public TimeStep {
 
   /// Replaces the contacts' forces in the right-hand side by those of their linear models, and adds their stiffness.
   template <typename Contacts, typename Model>
-  void linearise(const Contacts& contacts, std::vector<Model>& models, std::vector<SurfaceModel>& surface_models) {
+  void linearise(const Contacts& contacts, std::vector<Model>& models, std::vector<LinearPressure>& pressures) {
     constexpr bool kOnRollers = std::is_same_v<Contacts, RollerContact>;
+    pressures.clear();
     if constexpr (D == 4)
-      if (contacts.at_surface()) {
-        contacts.linearise(dt_, surface_models);
-        return add_models(contacts, surface_models, [&](std::size_t i, std::size_t n) {
+      if (contacts.at_surface())
+        return contacts.linearise_surfaces(dt_, [&](std::size_t i, const SurfaceModel& model) {
           const ContactPoint& contact = contacts.contacts()[i];
-          matrix_.add(contact, contacts.surfaces()[i], surface_models[n], frames_.turns(), n);
-          if constexpr (kOnRollers)
-            roller_turns_.add(contact, contacts.surfaces()[i], surface_models[n], frames_.turns());
+          add_contact_force(contacts, i, model.force - to_lanes(contact.force), change_);
+          matrix_.add(contact, contacts.surfaces()[i], model, frames_.turns(), pressures.size());
+          if constexpr (kOnRollers) roller_turns_.add(contact, contacts.surfaces()[i], model, frames_.turns());
+          pressures.push_back({model.pressure, model.slope});
         });
-      }
     contacts.linearise(dt_, models);
-    add_models(contacts, models, [&](std::size_t i, std::size_t n) {
-      matrix_.add(contacts.contacts()[i], models[n], n);
-      if constexpr (kOnRollers) roller_turns_.add(contacts.contacts()[i], models[n]);
-    });
-  }
-
-  /// `add_stiffness(i, n)` of the i-th contact, the n-th active one.
-  template <typename Contacts, typename Model, typename AddStiffness>
-  void add_models(const Contacts& contacts, const std::vector<Model>& models, AddStiffness add_stiffness) {
-    std::size_t n = 0;
     for (std::size_t i = 0; i < contacts.contacts().size(); ++i) {
       const ContactPoint& contact = contacts.contacts()[i];
       if (!contact.active()) continue;
-      add_contact_force(contacts, i, models[n].force - to_lanes(contact.force), change_);
-      add_stiffness(i, n++);
+      const Model& model = models[pressures.size()];
+      add_contact_force(contacts, i, model.force - to_lanes(contact.force), change_);
+      matrix_.add(contact, model, pressures.size());
+      if constexpr (kOnRollers) roller_turns_.add(contact, model);
+      pressures.push_back({model.pressure, model.slope});
     }
   }
 
-  template <typename Contacts, typename Model>
-  void estimate_pressures(Contacts& contacts, const std::vector<Model>& models,
-                          const std::vector<SurfaceModel>& surface_models, double share) {
-    if (contacts.at_surface())
-      estimate_pressures(contacts.contacts(), surface_models, share);
-    else
-      estimate_pressures(contacts.contacts(), models, share);
-  }
-
   /// What the linear models say of each contact's pressure after the change.
-  template <typename Model>
-  void estimate_pressures(std::vector<ContactPoint>& contacts, const std::vector<Model>& models, double share) {
+  void estimate_pressures(std::vector<ContactPoint>& contacts, const std::vector<LinearPressure>& pressures,
+                          double share) {
     std::size_t n = 0;
     for (ContactPoint& contact : contacts) {
       if (!contact.active()) continue;
-      const Model& model = models[n++];
+      const LinearPressure& p = pressures[n++];
       Lanes moved = {};
       for (int k = 0; k < 3; ++k) {
         moved += contact.c[k] * change_[at(contact.a0 + k)];
         if (!contact.on_roller()) moved += contact.c[3 + k] * change_[at(contact.b0 + k)];
       }
-      contact.estimate = model.pressure - share * model.slope * dot(to_lanes(contact.n), moved);
+      contact.estimate = p.pressure - share * p.slope * dot(to_lanes(contact.n), moved);
     }
   }
 
@@ -532,7 +521,7 @@ class ImplicitStep final : public TimeStep {
   // Of the active contacts, in order.
   std::vector<typename StrandContact::Model> models_;
   std::vector<RollerModel> roller_models_;
-  std::vector<SurfaceModel> surface_models_, roller_surface_models_;  // where friction acts at the surface
+  std::vector<LinearPressure> pressures_, roller_pressures_;
 };
 
 }  // namespace

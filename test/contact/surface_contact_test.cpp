@@ -151,15 +151,10 @@ class Surface : public testing::Test {
       matrix.locate(kind.contact.contacts());
     const BlockPattern& pattern = matrix.values().pattern();
     for (int block = 0; block < pattern.blocks(); ++block) matrix.block(block).set_zero();
-    std::vector<SurfaceModel> models;
-    kind.contact.linearise(kStep, models);
     std::size_t n = 0;
-    for (std::size_t i = 0; i < kind.contact.contacts().size(); ++i) {
-      const ContactPoint& contact = kind.contact.contacts()[i];
-      if (!contact.active()) continue;
-      matrix.add(contact, kind.contact.surfaces()[i], models[n], kind.scene.turns, n);
-      ++n;
-    }
+    kind.contact.linearise_surfaces(kStep, [&](std::size_t i, const SurfaceModel& model) {
+      matrix.add(kind.contact.contacts()[i], kind.contact.surfaces()[i], model, kind.scene.turns, n++);
+    });
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(4 * kind.scene.nodes(), 4 * kind.scene.nodes());
     for (int i = 0; i < kind.scene.nodes(); ++i)
       for (int j = 0; j < kind.scene.nodes(); ++j) {
@@ -260,12 +255,9 @@ TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
   free.inertia = 1e-300;
   RollerTurns border_of;
   border_of.begin({free}, kind.contact, static_cast<int>(scene.nodes()), kStep);
-  std::vector<SurfaceModel> models;
-  kind.contact.linearise(kStep, models);
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < kind.contact.contacts().size(); ++i)
-    if (kind.contact.contacts()[i].active())
-      border_of.add(kind.contact.contacts()[i], kind.contact.surfaces()[i], models[n++], scene.turns);
+  kind.contact.linearise_surfaces(kStep, [&](std::size_t i, const SurfaceModel& model) {
+    border_of.add(kind.contact.contacts()[i], kind.contact.surfaces()[i], model, scene.turns);
+  });
   const RollerTurns::Border& border = border_of.border(0);
 
   Eigen::VectorXd column(4 * scene.nodes()), row(4 * scene.nodes());

@@ -80,7 +80,14 @@ class EdgeContact {
 
   /// The consistent linearisation of the active contacts, in order.
   void linearise(double dt, std::vector<EdgeContactModel>& models) const;
-  void linearise(double dt, std::vector<SurfaceModel>& models) const;
+  /// Where friction acts at the surface: visit(number of the contact, its model) for each active one, in order.
+  template <typename Visit>
+  void linearise_surfaces(double dt, Visit visit) const {
+    const auto next = [&](std::size_t from, SurfaceModels& models) {
+      return knot_utm::linearise(normal_, friction_, dt, how_, contacts_, surfaces_, moving_, from, models);
+    };
+    visit_models(next, visit);
+  }
 
   /// Of one of `contacts()`.
   ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;

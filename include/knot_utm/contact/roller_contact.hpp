@@ -90,8 +90,13 @@ class RollerContact {
     knot_utm::linearise(normal_, friction_, dt, how_, contacts_, models);
   }
 
-  void linearise(double dt, std::vector<SurfaceModel>& models) const {
-    knot_utm::linearise(normal_, friction_, dt, how_, contacts_, surfaces_, models);
+  /// Where friction acts at the surface: visit(number of the contact, its model) for each active one, in order.
+  template <typename Visit>
+  void linearise_surfaces(double dt, Visit visit) const {
+    const auto next = [&](std::size_t from, SurfaceModels& models) {
+      return knot_utm::linearise(normal_, friction_, dt, how_, contacts_, surfaces_, from, models);
+    };
+    visit_models(next, visit);
   }
 
   /// From now on the rod has parted at an edge, and what reaches into it touches nothing.

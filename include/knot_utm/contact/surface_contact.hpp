@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "knot_utm/contact/contact_point.hpp"
@@ -94,15 +95,32 @@ struct SurfaceModel {
   Response by[kChanges];
 };
 
-/// The consistent linearisation of `evaluate_forces` and add_couples, as `linearise` of contact_point.hpp. `surfaces`:
-/// one for each of `contacts`.
-void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
-               const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
-               std::vector<SurfaceModel>& models);
+/// Models of up to four contacts. They are large, and used as they come about: those of all contacts at once would not
+/// stay in the caches.
+struct SurfaceModels {
+  int count = 0;
+  std::size_t contact[4] = {};  ///< its number
+  SurfaceModel model[4];
+};
+
+/// The consistent linearisation of `evaluate_forces` and add_couples, as `linearise` of contact_point.hpp, of the next
+/// four active contacts from number `from` on, or as many as are left. `surfaces`: one for each of `contacts`. Returns
+/// where to go on.
+std::size_t linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+                      const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
+                      std::size_t from, SurfaceModels& models);
 
 /// The same between edges, which have two feet each.
-void linearise(const EdgeLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
-               const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
-               const std::vector<EdgeFeet>& feet, std::vector<SurfaceModel>& models);
+std::size_t linearise(const EdgeLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+                      const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
+                      const std::vector<EdgeFeet>& feet, std::size_t from, SurfaceModels& models);
+
+/// Calls visit(number of the contact, its SurfaceModel) for all that `next(from, models)` linearises.
+template <typename Next, typename Visit>
+void visit_models(Next next, Visit visit) {
+  SurfaceModels models;
+  for (std::size_t from = next(std::size_t{0}, models); models.count > 0; from = next(from, models))
+    for (int i = 0; i < models.count; ++i) visit(models.contact[i], models.model[i]);
+}
 
 }  // namespace knot_utm
