@@ -75,7 +75,9 @@ void EdgeContact::evaluate(const Points& position, const Points& start, double d
     const double limit = 2.0 * reach_ + length_[a] + length_[b];
     if (apart.squaredNorm() < limit * limit) add_contact(static_cast<int>(pair), position, start);
   }
+  if (turns_) add_shifts(contacts_, surfaces_);
   evaluate_forces(friction_, dt, contacts_);
+  if (turns_) set_couples(contacts_, surfaces_);
   dt_ = dt;
   first_evaluation_ = false;
 }
@@ -145,7 +147,7 @@ void EdgeContact::add_contact(int pair, const Points& position, const Points& st
   moving_.push_back(moving);
 }
 
-void EdgeContact::add_surface(ContactPoint& contact, const Feet& feet, int a, int b) {
+void EdgeContact::add_surface(const ContactPoint& contact, const Feet& feet, int a, int b) {
   SurfacePoint& surface = surfaces_.emplace_back();
   if (!contact.active() || !friction_.on()) return;
   std::copy_n(contact.beta, 3, surface.d_a);
@@ -158,7 +160,6 @@ void EdgeContact::add_surface(ContactPoint& contact, const Feet& feet, int a, in
   surface.spin_a = length_a * turns_->turn[static_cast<std::size_t>(a)];
   surface.spin_b = length_b * turns_->turn[static_cast<std::size_t>(b)];
   surface.lever = lever_;
-  contact.slip += surface_shift(contact, surface);
 }
 
 EdgePressure pressure_of(const EdgeLaw& normal, const ContactLinearisation& how, const ContactPoint& contact) {

@@ -39,14 +39,20 @@ class Parted {
   Lanes vectors_[4];
 };
 
+/// xi of four contacts.
+template <typename Contact>
+FourVectors remembered_by(const std::array<Contact*, 4>& contacts) {
+  return FourVectors::of(to_lanes(contacts[0]->memory.slip), to_lanes(contacts[1]->memory.slip),
+                         to_lanes(contacts[2]->memory.slip), to_lanes(contacts[3]->memory.slip));
+}
+
 /// Of contacts side by side; `slip`: their part in the tangent plane.
 template <typename Contact>
 FrictionInput<FourVectors> friction_input(const std::array<Contact*, 4>& contacts, const Lanes& pressure,
                                           const FourVectors& slip, double dt) {
   return {pressure,
           slip,
-          FourVectors::of(to_lanes(contacts[0]->memory.slip), to_lanes(contacts[1]->memory.slip),
-                          to_lanes(contacts[2]->memory.slip), to_lanes(contacts[3]->memory.slip)),
+          remembered_by(contacts),
           Four<Contact>(contacts)(&ContactPoint::db),
           Lanes{contacts[0]->memory.own, contacts[1]->memory.own, contacts[2]->memory.own, contacts[3]->memory.own},
           dt};

@@ -60,7 +60,9 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
   for (const auto& [roller, segment] : near_)
     if (distance(rollers[roller], position.col(segment)) <= limit(rollers[roller], segment))
       add_contacts(rollers, roller, segment, position, start);
+  if (turns_) add_shifts(contacts_, surfaces_);
   evaluate_forces(normal_, friction_, dt, contacts_);
+  if (turns_) set_couples(contacts_, surfaces_);
 }
 
 double RollerContact::distance(const Roller& roller, const Vec3& x) {
@@ -120,7 +122,7 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
 }
 
 /// The lever of friction on it.
-double RollerContact::add_surface(ContactPoint& contact, const Roller& roller, const Points& position,
+double RollerContact::add_surface(const ContactPoint& contact, const Roller& roller, const Points& position,
                                   const Points& start) {
   SurfacePoint& surface = surfaces_.emplace_back();
   if (!friction_.on()) return 0.0;
@@ -135,7 +137,6 @@ double RollerContact::add_surface(ContactPoint& contact, const Roller& roller, c
     surface.spin_a += surface.s_a[j] * turns_->turn[edge];
   }
   surface.lever = couple_ * radius_ / (roller.radius + radius_);
-  contact.slip += surface_shift(contact, surface);
   return surface.lever;
 }
 

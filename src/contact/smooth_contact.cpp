@@ -94,7 +94,9 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
     }
     if (takes_part(foot)) add_contact(foot);
   }
+  if (turns_) add_shifts(contacts_, surfaces_);
   evaluate_forces(normal_, friction_, dt, contacts_);
+  if (turns_) set_couples(contacts_, surfaces_);
 }
 
 std::size_t SmoothContact::follow(std::size_t foot) {
@@ -196,7 +198,7 @@ void SmoothContact::add_contact(Tracked& tracked) {
   if (turns_) add_surface(contact, search_.parabola(segment), c, u);
 }
 
-void SmoothContact::add_surface(ContactPoint& contact, const SegmentParabola& a, const SegmentParabola& b, double u_b) {
+void SmoothContact::add_surface(const ContactPoint& contact, const SegmentParabola& a, const SegmentParabola& b, double u_b) {
   SurfacePoint& surface = surfaces_.emplace_back();
   if (!contact.active() || !friction_.on()) return;
   const double u_a = kIntegrationPoints[contact.point];
@@ -223,7 +225,6 @@ void SmoothContact::add_surface(ContactPoint& contact, const SegmentParabola& a,
     surface.spin_slope_b += surface.s_slope_b[j] * turned(on_b);
   }
   surface.lever = lever_;
-  contact.slip += surface_shift(contact, surface);
 }
 
 void SmoothContact::set_slip(ContactPoint& contact) const {

@@ -29,6 +29,20 @@ FourVectors four(const Points4& surfaces, Vec3 SurfacePoint::*vector) {
                          to_lanes(surfaces[3]->*vector));
 }
 
+Lanes lever_of(const Points4& surfaces) { return four(surfaces, &SurfacePoint::lever); }
+
+std::size_t number_of(const ContactPoint* contact, const std::vector<ContactPoint>& contacts) {
+  return static_cast<std::size_t>(contact - contacts.data());
+}
+
+template <typename Contact>
+Points4 points_of(const std::array<Contact*, 4>& four, const std::vector<ContactPoint>& contacts,
+                  const std::vector<SurfacePoint>& surfaces) {
+  Points4 out;
+  for (std::size_t i = 0; i < 4; ++i) out[i] = &surfaces[number_of(four[i], contacts)];
+  return out;
+}
+
 /// The sections of four strands.
 struct Section {
   FourVectors over;  // c^
@@ -40,6 +54,15 @@ struct Section {
     const Lanes length2 = dot(along, along), none = Lanes{};
     over_length2 = select(length2 > 0.0, 1.0 / length2, none);
     over = over_length2 * along;
+  }
+
+  static Section of_a(const Points4& surfaces) {
+    return {four(surfaces, &SurfacePoint::along_a), four(surfaces, &SurfacePoint::turn_a),
+            four(surfaces, &SurfacePoint::spin_a)};
+  }
+  template <typename Contact>
+  static Section of_b(const Four<Contact>& contacts, const Points4& surfaces) {
+    return {contacts(&ContactPoint::db), contacts(&ContactPoint::turn), four(surfaces, &SurfacePoint::spin_b)};
   }
 
   FourVectors rotation() const { return cross(over, turn) + spin * over; }
@@ -98,14 +121,12 @@ class FourSurfaces {
                const std::array<const ContactPoint*, 4>& contacts, const Points4& surfaces, const Feet& feet)
       : pressures_(pressures),
         feet_(feet),
-        a_(four(surfaces, &SurfacePoint::along_a), four(surfaces, &SurfacePoint::turn_a),
-           four(surfaces, &SurfacePoint::spin_a)),
-        b_(Four<const ContactPoint>(contacts)(&ContactPoint::db),
-           Four<const ContactPoint>(contacts)(&ContactPoint::turn), four(surfaces, &SurfacePoint::spin_b)),
+        a_(Section::of_a(surfaces)),
+        b_(Section::of_b(Four<const ContactPoint>(contacts), surfaces)),
         bend_b_(four(surfaces, &SurfacePoint::bend_b)),
         bend_turn_b_(four(surfaces, &SurfacePoint::bend_turn_b)),
         spin_slope_b_(four(surfaces, &SurfacePoint::spin_slope_b)),
-        lever_(four(surfaces, &SurfacePoint::lever)),
+        lever_(lever_of(surfaces)),
         on_roller_(contacts[0]->on_roller()) {
     const Four<const ContactPoint> of(contacts);
     x_ = of(&ContactPoint::x);
@@ -116,8 +137,7 @@ class FourSurfaces {
     over_d_ = 1.0 / of(&ContactPoint::d);
     da_ = four(surfaces, &SurfacePoint::along_a);
     turned_ = of(&ContactPoint::turned);
-    remembered_ = FourVectors::of(to_lanes(contacts[0]->memory.slip), to_lanes(contacts[1]->memory.slip),
-                                  to_lanes(contacts[2]->memory.slip), to_lanes(contacts[3]->memory.slip));
+    remembered_ = remembered_by(contacts);
     rotation_ = a_.rotation() + b_.rotation();
     carried_ = carried(*contacts[0]);
     alpha_ = carried_ * dot(n_, rotation_);
@@ -143,6 +163,11 @@ class FourSurfaces {
       models[i].on_b = on_b[i];
       models[i].two_feet = Feet::kTwo;
     }
+    Response by_rotation[3];
+    for (int i = 0; i < 3; ++i) by_rotation[i] = rotated(unit_vector(i));
+    const auto turned = [&](const Section::Change& a, const Section::Change& b) {
+      return sections_change(by_rotation, a, b);
+    };
     Response by_foot_a, by_foot;
     if constexpr (Feet::kTwo) by_foot_a = moved(da_, a_.turn);
     if (!on_roller_) {
@@ -217,14 +242,22 @@ class FourSurfaces {
     return responds(dg, cross(lever_ * x_, dg));
   }
 
-  /// To sections that change.
-  Response turned(const Section::Change& a, const Section::Change& b) const {
-    const FourVectors rotation = a.rotation + b.rotation;
-    Response out = slipped((carried_ * dot(n_, rotation)) * cross(n_, remembered_) - cross(rotation, lever_ * x_));
-    out.on_a += cross(a.over, m_);
-    out.on_b += cross(b.over, m_);
-    out.torque_a += dot(a.over, m_);
-    out.torque_b += dot(b.over, m_);
+  /// To sections that turn by so much more.
+  Response rotated(const FourVectors& phi) const {
+    return slipped((carried_ * dot(n_, phi)) * cross(n_, remembered_) - cross(phi, lever_ * x_));
+  }
+
+  /// To sections that change: they turn, and pass on their couples another way.
+  Response sections_change(const Response* by_rotation, const Section::Change& a, const Section::Change& b) const {
+    const FourVectors phi = a.rotation + b.rotation;
+    Response out;
+    out.on_a = cross(a.over, m_);
+    out.on_b = cross(b.over, m_);
+    out.torque_a = dot(a.over, m_);
+    out.torque_b = dot(b.over, m_);
+    out.add(phi.x, by_rotation[0]);
+    out.add(phi.y, by_rotation[1]);
+    out.add(phi.z, by_rotation[2]);
     return out;
   }
 
@@ -295,17 +328,43 @@ Vec3 surface_shift(const ContactPoint& contact, const SurfacePoint& surface) {
          surface.lever * phi.cross(contact.x);
 }
 
-void add_couples(const ContactPoint& contact, const SurfacePoint& surface, const Lanes& g, std::vector<Lanes>& force) {
-  const Vec3 m = surface.lever * contact.x.cross(to_vec3(g));
-  const auto add = [&](int first, const Vec3& along, const double* d, const double* s) {
-    const Vec3 over = along / along.squaredNorm();
-    const Lanes bends = to_lanes(Vec3(over.cross(m)));
-    const double spins = -over.dot(m);
-    for (int k = 0; k < 3; ++k) force[static_cast<std::size_t>(first + k)] += d[k] * bends;
-    for (int j = 0; j < 2; ++j) force[static_cast<std::size_t>(first + j)][3] += s[j] * spins;
+void add_shifts(std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces) {
+  visit_active(contacts, [&](const std::array<ContactPoint*, 4>& four, std::size_t) {
+    const Four<ContactPoint> of(four);
+    const Points4 points = points_of(four, contacts, surfaces);
+    const FourVectors phi = Section::of_a(points).rotation() + Section::of_b(of, points).rotation();
+    const FourVectors n = of(&ContactPoint::n), remembered = remembered_by(four);
+    const Parted shifts((carried(*four[0]) * dot(n, phi)) * cross(n, remembered) -
+                        cross(phi, lever_of(points) * of(&ContactPoint::x)));
+    Vec3 slips[4];  // all of them, before any is written: the last contact may stand in several lanes
+    for (std::size_t i = 0; i < 4; ++i) slips[i] = four[i]->slip + to_vec3(shifts[i]);
+    for (std::size_t i = 0; i < 4; ++i) four[i]->slip = slips[i];
+  });
+}
+
+void set_couples(const std::vector<ContactPoint>& contacts, std::vector<SurfacePoint>& surfaces) {
+  visit_active(contacts, [&](const Contacts4& four, std::size_t) {
+    const Four<const ContactPoint> of(four);
+    const Points4 points = points_of(four, contacts, surfaces);
+    const FourVectors m = cross(lever_of(points) * of(&ContactPoint::x), of(&ContactPoint::force));
+    const FourVectors a = Section::of_a(points).over, b = Section::of_b(of, points).over;
+    const Parted on_a(cross(a, m), -1.0 * dot(a, m)), on_b(cross(b, m), -1.0 * dot(b, m));
+    for (std::size_t i = 0; i < 4; ++i) {
+      SurfacePoint& surface = surfaces[number_of(four[i], contacts)];
+      surface.on_a = on_a[i];
+      surface.on_b = on_b[i];
+    }
+  });
+}
+
+void add_couples(const ContactPoint& contact, const SurfacePoint& surface, const Lanes& on_a, const Lanes& on_b,
+                 std::vector<Lanes>& force) {
+  const auto add = [&](int first, const double* d, const double* s, const Lanes& on) {
+    for (int k = 0; k < 3; ++k)
+      force[static_cast<std::size_t>(first + k)] += Lanes{d[k], d[k], d[k], k < 2 ? s[k] : 0.0} * on;
   };
-  add(contact.a0, surface.along_a, surface.d_a, surface.s_a);
-  if (!contact.on_roller()) add(contact.b0, contact.db, contact.beta + 3, surface.s_b);
+  add(contact.a0, surface.d_a, surface.s_a, on_a);
+  if (!contact.on_roller()) add(contact.b0, contact.beta + 3, surface.s_b, on_b);
 }
 
 std::size_t linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,

@@ -227,53 +227,72 @@ template <int D>
 void StepMatrix<D>::add(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
                         const SectionTurns& turns, std::size_t n) {
   if constexpr (D == 4) {
-    constexpr double kSecondDifference[3] = {1.0, -2.0, 1.0};
-    const bool two = !contact.on_roller();
-    const double spins_a[3] = {surface.s_a[0], surface.s_a[1], 0.0}, spins_b[3] = {surface.s_b[0], surface.s_b[1], 0.0};
-    Lanes rows_a[3], rows_b[3], slides[3];  // weights of on_a and on_b in a node's row, and of the foot's way
+    add_lengthening(contact.a0, surface.s_a, model.on_a[3], turns);
+    if (contact.on_roller()) return add_columns<Feet::kNone>(contact, surface, model, turns, n);
+    add_lengthening(contact.b0, surface.s_b, model.on_b[3], turns);
+    if (model.two_feet)
+      add_columns<Feet::kTwo>(contact, surface, model, turns, n);
+    else
+      add_columns<Feet::kOne>(contact, surface, model, turns, n);
+  }
+}
+
+template <int D>
+void StepMatrix<D>::add_lengthening(int first, const double* shares, double torque, const SectionTurns& turns) {
+  for (int j = 0; j < 2; ++j) {
+    const auto edge = at(first + j);
+    const Lanes pull = (-torque * shares[j] / turns.length[edge]) * turns.tangent[edge];
+    Block<D>&own = band(first, j, j), &next = band(first, j, j + 1);
+    for (int i = 0; i < 3; ++i) {
+      own.column[i][3] -= pull[i];
+      next.column[i][3] += pull[i];
+    }
+  }
+}
+
+template <int D>
+template <typename StepMatrix<D>::Feet kFeet>
+void StepMatrix<D>::add_columns(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
+                                const SectionTurns& turns, std::size_t n) {
+  constexpr double kSecondDifference[3] = {1.0, -2.0, 1.0};
+  constexpr bool kStrands = kFeet != Feet::kNone, kTwo = kFeet == Feet::kTwo;
+  const double spins_a[3] = {surface.s_a[0], surface.s_a[1], 0.0}, spins_b[3] = {surface.s_b[0], surface.s_b[1], 0.0};
+  double c[6];
+  std::copy_n(contact.c, 6, c);
+  Lanes rows_a[3], rows_b[3];      // weights of on_a and on_b in a node's row
+  Lanes slides_a[3], slides_b[3];  // what a foot's way does to it
+  for (int k = 0; k < 3; ++k) {
+    const double d = surface.d_a[k], beta = contact.beta[3 + k], bends = kTwo ? 0.0 : kSecondDifference[k];
+    rows_a[k] = Lanes{d, d, d, spins_a[k]};
+    rows_b[k] = Lanes{beta, beta, beta, spins_b[k]};
+    slides_a[k] = d * model.force;
+    slides_b[k] = beta * model.force - Lanes{bends, bends, bends, k < 2 ? surface.s_slope_b[k] : 0.0} * model.on_b;
+  }
+  const auto add_node = [&](int l, const std::array<SurfaceColumn, 4>& columns) {
     for (int k = 0; k < 3; ++k) {
-      const double d = surface.d_a[k], beta = contact.beta[3 + k], bends = model.two_feet ? 0.0 : kSecondDifference[k];
-      rows_a[k] = Lanes{d, d, d, spins_a[k]};
-      rows_b[k] = Lanes{beta, beta, beta, spins_b[k]};
-      slides[k] = beta * model.force - Lanes{bends, bends, bends, k < 2 ? surface.s_slope_b[k] : 0.0} * model.on_b;
-    }
-    const auto spin_a = spin_of_nodes(turns.pull, contact.a0, surface.s_a);
-    const auto spin_b = two ? spin_of_nodes(turns.pull, contact.b0, surface.s_b) : std::array<Lanes, 3>{};
-    // What lengthens an edge lengthens the lever of its spin.
-    const auto add_lengthening = [&](int first, const double* shares, double torque) {
-      for (int j = 0; j < 2; ++j) {
-        const auto edge = at(first + j);
-        const Lanes pull = (-torque * shares[j] / turns.length[edge]) * turns.tangent[edge];
-        for (int i = 0; i < 3; ++i) {
-          band(first, j, j).column[i][3] -= pull[i];
-          band(first, j, j + 1).column[i][3] += pull[i];
-        }
+      Block<D>& on_a = l < 3 ? band(contact.a0, k, l) : block(contact_blocks(n)[at(3 * k + l - 3)].first);
+      for (int i = 0; i < 4; ++i) {
+        const SurfaceColumn& column = columns[at(i)];
+        on_a.column[i] += c[k] * column.force + rows_a[k] * column.on_a;
+        if constexpr (kTwo) on_a.column[i] -= column.foot_a * slides_a[k];
       }
-    };
-    add_lengthening(contact.a0, surface.s_a, model.on_a[3]);
-    if (two) add_lengthening(contact.b0, surface.s_b, model.on_b[3]);
-    for (int l = 0; l < (two ? 6 : 3); ++l) {
-      const bool of_a = l < 3;
-      const int node = l % 3;
-      const auto columns = of_a ? columns_of(model, SurfaceModel::kTurnA, SurfaceModel::kSpinA, contact.c[l],
-                                             surface.d_a[node], spin_a[at(node)], spins_a[node])
-                                : columns_of(model, SurfaceModel::kTurnB, SurfaceModel::kSpinB, contact.c[l],
-                                             contact.beta[l], spin_b[at(node)], spins_b[node]);
-      for (int k = 0; k < 3; ++k) {
-        Block<D>& on_a = of_a ? band(contact.a0, k, node) : block(contact_blocks(n)[at(3 * k + node)].first);
-        for (int i = 0; i < 4; ++i) {
-          const SurfaceColumn& column = columns[at(i)];
-          on_a.column[i] += contact.c[k] * column.force + rows_a[k] * column.on_a;
-          if (model.two_feet) on_a.column[i] -= (column.foot_a * surface.d_a[k]) * model.force;
-        }
-        if (!two) continue;
-        Block<D>& on_b = of_a ? block(contact_blocks(n)[at(3 * node + k)].second) : band(contact.b0, k, node);
-        for (int i = 0; i < 4; ++i) {
-          const SurfaceColumn& column = columns[at(i)];
-          on_b.column[i] += contact.c[3 + k] * column.force + rows_b[k] * column.on_b + column.foot_b * slides[k];
-        }
+      if constexpr (!kStrands) continue;
+      Block<D>& on_b = l < 3 ? block(contact_blocks(n)[at(3 * l + k)].second) : band(contact.b0, k, l - 3);
+      for (int i = 0; i < 4; ++i) {
+        const SurfaceColumn& column = columns[at(i)];
+        on_b.column[i] += c[3 + k] * column.force + rows_b[k] * column.on_b + column.foot_b * slides_b[k];
       }
     }
+  };
+  const auto spin_a = spin_of_nodes(turns.pull, contact.a0, surface.s_a);
+  for (int l = 0; l < 3; ++l)
+    add_node(l, columns_of(model, SurfaceModel::kTurnA, SurfaceModel::kSpinA, c[l], surface.d_a[l], spin_a[at(l)],
+                           spins_a[l]));
+  if constexpr (kStrands) {
+    const auto spin_b = spin_of_nodes(turns.pull, contact.b0, surface.s_b);
+    for (int l = 0; l < 3; ++l)
+      add_node(3 + l, columns_of(model, SurfaceModel::kTurnB, SurfaceModel::kSpinB, c[3 + l], contact.beta[3 + l],
+                                 spin_b[at(l)], spins_b[l]));
   }
 }
 

@@ -16,16 +16,17 @@ inline std::array<Lanes, 3> spin_of_nodes(const std::vector<Lanes>& pull, int fi
 }
 
 /// What one unknown of a node does to a contact's forces: SurfaceModel::Response of several changes at once.
-struct SurfaceColumn {
-  Lanes force = {}, on_a = {}, on_b = {};
-  double foot_a = 0.0, foot_b = 0.0;
+struct SurfaceColumn : SurfaceModel::Response {
+  SurfaceColumn() = default;
+  SurfaceColumn(double times, const SurfaceModel::Response& r)
+      : Response{times * r.force, times * r.on_a, times * r.on_b, times * r.foot_a, times * r.foot_b} {}
 
-  void add(double times, const SurfaceModel::Response& response) {
-    force += times * response.force;
-    on_a += times * response.on_a;
-    on_b += times * response.on_b;
-    foot_a += times * response.foot_a;
-    foot_b += times * response.foot_b;
+  void add(double times, const SurfaceModel::Response& r) {
+    force += times * r.force;
+    on_a += times * r.on_a;
+    on_b += times * r.on_b;
+    foot_a += times * r.foot_a;
+    foot_b += times * r.foot_b;
   }
 };
 
@@ -34,11 +35,11 @@ inline std::array<SurfaceColumn, 4> columns_of(const SurfaceModel& model, int tu
                                                const Lanes& spin_of_node, double spin_share) {
   std::array<SurfaceColumn, 4> out;
   for (std::size_t i = 0; i < 3; ++i) {
-    out[i].add(c, model.by[SurfaceModel::kShift + static_cast<int>(i)]);
+    out[i] = SurfaceColumn(c, model.by[SurfaceModel::kShift + static_cast<int>(i)]);
     out[i].add(d, model.by[turn + static_cast<int>(i)]);
     out[i].add(spin_of_node[static_cast<int>(i)], model.by[spin]);
   }
-  out[3].add(spin_share, model.by[spin]);
+  out[3] = SurfaceColumn(spin_share, model.by[spin]);
   return out;
 }
 

@@ -326,19 +326,21 @@ class ImplicitStep final : public TimeStep {
   void add_contact_forces(const Contacts& contacts) {
     for (std::size_t i = 0; i < contacts.contacts().size(); ++i) {
       const ContactPoint& contact = contacts.contacts()[i];
-      if (contact.touches()) add_contact_force(contacts, i, to_lanes(contact.force), force_);
+      if (!contact.touches()) continue;
+      add_contact_force(contact, to_lanes(contact.force), force_);
+      if constexpr (D == 4)
+        if (contacts.at_surface()) {
+          const SurfacePoint& surface = contacts.surfaces()[i];
+          add_couples(contact, surface, surface.on_a, surface.on_b, force_);
+        }
     }
   }
 
-  /// What the force g on a's side of the i-th contact does to the unknowns.
-  template <typename Contacts>
-  void add_contact_force(const Contacts& contacts, std::size_t i, const Lanes& g, std::vector<Lanes>& to) {
-    const ContactPoint& contact = contacts.contacts()[i];
+  /// What the force g on a's side of a contact does to the nodes.
+  static void add_contact_force(const ContactPoint& contact, const Lanes& g, std::vector<Lanes>& to) {
     for (int k = 0; k < 3; ++k) to[at(contact.a0 + k)] += contact.c[k] * g;
     if (!contact.on_roller())
       for (int k = 0; k < 3; ++k) to[at(contact.b0 + k)] += contact.c[3 + k] * g;
-    if constexpr (D == 4)
-      if (contacts.at_surface()) add_couples(contact, contacts.surfaces()[i], g, to);
   }
 
   /// Replaces the contacts' forces in the right-hand side by those of their linear models, and adds their stiffness.
@@ -350,9 +352,11 @@ class ImplicitStep final : public TimeStep {
       if (contacts.at_surface())
         return contacts.linearise_surfaces(dt_, [&](std::size_t i, const SurfaceModel& model) {
           const ContactPoint& contact = contacts.contacts()[i];
-          add_contact_force(contacts, i, model.force - to_lanes(contact.force), change_);
-          matrix_.add(contact, contacts.surfaces()[i], model, frames_.turns(), pressures.size());
-          if constexpr (kOnRollers) roller_turns_.add(contact, contacts.surfaces()[i], model, frames_.turns());
+          const SurfacePoint& surface = contacts.surfaces()[i];
+          add_contact_force(contact, model.force - to_lanes(contact.force), change_);
+          add_couples(contact, surface, model.on_a - surface.on_a, model.on_b - surface.on_b, change_);
+          matrix_.add(contact, surface, model, frames_.turns(), pressures.size());
+          if constexpr (kOnRollers) roller_turns_.add(contact, surface, model, frames_.turns());
           pressures.push_back({model.pressure, model.slope});
         });
     contacts.linearise(dt_, models);
@@ -360,7 +364,7 @@ class ImplicitStep final : public TimeStep {
       const ContactPoint& contact = contacts.contacts()[i];
       if (!contact.active()) continue;
       const Model& model = models[pressures.size()];
-      add_contact_force(contacts, i, model.force - to_lanes(contact.force), change_);
+      add_contact_force(contact, model.force - to_lanes(contact.force), change_);
       matrix_.add(contact, model, pressures.size());
       if constexpr (kOnRollers) roller_turns_.add(contact, model);
       pressures.push_back({model.pressure, model.slope});

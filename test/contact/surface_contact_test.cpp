@@ -135,7 +135,8 @@ class Surface : public testing::Test {
         force[static_cast<std::size_t>(contact.a0 + k)] += contact.c[k] * g;
         if (!contact.on_roller()) force[static_cast<std::size_t>(contact.b0 + k)] += contact.c[3 + k] * g;
       }
-      add_couples(contact, kind.contact.surfaces()[i], g, force);
+      const SurfacePoint& surface = kind.contact.surfaces()[i];
+      add_couples(contact, surface, surface.on_a, surface.on_b, force);
     }
     return Eigen::Map<Eigen::VectorXd>(reinterpret_cast<double*>(force.data()), 4 * kind.scene.nodes());
   }
@@ -240,7 +241,8 @@ TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
       const ContactPoint& contact = kind.contact.contacts()[i];
       for (int k = 0; k < 3; ++k)
         force[static_cast<std::size_t>(contact.a0 + k)] += contact.c[k] * to_lanes(contact.force);
-      add_couples(contact, kind.contact.surfaces()[i], to_lanes(contact.force), force);
+      const SurfacePoint& surface = kind.contact.surfaces()[i];
+      add_couples(contact, surface, surface.on_a, surface.on_b, force);
     }
     Eigen::VectorXd out(4 * scene.nodes() + 1);
     out << Eigen::Map<Eigen::VectorXd>(reinterpret_cast<double*>(force.data()), 4 * scene.nodes()),

@@ -125,7 +125,7 @@ class EdgeContact {
   /// Between two edges, drawn a trifle to their middles.
   ClosestPoints closest(int a, int b, const Points& position) const;
   void add_contact(int pair, const Points& position, const Points& start);
-  void add_surface(ContactPoint& contact, const Feet& feet, int a, int b);
+  void add_surface(const ContactPoint& contact, const Feet& feet, int a, int b);
   /// What is remembered of these edges' contact, or else of the nearest one; null where there was none near.
   const Memory* recall(std::pair<int, int> edges, double arclength_a, double arclength_b) const;
 

@@ -133,7 +133,7 @@ class RollerContact {
   void find_near_segments(const std::vector<Roller>& rollers, const Points& start);
   void add_contacts(const std::vector<Roller>& rollers, std::size_t number, int segment, const Points& position,
                     const Points& start);
-  double add_surface(ContactPoint& contact, const Roller& roller, const Points& position, const Points& start);
+  double add_surface(const ContactPoint& contact, const Roller& roller, const Points& position, const Points& start);
   std::size_t index_of(const ContactPoint& contact) const;
   double lever_of(const ContactPoint& contact) const;
 

@@ -133,7 +133,7 @@ class SmoothContact {
   bool takes_part(const Tracked& foot) const;
   void add_contact(Tracked& tracked);
   void set_slip(ContactPoint& contact) const;
-  void add_surface(ContactPoint& contact, const SegmentParabola& a, const SegmentParabola& b, double u_b);
+  void add_surface(const ContactPoint& contact, const SegmentParabola& a, const SegmentParabola& b, double u_b);
   void remember(const Points* position, MemoryList& list) const;
   /// Of the accepted position, at first that of the start; where the rod is bent more sharply than its edges resolve,
   /// less and less.

@@ -57,6 +57,8 @@ struct SurfacePoint {
   double d_a[3] = {};               ///< da'/dq_k [-]
   double s_a[2] = {}, s_b[2] = {};  ///< of the spins of edges a0, a0 + 1, and b0, b0 + 1 [m]
   double s_slope_b[2] = {};         ///< ds_b/du [m]
+  Lanes on_a = {};                  ///< a^ x m [N]; lane 3: -a^.m [N]
+  Lanes on_b = {};                  ///< b^ x m [N]; lane 3: -b^.m [N]
 };
 
 /// How the feet of a contact between edges move (edge_contact.hpp): inverse of H, zero where a foot stays [1/m^2].
@@ -64,13 +66,20 @@ struct EdgeFeet {
   double inverse_tt = 0.0, inverse_tu = 0.0, inverse_uu = 0.0;
 };
 
-/// r - (xi + Dx_a - Dx_b), what the sections' turn adds to the slip that friction's law is told of [m].
+/// What the turn of its sections adds to the slip of a contact, r - (xi + Dx_a - Dx_b) [m].
 Vec3 surface_shift(const ContactPoint& contact, const SurfacePoint& surface);
+/// Adds it to the slip r of every active contact.
+void add_shifts(std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces);
 /// u - (Dx_a - Dx_b) [m]
 Vec3 rolling(const ContactPoint& contact, const SurfacePoint& surface);
 
-/// Adds the couples that the force g [N] on a's surface exerts beside c_k g: on nodes [N], and on spins [N m] (lane 3).
-void add_couples(const ContactPoint& contact, const SurfacePoint& surface, const Lanes& g, std::vector<Lanes>& force);
+/// Sets SurfacePoint::on_a and on_b of every active contact, once its force is known.
+void set_couples(const std::vector<ContactPoint>& contacts, std::vector<SurfacePoint>& surfaces);
+
+/// Adds the couples `on_a` and `on_b`, as in SurfacePoint, to the forces on nodes [N] and the torques on spins [N m]
+/// (lane 3).
+void add_couples(const ContactPoint& contact, const SurfacePoint& surface, const Lanes& on_a, const Lanes& on_b,
+                 std::vector<Lanes>& force);
 
 /// The linear model of a contact with friction at the surfaces, by the changes xi that all its forces depend on:
 /// S = sum_k c_k dq_k, V_a = sum_k d_k dq_k, V_b = sum_k beta_k dq_k, Psi_a and Psi_b, and the turn of a roller.

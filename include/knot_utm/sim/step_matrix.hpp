@@ -102,6 +102,14 @@ class StepMatrix {
     }
   };
 
+  /// That slide as a contact moves: on a roller none, on a smooth strand that of b, between edges both.
+  enum class Feet { kNone, kOne, kTwo };
+
+  /// What lengthens an edge lengthens the lever of its spin.
+  void add_lengthening(int first, const double* shares, double torque, const SectionTurns& turns);
+  template <Feet kFeet>
+  void add_columns(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
+                   const SectionTurns& turns, std::size_t n);
   bool find(const std::vector<ContactPoint>& contacts);
   bool look_up(Located& contact) const;
   void find_rooms(const std::vector<ContactPoint>& contacts);
