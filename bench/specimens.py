@@ -10,6 +10,7 @@ from tighten import SLIDES
 
 MATERIALS = ["nylon", "polypropylene", "pink_vps", "green_vps"]
 OTHER_PRELOADS = {"nylon": [130.0, 260.0]}              # beside the material's own [N]
+COUPLES = {"polypropylene": [0.1], "pink_vps": [0.25], "green_vps": [0.25]}  # eta with which knots keep closed
 SEED, COUNT = 19, 12
 KNOT_DISTANCE, TAIL, TYING_SPEED = 0.15, 0.03, 0.01     # as shipped [m, m, m/s]
 SCATTER = {"specimen.knot_distance": (KNOT_DISTANCE, 0.01), "specimen.tail": (TAIL, 0.05),
@@ -51,6 +52,8 @@ def cases_of(materials):
         out[material] = material, {"material": material}
         for preload in OTHER_PRELOADS.get(material, []):
             out[f"{material}, {preload:g} N"] = material, {"material": material, "specimen.preload": preload}
+        for couple in COUPLES.get(material, []):
+            out[f"{material}, eta {couple:g}"] = material, {"material": material, "material.friction_couple": couple}
     return out
 
 
@@ -70,7 +73,8 @@ def report(runner, materials, seeds=COUNT):
                   "of the mean is that of the same specimens, and its standard error is that of the mean of their "
                   "differences. A gate holds where the change is at most 2 % beyond its standard error and every "
                   "specimen has its reading. Edges h/3 and h/5: the edges in the knots are the radius over 3 and 5 "
-                  "long, where `normal` has h/2.25, and for nylon, which is tied hard, h/3. The picture has every "
+                  "long, where `normal` has h/2.25, and for nylon, which is tied hard, h/3. eta is "
+                  "`material.friction_couple`, friction at the surface. The picture has every "
                   "specimen, and the mean with its standard error.", tables,
                   lambda file: plots.strips(file, pictures, "plateau or peak force [N]"))
 
