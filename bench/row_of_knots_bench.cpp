@@ -12,6 +12,7 @@
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/centreline_file.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -32,7 +33,7 @@ Material soft_rod() { return table1(1170.0, 1.70, 4.34e-6, 4.34e-6, 0.54); }
 /// Those of a test of a shape from a file.
 StepSettings settings_of(const Material& material, const PhysicsOptions& physics) {
   SpecimenOptions specimen;
-  specimen.knot = KnotKind::kFile;
+  specimen.knot = knot_named("file");
   return step_settings(specimen, material, MachineOptions(), physics);
 }
 

@@ -4,9 +4,9 @@
 
 #include <filesystem>
 
-#include "knot_utm/io/number.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/rod/archive.hpp"
+#include "knot_utm/rod/number.hpp"
 
 namespace knot_utm {
 

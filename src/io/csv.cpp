@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "knot_utm/io/cannot_write.hpp"
-#include "knot_utm/io/number.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/rod/number.hpp"
 #include "knot_utm/rod/text_rows.hpp"
 
 namespace knot_utm {

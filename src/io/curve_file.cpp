@@ -4,10 +4,10 @@
 #include <cmath>
 #include <sstream>
 
-#include "knot_utm/io/number.hpp"
 #include "knot_utm/io/raw_data.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/rod/number.hpp"
 
 namespace knot_utm {
 namespace {

@@ -16,6 +16,7 @@
 
 #include "knot_utm/io/cannot_write.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 namespace {
@@ -77,7 +78,7 @@ void JournalHeader::state(Archive& archive) {
 JournalHeader journal_header(const Method& method, const std::string& test) {
   JournalHeader header;
   header.method = method_file_text(method);
-  if (method.specimen.knot == KnotKind::kFile) {
+  if (knot_of(method.specimen).has("file")) {
     const std::string shape = read_whole(method.specimen.file);
     header.specimen =
         static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(shape.data()), shape.size()));

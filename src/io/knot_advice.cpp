@@ -1,7 +1,8 @@
 #include "knot_utm/io/knot_advice.hpp"
 
-#include "knot_utm/io/number.hpp"
 #include "knot_utm/machine/step_settings.hpp"
+#include "knot_utm/rod/number.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 
@@ -9,7 +10,8 @@ std::string what_keeps_a_knot(const Method& method) {
   const std::string friction =
       "a higher material.friction_coefficient (now " + format_number(method.material.friction_coefficient) + ")";
   const SpecimenOptions& specimen = method.specimen;
-  if (specimen.knot == KnotKind::kOverhand) return friction + " or a larger specimen.end_to_end may keep it";
+  const std::string other = knot_of(specimen).what_keeps_it();
+  if (!other.empty()) return friction + " or " + other + " may keep it";
   if (!specimen.to_be_tied) return friction + " may keep it";
   if (friction_rolls(method.material, method.machine, method.physics))
     return "the couple of friction rolls its strands: a smaller material.friction_couple (now " +

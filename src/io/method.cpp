@@ -18,6 +18,7 @@
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/rod/known_names.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "method_defaults.hpp"
 #include "method_fields.hpp"
 #include "method_reader.hpp"
@@ -471,10 +472,10 @@ Method parse_method(const std::string& text, const std::string& file, const std:
                                              [](const ProgramStep& step) { return step.phase == Phase::kTie; });
 
     const Material& material = method.material;
-    if (!method.specimen.preload && method.specimen.knot == KnotKind::kFisherman) {
+    if (!method.specimen.preload && knot_of(method.specimen).has("preload")) {
       method.specimen.preload = default_preload(material);
     }
-    if (method.specimen.knot == KnotKind::kFile && !method.specimen.file.empty()) {
+    if (!method.specimen.file.empty()) {
       method.specimen.file = fs::absolute(folder / method.specimen.file).lexically_normal().string();
     }
     if (!method.report.logo.empty())

@@ -8,9 +8,11 @@
 #include <type_traits>
 
 #include "knot_utm/io/method.hpp"
-#include "knot_utm/io/number.hpp"
 #include "knot_utm/machine/before_tying.hpp"
+#include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/step_settings.hpp"
+#include "knot_utm/rod/number.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "method_reader.hpp"
 
 namespace knot_utm {
@@ -58,26 +60,24 @@ void check_friction(const FrictionOptions& friction) {
 void check_effects(const Method& m) {
   const SpecimenOptions& s = m.specimen;
   const SpecimenOptions unset;
-  const bool loop = s.knot == KnotKind::kFisherman;
-  const bool overhand = s.knot == KnotKind::kOverhand;
-  const bool straight = s.knot == KnotKind::kStraight;
-  const bool opposite = s.handedness == Handedness::kOpposite;
-  has_effect(loop, "specimen.handedness", std::string(opposite ? "opposite" : "same"), std::string("same"),
-             "for knot: fisherman");
-  has_effect(overhand, "specimen.turns", s.turns, unset.turns, "for knot: overhand");
-  has_effect(s.knot == KnotKind::kFile, "specimen.file", s.file, unset.file, "for knot: file");
-  has_effect(loop, "specimen.knot_distance", s.knot_distance, unset.knot_distance, "for knot: fisherman");
-  has_effect(loop || overhand, "specimen.end_to_end", s.end_to_end, unset.end_to_end,
-             "for knot: fisherman or overhand");
-  has_effect(loop || overhand, "specimen.refinement", s.refinement.value_or(0.0), 0.0,
-             "for knot: fisherman or overhand");
-  has_effect(straight || overhand, "specimen.length", s.length, unset.length, "for knot: straight or overhand");
-  has_effect(loop, "specimen.tail", s.tail, unset.tail, "for knot: fisherman");
-  has_effect(loop, "specimen.preload", s.preload.value_or(0.0), 0.0, "for knot: fisherman, whose knots are tied");
+  const auto of_knot = [&](const char* name, const auto& value, const auto& plain) {
+    has_effect(knot_of(s).has(name), (std::string("specimen.") + name).c_str(), value, plain,
+               "for knot: " + knots_with(name));
+  };
+  of_knot("handedness", std::string(s.handedness == Handedness::kOpposite ? "opposite" : "same"), std::string("same"));
+  of_knot("turns", s.turns, unset.turns);
+  of_knot("file", s.file, unset.file);
+  of_knot("knot_distance", s.knot_distance, unset.knot_distance);
+  of_knot("end_to_end", s.end_to_end, unset.end_to_end);
+  of_knot("refinement", s.refinement.value_or(0.0), 0.0);
+  of_knot("length", s.length, unset.length);
+  of_knot("tail", s.tail, unset.tail);
+  of_knot("preload", s.preload.value_or(0.0), 0.0);
 
   const MachineOptions& machine = m.machine;
   const MachineOptions bare;
-  has_effect(loop, "machine.roller_diameter", machine.roller_diameter, bare.roller_diameter, "for knot: fisherman");
+  const bool loop = knot_of(s).loop();
+  has_effect(loop, "machine.roller_diameter", machine.roller_diameter, bare.roller_diameter, "for knot: " + loops());
   has_effect(machine.grips == GripKind::kRollers, "machine.roller_friction", machine.roller_friction,
              bare.roller_friction, "with grips: rollers");
   has_effect(machine.roller_friction > 0.0, "machine.roller_rotation",
@@ -88,8 +88,8 @@ void check_effects(const Method& m) {
   if (machine.roller_rotation == RollerRotation::kTurned && machine.roller_rate == 0.0)
     reject("machine.roller_rate", machine.roller_rate, "other than 0 where rollers are turned");
   const bool held = machine.far_side == FarSide::kHeld;
-  has_effect(loop && machine.grips == GripKind::kRollers, "machine.far_side", std::string(held ? "held" : "free"),
-             std::string("held"), "for knot: fisherman, with grips: rollers");
+  has_effect(rollers_hold(s, machine), "machine.far_side", std::string(held ? "held" : "free"), std::string("held"),
+             "for knot: " + loops() + ", with grips: rollers");
 
   check_friction(m.physics.friction);
 }
@@ -97,42 +97,21 @@ void check_effects(const Method& m) {
 void check_specimen(const Method& m) {
   const SpecimenOptions& s = m.specimen;
   const double h = m.material.radius;
-  const bool loop = s.knot == KnotKind::kFisherman;
-  const bool knotted = loop || s.knot == KnotKind::kOverhand;
-  if (knotted && s.edge_length > 2.0 * h) {
+  if (knot_of(s).knotted() && s.edge_length > 2.0 * h) {
     reject("specimen.edge_length", s.edge_length, "at most twice the radius, " + format_number(2.0 * h) + " m");
   }
-  // Coarse: room for the coils themselves. The bench judges the shape that it really lays.
-  if (loop && s.knot_distance < 12.0 * h) {
-    reject("specimen.knot_distance", s.knot_distance, "at least 12 radii, " + format_number(12.0 * h) + " m");
-  }
-  if (loop && s.end_to_end < s.knot_distance + 12.0 * h) {
-    reject("specimen.end_to_end", s.end_to_end,
-           "at least knot_distance plus 12 radii, " + format_number(s.knot_distance + 12.0 * h) + " m");
-  }
-  if (s.knot == KnotKind::kOverhand && s.end_to_end >= s.length) {
-    reject("specimen.end_to_end", s.end_to_end, "less than length, " + format_number(s.length) + " m");
-  }
-  if ((s.knot == KnotKind::kStraight || s.knot == KnotKind::kOverhand) && s.edge_length > s.length / 4.0) {
-    reject("specimen.edge_length", s.edge_length,
-           "at most a quarter of length, " + format_number(s.length / 4.0) + " m");
-  }
+  knot_of(s).check(s, h);
   const std::optional<double>& breaking = m.material.breaking_force;
   if (s.to_be_tied && s.preload && breaking && *breaking <= *s.preload) {
     reject("material.breaking_force", *breaking,
            "more than specimen.preload, " + format_number(*s.preload) + " N, the force that ties the knots");
   }
   if (s.closed) throw InvalidInput("specimen.closed", "true", "false, since the grips hold the rod's two ends");
-  if (s.knot == KnotKind::kFile) {
-    std::error_code error;
-    if (s.file.empty()) throw InvalidInput::missing("specimen.file", "a CSV file with the columns x,y,z in m");
-    if (!fs::is_regular_file(s.file, error)) throw InvalidInput::cannot_read(s.file, "specimen.file");
-  }
 }
 
 /// Friction at the surface turns strands about themselves, which only a rod with twist can do.
 void check_twist(const Method& m) {
-  if (m.physics.twist != TwistMode::kOff || m.specimen.knot == KnotKind::kStraight) return;
+  if (m.physics.twist != TwistMode::kOff || knot_of(m.specimen).straight()) return;
   if (friction_rolls(m.material, m.machine, m.physics))
     throw InvalidInput::sentence("physics.twist", "off",
                                  "physics.twist is off, but friction at the surface twists the rod: set "
@@ -149,9 +128,8 @@ void check_machine(const Method& m) {
     reject("machine.load_cell.resolution", cell.resolution,
            "less than capacity, " + format_number(cell.capacity) + " N");
   }
-  const bool loop = m.specimen.knot == KnotKind::kFisherman;
-  if (m.machine.grips == GripKind::kRollers && !loop) {
-    throw InvalidInput("machine.grips", "rollers", "nodes or clamps: rollers hold only a loop, knot: fisherman");
+  if (m.machine.grips == GripKind::kRollers && !knot_of(m.specimen).loop()) {
+    throw InvalidInput("machine.grips", "rollers", "nodes or clamps: rollers hold only a loop, knot: " + loops());
   }
 }
 
@@ -214,10 +192,9 @@ void check_ends(const Method& m) {
   has_effect(breaks.drop.has_value(), "ends.drop_extension", breaks.drop_extension, unset.drop_extension, "with drop");
 }
 
-constexpr const char* kLoopOnly = "needs specimen.knot: fisherman; begin the program with another step";
-
 void check_program(const Method& m) {
-  const bool loop = m.specimen.knot == KnotKind::kFisherman;
+  const bool loop = knot_of(m.specimen).loop();
+  const std::string loop_only = "needs specimen.knot: " + loops() + "; begin the program with another step";
   bool pulled = false;
   for (std::size_t i = 0; i < m.program.size(); ++i) {
     const ProgramStep& step = m.program[i];
@@ -226,13 +203,13 @@ void check_program(const Method& m) {
     switch (step.phase) {
       case Phase::kTie:
         if (i != 0) misplaced(key, name, "can only be the first step");
-        if (!loop) misplaced(key, name, kLoopOnly);
+        if (!loop) misplaced(key, name, loop_only);
         break;
       case Phase::kRelease:
         if (i != 1 || m.program[0].phase != Phase::kTie) misplaced(key, name, "can only stand right after tie");
         break;
       case Phase::kMount:
-        if (!loop) misplaced(key, name, kLoopOnly);
+        if (!loop) misplaced(key, name, loop_only);
         if (pulled) misplaced(key, name, "can only stand before the first step that moves the crosshead");
         pulled = true;
         break;

@@ -6,6 +6,7 @@
 
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 /// Every key of a method with its range, said once: reading and writing both walk these lists.
 ///
@@ -32,7 +33,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 template <class Fields>
 void knot(Fields& f, KnotKind& knot) {
-  f.choice("knot", knot, std::array{"fisherman", "overhand", "straight", "file"});
+  f.choice("knot", knot, knot_names());
 }
 
 template <class Fields>

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/number.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/rod/known_names.hpp"
+#include "knot_utm/rod/number.hpp"
 #include "method_fields.hpp"
 
 namespace knot_utm::fields {
@@ -167,11 +167,11 @@ class Reader {
     value = given == "true";
   }
 
-  template <class Enum, std::size_t n>
-  void choice(const char* key, Enum& value, const std::array<const char*, n>& names) {
+  template <class Enum, class Names>
+  void choice(const char* key, Enum& value, const Names& names) {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
-    for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t i = 0; i < names.size(); ++i) {
       if (node.IsScalar() && node.Scalar() == names[i]) {
         value = static_cast<Enum>(i);
         return;
@@ -301,8 +301,8 @@ class Writer {
   }
   void short_text(const char* key, const std::string& value, std::size_t) { text(key, value); }
   void flag(const char* key, const bool& value) { map_[key] = value ? "true" : "false"; }
-  template <class Enum, std::size_t n>
-  void choice(const char* key, const Enum& value, const std::array<const char*, n>& names) {
+  template <class Enum, class Names>
+  void choice(const char* key, const Enum& value, const Names& names) {
     map_[key] = names[static_cast<std::size_t>(value)];
   }
   void vector(const char* key, const Eigen::Vector3d& value, const Range&) {

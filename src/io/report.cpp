@@ -12,10 +12,10 @@
 #include <system_error>
 #include <vector>
 
-#include "knot_utm/io/number.hpp"
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/rod/number.hpp"
 
 namespace knot_utm {
 namespace {

@@ -12,6 +12,7 @@
 #include "knot_utm/io/cannot_write.hpp"
 #include "knot_utm/io/journal.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 namespace {
@@ -68,7 +69,7 @@ void make_run_folder(const std::string& folder) { make_folder(folder, "--out"); 
 
 std::string method_file_text(const Method& method) {
   Method own = method;
-  if (own.specimen.knot == KnotKind::kFile) own.specimen.file = "specimen.csv";
+  if (knot_of(own.specimen).has("file")) own.specimen.file = "specimen.csv";
   if (!own.report.logo.empty()) own.report.logo = logo_beside(method);
   return "# Everything resolved: runs again to the same curve.\n" + method_yaml(own);
 }
@@ -85,7 +86,7 @@ void require_no_record_in(const std::string& folder, const Method& method) {
 void begin_run_folder(const std::string& folder, const Method& method) {
   std::error_code error;
   require_no_record_in(folder, method);
-  if (method.specimen.knot == KnotKind::kFile) put_copy(method.specimen.file, fs::path(folder) / "specimen.csv");
+  if (knot_of(method.specimen).has("file")) put_copy(method.specimen.file, fs::path(folder) / "specimen.csv");
   if (!method.report.logo.empty()) put_copy(method.report.logo, fs::path(folder) / logo_beside(method));
   // Not before the specimen has been read: it may be the shape that the last run left here.
   for (const char* old : kOld) fs::remove(fs::path(folder) / old, error);

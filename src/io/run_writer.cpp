@@ -6,14 +6,16 @@
 
 #include "knot_utm/io/gravity_warnings.hpp"
 #include "knot_utm/io/null_reasons.hpp"
-#include "knot_utm/io/number.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/speed_warnings.hpp"
 #include "knot_utm/io/verdict.hpp"
 #include "knot_utm/io/yaml_lines.hpp"
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/fracture.hpp"
+#include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/load_cell.hpp"
+#include "knot_utm/rod/number.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
@@ -189,8 +191,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
       full_curve_((fs::path(folder) / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)) {
   known_.errors = reading_errors(method.specimen, method.material, method.machine, method.physics);
   known_.material = method.material;
-  if (method.specimen.knot == KnotKind::kFisherman && method.specimen.to_be_tied)
-    known_.knot_distance = method.specimen.knot_distance;
+  if (method.specimen.to_be_tied) known_.knot_distance = method.specimen.knot_distance;
   if (method.machine.roller_rotation == RollerRotation::kTurned)
     known_.warnings.push_back(
         "the rollers are driven: what holds the far side bears a part of the load, and the two grips read different "
@@ -201,8 +202,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
   }
   weight_per_length_ =
       method.physics.gravity.norm() * method.material.density * M_PI * method.material.radius * method.material.radius;
-  if (method.specimen.knot == KnotKind::kFisherman && method.machine.grips == GripKind::kRollers)
-    radius_on_rollers_ = method.material.radius;
+  if (rollers_hold(method.specimen, method.machine)) radius_on_rollers_ = method.material.radius;
   far_side_held_ = method.machine.far_side == FarSide::kHeld;
   if (method.analysis.margin)
     known_.margin.reason = "only tensile_test makes the runs for the margin: run method.yaml of this folder with it";

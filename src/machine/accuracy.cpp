@@ -5,6 +5,7 @@
 
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/machine/step_settings.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 
@@ -21,13 +22,13 @@ constexpr Tolerances kStretchingFine{0.05, 1e-5, 0.01, 1e-3, 2.0};
 
 /// A loop of a solid rod stretches, while one of a rope lets its knots slide first.
 bool stretches(const SpecimenOptions& specimen, const Material& material) {
-  return specimen.knot == KnotKind::kFisherman && is_solid(material);
+  return knot_of(specimen).loop() && is_solid(material);
 }
 
 /// F_p h^2/k_b.
 double preload_group(const SpecimenOptions& specimen, const Material& material) {
   const double h = material.radius;
-  return specimen.preload.value_or(default_preload(material)) * h * h / material.bending_stiffness;
+  return tying_load(specimen, material) * h * h / material.bending_stiffness;
 }
 
 // Under the tension T of its tying a rope's bends fade along a strand within sqrt(k_b/T): the harder it is tied, the
@@ -37,7 +38,7 @@ constexpr double kTiedHard = 6.0, kShortestForHard = 4.0 / 3.0;
 
 /// By which edges in the knots of a rope that is tied hard are shorter.
 double shorter_where_tied_hard(const SpecimenOptions& specimen, const Material& material) {
-  if (specimen.knot != KnotKind::kFisherman || !specimen.to_be_tied) return 1.0;
+  if (!knot_of(specimen).loop() || !specimen.to_be_tied) return 1.0;
   return std::clamp(std::pow(preload_group(specimen, material) / kTiedHard, 0.25), 1.0, kShortestForHard);
 }
 
@@ -106,9 +107,10 @@ double hardly_closed(double plateau_force, const Material& material) {
 
 ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                              const PhysicsOptions& physics) {
+  const Knot::ErrorStudy study = knot_of(specimen).error_study();
   ReadingErrors out;
-  if (specimen.knot == KnotKind::kStraight) out.locked_stiffness = kStraightStiffness;
-  const bool studied = specimen.knot == KnotKind::kFisherman && specimen.to_be_tied &&
+  if (study == Knot::ErrorStudy::kStraight) out.locked_stiffness = kStraightStiffness;
+  const bool studied = study == Knot::ErrorStudy::kFisherman && specimen.to_be_tied &&
                        physics.contact_law == ContactLaw::kSmooth && entry_of(physics.friction.law).studied &&
                        friction_couple(material, physics) == 0.0 && material.bending_set == 0.0 &&
                        machine.roller_friction == 0.0;

@@ -8,6 +8,7 @@
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 

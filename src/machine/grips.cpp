@@ -3,8 +3,8 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
+#include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
@@ -18,11 +18,18 @@ constexpr double kHeld = 100.0;     // stiffness of what holds the middle of the
 
 }  // namespace
 
+bool rollers_hold(const SpecimenOptions& specimen, const MachineOptions& machine) {
+  return knot_of(specimen).loop() && machine.grips == GripKind::kRollers;
+}
+
+bool clamps_hold(const SpecimenOptions& specimen, const MachineOptions& machine) {
+  return machine.grips != GripKind::kNodes && !rollers_hold(specimen, machine);
+}
+
 Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, const Centreline& centreline,
              const Material& material) {
   const double radius = material.radius;
-  const int nodes = static_cast<int>(centreline.points.cols());
-  if (specimen.knot == KnotKind::kFisherman && machine.grips == GripKind::kRollers) {
+  if (rollers_hold(specimen, machine)) {
     Roller roller;
     roller.axis = Vec3::UnitY();
     roller.radius = 0.5 * machine.roller_diameter;
@@ -44,30 +51,16 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
     holds_far_side_ = !specimen.to_be_tied;
     return;
   }
-  auto hold = [&](std::vector<FixedNode>& held, int node) { held.push_back({node, centreline.points.col(node)}); };
-  if (specimen.knot == KnotKind::kFisherman) {
-    const int lower = centreline.nearest_node(centreline.lower_apex);
-    const int upper = centreline.nearest_node(centreline.upper_apex);
-    hold(lower_nodes_, lower);
-    hold(upper_nodes_, upper);
-    if (machine.grips == GripKind::kClamps) {
-      hold(lower_nodes_, lower + 1);
-      hold(upper_nodes_, upper + 1);
-      held_frames_ = {{lower, 0.0}, {upper, 0.0}};
-    }
-    return;
-  }
-  hold(lower_nodes_, 0);
-  hold(upper_nodes_, nodes - 1);
-  if (machine.grips != GripKind::kNodes) {
-    hold(lower_nodes_, 1);
-    hold(upper_nodes_, nodes - 2);
-    held_frames_ = {{0, 0.0}, {nodes - 2, 0.0}};
-    if (specimen.knot == KnotKind::kStraight) {  // its length is that between the clamps
-      std::swap(lower_nodes_[0], lower_nodes_[1]);
-      std::swap(upper_nodes_[0], upper_nodes_[1]);
-    }
-  }
+  const Knot& knot = knot_of(specimen);
+  const bool clamped = clamps_hold(specimen, machine);
+  auto hold = [&](std::vector<FixedNode>& held, const HeldNode& at) {
+    held.push_back({at.node, centreline.points.col(at.node)});
+    if (!clamped) return;
+    held.push_back({at.next, centreline.points.col(at.next)});
+    held_frames_.push_back({at.edge(), 0.0});
+  };
+  hold(lower_nodes_, knot.held_below(centreline, clamped));
+  hold(upper_nodes_, knot.held_above(centreline, clamped));
 }
 
 bool Grips::hold(double displacement, const Vec3& point, double radius) const {

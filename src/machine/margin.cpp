@@ -8,6 +8,7 @@
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 

@@ -20,6 +20,7 @@
 #include "knot_utm/sim/saved_step.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
 
@@ -86,8 +87,7 @@ struct TestBench::Impl {
         physics(physics_),
         centreline(specimen_centreline(specimen_, material_, machine_, physics_)),
         grips(specimen_, machine_, centreline, material),
-        frame(machine_.stiffness, material, specimen_.knot == KnotKind::kFisherman ? 2 : 1,
-              grips.length_around(material_.radius)),
+        frame(machine_.stiffness, material, knot_of(specimen_).loop() ? 2 : 1, grips.length_around(material_.radius)),
         cell(machine_.load_cell) {
     const Eigen::Index nodes = centreline.points.cols();
     Eigen::VectorXd rest(nodes - 1);
@@ -106,7 +106,7 @@ struct TestBench::Impl {
     StepControl::Options options;
     options.longest = options.first = tolerances(physics, specimen, material).longest_step;
     // A drawn shape springs apart at once.
-    if (specimen.knot != KnotKind::kStraight) options.first = std::min(bending_time, options.longest);
+    if (!knot_of(specimen).straight()) options.first = std::min(bending_time, options.longest);
     options.motion = 0.6 * material.radius;
     options.slip = 0.4 * material.radius;
     options.shortest = std::min(options.shortest, kShortestStep * bending_time);
@@ -119,7 +119,7 @@ struct TestBench::Impl {
       rig.emplace(centreline, rod, tying);
       touch.emplace(rig->standing_nodes(), material.radius);
     }
-    if (specimen.knot != KnotKind::kStraight) {
+    if (!knot_of(specimen).straight()) {
       watch.emplace(rig ? rig->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
                     centreline.points);
     }
@@ -143,8 +143,7 @@ struct TestBench::Impl {
         break;
     }
     return rod.natural_curvature.cols() > 0 || rod.natural_twist.size() > 0 ||
-           ((grips.hold_frames() || friction_rolls(material, machine, physics)) &&
-            specimen.knot != KnotKind::kStraight);
+           ((grips.hold_frames() || friction_rolls(material, machine, physics)) && !knot_of(specimen).straight());
   }
 
   const Boundary& boundary_at(const Command& command, double from, double to, double start_time,
@@ -191,7 +190,7 @@ struct TestBench::Impl {
   /// A drawn shape's stored energy is an artefact of the drawing, and would throw it about. A straight rod has none;
   /// what the rig ties settles there.
   double drag_of_settling(double at_time) const {
-    if (specimen.knot == KnotKind::kStraight || specimen.to_be_tied || at_time >= kSettlingTime) return 0.0;
+    if (knot_of(specimen).straight() || specimen.to_be_tied || at_time >= kSettlingTime) return 0.0;
     const double left = 1.0 - at_time / kSettlingTime;
     return settling_drag(material, kSettlingWave * material.radius, kSettlingTime) * left * left;
   }
@@ -199,7 +198,7 @@ struct TestBench::Impl {
   /// `auto`: what brings it to rest. In the forces of a loop and of a straight rod it stays far below a thousandth. A
   /// loose knot between clamps pulls with no more than the drag on its length: there is none from the first pull on.
   double drag() const {
-    const bool drawn_knot = specimen.knot == KnotKind::kOverhand || specimen.knot == KnotKind::kFile;
+    const bool drawn_knot = !knot_of(specimen).straight() && !knot_of(specimen).loop();
     return physics.drag.value_or(pulled && drawn_knot ? 0.0 : drag_to_rest(material));
   }
 

@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "knot_utm/io/number.hpp"
 #include "knot_utm/machine/program.hpp"
+#include "knot_utm/rod/number.hpp"
 
 namespace knot_utm {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "knot_utm/io/number.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/rod/number.hpp"
 #include "knot_utm/ros/test_setup.hpp"
 
 namespace knot_utm {

@@ -4,6 +4,9 @@
 #include <cmath>
 
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/rod/number.hpp"
+#include "knot_utm/specimen/scales.hpp"
+#include "knot_utm/specimen/tying_rig.hpp"
 #include "path.hpp"
 #include "shape_checks.hpp"
 
@@ -12,6 +15,10 @@ namespace knot_utm {
 namespace {
 
 constexpr double kFineBeyondCoil = 3.0;  // of the strand that a coil holds [h]
+constexpr double kHalfOfWinding = 1.6;   // half the axial length of each winding after the first [h]
+
+/// By which a coil of so many windings is longer, to either side of its middle.
+double longer_coil(int windings, double h) { return kHalfOfWinding * (windings - 1) * h; }
 
 /// One overhand of the fisherman's loop, in lengths.
 struct Coil {
@@ -19,6 +26,7 @@ struct Coil {
   double tail;    ///< b
   double radius;  ///< R
   double half;    ///< w, half its axial length
+  double wrap;    ///< angle [rad]
   double outer;   ///< of its outermost point from its middle
   double inner;   ///< of its innermost point
 };
@@ -37,9 +45,8 @@ struct KnotMarks {
 };
 
 KnotMarks draw_knot(const KnotFrame& frame, const Coil& coil, double c, double radius, double tail, Path& path) {
-  constexpr double kWrap = 2.5 * M_PI;
   KnotMarks marks{};
-  marks.standing_begin = c - 5.0 * radius;
+  marks.standing_begin = c - 3.0 * radius - coil.half;
   path.add(frame.at(coil.strand, 0.0, 0.0));
   path.add(frame.at(coil.strand, 0.0, c + coil.half));
   const double turn_out = 0.5 * (coil.radius - coil.strand);
@@ -48,17 +55,17 @@ KnotMarks draw_knot(const KnotFrame& frame, const Coil& coil, double c, double r
                     c + coil.half + turn_out * std::sin(M_PI * t));
   });
   const double coil_begin = path.length();
-  path.add_curve(kWrap * coil.radius,
-                 [&](double t) { return frame.at(coil.radius, kWrap * t, c + coil.half * (1.0 - 2.0 * t)); });
+  path.add_curve(coil.wrap * coil.radius,
+                 [&](double t) { return frame.at(coil.radius, coil.wrap * t, c + coil.half * (1.0 - 2.0 * t)); });
   marks.coil_middle = 0.5 * (coil_begin + path.length());
   const double turn_in = 0.5 * (coil.radius - coil.tail);
   path.add_curve(M_PI * turn_in, [&](double t) {
-    return frame.at(coil.tail + turn_in * (1.0 + std::cos(M_PI * t)), kWrap,
+    return frame.at(coil.tail + turn_in * (1.0 + std::cos(M_PI * t)), coil.wrap,
                     c - coil.half - turn_in * std::sin(M_PI * t));
   });
-  path.add(frame.at(coil.tail, kWrap, c + coil.outer));
+  path.add(frame.at(coil.tail, coil.wrap, c + coil.outer));
   marks.tail_exit = path.length();
-  path.add(frame.at(coil.tail, kWrap, c + coil.outer + tail));
+  path.add(frame.at(coil.tail, coil.wrap, c + coil.outer + tail));
   marks.tail_end = path.length();
   return marks;
 }
@@ -84,7 +91,8 @@ Coil coil_of(const FishermanShape& shape) {
   coil.strand = (2.0 - std::sqrt(3.0)) * shape.looseness * h;
   coil.radius = before_smoothing(shape.looseness * h, h);
   coil.tail = shape.looseness * h - 2.0 * coil.strand;
-  coil.half = 2.0 * h;
+  coil.half = 2.0 * h + longer_coil(shape.windings, h);
+  coil.wrap = (0.5 + 2.0 * shape.windings) * M_PI;
   coil.outer = coil.half + 0.5 * (coil.radius - coil.strand);
   coil.inner = coil.half + 0.5 * (coil.radius - coil.tail);
   return coil;
@@ -230,13 +238,14 @@ EdgeGrading grading_of(const FishermanShape& shape, const Coil& coil, const Draw
 /// `way` leads from `middle`, where the knot's own strand begins, to its tail: 1 or -1 along the rod. `threaded`: where
 /// this knot's coil holds the other end's strand.
 KnotLandmarks landmarks_of(const Resampled& rod, const KnotMarks& marks, double middle, double way, double tail_end,
-                           double threaded) {
+                           double threaded, double longer) {
   KnotLandmarks out{};
   out.tail_end = rod(tail_end);
   out.tail_exit = rod(middle + way * marks.tail_exit);
   out.coil_middle = rod(middle + way * marks.coil_middle);
   out.standing_begin = rod(middle + way * marks.standing_begin);
   out.threaded = rod(threaded);
+  out.longer = longer;
   return out;
 }
 
@@ -257,11 +266,110 @@ Centreline fisherman_loop(const FishermanShape& shape) {
   centreline.upper_apex = rod(0.5 * (drawn.upper_begin + drawn.upper_end));
   centreline.lower_apex = rod(0.5 * (drawn.lower_begin + drawn.lower_end));
   centreline.loop = {outline.length, outline.narrow, rod(drawn.upper_end), rod(drawn.lower_begin)};
+  const double longer = longer_coil(shape.windings, h);
   centreline.knots = {
-      landmarks_of(rod, drawn.marks, drawn.first_middle, -1.0, 0.0, drawn.second_middle - c),
-      landmarks_of(rod, drawn.marks, drawn.second_middle, 1.0, drawn.path.length(), drawn.first_middle + c)};
+      landmarks_of(rod, drawn.marks, drawn.first_middle, -1.0, 0.0, drawn.second_middle - c, longer),
+      landmarks_of(rod, drawn.marks, drawn.second_middle, 1.0, drawn.path.length(), drawn.first_middle + c, longer)};
   check_no_overlap(centreline, h, "specimen.knot_distance", text(shape.knot_distance));
   return centreline;
+}
+
+namespace {
+
+// Of the shipped method, for the paper's radius [m].
+constexpr double kKnotDistance = 0.15, kEndToEnd = 0.25, kTail = 0.03, kRollerDiameter = 0.0381, kWay = 0.12;
+constexpr double kWayOfDistance = 0.7;  // knots far apart lock after about this share of their distance, or less
+constexpr double kShareOfLoop = 0.6;    // e over L, as the paper has it
+
+constexpr double kCoarsening = 1.5;  // of edges on the far side of a loop, which touches nothing but rollers
+
+// By how much tying moves the two knots apart. Fitted so that the four shipped materials end within 5 % of the distance
+// that is asked for, with e from 0.11 to 0.19 m: `tied_knot_distance` of config/tighten.yaml with material= and
+// specimen.knot_distance= set, and specimen.end_to_end=0.3, which has room for all of them.
+constexpr double kGivenUp = 16.6;  // both knots run outwards by what their coils give up as they tighten [h]
+constexpr double kGivenUpByWinding =
+    3.0;  // more by this for each winding after the first, within 7 % of the distance [h]
+constexpr double kGivenUpByStrain = 2.6;  // more by this where the pre-load stretches the rod [h per unit of strain]
+constexpr double kRecovered = 0.075;      // of what it stretched between them, which is short again once released [-]
+constexpr double kLargestTyingStrain = 1.0;  // beyond it nothing was measured, and the shift stays what it is [-]
+
+double outward_shift(const SpecimenOptions& specimen, const Material& material, int windings) {
+  const double strain = std::min(tying_load(specimen, material) / material.stretching_stiffness, kLargestTyingStrain);
+  return (kGivenUp + kGivenUpByWinding * (windings - 1) + kGivenUpByStrain * strain) * material.radius -
+         kRecovered * strain * specimen.knot_distance;
+}
+
+/// The least L for knots at this distance, by which their coils clear the rollers.
+double least_end_to_end(double knot_distance, double roller_diameter, double h) {
+  return knot_distance + 2.0 * (5.0 * h + std::sqrt(9.0 * h * (0.5 * roller_diameter + h)));
+}
+
+}  // namespace
+
+SpecimenOptions FishermanKnot::defaults(double h) const {
+  const double r = h / kPaperRadius;
+  SpecimenOptions out;
+  out.edge_length = kPaperKnottedEdge * r;
+  out.knot_distance = kKnotDistance * r;
+  out.end_to_end = kEndToEnd * r;
+  out.tail = kTail * r;
+  return out;
+}
+
+void FishermanKnot::suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const {
+  const double r = h / kPaperRadius, e = known.knot_distance;
+  out.knot_distance = std::min(kKnotDistance * r, kShareOfLoop * known.end_to_end);
+  // What further windings take up: of the strands outside of both coils, and of the tails.
+  const double longer = 6.0 * longer_coil(windings(known), h);
+  const bool roomy = kEndToEnd * r >= e + 12.0 * h + longer && roller_diameter <= kRollerDiameter * r;
+  if (!roomy) out.end_to_end = std::max(kEndToEnd * r, least_end_to_end(e, roller_diameter, h) + longer);
+  out.tail = kTail * r * windings(known);
+}
+
+std::optional<double> FishermanKnot::roller_diameter(double h) const { return kRollerDiameter * (h / kPaperRadius); }
+
+double FishermanKnot::pull(const SpecimenOptions& specimen, double h) const {
+  return std::max(kWay * (h / kPaperRadius), kWayOfDistance * specimen.knot_distance);
+}
+
+void FishermanKnot::check(const SpecimenOptions& specimen, double h) const {
+  // Coarse: room for the coils themselves. The shape that is really laid judges itself.
+  if (specimen.knot_distance < 12.0 * h)
+    throw InvalidInput("specimen.knot_distance", format_number(specimen.knot_distance),
+                       "at least 12 radii, " + format_number(12.0 * h) + " m");
+  if (specimen.end_to_end < specimen.knot_distance + 12.0 * h)
+    throw InvalidInput(
+        "specimen.end_to_end", format_number(specimen.end_to_end),
+        "at least knot_distance plus 12 radii, " + format_number(specimen.knot_distance + 12.0 * h) + " m");
+}
+
+Centreline FishermanKnot::centreline(const SpecimenOptions& specimen, const Material& material,
+                                     const Mounting& mounting) const {
+  FishermanShape shape;
+  shape.radius = material.radius;
+  shape.knot_distance = specimen.knot_distance;
+  shape.windings = windings(specimen);
+  if (specimen.to_be_tied && mounting.rollers)
+    shape.straight = TyingRig::straight_strand(material.radius, longer_coil(shape.windings, material.radius));
+  shape.outward_shift = specimen.to_be_tied ? outward_shift(specimen, material, shape.windings) : 0.0;
+  shape.end_to_end = specimen.end_to_end;
+  shape.roller_radius = 0.5 * mounting.roller_diameter;
+  shape.tail = specimen.tail;
+  shape.handedness = specimen.handedness;
+  shape.edge_length = specimen.edge_length;
+  shape.refinement = mounting.refinement;
+  shape.coarsening = kCoarsening;
+  return fisherman_loop(shape);
+}
+
+HeldNode FishermanKnot::held_below(const Centreline& centreline, bool) const {
+  const int node = centreline.nearest_node(centreline.lower_apex);
+  return {node, node + 1};
+}
+
+HeldNode FishermanKnot::held_above(const Centreline& centreline, bool) const {
+  const int node = centreline.nearest_node(centreline.upper_apex);
+  return {node, node + 1};
 }
 
 }  // namespace knot_utm

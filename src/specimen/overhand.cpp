@@ -5,12 +5,20 @@
 #include <string>
 
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/rod/number.hpp"
+#include "knot_utm/specimen/scales.hpp"
 #include "path.hpp"
 #include "shape_checks.hpp"
 
 namespace knot_utm {
 
 namespace {
+
+constexpr double kLength = 1.0;    // of the shipped method, for the paper's radius [m]
+constexpr double kEndToEnd = 0.7;  // [of its length]
+
+/// Of rod beyond its end-to-end distance, that an overhand knot of so many turns takes up at least.
+double taken_up(int turns, double h) { return 1.1 * (34.5 + 40.0 * turns) * h; }
 
 /// Length of the braid: the loose knot's own, but never so short that its strands would overlap.
 double braid_length(double radius, int turns, double loop_radius) {
@@ -138,6 +146,46 @@ Centreline overhand(const OverhandShape& shape) {
   centreline.points = Resampled(path, smoothed(path, shape.radius, spacing), grading(shape, path.length())).points;
   check_no_overlap(centreline, shape.radius, "specimen.end_to_end", text(shape.end_to_end));
   return centreline;
+}
+
+SpecimenOptions OverhandKnot::defaults(double h) const {
+  const double r = h / kPaperRadius;
+  SpecimenOptions out;
+  out.edge_length = kPaperKnottedEdge * r;
+  out.length = kLength * r;
+  out.end_to_end = kEndToEnd * out.length;
+  return out;
+}
+
+void OverhandKnot::suit(const SpecimenOptions& known, double, double h, SpecimenOptions& out) const {
+  const double r = h / kPaperRadius, length = known.length, least = taken_up(known.turns, h);
+  const double loose = (1.0 - kEndToEnd) * length;
+  out.end_to_end = loose >= least ? kEndToEnd * length : length - least;
+  const double end_to_end = known.end_to_end;
+  const bool is_default = end_to_end == kEndToEnd * kLength * r;  // it makes room for the knot itself
+  if (!is_default && kLength * r - end_to_end < least)
+    out.length = end_to_end + std::max((1.0 - kEndToEnd) * kLength * r, least);
+}
+
+double OverhandKnot::pull(const SpecimenOptions& specimen, double) const { return specimen.length / 10.0; }
+
+void OverhandKnot::check(const SpecimenOptions& specimen, double) const {
+  if (specimen.end_to_end >= specimen.length)
+    throw InvalidInput("specimen.end_to_end", format_number(specimen.end_to_end),
+                       "less than length, " + format_number(specimen.length) + " m");
+  check_edges_of_length(specimen);
+}
+
+Centreline OverhandKnot::centreline(const SpecimenOptions& specimen, const Material& material,
+                                    const Mounting& mounting) const {
+  OverhandShape shape;
+  shape.radius = material.radius;
+  shape.turns = specimen.turns;
+  shape.length = specimen.length;
+  shape.end_to_end = specimen.end_to_end;
+  shape.edge_length = specimen.edge_length;
+  shape.refinement = mounting.refinement;
+  return overhand(shape);
 }
 
 }  // namespace knot_utm

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/rod/number.hpp"
 
 namespace knot_utm {
 
@@ -33,6 +34,12 @@ void check_edge_length(double edge_length, double radius) {
     throw InvalidInput("specimen.edge_length", text(edge_length),
                        text(0.05 * radius) + " to " + text(2.0 * radius) + " m: at most the rod's diameter");
   }
+}
+
+void check_edges_of_length(const SpecimenOptions& specimen) {
+  if (specimen.edge_length > specimen.length / 4.0)
+    throw InvalidInput("specimen.edge_length", format_number(specimen.edge_length),
+                       "at most a quarter of length, " + format_number(specimen.length / 4.0) + " m");
 }
 
 void check_radius(double radius) {

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "knot_utm/specimen/options.hpp"
+
 namespace knot_utm {
 
 /// A length as a message says it: four digits.
@@ -13,5 +15,8 @@ std::string range_text(double low, double high);
 /// Throw InvalidInput where a rod of this radius [m] cannot be drawn, or not with edges of this length [m].
 void check_radius(double radius);
 void check_edge_length(double edge_length, double radius);
+
+/// Throws InvalidInput where edges are too long for `specimen.length`.
+void check_edges_of_length(const SpecimenOptions& specimen);
 
 }  // namespace knot_utm

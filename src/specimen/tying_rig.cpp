@@ -16,8 +16,10 @@ namespace {
 constexpr double kStandingFromKnot = 8.0;     // inwards
 constexpr double kThreadedBeyondKnot = 18.0;  // outwards: the knot ends 8 further out
 constexpr double kStraightBeyondClamp = 3.0;
-constexpr int kGuideNodes = 3;     // on the strand from there outwards: they guide its direction, too
-constexpr double kHalfKnot = 4.0;  // a tight knot reaches no further out from its middle [h]
+// A knot of several windings gives up more rod as it tightens, and ends further out.
+constexpr double kThreadedBeyondLonger = 3.0;  // [of what its coil is longer]
+constexpr int kGuideNodes = 3;                 // on the strand from there outwards: they guide its direction, too
+constexpr double kHalfKnot = 4.0;              // a tight knot reaches no further out from its middle [h]
 
 // The settling drag relaxes waves of so many radii in about a tenth of the settling time; so does the drag of the time
 // while the loop is put on, in which it moves as a whole.
@@ -55,14 +57,15 @@ TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const
 
     const int inward = knot.tail_node == 0 ? 1 : -1;
     int standing = centreline.nearest_node(marks.standing_begin);
-    while (up * (x(2, coil) - x(2, standing)) < kStandingFromKnot * h) standing += inward;
+    while (up * (x(2, coil) - x(2, standing)) < kStandingFromKnot * h + marks.longer) standing += inward;
     knot.standing_node = standing;
     clamps_.push_back({standing, x.col(standing), Vec3::Zero(), false});
 
     // The threaded strand is the other end's; away from its own tail it runs on outwards.
     int threaded = centreline.nearest_node(marks.threaded);
     const double knot_z = x(2, threaded);
-    while (up * (x(2, threaded) - knot_z) < kThreadedBeyondKnot * h) threaded -= inward;
+    const double beyond = kThreadedBeyondKnot * h + kThreadedBeyondLonger * marks.longer;
+    while (up * (x(2, threaded) - knot_z) < beyond) threaded -= inward;
     for (int k = 0; k < kGuideNodes; ++k, threaded -= inward)
       clamps_.push_back({threaded, x.col(threaded), Vec3::Zero(), true});
     knots_.push_back(knot);
@@ -137,7 +140,9 @@ void TyingRig::take_guides_off(const TimeStep& stepper, double time) {
   enter(Stage::kGuidesRamp, time);
 }
 
-double TyingRig::straight_strand(double radius) { return (kThreadedBeyondKnot + kStraightBeyondClamp) * radius; }
+double TyingRig::straight_strand(double radius, double longer) {
+  return (kThreadedBeyondKnot + kStraightBeyondClamp) * radius + kThreadedBeyondLonger * longer;
+}
 
 int TyingRig::tail_begin(int knot, const TimeStep& stepper) const {
   const Knot& k = knots_[static_cast<std::size_t>(knot)];

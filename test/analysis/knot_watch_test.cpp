@@ -6,6 +6,7 @@
 
 #include "knot_utm/machine/test_bench.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 
 namespace knot_utm {
@@ -111,11 +112,11 @@ TEST(KnotWatch, StandsOnTheMachine) {
   material.friction_coefficient = 0.54;
   SpecimenOptions specimen;
   specimen.edge_length = 0.005;
-  for (const KnotKind knot : {KnotKind::kFisherman, KnotKind::kOverhand}) {
+  for (const KnotKind knot : {knot_named("fisherman"), knot_named("overhand")}) {
     specimen.knot = knot;
-    specimen.end_to_end = knot == KnotKind::kFisherman ? 0.25 : 0.7;
+    specimen.end_to_end = knot == knot_named("fisherman") ? 0.25 : 0.7;
     MachineOptions machine;
-    machine.grips = knot == KnotKind::kFisherman ? GripKind::kRollers : GripKind::kClamps;
+    machine.grips = knot == knot_named("fisherman") ? GripKind::kRollers : GripKind::kClamps;
     TestBench bench(specimen, material, machine, PhysicsOptions());
     Command command;
     Sample sample = bench.respond(command);

@@ -13,6 +13,7 @@
 #include "knot_utm/io/checkpoint.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/sim/saved_step.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 
@@ -103,7 +104,7 @@ class Resumed {
  private:
   static TestBench make_bench() {
     SpecimenOptions specimen;
-    specimen.knot = KnotKind::kStraight;
+    specimen.knot = knot_named("straight");
     specimen.length = 0.008;
     specimen.edge_length = 0.002;
     MachineOptions machine;

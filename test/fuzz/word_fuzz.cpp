@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "fuzz/target.hpp"
-#include "knot_utm/io/number.hpp"
 #include "knot_utm/machine/program.hpp"
+#include "knot_utm/rod/number.hpp"
 
 namespace knot_utm {
 

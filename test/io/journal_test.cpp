@@ -12,6 +12,7 @@
 
 #include "io/own_folder.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 namespace {
@@ -343,7 +344,7 @@ TEST_F(Journal, HeaderTellsMethodsApart) {
   method.material.radius += 1e-6;
   EXPECT_FALSE(plain == journal_header(method, "a"));
   fs::create_directories(folder());
-  method.specimen.knot = KnotKind::kFile;
+  method.specimen.knot = knot_named("file");
   method.specimen.file = folder() + "/shape.csv";
   write_whole(method.specimen.file, "x,y,z\nm,m,m\n0,0,0\n");
   const JournalHeader shape = journal_header(method, "a");

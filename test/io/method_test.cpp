@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "knot_utm/contact/friction.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 namespace {
@@ -22,7 +23,7 @@ const std::string kTighten = kConfig + "tighten.yaml";
 TEST(Method, TightenIsThePapersTest) {
   const Method m = load_method(kTighten);
   EXPECT_EQ(m.name, "tighten");
-  EXPECT_EQ(m.specimen.knot, KnotKind::kFisherman);
+  EXPECT_EQ(m.specimen.knot, knot_named("fisherman"));
   EXPECT_EQ(m.specimen.handedness, Handedness::kSame);
   EXPECT_EQ(m.specimen.knot_distance, 0.15);
   EXPECT_EQ(m.specimen.end_to_end, 0.25);

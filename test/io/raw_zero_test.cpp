@@ -10,8 +10,8 @@
 #include <string>
 
 #include "knot_utm/io/comparison.hpp"
-#include "knot_utm/io/number.hpp"
 #include "knot_utm/io/raw_data.hpp"
+#include "knot_utm/rod/number.hpp"
 
 namespace knot_utm {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "knot_utm/io/number.hpp"
+#include "knot_utm/rod/number.hpp"
 
 namespace knot_utm {
 namespace {

@@ -9,6 +9,7 @@
 #include "io/own_folder.hpp"
 #include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 namespace {
@@ -68,7 +69,7 @@ TEST(KnotAdvice, NamesKeysThatHaveAnEffect) {
   EXPECT_THAT(what_keeps_a_knot(method), HasSubstr("(now 60 N)"));
   method.specimen.to_be_tied = false;
   EXPECT_EQ(what_keeps_a_knot(method), "a higher material.friction_coefficient (now 0.3) may keep it");
-  method.specimen.knot = KnotKind::kOverhand;
+  method.specimen.knot = knot_named("overhand");
   EXPECT_THAT(what_keeps_a_knot(method), HasSubstr("a larger specimen.end_to_end"));
 }
 

@@ -7,6 +7,7 @@
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/run_writer.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 namespace {
@@ -112,7 +113,7 @@ TEST(Tolerances, AreLooserWhereTheLoopStretches) {
     const Material& rod = rope.material;
     const double of_a_solid_rod = 4.0 * rod.bending_stiffness / (rod.radius * rod.radius);
     for (Loop* loop : {&solid, &overhand, &chosen}) loop->material.stretching_stiffness = of_a_solid_rod;
-    overhand.specimen.knot = KnotKind::kOverhand;
+    overhand.specimen.knot = knot_named("overhand");
     chosen.specimen.refinement = 2.5;
     EXPECT_LT(solid.tolerances().refinement, 0.8 * rope.tolerances().refinement);
     EXPECT_GE(solid.tolerances().contact_tolerance, rope.tolerances().contact_tolerance);
@@ -137,7 +138,7 @@ TEST(Tolerances, EdgesAreShorterInRopesThatAreTiedHard) {
   fine.physics.accuracy = Accuracy::kFine;
   solid.material.stretching_stiffness = 4.0 * 1e-4 / (3e-3 * 3e-3);
   untied.specimen.to_be_tied = false;
-  overhand.specimen.knot = KnotKind::kOverhand;
+  overhand.specimen.knot = knot_named("overhand");
   chosen.specimen.refinement = 2.5;
   EXPECT_DOUBLE_EQ(refinement(rope, 4.0), 2.25);
   EXPECT_NEAR(refinement(rope, 6.0 * 1.2 * 1.2 * 1.2 * 1.2), 2.25 * 1.2, 1e-9);
@@ -152,7 +153,7 @@ TEST(ReadingErrors, AreNotGivenWhereNoStudySays) {
   edge.physics.contact_law = ContactLaw::kEdge;
   smoothed.physics.friction.law = law_named("smoothed");
   untied.specimen.to_be_tied = false;
-  overhand.specimen.knot = KnotKind::kOverhand;
+  overhand.specimen.knot = knot_named("overhand");
   rolling.material.friction_couple = 0.1;
   set.material.bending_set = 0.5;
   rough.machine.roller_friction = 0.2;

@@ -10,6 +10,7 @@
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {
@@ -25,7 +26,7 @@ struct Machine {
       : name(name_) {
     specimen.knot = knot;
     specimen.edge_length = 0.005;
-    if (knot == KnotKind::kStraight) specimen.length = 0.25;
+    if (knot == knot_named("straight")) specimen.length = 0.25;
     machine.grips = grips;
     machine.roller_friction = grips == GripKind::kRollers ? 0.2 : 0.0;
     machine.roller_rotation = rotation;
@@ -81,12 +82,13 @@ TEST_P(SmallPull, ClosesToNewtonsTolerance) {
 
 INSTANTIATE_TEST_SUITE_P(
     Balance, SmallPull,
-    testing::Values(Machine("StraightInClamps", KnotKind::kStraight, GripKind::kClamps),
-                    Machine("OverhandInClamps", KnotKind::kOverhand, GripKind::kClamps),
-                    Machine("OverhandAtItsEnds", KnotKind::kOverhand, GripKind::kNodes),
-                    Machine("LoopOnRollersWithFriction", KnotKind::kFisherman, GripKind::kRollers),
-                    Machine("LoopOnFreeRollers", KnotKind::kFisherman, GripKind::kRollers, RollerRotation::kFree),
-                    Machine("LoopOnDrivenRollers", KnotKind::kFisherman, GripKind::kRollers, RollerRotation::kTurned)),
+    testing::Values(Machine("StraightInClamps", knot_named("straight"), GripKind::kClamps),
+                    Machine("OverhandInClamps", knot_named("overhand"), GripKind::kClamps),
+                    Machine("OverhandAtItsEnds", knot_named("overhand"), GripKind::kNodes),
+                    Machine("LoopOnRollersWithFriction", knot_named("fisherman"), GripKind::kRollers),
+                    Machine("LoopOnFreeRollers", knot_named("fisherman"), GripKind::kRollers, RollerRotation::kFree),
+                    Machine("LoopOnDrivenRollers", knot_named("fisherman"), GripKind::kRollers,
+                            RollerRotation::kTurned)),
     [](const auto& machine) { return machine.param.name; });
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"
 
@@ -45,7 +46,7 @@ Pulled run(const SpecimenOptions& specimen, const Material& material, const Phys
 
 Pulled straight_run(Accuracy accuracy, double breaking_force) {
   SpecimenOptions specimen;
-  specimen.knot = KnotKind::kStraight;
+  specimen.knot = knot_named("straight");
   specimen.length = kLength;
   specimen.edge_length = 0.005;
   Material material = nylon();
@@ -192,7 +193,7 @@ TEST(Fracture, OfTwoLimitsTheNearerOneCounts) {
 
 TEST(Fracture, ItsMessageNamesTheLimitThatWasReached) {
   SpecimenOptions specimen;
-  specimen.knot = KnotKind::kStraight;
+  specimen.knot = knot_named("straight");
   specimen.length = kLength;
   specimen.edge_length = 0.005;
   Material material = nylon();

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
@@ -7,7 +8,7 @@ namespace knot_utm {
 /// An overhand in so much rod, its ends so far apart, with edges of this length [m].
 inline SpecimenOptions overhand_specimen(double length, double end_to_end, double edge_length) {
   SpecimenOptions out;
-  out.knot = KnotKind::kOverhand;
+  out.knot = knot_named("overhand");
   out.length = length;
   out.end_to_end = end_to_end;
   out.edge_length = edge_length;

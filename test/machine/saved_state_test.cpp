@@ -13,6 +13,7 @@
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/test_bench.hpp"
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"
 
@@ -140,7 +141,7 @@ void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }
 
 Scene straight() {
   Scene out{"straight", {}, nylon(), {}, {}, {step(Phase::kBalance), pull(0.01)}, 2};
-  out.specimen.knot = KnotKind::kStraight;
+  out.specimen.knot = knot_named("straight");
   out.specimen.length = 0.25;
   out.specimen.edge_length = 0.005;
   out.machine.grips = GripKind::kClamps;

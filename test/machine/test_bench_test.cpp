@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {
@@ -15,7 +16,7 @@ namespace {
 
 SpecimenOptions straight_rod() {
   SpecimenOptions out;
-  out.knot = KnotKind::kStraight;
+  out.knot = knot_named("straight");
   out.length = 0.25;
   out.edge_length = 0.005;
   return out;
@@ -128,11 +129,11 @@ TEST(TestBench, RefusesASpecimenThatDoesNotFit) {
   loop.end_to_end = 0.05;
   EXPECT_NE(wrong_key(loop), "");
   SpecimenOptions overhand;
-  overhand.knot = KnotKind::kOverhand;
+  overhand.knot = knot_named("overhand");
   overhand.end_to_end = 0.999;
   EXPECT_EQ(wrong_key(overhand), "specimen.end_to_end");
   SpecimenOptions file;
-  file.knot = KnotKind::kFile;
+  file.knot = knot_named("file");
   file.file = "no such file";
   EXPECT_EQ(wrong_key(file), "specimen.file");
   file.closed = true;
@@ -143,7 +144,7 @@ TEST(TestBench, HoldsAShapeFromAFileAtItsFirstAndLastEdge) {
   const std::string name = ::testing::TempDir() + "knot_utm_bench_shape.csv";
   std::ofstream(name) << "x,y,z\n0,0,0\n0,0,0.03\n0.01,0,0.05\n0,0,0.07\n0,0,0.1\n";
   SpecimenOptions file;
-  file.knot = KnotKind::kFile;
+  file.knot = knot_named("file");
   file.file = name;
   file.edge_length = 0.005;
   TestBench machine = bench(file);
@@ -165,7 +166,7 @@ TEST(TestBench, HoldsAShapeFromAFileAtItsFirstAndLastEdge) {
 /// The shape as drawn stores energy that would throw it about.
 TEST(TestBench, ADrawnOverhandSettlesGently) {
   SpecimenOptions overhand;
-  overhand.knot = KnotKind::kOverhand;
+  overhand.knot = knot_named("overhand");
   overhand.end_to_end = 0.7;
   overhand.edge_length = 0.0063;
   TestBench machine = bench(overhand);
@@ -181,7 +182,7 @@ TEST(TestBench, ADrawnOverhandSettlesGently) {
 /// A loose knot pulls with less than the drag on its length, were there any.
 TEST(TestBench, ThereIsNoDragInTheForceOfAKnotBetweenClampsUnlessTheMethodSetsOne) {
   SpecimenOptions overhand;
-  overhand.knot = KnotKind::kOverhand;
+  overhand.knot = knot_named("overhand");
   overhand.end_to_end = 0.7;
   overhand.edge_length = 0.0063;
   MachineOptions machine;
@@ -208,7 +209,7 @@ TEST(TestBench, ThereIsNoDragInTheForceOfAKnotBetweenClampsUnlessTheMethodSetsOn
 /// Friction's part of a force is at most mu times its pressure, and tangential.
 TEST(TestBench, ForcesBetweenStrandsAreThoseOfTheReading) {
   SpecimenOptions overhand;
-  overhand.knot = KnotKind::kOverhand;
+  overhand.knot = knot_named("overhand");
   overhand.end_to_end = 0.7;
   overhand.edge_length = 0.0063;
   TestBench machine = bench(overhand);

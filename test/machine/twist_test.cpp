@@ -7,6 +7,7 @@
 #include <string>
 
 #include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"
 
@@ -56,7 +57,7 @@ TEST(TwistOnTheMachine, AutoIsOnWhereClampsHoldTwoFrames) {
     return has_twist(bench(specimen, grips, TwistMode::kAuto));
   };
   SpecimenOptions straight;
-  straight.knot = KnotKind::kStraight;
+  straight.knot = knot_named("straight");
   EXPECT_FALSE(by_itself(loop(), GripKind::kRollers));
   EXPECT_FALSE(by_itself(loop(), GripKind::kNodes));
   EXPECT_TRUE(by_itself(loop(), GripKind::kClamps));
@@ -100,7 +101,7 @@ TEST(TwistOnTheMachine, ALoopTiesTheSameWithIt) {
 
 TEST(TwistOnTheMachine, AStraightRodPullsTheSameWithIt) {
   SpecimenOptions specimen;
-  specimen.knot = KnotKind::kStraight;
+  specimen.knot = knot_named("straight");
   specimen.length = 0.25;
   specimen.edge_length = 0.005;
   TestBench on = bench(specimen, GripKind::kClamps, TwistMode::kOn);

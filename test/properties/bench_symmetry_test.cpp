@@ -6,6 +6,7 @@
 
 #include "knot_utm/io/csv.hpp"
 #include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 #include "properties/symmetries.hpp"
 
@@ -20,7 +21,7 @@ struct Overhand {
   double way = 2e-3, settling = 1.2, pulling = 1.0;  // [m], [s], [s]
 
   Overhand() {
-    specimen.knot = KnotKind::kOverhand;
+    specimen.knot = knot_named("overhand");
     specimen.length = 0.6;
     specimen.end_to_end = 0.35;
     specimen.edge_length = 0.0063;
@@ -96,7 +97,7 @@ class BenchOfAFile : public testing::Test {
   TestBench bench(const Points& points) {
     write_centreline(file_, points);
     Overhand overhand = overhand_;
-    overhand.specimen.knot = KnotKind::kFile;
+    overhand.specimen.knot = knot_named("file");
     overhand.specimen.file = file_;
     overhand.machine.grips = GripKind::kNodes;
     return overhand.bench();

@@ -11,6 +11,10 @@
 
 namespace knot_utm {
 
+/// Whether two rollers hold it, as they do a loop; else nodes are held, by clamps together with their neighbours.
+bool rollers_hold(const SpecimenOptions& specimen, const MachineOptions& machine);
+bool clamps_hold(const SpecimenOptions& specimen, const MachineOptions& machine);
+
 /// What the machine holds the specimen by: two rollers in the loop of a fisherman's knot, or nodes, which clamps hold
 /// two by two with their material frames. The lower grip stands; the upper one moves along +z by its displacement [m]:
 /// the crosshead's, less what a compliant frame gives (frame.hpp).

@@ -8,9 +8,6 @@
 
 namespace knot_utm {
 
-/// F_p on each overhand [N]: what the specimen says, else what is usual for its material.
-double tying_load(const SpecimenOptions& specimen, const Material& material);
-
 /// The rod's centreline as it stands in the machine before anything moves, lower grip at the origin, pulled along +z,
 /// with edges as fine as the accuracy asks for. Throws InvalidInput where the specimen does not fit the machine.
 Centreline specimen_centreline(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,

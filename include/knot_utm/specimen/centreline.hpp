@@ -12,8 +12,9 @@ struct KnotLandmarks {
   double tail_end;        ///< the free end: 0 or the rod's length
   double tail_exit;       ///< where the tail leaves the knot, the outermost point of the coil being level with it
   double coil_middle;     ///< middle of the coil, on the knot's own strand
-  double standing_begin;  ///< own strand, 5 h before the knot's middle, where the standing part begins
+  double standing_begin;  ///< own strand, before the coil (5 h before the middle of a single winding)
   double threaded;        ///< the other strand, where it passes the middle of the coil
+  double longer = 0.0;  ///< the coil is longer by this, to either side of its middle, than that of a single winding [m]
 };
 
 /// The loop as it is drawn and tied: two straight sides and two half circles, all of it as long as on the rollers.

@@ -1,7 +1,6 @@
 #pragma once
 
-#include "knot_utm/specimen/centreline.hpp"
-#include "knot_utm/specimen/options.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 
@@ -11,11 +10,11 @@ namespace knot_utm {
 /// Rollers lie along y, centres at the origin and at (0, 0, end_to_end); the loop lies in the x-z plane, its straight
 /// side at x < 0, the knots at x > 0, `knot_distance` less `outward_shift` apart along z and symmetric about z =
 /// end_to_end/2. In cylindrical coordinates about the knots' axis, each knot's standing part runs outwards at radius a,
-/// turns by a half circle to radius R, coils by 450 degrees over an axial length 4 h back over itself, turns in to
-/// radius b and leaves as a tail inside its own coil, outwards. The threaded strand runs through the coil at radius a
-/// opposite the standing part. With a = (2 - sqrt 3) R and b = R - 2 a the standing part, the threaded strand, the tail
-/// and the coil are equally far apart, 2 a. The whole is smoothed along arclength by a Gaussian of standard deviation
-/// h.
+/// turns by a half circle to radius R, coils by 450 degrees over an axial length 4 h back over itself (and by another
+/// turn over 3.2 h for each further winding), turns in to radius b and leaves as a tail inside its own coil, outwards.
+/// The threaded strand runs through the coil at radius a opposite the standing part. With a = (2 - sqrt 3) R and b = R
+/// - 2 a the standing part, the threaded strand, the tail and the coil are equally far apart, 2 a. The whole is
+/// smoothed along arclength by a Gaussian of standard deviation h.
 ///
 /// Same-handed: the two knots are images of each other under a half turn about an axis normal to the load axis.
 /// Opposite-handed: the lower knot is the mirror image of that.
@@ -27,6 +26,7 @@ struct FishermanShape {
   double roller_radius = 0.01905;  ///< [m]
   double tail = 0.03;              ///< free tail beyond the outermost point of the coil [m]
   Handedness handedness = Handedness::kSame;
+  int windings = 1;             ///< of each tail: 2 of the double fisherman's knot
   double looseness = 4.7;       ///< R/h, radius of the coil over that of the rod (3.9 to 8)
   double edge_length = 0.0032;  ///< wanted where strands may slide along each other [m]
   double refinement = 1.0;      ///< edges of both strands between and within the knots are shorter by this factor [-]
@@ -36,5 +36,30 @@ struct FishermanShape {
 
 /// Throws InvalidInput (specimen.*, machine.roller_diameter) where the shape does not fit on the machine or overlaps.
 Centreline fisherman_loop(const FishermanShape& shape);
+
+/// knot: fisherman.
+class FishermanKnot : public Knot {
+ public:
+  const char* name() const override { return "fisherman"; }
+  std::vector<std::string> keys() const override {
+    return {"handedness", "knot_distance", "end_to_end", "refinement", "tail", "preload"};
+  }
+  bool loop() const override { return true; }
+  ErrorStudy error_study() const override { return ErrorStudy::kFisherman; }
+  SpecimenOptions defaults(double h) const override;
+  void suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const override;
+  std::optional<double> roller_diameter(double h) const override;
+  double pull(const SpecimenOptions& specimen, double h) const override;
+  void check(const SpecimenOptions& specimen, double h) const override;
+  Centreline centreline(const SpecimenOptions& specimen, const Material& material,
+                        const Mounting& mounting) const override;
+  /// The bottom and the top of the loop.
+  HeldNode held_below(const Centreline& centreline, bool clamped) const override;
+  HeldNode held_above(const Centreline& centreline, bool clamped) const override;
+
+ private:
+  /// Of each tail.
+  virtual int windings(const SpecimenOptions&) const { return 1; }
+};
 
 }  // namespace knot_utm

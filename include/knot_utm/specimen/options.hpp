@@ -1,16 +1,18 @@
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
 namespace knot_utm {
 
-enum class KnotKind { kFisherman, kOverhand, kStraight, kFile };
+/// Number of a knot in the registry (knot.hpp); the first one, fisherman, is the default.
+enum class KnotKind : std::size_t {};
 enum class Handedness { kSame, kOpposite };
 
 /// The `specimen` section of a method.
 struct SpecimenOptions {
-  KnotKind knot = KnotKind::kFisherman;
+  KnotKind knot{};
   Handedness handedness = Handedness::kSame;  ///< fisherman
   int turns = 1;                              ///< overhand: how often the end goes through (1 to 4)
   std::string file;                           ///< knot: file, CSV of x,y,z [m]

@@ -5,6 +5,11 @@
 
 namespace knot_utm {
 
+/// Of the source paper's rods [m]. All default lengths are given for it, and grow with the radius of the rod.
+constexpr double kPaperRadius = 0.003175;
+/// Of edges for that radius, in knots and elsewhere [m].
+constexpr double kPaperKnottedEdge = 0.0032, kPaperEdge = 0.005;
+
 /// The units that a specimen's quantities of test and solver are told in, so that similar specimens of any size and
 /// stiffness make similar tests:
 ///

@@ -66,8 +66,8 @@ class TyingRig {
   void put_on(const TimeStep& stepper, double time);
   void take_guides_off(const TimeStep& stepper, double time);
 
-  /// Beyond the middle of a drawn coil, that its clamps stand clear of all bends [m].
-  static double straight_strand(double radius);
+  /// Beyond the middle of a drawn coil, that its clamps stand clear of all bends [m]; `longer` as in KnotLandmarks.
+  static double straight_strand(double radius, double longer = 0.0);
 
   /// Adds its clamps and grips, as they stand at `to`, to the boundary of a step.
   void hold(Boundary& boundary, double from, double to) const;

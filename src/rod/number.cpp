@@ -1,4 +1,4 @@
-#include "knot_utm/io/number.hpp"
+#include "knot_utm/rod/number.hpp"
 
 #include <array>
 #include <charconv>

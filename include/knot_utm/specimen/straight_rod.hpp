@@ -1,0 +1,26 @@
+#pragma once
+
+#include "knot_utm/specimen/knot.hpp"
+
+namespace knot_utm {
+
+/// knot: straight. A straight rod along the load axis. Its `length` is what stretches between the grips: the load grows
+/// by k_s/length.
+class StraightRod final : public Knot {
+ public:
+  const char* name() const override { return "straight"; }
+  std::vector<std::string> keys() const override { return {"length"}; }
+  bool straight() const override { return true; }
+  bool knotted() const override { return false; }
+  ErrorStudy error_study() const override { return ErrorStudy::kStraight; }
+  SpecimenOptions defaults(double h) const override;
+  void suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const override;
+  double pull(const SpecimenOptions& specimen, double h) const override;
+  void check(const SpecimenOptions& specimen, double h) const override;
+  Centreline centreline(const SpecimenOptions& specimen, const Material& material,
+                        const Mounting& mounting) const override;
+  HeldNode held_below(const Centreline& centreline, bool clamped) const override;
+  HeldNode held_above(const Centreline& centreline, bool clamped) const override;
+};
+
+}  // namespace knot_utm

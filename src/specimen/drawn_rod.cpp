@@ -1,0 +1,45 @@
+#include "knot_utm/specimen/drawn_rod.hpp"
+
+#include <filesystem>
+#include <system_error>
+
+#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/specimen/centreline_file.hpp"
+#include "knot_utm/specimen/scales.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr double kWay = 0.04;  // of a pull, for the paper's radius [m]
+
+}  // namespace
+
+SpecimenOptions DrawnRod::defaults(double h) const {
+  SpecimenOptions out;
+  out.edge_length = kPaperEdge * (h / kPaperRadius);
+  return out;
+}
+
+double DrawnRod::pull(const SpecimenOptions&, double h) const { return kWay * (h / kPaperRadius); }
+
+void DrawnRod::check(const SpecimenOptions& specimen, double) const {
+  std::error_code error;
+  if (specimen.file.empty()) throw InvalidInput::missing("specimen.file", "a CSV file with the columns x,y,z in m");
+  if (!std::filesystem::is_regular_file(specimen.file, error))
+    throw InvalidInput::cannot_read(specimen.file, "specimen.file");
+}
+
+Centreline DrawnRod::centreline(const SpecimenOptions& specimen, const Material& material, const Mounting&) const {
+  if (specimen.closed) throw InvalidInput("specimen.closed", "true", "false, since the grips hold the rod's two ends");
+  const Points points = read_centreline(specimen.file);
+  Centreline out = from_points(points, false, material.radius, specimen.edge_length, specimen.file);
+  if (!(out.points.rightCols(1)(2) > out.points.leftCols(1)(2))) {
+    throw InvalidInput::sentence(
+        "specimen.file", specimen.file,
+        "specimen.file " + shown(specimen.file) + ": the last point must be higher than the first one, along z");
+  }
+  return out;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,80 @@
+#include <algorithm>
+
+#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/rod/known_names.hpp"
+#include "knot_utm/specimen/drawn_rod.hpp"
+#include "knot_utm/specimen/fisherman.hpp"
+#include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/multiple_fisherman.hpp"
+#include "knot_utm/specimen/overhand.hpp"
+#include "knot_utm/specimen/straight_rod.hpp"
+
+namespace knot_utm {
+
+const std::vector<const Knot*>& knots() {
+  static const FishermanKnot fisherman;
+  static const MultipleFishermanKnot multiple_fisherman;
+  static const OverhandKnot overhand;
+  static const StraightRod straight;
+  static const DrawnRod file;
+  static const std::vector<const Knot*> all = {&fisherman, &multiple_fisherman, &overhand, &straight, &file};
+  return all;
+}
+
+const Knot& knot_of(KnotKind kind) { return *knots().at(static_cast<std::size_t>(kind)); }
+
+std::vector<const char*> knot_names() {
+  std::vector<const char*> out;
+  for (const Knot* knot : knots()) out.push_back(knot->name());
+  return out;
+}
+
+namespace {
+
+template <typename Which>
+std::string listed_knots(Which which) {
+  std::vector<std::string> names;
+  for (const Knot* knot : knots())
+    if (which(*knot)) names.emplace_back(knot->name());
+  return listed(names);
+}
+
+}  // namespace
+
+KnotKind knot_named(const std::string& name) {
+  const std::vector<const Knot*>& all = knots();
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Knot* knot) { return name == knot->name(); });
+  if (found == all.end())
+    throw InvalidInput("specimen.knot", shown(name), listed_knots([](const Knot&) { return true; }));
+  return static_cast<KnotKind>(found - all.begin());
+}
+
+std::string knots_with(const std::string& key) {
+  return listed_knots([&](const Knot& knot) { return knot.has(key); });
+}
+
+std::string loops() {
+  return listed_knots([](const Knot& knot) { return knot.loop(); });
+}
+
+double tying_load(const SpecimenOptions& specimen, const Material& material) {
+  return specimen.preload.value_or(default_preload(material));
+}
+
+bool Knot::has(const std::string& key) const {
+  const std::vector<std::string> own = keys();
+  return std::find(own.begin(), own.end(), key) != own.end();
+}
+
+void Knot::suit(const SpecimenOptions&, double, double, SpecimenOptions&) const {}
+
+std::optional<double> Knot::roller_diameter(double) const { return std::nullopt; }
+
+HeldNode Knot::held_below(const Centreline&, bool) const { return {0, 1}; }
+
+HeldNode Knot::held_above(const Centreline& centreline, bool) const {
+  const int last = static_cast<int>(centreline.points.cols()) - 1;
+  return {last, last - 1};
+}
+
+}  // namespace knot_utm
