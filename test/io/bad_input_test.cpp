@@ -128,8 +128,8 @@ const std::vector<Wrong>& wrong_overrides() {
       {"program=[{pull: {}}]", "program.0.pull.until is missing", "", "extension, load, time and break"},
       {"program=[{pull: {until: {break: false}}}]", "program.0.pull.until is missing", "", "one or more of"},
       {"specimen.closed=true", "specimen.closed", "true", "false, since the grips hold"},
-      {"specimen.turns=2", "specimen.turns", "2", "only for knot: overhand"},
-      {"specimen.length=0.5", "specimen.length", "0.5", "only for knot: straight or overhand"},
+      {"specimen.turns=2", "specimen.turns", "2", "only for knot: multiple_fisherman or overhand"},
+      {"specimen.length=0.5", "specimen.length", "0.5", "only for knot: overhand or straight"},
       {"specimen.file=shape.csv", "specimen.file", "shape.csv", "only for knot: file"},
       {"machine={grips: clamps, roller_friction: 0.2}", "machine.roller_friction", "0.2", "only with grips: rollers"},
       {"material.bending_set=1.5", "material.bending_set", "1.5", "0 to 1"},
@@ -285,15 +285,18 @@ TEST(BadInput, ForeignTextLeavesTheLineWhole) {
 TEST(BadInput, WhatHasNoEffectOnAStraightRod) {
   const std::string straight = std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml";
   const std::vector<Wrong> table{
-      {"specimen.handedness=opposite", "specimen.handedness", "opposite", "only for knot: fisherman"},
-      {"specimen.knot_distance=0.1", "specimen.knot_distance", "0.1", "only for knot: fisherman"},
-      {"specimen.end_to_end=0.2", "specimen.end_to_end", "0.2", "only for knot: fisherman or overhand"},
-      {"specimen.tail=0.05", "specimen.tail", "0.05", "only for knot: fisherman"},
-      {"specimen.preload=20", "specimen.preload", "20", "only for knot: fisherman"},
-      {"machine.roller_diameter=0.05", "machine.roller_diameter", "0.05", "only for knot: fisherman"},
+      {"specimen.handedness=opposite", "specimen.handedness", "opposite",
+       "only for knot: fisherman or multiple_fisherman"},
+      {"specimen.knot_distance=0.1", "specimen.knot_distance", "0.1", "only for knot: fisherman or multiple_fisherman"},
+      {"specimen.end_to_end=0.2", "specimen.end_to_end", "0.2",
+       "only for knot: fisherman, multiple_fisherman or overhand"},
+      {"specimen.tail=0.05", "specimen.tail", "0.05", "only for knot: fisherman or multiple_fisherman"},
+      {"specimen.preload=20", "specimen.preload", "20", "only for knot: fisherman or multiple_fisherman"},
+      {"machine.roller_diameter=0.05", "machine.roller_diameter", "0.05",
+       "only for knot: fisherman or multiple_fisherman"},
       {"machine.roller_friction=0.1", "machine.roller_friction", "0.1", "only with grips: rollers"},
-      {"program.0={tie: {}}", "program.0", "tie", "needs specimen.knot: fisherman"},
-      {"program.0={mount: {}}", "program.0", "mount", "needs specimen.knot: fisherman"},
+      {"program.0={tie: {}}", "program.0", "tie", "needs specimen.knot: fisherman or multiple_fisherman"},
+      {"program.0={mount: {}}", "program.0", "mount", "needs specimen.knot: fisherman or multiple_fisherman"},
   };
   for (const Wrong& wrong : table) {
     EXPECT_THAT(complaint(straight, {wrong.set}),
