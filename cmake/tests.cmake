@@ -102,6 +102,8 @@ endif()
 if(NOT catkin_FOUND OR KNOT_UTM_INSTALLS_SETUP)
   add_test(NAME install_test COMMAND ${PROJECT_SOURCE_DIR}/test/install_test ${PROJECT_BINARY_DIR})
   add_test(NAME package_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/package_test.py ${PROJECT_BINARY_DIR})
+  # Each writes its list of installed files to the same place.
+  set_tests_properties(install_test package_test PROPERTIES RESOURCE_LOCK install_manifest)
 endif()
 
 if(catkin_FOUND)
