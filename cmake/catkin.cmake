@@ -24,8 +24,12 @@ if(catkin_FOUND)
   generate_dynamic_reconfigure_options(cfg/Machine.cfg cfg/View.cfg)
   generate_messages(DEPENDENCIES ${message_packages})
   get_target_property(EIGEN3_INCLUDE_DIRS Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+  # Installed into /usr itself catkin's file lies elsewhere than the exported targets.
+  if(NOT CMAKE_INSTALL_PREFIX STREQUAL /usr)
+    set(installed_targets CFG_EXTRAS knot_utm-config.cmake)
+  endif()
   catkin_package(INCLUDE_DIRS include LIBRARIES knot_utm_ros knot_utm_bags knot_utm_core
-                 CATKIN_DEPENDS message_runtime ${message_packages} ${node_packages} DEPENDS EIGEN3)
+                 CATKIN_DEPENDS message_runtime ${message_packages} ${node_packages} DEPENDS EIGEN3 ${installed_targets})
   set(KNOT_UTM_EXECUTABLE_DIR ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
 else()
   include(GNUInstallDirs)

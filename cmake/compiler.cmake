@@ -16,8 +16,10 @@ int main() {
 }" KNOT_UTM_HOST_HAS_X86_64_V3)
 unset(CMAKE_REQUIRED_FLAGS)
 option(KNOT_UTM_X86_64_V3 "Use AVX2 and FMA" ${KNOT_UTM_HOST_HAS_X86_64_V3})
+# What links the installed library takes it too: of the inline functions of Eigen that both have compiled, the linker keeps
+# either one, and readings would depend on which.
 if(KNOT_UTM_X86_64_V3)
-  target_compile_options(knot_utm_compiler INTERFACE $<BUILD_INTERFACE:-march=x86-64-v3>)
+  target_compile_options(knot_utm_compiler INTERFACE -march=x86-64-v3)
 endif()
 target_compile_definitions(knot_utm_compiler INTERFACE EIGEN_MAX_ALIGN_BYTES=16)
 

@@ -76,6 +76,9 @@ add_test(NAME material_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/t
 set_tests_properties(material_test PROPERTIES TIMEOUT 600 ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
 add_test(NAME doc_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/doc_test.py)
 
+add_test(NAME site_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/site_test.py)
+set_tests_properties(site_test PROPERTIES SKIP_RETURN_CODE 77)
+
 # The panel beside the picture in rviz.
 add_test(NAME panel_test COMMAND ${PYTHON_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/test/panel/panel_test.py)
 
@@ -98,6 +101,9 @@ endif()
 # In a workspace, installing is the workspace's own business.
 if(NOT catkin_FOUND OR KNOT_UTM_INSTALLS_SETUP)
   add_test(NAME install_test COMMAND ${PROJECT_SOURCE_DIR}/test/install_test ${PROJECT_BINARY_DIR})
+  add_test(NAME package_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/package_test.py ${PROJECT_BINARY_DIR})
+  # Each writes its list of installed files to the same place.
+  set_tests_properties(install_test package_test PROPERTIES RESOURCE_LOCK install_manifest)
 endif()
 
 if(catkin_FOUND)

@@ -208,6 +208,16 @@ class Documents(unittest.TestCase):
             self.assertTrue(any(file in (name, name + ".py", name + ".cpp") for file in tests), name)
 
 
+class PublicHeaders(unittest.TestCase):
+    def test_those_to_include_are_explained(self):
+        meant, others = re.split(r"\n\n(?=# What those include)", text("cmake/public_headers.txt"))
+        explained = [key for key in rows(text("doc/install.md")) if key.endswith(".hpp")]
+        self.assertEqual([line for line in meant.splitlines()[2:] if line and not line.startswith("#")], explained)
+        for header in re.findall(r"^[^#].*$", others, re.MULTILINE):
+            self.assertTrue(any(f'"knot_utm/{header}"' in text(f"include/knot_utm/{by}")
+                                for by in re.findall(r"^[^#\n].*$", meant + "\n" + others, re.MULTILINE)), header)
+
+
 class Sources(unittest.TestCase):
     CITED = re.compile(r"\b([A-Z][a-z]+)(?:,? (?:[A-Z][\w'’]+|and|et al\.)(?=[ ,]))*,? (?:algorithm )?\(?((?:18|19|20)\d\d)\b")
 
@@ -245,7 +255,10 @@ class Citation(unittest.TestCase):
 
     def test_version_and_licence_are_the_packages(self):
         package = xml.etree.ElementTree.parse(os.path.join(ROOT, "package.xml")).getroot()
-        self.assertEqual(self.citation["version"], package.find("version").text)
+        # It stands in CMakeLists.txt; these two files cannot read it there.
+        version = re.search(r"^project\(knot_utm VERSION ([\d.]+)", text("CMakeLists.txt"), re.MULTILINE).group(1)
+        self.assertEqual(self.citation["version"], version)
+        self.assertEqual(package.find("version").text, version)
         self.assertEqual(self.citation["license"], package.find("license").text)
 
     def test_has_the_source_paper_as_the_bibliography_has_it(self):

@@ -50,8 +50,6 @@ inline constexpr const FrictionLawEntry& entry_of(FrictionLaw law) {
   return friction::kEntries[static_cast<std::size_t>(law)];
 }
 
-/// By its name, which must be one of kFrictionLawNames.
-FrictionLaw law_named(const std::string& name);
 /// The keys of all laws, each once.
 const std::vector<FrictionKey>& friction_keys();
 /// The laws that have a key, as a message lists them: "memory or smoothed".

@@ -1,9 +1,6 @@
 #pragma once
 
-#include <map>
-#include <optional>
-#include <string>
-
+#include "knot_utm/contact/friction_options.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/solver/lanes.hpp"
 
@@ -104,26 +101,6 @@ struct FrictionKey {
   const char* unit;
   FrictionDefault otherwise;
   double plain;  ///< may stand in a method whose law does not have the key: it was written there once; NaN: none
-};
-
-/// Number of a law in the registry (friction.hpp).
-enum class FrictionLaw : std::size_t {};
-
-/// `physics.friction` of a method.
-struct FrictionOptions {
-  FrictionLaw law{};
-  std::map<std::string, double> values;  ///< of the keys that are set, in the method's units
-
-  std::optional<double> value(const std::string& key) const {
-    const auto found = values.find(key);
-    return found == values.end() ? std::nullopt : std::optional<double>(found->second);
-  }
-  void set(const std::string& key, const std::optional<double>& value) {
-    if (value)
-      values[key] = *value;
-    else
-      values.erase(key);
-  }
 };
 
 /// What a law's parameters follow from beside its keys.

@@ -7,8 +7,8 @@
 #include "knot_utm/machine/options.hpp"
 #include "knot_utm/machine/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/sim/contact_force.hpp"
 #include "knot_utm/sim/options.hpp"
-#include "knot_utm/sim/step_readings.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {

@@ -11,7 +11,7 @@
 #include "knot_utm/machine/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/ros/color_scale.hpp"
-#include "knot_utm/sim/step_readings.hpp"
+#include "knot_utm/sim/contact_force.hpp"
 
 namespace knot_utm {
 

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <optional>
 
-#include "knot_utm/contact/friction_law.hpp"
+#include "knot_utm/contact/friction_options.hpp"
 
 namespace knot_utm {
 

@@ -6,6 +6,7 @@
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/contact/roller_contact.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
+#include "knot_utm/sim/contact_force.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
 #include "knot_utm/sim/scene.hpp"
 
@@ -30,12 +31,6 @@ struct ContactReading {
   Vec3 couple = Vec3::Zero();
 
   void state(Archive& archive) { archive(touching, normal_force, largest_overlap, couple); }
-};
-
-/// What two strands exert on each other at one point of integration.
-struct ContactForce {
-  Vec3 place = Vec3::Zero();  ///< in the middle between the centrelines [m]
-  Vec3 force = Vec3::Zero();  ///< g, pressure and friction, of one strand on the other; the opposite comes back [N]
 };
 
 /// Nodes of the rod from one to another.

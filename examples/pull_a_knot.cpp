@@ -1,0 +1,39 @@
+// Ties the knot of a method, pulls it, and prints the force against the extension: pull_a_knot [METHOD [KEY=VALUE...]].
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "knot_utm/analysis/results.hpp"
+#include "knot_utm/io/method.hpp"
+#include "knot_utm/io/shipped.hpp"
+#include "knot_utm/machine/run_test.hpp"
+#include "knot_utm/machine/test_bench.hpp"
+
+int main(int argc, char** argv) try {
+  const std::string file = knot_utm::find_method(argc > 1 ? argv[1] : "tighten", "", {KNOT_UTM_METHODS});
+  const std::vector<std::string> settings(argv + (argc > 2 ? 2 : argc), argv + argc);
+  const knot_utm::Method method = knot_utm::load_method(file, settings);
+  knot_utm::TestBench bench(method.specimen, method.material, method.machine, method.physics);
+  knot_utm::TestProgram program = knot_utm::make_program(method, bench.longest_step());
+
+  std::vector<knot_utm::Sample> steps, readings;  // every time step; what the load cell records
+  std::printf("extension [mm]  force [N]\n");
+  knot_utm::run_test(bench, program, [&](const knot_utm::Command& command, const knot_utm::Sample& sample) {
+    steps.insert(steps.end(), bench.substeps().begin(), bench.substeps().end());
+    if (!command.read_cell && !command.balance) return;
+    readings.push_back(sample);
+    if (knot_utm::pulls(sample.phase) && readings.size() % 10 == 0)
+      std::printf("%14.2f  %9.4g\n", 1e3 * sample.extension, sample.load);
+  });
+
+  const knot_utm::Results results = knot_utm::analyse(steps, readings, program.ended_by());
+  std::printf("the test ended by %s\n", knot_utm::ended_by_name(program.ended_by()));
+  if (results.curve.plateau_force)
+    std::printf("plateau force: %.4g N\n", *results.curve.plateau_force);
+  else
+    std::printf("no plateau: %s\n", results.curve.no_plateau.c_str());
+  return program.failed() ? 1 : 0;
+} catch (const knot_utm::InvalidInput& invalid) {
+  std::fprintf(stderr, "pull_a_knot: %s\n", invalid.what());
+  return 2;
+}
