@@ -29,18 +29,29 @@ def led(match, page):
 
 
 def filtered(page, lines):
-    first = True
+    first, prose = True, []  # a link may begin on one line and end on the next
+
+    def linked():
+        text = LINK.sub(lambda match: led(match, page), "\n".join(prose))
+        prose.clear()
+        return text
+
     for line in lines:
         heading = HEADING.fullmatch(line)
-        if line.startswith("    "):
-            yield line  # code
-        elif heading:
+        if not heading and not line.startswith("    "):
+            prose.append(line)
+            continue
+        if prose:
+            yield linked()
+        if heading:
             words = heading.group(2)
             anchor = re.sub(r"[^\w\- ]", "", words.lower()).replace(" ", "-")
             yield f"{heading.group(1)} {words} {{#{label(page) if first else label(page, anchor)}}}"
             first = False
         else:
-            yield LINK.sub(lambda match: led(match, page), line)
+            yield line  # code
+    if prose:
+        yield linked()
 
 
 if __name__ == "__main__":

@@ -198,7 +198,8 @@ void SmoothContact::add_contact(Tracked& tracked) {
   if (turns_) add_surface(contact, search_.parabola(segment), c, u);
 }
 
-void SmoothContact::add_surface(const ContactPoint& contact, const SegmentParabola& a, const SegmentParabola& b, double u_b) {
+void SmoothContact::add_surface(const ContactPoint& contact, const SegmentParabola& a, const SegmentParabola& b,
+                                double u_b) {
   SurfacePoint& surface = surfaces_.emplace_back();
   if (!contact.active() || !friction_.on()) return;
   const double u_a = kIntegrationPoints[contact.point];
