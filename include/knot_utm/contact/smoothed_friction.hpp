@@ -9,7 +9,7 @@ namespace knot_utm {
 
 /// Coulomb friction smoothed by the speed of slip, eq. 12 of the source paper,
 ///
-///     z = tanh(7.5 |y|) y/|y|,      y = r / (dt v_s),     nothing is remembered:
+///     z = tanh(7.5 |y|) y/|y|,      y = r / max(dt v_s, least slip),     nothing is remembered:
 ///
 /// with gamma = 2 / (1 + exp(-15 v/v_s)) - 1 = tanh(7.5 v/v_s) it creeps under any load.
 struct SmoothedFriction : FrictionLawDefaults {
@@ -20,7 +20,7 @@ struct SmoothedFriction : FrictionLawDefaults {
 
   double coefficient = 0.0;     ///< mu [-]
   double slip_tolerance = 0.0;  ///< v_s [m/s]
-  double least_slip = 0.0;      ///< in the shortest steps dt v_s would be lost in rounding [m]
+  double least_slip = 0.0;      ///< in the shortest steps dt v_s would be steeper than any solver follows [m]
 
   SmoothedFriction() = default;
   SmoothedFriction(double mu, double v_s, double least = 0.0)
