@@ -18,8 +18,13 @@ inline std::array<Lanes, 3> spin_of_nodes(const std::vector<Lanes>& pull, int fi
 /// What one unknown of a node does to a contact's forces: SurfaceModel::Response of several changes at once.
 struct SurfaceColumn : SurfaceModel::Response {
   SurfaceColumn() = default;
-  SurfaceColumn(double times, const SurfaceModel::Response& r)
-      : Response{times * r.force, times * r.on_a, times * r.on_b, times * r.foot_a, times * r.foot_b} {}
+  SurfaceColumn(double times, const SurfaceModel::Response& r) : SurfaceModel::Response(r) {
+    force = times * force;
+    on_a = times * on_a;
+    on_b = times * on_b;
+    foot_a *= times;
+    foot_b *= times;
+  }
 
   void add(double times, const SurfaceModel::Response& r) {
     force += times * r.force;
