@@ -18,7 +18,7 @@ constexpr double kShrink = 0.7;
 constexpr int kInARow = 6;
 constexpr double kShort = 1e-3;  // [longest step]
 // A run that so many iterations have led no further than this mean each is not going to end: usual are 0.01 to 1.
-constexpr std::uint64_t kPatience = 100'000;
+constexpr std::uint64_t kPatience = 50'000;
 constexpr double kLeastHeadway = 1e-5;  // [longest step]
 
 }  // namespace

@@ -136,7 +136,7 @@ TEST(StepControl, GivesUpWhatManyIterationsLeadNowhere) {
   step.longest_good = 2e-6;
   step.iterations = 6;  // at most 3e-7 s an iteration; a hundred-thousandth of the longest step is 1e-6 s
   const Outcome run = advance(control, step, 1.0);
-  EXPECT_THAT(run.gave_up, testing::HasSubstr("no headway: the last 1000"));
+  EXPECT_THAT(run.gave_up, testing::HasSubstr("no headway: the last 500"));
   EXPECT_GT(run.time, 0.0);
   EXPECT_LT(run.time, 0.1);
 }
@@ -148,7 +148,7 @@ TEST(StepControl, LabouringOnIsNotGivenUp) {
   step.iterations = 6;
   const Outcome run = advance(control, step, 1.0);
   EXPECT_EQ(run.gave_up, "");
-  EXPECT_GT(control.counters().iterations, 100'000u);
+  EXPECT_GT(control.counters().iterations, 50'000u);
 }
 
 TEST(StepDiagnosis, NamesNodeResidualAndContact) {
