@@ -66,7 +66,7 @@ class Runner:
 
         process = subprocess.Popen(SHELLS_CHILD + command, cwd=self.root, stderr=subprocess.PIPE, text=True,
                                    preexec_fn=confine)
-        return Started(name, out, process, self.verbose)
+        return Started(name, out, process, self.verbose, self.root)
 
     def bench_tool(self, tool, arguments):
         """What a small executable beside tensile_test prints as YAML."""
@@ -114,12 +114,12 @@ def words_of(option, settings, more=()):
 class Started:
     """A run under way."""
 
-    def __init__(self, name, out, process, verbose):
-        self.name, self.out, self.process, self.verbose = name, out, process, verbose
+    def __init__(self, name, out, process, verbose, root):
+        self.name, self.out, self.process, self.verbose, self.root = name, out, process, verbose, root
 
     def wait(self):
         with self.process.stderr as stream:
-            said = stream.read()
+            said = stream.read().replace(self.root + os.sep, "")  # tables name no folder of this machine
         _, status, usage = os.wait4(self.process.pid, 0)
         self.process.returncode = os.waitstatus_to_exitcode(status)
         run = Run(self.out, usage.ru_utime + usage.ru_stime, self.process.returncode, said.strip())

@@ -8,8 +8,9 @@
 namespace knot_utm {
 
 /// Length of rod within which a strand does not touch itself [m]: half a turn around a circle of its own radius, pi h.
-/// While no bend is sharper than 1/h, two places that lie s < pi h apart along the rod are further apart than 2 h
-/// sin(s/(2h)), the chord of that circle (Schur), and the nearest places of two strands never lie within pi h.
+/// While no bend is sharper than 1/h, two places that lie s < pi h apart along the rod are at least as far apart as the
+/// chord 2 h sin(s/(2h)) of that circle (Schur), and where two strands are nearest to each other, more than pi h of rod
+/// lies between.
 inline double least_loop(double radius) {
   constexpr double kPi = 3.14159265358979323846;
   return kPi * radius;
