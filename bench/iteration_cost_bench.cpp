@@ -14,7 +14,7 @@
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/step_settings.hpp"
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
@@ -113,9 +113,9 @@ class Matrix {
 };
 
 template <int D>
-void run(const Method& method, TestBench& bench) {
+void run(const Method& method, TestingMachine& bench) {
   if (method.physics.contact_law != ContactLaw::kSmooth) throw std::runtime_error("only with contact.law smooth");
-  TestProgram program = make_program(method, bench.longest_step());
+  ProgramRunner program = make_program(method, bench.longest_step());
   Matrix<D> matrix(bench.rod(), step_settings(method.specimen, method.material, method.machine, method.physics),
                    bench.longest_step());
   double pulled = 0.0, solved = 0.0;  // [s]
@@ -143,7 +143,7 @@ void run(const Method& method, TestBench& bench) {
 
 void run(const std::string& file, const std::vector<std::string>& settings) {
   const Method method = load_method(file, settings);
-  TestBench bench(method.specimen, method.material, method.machine, method.physics);
+  TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
   bench.state().twist.size() == 0 ? run<3>(method, bench) : run<4>(method, bench);
 }
 

@@ -8,8 +8,8 @@
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/machine/run_test.hpp"
-#include "knot_utm/machine/test_bench.hpp"
-#include "knot_utm/rod/archive.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/numeric/archive.hpp"
 
 namespace knot_utm {
 namespace {
@@ -19,10 +19,12 @@ struct Arguments {
   std::vector<std::string> ties, pulls;  // dotted.key=YAML
 };
 
-TestBench bench_of(const Method& method) { return {method.specimen, method.material, method.machine, method.physics}; }
+TestingMachine bench_of(const Method& method) {
+  return {method.specimen, method.material, method.machine, method.physics};
+}
 
 /// Has the program's commands answered up to the first of a pull, or to the end; what is answered goes to `writer`.
-void prepare(TestBench& bench, TestProgram& program, RunWriter& writer) {
+void prepare(TestingMachine& bench, ProgramRunner& program, RunWriter& writer) {
   for (Command command = program.last(); !program.ended() && command.phase != Phase::kPull;) {
     const Sample sample = bench.respond(command);
     writer.add({command, sample, bench.substeps(), {}, {}, 0.0});
@@ -31,7 +33,7 @@ void prepare(TestBench& bench, TestProgram& program, RunWriter& writer) {
 }
 
 /// The tied state as the archive has it; of the tolerances it knows nothing.
-std::string saved(TestBench& bench, TestProgram& program) {
+std::string saved(TestingMachine& bench, ProgramRunner& program) {
   Archive archive("tied state");
   archive(bench, program);
   return archive.bytes();
@@ -44,14 +46,14 @@ bool run(const Arguments& arguments) {
   const Method pulled = load_method(arguments.method, settings);
   RunWriter writer(arguments.out, pulled);
 
-  TestBench bench = bench_of(tied);
-  TestProgram program = make_program(tied, bench.longest_step());
+  TestingMachine bench = bench_of(tied);
+  ProgramRunner program = make_program(tied, bench.longest_step());
   prepare(bench, program, writer);
   const std::string state = saved(bench, program);
 
-  TestBench other = bench_of(pulled);
+  TestingMachine other = bench_of(pulled);
   // The commands come when they would have come: an archive of a program knows nothing of their rate.
-  TestProgram rest = make_program(tied, bench.longest_step());
+  ProgramRunner rest = make_program(tied, bench.longest_step());
   Archive archive("tied state", state, "tied state");
   archive(other, rest);
   archive.end();

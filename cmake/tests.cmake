@@ -30,7 +30,7 @@ gtest_discover_tests(core_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES
 # What stands on lanes, for processors without AVX2: it compiles there too. What it costs there is measured by
 # `scripts/bench registers`.
 if(KNOT_UTM_X86_64_V3)
-  file(GLOB lane_sources CONFIGURE_DEPENDS src/solver/*.cpp src/contact/*.cpp src/sim/*.cpp)
+  file(GLOB lane_sources CONFIGURE_DEPENDS src/numeric/*.cpp src/solver/*.cpp src/contact/*.cpp src/sim/*.cpp)
   add_library(narrow_lanes OBJECT ${lane_sources})
   target_compile_options(narrow_lanes PRIVATE -O0 -mno-avx)
   target_include_directories(narrow_lanes PRIVATE include)

@@ -7,14 +7,14 @@
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/machine/run_test.hpp"
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 
 int main(int argc, char** argv) try {
   const std::string file = knot_utm::find_method(argc > 1 ? argv[1] : "tighten", "", {KNOT_UTM_METHODS});
   const std::vector<std::string> settings(argv + (argc > 2 ? 2 : argc), argv + argc);
   const knot_utm::Method method = knot_utm::load_method(file, settings);
-  knot_utm::TestBench bench(method.specimen, method.material, method.machine, method.physics);
-  knot_utm::TestProgram program = knot_utm::make_program(method, bench.longest_step());
+  knot_utm::TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
+  knot_utm::ProgramRunner program = knot_utm::make_program(method, bench.longest_step());
 
   std::vector<knot_utm::Sample> steps, readings;  // every time step; what the load cell records
   std::printf("extension [mm]  force [N]\n");

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "knot_utm/contact/contact_point.hpp"
-#include "knot_utm/solver/lanes.hpp"
+#include "knot_utm/numeric/lanes.hpp"
 
 namespace knot_utm {
 

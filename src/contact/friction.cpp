@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "knot_utm/rod/known_names.hpp"
+#include "knot_utm/numeric/known_names.hpp"
 
 namespace knot_utm {
 

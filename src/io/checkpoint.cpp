@@ -5,8 +5,8 @@
 #include <filesystem>
 
 #include "knot_utm/io/run_folder.hpp"
-#include "knot_utm/rod/archive.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
 
@@ -22,12 +22,13 @@ Checkpoint::Checkpoint(const std::string& folder, const std::string& method)
     : file_((fs::path(folder) / "checkpoint").string()),
       method_(static_cast<std::int64_t>(crc32_z(0, reinterpret_cast<const Bytef*>(method.data()), method.size()))) {}
 
-void Checkpoint::visit(Archive& archive, TestBench& bench, TestProgram& program, std::uint64_t& journal_bytes) const {
+void Checkpoint::visit(Archive& archive, TestingMachine& bench, ProgramRunner& program,
+                       std::uint64_t& journal_bytes) const {
   archive.same("checksum of method.yaml", method_);
   archive(journal_bytes, program, bench);
 }
 
-void Checkpoint::write(TestBench& bench, TestProgram& program, std::uint64_t journal_bytes) const {
+void Checkpoint::write(TestingMachine& bench, ProgramRunner& program, std::uint64_t journal_bytes) const {
   Archive archive(kKind);
   visit(archive, bench, program, journal_bytes);
   write_whole(file_, archive.bytes());
@@ -38,7 +39,7 @@ bool Checkpoint::is_there() const {
   return fs::exists(file_, error);
 }
 
-std::uint64_t Checkpoint::load(TestBench& bench, TestProgram& program) const {
+std::uint64_t Checkpoint::load(TestingMachine& bench, ProgramRunner& program) const {
   Archive archive(kKind, read_whole(file_), file_);
   std::uint64_t journal_bytes = 0;
   visit(archive, bench, program, journal_bytes);

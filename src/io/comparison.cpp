@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "knot_utm/io/yaml_lines.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
 namespace {

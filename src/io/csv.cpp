@@ -7,9 +7,9 @@
 #include <string_view>
 
 #include "knot_utm/io/cannot_write.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
-#include "knot_utm/rod/number.hpp"
-#include "knot_utm/rod/text_rows.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/numeric/text_rows.hpp"
 
 namespace knot_utm {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "knot_utm/io/raw_data.hpp"
 #include "knot_utm/io/run_folder.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
 namespace {

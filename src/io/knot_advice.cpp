@@ -1,7 +1,7 @@
 #include "knot_utm/io/knot_advice.hpp"
 
 #include "knot_utm/machine/step_settings.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {

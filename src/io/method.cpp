@@ -17,7 +17,7 @@
 #include "knot_utm/io/curve_file.hpp"
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/io/shipped.hpp"
-#include "knot_utm/rod/known_names.hpp"
+#include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_defaults.hpp"
 #include "method_fields.hpp"
@@ -554,8 +554,8 @@ double longest_period(const Method& method) {
 
 }  // namespace
 
-TestProgram make_program(const Method& method, double longest_step) {
-  TestProgram::Limits limits;
+ProgramRunner make_program(const Method& method, double longest_step) {
+  ProgramRunner::Limits limits;
   const double capacity = method.machine.load_cell.capacity;
   const MachineOptions& machine = method.machine;
   const double h = method.material.radius;
@@ -565,8 +565,8 @@ TestProgram make_program(const Method& method, double longest_step) {
   limits.time = method.ends.time.value_or(limits.time);
   limits.breaks = method.ends.breaks;
   limits.breaks.arming_load = method.ends.arming_load.value_or(kArmingShare * capacity);
-  return TestProgram(method.program, machine.load_cell.sampling_rate, std::min(longest_step, longest_period(method)),
-                     limits);
+  return ProgramRunner(method.program, machine.load_cell.sampling_rate, std::min(longest_step, longest_period(method)),
+                       limits);
 }
 
 }  // namespace knot_utm

@@ -11,7 +11,7 @@
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/step_settings.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_reader.hpp"
 

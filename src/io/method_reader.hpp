@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/rod/invalid_input.hpp"
-#include "knot_utm/rod/known_names.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/known_names.hpp"
+#include "knot_utm/numeric/number.hpp"
 #include "method_fields.hpp"
 
 namespace knot_utm::fields {

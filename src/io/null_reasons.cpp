@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
 namespace {

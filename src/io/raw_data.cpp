@@ -7,9 +7,9 @@
 #include <sstream>
 #include <string_view>
 
-#include "knot_utm/rod/invalid_input.hpp"
-#include "knot_utm/rod/number.hpp"
-#include "knot_utm/rod/text_rows.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/numeric/text_rows.hpp"
 #include "raw_names.hpp"
 #include "raw_text.hpp"
 

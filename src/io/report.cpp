@@ -14,8 +14,8 @@
 
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/io/run_folder.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
 namespace {

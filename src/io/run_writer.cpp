@@ -14,7 +14,7 @@
 #include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/load_cell.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"
 

@@ -4,8 +4,8 @@
 #include <set>
 #include <system_error>
 
-#include "knot_utm/rod/invalid_input.hpp"
-#include "knot_utm/rod/known_names.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/known_names.hpp"
 
 namespace knot_utm {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {

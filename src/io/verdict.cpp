@@ -1,6 +1,6 @@
 #include "knot_utm/io/verdict.hpp"
 
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <sstream>
 
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/knot.hpp"
 

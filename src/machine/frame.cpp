@@ -3,7 +3,7 @@
 #include <cmath>
 #include <string>
 
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 
 namespace knot_utm {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <string>
 
-#include "knot_utm/analysis/overhand_strand.hpp"
+#include "knot_utm/topology/overhand_strand.hpp"
 
 namespace knot_utm {
 namespace {

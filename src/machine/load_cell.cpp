@@ -6,7 +6,7 @@
 #include <locale>
 #include <sstream>
 
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 
 namespace knot_utm {
 

@@ -1,8 +1,8 @@
 // Tells an experiment's record beside the test that follows it.
 #include "knot_utm/ros/experiment_node.hpp"
 
+#include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
-#include "knot_utm/ros/test_setup.hpp"
 
 int main(int argc, char** argv) {
   return knot_utm::run_node(argc, argv, knot_utm::names::kExperimentNode, [&] {

@@ -1,7 +1,7 @@
 // The physics: answers the commands of utm_node.
 #include "knot_utm/ros/knot_node.hpp"
 
-#include "knot_utm/ros/test_setup.hpp"
+#include "knot_utm/ros/method_setup.hpp"
 
 int main(int argc, char** argv) {
   return knot_utm::run_node(argc, argv, "knot_node", [&] {

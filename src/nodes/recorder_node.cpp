@@ -3,7 +3,7 @@
 
 #include <csignal>
 
-#include "knot_utm/ros/test_setup.hpp"
+#include "knot_utm/ros/method_setup.hpp"
 
 int main(int argc, char** argv) {
   // A file as large as is allowed is an error like a full disk, which says what was being written.

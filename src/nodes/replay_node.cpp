@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
+#include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
-#include "knot_utm/ros/test_setup.hpp"
 
 int main(int argc, char** argv) {
   namespace fs = std::filesystem;

@@ -1,7 +1,7 @@
 // The machine: runs the test program against the physics of knot_node.
 #include "knot_utm/ros/utm_node.hpp"
 
-#include "knot_utm/ros/test_setup.hpp"
+#include "knot_utm/ros/method_setup.hpp"
 
 int main(int argc, char** argv) {
   return knot_utm::run_node(argc, argv, "utm_node", [&] {

@@ -1,7 +1,7 @@
 // Ends the launch when its test is over.
 #include "knot_utm/ros/watch_node.hpp"
 
-#include "knot_utm/ros/test_setup.hpp"
+#include "knot_utm/ros/method_setup.hpp"
 
 int main(int argc, char** argv) {
   return knot_utm::run_node(argc, argv, "watch_node", [&] {

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/rod/isotropic_bending.hpp"
 #include "knot_utm/rod/stretching.hpp"
 

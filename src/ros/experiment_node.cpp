@@ -5,7 +5,7 @@
 #include <std_srvs/Trigger.h>
 
 #include "knot_utm/io/curve_file.hpp"
-#include "knot_utm/machine/program.hpp"
+#include "knot_utm/record/program.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/names.hpp"

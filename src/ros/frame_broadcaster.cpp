@@ -16,7 +16,7 @@ void FrameBroadcaster::publish(const ros::Time& stamp, double displacement, cons
   if (valid > published_) transforms = frames_.moving(valid, displacement, upper_grip);
   published_ = std::max(valid, published_);
   if (looks != nullptr) {
-    for (const geometry_msgs::TransformStamped& look : TestFrames::of_looks(published_, *looks))
+    for (const geometry_msgs::TransformStamped& look : MachineFrames::of_looks(published_, *looks))
       transforms.push_back(look);
   }
   moving_.sendTransform(transforms);

@@ -1,11 +1,11 @@
 #include "knot_utm/ros/journal_bag.hpp"
 
-#include "knot_utm/ros/test_bag.hpp"
+#include "knot_utm/ros/run_bag.hpp"
 
 namespace knot_utm {
 
 void recover_with_bag(Recovery& recovery) {
-  TestBag bag(recovery.place() + "/test.bag", recovery.method());
+  RunBag bag(recovery.place() + "/test.bag", recovery.method());
   Record record;
   while (recovery.next(record)) bag.add(record);
   bag.close();
@@ -14,7 +14,7 @@ void recover_with_bag(Recovery& recovery) {
 
 void save_bag(const std::string& folder, const Method& method, const std::string& file) {
   JournalReader journal(folder);
-  TestBag bag(file, method);
+  RunBag bag(file, method);
   Record record;
   while (journal.next(record)) bag.add(record);
   bag.close();

@@ -30,8 +30,8 @@ std::vector<ContactForce> moved(std::vector<ContactForce> forces, const Points& 
   return forces;
 }
 
-TestBench make_bench(const Method& method) {
-  return TestBench(method.specimen, method.material, method.machine, method.physics);
+TestingMachine make_bench(const Method& method) {
+  return TestingMachine(method.specimen, method.material, method.machine, method.physics);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 #include <sstream>
 #include <string>
 
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

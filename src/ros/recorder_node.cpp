@@ -54,7 +54,7 @@ RecorderNode::Run::Run(const std::string& folder_, const Method& method, Journal
       writer(folder_, method),
       bag((fs::path(folder_) / "test.bag").string(), method) {}
 
-RecorderNode::RecorderNode(const ros::NodeHandle& node, TestSetup setup, Keeper& keeper)
+RecorderNode::RecorderNode(const ros::NodeHandle& node, MethodSetup setup, Keeper& keeper)
     : node_(node), setup_(std::move(setup)), keeper_(keeper), diagnostics_(node) {
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
   status_ = node_.advertise<RecorderStatus>(names::kRecorderStatus, 100, ros::SubscriberStatusCallback(), gone,

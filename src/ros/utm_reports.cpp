@@ -2,7 +2,7 @@
 #include <limits>
 
 #include "knot_utm/analysis/results.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 
 namespace knot_utm {

@@ -1,5 +1,5 @@
 // What the operator asks of the machine.
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 
 namespace knot_utm {

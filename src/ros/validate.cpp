@@ -5,8 +5,8 @@
 #include <limits>
 #include <utility>
 
-#include "knot_utm/machine/program.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/program.hpp"
 
 namespace knot_utm {
 namespace {

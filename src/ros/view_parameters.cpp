@@ -7,9 +7,9 @@
 #include <string>
 #include <utility>
 
-#include "knot_utm/rod/invalid_input.hpp"
-#include "knot_utm/rod/number.hpp"
-#include "knot_utm/ros/test_setup.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/ros/method_setup.hpp"
 
 namespace knot_utm {
 namespace {

@@ -11,7 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/validate.hpp"

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "knot_utm/contact/strand_passage.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/polyline.hpp"
 #include "shape_checks.hpp"
 

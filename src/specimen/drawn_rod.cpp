@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <system_error>
 
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/centreline_file.hpp"
 #include "knot_utm/specimen/scales.hpp"
 

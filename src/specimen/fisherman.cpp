@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/rod/invalid_input.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
 #include "path.hpp"

@@ -1,7 +1,7 @@
 #include <algorithm>
 
-#include "knot_utm/rod/invalid_input.hpp"
-#include "knot_utm/rod/known_names.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/specimen/drawn_rod.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/knot.hpp"

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "knot_utm/rod/invalid_input.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "path.hpp"
 #include "shape_checks.hpp"

@@ -3,8 +3,8 @@
 #include <limits>
 #include <sstream>
 
-#include "knot_utm/rod/invalid_input.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
 

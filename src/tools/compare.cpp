@@ -12,7 +12,7 @@
 #include "knot_utm/io/curve_file.hpp"
 #include "knot_utm/io/raw_zero.hpp"
 #include "knot_utm/io/report.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/number.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/curve_bag.hpp"
 #endif

@@ -26,12 +26,12 @@
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/machine/before_tying.hpp"
-#include "knot_utm/machine/margin.hpp"
+#include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/machine/run_test.hpp"
-#include "knot_utm/machine/test_bench.hpp"
-#include "knot_utm/machine/test_program.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/study/find_margin.hpp"
 #ifdef KNOT_UTM_HAS_ROS
-#include "knot_utm/ros/test_bag.hpp"
+#include "knot_utm/ros/run_bag.hpp"
 #endif
 #include "tool.hpp"
 
@@ -77,7 +77,7 @@ class ProgressLine {
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;
 
-  void show(const Sample& sample, const TestProgram& program, double wall_time) {
+  void show(const Sample& sample, const ProgramRunner& program, double wall_time) {
     if (!on_ || wall_time < next_) return;
     next_ = wall_time + 0.2;
     shown_ = true;
@@ -135,7 +135,7 @@ class Writers {
 
  private:
 #ifdef KNOT_UTM_HAS_ROS
-  TestBag bag_;
+  RunBag bag_;
 #endif
 };
 
@@ -143,8 +143,8 @@ class Writers {
 class Past {
  public:
   /// Loads bench and program as the checkpoint has them; without one they stay at the beginning.
-  Past(const std::string& folder, const Method& method, const Checkpoint& checkpoint, TestBench& bench,
-       TestProgram& program)
+  Past(const std::string& folder, const Method& method, const Checkpoint& checkpoint, TestingMachine& bench,
+       ProgramRunner& program)
       : folder_(folder) {
     JournalReader journal = reader();
     if (!(journal.header() == journal_header(method)))
@@ -187,8 +187,8 @@ class Past {
 
 /// The bench, and a checkpoint before a command where it is time for one.
 struct CheckedBench {
-  TestBench& bench;
-  TestProgram& program;
+  TestingMachine& bench;
+  ProgramRunner& program;
   const JournalWriter& journal;
   const Checkpoint& checkpoint;
   const WallClock& clock;
@@ -205,7 +205,7 @@ struct CheckedBench {
 };
 
 /// All that is kept of the bench's last answer.
-void take(const Command& command, const Sample& answer, const TestBench& bench, double wall_time, Record& record) {
+void take(const Command& command, const Sample& answer, const TestingMachine& bench, double wall_time, Record& record) {
   const bool shape = shape_is_due(command);
   record.command = command;
   record.answer = answer;
@@ -219,8 +219,8 @@ void take(const Command& command, const Sample& answer, const TestBench& bench, 
 struct Test {
   const Method& method;
   std::string out;
-  TestBench& bench;
-  TestProgram& program;
+  TestingMachine& bench;
+  ProgramRunner& program;
   const Checkpoint& checkpoint;
   std::optional<Past> past;  ///< none: it is new
 };
@@ -252,7 +252,7 @@ Results write_results(const Test& test, Writers& writers, const WallClock& clock
 
 /// Says how the test ended; the exit code.
 int tell_end(const Test& test, const Results& results, double wall_time, bool quiet) {
-  const TestProgram& program = test.program;
+  const ProgramRunner& program = test.program;
   const char* out = test.out.c_str();
   if (program.ended_by() == EndedBy::kSolver) {
     std::fprintf(stderr, "%s: the physics gave up: %s; what was measured until then is in %s\n", kTool,
@@ -283,8 +283,8 @@ int leave_for_resume(const Test& test, Writers& writers, const WallClock& clock)
 }
 
 int run_to_end(const Test& test, JournalWriter& journal, double checkpoint_period, bool quiet) {
-  TestBench& bench = test.bench;
-  TestProgram& program = test.program;
+  TestingMachine& bench = test.bench;
+  ProgramRunner& program = test.program;
   if (!test.past) test.checkpoint.remove();
   Writers writers(test.out, test.method);
   const WallClock clock(test.past ? test.past->write(writers, journal) : 0.0);
@@ -338,8 +338,8 @@ int run(const Arguments& arguments) {
   const bool resumes = !arguments.resume.empty();
   if (resumes) require_cut_off(arguments.resume);
   const Method method = load_method(arguments.method, arguments.overrides);
-  TestBench bench(method.specimen, method.material, method.machine, method.physics);
-  TestProgram program = make_program(method, bench.longest_step());
+  TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
+  ProgramRunner program = make_program(method, bench.longest_step());
   const std::string asked = arguments.out.empty() ? "out/" + method.name : arguments.out;
   require_no_record_in(asked, method);  // before anything is written
   std::optional<Past> past;

@@ -9,8 +9,8 @@
 
 #include "contact/strands.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
-#include "knot_utm/rod/archive.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

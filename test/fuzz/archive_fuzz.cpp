@@ -76,8 +76,8 @@ class Resumed {
   Resumed() : checkpoint_(folder_.name(), "method") {}
 
   std::string good() {
-    TestBench bench = make_bench();
-    TestProgram program = make_program(bench);
+    TestingMachine bench = make_bench();
+    ProgramRunner program = make_program(bench);
     for (int i = 0; i < 3; ++i) program.next(bench.respond(program.last()));
     checkpoint_.write(bench, program, 123);
     return read_whole(checkpoint_.file());
@@ -85,8 +85,8 @@ class Resumed {
 
   std::string written(const std::string& file) {
     write_whole(checkpoint_.file(), file);
-    TestBench bench = make_bench();
-    TestProgram program = make_program(bench);
+    TestingMachine bench = make_bench();
+    ProgramRunner program = make_program(bench);
     const std::uint64_t journal_bytes = checkpoint_.load(bench, program);
     checkpoint_.write(bench, program, journal_bytes);
     return read_whole(checkpoint_.file());
@@ -95,14 +95,14 @@ class Resumed {
   /// Whatever the state: the next command is answered.
   void go_on(const std::string& file) {
     write_whole(checkpoint_.file(), file);
-    TestBench bench = make_bench();
-    TestProgram program = make_program(bench);
+    TestingMachine bench = make_bench();
+    ProgramRunner program = make_program(bench);
     checkpoint_.load(bench, program);
     program.next(bench.respond(program.last()));
   }
 
  private:
-  static TestBench make_bench() {
+  static TestingMachine make_bench() {
     SpecimenOptions specimen;
     specimen.knot = knot_named("straight");
     specimen.length = 0.008;
@@ -111,9 +111,9 @@ class Resumed {
     machine.grips = GripKind::kClamps;
     PhysicsOptions physics;
     physics.accuracy = Accuracy::kDraft;
-    return TestBench(specimen, thread(), machine, physics);
+    return TestingMachine(specimen, thread(), machine, physics);
   }
-  static TestProgram make_program(const TestBench& bench) {
+  static ProgramRunner make_program(const TestingMachine& bench) {
     ProgramStep pull;
     pull.phase = Phase::kPull;
     pull.until.extension = 0.001;

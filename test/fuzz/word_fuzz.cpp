@@ -2,8 +2,8 @@
 #include <cmath>
 
 #include "fuzz/target.hpp"
-#include "knot_utm/machine/program.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/program.hpp"
 
 namespace knot_utm {
 

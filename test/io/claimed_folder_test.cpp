@@ -12,7 +12,7 @@
 #include "io/own_folder.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/shipped.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

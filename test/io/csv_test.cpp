@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <sstream>
 
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/centreline_file.hpp"
 
 namespace knot_utm {

@@ -14,7 +14,7 @@
 #include "io/own_folder.hpp"
 #include "knot_utm/io/csv.hpp"
 #include "knot_utm/io/curve_file.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 
 namespace knot_utm {
 namespace {
@@ -157,7 +157,7 @@ TEST(MethodDefaults, EveryShippedMaterialMakesASpecimenAndIsPulled) {
     EXPECT_NO_THROW(drawn(loop)) << name;
     EXPECT_TRUE(loop.material.tying_preload.has_value()) << name;
     const Method m = load_method(kConfig + "straight.yaml", {"material=" + name, "physics.accuracy=draft"});
-    TestBench bench(m.specimen, m.material, m.machine, m.physics);
+    TestingMachine bench(m.specimen, m.material, m.machine, m.physics);
     Command command;
     command.sequence = 1;
     command.step = 1;

@@ -9,7 +9,7 @@
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/raw_data.hpp"
 #include "knot_utm/io/run_folder.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

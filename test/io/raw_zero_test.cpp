@@ -11,7 +11,7 @@
 
 #include "knot_utm/io/comparison.hpp"
 #include "knot_utm/io/raw_data.hpp"
-#include "knot_utm/rod/number.hpp"
+#include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
 namespace {

@@ -30,7 +30,7 @@ class RecoveryOf : public OwnFolder {
   /// A run with a spring for a specimen, dead after so many commands if not at its end.
   void run(const std::string& out, std::uint64_t dies_after, const std::string& test = "") const {
     FakeBench bench;
-    TestProgram program(method_.program, method_.machine.load_cell.sampling_rate, 0.1, {});
+    ProgramRunner program(method_.program, method_.machine.load_cell.sampling_rate, 0.1, {});
     JournalWriter journal(out, journal_header(method_, test));
     RunWriter writer(out, method_);
     Record record;
@@ -79,7 +79,7 @@ TEST_F(RecoveryOf, ARunThatDiedBeforeItsResultIsThatOfAnUnbrokenRunToTheByte) {
   // The journal as it was before all was complete.
   {
     FakeBench bench;
-    TestProgram program(method_.program, method_.machine.load_cell.sampling_rate, 0.1, {});
+    ProgramRunner program(method_.program, method_.machine.load_cell.sampling_rate, 0.1, {});
     JournalWriter journal(in("killed"), journal_header(method_));
     run_test(bench, program, [&](const Command& command, const Sample& sample) {
       Record record;

@@ -35,7 +35,7 @@ class RunFolder : public ::testing::Test {
 
   /// A whole run of the method with a spring for a knot.
   RunFacts run(const Method& method, FakeBench bench = {}) {
-    TestProgram program(method.program, method.machine.load_cell.sampling_rate, 0.1, {});
+    ProgramRunner program(method.program, method.machine.load_cell.sampling_rate, 0.1, {});
     RunWriter writer(folder_.string(), method);
     run_test(bench, program, [&](const Command& command, const Sample& sample) {
       Record record;

@@ -8,7 +8,7 @@
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/run_test.hpp"
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 
 namespace knot_utm {
 namespace {
@@ -38,8 +38,8 @@ Ended run(const Size& size) {
   Ended out;
   out.method = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml",
                            {material, "physics.accuracy=draft", "program.pull.until={time: 4}"});
-  TestBench bench(out.method.specimen, out.method.material, out.method.machine, out.method.physics);
-  TestProgram program = make_program(out.method, bench.longest_step());
+  TestingMachine bench(out.method.specimen, out.method.material, out.method.machine, out.method.physics);
+  ProgramRunner program = make_program(out.method, bench.longest_step());
   std::vector<Sample> samples;
   run_test(bench, program, [&](const Command&, const Sample& sample) {
     samples.insert(samples.end(), bench.substeps().begin(), bench.substeps().end());

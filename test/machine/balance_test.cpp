@@ -9,7 +9,7 @@
 
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/machine/accuracy.hpp"
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "rod/materials.hpp"
 
@@ -42,7 +42,7 @@ class SmallPull : public testing::TestWithParam<Machine> {};
 /// The residual that Newton's method may leave at every node, times a way that no node exceeds.
 TEST_P(SmallPull, ClosesToNewtonsTolerance) {
   const Material material = polypropylene();
-  TestBench bench(GetParam().specimen, material, GetParam().machine, GetParam().physics);
+  TestingMachine bench(GetParam().specimen, material, GetParam().machine, GetParam().physics);
   const double nodes = static_cast<double>(bench.rod().nodes());
   const double residual = tolerances(GetParam().physics, GetParam().specimen, material).residual *
                           material.bending_stiffness / (material.radius * material.radius);

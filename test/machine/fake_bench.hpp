@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 

@@ -8,7 +8,7 @@
 
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/machine/run_test.hpp"
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"
@@ -26,8 +26,8 @@ ProgramStep pull(double extension) {
 }
 
 struct Pulled {
-  TestBench bench;
-  TestProgram program;
+  TestingMachine bench;
+  ProgramRunner program;
   std::vector<Sample> samples;
 };
 
@@ -35,9 +35,9 @@ Pulled run(const SpecimenOptions& specimen, const Material& material, const Phys
            const Program& steps) {
   MachineOptions machine;
   machine.grips = GripKind::kClamps;
-  TestBench bench(specimen, material, machine, physics);
+  TestingMachine bench(specimen, material, machine, physics);
   const double period = bench.longest_step();
-  Pulled out{std::move(bench), TestProgram(steps, machine.load_cell.sampling_rate, period, {}), {}};
+  Pulled out{std::move(bench), ProgramRunner(steps, machine.load_cell.sampling_rate, period, {}), {}};
   run_test(out.bench, out.program, [&](const Command&, const Sample&) {
     out.samples.insert(out.samples.end(), out.bench.substeps().begin(), out.bench.substeps().end());
   });

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 #include "machine/overhand_specimen.hpp"
 
 namespace knot_utm {
@@ -28,7 +28,7 @@ Material wire() {
 double force_of_overhand(const PhysicsOptions& physics) {
   MachineOptions machine;
   machine.grips = GripKind::kNodes;
-  TestBench bench(overhand_specimen(0.25, 0.065, 1.44e-3), wire(), machine, physics);
+  TestingMachine bench(overhand_specimen(0.25, 0.065, 1.44e-3), wire(), machine, physics);
   constexpr double kRest = 2.0, kPull = 6.0, kSpeed = 2e-3, kInterval = 0.5;
   Command command;
   double force = 0.0;

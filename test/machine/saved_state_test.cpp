@@ -11,8 +11,8 @@
 
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/machine/run_test.hpp"
-#include "knot_utm/machine/test_bench.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"
@@ -76,8 +76,8 @@ std::vector<Bits> numbers(const Sample& s) {
 
 /// A bench and its program; both are saved, and what the bench answered since.
 struct WholeTest {
-  TestBench bench;
-  TestProgram program;
+  TestingMachine bench;
+  ProgramRunner program;
   std::vector<Sample> substeps;
   std::vector<double> tension;
 
@@ -132,9 +132,9 @@ struct Scene {
   std::size_t every;
 
   WholeTest begin() const {
-    TestBench bench(specimen, material, machine, physics);
+    TestingMachine bench(specimen, material, machine, physics);
     const double period = bench.longest_step();
-    return {std::move(bench), TestProgram(program, machine.load_cell.sampling_rate, period, {}), {}, {}};
+    return {std::move(bench), ProgramRunner(program, machine.load_cell.sampling_rate, period, {}), {}, {}};
   }
 };
 void PrintTo(const Scene& scene, std::ostream* out) { *out << scene.name; }

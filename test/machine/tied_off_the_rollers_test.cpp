@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {
@@ -53,11 +53,11 @@ class Driver {
   }
 
   double most_force() const { return most_; }
-  TestBench& bench() { return bench_; }
+  TestingMachine& bench() { return bench_; }
 
  private:
   static constexpr double kPeriod = 1.0 / 6.0;
-  TestBench bench_;
+  TestingMachine bench_;
   Command command_;
   double most_ = 0.0;
 };
@@ -128,7 +128,7 @@ TEST(TiedOffTheRollers, TheFarSideIsHeldHalfWay) {
     PhysicsOptions physics;
     physics.gravity = {0.0, 0.0, -9.81};
     specimen.to_be_tied = false;
-    TestBench bench(specimen, polypropylene(), machine, physics);
+    TestingMachine bench(specimen, polypropylene(), machine, physics);
     const double middle = 0.5 * (bench.lower_grip().z() + bench.upper_grip().z());
     const auto far_middle = [&] {
       const Points& x = bench.state().position;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"
@@ -14,18 +14,18 @@
 namespace knot_utm {
 namespace {
 
-TestBench bench(const SpecimenOptions& specimen, GripKind grips, TwistMode twist,
-                std::optional<double> longest_step = std::nullopt) {
+TestingMachine bench(const SpecimenOptions& specimen, GripKind grips, TwistMode twist,
+                     std::optional<double> longest_step = std::nullopt) {
   MachineOptions machine;
   machine.grips = grips;
   PhysicsOptions physics;
   physics.twist = twist;
   physics.max_step = longest_step;
-  return TestBench(specimen, pink_vps(), machine, physics);
+  return TestingMachine(specimen, pink_vps(), machine, physics);
 }
 
 /// Steps of `period` in one phase.
-Sample run(TestBench& machine, Phase phase, int commands, double period, double speed) {
+Sample run(TestingMachine& machine, Phase phase, int commands, double period, double speed) {
   Command command;
   machine.respond(command);
   command.phase = phase;
@@ -50,7 +50,7 @@ SpecimenOptions loop() {
 
 SpecimenOptions open_overhand() { return overhand_specimen(1.0, 0.7, 0.005); }
 
-bool has_twist(const TestBench& machine) { return machine.state().twist.size() > 0; }
+bool has_twist(const TestingMachine& machine) { return machine.state().twist.size() > 0; }
 
 TEST(TwistOnTheMachine, AutoIsOnWhereClampsHoldTwoFrames) {
   const auto by_itself = [](const SpecimenOptions& specimen, GripKind grips) {
@@ -75,7 +75,7 @@ TEST(TwistOnTheMachine, AutoIsOnWhereFrictionRollsStrands) {
     material.friction_coefficient = mu;
     PhysicsOptions physics;
     physics.friction_at = at;
-    return has_twist(TestBench(loop(), material, MachineOptions(), physics));
+    return has_twist(TestingMachine(loop(), material, MachineOptions(), physics));
   };
   EXPECT_TRUE(by_itself(0.5, FrictionAt::kSurface, 0.3));
   EXPECT_FALSE(by_itself(0.5, FrictionAt::kCentreline, 0.3));
@@ -87,8 +87,8 @@ TEST(TwistOnTheMachine, ALoopTiesTheSameWithIt) {
   // Steps short enough that none is rejected, nor the first one shorter: where one of the two needs an iteration more
   // and takes another step next, paths that jump from contact to contact part by hundredths of a radius.
   constexpr double kLongestStep = 8e-4;
-  TestBench on = bench(loop(), GripKind::kRollers, TwistMode::kOn, kLongestStep);
-  TestBench off = bench(loop(), GripKind::kRollers, TwistMode::kOff, kLongestStep);
+  TestingMachine on = bench(loop(), GripKind::kRollers, TwistMode::kOn, kLongestStep);
+  TestingMachine off = bench(loop(), GripKind::kRollers, TwistMode::kOff, kLongestStep);
   const Sample with = run(on, Phase::kTie, 10, 0.1, 0.02), without = run(off, Phase::kTie, 10, 0.1, 0.02);
   const double difference = (on.state().position - off.state().position).colwise().norm().maxCoeff();
   RecordProperty("largest_difference_in_radii", std::to_string(1e6 * difference / on.rod().material.radius) + "e-6");
@@ -104,8 +104,8 @@ TEST(TwistOnTheMachine, AStraightRodPullsTheSameWithIt) {
   specimen.knot = knot_named("straight");
   specimen.length = 0.25;
   specimen.edge_length = 0.005;
-  TestBench on = bench(specimen, GripKind::kClamps, TwistMode::kOn);
-  TestBench off = bench(specimen, GripKind::kClamps, TwistMode::kOff);
+  TestingMachine on = bench(specimen, GripKind::kClamps, TwistMode::kOn);
+  TestingMachine off = bench(specimen, GripKind::kClamps, TwistMode::kOff);
   const Sample with = run(on, Phase::kPull, 10, 0.1, 0.0033), without = run(off, Phase::kPull, 10, 0.1, 0.0033);
   EXPECT_GT(without.force_upper, 0.0);
   EXPECT_NEAR(with.force_upper, without.force_upper, 1e-6 * without.force_upper);
@@ -113,7 +113,7 @@ TEST(TwistOnTheMachine, AStraightRodPullsTheSameWithIt) {
 }
 
 TEST(TwistOnTheMachine, AnOverhandBetweenClampsStoresIt) {
-  TestBench on = bench(open_overhand(), GripKind::kClamps, TwistMode::kAuto);
+  TestingMachine on = bench(open_overhand(), GripKind::kClamps, TwistMode::kAuto);
   const Sample with = run(on, Phase::kPull, 30, 0.1, 0.0033);
   EXPECT_GT(with.twisting_energy, 1e-6 * with.bending_energy);
   EXPECT_LT(with.twisting_energy, with.bending_energy);

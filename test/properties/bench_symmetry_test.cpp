@@ -5,7 +5,7 @@
 #include <string>
 
 #include "knot_utm/io/csv.hpp"
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 #include "properties/symmetries.hpp"
@@ -34,10 +34,10 @@ struct Overhand {
     machine.grips = GripKind::kClamps;
   }
 
-  TestBench bench() const { return {specimen, material, machine, physics}; }
+  TestingMachine bench() const { return {specimen, material, machine, physics}; }
 
   /// Settles, and is pulled; the last reading.
-  Sample pull(TestBench& bench) const {
+  Sample pull(TestingMachine& bench) const {
     Command command;
     bench.respond(command);
     command.sequence = 1;
@@ -68,14 +68,14 @@ Overhand scaled(Overhand overhand, double length, double force) {
 
 TEST(BenchSymmetry, LengthsAndForcesInOtherPowersOfTwoGiveTheSameBits) {
   const Overhand overhand;
-  TestBench bench = overhand.bench();
+  TestingMachine bench = overhand.bench();
   const Sample now = overhand.pull(bench);
   ASSERT_EQ(now.status, BenchStatus::kRunning) << now.message;
   ASSERT_GT(now.contacts, 0);
   for (const double length : {0.25, 8.0}) {
     const double force = 0.5 * length * length * length;
     const Overhand other = scaled(overhand, length, force);
-    TestBench other_bench = other.bench();
+    TestingMachine other_bench = other.bench();
     const Sample then = other.pull(other_bench);
     EXPECT_EQ(then.steps, now.steps);
     EXPECT_EQ(then.newton_iterations, now.newton_iterations);
@@ -94,7 +94,7 @@ class BenchOfAFile : public testing::Test {
  protected:
   void TearDown() override { std::remove(file_.c_str()); }
 
-  TestBench bench(const Points& points) {
+  TestingMachine bench(const Points& points) {
     write_centreline(file_, points);
     Overhand overhand = overhand_;
     overhand.specimen.knot = knot_named("file");
@@ -116,12 +116,12 @@ class BenchOfAFile : public testing::Test {
 };
 
 TEST_F(BenchOfAFile, MirroredItGivesTheSameBits) {
-  TestBench right = bench(drawn());
+  TestingMachine right = bench(drawn());
   const Sample now = overhand_.pull(right);
   ASSERT_EQ(now.status, BenchStatus::kRunning) << now.message;
   ASSERT_GT(now.contacts, 0);
   const Vec3 mirror(-1.0, 1.0, 1.0);
-  TestBench left = bench(mirror.asDiagonal() * drawn());
+  TestingMachine left = bench(mirror.asDiagonal() * drawn());
   const Sample then = overhand_.pull(left);
   EXPECT_EQ(then.newton_iterations, now.newton_iterations);
   EXPECT_EQ(then.force_upper, now.force_upper);
@@ -131,10 +131,10 @@ TEST_F(BenchOfAFile, MirroredItGivesTheSameBits) {
 
 /// Newton leaves a residual at every node, and nothing else differs.
 TEST_F(BenchOfAFile, TurnedAboutTheAxisAndMovedItGivesTheSameForces) {
-  TestBench one = bench(drawn());
+  TestingMachine one = bench(drawn());
   const Sample now = overhand_.pull(one);
   const Motion motion{Eigen::AngleAxisd(0.7, Vec3::UnitZ()).toRotationMatrix(), Vec3(0.1, -0.2, 0.05)};
-  TestBench other = bench(motion.of(drawn()));
+  TestingMachine other = bench(motion.of(drawn()));
   const Sample then = overhand_.pull(other);
   ASSERT_EQ(then.status, BenchStatus::kRunning) << then.message;
   ASSERT_EQ(then.steps, now.steps) << "other steps, other errors of them";

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

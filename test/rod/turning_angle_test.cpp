@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "knot_utm/solver/lanes.hpp"
+#include "knot_utm/numeric/lanes.hpp"
 
 namespace knot_utm {
 namespace {

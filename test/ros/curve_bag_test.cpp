@@ -13,8 +13,8 @@
 #include "io/own_folder.hpp"
 #include "knot_utm/io/cannot_write.hpp"
 #include "knot_utm/io/run_folder.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
-#include "knot_utm/ros/test_bag.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/ros/run_bag.hpp"
 
 namespace knot_utm {
 namespace {
@@ -82,7 +82,7 @@ TEST_F(CurveBag, OfASimulatedTestIsItsCurve) {
     method.material.density = 1000.0;
     method.material.stretching_stiffness = 1e4;
     method.material.bending_stiffness = method.material.twisting_stiffness = 1e-4;
-    TestBag bag(file("test.bag"), method);
+    RunBag bag(file("test.bag"), method);
     Record record;
     for (std::uint64_t i = 0; i < 4; ++i) {
       record.command.sequence = record.answer.sequence = i;

@@ -9,7 +9,7 @@
 
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/run_test.hpp"
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/names.hpp"
 
@@ -31,7 +31,7 @@ void expect_in_picture(const Vec3& eye, const Vec3& point, const Sample& sample)
 }
 
 /// Rod, both grips and the text that a bag has, by their outermost points.
-void expect_all_in_picture(const TestBench& bench, const Method& method, const Vec3& eye, const Sample& sample) {
+void expect_all_in_picture(const TestingMachine& bench, const Method& method, const Vec3& eye, const Sample& sample) {
   const double radius = method.material.radius;
   for (Eigen::Index i = 0; i < bench.state().position.cols(); ++i) {
     for (const Vec3& way : {Camera::right(), Camera::up()})
@@ -68,8 +68,8 @@ class ViewsOfATest : public testing::TestWithParam<Case> {};
 /// From the first state to the last: tying, mounting, sliding, lock and break.
 TEST_P(ViewsOfATest, MachineRodAndReadingsStayInThePicture) {
   const Method method = load_method(config(GetParam().method), GetParam().overrides);
-  TestBench bench(method.specimen, method.material, method.machine, method.physics);
-  TestProgram program = make_program(method, bench.longest_step());
+  TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
+  ProgramRunner program = make_program(method, bench.longest_step());
   ScenePicture picture(method.machine, method.material);
   picture.begin(bench.state().position);
   Views views(method.machine, method.material.radius);
@@ -132,8 +132,8 @@ TEST(RvizConfig, HasTheCameraInTheFramesThatFollow) {
 /// e says how far apart they are; they are found by the shape alone.
 TEST(FindKnots, OfAFishermansKnotAreTheirDistanceApart) {
   const Method method = load_method(config("tighten.yaml"), {"physics.accuracy=draft", "program=[{tie: {}}]"});
-  TestBench bench(method.specimen, method.material, method.machine, method.physics);
-  TestProgram program = make_program(method, bench.longest_step());
+  TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
+  ProgramRunner program = make_program(method, bench.longest_step());
   Sample last;
   run_test(bench, program, [&](const Command&, const Sample& sample) { last = sample; });
   const auto found = find_knots(bench.state().position, method.material.radius, true);

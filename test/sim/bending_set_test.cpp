@@ -6,8 +6,8 @@
 #include <cmath>
 #include <memory>
 
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "sim/balance.hpp"
 #include "sim/scenes.hpp"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/analysis/knot_invariants.hpp"
+#include "knot_utm/topology/knot_invariants.hpp"
 #include "sim/stopper_knot.hpp"
 
 namespace knot_utm {

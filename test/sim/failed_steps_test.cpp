@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/rod/archive.hpp"
+#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/sim/saved_step.hpp"
 
 namespace knot_utm {

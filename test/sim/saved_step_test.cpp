@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "sim/scenes.hpp"
 
@@ -106,7 +106,7 @@ TEST(FailedTimeStep, FailsForTheSameReasonElsewhere) {
   machine.grips = GripKind::kClamps;
   PhysicsOptions physics;
   physics.accuracy = Accuracy::kDraft;
-  TestBench bench(overhand_specimen(0.4, 0.15, 0.006), pink_vps(), machine, physics);
+  TestingMachine bench(overhand_specimen(0.4, 0.15, 0.006), pink_vps(), machine, physics);
   Command command;
   bench.respond(command);
   command.phase = Phase::kPull;

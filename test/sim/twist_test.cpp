@@ -8,8 +8,8 @@
 #include <memory>
 #include <string>
 
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "reference.hpp"

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {

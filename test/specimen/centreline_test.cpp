@@ -9,7 +9,7 @@
 #include <regex>
 #include <string>
 
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 #include "knot_utm/specimen/polyline.hpp"

@@ -4,10 +4,10 @@
 
 #include <Eigen/Geometry>
 
-#include "knot_utm/analysis/knot_invariants.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
+#include "knot_utm/topology/knot_invariants.hpp"
 
 namespace knot_utm {
 namespace {

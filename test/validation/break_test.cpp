@@ -8,7 +8,7 @@
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/run_test.hpp"
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 
 namespace knot_utm {
 namespace {
@@ -16,8 +16,8 @@ namespace {
 Results pulled_to_the_break(const std::string& material, std::vector<std::string> overrides) {
   overrides.insert(overrides.end(), {"material=" + material, "program.pull.until={extension: 0.2, break: true}"});
   const Method method = load_method(KNOT_UTM_SOURCE_DIR "/config/tighten.yaml", overrides);
-  TestBench bench(method.specimen, method.material, method.machine, method.physics);
-  TestProgram program = make_program(method, bench.longest_step());
+  TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
+  ProgramRunner program = make_program(method, bench.longest_step());
   std::vector<Sample> samples;
   run_test(bench, program, [&](const Command&, const Sample&) {
     samples.insert(samples.end(), bench.substeps().begin(), bench.substeps().end());

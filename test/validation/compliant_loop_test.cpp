@@ -8,7 +8,7 @@
 
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/run_test.hpp"
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 
 namespace knot_utm {
 namespace {
@@ -21,8 +21,8 @@ TEST_P(CompliantLoop, OnRollersIsTiedAndPulledWithinTheTyingForce) {
       load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml",
                   {"material=pink_vps", "physics.accuracy=draft", "machine.stiffness=" + std::to_string(GetParam()),
                    "program.pull.until={time: 6}"});
-  TestBench bench(method.specimen, method.material, method.machine, method.physics);
-  TestProgram program = make_program(method, bench.longest_step());
+  TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
+  ProgramRunner program = make_program(method, bench.longest_step());
   double largest = 0.0;
   bool rests = true;
   run_test(bench, program, [&](const Command& command, const Sample& sample) {

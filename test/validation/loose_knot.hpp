@@ -8,12 +8,12 @@
 #include <memory>
 #include <vector>
 
-#include "knot_utm/analysis/knot_invariants.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/overhand.hpp"
+#include "knot_utm/topology/knot_invariants.hpp"
 
 namespace knot_utm {
 

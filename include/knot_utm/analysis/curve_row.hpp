@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "knot_utm/analysis/curve_readings.hpp"
-#include "knot_utm/machine/program.hpp"
-#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/record/program.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 

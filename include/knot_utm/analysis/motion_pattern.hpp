@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "knot_utm/analysis/curve_readings.hpp"
-#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 

@@ -9,8 +9,8 @@
 #include "knot_utm/analysis/curve_readings.hpp"
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/analysis/rate_shares.hpp"
-#include "knot_utm/machine/sample.hpp"
-#include "knot_utm/machine/test_program.hpp"
+#include "knot_utm/record/ended_by.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 

@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "knot_utm/numeric/lanes.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/solver/lanes.hpp"
 
 namespace knot_utm {
 

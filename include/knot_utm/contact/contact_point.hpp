@@ -4,8 +4,8 @@
 
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/contact/normal_law.hpp"
+#include "knot_utm/numeric/lanes.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/solver/lanes.hpp"
 
 namespace knot_utm {
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "knot_utm/contact/friction_options.hpp"
+#include "knot_utm/numeric/lanes.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/solver/lanes.hpp"
 
 namespace knot_utm {
 

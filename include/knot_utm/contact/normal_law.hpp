@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "knot_utm/solver/lanes.hpp"
+#include "knot_utm/numeric/lanes.hpp"
 
 namespace knot_utm {
 

@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "knot_utm/numeric/block.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/solver/block.hpp"
 
 namespace knot_utm {
 

@@ -3,8 +3,8 @@
 #include <cstdint>
 #include <string>
 
-#include "knot_utm/machine/test_bench.hpp"
-#include "knot_utm/machine/test_program.hpp"
+#include "knot_utm/machine/program_runner.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 
 namespace knot_utm {
 
@@ -16,19 +16,19 @@ class Checkpoint {
   Checkpoint(const std::string& folder, const std::string& method);
 
   /// Between two commands; `journal_bytes` is the end of the latest record. Throws std::runtime_error.
-  void write(TestBench& bench, TestProgram& program, std::uint64_t journal_bytes) const;
+  void write(TestingMachine& bench, ProgramRunner& program, std::uint64_t journal_bytes) const;
 
   bool is_there() const;
   const std::string& file() const { return file_; }
 
   /// Into a bench and a program just made from the method; returns the journal's bytes. Throws InvalidInput, which
   /// names the file, where it is damaged or that of another run.
-  std::uint64_t load(TestBench& bench, TestProgram& program) const;
+  std::uint64_t load(TestingMachine& bench, ProgramRunner& program) const;
 
   void remove() const;
 
  private:
-  void visit(class Archive& archive, TestBench& bench, TestProgram& program, std::uint64_t& journal_bytes) const;
+  void visit(class Archive& archive, TestingMachine& bench, ProgramRunner& program, std::uint64_t& journal_bytes) const;
 
   std::string file_;
   std::int64_t method_;  // checksum of its text

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "knot_utm/analysis/curve_row.hpp"
-#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {

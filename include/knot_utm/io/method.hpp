@@ -7,9 +7,9 @@
 #include "knot_utm/io/report_options.hpp"
 #include "knot_utm/machine/end_options.hpp"
 #include "knot_utm/machine/options.hpp"
-#include "knot_utm/machine/program.hpp"
-#include "knot_utm/machine/test_program.hpp"
-#include "knot_utm/rod/invalid_input.hpp"
+#include "knot_utm/machine/program_runner.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/program.hpp"
 #include "knot_utm/rod/material.hpp"
 #include "knot_utm/sim/options.hpp"
 #include "knot_utm/specimen/options.hpp"
@@ -53,7 +53,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
 std::string method_yaml(const Method& method);
 
 /// Its program, for a physics whose longest step is `longest_step` [s].
-TestProgram make_program(const Method& method, double longest_step);
+ProgramRunner make_program(const Method& method, double longest_step);
 
 /// The checks of values that must go together, as `load_method` makes them. Throws InvalidInput.
 void check_method(const Method& method);

@@ -4,11 +4,11 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/analysis/margin.hpp"
 #include "knot_utm/io/report_options.hpp"
 #include "knot_utm/machine/accuracy.hpp"
-#include "knot_utm/machine/margin.hpp"
 #include "knot_utm/machine/options.hpp"
-#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 

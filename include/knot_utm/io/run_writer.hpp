@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/analysis/loop_turn.hpp"
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/io/csv.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/record.hpp"
 #include "knot_utm/io/run_facts.hpp"
-#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/topology/loop_turn.hpp"
 
 namespace knot_utm {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {

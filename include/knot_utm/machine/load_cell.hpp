@@ -4,7 +4,7 @@
 #include <random>
 
 #include "knot_utm/machine/options.hpp"
-#include "knot_utm/rod/archive.hpp"
+#include "knot_utm/numeric/archive.hpp"
 
 namespace knot_utm {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "knot_utm/machine/sample.hpp"
-#include "knot_utm/machine/test_program.hpp"
+#include "knot_utm/machine/program_runner.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 
@@ -10,7 +10,7 @@ namespace knot_utm {
 /// where bench and program can be saved and go on, `interrupted()` may end it before the test has ended.
 /// A Bench has `Sample respond(const Command&)`.
 template <class Bench, class Observer, class Interrupted>
-void run_test(Bench& bench, TestProgram& program, Observer observe, Interrupted interrupted) {
+void run_test(Bench& bench, ProgramRunner& program, Observer observe, Interrupted interrupted) {
   Command command = program.last();
   while (!program.ended() && !interrupted()) {
     const Sample sample = bench.respond(command);
@@ -19,7 +19,7 @@ void run_test(Bench& bench, TestProgram& program, Observer observe, Interrupted 
   }
 }
 template <class Bench, class Observer>
-void run_test(Bench& bench, TestProgram& program, Observer observe) {
+void run_test(Bench& bench, ProgramRunner& program, Observer observe) {
   run_test(bench, program, observe, [] { return false; });
 }
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "knot_utm/rod/archive.hpp"
+#include "knot_utm/numeric/archive.hpp"
 
 namespace knot_utm {
 

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 
-#include "knot_utm/rod/archive.hpp"
+#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/rod/material.hpp"
 
 namespace knot_utm {

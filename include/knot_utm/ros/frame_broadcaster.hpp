@@ -4,7 +4,7 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 #include <tf2_ros/transform_broadcaster.h>
 
-#include "knot_utm/ros/test_frames.hpp"
+#include "knot_utm/ros/machine_frames.hpp"
 
 namespace knot_utm {
 
@@ -17,7 +17,7 @@ class FrameBroadcaster {
   void publish(const ros::Time& stamp, double displacement, const Vec3& upper_grip, const Looks* looks);
 
  private:
-  TestFrames frames_;
+  MachineFrames frames_;
   ros::Time published_;
   tf2_ros::TransformBroadcaster moving_;
   tf2_ros::StaticTransformBroadcaster fixed_;

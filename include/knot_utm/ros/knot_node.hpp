@@ -13,7 +13,7 @@
 
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/io/method.hpp"
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/ros/frame_broadcaster.hpp"
 #include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/shown_state.hpp"
@@ -52,7 +52,7 @@ class KnotNode {
 
   ros::NodeHandle node_;
   Method method_;
-  TestBench bench_;
+  TestingMachine bench_;
   std::uint32_t run_ = 0;                           ///< the test being answered; 0: none
   std::uint64_t next_ = 0;                          ///< sequence of the command that comes next
   std::deque<boost::shared_ptr<KnotRecord>> kept_;  ///< the last answers, in order

@@ -17,9 +17,9 @@
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/keeper.hpp"
+#include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
-#include "knot_utm/ros/test_bag.hpp"
-#include "knot_utm/ros/test_setup.hpp"
+#include "knot_utm/ros/run_bag.hpp"
 
 namespace knot_utm {
 
@@ -32,7 +32,7 @@ namespace knot_utm {
 /// that test, as the machine and the physics hold what is not acknowledged; the files are those of one recorder.
 class RecorderNode {
  public:
-  RecorderNode(const ros::NodeHandle& node, TestSetup setup, Keeper& keeper);
+  RecorderNode(const ros::NodeHandle& node, MethodSetup setup, Keeper& keeper);
 
   /// Runs until ROS is shut down; a test that has not ended then, or whose machine died, is closed with the reason.
   /// Returns the exit code: 1 where something could not be written.
@@ -47,7 +47,7 @@ class RecorderNode {
     std::string folder;
     JournalWriter journal;
     RunWriter writer;
-    TestBag bag;
+    RunBag bag;
     std::uint64_t next = 0;      ///< sequence of the record that comes next
     std::uint64_t recorded = 0;  ///< records written
     std::uint64_t dropped = 0;
@@ -86,7 +86,7 @@ class RecorderNode {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle node_;
-  TestSetup setup_;
+  MethodSetup setup_;
   Keeper& keeper_;
   std::uint32_t run_number_ = 0;
   std::string test_id_;                 ///< of the test being written, as no other test has it; empty: not known

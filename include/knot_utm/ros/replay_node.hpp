@@ -11,8 +11,8 @@
 #include <string>
 
 #include "knot_utm/io/method.hpp"
-#include "knot_utm/machine/sample.hpp"
-#include "knot_utm/machine/test_bench.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/frame_broadcaster.hpp"
 #include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/shown_state.hpp"
@@ -61,7 +61,7 @@ class ReplayNode {
   std::map<std::string, std::string> names_;  ///< of its topics, what we call them
   std::unique_ptr<rosbag::View> view_;
   rosbag::View::iterator next_;
-  TestBench bench_;  ///< as it stands before the test
+  TestingMachine bench_;  ///< as it stands before the test
   FrameBroadcaster frames_;
   ScenePicture picture_;
   Views views_;

@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-#include "knot_utm/machine/test_program.hpp"
+#include "knot_utm/machine/program_runner.hpp"
 
 namespace knot_utm {
 

@@ -5,7 +5,7 @@
 #include <chrono>
 #include <string>
 
-#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {

@@ -18,7 +18,7 @@
 #include <vector>
 
 #include "knot_utm/io/method.hpp"
-#include "knot_utm/machine/test_program.hpp"
+#include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/run_test_server.hpp"
@@ -89,8 +89,8 @@ class UtmNode {
   ros::NodeHandle node_;
   Method method_;
   UtmOptions options_;
-  double longest_step_ = 0.0;           ///< [s]; 0: no specimen yet
-  std::optional<TestProgram> program_;  ///< of this test
+  double longest_step_ = 0.0;             ///< [s]; 0: no specimen yet
+  std::optional<ProgramRunner> program_;  ///< of this test
   State state_ = State::kIdle;
   std::uint32_t run_ = 0;
   double run_start_ = 0.0;            ///< on /clock [s]

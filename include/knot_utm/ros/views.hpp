@@ -1,7 +1,7 @@
 #pragma once
 
 #include "knot_utm/machine/options.hpp"
-#include "knot_utm/machine/sample.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/knot_places.hpp"
 
 namespace knot_utm {

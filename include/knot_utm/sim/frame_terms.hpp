@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "knot_utm/contact/surface_contact.hpp"
+#include "knot_utm/numeric/block.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stencil.hpp"
 #include "knot_utm/rod/twisting.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
-#include "knot_utm/solver/block.hpp"
 
 namespace knot_utm {
 

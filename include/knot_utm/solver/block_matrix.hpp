@@ -3,7 +3,7 @@
 #include <utility>
 #include <vector>
 
-#include "knot_utm/solver/block.hpp"
+#include "knot_utm/numeric/block.hpp"
 #include "knot_utm/solver/elimination_sets.hpp"
 #include "knot_utm/solver/neighbours.hpp"
 #include "knot_utm/solver/sorting_set.hpp"

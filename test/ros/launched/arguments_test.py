@@ -71,7 +71,7 @@ class ArgumentsTest(unittest.TestCase):
         # A master outlives a launch: what the one before has left there must not be taken for this one's.
         said = subprocess.run(['roslaunch', '--dump-params', 'knot_utm', 'tighten.launch'], stdout=subprocess.PIPE,
                               universal_newlines=True, check=True).stdout
-        with open(os.path.join(ROOT, 'src/ros/test_setup.cpp'), encoding='utf-8') as code:
+        with open(os.path.join(ROOT, 'src/ros/method_setup.cpp'), encoding='utf-8') as code:
             read = set(re.findall(r'"(test/\w+)"', code.read()))
         self.assertIn('test/data', read)
         for name in read:

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+namespace knot_utm {
+
+/// How a test ended. The names written to result.yaml are those of `ended_by_name`.
+enum class EndedBy {
+  kNotYet,
+  kBreak,      ///< the rod parted, or the load fell as it does in a break
+  kExtension,  ///< the last step, a pull or a return, reached its extension
+  kLoad,       ///< the last step reached its load, or the load its limit
+  kTravel,     ///< the crosshead reached the end of its way
+  kOperator,   ///< stopped
+  kSolver,     ///< the physics gave up, or did not come to rest where it had to
+  kProgram,    ///< the last step's time, cycles or record were over
+  kTime,       ///< the time limit of the test
+  kUntangled   ///< the knot came undone before it was pulled
+};
+
+const char* ended_by_name(EndedBy end);  ///< "not yet", "break", "extension", "load", "travel", ...
+std::optional<EndedBy> ended_by_named(const std::string& name);  ///< the other way; nothing for a name that is none
+
+}  // namespace knot_utm

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <geometry_msgs/TransformStamped.h>
+#include <ros/time.h>
+
+#include <vector>
+
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/ros/views.hpp"
+
+namespace knot_utm {
+
+using Transforms = std::vector<geometry_msgs::TransformStamped>;
+
+/// The frames of a test: world -> utm_base -> lower_grip, and utm_base -> crosshead -> upper_grip -> load_cell; for
+/// rviz, below utm_base, those of what is looked at and from where. All have the axes of `world`.
+class MachineFrames {
+ public:
+  /// `end_to_end`: between the grips as the test begins [m].
+  MachineFrames(const Vec3& lower_grip, double end_to_end) : lower_grip_(lower_grip), end_to_end_(end_to_end) {}
+
+  Transforms fixed(const ros::Time& stamp) const;
+
+  /// The crosshead stands `end_to_end` above the lower grip plus its displacement [m].
+  Transforms moving(const ros::Time& stamp, double displacement, const Vec3& upper_grip) const;
+
+  static Transforms of_looks(const ros::Time& stamp, const Looks& looks);
+
+ private:
+  Vec3 lower_grip_;    ///< [m]
+  double end_to_end_;  ///< [m]
+};
+
+}  // namespace knot_utm

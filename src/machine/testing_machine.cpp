@@ -1,0 +1,507 @@
+#include "knot_utm/machine/testing_machine.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "knot_utm/machine/accuracy.hpp"
+#include "knot_utm/machine/fracture.hpp"
+#include "knot_utm/machine/frame.hpp"
+#include "knot_utm/machine/grips.hpp"
+#include "knot_utm/machine/knot_touch.hpp"
+#include "knot_utm/machine/load_cell.hpp"
+#include "knot_utm/machine/specimen_centreline.hpp"
+#include "knot_utm/machine/step_settings.hpp"
+#include "knot_utm/machine/take_up.hpp"
+#include "knot_utm/rod/frames.hpp"
+#include "knot_utm/sim/saved_step.hpp"
+#include "knot_utm/sim/step_control.hpp"
+#include "knot_utm/sim/time_step.hpp"
+#include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/knot_watch.hpp"
+#include "knot_utm/specimen/scales.hpp"
+#include "knot_utm/specimen/tying_rig.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr double kGripStretch = 2.4;  // of a tail's grip when it slips [h]
+constexpr double kTautLoad = 0.03;    // of a loop whose slack is taken up [k_b/h^2]
+
+constexpr double kShortestStep = 0.01;  // below it the run gives up, where that is less than usual [bending time]
+
+// A shape that is pulled as it was drawn settles first, under a drag that fades as that of the tying rig does.
+constexpr double kSettlingTime = 1.0;   // [s]
+constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
+
+constexpr double kNearBreak = 1e-3;      // steps are no shorter for a break that is near [longest step]
+constexpr double kRecoilTransits = 1.0;  // of the specimen, that the ends of a parted rod are followed for
+
+}  // namespace
+
+struct TestingMachine::Impl {
+  SpecimenOptions specimen;
+  Material material;  // its density is that of the mass that is accelerated
+  MachineOptions machine;
+  PhysicsOptions physics;
+  Centreline centreline;
+  Grips grips;
+  Frame frame;
+  std::unique_ptr<TimeStep> stepper;
+  StepControl control{StepControl::Options{}};
+  LoadCell cell;
+  std::optional<TyingRig> rig;
+  std::optional<KnotWatch> watch;  // of anything that is knotted
+  std::optional<KnotTouch> touch;  // of two knots
+  Boundary boundary;
+
+  double time = 0.0;
+  double displacement = 0.0;  // of the crosshead [m]
+  double grip = 0.0;          // of the upper grip, the same on a rigid frame [m]
+  double grip_tried = 0.0;    // in the step that is being made
+  double extension_zero = 0.0, raw_extension_zero = 0.0;
+  double exposure = 0.0;    // share of the way to a break
+  double recoil_end = 0.0;  // of a rod that has just parted [s]
+  BreakPlace break_place = BreakPlace::kNone;
+  TakeUp take_up;
+  double travel_tried = 0.0;  // of the crosshead, in the step that is being made [m]
+  int step_index = -1;
+  Phase phase = Phase::kIdle;
+  Vec3 gravity;            // on the mass that is accelerated [m/s^2]
+  bool has_weight = true;  // what is tied has none until it is mounted
+  bool pulled = false;     // a step of the program has pulled it
+  StepWork work;           // of all accepted steps
+  std::vector<Sample> substeps;
+  BenchStatus status = BenchStatus::kRunning;
+  std::string message;
+  std::string failed_step;
+
+  Impl(const SpecimenOptions& specimen_, const Material& material_, const MachineOptions& machine_,
+       const PhysicsOptions& physics_)
+      : specimen(specimen_),
+        material(as_it_moves(material_, physics_)),
+        machine(machine_),
+        physics(physics_),
+        centreline(specimen_centreline(specimen_, material_, machine_, physics_)),
+        grips(specimen_, machine_, centreline, material),
+        frame(machine_.stiffness, material, knot_of(specimen_).loop() ? 2 : 1, grips.length_around(material_.radius)),
+        cell(machine_.load_cell) {
+    const Eigen::Index nodes = centreline.points.cols();
+    Eigen::VectorXd rest(nodes - 1);
+    for (Eigen::Index i = 0; i + 1 < nodes; ++i)
+      rest[i] = (centreline.points.col(i + 1) - centreline.points.col(i)).norm();
+    RodState state;
+    state.position = centreline.points;
+    state.velocity = Points::Zero(3, nodes);
+    RodProperties rod = make_rod(material, rest);
+    if (specimen.to_be_tied && material.bending_set > 0.0) rod.natural_curvature.setZero(2, nodes - 2);
+    if (solves_for_twist(rod)) initialise_frames(&state);
+    const StepSettings settings = step_settings(specimen, material_, machine, physics);
+    gravity = settings.gravity;
+    stepper = TimeStep::make(rod, state, settings);
+    const double bending_time = specimen_scales(material).own_time;
+    StepControl::Options options;
+    options.longest = options.first = tolerances(physics, specimen, material).longest_step;
+    // A drawn shape springs apart at once.
+    if (!knot_of(specimen).straight()) options.first = std::min(bending_time, options.longest);
+    options.motion = 0.6 * material.radius;
+    options.slip = 0.4 * material.radius;
+    options.shortest = std::min(options.shortest, kShortestStep * bending_time);
+    control = StepControl(options);
+    if (!centreline.knots.empty()) {
+      TyingRig::Options tying;
+      tying.preload = tying_load(specimen, material);
+      tying.rest_speed = std::max(specimen_scales(material).rest_speed, settings.friction.creep_speed());
+      tying.grip_stiffness = tying.preload / (kGripStretch * material.radius);
+      rig.emplace(centreline, rod, tying);
+      touch.emplace(rig->standing_nodes(), material.radius);
+    }
+    if (!knot_of(specimen).straight()) {
+      watch.emplace(rig ? rig->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
+                    centreline.points);
+    }
+    take_up = TakeUp(kTautLoad * specimen_scales(material).force, material.radius);
+    extension_zero = grips.end_to_end(grip);
+    has_weight = !specimen.to_be_tied;
+    apply_gravity();
+  }
+
+  void apply_gravity() { stepper->set_gravity(has_weight ? gravity : Vec3::Zero()); }
+
+  /// `auto`: where frames are held at two places, or the rod at rest is curved or twisted. A rod whose ends are free
+  /// to turn has no twist where friction acts on its centreline; nor has one that stays straight.
+  bool solves_for_twist(const RodProperties& rod) const {
+    switch (physics.twist) {
+      case TwistMode::kOn:
+        return true;
+      case TwistMode::kOff:
+        return false;
+      case TwistMode::kAuto:
+        break;
+    }
+    return rod.natural_curvature.cols() > 0 || rod.natural_twist.size() > 0 ||
+           ((grips.hold_frames() || friction_rolls(material, machine, physics)) && !knot_of(specimen).straight());
+  }
+
+  const Boundary& boundary_at(const Command& command, double from, double to, double start_time,
+                              double start_displacement) {
+    const double whole = command.time - start_time;
+    // A recoil may go on behind the command; the crosshead does not.
+    const double share = whole > 0.0 ? std::min(1.0, (to - start_time) / whole) : 1.0;
+    const double travel = mounts() ? displacement + mounting_speed(command) * (to - from)
+                                   : start_displacement + share * (command.displacement - start_displacement);
+    travel_tried = travel;
+    // Of what was last accepted alone: a step that is tried again at another length begins from the same.
+    grip_tried = frame.rigid()
+                     ? travel
+                     : frame.grip_after(grip, travel, grips.force_upper(*stepper), held_length(from, to), to - from);
+    grips.set(grip_tried, rig ? rig->left_to_put_on(to) : 0.0, boundary);
+    if (rig && rig->off_rollers()) {
+      boundary.rollers.clear();
+      boundary.holds.clear();
+    }
+    if (rig)
+      for (Roller& roller : boundary.rollers) {
+        roller.first_node = rig->loop_begin();
+        roller.last_node = rig->loop_end();
+      }
+    grips.turn_rollers(to, boundary.rollers);
+    boundary.forces.clear();
+    boundary.grips.clear();
+    boundary.extra_drag = drag_of_settling(to);
+    if (rig && rig->stage() != TyingRig::Stage::kIdle) rig->hold(boundary, from, to);
+    return boundary;
+  }
+
+  /// Of the strands below the upper grip, as far as the lower one or the rig's clamps, as mounted [m].
+  double held_length(double from, double to) const {
+    double length = grips.end_to_end(0.0);
+    // Off the rollers nothing bears on the grip.
+    if (!rig || rig->stage() == TyingRig::Stage::kIdle || rig->off_rollers()) return length;
+    Boundary held;
+    rig->hold(held, from, to);
+    for (const FixedNode& node : held.fixed_nodes) length = std::min(length, grips.upper(0.0)[2] - node.position[2]);
+    return length;
+  }
+
+  /// A drawn shape's stored energy is an artefact of the drawing, and would throw it about. A straight rod has none;
+  /// what the rig ties settles there.
+  double drag_of_settling(double at_time) const {
+    if (knot_of(specimen).straight() || specimen.to_be_tied || at_time >= kSettlingTime) return 0.0;
+    const double left = 1.0 - at_time / kSettlingTime;
+    return settling_drag(material, kSettlingWave * material.radius, kSettlingTime) * left * left;
+  }
+
+  /// `auto`: what brings it to rest. In the forces of a loop and of a straight rod it stays far below a thousandth. A
+  /// loose knot between clamps pulls with no more than the drag on its length: there is none from the first pull on.
+  double drag() const {
+    const bool drawn_knot = !knot_of(specimen).straight() && !knot_of(specimen).loop();
+    return physics.drag.value_or(pulled && drawn_knot ? 0.0 : drag_to_rest(material));
+  }
+
+  void enter_step(const Command& command) {
+    step_index = command.step;
+    phase = command.phase;
+    pulled |= pulls(phase) || phase == Phase::kPreload || phase == Phase::kReturn;
+    if (pulled) grips.turn_rollers_from(time);
+    status = BenchStatus::kRunning;
+    has_weight |= phase != Phase::kTie && phase != Phase::kRelease && phase != Phase::kHold;
+    apply_gravity();
+    if (!rig) return;
+    if (phase == Phase::kTie) rig->tie(command.speed, time, stepper->state().position);
+    if (rig->tied() && material.bending_set > 0.0) stepper->take_set(material.bending_set);
+    if (phase == Phase::kRelease) {
+      rig->release(command.duration, time);
+    } else if (rig->tied()) {
+      rig->let_go(*stepper, time);
+    } else if (rig->released() && phase != Phase::kHold) {
+      put_on();
+    } else if (rig->guides() && phase != Phase::kMount) {
+      let_loop_go();
+    }
+    if (phase == Phase::kMount) take_up.begin(load_on_both(), displacement, knot_distance());
+  }
+
+  void put_on() {
+    rig->put_on(*stepper, time);
+    grips.put_on(stepper->state().position.middleCols(rig->loop_begin(), rig->loop_end() - rig->loop_begin() + 1), grip,
+                 material.radius);
+  }
+
+  /// Guides off: the loop is on the rollers alone.
+  void let_loop_go() { rig->take_guides_off(*stepper, time); }
+
+  /// The crosshead takes up the slack by itself, no faster than it is told.
+  bool mounts() const { return rig && phase == Phase::kMount; }
+
+  /// It stands while the loop is put on [m/s].
+  double mounting_speed(const Command& command) const {
+    return rig->guides() ? command.speed * take_up.velocity() : 0.0;
+  }
+
+  double load_on_both() const { return std::min(grips.force_upper(*stepper), grips.force_lower(*stepper)); }
+
+  void follow_tying(double to, double dt) {
+    const bool put_on = rig->puts_on();
+    rig->follow(*stepper, to, dt);
+    // From here on weight, if there is any, would carry the slack loop round.
+    if (put_on && rig->guides()) grips.hold_far_side(stepper->state().position, grip);
+    if (!mounts() || !rig->guides()) return;
+    if (put_on)
+      take_up.begin(load_on_both(), displacement, knot_distance());
+    else
+      take_up.follow(load_on_both(), displacement, knot_distance());
+  }
+
+  double knot_distance() const {
+    const RodProperties& rod = stepper->rod();
+    const RodState& state = stepper->state();
+    return (rig->knot_middle(0, rod, state) - rig->knot_middle(1, rod, state)).norm();
+  }
+
+  bool parted() const { return stepper->parted_edge() >= 0; }
+
+  /// After an accepted step: does the rod part? The next step ends where at this pace it will.
+  void watch_for_break(double dt) {
+    if (!can_part(material) || parted()) return;
+    const Exposure now = most_exposed(stepper->rod(), stepper->state());
+    if (now.share >= 1.0) {
+      part(now);
+    } else if (now.share > exposure) {
+      const double left = (1.0 - now.share) / (now.share - exposure) * dt;
+      control.at_most(std::max(left, kNearBreak * tolerances(physics, specimen, material).longest_step));
+    }
+    exposure = now.share;
+  }
+
+  void part(const Exposure& reached) {
+    const int edge = reached.edge;
+    const Points& position = stepper->state().position;
+    break_place = lies_in_knot(stepper->rod(), position, edge)      ? BreakPlace::kKnot
+                  : grips.hold(grip, middle(edge), material.radius) ? BreakPlace::kGrip
+                                                                    : BreakPlace::kStrand;
+    std::ostringstream text;
+    text << "the rod parted " << break_arclength(edge) << " m along its length (" << break_place_name(break_place)
+         << (reached.limit == BreakLimit::kForce ? ") at a tension of " : ") at a strain of its outermost fibre of ")
+         << reached.value << (reached.limit == BreakLimit::kForce ? " N" : "");
+    status = BenchStatus::kBroken;
+    message = text.str();
+    stepper->part(edge);
+    recoil_end = time + kRecoilTransits * transit_time(material, grips.end_to_end(grip));
+    control.at_most(transit_time(material, stepper->rod().rest_length[edge]));
+    control.halt();
+  }
+
+  Vec3 middle(int edge) const {
+    const Points& position = stepper->state().position;
+    return 0.5 * (position.col(edge) + position.col(edge + 1));
+  }
+
+  double break_arclength(int edge) const {
+    const RodProperties& rod = stepper->rod();
+    return rod.rest_length.head(edge).sum() + 0.5 * rod.rest_length[edge];
+  }
+
+  void judge_phase() {
+    if (parted()) return;
+    bool done = false;
+    switch (phase) {
+      case Phase::kTie:
+        done = !rig || rig->tied();
+        break;
+      case Phase::kRelease:
+        done = !rig || rig->released();
+        break;
+      case Phase::kMount:
+        done = !rig || (rig->guides() && take_up.done());
+        break;
+      default:
+        break;
+    }
+    if (rig && !rig->not_tied().empty()) {
+      status = BenchStatus::kFailed;
+      message = rig->not_tied();
+    } else if (done) {
+      status = BenchStatus::kPhaseDone;
+      if (phase == Phase::kMount || !rig || rig->not_equilibrated().empty()) return;
+      status = BenchStatus::kNotEquilibrated;
+      message = rig->not_equilibrated();
+    }
+  }
+
+  Sample read(const Command& command, double at_time) const {
+    Sample s;
+    s.sequence = command.sequence;
+    s.time = at_time;
+    s.phase = phase;
+    s.displacement = displacement;
+    s.end_to_end = grips.end_to_end(grip);
+    s.extension = s.end_to_end - extension_zero;
+    if (!frame.rigid()) s.raw_extension = displacement - raw_extension_zero;
+    s.force_upper = grips.force_upper(*stepper);
+    s.force_lower = grips.force_lower(*stepper);
+    s.load = s.highest_load = s.lowest_load = cell.balanced(s.force_upper);
+    s.balance_offset = cell.offset();
+    if (rig) {
+      for (int k = 0; k < 2; ++k) {
+        s.tail_force[k] = rig->tail_force(k);
+        s.excess_length[k] = rig->excess_length(k, stepper->state());
+      }
+      s.knot_distance = knot_distance();
+      s.knots_force = touch->between_knots();
+      s.knot_on_roller = touch->on_rollers();
+    }
+    const ContactReading contact = stepper->contact_reading();
+    s.max_penetration = contact.largest_overlap / material.radius;
+    s.normal_force = contact.normal_force;
+    s.contacts = contact.touching;
+    s.fastest_node = std::sqrt(stepper->state().velocity.colwise().squaredNorm().maxCoeff());
+    const Energies energies = stepper->energies();
+    s.stretching_energy = energies.stretching;
+    s.bending_energy = energies.bending;
+    s.twisting_energy = energies.twisting;
+    s.contact_energy = energies.contact;
+    s.kinetic_energy = energies.kinetic;
+    s.grip_work = work.boundary;
+    s.dissipation = work.friction + work.drag;
+    s.friction_loss = work.friction;
+    s.numerical_dissipation = work.numerical;
+    s.reweighting_loss = work.reweighting;
+    s.moment_imbalance = stepper->loads().moment.norm();
+    s.steps = control.counters().steps;
+    s.rejected_steps = control.counters().rejected;
+    s.newton_iterations = control.counters().iterations;
+    if (watch) s.knot_type = watch->type();
+    if (parted()) s.break_arclength = break_arclength(stepper->parted_edge());
+    s.break_place = break_place;
+    s.status = status;
+    s.message = message;
+    return s;
+  }
+
+  void state(Archive& archive) {
+    archive.section("BNCK");  // "BNCJ" mounted as far as its commands went
+    int parted_edge = stepper->parted_edge();
+    archive.number("parted edge", parted_edge, -1, static_cast<int>(stepper->rod().edges()) - 1);
+    if (archive.loads() && parted_edge >= 0) stepper->part(parted_edge);
+    archive.choice("place of the break", break_place, BreakPlace::kGrip);
+    archive(exposure);
+    archive(time, displacement, grip, extension_zero, raw_extension_zero, take_up, step_index, has_weight, work,
+            message);
+    archive.choice("phase", phase, Phase::kDone);
+    archive(pulled);
+    archive.choice("status", status, BenchStatus::kFailed);
+    archive.require(parted() == (status == BenchStatus::kBroken), "status of a rod that parted",
+                    break_place_name(break_place));
+    archive(control, cell, *stepper, grips);
+    bool ties = rig.has_value(), watches = watch.has_value();
+    archive.same("tying rig", ties ? 1 : 0);
+    archive.same("knot", watches ? 1 : 0);
+    if (ties) archive(*rig, *touch);
+    if (watches) archive(*watch);
+    if (!archive.loads()) return;
+    substeps.clear();
+    apply_gravity();
+  }
+
+  /// When and where the crosshead was.
+  struct Start {
+    double time, displacement;
+  };
+
+  /// Steps on from `start` towards the command, as far as `end` [s]. Empty, or why it gave up.
+  std::string advance(const Command& command, const Start& start, double end) {
+    const double speed =
+        command.time > start.time ? (command.displacement - start.displacement) / (command.time - start.time) : 0.0;
+    return control.advance(
+        *stepper, time, end,
+        [&](double from, double to) -> const Boundary& {
+          return boundary_at(command, from, to, start.time, start.displacement);
+        },
+        [&](double to, double dt, const StepSummary&) {
+          displacement = mounts()            ? travel_tried
+                         : to < command.time ? start.displacement + speed * (to - start.time)
+                                             : command.displacement;
+          grip = frame.rigid() ? displacement : grip_tried;
+          work += stepper->work();
+          if (rig) follow_tying(to, dt);
+          if (touch) touch->follow(*stepper);
+          watch_for_break(dt);
+          substeps.push_back(read(command, to));
+        });
+  }
+
+  Sample respond(const Command& command) {
+    substeps.clear();
+    if (status == BenchStatus::kFailed || status == BenchStatus::kBroken) {
+      substeps.push_back(read(command, time));
+      return substeps.back();
+    }
+    if (command.step != step_index) enter_step(command);
+    stepper->set_drag(drag());
+    if (command.balance) {
+      cell.balance(grips.force_upper(*stepper), time);
+      extension_zero = grips.end_to_end(grip);
+      raw_extension_zero = displacement;
+    }
+    std::string gave_up = advance(command, {time, displacement}, command.time);
+    if (parted()) {
+      gave_up = advance(command, {time, displacement}, recoil_end);
+      if (!gave_up.empty()) message += "; the recoil of the broken ends could not be simulated to its end";
+    } else if (!gave_up.empty()) {
+      status = BenchStatus::kFailed;
+      message = gave_up;
+      failed_step = save_step(*stepper, boundary, time, control.last_tried());
+    } else {
+      if (!mounts()) displacement = command.displacement;
+      if (frame.rigid()) grip = displacement;
+      // What the knots and the load do while they are let go is not the slack's.
+      if (rig && rig->released() && phase != Phase::kRelease && phase != Phase::kHold) put_on();
+      if (rig && rig->guides() && phase != Phase::kMount) let_loop_go();
+      judge_phase();
+    }
+    if (watch && !parted()) watch->follow(stepper->state().position);
+    Sample last = read(command, time);
+    if (command.read_cell && status != BenchStatus::kFailed) last.load = cell.read(last.force_upper, time);
+    for (const Sample& step : substeps) {
+      last.highest_load = std::max(last.highest_load, step.highest_load);
+      last.lowest_load = std::min(last.lowest_load, step.lowest_load);
+    }
+    if (substeps.empty())
+      substeps.push_back(last);
+    else
+      substeps.back() = last;
+    return last;
+  }
+};
+
+TestingMachine::TestingMachine(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
+                               const PhysicsOptions& physics)
+    : impl_(std::make_unique<Impl>(specimen, material, machine, physics)) {}
+TestingMachine::~TestingMachine() = default;
+TestingMachine::TestingMachine(TestingMachine&&) noexcept = default;
+TestingMachine& TestingMachine::operator=(TestingMachine&&) noexcept = default;
+
+Sample TestingMachine::respond(const Command& command) { return impl_->respond(command); }
+const std::vector<Sample>& TestingMachine::substeps() const { return impl_->substeps; }
+const std::string& TestingMachine::failed_step() const { return impl_->failed_step; }
+const RodProperties& TestingMachine::rod() const { return impl_->stepper->rod(); }
+const RodState& TestingMachine::state() const { return impl_->stepper->state(); }
+Vec3 TestingMachine::lower_grip() const { return impl_->grips.lower(); }
+Vec3 TestingMachine::upper_grip() const { return impl_->grips.upper(impl_->grip); }
+double TestingMachine::time() const { return impl_->time; }
+double TestingMachine::longest_step() const {
+  return tolerances(impl_->physics, impl_->specimen, impl_->material).longest_step;
+}
+Eigen::VectorXd TestingMachine::tension() const { return impl_->stepper->tension(); }
+std::vector<ContactForce> TestingMachine::contact_forces() const {
+  // A step that could not be made leaves contacts that no accepted step has, of a recoil too.
+  const bool over = impl_->status == BenchStatus::kFailed || impl_->status == BenchStatus::kBroken;
+  return over ? std::vector<ContactForce>() : impl_->stepper->contact_forces();
+}
+void TestingMachine::state(Archive& archive) { impl_->state(archive); }
+
+}  // namespace knot_utm

@@ -1,0 +1,148 @@
+#include "knot_utm/ros/method_setup.hpp"
+
+#include <ros/console.h>
+#include <ros/init.h>
+#include <ros/master.h>
+#include <ros/names.h>
+#include <ros/this_node.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include "knot_utm/io/run_facts.hpp"
+#include "knot_utm/io/shipped.hpp"
+#include "knot_utm/ros/loopback.hpp"
+#include "knot_utm/ros/names.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Set by hand, a text that looks like a number is one.
+std::string text_parameter(const ros::NodeHandle& node, const std::string& name) {
+  XmlRpc::XmlRpcValue value;
+  if (!node.getParam(name, value)) return "";
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeString) return static_cast<std::string>(value);
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeInt) return std::to_string(static_cast<int>(value));
+  if (value.getType() == XmlRpc::XmlRpcValue::TypeDouble) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", static_cast<double>(value));
+    return text;
+  }
+  throw InvalidInput(node.resolveName(name), "a list or a map", "a text or a number");
+}
+
+/// The launch file knows the package's own methods, wherever the package is installed.
+std::string method_file(const ros::NodeHandle& node, const fs::path& base) {
+  const std::string method = text_parameter(node, "test/method");
+  if (method.empty())
+    throw InvalidInput::missing("method", "a method file, method:=FILE, or the name of a shipped method");
+  const std::string file = find_method(method, base.string(), {text_parameter(node, "test/shipped_methods")});
+  return fs::path(file).lexically_normal().string();
+}
+
+/// The override by which a program follows a record instead of its last pull.
+std::string following(const std::string& data, const Program& program) {
+  const auto pull = std::find_if(program.rbegin(), program.rend(),
+                                 [](const ProgramStep& step) { return step.phase == Phase::kPull; });
+  if (pull == program.rend())
+    throw InvalidInput::sentence(
+        "data", data,
+        "the method cannot follow " + shown(data) + ": no step of its program is a pull, which it would replace");
+  std::string quoted;
+  for (const char c : data) quoted += c == '\'' ? "''" : std::string(1, c);
+  return "program." + std::to_string(program.rend() - pull - 1) + "={follow: {record: '" + quoted + "'}}";
+}
+
+bool another_says_it(const ros::NodeHandle& node) {
+  return ros::this_node::getName() != node.resolveName(names::kUtmNode) &&
+         node.hasParam(std::string(names::kExitCodes) + "/" + names::kUtmNode);
+}
+
+MethodSetup read_parameters(const ros::NodeHandle& node) {
+  fs::path base = text_parameter(node, "test/working_directory");
+  if (base.empty()) base = fs::current_path();
+
+  std::vector<std::string> overrides;
+  const std::string material = text_parameter(node, "test/material");
+  const std::string preload = text_parameter(node, "test/preload");
+  if (!material.empty()) overrides.push_back("material=" + material);
+  if (!preload.empty()) overrides.push_back("specimen.preload=" + preload);
+  std::vector<std::string> more;
+  read_parameter(node, "test/overrides", &more, "a list of texts");
+  overrides.insert(overrides.end(), more.begin(), more.end());
+
+  MethodSetup setup;
+  const std::string file = method_file(node, base);
+  setup.method = load_method(file, overrides);
+  const std::string data = text_parameter(node, "test/data");
+  if (!data.empty()) {
+    setup.data = (base / data).lexically_normal().string();
+    overrides.push_back(following(setup.data, setup.method.program));
+    setup.method = load_method(file, overrides);
+  }
+  // The folder's name below out/.
+  if (setup.method.name == "." || setup.method.name == "..") {
+    throw InvalidInput::sentence("method", file,
+                                 "the method file cannot be called \"" + shown(file) +
+                                     "\": its name without its ending is that of the folder to write to");
+  }
+  const std::string out = text_parameter(node, "test/out");
+  setup.out = (base / (out.empty() ? fs::path("out") / setup.method.name : fs::path(out))).lexically_normal().string();
+  return setup;
+}
+
+}  // namespace
+
+MethodSetup read_test_setup(const ros::NodeHandle& node) {
+  try {
+    return read_parameters(node);
+  } catch (const InvalidInput& invalid) {
+    if (another_says_it(node)) throw SaidByAnother(invalid);
+    throw;
+  }
+}
+
+ros::NodeHandle join_ros(int argc, char** argv, const char* name) {
+  prefer_loopback();
+  ros::init(argc, argv, name);
+  ros::start();  // so that it goes on until `leave_ros`, and not until the last handle is gone
+  const ros::NodeHandle node;
+  bool network = false;
+  read_parameter(node, "test/network", &network, "true or false");
+  if (!network) {
+    require_loopback();
+  } else if (name == std::string(names::kUtmNode)) {  // one of all that say it
+    ROS_WARN("network:=true: ROS 1 has no authentication, so anyone who reaches this machine can command the test");
+  }
+  return node;
+}
+
+void leave_ros(const char* name, int code) {
+  if (!ros::isStarted()) return;
+  if (ros::ok()) {
+    // A master that died is not waited for.
+    XmlRpc::XmlRpcValue request, response, payload;
+    request[0] = ros::this_node::getName();
+    request[1] = ros::names::resolve(std::string(names::kExitCodes) + "/" + name);
+    request[2] = code;
+    ros::master::execute("setParam", request, response, payload, false);
+  }
+  ros::shutdown();
+}
+
+bool asks_for_version(int argc, char** argv) {
+  if (argc != 2 || argv[1] != std::string("--version")) return false;
+  std::puts(version().c_str());
+  return true;
+}
+
+int report_failure(const char* name, const char* what, int code) {
+  std::fprintf(stderr, "%s: %s\n", name, what);
+  return code;
+}
+
+}  // namespace knot_utm

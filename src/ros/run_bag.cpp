@@ -1,0 +1,107 @@
+#include "knot_utm/ros/run_bag.hpp"
+
+#include <knot_utm/TestStatus.h>
+#include <std_msgs/String.h>
+#include <tf2_msgs/TFMessage.h>
+
+#include <cmath>
+
+#include "knot_utm/machine/specimen_centreline.hpp"
+#include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/names.hpp"
+
+namespace knot_utm {
+namespace {
+
+/// The bag holds one test, whatever number it had in the life of the node that ran it.
+constexpr std::uint32_t kRun = 1;
+
+constexpr char kTf[] = "tf";
+
+Grips grips_of(const Method& method) {
+  return {method.specimen, method.machine,
+          specimen_centreline(method.specimen, method.material, method.machine, method.physics), method.material};
+}
+
+}  // namespace
+
+RunBag::RunBag(const std::string& file, const Method& method)
+    : bag_(file),
+      method_(method_yaml(method)),
+      radius_(method.material.radius),
+      grips_(grips_of(method)),
+      frames_(grips_.lower(), method.specimen.end_to_end),
+      picture_(method.machine, method.material),
+      views_(method.machine, method.material.radius) {}
+
+void RunBag::add(const Record& record) {
+  const Command& command = record.command;
+  const Sample& sample = record.answer;
+  const ros::Time stamp = test_stamp(0.0, command.time);
+  if (const Sample* reading = cell_reading(record)) add_reading(*reading, stamp);
+  bag_.write(names::kCrosshead, stamp, to_message(command, kRun, stamp));
+  bag_.write(names::kJointStates, stamp, to_joint_state(command, sample, stamp));
+  motion_.add(sample);
+  KnotState state = to_message(sample, kRun, stamp);
+  put_motion(motion_, state);
+  bag_.write(names::kKnotState, stamp, state);
+  if (shape_is_due(command) && record.shape.cols() > 0) {
+    KnotShape message = to_message(record.shape, record.tension, radius_);
+    message.header.stamp = stamp;
+    message.run = kRun;
+    message.sequence = command.sequence;
+    bag_.write(names::kKnotShape, stamp, message);
+    if (!begun_) begin(stamp, record.shape);
+    add_status(record, stamp);
+    add_picture(record, stamp);
+  }
+}
+
+/// `answered`: stamp of the command. A rod parts between two.
+void RunBag::add_reading(const Sample& reading, const ros::Time& answered) {
+  const bool parted = reading.status == BenchStatus::kBroken;
+  if (parted && broken_) return;  // it answers every command with the same
+  broken_ = parted;
+  const ros::Time stamp = parted ? test_stamp(0.0, reading.time) : answered;
+  if (parted) bag_.write(names::kKnotState, stamp, to_message(reading, kRun, stamp));
+  bag_.write(names::kLoadCell, stamp, to_wrench(reading, stamp));
+}
+
+void RunBag::begin(const ros::Time& stamp, const Points& shape) {
+  begun_ = true;
+  picture_.begin(shape);
+  std_msgs::String text;
+  text.data = method_;
+  bag_.write_latched(names::kMethod, stamp, text);
+  bag_.write_latched(names::kColors, stamp, picture_.scale().bar());
+}
+
+void RunBag::add_status(const Record& record, const ros::Time& stamp) {
+  TestStatus status;
+  status.header.stamp = stamp;
+  status.state = TestStatus::RUNNING;
+  status.run = kRun;
+  status.sequence = record.command.sequence;
+  status.phase = phase_name(record.command.phase);
+  status.time = record.command.time;
+  status.progress = status.time_left = status.real_time_factor = std::nan("");
+  bag_.write_latched(names::kTestStatus, stamp, status);
+}
+
+void RunBag::add_picture(const Record& record, const ros::Time& stamp) {
+  const Sample& sample = record.answer;
+  // On a compliant frame the grip goes less far than the crosshead.
+  const Vec3 upper_grip = grips_.upper(sample.end_to_end - grips_.end_to_end(0.0));
+  const Looks looks = views_.look(record.shape, grips_.lower(), upper_grip, sample);
+  tf2_msgs::TFMessage frames;
+  for (const Transforms& some : {frames_.fixed(stamp), frames_.moving(stamp, sample.displacement, upper_grip),
+                                 MachineFrames::of_looks(stamp, looks)})
+    frames.transforms.insert(frames.transforms.end(), some.begin(), some.end());
+  bag_.write(kTf, stamp, frames);
+  const std::vector<ContactForce> none_recorded;
+  const std::string pattern = motion_.lock_extension() ? "locked" : motion_pattern_name(motion_.pattern());
+  const SceneView view{record.shape, record.tension, none_recorded, grips_.lower(), upper_grip, sample, pattern};
+  bag_.write(names::kMarkers, stamp, picture_.draw_small(view, looks.machine.from, stamp));
+}
+
+}  // namespace knot_utm

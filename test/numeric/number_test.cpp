@@ -1,0 +1,36 @@
+#include "knot_utm/numeric/number.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+namespace knot_utm {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+TEST(Number, ShortestTextReadsBackToTheSameBits) {
+  for (const double value : {0.1, 1.0 / 3.0, -2.5e-300, 1e22, 5e-324, 0.0, 123456789.123456789}) {
+    EXPECT_EQ(parse_number(format_number(value)), value);
+    EXPECT_EQ(parse_number(format_yaml_number(value)), value);
+  }
+  EXPECT_EQ(format_number(0.1), "0.1");
+  EXPECT_EQ(format_number(1e-4), "1e-04");
+  EXPECT_EQ(format_yaml_number(1e-4), "1.0e-04");
+  EXPECT_EQ(format_yaml_number(3.5e-7), "3.5e-07");
+}
+
+TEST(Number, WhatIsNoOrdinaryNumber) {
+  EXPECT_EQ(format_number(std::nan("")), "nan");
+  EXPECT_EQ(format_yaml_number(std::nan("")), ".nan");
+  EXPECT_EQ(format_yaml_number(-kInfinity), "-.inf");
+  EXPECT_EQ(parse_number(".inf"), kInfinity);
+  EXPECT_TRUE(std::isnan(parse_number("nan").value()));
+  for (const char* text : {"", "1 N", "0,1", "0x10", "1e", "infinity", "--1", "+-1", "++1", "1.2.3"}) {
+    EXPECT_FALSE(parse_number(text)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,164 @@
+#include "knot_utm/ros/run_bag.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <knot_utm/KnotState.h>
+#include <rosbag/view.h>
+#include <sys/resource.h>
+#include <tf2_msgs/TFMessage.h>
+#include <unistd.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <csignal>
+#include <filesystem>
+#include <set>
+
+#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/ros/journal_bag.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TestBagTest : public testing::Test {
+ protected:
+  TestBagTest() : folder_(fs::path(testing::TempDir()) / ("test_bag_test_" + std::to_string(getpid()))) {
+    fs::create_directories(folder_);
+  }
+  ~TestBagTest() override { fs::remove_all(folder_); }
+
+  std::string file(const char* name) const { return (folder_ / name).string(); }
+
+  fs::path folder_;
+};
+
+Method straight() { return load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml"); }
+
+Record record(std::uint64_t sequence) {
+  Record r;
+  r.command.sequence = r.answer.sequence = sequence;
+  r.command.time = r.answer.time = 0.1 * static_cast<double>(sequence);
+  r.command.read_cell = sequence % 2 == 0;
+  r.steps = {r.answer};
+  r.shape = Points::Zero(3, 4);
+  r.tension = Eigen::VectorXd::Zero(3);
+  return r;
+}
+
+void add(RunBag& bag, std::uint64_t sequence) { bag.add(record(sequence)); }
+
+std::size_t count(const std::string& file, const std::string& topic) {
+  const rosbag::Bag bag(file, rosbag::bagmode::Read);
+  return rosbag::View(bag, rosbag::TopicQuery(topic)).size();
+}
+
+TEST_F(TestBagTest, HoldsEveryCommandAndEveryReading) {
+  RunBag bag(file("a.bag"), straight());
+  for (std::uint64_t i = 0; i < 5; ++i) add(bag, i);
+  bag.close();
+  EXPECT_EQ(count(file("a.bag"), "/knot/state"), 5u);
+  EXPECT_EQ(count(file("a.bag"), "/utm/crosshead"), 5u);
+  EXPECT_EQ(count(file("a.bag"), "/utm/load_cell"), 3u);
+  EXPECT_EQ(count(file("a.bag"), "/knot/shape"), 3u);
+  for (const char* topic : {"/knot/markers", "/tf", "/utm/status"}) EXPECT_EQ(count(file("a.bag"), topic), 3u) << topic;
+  for (const char* topic : {"/utm/method", "/knot/colors"}) EXPECT_EQ(count(file("a.bag"), topic), 1u) << topic;
+  EXPECT_EQ(bag.messages(), 5u + 5u + 5u + 3u + 3u + 3u * 3u + 2u);
+}
+
+TEST_F(TestBagTest, StampsAreThoseOfTheHeaders) {
+  RunBag bag(file("a.bag"), straight());
+  for (std::uint64_t i = 0; i < 5; ++i) add(bag, i);
+  bag.close();
+  const rosbag::Bag read(file("a.bag"), rosbag::bagmode::Read);
+  for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/state"))) {
+    EXPECT_EQ(m.getTime(), m.instantiate<KnotState>()->header.stamp);
+  }
+}
+
+/// What `rosbag play` and rviz need to show the test with nothing else running: every frame that a picture stands in or
+/// is looked at from, and topics that wait for whoever comes late.
+TEST_F(TestBagTest, ShowsTheTestByItself) {
+  RunBag bag(file("a.bag"), straight());
+  for (std::uint64_t i = 0; i < 3; ++i) add(bag, i);
+  bag.close();
+  const rosbag::Bag read(file("a.bag"), rosbag::bagmode::Read);
+  std::set<std::string> frames, used;
+  for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/tf"))) {
+    const auto message = m.instantiate<tf2_msgs::TFMessage>();
+    for (const auto& transform : message->transforms) frames.insert(transform.child_frame_id);
+  }
+  for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/markers"))) {
+    const auto message = m.instantiate<visualization_msgs::MarkerArray>();
+    for (const auto& marker : message->markers) used.insert(marker.header.frame_id);
+  }
+  EXPECT_THAT(used, testing::IsSubsetOf(frames));
+  EXPECT_THAT(frames, testing::IsSupersetOf({"utm_base", "upper_grip", "view_machine", "view_knots", "machine"}));
+  rosbag::View all(read);
+  for (const rosbag::ConnectionInfo* connection : all.getConnections()) {
+    const bool latched = connection->header->count("latching") > 0;
+    const std::set<std::string> kept = {"/utm/method", "/utm/status", "/knot/colors"};
+    EXPECT_EQ(latched, kept.count(connection->topic) > 0) << connection->topic;
+  }
+}
+
+/// One after the other what a run does, with a spring's records.
+void write_run(const std::string& folder, const Method& method, std::uint64_t records, bool end) {
+  JournalWriter journal(folder, journal_header(method));
+  RunWriter writer(folder, method);
+  RunBag bag(folder + "/test.bag", method);
+  for (std::uint64_t i = 0; i < records; ++i) {
+    const Record r = record(i);
+    journal.append(r);
+    writer.add(r);
+    bag.add(r);
+  }
+  if (end) bag.close();
+}
+
+TEST_F(TestBagTest, RecoveredFromTheJournalItIsTheSameToTheByte) {
+  const Method method = straight();
+  write_run(file("ended"), method, 40, true);
+  write_run(file("killed"), method, 40, false);
+  fs::resize_file(file("killed/test.bag"), 100);
+  {
+    Recovery recovery(file("killed"), file("killed"));
+    recover_with_bag(recovery);
+  }
+  EXPECT_EQ(read_whole(file("killed/test.bag")), read_whole(file("ended/test.bag")));
+}
+
+TEST_F(TestBagTest, SavedWhileTheTestGoesOnItCanBeRead) {
+  const Method method = straight();
+  JournalWriter journal(folder_.string(), journal_header(method));
+  journal.append(record(0));
+  save_bag(folder_.string(), method, file("saved.bag"));
+  journal.append(record(1));
+  EXPECT_EQ(count(file("saved.bag"), "/knot/state"), 1u);
+}
+
+/// A file that may not grow stands for a disk that is full.
+TEST_F(TestBagTest, WithoutRoomItNamesTheFileAndTheReason) {
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  rlimit tight = before;
+  tight.rlim_cur = 20000;
+  std::string why;
+  {
+    RunBag bag(file("a.bag"), straight());
+    setrlimit(RLIMIT_FSIZE, &tight);
+    try {
+      for (std::uint64_t i = 0; i < 1000; ++i) add(bag, i);
+      bag.close();
+    } catch (const std::runtime_error& error) {
+      why = error.what();
+    }
+  }
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  EXPECT_EQ(why, "cannot write " + file("a.bag") + ": file too large");
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,137 @@
+#include "knot_utm/specimen/knot_watch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/specimen/fisherman.hpp"
+#include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/overhand.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kRadius = 3.175e-3;
+
+Centreline open_overhand() {
+  OverhandShape shape;
+  shape.length = 0.7;
+  shape.end_to_end = 0.4;
+  return overhand(shape);
+}
+
+/// The rod drawn towards a straight line: at 1 its knot is gone, and its strands have run through each other.
+Points straightened(const Points& points, double share) {
+  const Eigen::Index n = points.cols();
+  Points result = points;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double t = static_cast<double>(i) / static_cast<double>(n - 1);
+    const Vec3 line = (1.0 - t) * points.col(0) + t * points.col(n - 1);
+    result.col(i) += share * (line - result.col(i));
+  }
+  return result;
+}
+
+TEST(KnotWatch, AnOverhandIsLostOnceItIsStraightAndStaysLost) {
+  const Points start = open_overhand().points;
+  KnotWatch watch({}, false, kRadius, start);
+  EXPECT_EQ(watch.follow(straightened(start, 0.05)), KnotType::kKept);
+  EXPECT_EQ(watch.follow(straightened(start, 0.99)), KnotType::kChanged);
+  EXPECT_EQ(watch.follow(start), KnotType::kChanged);
+}
+
+TEST(KnotWatch, ReadsOnlyWhereSomethingHasMoved) {
+  const Points start = open_overhand().points;
+  KnotWatch watch({}, false, kRadius, start);
+  Points points = start;
+  points.col(20).x() += 0.8 * kRadius;
+  watch.follow(points);
+  EXPECT_EQ(watch.readings(), 1);
+  points.col(20).x() += 0.3 * kRadius;
+  watch.follow(points);
+  EXPECT_EQ(watch.readings(), 2);
+}
+
+TEST(KnotWatch, SavedItReadsNextWhereItWouldHave) {
+  const Points start = open_overhand().points;
+  KnotWatch watch({}, false, kRadius, start), elsewhere({}, false, kRadius, start);
+  Points points = start;
+  points.col(20).x() += 1.1 * kRadius;
+  watch.follow(points);
+  ASSERT_EQ(watch.readings(), 2);
+  Archive saved("knot");
+  saved(watch);
+  Archive loaded("knot", saved.bytes(), "here");
+  loaded(elsewhere);
+  loaded.end();
+  elsewhere.follow(points);
+  EXPECT_EQ(elsewhere.readings(), 2) << "nothing has moved since";
+  EXPECT_EQ(elsewhere.follow(straightened(start, 0.99)), KnotType::kChanged);
+}
+
+TEST(KnotWatch, AClosedRodIsJoinedWhereItsEndsMeet) {
+  Points ring(3, 101);
+  for (int i = 0; i <= 100; ++i) {
+    const double t = 2.0 * M_PI * i / 100;
+    ring.col(i) << 0.1 * (2.0 + std::cos(3 * t)) * std::cos(2 * t), 0.1 * (2.0 + std::cos(3 * t)) * std::sin(2 * t),
+        0.1 * std::sin(3 * t);
+  }
+  KnotWatch watch({}, true, kRadius, ring);
+  EXPECT_EQ(watch.follow(1.1 * ring), KnotType::kKept);
+  Points unknot = ring;
+  unknot.row(2).setLinSpaced(0.0, 0.5);
+  unknot.col(100) = unknot.col(0);
+  EXPECT_EQ(watch.follow(unknot), KnotType::kChanged);
+}
+
+TEST(KnotWatch, ATailThatSlipsOutOfItsCoilUnties) {
+  const Centreline line = fisherman_loop({});
+  const int lower = line.nearest_node(line.knots[0].standing_begin);
+  const int upper = line.nearest_node(line.knots[1].standing_begin);
+  const double edge = (line.points.col(1) - line.points.col(0)).norm();
+  KnotWatch watch({lower, upper}, false, kRadius, line.points);
+  Points points = line.points;
+  points.row(0).array() += kRadius;
+  EXPECT_EQ(watch.follow(points), KnotType::kKept);
+  // The upper knot's own strand drawn straight down through its coil.
+  const Eigen::Index last = points.cols() - 1;
+  for (Eigen::Index i = upper; i <= last; ++i) {
+    points.col(i) = points.col(upper) + static_cast<double>(i - upper) * edge * Vec3::UnitZ();
+  }
+  EXPECT_EQ(watch.follow(points), KnotType::kChanged);
+}
+
+TEST(KnotWatch, StandsOnTheMachine) {
+  Material material;
+  material.radius = kRadius;
+  material.density = 1150.0;
+  material.stretching_stiffness = 1.70;
+  material.bending_stiffness = 4.34e-6;
+  material.twisting_stiffness = 2.893e-6;
+  material.friction_coefficient = 0.54;
+  SpecimenOptions specimen;
+  specimen.edge_length = 0.005;
+  for (const KnotKind knot : {knot_named("fisherman"), knot_named("overhand")}) {
+    specimen.knot = knot;
+    specimen.end_to_end = knot == knot_named("fisherman") ? 0.25 : 0.7;
+    MachineOptions machine;
+    machine.grips = knot == knot_named("fisherman") ? GripKind::kRollers : GripKind::kClamps;
+    TestingMachine bench(specimen, material, machine, PhysicsOptions());
+    Command command;
+    Sample sample = bench.respond(command);
+    command.phase = Phase::kPull;
+    command.step = 0;
+    for (int k = 1; k <= 20; ++k) {
+      command.sequence = static_cast<std::uint64_t>(k);
+      command.time = 0.1 * k;
+      command.displacement = 0.0033 * command.time;
+      sample = bench.respond(command);
+      ASSERT_EQ(sample.status, BenchStatus::kRunning) << sample.message;
+    }
+    EXPECT_EQ(sample.knot_type, KnotType::kKept);
+  }
+}
+
+}  // namespace
+}  // namespace knot_utm
