@@ -23,7 +23,7 @@ CentrelineTerms::CentrelineTerms(const RodProperties& rod, bool bends)
       tangent_(static_cast<std::size_t>(rod.edges())),
       inverse_length_(tangent_.size()),
       tension_(tangent_.size()),
-      expected_tension_(tangent_.size()),
+      predicted_tension_(tangent_.size()),
       cosine_(static_cast<std::size_t>(rod.nodes() + 3) / 4, constant<Lanes>(1.0)),
       bending_slope_(cosine_.size()),
       bending_curve_(cosine_.size()) {
@@ -36,21 +36,22 @@ void CentrelineTerms::part(int edge) {
   stretching_stiffness_[j] = bending_stiffness_[j] = bending_stiffness_[j + 1] = 0.0;
 }
 
-void CentrelineTerms::expect(const Points& start) {
-  expects_ = true;
-  for (std::size_t j = 0; j < expected_tension_.size(); ++j) {
+void CentrelineTerms::begin(const Points& start, bool predicts) {
+  predicts_ = predicts;
+  if (!predicts) return;
+  for (std::size_t j = 0; j < predicted_tension_.size(); ++j) {
     const auto edge = static_cast<Eigen::Index>(j);
-    expected_tension_[j] =
+    predicted_tension_[j] =
         stretching_tension(stretching_stiffness_[j], rod_.rest_length[edge], start.col(edge + 1) - start.col(edge));
   }
 }
 
-void CentrelineTerms::expect(const std::vector<Lanes>& change, double share) {
-  if (!expects_) return;
-  for (std::size_t j = 0; j < expected_tension_.size(); ++j)
-    expected_tension_[j] = tension_[j] + share * stretching_stiffness_[j] /
-                                             rod_.rest_length[static_cast<Eigen::Index>(j)] *
-                                             dot(tangent_[j], change[j + 1] - change[j]);
+void CentrelineTerms::predict_tensions(const std::vector<Lanes>& change, double factor) {
+  if (!predicts_) return;
+  for (std::size_t j = 0; j < predicted_tension_.size(); ++j)
+    predicted_tension_[j] = tension_[j] + factor * stretching_stiffness_[j] /
+                                              rod_.rest_length[static_cast<Eigen::Index>(j)] *
+                                              dot(tangent_[j], change[j + 1] - change[j]);
 }
 
 void CentrelineTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
@@ -139,7 +140,7 @@ CentrelineTerms::NodeHessian CentrelineTerms::bending_hessian(std::size_t node) 
 template <int D>
 void CentrelineTerms::set_stiffness(const std::vector<double>& diagonal, StepMatrix<D>& matrix) const {
   const std::size_t nodes = diagonal.size(), edges = tangent_.size();
-  const std::vector<double>& turning = expects_ ? expected_tension_ : tension_;
+  const std::vector<double>& turning = predicts_ ? predicted_tension_ : tension_;
   // With A_j = d2E/de_j^2 and B_i = d2E/(de_{i-1} de_i), the latter of bending at node i, the nodes have
   //   (i,i)  A_{i-1} + A_i - B_i - B_i^T     (i,i+1)  B_i + B_{i+1} - A_i     (i,i+2)  -B_{i+1}
   NodeHessian here = {}, after = {};

@@ -22,12 +22,12 @@ void find_contact(const std::vector<ContactPoint>& contacts, StepDiagnosis& out)
 }  // namespace
 
 StepDiagnosis diagnose(const RodProperties& rod, const SolvedStep& step, int node, double residual,
-                       ContactLists contacts) {
+                       const ContactLists& contacts) {
   StepDiagnosis out;
   out.node = node;
   out.arclength = rod.rest_length.head(node).sum();
   out.residual = residual;
-  out.motion = step.way.col(node).norm();
+  out.motion = step.increment.col(node).norm();
   for (const std::vector<ContactPoint>& list : contacts) find_contact(list, out);
   return out;
 }

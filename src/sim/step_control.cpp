@@ -13,7 +13,7 @@ constexpr double kFastGrowth = 1.6;  // after a step of hardly any work
 constexpr int kVeryEasy = 3;
 constexpr double kShrink = 0.7;
 // Patience and secants come once so many steps have failed in a row, and in steps so short: where tangents fail at
-// every other one, the steps would stay short for ever. A step that fails by hasty tangents costs some 5 iterations,
+// every other one, the steps would stay short for ever. A step that is abandoned early costs some 5 iterations,
 // one by secants up to 8 times the limit of each.
 constexpr int kInARow = 6;
 constexpr double kShort = 1e-3;  // [longest step]
@@ -24,7 +24,7 @@ constexpr double kLeastHeadway = 1e-5;  // [longest step]
 }  // namespace
 
 StepSummary StepControl::step(TimeStep& stepper, const Boundary& boundary, double dt, bool in_need) {
-  StepSummary summary = stepper.step(boundary, dt, in_need ? Solution::kTangents : Solution::kHastyTangents);
+  StepSummary summary = stepper.step(boundary, dt, in_need ? Solution::kTangents : Solution::kTangentsAbandonedEarly);
   counters_.iterations += static_cast<std::uint64_t>(summary.newton.iterations);
   if (!summary.accepted() && !summary.newton.converged() && in_need) {
     summary = stepper.step(boundary, dt, Solution::kSecants);

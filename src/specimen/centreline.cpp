@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "knot_utm/contact/strand_passage.hpp"
+#include "knot_utm/contact/tunnelling.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/polyline.hpp"
 #include "shape_checks.hpp"
@@ -37,7 +37,7 @@ void check_no_overlap(const Centreline& centreline, double radius, const char* k
                                      text(nearest.distance) + " m apart, but must be at least a diameter apart, " +
                                      text(2.0 * radius) + " m");
   }
-  if (const std::optional<Passage> passage = StrandPassage(points.cols()).find(points, points)) {
+  if (const std::optional<Tunnelling> passage = TunnellingSearch(points.cols()).find(points, points)) {
     const std::vector<double> at = arclengths(points);
     auto place = [&](int edge, double share) {
       const auto i = static_cast<std::size_t>(edge);

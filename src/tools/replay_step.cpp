@@ -31,17 +31,17 @@ void print_scene(const SavedStep& step) {
 class Table {
  public:
   Table() {
-    std::printf("%4s %12s %12s %9s %6s %12s %6s %8s %12s  %s\n", "", "residual [N]", "tolerance", "at node", "share",
+    std::printf("%4s %12s %12s %9s %6s %12s %6s %8s %12s  %s\n", "", "residual [N]", "tolerance", "at node", "factor",
                 "moved [m]", "active", "touching", "overlap [m]", "of [m], [m]");
   }
   void add(const Iterate& i) {
     // A prediction comes of no change.
-    if (i.share == 0.0 && row_ > 0) {
+    if (i.factor == 0.0 && row_ > 0) {
       std::printf("once more, friction linearised by secants and tangents in turn\n");
       row_ = 0;
     }
     std::printf("%4d %12.5e %12.5e %8d%s %6.3f %12.5e %6d %8d ", row_++, i.residual, i.tolerance, i.node,
-                i.spin ? "t" : " ", i.share, i.motion, i.active, i.touching);
+                i.spin ? "t" : " ", i.factor, i.motion, i.active, i.touching);
     if (!i.in_contact)
       std::printf("%12s\n", "-");
     else if (i.roller >= 0)

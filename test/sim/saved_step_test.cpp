@@ -41,7 +41,7 @@ std::vector<double> numbers(const Iterate& i) {
           i.tolerance,
           static_cast<double>(i.node),
           static_cast<double>(i.spin),
-          i.share,
+          i.factor,
           i.motion,
           static_cast<double>(i.active),
           static_cast<double>(i.touching),
@@ -89,8 +89,8 @@ TEST(WatchedTimeStep, IsToldOfEveryIterate) {
   ASSERT_TRUE(summary.accepted()) << summary.reason;
   ASSERT_EQ(seen.size(), static_cast<std::size_t>(summary.newton.iterations) + 1);
   EXPECT_EQ(seen.front().node, 7) << "where it is pulled";
-  EXPECT_EQ(seen.front().share, 0.0);
-  EXPECT_GT(seen[1].share, 0.0);
+  EXPECT_EQ(seen.front().factor, 0.0);
+  EXPECT_GT(seen[1].factor, 0.0);
   EXPECT_GT(seen[1].motion, 0.0);
   EXPECT_EQ(seen.back().residual, summary.newton.residual);
   EXPECT_EQ(seen.back().tolerance, summary.newton.tolerance);

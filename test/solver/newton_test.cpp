@@ -19,7 +19,7 @@ struct Equation {
     change = -f(x) / slope(x);
     return std::isfinite(change);
   }
-  void move(double share) { x += share * change; }
+  void move(double factor) { x += factor * change; }
   bool stands_still() const { return std::abs(change) < still; }
 };
 
@@ -32,7 +32,7 @@ Equation circling() {
 TEST(Newton, GivesUpWhereTheResidualDoesNotFall) {
   Equation equation = circling();
   const NewtonSummary summary = newton(equation, {40, 1.0, true});
-  EXPECT_EQ(summary.end, NewtonSummary::End::kNoHeadway);
+  EXPECT_EQ(summary.end, NewtonSummary::End::kAbandonedEarly);
   EXPECT_EQ(summary.iterations, 4);
   EXPECT_STREQ(summary.reason(), "the residual did not fall");
 }

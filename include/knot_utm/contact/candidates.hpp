@@ -19,7 +19,7 @@ inline double least_loop(double radius) {
 /// Which segments of the rod may touch which. Segment i, 1 <= i <= N-2, is the piece of centreline around node i, out
 /// to the middles of the edges that meet there, as long as they now are. The list holds every pair closer than `reach`
 /// with a margin, and stays valid until a node has moved half of it. A step may take nodes further: that no strand then
-/// slips through unseen is StrandPassage's to say.
+/// slips through unseen is TunnellingSearch's to say.
 class Candidates {
  public:
   struct Run {

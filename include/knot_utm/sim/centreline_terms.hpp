@@ -17,12 +17,11 @@ class CentrelineTerms {
   /// From now on the rod has parted at an edge: it has no tension, and does not bend at its ends.
   void part(int edge);
 
-  /// From now on the stiffness is that of the present tensions.
-  void take_present_tensions() { expects_ = false; }
-  /// From now on it is that of the expected ones: at first those at `start`, ...
-  void expect(const Points& start);
-  /// ... then what the stiffness, as it was set, says of that share of a change of the nodes [m].
-  void expect(const std::vector<Lanes>& change, double share);
+  /// Begins a step. `predicts`: the stiffness is that of the predicted tensions, at first of those at `start`; else
+  /// that of the present ones.
+  void begin(const Points& start, bool predicts);
+  /// What the stiffness, as it was set, says of the tensions after `factor` times a change of the nodes [m].
+  void predict_tensions(const std::vector<Lanes>& change, double factor);
 
   /// Adds the forces on every node [N]. The stiffness that is set later belongs to this position.
   void add_forces(const Points& position, std::vector<Lanes>& force);
@@ -46,7 +45,7 @@ class CentrelineTerms {
 
   /// Writes blocks (i, i) to (i, i+2) and their mirrors: the Hessian of both energies, and `diagonal` [N/m] of each
   /// node on the diagonal of its three positions. What stood there before is gone.
-  /// Where tensions are expected, it is these that turn with an edge, T/|e| (1 - t t^T): an edge that a change has
+  /// Where tensions are predicted, it is these that turn with an edge, T/|e| (1 - t t^T): an edge that a change has
   /// turned by theta is longer by theta^2/2 of its length, and in a rope the present tension, k_s theta^2/2 too large,
   /// would stiffen it against the next change. Newton's method with tensions as unknowns beside the positions comes to
   /// the same. Fast where strands pull; a rod that buckles takes the present tensions. Source: Magisano, Leonetti,
@@ -70,8 +69,8 @@ class CentrelineTerms {
   // As isotropic_bending.hpp names them.
   std::vector<Lanes> tangent_;                    // t of every edge
   std::vector<double> inverse_length_, tension_;  // 1/|e| [1/m], T [N]
-  bool expects_ = false;
-  std::vector<double> expected_tension_;  // [N]
+  bool predicts_ = false;
+  std::vector<double> predicted_tension_;  // [N]
   // c of every node, 1 of the ends; W' and W'' over k_b/lbar, four nodes side by side.
   std::vector<Lanes> cosine_, bending_slope_, bending_curve_;
 };

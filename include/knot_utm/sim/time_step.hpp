@@ -13,11 +13,11 @@
 
 namespace knot_utm {
 
-/// How the increment of a time step is solved: by Newton's method with tangents; the same in haste, with expected
-/// tensions and pressures, and given up where a shorter step costs less; or, where the iterates run in a cycle, with
+/// How the increment of a time step is solved: by Newton's method with tangents; the same with predicted
+/// tensions and pressures, abandoned early where a shorter step costs less; or, where the iterates run in a cycle, with
 /// friction linearised by secants and then, from there, by tangents. If that fails, too, secants are tried again with
 /// each change halved, up to three times. The equations and their tolerance are the same in all of them.
-enum class Solution { kTangents, kHastyTangents, kSecants };
+enum class Solution { kTangents, kTangentsAbandonedEarly, kSecants };
 
 /// How one time step went.
 struct StepSummary {
@@ -37,7 +37,7 @@ struct Iterate {
   double tolerance = 0.0;     ///< what it must not exceed [N]
   int node = -1;              ///< with the largest residual; -1: none, all are held
   bool spin = false;          ///< the residual is the torque on the edge behind the node, over the radius
-  double share = 0.0;         ///< of the increment that was taken to get here; 0: the prediction [-]
+  double factor = 0.0;        ///< by which the change was taken to get here; 0: the prediction [-]
   double motion = 0.0;        ///< of the node that this moved the furthest [m]
   int active = 0;             ///< contacts in the next linear system
   int touching = 0;           ///< contacts that carry force

@@ -7,13 +7,13 @@ namespace knot_utm {
 
 struct NewtonOptions {
   int max_iterations = 20;
-  double largest_share = 1.0;  ///< of a change that is taken
-  bool gives_up = false;       ///< where the residual does not fall, instead of taking smaller shares
+  double largest_factor = 1.0;  ///< of a change that is taken
+  bool abandons_early = false;  ///< where the residual does not fall, instead of taking smaller factors
 };
 
 /// How a Newton solve went. Starts as a failure; only a residual within tolerance makes it a success.
 struct NewtonSummary {
-  enum class End { kNotRun, kConverged, kIterationLimit, kNoHeadway, kSingular, kNotFinite };
+  enum class End { kNotRun, kConverged, kIterationLimit, kAbandonedEarly, kSingular, kNotFinite };
   End end = End::kNotRun;
   int iterations = 0;      ///< linear solves
   double residual = 0.0;   ///< at the end, as the system measures it [N]
@@ -26,7 +26,7 @@ struct NewtonSummary {
         return "converged";
       case End::kIterationLimit:
         return "the residual did not fall below its tolerance within the iteration limit";
-      case End::kNoHeadway:
+      case End::kAbandonedEarly:
         return "the residual did not fall";
       case End::kSingular:
         return "the Jacobian is singular";
@@ -43,7 +43,7 @@ struct NewtonSummary {
 ///   double residual()     evaluates at the current unknowns, returns the residual's size
 ///   double tolerance()    what that may be
 ///   bool solve()          assembles and factors the Jacobian, solves for the change; false where singular
-///   void move(share)      takes that share of the change, capped as the system sees fit
+///   void move(factor)      takes `factor` times the change, capped as the system sees fit
 ///   bool stands_still()   the whole of the last change was taken and is nothing: there is no better place next to here
 /// A prediction that happens to lie within the tolerance is solved once all the same: what the tolerance leaves would
 /// otherwise drift on, step after step, and never come to rest. Only far below it is nothing left to do.
@@ -60,7 +60,7 @@ NewtonSummary newton(System& system, const NewtonOptions& options) {
   constexpr int kFirst = 4;  // iterations that are free to wander
   constexpr double kHardly = 0.7, kWellAbove = 3.0;
   NewtonSummary summary;
-  double last = 0.0, before = 0.0, share = options.largest_share;
+  double last = 0.0, before = 0.0, factor = options.largest_factor;
   for (;;) {
     summary.residual = system.residual();
     summary.tolerance = system.tolerance();
@@ -78,9 +78,9 @@ NewtonSummary newton(System& system, const NewtonOptions& options) {
       return summary;
     }
     const bool falls = summary.residual <= kHardly * std::max(last, before);
-    if (options.gives_up && summary.iterations >= kFirst && !falls &&
+    if (options.abandons_early && summary.iterations >= kFirst && !falls &&
         summary.residual > kWellAbove * summary.tolerance) {
-      summary.end = NewtonSummary::End::kNoHeadway;
+      summary.end = NewtonSummary::End::kAbandonedEarly;
       return summary;
     }
     if (!system.solve()) {
@@ -88,8 +88,8 @@ NewtonSummary newton(System& system, const NewtonOptions& options) {
       return summary;
     }
     const bool cycles = summary.iterations >= kUndamped && summary.residual > 0.5 * before;
-    share = cycles ? std::max(0.5 * share, 1.0 / 16.0) : std::min(2.0 * share, options.largest_share);
-    system.move(share);
+    factor = cycles ? std::max(0.5 * factor, 1.0 / 16.0) : std::min(2.0 * factor, options.largest_factor);
+    system.move(factor);
     before = last;
     last = summary.residual;
     ++summary.iterations;

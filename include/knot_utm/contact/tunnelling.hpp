@@ -9,7 +9,7 @@
 namespace knot_utm {
 
 /// Two places of the rod that meet: edges a < b, and the share of the way along each, 0 to 1.
-struct Passage {
+struct Tunnelling {
   int edge_a = 0, edge_b = 0;
   double on_a = 0.0, on_b = 0.0;
 };
@@ -27,18 +27,18 @@ struct Passage {
 ///   and d is its middle.
 ///
 /// The few pairs of edges that are left are asked one by one (moving_edges.hpp).
-class StrandPassage {
+class TunnellingSearch {
  public:
   /// `bare_ends`: a contact law that begins half an edge from the rod's ends (SmoothContact) lets strands slip over
   /// them. What meets an outer half of an end edge then does not count.
-  explicit StrandPassage(Eigen::Index nodes, bool bare_ends = false);
+  explicit TunnellingSearch(Eigen::Index nodes, bool bare_ends = false);
 
   /// From now on the rod has parted at an edge, which anything may pass.
   void part(int edge) { parted_ = edge; }
 
   /// Columns are nodes, all of them finite. A first and a last one that lie on each other, at the start and at the end,
   /// are one node.
-  std::optional<Passage> find(const Points& start, const Points& end);
+  std::optional<Tunnelling> find(const Points& start, const Points& end);
 
  private:
   struct Box {
@@ -55,8 +55,8 @@ class StrandPassage {
   void set_places(const Points& start, const Points& end);
   void join_pieces();
   /// Looks for a passage between pieces i <= j of a level, or within one.
-  std::optional<Passage> search(std::size_t level, int i, int j) const;
-  std::optional<Passage> edges_meet(int a, int b) const;
+  std::optional<Tunnelling> search(std::size_t level, int i, int j) const;
+  std::optional<Tunnelling> edges_meet(int a, int b) const;
 
   static Box join(const Box& a, const Box& b);
   static bool apart(const Box& a, const Box& b);

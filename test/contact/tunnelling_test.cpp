@@ -1,4 +1,4 @@
-#include "knot_utm/contact/strand_passage.hpp"
+#include "knot_utm/contact/tunnelling.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,8 +25,8 @@ std::vector<std::pair<int, int>> all_that_meet(const Points& start, const Points
   return out;
 }
 
-std::optional<Passage> passage(const Points& start, const Points& end) {
-  return StrandPassage(start.cols()).find(start, end);
+std::optional<Tunnelling> passage(const Points& start, const Points& end) {
+  return TunnellingSearch(start.cols()).find(start, end);
 }
 
 class Rods {
@@ -58,7 +58,7 @@ class Rods {
   std::normal_distribution<double> normal_;
 };
 
-TEST(StrandPassage, IsFoundWhereAllPairsOfEdgesHaveOne) {
+TEST(TunnellingSearch, IsFoundWhereAllPairsOfEdgesHaveOne) {
   Rods rods;
   int passed = 0, kept = 0;
   for (const int nodes : {3, 4, 5, 8, 17, 40, 65})
@@ -89,7 +89,7 @@ Points ring(int edges) {
   return x;
 }
 
-TEST(StrandPassage, AClosedRodSharesANodeWithItself) {
+TEST(TunnellingSearch, AClosedRodSharesANodeWithItself) {
   const Points start = ring(40), end = 1.1 * start;
   EXPECT_FALSE(passage(start, end));
   Points open = end;
@@ -97,7 +97,7 @@ TEST(StrandPassage, AClosedRodSharesANodeWithItself) {
   EXPECT_TRUE(passage(start, open)) << "ends that touched and part are two nodes that were in one place";
 }
 
-TEST(StrandPassage, SeesAStrandPushedThroughARing) {
+TEST(TunnellingSearch, SeesAStrandPushedThroughARing) {
   // A rod whose second half is a ring; its first half, a straight strand beyond the ring's plane, is thrown past it.
   const int strand = 20, around = 40;
   Points start(3, strand + around);
@@ -113,7 +113,7 @@ TEST(StrandPassage, SeesAStrandPushedThroughARing) {
   EXPECT_GE(found->edge_b, strand);
 }
 
-TEST(StrandPassage, IsNotSeenWhereARodOnlyBendsStretchesAndTurns) {
+TEST(TunnellingSearch, IsNotSeenWhereARodOnlyBendsStretchesAndTurns) {
   // A coil as tight as a strand around another, wound up by a quarter turn, stretched and carried away in one motion.
   const int nodes = 200;
   Points start(3, nodes), end(3, nodes);
@@ -127,7 +127,7 @@ TEST(StrandPassage, IsNotSeenWhereARodOnlyBendsStretchesAndTurns) {
   EXPECT_FALSE(passage(start, start));
 }
 
-TEST(StrandPassage, EndsThatSlipOverAStrandPassNothing) {
+TEST(TunnellingSearch, EndsThatSlipOverAStrandPassNothing) {
   // A hook: a strand along x, and the rod's tail across it at height one, which is drawn back along y over the strand.
   auto hook = [](double tail) {
     Points x(3, 8);
@@ -158,7 +158,7 @@ Points tail_across(double across, double height) {
   return x;
 }
 
-TEST(StrandPassage, OverTheOuterHalfOfAnEndEdgeCountsOnlyWhereTheEndsAreNotBare) {
+TEST(TunnellingSearch, OverTheOuterHalfOfAnEndEdgeCountsOnlyWhereTheEndsAreNotBare) {
   for (const bool from_the_other_end : {false, true})
     for (const double across : {0.05, 0.45, 0.55, 0.95}) {
       Points start = tail_across(across, 1.0), end = tail_across(across, -1.0);
@@ -167,12 +167,12 @@ TEST(StrandPassage, OverTheOuterHalfOfAnEndEdgeCountsOnlyWhereTheEndsAreNotBare)
         end = end.rowwise().reverse().eval();
       }
       const bool inner = across < 0.5;
-      EXPECT_TRUE(StrandPassage(8).find(start, end)) << across;
-      EXPECT_EQ(StrandPassage(8, true).find(start, end).has_value(), inner) << across;
+      EXPECT_TRUE(TunnellingSearch(8).find(start, end)) << across;
+      EXPECT_EQ(TunnellingSearch(8, true).find(start, end).has_value(), inner) << across;
     }
 }
 
-TEST(StrandPassage, OverABareEndFirstAndThenOverTheInnerHalfCounts) {
+TEST(TunnellingSearch, OverABareEndFirstAndThenOverTheInnerHalfCounts) {
   // The tail goes along the strand while that tilts from one side to the other: the strand sinks through the tail's
   // outer half after a quarter of the time, and rises through its inner half after three quarters.
   const auto at = [](double time) {
@@ -182,26 +182,26 @@ TEST(StrandPassage, OverABareEndFirstAndThenOverTheInnerHalfCounts) {
     x.col(6).x() = x.col(7).x() = 4.2 + 1.6 * time;
     return x;
   };
-  const auto found = StrandPassage(8, true).find(at(0.0), at(1.0));
+  const auto found = TunnellingSearch(8, true).find(at(0.0), at(1.0));
   ASSERT_TRUE(found);
   EXPECT_EQ(std::pair(found->edge_a, found->edge_b), std::pair(2, 6));
   EXPECT_NEAR(found->on_b, 0.3, 1e-3);
-  EXPECT_FALSE(StrandPassage(8, true).find(at(0.0), at(0.5))) << "over the outer half alone";
+  EXPECT_FALSE(TunnellingSearch(8, true).find(at(0.0), at(0.5))) << "over the outer half alone";
 }
 
-TEST(StrandPassage, OverABareEndHidesNoOtherOne) {
+TEST(TunnellingSearch, OverABareEndHidesNoOtherOne) {
   // The strand's far part is pushed through the edge next to the tail's last one as well.
   Points start = tail_across(0.95, 1.0), end = tail_across(0.95, -1.0);
   start.col(5) << 4.3, 4.0, 1.0;
   end.col(5) << 4.3, 4.0, -1.0;
-  EXPECT_FALSE(StrandPassage(8, true).find(start, end));
+  EXPECT_FALSE(TunnellingSearch(8, true).find(start, end));
   start.col(6).y() = end.col(6).y() = -0.5;
-  const auto found = StrandPassage(8, true).find(start, end);
+  const auto found = TunnellingSearch(8, true).find(start, end);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->edge_b, 5);
 }
 
-TEST(StrandPassage, AClosedRodHasNoBareEnds) {
+TEST(TunnellingSearch, AClosedRodHasNoBareEnds) {
   // A wide ring with one edge to either side of where its ends lie on each other. Opposite, an edge of it, a needle
   // along y, is drawn through that half of the first or of the last edge which would be bare.
   for (const double x : {0.5, -0.5}) {
@@ -210,13 +210,13 @@ TEST(StrandPassage, AClosedRodHasNoBareEnds) {
         Vec3(x, -1.0, 5.0), Vec3(-20.0, -20.0, 9.0), Vec3(-2.0, 0.0, 0.0), Vec3(0.0, 0.0, 0.0);
     Points end = start;
     end.col(4).z() = end.col(5).z() = -1.0;
-    const auto found = StrandPassage(9, true).find(start, end);
+    const auto found = TunnellingSearch(9, true).find(start, end);
     ASSERT_TRUE(found) << x;
     EXPECT_EQ(std::pair(found->edge_a, found->edge_b), x > 0.0 ? std::pair(0, 4) : std::pair(4, 7));
     Points open = start, open_end = end;
     open.col(8).y() = open_end.col(8).y() = -0.1;
-    EXPECT_FALSE(StrandPassage(9, true).find(open, open_end)) << x;
-    EXPECT_TRUE(StrandPassage(9).find(open, open_end)) << x;
+    EXPECT_FALSE(TunnellingSearch(9, true).find(open, open_end)) << x;
+    EXPECT_TRUE(TunnellingSearch(9).find(open, open_end)) << x;
   }
 }
 

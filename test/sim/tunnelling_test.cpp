@@ -178,7 +178,7 @@ TEST(StrandsThrownAtEachOther, PressWhereOneStepBringsThemIntoEachOther) {
   }
 }
 
-TEST(StrandPassageOfASimulation, IsNeverSeenWhereAnOverhandIsPulledTight) {
+TEST(TunnellingOfASimulation, IsNeverSeenWhereAnOverhandIsPulledTight) {
   const Material material = polypropylene();
   const DrawnOverhand drawn(material, 2.0);
   StepSettings settings = sliding_settings(material);

@@ -1,4 +1,4 @@
-#include "knot_utm/contact/strand_passage.hpp"
+#include "knot_utm/contact/tunnelling.hpp"
 
 #include <algorithm>
 
@@ -17,12 +17,12 @@ Lanes load(const Points& points, Eigen::Index i) { return Lanes{points(0, i), po
 
 }  // namespace
 
-StrandPassage::StrandPassage(Eigen::Index nodes, bool bare_ends) : bare_ends_(bare_ends) {
+TunnellingSearch::TunnellingSearch(Eigen::Index nodes, bool bare_ends) : bare_ends_(bare_ends) {
   pieces_.emplace_back(static_cast<std::size_t>(nodes - 1));
   while (pieces_.back().size() > 1) pieces_.emplace_back((pieces_.back().size() + 1) / 2);
 }
 
-std::optional<Passage> StrandPassage::find(const Points& start, const Points& end) {
+std::optional<Tunnelling> TunnellingSearch::find(const Points& start, const Points& end) {
   if (!set_advances(start, end)) return std::nullopt;
   set_places(start, end);
   join_pieces();
@@ -33,23 +33,23 @@ std::optional<Passage> StrandPassage::find(const Points& start, const Points& en
   return search(pieces_.size() - 1, 0, 0);
 }
 
-StrandPassage::Box StrandPassage::join(const Box& a, const Box& b) {
+TunnellingSearch::Box TunnellingSearch::join(const Box& a, const Box& b) {
   return {smaller(a.low, b.low), larger(a.high, b.high)};
 }
 
-bool StrandPassage::apart(const Box& a, const Box& b) {
+bool TunnellingSearch::apart(const Box& a, const Box& b) {
   const auto away = (a.low > b.high) | (b.low > a.high);
   return (away[0] | away[1] | away[2]) != 0;
 }
 
-bool StrandPassage::advances(const Box& edges) {
+bool TunnellingSearch::advances(const Box& edges) {
   const Lanes d = edges.low + edges.high;
   const Lanes low = d * edges.low, high = d * edges.high;
   const Lanes least = smaller(low, high), size = larger(larger(low, -low), larger(high, -high));
   return least[0] + least[1] + least[2] > kRounding * (size[0] + size[1] + size[2]);
 }
 
-bool StrandPassage::set_advances(const Points& start, const Points& end) {
+bool TunnellingSearch::set_advances(const Points& start, const Points& end) {
   std::vector<Piece>& edges = pieces_[0];
   Lanes start_before = load(start, 0), end_before = load(end, 0);
   Box all{load(start, 1) - start_before, load(start, 1) - start_before};
@@ -65,7 +65,7 @@ bool StrandPassage::set_advances(const Points& start, const Points& end) {
   return !advances(all);
 }
 
-void StrandPassage::set_places(const Points& start, const Points& end) {
+void TunnellingSearch::set_places(const Points& start, const Points& end) {
   std::vector<Piece>& edges = pieces_[0];
   auto node = [&](Eigen::Index i) -> Box {
     const Lanes first = load(start, i), last = load(end, i);
@@ -79,7 +79,7 @@ void StrandPassage::set_places(const Points& start, const Points& end) {
   }
 }
 
-void StrandPassage::join_pieces() {
+void TunnellingSearch::join_pieces() {
   for (std::size_t level = 1; level < pieces_.size(); ++level) {
     const std::vector<Piece>& small = pieces_[level - 1];
     std::vector<Piece>& large = pieces_[level];
@@ -90,7 +90,7 @@ void StrandPassage::join_pieces() {
   }
 }
 
-std::optional<Passage> StrandPassage::search(std::size_t level, int i, int j) const {
+std::optional<Tunnelling> TunnellingSearch::search(std::size_t level, int i, int j) const {
   const std::vector<Piece>& pieces = pieces_[level];
   auto piece = [&](int k) -> const Piece& { return pieces[static_cast<std::size_t>(k)]; };
   if (j - i > 1 && apart(piece(i).place, piece(j).place)) return std::nullopt;
@@ -103,11 +103,11 @@ std::optional<Passage> StrandPassage::search(std::size_t level, int i, int j) co
   const int below = static_cast<int>(pieces_[level - 1].size());
   for (int a = 2 * i; a <= 2 * i + 1; ++a)
     for (int b = i == j ? a : 2 * j; b <= 2 * j + 1 && b < below; ++b)
-      if (const std::optional<Passage> found = search(level - 1, a, b)) return found;
+      if (const std::optional<Tunnelling> found = search(level - 1, a, b)) return found;
   return std::nullopt;
 }
 
-std::optional<Passage> StrandPassage::edges_meet(int a, int b) const {
+std::optional<Tunnelling> TunnellingSearch::edges_meet(int a, int b) const {
   if (a == parted_ || b == parted_) return std::nullopt;
   if (closed_ && a == 0 && b + 2 == start_->cols()) return std::nullopt;  // they share the node that closes the rod
   // Of an end edge that is bare the inner half is asked: its middle goes straight as its ends do.
@@ -120,7 +120,7 @@ std::optional<Passage> StrandPassage::edges_meet(int a, int b) const {
   };
   const std::optional<EdgeMeeting> at = meeting(pair(*start_), pair(*end_));
   if (!at) return std::nullopt;
-  return Passage{a, b, inner_a ? 0.5 + 0.5 * at->on_a : at->on_a, inner_b ? 0.5 * at->on_b : at->on_b};
+  return Tunnelling{a, b, inner_a ? 0.5 + 0.5 * at->on_a : at->on_a, inner_b ? 0.5 * at->on_b : at->on_b};
 }
 
 }  // namespace knot_utm

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <vector>
+
+#include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/sim/contact_force.hpp"
+
+namespace knot_utm {
+
+/// Nodes of the rod from one to another.
+struct NodeRange {
+  int first = 0, last = -1;
+
+  bool empty() const { return last < first; }
+  bool holds(int node) const { return first <= node && node <= last; }
+};
+
+/// Sum of the normal forces of contacts between two pieces of the rod [N].
+double normal_force_between(const std::vector<ContactPoint>& contacts, const NodeRange& a, const NodeRange& b);
+
+/// Sum of the normal forces of rollers on a piece of the rod [N].
+double roller_normal_force(const std::vector<ContactPoint>& contacts, const NodeRange& piece);
+
+/// Of the contacts that a law has evaluated at `position`, those between strands that touch.
+std::vector<ContactForce> contact_forces(const std::vector<ContactPoint>& contacts, const Points& position);
+
+}  // namespace knot_utm

@@ -1,0 +1,35 @@
+#include "knot_utm/sim/contact_sums.hpp"
+
+namespace knot_utm {
+
+std::vector<ContactForce> contact_forces(const std::vector<ContactPoint>& contacts, const Points& position) {
+  std::vector<ContactForce> out;
+  for (const ContactPoint& contact : contacts) {
+    if (contact.on_roller() || !contact.touches()) continue;
+    Vec3 a = Vec3::Zero();
+    for (int k = 0; k < 3; ++k)
+      if (contact.c[k] != 0.0) a += contact.c[k] * position.col(contact.a0 + k);
+    out.push_back({a - 0.5 * contact.x, contact.force});
+  }
+  return out;
+}
+
+double normal_force_between(const std::vector<ContactPoint>& contacts, const NodeRange& a, const NodeRange& b) {
+  double sum = 0.0;
+  for (const ContactPoint& contact : contacts) {
+    if (contact.on_roller() || !contact.touches()) continue;
+    const int on_a = contact.a0 + 1, on_b = contact.b0 + 1;  // the middle of their three nodes
+    if ((a.holds(on_a) && b.holds(on_b)) || (a.holds(on_b) && b.holds(on_a))) sum += contact.weight * contact.pressure;
+  }
+  return sum;
+}
+
+double roller_normal_force(const std::vector<ContactPoint>& contacts, const NodeRange& piece) {
+  double sum = 0.0;
+  for (const ContactPoint& contact : contacts)
+    if (contact.on_roller() && contact.touches() && piece.holds(contact.a0 + 1))
+      sum += contact.weight * contact.pressure;
+  return sum;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,157 @@
+#pragma once
+
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "force_term.hpp"
+#include "knot_utm/contact/roller_contact.hpp"
+#include "knot_utm/sim/frame_terms.hpp"
+#include "knot_utm/sim/roller_turns.hpp"
+#include "knot_utm/sim/solved_step.hpp"
+#include "knot_utm/sim/step_account.hpp"
+#include "knot_utm/sim/step_matrix.hpp"
+
+namespace knot_utm {
+
+/// Pressure and friction of one kind of contacts, between strands or on rollers, a force term (force_term.hpp) of a
+/// step with D unknowns a node. What a contact is, where it acts and by which laws is the business of `Contacts`
+/// (SmoothContact, EdgeContact, RollerContact). In the terms of ContactPoint:
+///
+///   f_k = c_k g        on nodes a0..a0+2 and, between strands, b0..b0+2       [N]
+///
+/// and where friction acts at the surface the couples of surface_contact.hpp on nodes and spins. The next increment is
+/// solved with the linear model of every contact: its force replaces g in the right-hand side.
+template <int D, typename Contacts>
+class ContactTerm {
+ public:
+  static constexpr bool kOnRollers = std::is_same_v<Contacts, RollerContact>;
+
+  explicit ContactTerm(Contacts contacts) : contacts_(std::move(contacts)) {}
+
+  Contacts& contacts() { return contacts_; }
+  const Contacts& contacts() const { return contacts_; }
+  const std::vector<ContactPoint>& points() const { return contacts_.contacts(); }
+
+  void begin(const StepStart& start) {
+    if constexpr (!kOnRollers) contacts_.refresh(start.state.position);
+    contacts_.begin_step();
+  }
+
+  void add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force) {
+    if constexpr (kOnRollers)
+      contacts_.evaluate(start.boundary.rollers, x, start.state.position, start.dt);
+    else
+      contacts_.evaluate(x, start.state.position, start.dt);
+    for (std::size_t i = 0; i < points().size(); ++i) {
+      const ContactPoint& contact = points()[i];
+      if (!contact.touches()) continue;
+      add_force(contact, to_lanes(contact.force), force);
+      if constexpr (D == 4)
+        if (contacts_.at_surface()) {
+          const SurfacePoint& surface = contacts_.surfaces()[i];
+          add_couples(contact, surface, surface.on_a, surface.on_b, force);
+        }
+    }
+  }
+
+  /// Adds the contacts' stiffness, and to `right` what the forces of their linear models are more than g. `matrix` has
+  /// located the contacts between strands. `turns`: the unknown turns of free rollers, which contacts on rollers enter,
+  /// too; `spins`: how far the sections have spun, where friction acts at the surface.
+  void add_stiffness(const StepStart& start, const ContactLinearisation& how, const SectionTurns* spins,
+                     StepMatrix<D>& matrix, RollerTurns& turns, std::vector<Lanes>& right) {
+    pressures_.clear();
+    contacts_.linearise_by(how);
+    if constexpr (D == 4)
+      if (contacts_.at_surface()) return add_surface_stiffness(start, *spins, matrix, turns, right);
+    contacts_.linearise(start.dt, models_);
+    for (const ContactPoint& contact : points()) {
+      if (!contact.active()) continue;
+      const Model& model = models_[pressures_.size()];
+      add_force(contact, model.force - to_lanes(contact.force), right);
+      matrix.add(contact, model, pressures_.size());
+      if constexpr (kOnRollers) turns.add(contact, model);
+      pressures_.push_back({model.pressure, model.slope});
+    }
+  }
+
+  /// Keeps what the linear models say of each contact's pressure after `factor` times the change of the unknowns, by
+  /// which the next linear system is better (ContactModel).
+  void predict_pressures(const std::vector<Lanes>& change, double factor) {
+    std::size_t n = 0;
+    for (ContactPoint& contact : contacts_.contacts()) {
+      if (!contact.active()) continue;
+      const LinearPressure& p = pressures_[n++];
+      Lanes moved = {};
+      for (int k = 0; k < 3; ++k) {
+        moved += contact.c[k] * change[at(contact.a0 + k)];
+        if (!contact.on_roller()) moved += contact.c[3 + k] * change[at(contact.b0 + k)];
+      }
+      contact.estimate = p.pressure - factor * p.slope * dot(to_lanes(contact.n), moved);
+    }
+  }
+
+  void account(const SolvedStep& step, StepAccount& account) const {
+    for (const ContactPoint& contact : points()) {
+      const ContactMotion motion = contacts_.motion(contact, step.end, step.state.position);
+      const double now = contact.weight * contacts_.normal().energy(contact.overlap);
+      const double before = contact.weight * contacts_.normal().energy(motion.overlap_before);
+      account.energies.contact += now;
+      account.work.reweighting -= before;
+      account.work.numerical += before - now;
+      if (!contact.touches()) continue;
+      const double force = contact.weight * contact.pressure;
+      account.work.numerical -= force * contact.n.dot(motion.slip);
+      account.work.friction += contact.mu * force * contact.z.dot(motion.slip + motion.rolling);
+      if (contact.on_roller()) continue;
+      ++account.contact.touching;
+      account.contact.normal_force += force;
+      account.contact.largest_overlap = std::max(account.contact.largest_overlap, contact.overlap);
+      account.contact.couple += (1.0 - motion.passed_on) * contact.x.cross(contact.force);
+    }
+  }
+
+  void commit(const SolvedStep& step) {
+    if constexpr (kOnRollers)
+      contacts_.commit(step.boundary.rollers);
+    else
+      contacts_.commit(step.end);
+  }
+
+ private:
+  using Model = typename Contacts::Model;
+
+  /// Of the linear model of a contact.
+  struct LinearPressure {
+    double pressure, slope;  // at the present overlap [N/m], and by it [N/m^2]
+  };
+
+  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
+
+  /// What the force g on a's side of a contact does to the nodes.
+  static void add_force(const ContactPoint& contact, const Lanes& g, std::vector<Lanes>& to) {
+    for (int k = 0; k < 3; ++k) to[at(contact.a0 + k)] += contact.c[k] * g;
+    if (!contact.on_roller())
+      for (int k = 0; k < 3; ++k) to[at(contact.b0 + k)] += contact.c[3 + k] * g;
+  }
+
+  void add_surface_stiffness(const StepStart& start, const SectionTurns& spins, StepMatrix<D>& matrix,
+                             RollerTurns& turns, std::vector<Lanes>& right) {
+    contacts_.linearise_surfaces(start.dt, [&](std::size_t i, const SurfaceModel& model) {
+      const ContactPoint& contact = points()[i];
+      const SurfacePoint& surface = contacts_.surfaces()[i];
+      add_force(contact, model.force - to_lanes(contact.force), right);
+      add_couples(contact, surface, model.on_a - surface.on_a, model.on_b - surface.on_b, right);
+      matrix.add(contact, surface, model, spins, pressures_.size());
+      if constexpr (kOnRollers) turns.add(contact, surface, model, spins);
+      pressures_.push_back({model.pressure, model.slope});
+    });
+  }
+
+  Contacts contacts_;
+  // Of the active contacts, in order.
+  std::vector<Model> models_;
+  std::vector<LinearPressure> pressures_;
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,209 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "contact_term.hpp"
+#include "grip_term.hpp"
+#include "held_unknowns.hpp"
+#include "knot_utm/contact/edge_contact.hpp"
+#include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/sim/centreline_terms.hpp"
+#include "motion_term.hpp"
+#include "residual_norm.hpp"
+
+namespace knot_utm {
+
+/// Stands for FrameTerms where the scene does not solve for twist.
+struct NoFrames {
+  NoFrames(const RodProperties&, const StepSettings&) {}
+};
+
+/// All force terms of the equation, its linear system, and room for its unknowns. D = 3: the unknowns of node i are
+/// x_i. D = 4: they are x_i and the spin of edge i (FrameTerms); that of the last node stands for nothing and is held.
+template <int D, typename StrandContact>
+struct Equation {
+  static constexpr bool kTwists = D == 4;
+
+  Equation(const RodProperties& rod_, const StepSettings& settings_)
+      : rod(rod_),
+        settings(settings_),
+        motion(rod, settings),
+        centreline(rod, rod.natural_curvature.cols() == 0),
+        frames(rod, settings),
+        strands(strand_contact(rod, settings)),
+        rollers(RollerContact(rod, settings.normal, settings.roller_friction, settings.motion_limit)),
+        held(static_cast<std::size_t>(rod.nodes())),
+        norm(settings),
+        matrix(static_cast<int>(rod.nodes())),
+        force(static_cast<std::size_t>(rod.nodes())),
+        change(force.size()) {
+    if constexpr (kTwists)
+      if (settings.friction_couple > 0.0) {
+        if (settings.friction.on()) strands.contacts().act_at_surface(settings.friction_couple, frames.turns());
+        if (settings.roller_friction.on()) rollers.contacts().act_at_surface(settings.friction_couple, frames.turns());
+      }
+  }
+
+  /// From the next step on the rod has parted at an edge.
+  void part(int edge) {
+    centreline.part(edge);
+    if constexpr (kTwists) frames.part(edge);
+    strands.contacts().part(edge);
+    rollers.contacts().part(edge);
+  }
+
+  const RodProperties& rod;
+  const StepSettings& settings;
+  MotionTerm motion;
+  CentrelineTerms centreline;
+  std::conditional_t<kTwists, FrameTerms, NoFrames> frames;
+  ContactTerm<D, StrandContact> strands;
+  ContactTerm<D, RollerContact> rollers;
+  GripTerm grips;
+  HeldUnknowns held;
+  RollerTurns roller_turns;
+  ResidualNorm norm;
+  StepMatrix<D> matrix;
+  Points x;                          // trial positions [m]
+  std::vector<Lanes> force, change;  // on the unknowns, and of them
+
+ private:
+  static StrandContact strand_contact(const RodProperties& rod, const StepSettings& settings) {
+    if constexpr (std::is_same_v<StrandContact, SmoothContact>)
+      return SmoothContact(rod, settings.normal, settings.friction, settings.candidate_margin, settings.share_time);
+    else
+      return StrandContact(rod, settings.normal, settings.friction, settings.candidate_margin);
+  }
+};
+
+/// The equation of one time step while it is being solved: find x, and with D = 4 the spins of the edges, so that on
+/// all that is free
+///
+///   0 = f(x) = f_motion + f_elastic + f_twist + f_strands + f_rollers + f_grips        (time_step.hpp)
+///
+/// Making one begins the step at its prediction: everything moves on as it did, held nodes stand where they must.
+/// Newton's method (newton.hpp) asks it for the residual, for a linear solve and for a move.
+template <int D, typename StrandContact>
+class Increment {
+ public:
+  /// `predicts`: the stiffness is that of the tensions and pressures that the last linear solve predicts, at first of
+  /// those at the step's beginning. With them few iterations lead to the solution, or, in a step that is too long, away
+  /// from it. Else the stiffness is that of the trial's own tensions.
+  Increment(Equation<D, StrandContact>& equation, const StepStart& start, bool predicts)
+      : eq_(equation), start_(start), predicts_(predicts) {
+    eq_.centreline.begin(start.state.position, predicts);
+    eq_.strands.begin(start);
+    eq_.rollers.begin(start);
+    if constexpr (D == 4) eq_.frames.begin_step(start.state, start.boundary.fixed_twists, start.dt);
+    eq_.matrix.begin_step();
+    eq_.x = start.state.position + start.dt * start.state.velocity;
+    eq_.held.begin(start, eq_.x);
+  }
+
+  /// f(x), and its size.
+  double residual() {
+    std::fill(eq_.force.begin(), eq_.force.end(), Lanes{0.0, 0.0, 0.0, 0.0});
+    eq_.motion.add_forces(start_, eq_.x, eq_.force);
+    eq_.centreline.add_forces(eq_.x, eq_.force);
+    if constexpr (D == 4) eq_.frames.add_forces(eq_.x, eq_.force);
+    eq_.strands.add_forces(start_, eq_.x, eq_.force);
+    eq_.rollers.add_forces(start_, eq_.x, eq_.force);
+    eq_.grips.add_forces(start_, eq_.x, eq_.force);
+    worst_ = worst();
+    return worst_.residual;
+  }
+
+  double tolerance() const {
+    const double held_back = start_.boundary.extra_drag * start_.dt * eq_.rod.voronoi_length[1] / eq_.rod.mass[1];
+    return eq_.norm.tolerance(eq_.centreline.largest_tension(), start_.dt, held_back);
+  }
+
+  /// The change of the unknowns by -(df/dx) dx = f. False where the matrix is singular.
+  bool solve(Linearisation of_friction) {
+    const ContactLinearisation how = {of_friction, predicts_};
+    eq_.roller_turns.begin(start_.boundary.rollers, eq_.rollers.contacts(), nodes(), start_.dt);
+    eq_.matrix.locate(eq_.strands.points());
+    eq_.matrix.set_zero_beyond_band();
+    eq_.centreline.set_stiffness(eq_.motion.stiffness(start_), eq_.matrix);
+    if constexpr (D == 4) eq_.frames.add_stiffness(eq_.matrix);
+    eq_.change = eq_.force;
+    eq_.strands.add_stiffness(start_, how, spins(), eq_.matrix, eq_.roller_turns, eq_.change);
+    eq_.rollers.add_stiffness(start_, how, spins(), eq_.matrix, eq_.roller_turns, eq_.change);
+    eq_.grips.add_stiffness(start_, eq_.x, eq_.matrix);
+    if constexpr (D == 4)
+      eq_.held.prescribe(eq_.frames, eq_.matrix, eq_.roller_turns, eq_.change);
+    else
+      eq_.held.prescribe(eq_.matrix, eq_.roller_turns, eq_.change);
+    BlockMatrix<D>& matrix = eq_.matrix.values();
+    return eq_.roller_turns.empty() ? matrix.solve(eq_.change) : eq_.roller_turns.solve(matrix, eq_.change);
+  }
+
+  /// Takes `wanted` times the change, or less: no node, roller or angle moves further than is allowed at once.
+  void move(double wanted) {
+    double longest2 = 0.0;
+    for (const Lanes& change : eq_.change) {
+      const double size2 = change[0] * change[0] + change[1] * change[1] + change[2] * change[2];
+      longest2 = std::max(longest2, size2);
+    }
+    const double longest = std::max(std::sqrt(longest2), eq_.roller_turns.largest_motion()),
+                 cap = eq_.settings.newton_cap;
+    factor_ = wanted * (longest > cap ? cap / longest : 1.0);
+    if constexpr (D == 4) {
+      factor_ = std::min(factor_, wanted * eq_.frames.longest_share(eq_.change));
+      eq_.frames.move(eq_.change, factor_);
+    }
+    for (int i = 0; i < nodes(); ++i) eq_.x.col(i) += factor_ * to_vec3(eq_.change[static_cast<std::size_t>(i)]);
+    eq_.roller_turns.move(eq_.rollers.contacts(), factor_);
+    eq_.centreline.predict_tensions(eq_.change, factor_);
+    motion_ = factor_ * longest;
+    eq_.strands.predict_pressures(eq_.change, factor_);
+    eq_.rollers.predict_pressures(eq_.change, factor_);
+  }
+
+  /// In the shortest steps the residual shrinks to a thousandth, and the residuals on the two sides of a very small
+  /// jump (a foot between two places) may differ by as much as that: a change of 1e-7 h between them moves nothing.
+  bool stands_still() const {
+    constexpr double kStill = 1e-7;
+    return factor_ == 1.0 && motion_ <= kStill * eq_.rod.material.radius && worst_.residual <= eq_.settings.residual;
+  }
+
+  const WorstResidual& worst_residual() const { return worst_; }
+  double factor() const { return factor_; }  ///< of the last change that was taken; 0: the prediction
+  double motion() const { return motion_; }  ///< of the node that it moved the furthest [m]
+
+ private:
+  int nodes() const { return static_cast<int>(eq_.force.size()); }
+
+  const SectionTurns* spins() const {
+    if constexpr (D == 4)
+      return &eq_.frames.turns();
+    else
+      return nullptr;
+  }
+
+  WorstResidual worst() const {
+    WorstResidual out = eq_.norm.worst_of_nodes(eq_.force, eq_.centreline, tolerance(), eq_.held);
+    if (!std::isfinite(out.residual)) return out;
+    if constexpr (D == 4) {
+      out = ResidualNorm::worst_of_spins(eq_.force, eq_.frames, eq_.rod.material.radius, out);
+      if (!std::isfinite(out.residual)) return out;
+    }
+    // A free roller may be worse; the node then stays that of the rod.
+    const double of_rollers =
+        RollerTurns::largest_unbalanced(start_.boundary.rollers, eq_.rollers.contacts(), start_.dt);
+    out.residual = std::max(out.residual, of_rollers);
+    return out;
+  }
+
+  Equation<D, StrandContact>& eq_;
+  const StepStart start_;
+  bool predicts_;
+  WorstResidual worst_;
+  double factor_ = 0.0, motion_ = 0.0;
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,41 @@
+#include "motion_term.hpp"
+
+namespace knot_utm {
+
+MotionTerm::MotionTerm(const RodProperties& rod, const StepSettings& settings)
+    : rod_(rod), settings_(settings), diagonal_(static_cast<std::size_t>(rod.nodes())) {}
+
+void MotionTerm::add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force) const {
+  const double over_dt = 1.0 / start.dt;
+  for (Eigen::Index i = 0; i < rod_.nodes(); ++i) {
+    const Vec3 velocity = (x.col(i) - start.state.position.col(i)) * over_dt;
+    const Vec3 acceleration = (velocity - start.state.velocity.col(i)) * over_dt;
+    const double drag = this->drag(start.boundary) * rod_.voronoi_length[i];
+    force[static_cast<std::size_t>(i)] += to_lanes(rod_.mass[i] * (settings_.gravity - acceleration) - drag * velocity);
+  }
+}
+
+const std::vector<double>& MotionTerm::stiffness(const StepStart& start) {
+  const double of_mass = 1.0 / (start.dt * start.dt), of_drag = drag(start.boundary) / start.dt;
+  for (Eigen::Index i = 0; i < rod_.nodes(); ++i)
+    diagonal_[static_cast<std::size_t>(i)] = of_mass * rod_.mass[i] + of_drag * rod_.voronoi_length[i];
+  return diagonal_;
+}
+
+void MotionTerm::account(const SolvedStep& step, StepAccount& account) const {
+  const double drag = this->drag(step.boundary), work_of_drag = drag / step.dt;
+  for (Eigen::Index i = 0; i < rod_.nodes(); ++i) {
+    const Vec3 increment = step.increment.col(i), velocity = increment / step.dt;
+    const Vec3 faster = velocity - step.state.velocity.col(i);
+    account.energies.kinetic += 0.5 * rod_.mass[i] * velocity.squaredNorm();
+    account.work.numerical += 0.5 * rod_.mass[i] * faster.squaredNorm();
+    account.work.boundary += rod_.mass[i] * settings_.gravity.dot(increment);
+    account.work.drag += work_of_drag * rod_.voronoi_length[i] * increment.squaredNorm();
+    const auto node = static_cast<std::size_t>(i);
+    if (step.held[node] == 0) account.work.residual += to_vec3(step.force[node]).dot(increment);
+    account.loads.add(step.end.col(i),
+                      rod_.mass[i] * (settings_.gravity - faster / step.dt) - drag * rod_.voronoi_length[i] * velocity);
+  }
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <vector>
+
+#include "force_term.hpp"
+#include "knot_utm/sim/solved_step.hpp"
+#include "knot_utm/sim/step_account.hpp"
+
+namespace knot_utm {
+
+/// Inertia, gravity and viscous drag of the nodes, a force term (force_term.hpp):
+///
+///   f_i = m_i (g - (x_i - x_n - dt v_n)/dt^2) - c lbar_i (x_i - x_n)/dt      [N]
+///   -df_i/dx_i = m_i/dt^2 + c lbar_i/dt                                      [N/m]
+///
+/// with m_i mass, g gravity, c drag per length (the scene's and the boundary's), lbar_i Voronoi length.
+class MotionTerm {
+ public:
+  /// Both must outlive this; what `settings` says of gravity and drag may change between two steps.
+  MotionTerm(const RodProperties& rod, const StepSettings& settings);
+
+  void add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force) const;
+  /// The diagonal of the stiffness, one number a node [N/m].
+  const std::vector<double>& stiffness(const StepStart& start);
+  void account(const SolvedStep& step, StepAccount& account) const;
+
+ private:
+  double drag(const Boundary& boundary) const { return settings_.drag + boundary.extra_drag; }
+
+  const RodProperties& rod_;
+  const StepSettings& settings_;
+  std::vector<double> diagonal_;
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,94 @@
+#pragma once
+
+#include "increment.hpp"
+#include "knot_utm/sim/time_step.hpp"
+
+namespace knot_utm {
+
+/// How an increment is solved (Solution in time_step.hpp says when which way is taken).
+///
+/// Each way makes its increments itself, so that all of them begin at the prediction. `watch(increment)` is called
+/// after every residual.
+template <int D, typename StrandContact, typename Watch>
+class SolutionOf {
+ public:
+  using TheEquation = Equation<D, StrandContact>;
+  using TheIncrement = Increment<D, StrandContact>;
+
+  SolutionOf(TheEquation& equation, const StepStart& start, const Watch& watch)
+      : equation_(equation), start_(start), watch_(watch) {}
+
+  /// Leaves the equation at the last trial, and `worst` at its worst residual.
+  NewtonSummary by(Solution solution, WorstResidual& worst) {
+    NewtonSummary out =
+        solution == Solution::kSecants ? by_secants() : by_tangents(solution == Solution::kTangentsAbandonedEarly);
+    worst = worst_;
+    return out;
+  }
+
+ private:
+  static constexpr int kTurns = 3;                 // of secants and tangents
+  static constexpr double kFactorOfSecants = 0.5;  // of a change
+
+  /// What Newton's method solves: an increment whose friction is linearised in one way.
+  struct System {
+    TheIncrement& increment;
+    const Watch& watch;
+    Linearisation of_friction;
+
+    double residual() {
+      const double out = increment.residual();
+      watch(increment);
+      return out;
+    }
+    double tolerance() const { return increment.tolerance(); }
+    bool solve() { return increment.solve(of_friction); }
+    void move(double factor) { increment.move(factor); }
+    bool stands_still() const { return increment.stands_still(); }
+  };
+
+  NewtonSummary run(TheIncrement& increment, Linearisation of_friction, const NewtonOptions& options) {
+    System system{increment, watch_, of_friction};
+    NewtonSummary out = newton(system, options);
+    worst_ = increment.worst_residual();
+    return out;
+  }
+
+  NewtonSummary by_tangents(bool abandons_early) {
+    TheIncrement increment(equation_, start_, abandons_early);
+    return run(increment, Linearisation::kTangent, {equation_.settings.max_iterations, 1.0, abandons_early});
+  }
+
+  /// Secants creep up to the solution from afar, on one side of every kink; tangents find it from there in few
+  /// iterations. Where whole changes leap to and fro, halves need not.
+  NewtonSummary by_secants() {
+    NewtonSummary out = by_turns(1.0, 1);
+    if (out.converged()) return out;
+    const int before = out.iterations;
+    out = by_turns(kFactorOfSecants, kTurns);
+    out.iterations += before;
+    return out;
+  }
+
+  /// Secants, of whose changes at most `factor` is taken, and tangents, so many times over.
+  NewtonSummary by_turns(double factor, int turns) {
+    TheIncrement increment(equation_, start_, false);
+    NewtonSummary out;
+    for (int turn = 0; turn < 2 * turns; ++turn) {
+      const bool secants = turn % 2 == 0;
+      const int before = out.iterations;
+      out = run(increment, secants ? Linearisation::kSecant : Linearisation::kTangent,
+                {equation_.settings.max_iterations, secants ? factor : 1.0});
+      out.iterations += before;
+      if (out.end != NewtonSummary::End::kIterationLimit) break;
+    }
+    return out;
+  }
+
+  TheEquation& equation_;
+  const StepStart& start_;
+  const Watch& watch_;
+  WorstResidual worst_;
+};
+
+}  // namespace knot_utm
