@@ -58,6 +58,17 @@ def anchor(heading):
     return re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-")
 
 
+class Design(unittest.TestCase):
+    def test_rooms_are_those_of_the_table(self):
+        table = {}
+        for line in text("cmake/rooms.txt").splitlines():
+            if line and not line.startswith("#"):
+                room, _, uses = line.partition(":")
+                table[room] = uses.split()
+        page = {room: cells[0][2] for room, cells in rows(text("doc/design.md")).items() if room in table}
+        self.assertEqual({room: re.findall(r"\w+", cell) for room, cell in page.items()}, table)
+
+
 class Method(unittest.TestCase):
     page = text("doc/method.md")
     rows = rows(page)
