@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -55,8 +56,9 @@ struct Capstan {
     double residual = 1e-7;         ///< [T1]
     double contact_tolerance = 1e-3;
     double presliding = 1e-3;
-    bool smoothed = false;                  ///< friction that creeps, else one that remembers
-    double slip_tolerance = 0.01 * kSpeed;  ///< smoothed friction
+    bool smoothed = false;                    ///< friction that creeps, else one that remembers
+    double slip_tolerance = 0.01 * kSpeed;    ///< smoothed friction
+    std::optional<Friction> roller_friction;  ///< another law than these two
   };
 
   Options options;
@@ -105,6 +107,7 @@ struct Capstan {
     StepSettings settings = capstan_settings(material, t1, options.contact_tolerance, options.residual);
     settings.roller_friction = MemoryFriction{kMu, options.presliding};
     if (options.smoothed) settings.roller_friction = SmoothedFriction{kMu, options.slip_tolerance};
+    if (options.roller_friction) settings.roller_friction = *options.roller_friction;
     stepper = TimeStep::make(rod, state, settings);
 
     Roller roller;

@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "knot_utm/contact/memory_friction.hpp"
+#include "knot_utm/contact/power_friction.hpp"
 #include "knot_utm/contact/smoothed_friction.hpp"
 #include "knot_utm/contact/stribeck_friction.hpp"
 
 namespace knot_utm {
 
 /// All friction laws there are, in the order in which messages name them; the first is the default.
-using FrictionLaws = std::variant<MemoryFriction, SmoothedFriction, StribeckFriction>;
+using FrictionLaws = std::variant<MemoryFriction, SmoothedFriction, StribeckFriction, PowerFriction>;
 
 /// What is known of a law by its type alone.
 struct FrictionLawEntry {

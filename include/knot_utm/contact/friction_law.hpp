@@ -19,7 +19,8 @@ namespace knot_utm {
 ///     static constexpr const char* kName              is what a method calls it
 ///     static constexpr std::array kKeys               its keys in physics.friction (FrictionKey)
 ///     static Law of(options, scales)                  from a method
-///     double coefficient                              the largest mu [-]; 0: no friction at all
+///     double coefficient                              mu of the method [-], the largest but for a law whose mu falls
+///                                                     with the load, which has it at a load of its own; 0: no friction
 ///     traction(FrictionInput<Vector>)                 -> FrictionTraction<Vector>
 ///     tangent(FrictionInput<Vector>, Linearisation)   -> FrictionTangent<Vector>
 ///     remember(FrictionInput<Vec3>, z)                -> FrictionMemory, once the step is accepted with this z

@@ -54,6 +54,10 @@ inline double exponential(double v) { return std::exp(v); }
 inline Lanes exponential(const Lanes& v) {
   return Lanes{std::exp(v[0]), std::exp(v[1]), std::exp(v[2]), std::exp(v[3])};
 }
+inline double power(double v, double exponent) { return std::pow(v, exponent); }
+inline Lanes power(const Lanes& v, double exponent) {
+  return Lanes{std::pow(v[0], exponent), std::pow(v[1], exponent), std::pow(v[2], exponent), std::pow(v[3], exponent)};
+}
 inline double tanh(double v) { return std::tanh(v); }
 inline Lanes tanh(const Lanes& v) { return Lanes{std::tanh(v[0]), std::tanh(v[1]), std::tanh(v[2]), std::tanh(v[3])}; }
 

@@ -1,0 +1,79 @@
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "knot_utm/contact/friction_law.hpp"
+
+namespace knot_utm {
+
+/// Friction that grows less than the load, as that of textile fibres does. Where they touch on a few small areas that
+/// flatten, friction grows with a power n < 1 of the normal force, F = a N^n. Per length of rod and with mu given at a
+/// reference pressure p_r,
+///
+///     mu(p) = mu ((p + p_0)/(p_r + p_0))^(n - 1),      p_0 = p_r/1000,
+///
+/// so that t = -mu(p) p z is a p^n but for a pressure that is as small as p_0, and has a slope where strands just
+/// touch. z and what is remembered are those of `memory`: a spring up to the presliding displacement xi_s, a return
+/// mapping beyond. n = 1 is `memory`. Source: Howell 1953 (the law, and its capstan); Bowden and Tabor 1950 (the
+/// areas).
+struct PowerFriction : FrictionLawDefaults {
+  static constexpr const char* kName = "power";
+  static constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
+  static constexpr std::array kKeys{
+      FrictionKey{"presliding", 1e-5, 0.5, "of the radius", FrictionDefault::kPresliding, kNoValue},
+      FrictionKey{"exponent", 0.5, 1.0, "of the pressure", FrictionDefault::kNone, kNoValue},
+      FrictionKey{"reference_pressure", 1e-3, 1e9, "N/m", FrictionDefault::kNone, kNoValue}};
+
+  double coefficient = 0.0;         ///< mu at p_r [-]
+  double presliding = 0.0;          ///< xi_s [m]
+  double exponent = 1.0;            ///< n [-]
+  double reference_pressure = 1.0;  ///< p_r [N/m]
+
+  PowerFriction() = default;
+  PowerFriction(double mu, double xi_s, double n, double p_r)
+      : coefficient(mu), presliding(xi_s), exponent(n), reference_pressure(p_r) {}
+  static PowerFriction of(const FrictionOptions& options, const FrictionScales& scales);
+
+  template <typename Vector>
+  FrictionTraction<Vector> traction(const FrictionInput<Vector>& in) const {
+    const Vector y = (1.0 / presliding) * in.slip;
+    return {over_size(square_root(dot(y, y))) * y, coefficient_at(in.pressure)};
+  }
+
+  template <typename Vector>
+  FrictionTangent<Vector> tangent(const FrictionInput<Vector>& in, Linearisation linearisation) const {
+    using Real = typename FrictionInput<Vector>::Real;
+    const double over_scale = 1.0 / presliding;
+    const Vector y = over_scale * in.slip;
+    const Real size = square_root(dot(y, y)), across = over_size(size);
+    Real along = Real{};  // d|z|/d|y| - |z|/|y|
+    if (linearisation == Linearisation::kTangent) along = select(size < 1.0, along, -across);
+    const Vector unit = select(size > 1e-12, 1.0 / size, Real{}) * y;
+    const Vector z = across * y;
+    const Real mu = coefficient_at(in.pressure);
+    // d(mu p)/dp = mu (1 + (n - 1) p/(p + p_0))
+    const Real by_pressure = mu * (1.0 + (exponent - 1.0) * in.pressure / (in.pressure + least()));
+    return {z, mu, by_pressure * z, over_scale * mu, across, along, unit, unit};
+  }
+
+  FrictionMemory remember(const FrictionInput<Vec3>&, const Vec3& z) const { return {presliding * z, 0.0}; }
+
+  void state(Archive& archive) { archive(coefficient, presliding, exponent, reference_pressure); }
+
+ private:
+  /// p_0 [N/m]
+  double least() const { return 1e-3 * reference_pressure; }
+
+  template <typename Real>
+  Real coefficient_at(const Real& pressure) const {
+    return coefficient * power((pressure + least()) / (reference_pressure + least()), exponent - 1.0);
+  }
+  /// |z|/|y|
+  template <typename Real>
+  static Real over_size(const Real& size) {
+    return select(size < 1.0, constant<Real>(1.0), 1.0 / size);
+  }
+};
+
+}  // namespace knot_utm
