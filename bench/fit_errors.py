@@ -6,7 +6,7 @@
 For each reading, log10 of the relative true difference is taken to be a + sum b_i x_i plus chance; a and b_i by least
 squares, with b_i held towards zero (ridge), so that a few tests cannot make a steep law. The error is that law, raised by
 the factor below which COVERED of the tests lie that were left out one at a time. `--check` says how many of the tests of
-other seeds it holds. The constants stand in src/machine/accuracy.cpp."""
+other seeds it holds. The constants stand in src/machine/measured.hpp."""
 import argparse
 import csv
 import math

@@ -76,6 +76,12 @@ add_test(NAME material_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/t
 set_tests_properties(material_test PROPERTIES TIMEOUT 600 ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
 add_test(NAME doc_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/doc_test.py)
 
+# The recipe for a friction law in CONTRIBUTING.md, by following it.
+add_test(NAME friction_law_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/contributing/friction_law_test.py)
+get_target_property(eigen_folder Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+set_tests_properties(friction_law_test PROPERTIES TIMEOUT 600
+                     ENVIRONMENT "CXX=${CMAKE_CXX_COMPILER};KNOT_UTM_EIGEN=${eigen_folder}")
+
 add_test(NAME site_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/site_test.py)
 set_tests_properties(site_test PROPERTIES SKIP_RETURN_CODE 77)
 

@@ -85,7 +85,7 @@ std::optional<double> class_error(const LoadCellOptions& cell, const std::option
 /// By how much a stiffness changes where the part that it is read from lies a little further along the curve: by twice
 /// as much as the lock may be off, or where there is none by a share of the part [-].
 double change_along_the_curve(const Results& results, const ReadingErrors& errors) {
-  constexpr double kOfLock = 2.0, kFurther = 0.3;  // chosen with the constants of reading_errors (accuracy.cpp)
+  constexpr double kOfLock = 2.0, kFurther = 0.3;  // chosen with the constants of reading_errors (measured.hpp)
   const std::optional<LockedPart>& part = results.curve.locked;
   if (!part || !(part->width > 0.0) || part->stiffness == 0.0) return 0.0;
   const bool locks = results.lock_extension && errors.lock_extension;

@@ -6,19 +6,13 @@
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "measured.hpp"
 
 namespace knot_utm {
 
 namespace {
 
-constexpr Tolerances kDraft{0.34, 2e-4, 0.06, 4e-3, 1.3};
-constexpr Tolerances kNormal{0.17, 1e-4, 0.005, 2e-3, 2.25};
-constexpr Tolerances kFine{0.05, 1e-5, 0.0025, 1e-3, 3.0};
-
-// For the loop of a rod that stretches.
-constexpr Tolerances kStretchingDraft{0.34, 3e-4, 0.12, 2e-2, 1.0};
-constexpr Tolerances kStretchingNormal{0.17, 2e-4, 0.08, 1e-2, 1.0};
-constexpr Tolerances kStretchingFine{0.05, 1e-5, 0.01, 1e-3, 2.0};
+using namespace measured;
 
 /// A loop of a solid rod stretches, while one of a rope lets its knots slide first.
 bool stretches(const SpecimenOptions& specimen, const Material& material) {
@@ -30,11 +24,6 @@ double preload_group(const SpecimenOptions& specimen, const Material& material) 
   const double h = material.radius;
   return tying_load(specimen, material) * h * h / material.bending_stiffness;
 }
-
-// Under the tension T of its tying a rope's bends fade along a strand within sqrt(k_b/T): the harder it is tied, the
-// shorter the edges that it takes. Beyond this pre-load [k_b/h^2] they are shorter by its fourth root, up to a third,
-// by choice: the square root would ask for edges in nylon that are 2.4 times as short.
-constexpr double kTiedHard = 6.0, kShortestForHard = 4.0 / 3.0;
 
 /// By which edges in the knots of a rope that is tied hard are shorter.
 double shorter_where_tied_hard(const SpecimenOptions& specimen, const Material& material) {
@@ -60,24 +49,6 @@ Tolerances of(Accuracy accuracy, const SpecimenOptions& specimen, const Material
   if (!solid && accuracy != Accuracy::kDraft) out.refinement *= shorter_where_tied_hard(specimen, material);
   return out;
 }
-
-// At `normal` with edges of h/2.25 (of a solid rod of h), meant to hold 95 % of the differences to `fine` with edges
-// half as long, and to be hardly wider. Chosen after what scripts/bench readings drew with seeds 21, 25 and 28 to 30.
-// How many of them these hold, and how many of other seeds, stands in doc/benchmarks.md.
-constexpr double kPlateau = 0.043, kOppositePlateau = 0.067;  // of knots of the same hand, and of opposite ones
-// Below this mu the knots are the less sure the nearer to opening.
-constexpr double kSlippery = 0.65, kOppositeSlippery = 0.45, kLeastFriction = 0.1;
-// Knots that slide under less [k_b/h^2] are hardly closed: any change of the mesh changes how far they are open.
-constexpr double kHardlyClosed = 0.55;
-constexpr double kLock = 0.0105, kOppositeLock = 0.027;
-// The error of a solid rod's stiffness is that of its knots, whose share in the loop is h/L.
-constexpr double kRopesStiffness = 0.006, kSolidsStiffnessOfKnots = 1.2;
-constexpr double kStraightStiffness = 1e-3;  // an upper bound by judgement: exact but for the residual
-
-// What each source of error contributes to the error at `normal` with edges of one radius [-]: they add up to 1. Chosen
-// by hand together with the errors above, after the same draws; no bench varies one source at a time.
-constexpr double kShareOfEdges = 0.5, kShareOfContactTolerance = 0.2, kShareOfPresliding = 0.1, kShareOfStep = 0.1,
-                 kShareOfResidual = 0.1;
 
 /// The error over that at `normal` with edges of one radius. It grows with the square of the edge length, as the method
 /// is of second order, and in proportion to all else. `edge`: before refinement [h].

@@ -397,7 +397,7 @@ class Convergence(unittest.TestCase):
         self.assertIsNone(convergence.change_of_means([None], [1.0]))
 
     def test_what_is_halved_is_what_is_shipped(self):
-        with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../src/machine/accuracy.cpp"),
+        with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../src/machine/measured.hpp"),
                   encoding="utf-8") as source:
             text = source.read()
         for material, name in (("nylon", "kNormal"), ("pink_vps", "kStretchingNormal")):

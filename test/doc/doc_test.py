@@ -266,11 +266,20 @@ class Citation(unittest.TestCase):
 
     def test_version_and_licence_are_the_packages(self):
         package = xml.etree.ElementTree.parse(os.path.join(ROOT, "package.xml")).getroot()
-        # It stands in CMakeLists.txt; these two files cannot read it there.
-        version = re.search(r"^project\(knot_utm VERSION ([\d.]+)", text("CMakeLists.txt"), re.MULTILINE).group(1)
+        # CMakeLists.txt reads it there; a citation cannot.
+        version = package.find("version").text
+        self.assertRegex(version, r"^\d+\.\d+\.\d+$")
         self.assertEqual(self.citation["version"], version)
-        self.assertEqual(package.find("version").text, version)
+        self.assertNotRegex(text("CMakeLists.txt"), r"project\(knot_utm VERSION \d")
         self.assertEqual(self.citation["license"], package.find("license").text)
+
+    def test_the_newest_section_of_the_changelog_is_the_packages(self):
+        package = xml.etree.ElementTree.parse(os.path.join(ROOT, "package.xml")).getroot()
+        # As bloom and catkin_prepare_release read headings: a version, its date, and a line below that is as long.
+        sections = re.findall(r"^((?:\d+\.\d+\.\d+) \(\d{4}-\d{2}-\d{2}\)|Forthcoming)\n(-+)$", text("CHANGELOG.rst"), re.MULTILINE)
+        self.assertTrue(all(len(heading) == len(line) for heading, line in sections))
+        versions = [heading.split()[0] for heading, _ in sections if heading != "Forthcoming"]
+        self.assertEqual(versions[0], package.find("version").text)
 
     def test_has_the_source_paper_as_the_bibliography_has_it(self):
         paper = self.citation["references"][0]

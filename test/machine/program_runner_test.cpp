@@ -6,48 +6,13 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "knot_utm/machine/run_test.hpp"
-#include "machine/fake_bench.hpp"
+#include "machine/programs.hpp"
 
 namespace knot_utm {
 namespace {
 
+using namespace programs;
 using ::testing::HasSubstr;
-
-ProgramStep step(Phase phase, double speed = 0.0033, double duration = 0.0) {
-  ProgramStep result;
-  result.phase = phase;
-  result.speed = speed;
-  result.duration = duration;
-  return result;
-}
-
-ProgramStep pull(double extension, double speed = 0.0033) {
-  ProgramStep result = step(Phase::kPull, speed);
-  result.until.extension = extension;
-  result.until.broken = true;
-  return result;
-}
-
-Program paper_program() {
-  return {step(Phase::kTie), step(Phase::kRelease, 0.0033, 3.0), step(Phase::kMount), step(Phase::kBalance),
-          pull(0.12)};
-}
-
-struct Record {
-  std::vector<Command> commands;
-  std::vector<Sample> samples;
-};
-
-Record run(FakeBench bench, ProgramRunner& program) {
-  Record result;
-  run_test(bench, program, [&](const Command& command, const Sample& sample) {
-    result.commands.push_back(command);
-    result.samples.push_back(sample);
-    ASSERT_LT(result.commands.size(), 100000u);
-  });
-  return result;
-}
 
 TEST(ProgramRunner, PeriodIsTheSamplingPeriodDividedUntilNoLongerThanTheLongest) {
   EXPECT_DOUBLE_EQ(ProgramRunner(paper_program(), 3.0, 1.0, {}).period(), 1.0 / 3.0);
@@ -60,7 +25,7 @@ TEST(ProgramRunner, PeriodIsTheSamplingPeriodDividedUntilNoLongerThanTheLongest)
 
 TEST(ProgramRunner, CommandTimesComeFromWholeNumbers) {
   ProgramRunner program(paper_program(), 3.0, 0.1, {});
-  const Record result = run(FakeBench(), program);
+  const Course result = run(FakeBench(), program);
   for (std::size_t n = 0; n < result.commands.size(); ++n) {
     EXPECT_EQ(result.commands[n].sequence, n);
     EXPECT_EQ(result.commands[n].time, static_cast<double>(n) / 12.0);
@@ -71,7 +36,7 @@ TEST(ProgramRunner, CommandTimesComeFromWholeNumbers) {
 
 TEST(ProgramRunner, RunsThePapersPhasesInOrder) {
   ProgramRunner program(paper_program(), 3.0, 0.1, {});
-  const Record result = run(FakeBench(), program);
+  const Course result = run(FakeBench(), program);
   std::vector<Phase> phases;
   int balances = 0;
   for (const Command& command : result.commands) {
@@ -92,7 +57,7 @@ TEST(ProgramRunner, CrossheadMovesOnlyInMountPreloadAndPull) {
   ProgramRunner program({step(Phase::kTie), step(Phase::kRelease, 0.0033, 1.0), step(Phase::kMount), preload,
                          step(Phase::kBalance), pull(0.01), step(Phase::kHold, 0.0033, 2.0)},
                         3.0, 0.1, {});
-  const Record result = run(FakeBench(), program);
+  const Course result = run(FakeBench(), program);
   for (std::size_t n = 1; n < result.commands.size(); ++n) {
     const Command& command = result.commands[n];
     const double moved = command.displacement - result.commands[n - 1].displacement;
@@ -111,7 +76,7 @@ TEST(ProgramRunner, CrossheadMovesOnlyInMountPreloadAndPull) {
 
 TEST(ProgramRunner, PullEndsAtTheFirstSampleAtOrBeyondItsExtension) {
   ProgramRunner program({step(Phase::kBalance), pull(0.01)}, 3.0, 1.0, {});
-  const Record result = run(FakeBench(), program);
+  const Course result = run(FakeBench(), program);
   const std::size_t n = result.samples.size();
   EXPECT_GE(result.samples[n - 1].extension, 0.01);
   EXPECT_LT(result.samples[n - 2].extension, 0.01);
@@ -178,7 +143,7 @@ TEST(ProgramRunner, AKnotThatComesUndoneBeforeItIsPulledEndsTheTest) {
     bench.undone_from = one.undone_from;
     ProgramRunner program({step(Phase::kTie), step(Phase::kRelease, 0.0033, 1.0), step(Phase::kMount), pull(0.1)}, 3.0,
                           0.1, {});
-    const Record result = run(bench, program);
+    const Course result = run(bench, program);
     EXPECT_EQ(program.ended_by(), EndedBy::kUntangled);
     EXPECT_EQ(program.reason(), std::string(one.phase) + ": the knot came undone");
     EXPECT_TRUE(program.failed());
@@ -201,7 +166,7 @@ TEST(ProgramRunner, AProgramThatOnlyTiesGoesOnToItsEnd) {
   FakeBench bench;
   bench.undone_from = 0.3;
   ProgramRunner program({step(Phase::kTie), step(Phase::kRelease, 0.0033, 1.0)}, 3.0, 0.1, {});
-  const Record result = run(bench, program);
+  const Course result = run(bench, program);
   EXPECT_GT(result.samples.back().time, 1.4);
   EXPECT_EQ(program.ended_by(), EndedBy::kUntangled);
   EXPECT_EQ(program.reason(), "");
@@ -219,7 +184,7 @@ TEST(ProgramRunner, EveryEndHasANameOfItsOwn) {
 /// What interrupts a test comes between two commands, where it can go on.
 TEST(ProgramRunner, AnInterruptedTestGoesOnAsIfItWasNot) {
   ProgramRunner whole(paper_program(), 3.0, 0.1, {}), cut(paper_program(), 3.0, 0.1, {});
-  const Record unbroken = run(FakeBench(), whole);
+  const Course unbroken = run(FakeBench(), whole);
   FakeBench bench;
   std::vector<double> forces;
   const auto observe = [&](const Command&, const Sample& sample) { forces.push_back(sample.force_upper); };
@@ -246,7 +211,7 @@ TEST(ProgramRunner, GoesOnWithWhatDoesNotComeToRestAsWithWhatDoes) {
   FakeBench calm, restless;
   restless.comes_to_rest = false;
   ProgramRunner rested(paper_program(), 3.0, 0.1, {}), moving(paper_program(), 3.0, 0.1, {});
-  const Record with_rest = run(calm, rested), without = run(restless, moving);
+  const Course with_rest = run(calm, rested), without = run(restless, moving);
   EXPECT_EQ(moving.ended_by(), EndedBy::kExtension);
   EXPECT_EQ(without.commands.size(), with_rest.commands.size());
 }
@@ -293,312 +258,6 @@ TEST(ProgramRunner, ProgressGrowsFromZeroToOne) {
   });
   EXPECT_EQ(program.progress(), 1.0);
   EXPECT_EQ(program.time_left(), 0.0);
-}
-
-ProgramStep preload(double load, bool balance = true) {
-  ProgramStep out = step(Phase::kPreload, 0.001);
-  out.load = load;
-  out.balance = balance;
-  return out;
-}
-
-TEST(ProgramRunner, PreloadMeetsItsLoadAndBalancesStandingStill) {
-  ProgramRunner program({preload(2.0), pull(0.01)}, 3.0, 0.1, {});
-  const Record result = run(FakeBench(), program);
-  std::size_t first = 1;
-  while (result.commands[first].phase == Phase::kPreload) ++first;
-  const Command& last = result.commands[first - 1];
-  EXPECT_TRUE(last.balance);
-  EXPECT_EQ(last.velocity, 0.0);
-  EXPECT_NEAR(result.samples[first - 1].force_upper, 2.0, 2e-3);  // kMetLoad
-  EXPECT_EQ(result.samples[first - 1].load, 0.0);
-  EXPECT_NEAR(result.samples[first].load, 1000.0 * 0.0033 * program.period(), 1e-12);
-
-  ProgramRunner unbalanced({preload(2.0, false), pull(0.01)}, 3.0, 0.1, {});
-  for (const Command& command : run(FakeBench(), unbalanced).commands) EXPECT_FALSE(command.balance);
-}
-
-/// The next step begins in the new zero.
-TEST(ProgramRunner, WhatFollowsAPreloadBeginsAtZero) {
-  ProgramStep hold = step(Phase::kHold, 0.0033, 2.0), by_load = step(Phase::kPull);
-  hold.hold_load = true;
-  by_load.load_rate = 1.0;
-  by_load.until.load = 3.0;
-  ProgramStep cycle = step(Phase::kCycle);
-  cycle.extension_turns = TurningPoints{0.0, 0.001};
-  cycle.cycles = 1;
-  ProgramRunner program({preload(2.0), hold, by_load, step(Phase::kBalance), cycle}, 3.0, 0.1, {});
-  const Record result = run(FakeBench(), program);
-  double begin = 0.0;
-  for (std::size_t n = 1; n < result.samples.size(); ++n) {
-    const Sample& sample = result.samples[n];
-    if (sample.phase == Phase::kHold) {
-      EXPECT_NEAR(sample.load, 0.0, 1e-12);
-      begin = sample.time;
-    }
-    if (sample.phase == Phase::kPull) {
-      EXPECT_LE(sample.load, sample.time - begin + 1e-9);
-    }
-    if (sample.phase == Phase::kCycle) {
-      EXPECT_GE(sample.extension, -1e-12);
-    }
-  }
-}
-
-TEST(ProgramRunner, ABalanceByTheOperatorMovesNoHeldLoadAndIsNoBreak) {
-  ProgramStep hold = step(Phase::kHold, 0.0033, 5.0);
-  hold.hold_load = true;
-  ProgramRunner::Limits limits;
-  limits.breaks.sharp_drop = 0.5;
-  limits.breaks.fraction_of_peak = 0.5;
-  ProgramRunner program({pull(0.01), hold}, 3.0, 0.1, limits);
-  FakeBench bench;
-  double held = 0.0;
-  bool balanced = false;
-  run_test(bench, program, [&](const Command& command, const Sample& sample) {
-    if (command.phase != Phase::kHold) {
-      held = sample.force_upper;
-      return;
-    }
-    EXPECT_NEAR(sample.force_upper, held, 1e-9);
-    if (!balanced) program.balance();
-    balanced = true;
-  });
-  EXPECT_EQ(program.ended_by(), EndedBy::kProgram) << program.reason();
-}
-
-TEST(ProgramRunner, ErrorsOfTheCellLeadNothing) {
-  struct WrongCell : FakeBench {
-    Sample respond(const Command& command) {
-      Sample sample = FakeBench::respond(command);
-      if (command.read_cell) sample.load = 1.1 * sample.load + 0.3;
-      return sample;
-    }
-  };
-  ProgramStep hold = step(Phase::kHold, 0.0033, 3.0);
-  hold.hold_load = true;
-  hold.held_load = 7.0;
-  ProgramRunner program({preload(2.0, false), hold}, 3.0, 0.1, {});
-  WrongCell bench;
-  double last = 0.0;
-  run_test(bench, program, [&](const Command&, const Sample& sample) { last = sample.force_upper; });
-  EXPECT_NEAR(last, 7.0, 1e-9);
-}
-
-TEST(ProgramRunner, ARateOfLoadGoesOnFromWhereTheCrossheadCouldNotKeepUp) {
-  struct SlackThenStiff : FakeBench {
-    Sample respond(const Command& command) {
-      FakeBench::respond(command);
-      Sample sample = substeps.back();
-      sample.force_upper = sample.load = 1000.0 * std::max(0.0, sample.displacement - 0.01);
-      return sample;
-    }
-  };
-  ProgramStep by_load = step(Phase::kPull, 0.0033);
-  by_load.load_rate = 1.0;
-  by_load.until.load = 5.0;
-  ProgramRunner program({by_load}, 3.0, 0.1, {});
-  SlackThenStiff bench;
-  double before = 0.0, steepest = 0.0;
-  run_test(bench, program, [&](const Command&, const Sample& sample) {
-    steepest = std::max(steepest, (sample.force_upper - before) / program.period());
-    before = sample.force_upper;
-  });
-  // The command in which the slack ends is led as if it went on: what the crosshead moves in one period.
-  EXPECT_LE(steepest, 1000.0 * 0.0033 + 1e-9);
-  EXPECT_NEAR(before, 5.0, 5e-3);
-}
-
-TEST(ProgramRunner, PullsAtARateOfLoad) {
-  ProgramStep by_load = step(Phase::kPull, 0.01);
-  by_load.load_rate = 2.0;
-  by_load.until.load = 10.0;
-  ProgramRunner program({by_load}, 3.0, 0.1, {});
-  const Record result = run(FakeBench(), program);
-  // The first command finds out how stiff the spring is.
-  for (std::size_t n = 2; n < result.samples.size(); ++n)
-    EXPECT_NEAR(result.samples[n].load, 2.0 * result.samples[n].time, 1e-9);
-  EXPECT_EQ(program.ended_by(), EndedBy::kLoad);
-}
-
-TEST(ProgramRunner, HoldsALoad) {
-  ProgramStep hold = step(Phase::kHold, 0.01, 5.0);
-  hold.hold_load = true;
-  hold.held_load = 7.0;
-  ProgramRunner to_another({pull(0.01), hold}, 3.0, 0.1, {});
-  EXPECT_NEAR(run(FakeBench(), to_another).samples.back().load, 7.0, 1e-9);
-  hold.held_load.reset();
-  ProgramRunner as_it_is({pull(0.01), hold}, 3.0, 0.1, {});
-  const Record result = run(FakeBench(), as_it_is);
-  for (const Sample& sample : result.samples)
-    if (sample.phase == Phase::kHold) {
-      EXPECT_NEAR(sample.load, 1000.0 * 0.01, 0.5);
-    }
-  EXPECT_EQ(as_it_is.ended_by(), EndedBy::kProgram);
-}
-
-TEST(ProgramRunner, CyclesBetweenExtensionsThatItMeets) {
-  ProgramStep cycle = step(Phase::kCycle, 0.0033);
-  cycle.extension_turns = TurningPoints{0.001, 0.004};
-  cycle.cycles = 3;
-  ProgramRunner program({step(Phase::kBalance), cycle}, 3.0, 0.1, {});
-  const Record result = run(FakeBench(), program);
-  int highs = 0, lows = 0;
-  for (const Sample& sample : result.samples) {
-    EXPECT_LE(sample.extension, 0.004 + 1e-12);
-    highs += std::abs(sample.extension - 0.004) < 1e-12 ? 1 : 0;
-    lows += std::abs(sample.extension - 0.001) < 1e-12 ? 1 : 0;
-  }
-  EXPECT_EQ(highs, 3);
-  EXPECT_EQ(lows, 3);
-  EXPECT_NEAR(result.samples.back().extension, 0.001, 1e-12);
-  EXPECT_EQ(program.ended_by(), EndedBy::kProgram);
-}
-
-TEST(ProgramRunner, CyclesBetweenLoadsByCountOrTime) {
-  ProgramStep cycle = step(Phase::kCycle, 0.0033);
-  cycle.load_turns = TurningPoints{1.0, 4.0};
-  cycle.cycles = 2;
-  ProgramRunner by_count({cycle}, 3.0, 0.1, {});
-  const Record counted = run(FakeBench(), by_count);
-  constexpr double kMet = 3e-3;  // kMetLoad of the range
-  double highest = 0.0;
-  for (const Sample& sample : counted.samples) highest = std::max(highest, sample.load);
-  EXPECT_NEAR(highest, 4.0, kMet);
-  EXPECT_NEAR(counted.samples.back().load, 1.0, kMet);
-
-  cycle.cycles = 0;
-  cycle.until.time = 10.0;
-  ProgramRunner by_time({cycle}, 3.0, 0.1, {});
-  EXPECT_DOUBLE_EQ(run(FakeBench(), by_time).samples.back().time, 10.0);
-  EXPECT_EQ(by_time.ended_by(), EndedBy::kProgram);
-}
-
-TEST(ProgramRunner, ReturnsToAnExtensionOrALoad) {
-  ProgramRunner home({step(Phase::kBalance), pull(0.01), step(Phase::kReturn)}, 3.0, 0.1, {});
-  EXPECT_NEAR(run(FakeBench(), home).samples.back().extension, 0.0, 1e-12);
-  EXPECT_EQ(home.ended_by(), EndedBy::kExtension);
-
-  ProgramStep unload = step(Phase::kReturn);
-  unload.until.load = 3.0;
-  ProgramRunner to_load({step(Phase::kBalance), pull(0.01), unload}, 3.0, 0.1, {});
-  EXPECT_NEAR(run(FakeBench(), to_load).samples.back().load, 3.0, 1e-3 * 10.3);  // kMetLoad of where it began
-  EXPECT_EQ(to_load.ended_by(), EndedBy::kLoad);
-}
-
-TEST(ProgramRunner, FollowsARecordFromWhereItStands) {
-  ProgramStep follow = step(Phase::kFollow);
-  follow.recorded = {{0.0, 0.5}, {1.0, 0.502}, {1.5, 0.501}, {3.0, 0.507}};
-  ProgramRunner program({pull(0.01), follow}, 3.0, 0.1, {});
-  const Record result = run(FakeBench(), program);
-  double begin = 0.0, from = 0.0;
-  for (std::size_t n = 1; n < result.samples.size(); ++n) {
-    const Sample& sample = result.samples[n];
-    if (sample.phase != Phase::kFollow) {
-      begin = sample.time;
-      from = sample.displacement;
-      continue;
-    }
-    const double t = sample.time - begin, way = sample.displacement - from;
-    const double expected = t <= 1.0 ? 0.002 * t : t <= 1.5 ? 0.002 - 0.002 * (t - 1.0) : 0.001 + 0.004 * (t - 1.5);
-    EXPECT_NEAR(way, std::min(expected, 0.007), 1e-12) << t;
-  }
-  EXPECT_EQ(program.ended_by(), EndedBy::kProgram);
-}
-
-TEST(ProgramRunner, ATimeLimitEndsIt) {
-  ProgramRunner::Limits limits;
-  limits.time = 1.0;
-  ProgramRunner program({pull(0.1)}, 3.0, 0.1, limits);
-  EXPECT_DOUBLE_EQ(run(FakeBench(), program).samples.back().time, 1.0);
-  EXPECT_EQ(program.ended_by(), EndedBy::kTime);
-  EXPECT_THAT(program.reason(), HasSubstr("time is over"));
-}
-
-TEST(ProgramRunner, ADropThatIsABreakEndsIt) {
-  FakeBench weak;
-  weak.weak_from = 0.008;
-  ProgramRunner::Limits limits;
-  limits.breaks.fraction_of_peak = 0.4;
-  limits.breaks.arming_load = 5.0;
-  ProgramRunner program({pull(0.1)}, 3.0, 0.1, limits);
-  const Record result = run(weak, program);
-  EXPECT_EQ(program.ended_by(), EndedBy::kBreak);
-  EXPECT_THAT(program.reason(), HasSubstr("the load fell"));
-  EXPECT_NEAR(result.samples.back().displacement, 0.008, 0.0033 * program.period());
-
-  // On the way in of a cycle loads fall as they should.
-  ProgramStep cycle = step(Phase::kCycle, 0.0033);
-  cycle.extension_turns = TurningPoints{0.0, 0.007};
-  cycle.cycles = 2;
-  ProgramRunner cycles({step(Phase::kBalance), cycle}, 3.0, 0.1, limits);
-  run(weak, cycles);
-  EXPECT_EQ(cycles.ended_by(), EndedBy::kProgram);
-}
-
-TEST(ProgramRunner, AReturnNeverMovesOutwards) {
-  ProgramStep home = step(Phase::kReturn);
-  home.return_extension = 0.02;
-  ProgramRunner program({step(Phase::kBalance), pull(0.01), home}, 3.0, 0.1, {});
-  const Record result = run(FakeBench(), program);
-  EXPECT_NEAR(result.samples.back().displacement, 0.01, 0.0033 * program.period());
-  for (const Command& command : result.commands)
-    if (command.phase == Phase::kReturn) {
-      EXPECT_EQ(command.velocity, 0.0);
-    }
-}
-
-TEST(ProgramRunner, GripsThatMeetEndIt) {
-  ProgramStep home = step(Phase::kReturn, 0.01);
-  home.return_extension = -1.0;
-  ProgramRunner::Limits limits;
-  limits.least_distance = 0.1;  // from 0.25 m on
-  ProgramRunner program({home}, 3.0, 0.1, limits);
-  EXPECT_NEAR(run(FakeBench(), program).samples.back().end_to_end, 0.1, 0.01 * program.period());
-  EXPECT_EQ(program.ended_by(), EndedBy::kTravel);
-  EXPECT_THAT(program.reason(), HasSubstr("the grips meet"));
-}
-
-TEST(ProgramRunner, UnloadingAsProgrammedIsNoBreak) {
-  ProgramStep hold = step(Phase::kHold, 0.01, 5.0);
-  hold.hold_load = true;
-  hold.held_load = 2.0;
-  ProgramRunner::Limits limits;
-  limits.breaks.fraction_of_peak = limits.breaks.sharp_drop = limits.breaks.drop = 0.5;
-  ProgramRunner program({pull(0.01), hold}, 3.0, 0.1, limits);
-  EXPECT_NEAR(run(FakeBench(), program).samples.back().load, 2.0, 1e-9);
-  EXPECT_EQ(program.ended_by(), EndedBy::kProgram) << program.reason();
-}
-
-/// A frame of which half of every way remains.
-TEST(ProgramRunner, MeetsExtensionsOnACompliantFrameAtSpeed) {
-  struct Compliant : FakeBench {
-    Sample respond(const Command& command) {
-      Sample sample = FakeBench::respond(command);
-      sample.extension *= 0.5;
-      return sample;
-    }
-  };
-  ProgramStep cycle = step(Phase::kCycle, 0.001);
-  cycle.extension_turns = TurningPoints{0.0, 0.002};
-  cycle.cycles = 2;
-  ProgramRunner program({cycle}, 3.0, 0.1, {});
-  Compliant bench;
-  double highest = 0.0, time = 0.0;
-  run_test(bench, program, [&](const Command&, const Sample& sample) {
-    highest = std::max(highest, sample.extension);
-    time = sample.time;
-  });
-  EXPECT_NEAR(highest, 0.002, 1e-3 * 0.001 * program.period());
-  EXPECT_NEAR(time, 4 * 0.002 / (0.5 * 0.001), 8 * program.period());
-}
-
-TEST(ProgramRunner, ALostBenchCountsBeforeAStopThatWasAskedFor) {
-  ProgramRunner program({pull(0.1)}, 3.0, 0.1, {});
-  program.stop();
-  program.fail("it died");
-  EXPECT_EQ(program.ended_by(), EndedBy::kSolver);
-  EXPECT_EQ(program.reason(), "it died");
 }
 
 }  // namespace

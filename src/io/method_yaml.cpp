@@ -1,0 +1,57 @@
+// The method written as YAML.
+#include "knot_utm/io/method.hpp"
+#include "method_reader.hpp"
+
+namespace knot_utm {
+
+using fields::Writer;
+
+std::string method_yaml(const Method& method) {
+  Method m = method;
+  YAML::Node root;
+  Writer specimen;
+  fields::specimen(specimen, m.specimen);
+  root["specimen"] = specimen.map();
+  Writer material;
+  fields::material(material, m.material);
+  root["material"] = material.map();
+  Writer machine;
+  fields::machine(machine, m.machine);
+  YAML::Node machine_map = machine.map();
+  Writer cell;
+  fields::load_cell(cell, m.machine.load_cell);
+  machine_map["load_cell"] = cell.map();
+  root["machine"] = machine_map;
+  for (ProgramStep& step : m.program) {
+    Writer writer;
+    fields::step(writer, step);
+    YAML::Node entry_map;
+    entry_map[phase_name(step.phase)] = writer.map();
+    entry_map.SetStyle(YAML::EmitterStyle::Flow);
+    root["program"].push_back(entry_map);
+  }
+  Writer ends;
+  fields::ends(ends, m.ends);
+  root["ends"] = ends.map();
+  Writer physics;
+  fields::physics(physics, m.physics);
+  root["physics"] = physics.map();
+  Writer analysis;
+  fields::analysis(analysis, m.analysis);
+  root["analysis"] = analysis.map();
+  Writer report;
+  fields::report(report, m.report);
+  root["report"] = report.map();
+  for (Requirement& required : m.specification) {
+    Writer limits;
+    fields::requirement(limits, required);
+    YAML::Node limits_map = limits.map();
+    limits_map.SetStyle(YAML::EmitterStyle::Flow);
+    root["specification"][required.key] = limits_map;
+  }
+  YAML::Emitter out;
+  out << root;
+  return std::string(out.c_str()) + "\n";
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,64 @@
+#include "yaml_text.hpp"
+
+#include <yaml-cpp/depthguard.h>
+
+#include <fstream>
+#include <map>
+#include <system_error>
+
+#include "knot_utm/numeric/invalid_input.hpp"
+
+namespace knot_utm {
+
+namespace fs = std::filesystem;
+
+std::string yaml_fault(const YAML::Exception& fault) {
+  if (dynamic_cast<const YAML::DeepRecursion*>(&fault) != nullptr) return "maps and lists are nested too deeply";
+  namespace Said = YAML::ErrorMsg;
+  static const std::map<std::string, std::string> kPlain{
+      {Said::END_OF_SEQ_FLOW, "a list begins with \"[\" and has no \"]\""},
+      {Said::END_OF_MAP_FLOW, "a map begins with \"{\" and has no \"}\""},
+      {Said::FLOW_END, "a \"]\" or \"}\" has nothing that it ends"},
+      {Said::END_OF_MAP, "this line is neither a key of the map above it nor indented as a part of it"},
+      {Said::END_OF_SEQ, "this line is neither an entry of the list above it nor indented as a part of it"},
+      {Said::MAP_VALUE, "a colon stands where no value can begin; put text with a colon in quotes"},
+      {Said::MAP_KEY, "a key stands where none can begin"},
+      {Said::BLOCK_ENTRY, "a list begins with \"-\" where none can begin; put it on a line of its own"},
+      {Said::EOF_IN_SCALAR, "the file ends within a text in quotes; a quote is missing"},
+      {Said::TAB_IN_INDENTATION, "the line is indented by a tab; use blanks"},
+      {Said::UNKNOWN_TOKEN, "a character stands here that YAML does not know here; put the text in quotes"},
+      {Said::UNKNOWN_ANCHOR, "an alias (*name) has no anchor (&name) before it"}};
+  const auto plain = kPlain.find(fault.msg);
+  return plain == kPlain.end() ? shown(fault.msg) : plain->second;
+}
+
+YAML::Node parse_yaml(const std::string& text, const std::string& file) {
+  if (text.size() > kLongestText) {
+    const std::string most = std::to_string(kLongestText) + " characters";
+    throw InvalidInput::sentence("file", file,
+                                 "the file is longer than " + most + ", and no method, material or load cell is")
+        .in_file(file);
+  }
+  try {
+    return YAML::Load(text);
+  } catch (const YAML::ParserException& parser) {
+    const std::string place =
+        "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1);
+    throw InvalidInput::sentence(place, parser.msg, place + ": " + yaml_fault(parser)).in_file(file);
+  }
+}
+
+std::string read_text(const fs::path& file) {
+  std::error_code error;
+  std::ifstream in;
+  if (fs::is_regular_file(file, error)) in.open(file, std::ios::binary);
+  if (!in.is_open()) throw InvalidInput::cannot_read(file.string());
+  std::string text(kLongestText + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return text;
+}
+
+YAML::Node read_yaml(const fs::path& file) { return parse_yaml(read_text(file), file.string()); }
+
+}  // namespace knot_utm

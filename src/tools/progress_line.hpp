@@ -1,0 +1,43 @@
+#pragma once
+
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "knot_utm/machine/program_runner.hpp"
+
+namespace knot_utm {
+
+/// One line that is written over a few times a second, on a terminal only.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet) : on_(!quiet && isatty(STDERR_FILENO) != 0) {}
+  ~ProgressLine() { end(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  void show(const Sample& sample, const ProgramRunner& program, double wall_time) {
+    if (!on_ || wall_time < next_) return;
+    next_ = wall_time + 0.2;
+    shown_ = true;
+    const double factor = sample.time / wall_time;
+    const double left = factor > 0.0 ? program.time_left() / factor : 0.0;
+    std::fprintf(stderr, "\r%-8s %5.1f %%  s %8.2f mm  F %10.4g N  %6.1f x real time  %5.0f s left ",
+                 phase_name(sample.phase), 100.0 * program.progress(), 1e3 * sample.extension, sample.load, factor,
+                 left);
+    std::fflush(stderr);
+  }
+
+  /// What is written next begins on a line of its own.
+  void end() {
+    if (shown_) std::fputc('\n', stderr);
+    shown_ = false;
+  }
+
+ private:
+  bool on_;
+  bool shown_ = false;
+  double next_ = 0.0;  ///< [s]
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,242 @@
+// How knots move while they are pulled, and the stiffness once they hold.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "analysis/made_up_curve.hpp"
+#include "knot_utm/analysis/results.hpp"
+
+namespace knot_utm {
+namespace {
+
+using made_up::Curve;
+
+TEST(MotionPattern, SlidingThenStretching) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Curve curve;
+    curve.seed = seed;
+    curve.lock = 0.05 + 0.003 * seed;
+    curve.breakaway = 0.2 * seed;
+    for (const double step : {1.1e-3, 1e-4}) {
+      curve.step = step;
+      const Results results = analyse(curve.samples(), EndedBy::kExtension);
+      EXPECT_EQ(results.motion_pattern, MotionPattern::kSliding);
+      EXPECT_GT(results.motion_pattern_confidence, 0.85);
+      ASSERT_TRUE(results.lock_extension);
+      // de/ds passes -1 a little before the middle of the soft turn, and e lags the rate by half a step.
+      EXPECT_NEAR(*results.lock_extension, curve.lock, 1.5e-3);
+      ASSERT_TRUE(results.curve.lock_extension_by_load);
+      EXPECT_NEAR(*results.curve.lock_extension_by_load, curve.lock, 1.5e-3);
+      ASSERT_TRUE(results.true_plateau_force);
+      EXPECT_NEAR(*results.true_plateau_force, curve.plateau, 0.03 * curve.plateau);
+      EXPECT_LT(*results.curve.plateau_force_sd, 0.05 * curve.plateau);
+      EXPECT_NEAR(*results.plateau_slope, -2.0, 0.02);
+      ASSERT_TRUE(results.curve.locked_stiffness);
+      EXPECT_NEAR(*results.curve.locked_stiffness, curve.stiffness, 0.01 * curve.stiffness);
+      EXPECT_FALSE(results.untangled_at);
+      EXPECT_EQ(results.knot_type, KnotType::kKept);
+      EXPECT_NEAR(*results.force_balance_error, 1e-3, 1e-4);
+    }
+  }
+}
+
+TEST(MotionPattern, SlidingToTheEndHasNeitherLockNorStiffness) {
+  Curve curve;
+  curve.end = 0.06;
+  curve.breakaway = 3.0;
+  const Results results = analyse(curve.samples(), EndedBy::kExtension);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kSliding);
+  EXPECT_GT(results.motion_pattern_confidence, 0.85);
+  EXPECT_FALSE(results.lock_extension);
+  EXPECT_FALSE(results.curve.locked_stiffness);
+  EXPECT_NEAR(*results.true_plateau_force, curve.plateau, 0.03 * curve.plateau);
+  EXPECT_GT(*results.true_breakaway_force, 2.0 * curve.plateau);
+}
+
+TEST(MotionPattern, StretchingFromTheStart) {
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    Curve curve;
+    curve.seed = seed;
+    curve.lock = 0.0;
+    curve.stiffness = 20.0 * seed;
+    curve.plateau = 0.01 * curve.stiffness;
+    const Results results = analyse(curve.samples(), EndedBy::kExtension);
+    EXPECT_EQ(results.motion_pattern, MotionPattern::kStretching);
+    EXPECT_GT(results.motion_pattern_confidence, 0.95);
+    EXPECT_FALSE(results.lock_extension);
+    EXPECT_FALSE(results.true_plateau_force);
+    EXPECT_NEAR(*results.curve.locked_stiffness, curve.stiffness, 0.01 * curve.stiffness);
+  }
+}
+
+TEST(LockedStiffness, DoesNotSeeASlipInsideTheLock) {
+  Curve curve;
+  curve.step = 1e-4;
+  std::vector<Sample> samples = curve.samples();
+  double peak = 0.0;
+  for (const Sample& sample : samples) peak = std::max(peak, sample.force_upper);
+  const double whole = *analyse(samples, EndedBy::kExtension).curve.locked_stiffness;
+  for (Sample& sample : samples) {
+    if (sample.force_upper < 0.75 * peak) continue;
+    sample.force_upper -= 0.03 * peak;
+    sample.force_lower -= 0.03 * peak;
+  }
+  // One part in three holds the slip, and is left out.
+  EXPECT_NEAR(*analyse(samples, EndedBy::kExtension).curve.locked_stiffness, whole, 2e-3 * whole);
+}
+
+TEST(LockedStiffness, DoesNotDependOnWhereTheStepsAreShort) {
+  Curve curve;
+  curve.step = 1e-4;
+  const std::vector<Sample> fine = curve.samples();
+  std::vector<Sample> sparse;  // ten times as long beyond three quarters of the extension
+  for (std::size_t i = 0; i < fine.size(); ++i)
+    if (4 * i < 3 * fine.size() || i % 10 == 0 || i + 1 == fine.size()) sparse.push_back(fine[i]);
+  const double whole = *analyse(fine, EndedBy::kExtension).curve.locked_stiffness;
+  EXPECT_NEAR(*analyse(sparse, EndedBy::kExtension).curve.locked_stiffness, whole, 2e-3 * whole);
+}
+
+TEST(MotionPattern, UntanglingWhenKnotsOpenAfterBreakaway) {
+  Curve curve;
+  curve.lock = 0.2;
+  std::vector<Sample> samples = curve.samples();
+  for (Sample& sample : samples) {
+    if (sample.extension < 0.03) continue;
+    sample.force_upper *= 1e-3;
+    sample.excess_length[1] = 0.1;
+  }
+  const Results results = analyse(samples, EndedBy::kExtension);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kUntangling);
+  ASSERT_TRUE(results.untangled_at);
+  EXPECT_NEAR(*results.untangled_at, 5.0 + 0.03 / 3.3e-3, 0.5);
+  EXPECT_GE(results.motion_pattern_confidence, 0.75);
+
+  // A low load alone, in knots that did not open, is a slide after a high breakaway.
+  for (Sample& sample : samples) sample.excess_length[1] = 0.04;
+  EXPECT_EQ(analyse(samples, EndedBy::kExtension).motion_pattern, MotionPattern::kSliding);
+}
+
+TEST(MotionPattern, UntanglingWhenTheKnotTypeIsLostAndTheLoadIsGone) {
+  std::vector<Sample> samples = Curve().samples();
+  std::optional<double> lost_at;
+  for (Sample& sample : samples) {
+    if (sample.time < 12.5) continue;
+    sample.knot_type = KnotType::kChanged;
+    sample.force_upper = sample.force_lower = sample.load = 0.0;
+    if (!lost_at) lost_at = sample.time;
+  }
+  const Results results = analyse(samples, EndedBy::kExtension);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kUntangling);
+  EXPECT_EQ(results.motion_pattern_confidence, 1.0);
+  EXPECT_EQ(results.untangled_at, lost_at);
+  EXPECT_EQ(results.knot_type, KnotType::kChanged);
+  EXPECT_FALSE(results.curve.locked_stiffness);
+}
+
+/// The loop that is left may bear a load: its own weight, or a strand around a roller.
+TEST(MotionPattern, UntanglingWhenTheKnotTypeIsLostAndTheRodHasRunOutOfAKnot) {
+  std::vector<Sample> samples = Curve().samples();
+  for (Sample& sample : samples) {
+    sample.excess_length[0] = sample.excess_length[1] = 0.04;
+    if (sample.time < 12.5) continue;
+    sample.knot_type = KnotType::kChanged;
+    sample.excess_length[0] = 1e-9;
+  }
+  const Results results = analyse(samples, EndedBy::kExtension);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kUntangling);
+  EXPECT_FALSE(results.true_plateau_force);
+  EXPECT_FALSE(results.lock_extension);
+}
+
+/// The ends of the rod are joined outside to tell the knot type, where a roller can be in the way.
+TEST(MotionPattern, AKnotTypeThatChangesUnderLoadIsNoUntangling) {
+  std::vector<Sample> samples = Curve().samples();
+  for (Sample& sample : samples)
+    if (sample.extension > 0.07) sample.knot_type = KnotType::kChanged;
+  const Results results = analyse(samples, EndedBy::kExtension);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kSliding);
+  EXPECT_FALSE(results.untangled_at);
+  EXPECT_TRUE(results.curve.plateau_force);
+  // Where the rod ran through itself no load says that it did not.
+  samples.back().knot_type = KnotType::kCrossed;
+  EXPECT_EQ(analyse(samples, EndedBy::kExtension).motion_pattern, MotionPattern::kUntangling);
+}
+
+TEST(MotionPattern, AKnotTypeThatComesBackWasMisread) {
+  std::vector<Sample> samples = Curve().samples();
+  for (std::size_t i = 30; i < 40; ++i) samples[i].knot_type = KnotType::kChanged;
+  for (std::size_t i = 60; i < samples.size(); ++i) samples[i].force_upper = 0.0;
+  EXPECT_FALSE(analyse(samples, EndedBy::kExtension).untangled_at);
+}
+
+/// Of a loop held by two of its nodes the strand beside the knots becomes taut, and bears the load.
+TEST(MotionPattern, KnotsThatGiveWayALittleBeforeAnotherStrandBearsTheLoadDoNotSlide) {
+  std::vector<Sample> samples = Curve().samples();
+  for (Sample& sample : samples) {
+    const double s = sample.extension;
+    sample.knot_distance = 0.15 - 1.7 * std::clamp(s - 0.03, 0.0, 0.02) - 0.5 * std::max(0.0, s - 0.05);
+    sample.load = sample.force_upper = s < 0.05 ? 0.1 * std::exp(100.0 * s) : 10.0 + 2e5 * (s - 0.05);
+  }
+  const Results results = analyse(samples, EndedBy::kExtension);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kStretching);
+  EXPECT_FALSE(results.curve.plateau_force);
+  EXPECT_NE(results.curve.no_plateau, "");
+}
+
+/// A loop that stretches loads its knots until they give way, at a force that stays, and lock.
+TEST(MotionPattern, KnotsThatHeldFirstSlideWhereTheLoadThenStaysLevel) {
+  std::vector<Sample> samples = Curve().samples();
+  const auto with_load = [&](double grows) {
+    for (Sample& sample : samples) {
+      const double s = sample.extension, slid = std::clamp(s - 0.06, 0.0, 0.03);
+      sample.knot_distance = 0.15 + 0.4 * std::min(s, 0.06) - 1.8 * slid;
+      sample.force_upper = 500.0 * std::min(s, 0.06) * std::exp(grows * slid) + 500.0 * std::max(0.0, s - 0.09);
+      sample.load = sample.force_lower = sample.force_upper;
+    }
+    return analyse(samples, EndedBy::kExtension);
+  };
+  const Results level = with_load(0.0);
+  EXPECT_EQ(level.motion_pattern, MotionPattern::kSliding);
+  ASSERT_TRUE(level.lock_extension);
+  EXPECT_NEAR(*level.lock_extension, 0.09, 3e-3);
+  EXPECT_FALSE(level.curve.lock_extension_by_load);
+  EXPECT_EQ(with_load(150.0).motion_pattern, MotionPattern::kStretching) << "another strand bears the load";
+}
+
+TEST(MotionPattern, NoneWithoutAPullOrWithoutTwoKnots) {
+  EXPECT_EQ(analyse({}, EndedBy::kOperator).motion_pattern, MotionPattern::kNone);
+  std::vector<Sample> samples = Curve().samples();
+  for (Sample& sample : samples) sample.phase = Phase::kHold;
+  EXPECT_EQ(analyse(samples, EndedBy::kOperator).motion_pattern, MotionPattern::kNone);
+  samples = Curve().samples();
+  for (Sample& sample : samples) sample.knot_distance = Sample::kNone;
+  const Results results = analyse(samples, EndedBy::kExtension);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kNone);
+  EXPECT_EQ(results.motion_pattern_confidence, 0.0);
+  EXPECT_TRUE(results.curve.locked_stiffness);
+}
+
+TEST(MotionPattern, IsFollowedLive) {
+  const Curve curve;
+  MotionPatternTracker tracker;
+  EXPECT_EQ(tracker.current(), MotionPattern::kNone);
+  for (const Sample& sample : curve.samples()) {
+    tracker.add(sample);
+    if (sample.extension > 0.01 && sample.extension < curve.lock - 0.005) {
+      EXPECT_EQ(tracker.current(), MotionPattern::kSliding) << sample.extension;
+      EXPECT_FALSE(tracker.lock_extension());
+    }
+    if (sample.extension > curve.lock + 0.01) {
+      EXPECT_EQ(tracker.current(), MotionPattern::kStretching) << sample.extension;
+      EXPECT_TRUE(tracker.lock_extension()) << sample.extension;
+    }
+    if (sample.extension > 0.01) {
+      EXPECT_EQ(tracker.pattern(), MotionPattern::kSliding) << sample.extension;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,114 @@
+#!/usr/bin/python3
+"""The recipe for a friction law in CONTRIBUTING.md: its edits, made in a copy of the sources, add a law that works."""
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), "../.."))
+COMPILER = os.environ.get("CXX", "c++")
+EIGEN = os.environ.get("KNOT_UTM_EIGEN", "/usr/include/eigen3")
+FLAGS = ["-std=c++17", "-O0", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Wshadow", "-Werror", "-Iinclude",
+         "-isystem", EIGEN, '-DKNOT_UTM_VERSION="0"']
+
+PROGRAM = r"""
+#include <cmath>
+#include <cstdio>
+
+#include "knot_utm/contact/friction.hpp"
+
+using namespace knot_utm;
+
+int main() {
+  for (const char* name : kFrictionLawNames) std::printf("%s ", name);
+  FrictionOptions options;
+  options.law = law_named("tresca");
+  options.set("shear_limit", 2.0);
+  const Friction friction = Friction::of(options, FrictionScales{0.5, 1e-3, 0.1});
+  double worst = 0.0;
+  friction.visit([&](const auto& law) {
+    for (const double p : {1.0, 10.0})         // below the limit and beyond it
+      for (const double slip : {3e-5, 3e-4}) {  // sticking and sliding
+        const auto force = [&](double pressure, const Vec3& r) -> Vec3 {
+          const auto t = law.traction(FrictionInput<Vec3>{pressure, r, Vec3::Zero(), Vec3::Zero(), 0.0, 1.0});
+          return pressure * t.coefficient * t.z;
+        };
+        const Vec3 r(slip, 0.4 * slip, 0.0), v(1.0, -2.0, 0.0);
+        const auto tangent = law.tangent(FrictionInput<Vec3>{p, r, Vec3::Zero(), Vec3::Zero(), 0.0, 1.0},
+                                         Linearisation::kTangent);
+        const double dp = 1e-6, dr = 1e-10;
+        const Vec3 by_pressure = (force(p + dp, r) - force(p - dp, r)) / (2.0 * dp);
+        const Vec3 by_slip = (force(p, r + dr * v) - force(p, r - dr * v)) / (2.0 * dr);
+        const Vec3 slope = p * tangent.stiffness * tangent.slope_times(v);
+        worst = std::fmax(worst, (by_pressure - tangent.by_pressure).norm());
+        worst = std::fmax(worst, (by_slip - slope).norm() / (p * tangent.stiffness));
+        std::printf("%.6f ", force(p, r).norm());
+      }
+  });
+  std::printf("%s\n", worst < 1e-5 ? "true" : "wrong");
+}
+"""
+
+
+def recipe():
+    """The section of friction laws: what is said before each block of code, its kind and its lines."""
+    with open(os.path.join(ROOT, "CONTRIBUTING.md"), encoding="utf-8") as file:
+        section = re.search(r"^## A friction law\n(.*?)(?=^## )", file.read(), re.M | re.S)[1]
+    return re.findall(r"^\d\. [^\n]*`(\S+)`:\n\n```(\w+)\n(.*?)^```", section, re.M | re.S)
+
+
+def changed(text, diff):
+    """The text with the lines of a diff, whose lines that stay or go must be there once."""
+    before = None
+    for line in diff.splitlines():
+        kind, content = line[0], line[1:] + "\n"
+        if kind == "+":
+            text = text.replace(before, before + content) if before else text
+            before = content
+        else:
+            if text.count(content) != 1:
+                raise AssertionError(f"{content!r} stands there {text.count(content)} times")
+            if kind == "-":
+                at = text.index(content)
+                before = text[text.rindex("\n", 0, at - 1) + 1:at]
+                text = text.replace(content, "")
+            else:
+                before = content
+    return text
+
+
+class FrictionLaw(unittest.TestCase):
+    def test_the_recipe_adds_a_law(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for room in ("numeric", "rod", "contact"):
+                shutil.copytree(f"{ROOT}/include/knot_utm/{room}", f"{folder}/include/knot_utm/{room}")
+                shutil.copytree(f"{ROOT}/src/{room}", f"{folder}/src/{room}")
+            edits = recipe()
+            self.assertEqual([kind for _, kind, _ in edits], ["cpp", "cpp", "diff"])
+            for file, kind, text in edits:
+                path = os.path.join(folder, file)
+                self.assertEqual(os.path.exists(path), kind == "diff", file)
+                if kind == "diff":
+                    with open(path, encoding="utf-8") as old:
+                        text = changed(old.read(), text)
+                with open(path, "w", encoding="utf-8") as new:
+                    new.write(text)
+            with open(f"{folder}/main.cpp", "w", encoding="utf-8") as program:
+                program.write(PROGRAM)
+            laws = [f"src/contact/{file}" for file in sorted(os.listdir(f"{folder}/src/contact"))
+                    if file == "friction.cpp" or file.endswith("_friction.cpp") and file != "surface_friction.cpp"]
+            numeric = [f"src/numeric/{file}" for file in sorted(os.listdir(f"{folder}/src/numeric")) if file.endswith(".cpp")]
+            built = subprocess.run([COMPILER, *FLAGS, "main.cpp", *laws, *numeric, "-lz", "-o", "main"], cwd=folder,
+                                   capture_output=True, text=True, check=False)
+            self.assertEqual(built.returncode, 0, built.stderr)
+            said = subprocess.run([f"{folder}/main"], capture_output=True, text=True, check=True).stdout.split()
+        self.assertEqual(said[-1], "true")
+        self.assertEqual(said[-6:-5], ["tresca"])
+        self.assertEqual(said[-2], "2.000000")  # slides beyond the limit
+        self.assertEqual(said[-4], "0.500000")  # slides below it
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,322 @@
+// Steps that a load, a course of turning points or a record leads, and what ends them.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "machine/programs.hpp"
+
+namespace knot_utm {
+namespace {
+
+using namespace programs;
+using ::testing::HasSubstr;
+
+ProgramStep preload(double load, bool balance = true) {
+  ProgramStep out = step(Phase::kPreload, 0.001);
+  out.load = load;
+  out.balance = balance;
+  return out;
+}
+
+TEST(LedSteps, PreloadMeetsItsLoadAndBalancesStandingStill) {
+  ProgramRunner program({preload(2.0), pull(0.01)}, 3.0, 0.1, {});
+  const Course result = run(FakeBench(), program);
+  std::size_t first = 1;
+  while (result.commands[first].phase == Phase::kPreload) ++first;
+  const Command& last = result.commands[first - 1];
+  EXPECT_TRUE(last.balance);
+  EXPECT_EQ(last.velocity, 0.0);
+  EXPECT_NEAR(result.samples[first - 1].force_upper, 2.0, 2e-3);  // kMetLoad
+  EXPECT_EQ(result.samples[first - 1].load, 0.0);
+  EXPECT_NEAR(result.samples[first].load, 1000.0 * 0.0033 * program.period(), 1e-12);
+
+  ProgramRunner unbalanced({preload(2.0, false), pull(0.01)}, 3.0, 0.1, {});
+  for (const Command& command : run(FakeBench(), unbalanced).commands) EXPECT_FALSE(command.balance);
+}
+
+/// The next step begins in the new zero.
+TEST(LedSteps, WhatFollowsAPreloadBeginsAtZero) {
+  ProgramStep hold = step(Phase::kHold, 0.0033, 2.0), by_load = step(Phase::kPull);
+  hold.hold_load = true;
+  by_load.load_rate = 1.0;
+  by_load.until.load = 3.0;
+  ProgramStep cycle = step(Phase::kCycle);
+  cycle.extension_turns = TurningPoints{0.0, 0.001};
+  cycle.cycles = 1;
+  ProgramRunner program({preload(2.0), hold, by_load, step(Phase::kBalance), cycle}, 3.0, 0.1, {});
+  const Course result = run(FakeBench(), program);
+  double begin = 0.0;
+  for (std::size_t n = 1; n < result.samples.size(); ++n) {
+    const Sample& sample = result.samples[n];
+    if (sample.phase == Phase::kHold) {
+      EXPECT_NEAR(sample.load, 0.0, 1e-12);
+      begin = sample.time;
+    }
+    if (sample.phase == Phase::kPull) {
+      EXPECT_LE(sample.load, sample.time - begin + 1e-9);
+    }
+    if (sample.phase == Phase::kCycle) {
+      EXPECT_GE(sample.extension, -1e-12);
+    }
+  }
+}
+
+TEST(LedSteps, ABalanceByTheOperatorMovesNoHeldLoadAndIsNoBreak) {
+  ProgramStep hold = step(Phase::kHold, 0.0033, 5.0);
+  hold.hold_load = true;
+  ProgramRunner::Limits limits;
+  limits.breaks.sharp_drop = 0.5;
+  limits.breaks.fraction_of_peak = 0.5;
+  ProgramRunner program({pull(0.01), hold}, 3.0, 0.1, limits);
+  FakeBench bench;
+  double held = 0.0;
+  bool balanced = false;
+  run_test(bench, program, [&](const Command& command, const Sample& sample) {
+    if (command.phase != Phase::kHold) {
+      held = sample.force_upper;
+      return;
+    }
+    EXPECT_NEAR(sample.force_upper, held, 1e-9);
+    if (!balanced) program.balance();
+    balanced = true;
+  });
+  EXPECT_EQ(program.ended_by(), EndedBy::kProgram) << program.reason();
+}
+
+TEST(LedSteps, ErrorsOfTheCellLeadNothing) {
+  struct WrongCell : FakeBench {
+    Sample respond(const Command& command) {
+      Sample sample = FakeBench::respond(command);
+      if (command.read_cell) sample.load = 1.1 * sample.load + 0.3;
+      return sample;
+    }
+  };
+  ProgramStep hold = step(Phase::kHold, 0.0033, 3.0);
+  hold.hold_load = true;
+  hold.held_load = 7.0;
+  ProgramRunner program({preload(2.0, false), hold}, 3.0, 0.1, {});
+  WrongCell bench;
+  double last = 0.0;
+  run_test(bench, program, [&](const Command&, const Sample& sample) { last = sample.force_upper; });
+  EXPECT_NEAR(last, 7.0, 1e-9);
+}
+
+TEST(LedSteps, ARateOfLoadGoesOnFromWhereTheCrossheadCouldNotKeepUp) {
+  struct SlackThenStiff : FakeBench {
+    Sample respond(const Command& command) {
+      FakeBench::respond(command);
+      Sample sample = substeps.back();
+      sample.force_upper = sample.load = 1000.0 * std::max(0.0, sample.displacement - 0.01);
+      return sample;
+    }
+  };
+  ProgramStep by_load = step(Phase::kPull, 0.0033);
+  by_load.load_rate = 1.0;
+  by_load.until.load = 5.0;
+  ProgramRunner program({by_load}, 3.0, 0.1, {});
+  SlackThenStiff bench;
+  double before = 0.0, steepest = 0.0;
+  run_test(bench, program, [&](const Command&, const Sample& sample) {
+    steepest = std::max(steepest, (sample.force_upper - before) / program.period());
+    before = sample.force_upper;
+  });
+  // The command in which the slack ends is led as if it went on: what the crosshead moves in one period.
+  EXPECT_LE(steepest, 1000.0 * 0.0033 + 1e-9);
+  EXPECT_NEAR(before, 5.0, 5e-3);
+}
+
+TEST(LedSteps, PullsAtARateOfLoad) {
+  ProgramStep by_load = step(Phase::kPull, 0.01);
+  by_load.load_rate = 2.0;
+  by_load.until.load = 10.0;
+  ProgramRunner program({by_load}, 3.0, 0.1, {});
+  const Course result = run(FakeBench(), program);
+  // The first command finds out how stiff the spring is.
+  for (std::size_t n = 2; n < result.samples.size(); ++n)
+    EXPECT_NEAR(result.samples[n].load, 2.0 * result.samples[n].time, 1e-9);
+  EXPECT_EQ(program.ended_by(), EndedBy::kLoad);
+}
+
+TEST(LedSteps, HoldsALoad) {
+  ProgramStep hold = step(Phase::kHold, 0.01, 5.0);
+  hold.hold_load = true;
+  hold.held_load = 7.0;
+  ProgramRunner to_another({pull(0.01), hold}, 3.0, 0.1, {});
+  EXPECT_NEAR(run(FakeBench(), to_another).samples.back().load, 7.0, 1e-9);
+  hold.held_load.reset();
+  ProgramRunner as_it_is({pull(0.01), hold}, 3.0, 0.1, {});
+  const Course result = run(FakeBench(), as_it_is);
+  for (const Sample& sample : result.samples)
+    if (sample.phase == Phase::kHold) {
+      EXPECT_NEAR(sample.load, 1000.0 * 0.01, 0.5);
+    }
+  EXPECT_EQ(as_it_is.ended_by(), EndedBy::kProgram);
+}
+
+TEST(LedSteps, CyclesBetweenExtensionsThatItMeets) {
+  ProgramStep cycle = step(Phase::kCycle, 0.0033);
+  cycle.extension_turns = TurningPoints{0.001, 0.004};
+  cycle.cycles = 3;
+  ProgramRunner program({step(Phase::kBalance), cycle}, 3.0, 0.1, {});
+  const Course result = run(FakeBench(), program);
+  int highs = 0, lows = 0;
+  for (const Sample& sample : result.samples) {
+    EXPECT_LE(sample.extension, 0.004 + 1e-12);
+    highs += std::abs(sample.extension - 0.004) < 1e-12 ? 1 : 0;
+    lows += std::abs(sample.extension - 0.001) < 1e-12 ? 1 : 0;
+  }
+  EXPECT_EQ(highs, 3);
+  EXPECT_EQ(lows, 3);
+  EXPECT_NEAR(result.samples.back().extension, 0.001, 1e-12);
+  EXPECT_EQ(program.ended_by(), EndedBy::kProgram);
+}
+
+TEST(LedSteps, CyclesBetweenLoadsByCountOrTime) {
+  ProgramStep cycle = step(Phase::kCycle, 0.0033);
+  cycle.load_turns = TurningPoints{1.0, 4.0};
+  cycle.cycles = 2;
+  ProgramRunner by_count({cycle}, 3.0, 0.1, {});
+  const Course counted = run(FakeBench(), by_count);
+  constexpr double kMet = 3e-3;  // kMetLoad of the range
+  double highest = 0.0;
+  for (const Sample& sample : counted.samples) highest = std::max(highest, sample.load);
+  EXPECT_NEAR(highest, 4.0, kMet);
+  EXPECT_NEAR(counted.samples.back().load, 1.0, kMet);
+
+  cycle.cycles = 0;
+  cycle.until.time = 10.0;
+  ProgramRunner by_time({cycle}, 3.0, 0.1, {});
+  EXPECT_DOUBLE_EQ(run(FakeBench(), by_time).samples.back().time, 10.0);
+  EXPECT_EQ(by_time.ended_by(), EndedBy::kProgram);
+}
+
+TEST(LedSteps, ReturnsToAnExtensionOrALoad) {
+  ProgramRunner home({step(Phase::kBalance), pull(0.01), step(Phase::kReturn)}, 3.0, 0.1, {});
+  EXPECT_NEAR(run(FakeBench(), home).samples.back().extension, 0.0, 1e-12);
+  EXPECT_EQ(home.ended_by(), EndedBy::kExtension);
+
+  ProgramStep unload = step(Phase::kReturn);
+  unload.until.load = 3.0;
+  ProgramRunner to_load({step(Phase::kBalance), pull(0.01), unload}, 3.0, 0.1, {});
+  EXPECT_NEAR(run(FakeBench(), to_load).samples.back().load, 3.0, 1e-3 * 10.3);  // kMetLoad of where it began
+  EXPECT_EQ(to_load.ended_by(), EndedBy::kLoad);
+}
+
+TEST(LedSteps, FollowsARecordFromWhereItStands) {
+  ProgramStep follow = step(Phase::kFollow);
+  follow.recorded = {{0.0, 0.5}, {1.0, 0.502}, {1.5, 0.501}, {3.0, 0.507}};
+  ProgramRunner program({pull(0.01), follow}, 3.0, 0.1, {});
+  const Course result = run(FakeBench(), program);
+  double begin = 0.0, from = 0.0;
+  for (std::size_t n = 1; n < result.samples.size(); ++n) {
+    const Sample& sample = result.samples[n];
+    if (sample.phase != Phase::kFollow) {
+      begin = sample.time;
+      from = sample.displacement;
+      continue;
+    }
+    const double t = sample.time - begin, way = sample.displacement - from;
+    const double expected = t <= 1.0 ? 0.002 * t : t <= 1.5 ? 0.002 - 0.002 * (t - 1.0) : 0.001 + 0.004 * (t - 1.5);
+    EXPECT_NEAR(way, std::min(expected, 0.007), 1e-12) << t;
+  }
+  EXPECT_EQ(program.ended_by(), EndedBy::kProgram);
+}
+
+TEST(LedSteps, ATimeLimitEndsIt) {
+  ProgramRunner::Limits limits;
+  limits.time = 1.0;
+  ProgramRunner program({pull(0.1)}, 3.0, 0.1, limits);
+  EXPECT_DOUBLE_EQ(run(FakeBench(), program).samples.back().time, 1.0);
+  EXPECT_EQ(program.ended_by(), EndedBy::kTime);
+  EXPECT_THAT(program.reason(), HasSubstr("time is over"));
+}
+
+TEST(LedSteps, ADropThatIsABreakEndsIt) {
+  FakeBench weak;
+  weak.weak_from = 0.008;
+  ProgramRunner::Limits limits;
+  limits.breaks.fraction_of_peak = 0.4;
+  limits.breaks.arming_load = 5.0;
+  ProgramRunner program({pull(0.1)}, 3.0, 0.1, limits);
+  const Course result = run(weak, program);
+  EXPECT_EQ(program.ended_by(), EndedBy::kBreak);
+  EXPECT_THAT(program.reason(), HasSubstr("the load fell"));
+  EXPECT_NEAR(result.samples.back().displacement, 0.008, 0.0033 * program.period());
+
+  // On the way in of a cycle loads fall as they should.
+  ProgramStep cycle = step(Phase::kCycle, 0.0033);
+  cycle.extension_turns = TurningPoints{0.0, 0.007};
+  cycle.cycles = 2;
+  ProgramRunner cycles({step(Phase::kBalance), cycle}, 3.0, 0.1, limits);
+  run(weak, cycles);
+  EXPECT_EQ(cycles.ended_by(), EndedBy::kProgram);
+}
+
+TEST(LedSteps, AReturnNeverMovesOutwards) {
+  ProgramStep home = step(Phase::kReturn);
+  home.return_extension = 0.02;
+  ProgramRunner program({step(Phase::kBalance), pull(0.01), home}, 3.0, 0.1, {});
+  const Course result = run(FakeBench(), program);
+  EXPECT_NEAR(result.samples.back().displacement, 0.01, 0.0033 * program.period());
+  for (const Command& command : result.commands)
+    if (command.phase == Phase::kReturn) {
+      EXPECT_EQ(command.velocity, 0.0);
+    }
+}
+
+TEST(LedSteps, GripsThatMeetEndIt) {
+  ProgramStep home = step(Phase::kReturn, 0.01);
+  home.return_extension = -1.0;
+  ProgramRunner::Limits limits;
+  limits.least_distance = 0.1;  // from 0.25 m on
+  ProgramRunner program({home}, 3.0, 0.1, limits);
+  EXPECT_NEAR(run(FakeBench(), program).samples.back().end_to_end, 0.1, 0.01 * program.period());
+  EXPECT_EQ(program.ended_by(), EndedBy::kTravel);
+  EXPECT_THAT(program.reason(), HasSubstr("the grips meet"));
+}
+
+TEST(LedSteps, UnloadingAsProgrammedIsNoBreak) {
+  ProgramStep hold = step(Phase::kHold, 0.01, 5.0);
+  hold.hold_load = true;
+  hold.held_load = 2.0;
+  ProgramRunner::Limits limits;
+  limits.breaks.fraction_of_peak = limits.breaks.sharp_drop = limits.breaks.drop = 0.5;
+  ProgramRunner program({pull(0.01), hold}, 3.0, 0.1, limits);
+  EXPECT_NEAR(run(FakeBench(), program).samples.back().load, 2.0, 1e-9);
+  EXPECT_EQ(program.ended_by(), EndedBy::kProgram) << program.reason();
+}
+
+/// A frame of which half of every way remains.
+TEST(LedSteps, MeetsExtensionsOnACompliantFrameAtSpeed) {
+  struct Compliant : FakeBench {
+    Sample respond(const Command& command) {
+      Sample sample = FakeBench::respond(command);
+      sample.extension *= 0.5;
+      return sample;
+    }
+  };
+  ProgramStep cycle = step(Phase::kCycle, 0.001);
+  cycle.extension_turns = TurningPoints{0.0, 0.002};
+  cycle.cycles = 2;
+  ProgramRunner program({cycle}, 3.0, 0.1, {});
+  Compliant bench;
+  double highest = 0.0, time = 0.0;
+  run_test(bench, program, [&](const Command&, const Sample& sample) {
+    highest = std::max(highest, sample.extension);
+    time = sample.time;
+  });
+  EXPECT_NEAR(highest, 0.002, 1e-3 * 0.001 * program.period());
+  EXPECT_NEAR(time, 4 * 0.002 / (0.5 * 0.001), 8 * program.period());
+}
+
+TEST(LedSteps, ALostBenchCountsBeforeAStopThatWasAskedFor) {
+  ProgramRunner program({pull(0.1)}, 3.0, 0.1, {});
+  program.stop();
+  program.fail("it died");
+  EXPECT_EQ(program.ended_by(), EndedBy::kSolver);
+  EXPECT_EQ(program.reason(), "it died");
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,93 @@
+#include "knot_utm/study/headless_run.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+/// The shipped straight rod, which is pulled within milliseconds, and a folder of this test's own.
+class HeadlessRun : public ::testing::Test {
+ protected:
+  HeadlessRun() {
+    fs::remove_all(folder);
+    options.folder = folder + "/run";
+    options.interrupted = [] { return false; };
+  }
+  ~HeadlessRun() override { fs::remove_all(folder); }
+
+  std::string curve() const {
+    std::ifstream in(options.folder + "/curve.csv");
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  const std::string folder =
+      ::testing::TempDir() + "headless_run_" + ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  const Method method = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml");
+  HeadlessOptions options;
+};
+
+TEST_F(HeadlessRun, HandsEveryRecordToTheFurtherWriterAndClosesItOnce) {
+  int records = 0, shown = 0, closed = 0;
+  std::string place;
+  options.further = [&](const std::string& into, const Method&) {
+    place = into;
+    return FurtherWriter{[&](const Record&) { ++records; }, [&] { ++closed; }};
+  };
+  options.progress = [&](const Sample&, const ProgramRunner&, double) { ++shown; };
+  const HeadlessOutcome outcome = run_headless(method, options);
+  EXPECT_TRUE(outcome.ended.has_value());
+  EXPECT_FALSE(outcome.failed);
+  EXPECT_EQ(place, options.folder);
+  EXPECT_EQ(outcome.folder, options.folder);
+  EXPECT_GT(records, 3);
+  EXPECT_EQ(records, shown);
+  EXPECT_EQ(closed, 1);
+}
+
+TEST_F(HeadlessRun, InterruptedAndResumedItLeavesTheSameCurve) {
+  ASSERT_TRUE(run_headless(method, options).ended);
+  const std::string whole = curve();
+  options.folder += "_interrupted";
+  int asked = 0;
+  options.interrupted = [&] { return ++asked > 3; };
+  EXPECT_FALSE(run_headless(method, options).ended);
+  EXPECT_NE(curve(), whole);
+  require_resumable(options.folder);
+  options.interrupted = [] { return false; };
+  options.resume = true;
+  int records = 0;
+  options.further = [&](const std::string&, const Method&) {
+    return FurtherWriter{[&](const Record&) { ++records; }, {}};
+  };
+  EXPECT_TRUE(run_headless(method, options).ended);
+  EXPECT_EQ(curve(), whole);
+  EXPECT_GT(records, 3);  // those from before the interruption, too
+}
+
+TEST_F(HeadlessRun, ARunThatHasEndedCannotBeResumedAndIsNotWrittenOver) {
+  ASSERT_TRUE(run_headless(method, options).ended);
+  try {
+    require_resumable(options.folder);
+    ADD_FAILURE() << "it can be resumed";
+  } catch (const InvalidInput& invalid) {
+    EXPECT_THAT(invalid.what(), HasSubstr("its test has ended"));
+  }
+  std::string said;
+  options.notice = [&](const std::string& line) { said += line + "\n"; };
+  EXPECT_EQ(run_headless(method, options).folder, options.folder + "-2");
+  EXPECT_THAT(said, HasSubstr("--overwrite writes over that one"));
+}
+
+}  // namespace
+}  // namespace knot_utm
