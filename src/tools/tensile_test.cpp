@@ -22,7 +22,9 @@
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/recovery.hpp"
 #include "knot_utm/io/report.hpp"
+#include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/io/run_warnings.hpp"
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/machine/before_tying.hpp"
@@ -389,6 +391,13 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
       ->capture_default_str();
   app.add_flag("--quiet", arguments.quiet, "say only what went wrong");
   app.add_flag("--report", arguments.report, "also write report.html and report.pdf");
+  app.add_flag_callback(
+      "--list-results",
+      [] {
+        std::fputs(result_keys_csv().c_str(), stdout);
+        throw CLI::Success();
+      },
+      "say which keys result.yaml has, with unit, kind and meaning, and do no more");
   const std::optional<int> code = parse(app, kTool, argc, argv, [&] {
     if (method->empty() && resume->empty()) throw CLI::RequiredError("METHOD");
   });
