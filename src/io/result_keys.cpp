@@ -139,6 +139,9 @@ constexpr ResultKey kKeys[] = {
      kNoKnots},
     {"final_excess_length", "m", kKnots, "Length of rod within each knot at the end", of_knots<&R::final_excess_length>,
      kNoKnots},
+    {"opened_when_mounted", "m", kKnots,
+     "How much nearer the knots came as the loop was mounted and one of them opened", result<&R::opened_when_mounted>,
+     "no knot opened as the loop was mounted"},
 
     // While the knots slide.
     {"plateau_force", "N", kCurve, "Plateau force, the mean while the knots slide", curve<&C::plateau_force>,

@@ -33,5 +33,13 @@ TEST(ResultKeys, AreThoseOfTheReport) {
   EXPECT_EQ(read_whole(std::string(KNOT_UTM_SOURCE_DIR) + "/report/result_keys.csv"), result_keys_csv());
 }
 
+TEST(ResultKeys, SayByHowMuchAKnotOpenedAsItWasMounted) {
+  Results results;
+  EXPECT_THAT(result_yaml(results, RunFacts()),
+              testing::HasSubstr("opened_when_mounted: null  # no knot opened as the loop was mounted\n"));
+  results.opened_when_mounted = 0.0125;
+  EXPECT_THAT(result_yaml(results, RunFacts()), testing::HasSubstr("opened_when_mounted: 0.0125\n"));
+}
+
 }  // namespace
 }  // namespace knot_utm
