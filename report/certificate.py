@@ -1,6 +1,6 @@
 """How far a result may be trusted, and whether it is what the user asked for: each check with value, limit and verdict.
 
-The limits of trust are those at which the program itself warns (src/io/run_writer.cpp, whose names they bear), and for
+The limits of trust are those at which the program itself warns (src/io/run_warnings.cpp, whose names they bear), and for
 the balance of forces that of scripts/bench. Where nothing sets a limit none is made up here.
 """
 from quantities import number, quantity_of
@@ -12,10 +12,6 @@ LIMITS = {
     "kUnsure": 0.1,       # plateau force [of itself]
 }
 BENCH_FORCE_BALANCE = 0.01  # [of the peak]
-
-# Keys of result.yaml that stand in the certificate.
-CERTIFIED = ("knot_type_preserved", "not_equilibrated", "max_penetration", "force_balance_error",
-             "moment_balance_error", "energy_balance_error")
 
 
 class Check:

@@ -1,5 +1,7 @@
 """Numbers as a person reads them: label, unit and digits of every key of result.yaml, also of those not known here."""
+import csv
 import math
+import os
 
 from is_number import is_number
 
@@ -11,104 +13,27 @@ class Quantity:
         self.label, self.kind = label, kind
 
 
-def force(label):
-    return Quantity(label, "force")
+# How a unit of result_keys.csv is shown, where the page has one of its own for it.
+KINDS = {"N": "force", "m": "length", "N/m": "stiffness", "bytes": "memory", "-": "", "0 to 1": "", "of the radius": ""}
+# Groups that are no table of results: what they hold has another place on the page.
+HEAD, BESIDE, CERTIFICATE = "head", "beside", "certificate"
+# The tables of results, in their order.
+TABLES = ["What happened", "Force and extension", "The knots", "Energy of the pull", "The computation"]
 
 
-def length(label):
-    return Quantity(label, "length")
+def keys_of_results():
+    """Quantities by group and key. The program writes the file: tensile_test --list-results."""
+    groups = {}
+    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "result_keys.csv")
+    with open(path, encoding="utf-8", newline="") as file:
+        for row in csv.DictReader(file):
+            quantity = Quantity(row["meaning"], KINDS.get(row["unit"], row["unit"]))
+            groups.setdefault(row["group"], {})[row["key"]] = quantity
+    return groups
 
 
-def stiffness(label):
-    return Quantity(label, "stiffness")
-
-
-def energy(label):
-    return Quantity(label, "J")
-
-
-# The groups of the results table, in its order.
-GROUPS = [
-    ("What happened", {
-        "motion_pattern": Quantity("Motion pattern"),
-        "motion_pattern_confidence": Quantity("Confidence in the motion pattern, from 0 to 1"),
-        "failure_mode": Quantity("Failure mode"),
-        "ended_by": Quantity("What ended the test"),
-        "roller_touched_at": length("Extension from which a roller bore on a knot or its tail"),
-        "untangled_at": Quantity("Time at which the knot came undone", "s"),
-    }),
-    ("Force and extension", {
-        "plateau_force": force("Plateau force, the mean while the knots slide"),
-        "plateau_force_sd": force("Standard deviation of the plateau force"),
-        "plateau_force_low": force("Smallest force within the plateau"),
-        "plateau_force_high": force("Largest force within the plateau"),
-        "plateau_force_slope": stiffness("Slope of the force over the extension within the plateau"),
-        "no_plateau_because": Quantity("Why there is no plateau"),
-        "plateau_slope": Quantity("Slope de/ds of the knot distance within the plateau; –\u20602 is rigid sliding"),
-        "breakaway_force": force("Breakaway force, the largest before the plateau"),
-        "margin_friction": Quantity("Share of the friction coefficient that may be missing before the knots open"),
-        "margin_preload": Quantity("Share of the pre-load that may be missing before the knots open"),
-        "largest_drop": force("Largest sudden fall of the force before the lock"),
-        "largest_drop_at": length("Extension at which it began"),
-        "jump_force": force("Force at which a knot jumped open"),
-        "jump_extension": length("Extension at which it jumped open"),
-        "force_after_jump": force("Force that was left when it had jumped"),
-        "first_contact_extension": length("Extension at which the two knots first touch each other"),
-        "lock_extension": length("Lock extension, where the motion of the knots shows that they lock"),
-        "lock_extension_by_load": length("Lock extension by the load alone, where it last rises through twice the plateau"),
-        "locked_stiffness": stiffness("Locked stiffness"),
-        "peak_force": force("Peak force"),
-        "balance_offset": force("Balance offset, by which the true force is larger than the load"),
-        "load_cell_error": force("Error of the load cell at the largest load, by its class"),
-        "plateau_load_cell_error": force("Error of the load cell within the plateau, by its class"),
-        "break_force": force("Force at break"),
-        "break_extension": length("Extension at break"),
-        "break_edge": Quantity("Edge that broke, counted along the rod"),
-        "break_arclength": length("Place of the break, measured along the rod"),
-        "break_place": Quantity("What touched the rod at the place of the break"),
-        "energy_to_peak": energy("Energy up to the largest load"),
-        "energy_to_break": energy("Energy up to the break"),
-        "chord_stiffness": stiffness("Chord stiffness"),
-        "secant_stiffness": stiffness("Secant stiffness"),
-        "tangent_stiffness": stiffness("Tangent stiffness"),
-        "cycles": Quantity("Cycles that were completed"),
-        "hysteresis": energy("Energy lost in one cycle (hysteresis)"),
-        "hold_force_begin": force("Force at the beginning of the last hold"),
-        "hold_force_end": force("Force at the end of the last hold"),
-        "relaxation": Quantity("Relaxation, the share of the force that the last hold lost"),
-    }),
-    ("The knots", {
-        "fastest_node": Quantity("Largest speed of a node until the knots lock", "m/s"),
-        "preload": force("Pre-load by which each overhand was tied"),
-        "tied_knot_distance": length("Knot distance once tied"),
-        "excess_length": length("Length of rod within each knot once tied"),
-        "final_excess_length": length("Length of rod within each knot at the end"),
-    }),
-    ("Energy of the pull", {
-        "work": energy("Work of the grips"),
-        "stored_energy": energy("Energy stored in rod and contacts"),
-        "kinetic_energy": energy("Kinetic energy"),
-        "friction_loss": energy("Energy lost to friction"),
-        "drag_loss": energy("Energy lost to drag"),
-        "numerical_dissipation": energy("Energy lost in the time steps (numerical dissipation)"),
-        "reweighting_loss": energy("Energy lost as the weights of contacts change"),
-        "drag_share": Quantity("Share of drag in the force"),
-        "inertia_share": Quantity("Share of inertia in the force"),
-        "numerical_share": Quantity("Share of numerical dissipation in the force"),
-    }),
-    ("The computation", {
-        "steps": Quantity("Time steps"),
-        "rejected_steps": Quantity("Time steps that were made again, shorter"),
-        "newton_iterations": Quantity("Iterations of Newton's method"),
-        "simulated_time": Quantity("Duration of the test", "s"),
-        "wall_time": Quantity("Duration of the computation", "s"),
-        "real_time_factor": Quantity("Duration of the test over that of the computation"),
-        "peak_memory": Quantity("Largest memory in use", "memory"),
-        "seed": Quantity("Seed of the load cell's noise"),
-        "version": Quantity("Version of knot_utm"),
-    }),
-]
-KNOWN = {key: quantity for _, group in GROUPS for key, quantity in group.items()}
+GROUPS = keys_of_results()
+KNOWN = {key: quantity for group in GROUPS.values() for key, quantity in group.items()}
 
 # The unit of a key that is not known here, by how it ends: names of quantities are the field's.
 ENDINGS = [("_force", "force"), ("_load", "force"), ("_extension", "length"), ("_distance", "length"),

@@ -1,9 +1,6 @@
 """result.yaml as a table: every key that has a value has its place, also those that this file has never heard of."""
-from certificate import CERTIFIED, stiffness_name
-from quantities import GROUPS, error_shown, quantity_of, shown
-
-# The page says them elsewhere.
-ELSEWHERE = ("reason", "warnings", "specification_passed", "specification_failed")
+from certificate import stiffness_name
+from quantities import CERTIFICATE, GROUPS, HEAD, TABLES, error_shown, quantity_of, shown
 
 
 class Row:
@@ -47,10 +44,10 @@ def labels_of(result, peak):
 def results_table(result, units, peak):
     """Groups of rows, those with a label first, and the keys of which this test has no value."""
     labels = labels_of(result, peak)
-    placed = set(ELSEWHERE) | set(CERTIFIED)
+    placed = {*GROUPS[HEAD], *GROUPS[CERTIFICATE]}  # the page says them elsewhere
     groups = []
-    for title, known in GROUPS:
-        rows = [Row(result, key, units, labels.get(key)) for key in known if has_value(result, key)]
+    for title in TABLES:
+        rows = [Row(result, key, units, labels.get(key)) for key in GROUPS[title] if has_value(result, key)]
         groups.append(Group(title, rows))
         placed.update(key for row in rows for key in row.keys)
     folded = {name for key in result for name in (key + "_error", "true_" + key) if has_value(result, key)}

@@ -3,10 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/record/choice_names.hpp"
 #include "pull_integrals.hpp"
 
 namespace knot_utm {
 namespace {
+
+constexpr ChoiceNames<MotionPattern, 4> kPatternNames{{{MotionPattern::kNone, "none"},
+                                                       {MotionPattern::kSliding, "sliding"},
+                                                       {MotionPattern::kStretching, "stretching"},
+                                                       {MotionPattern::kUntangling, "untangling"}}};
 
 constexpr double kWindow = 0.03;        // of the first knot distance
 constexpr double kTurnover = -1.0;      // de/ds between sliding (-2) and stretching (> 0)
@@ -62,19 +68,7 @@ double unit(double x) { return std::isfinite(x) ? std::clamp(x, 0.0, 1.0) : 0.0;
 
 }  // namespace
 
-const char* motion_pattern_name(MotionPattern pattern) {
-  switch (pattern) {
-    case MotionPattern::kSliding:
-      return "sliding";
-    case MotionPattern::kStretching:
-      return "stretching";
-    case MotionPattern::kUntangling:
-      return "untangling";
-    case MotionPattern::kNone:
-      break;
-  }
-  return "none";
-}
+const char* motion_pattern_name(MotionPattern pattern) { return name_of(kPatternNames, pattern); }
 
 void MotionPatternTracker::add(const Sample& sample) {
   if (sample.knot_type == KnotType::kKept)

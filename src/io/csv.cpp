@@ -10,6 +10,7 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/numeric/text_rows.hpp"
+#include "knot_utm/record/sample_fields.hpp"
 
 namespace knot_utm {
 namespace {
@@ -20,14 +21,15 @@ struct Column {
   double CurveRow::*value;
 };
 
-constexpr std::array<Column, 6> kColumns{{{"time", "s", &CurveRow::time},
-                                          {"extension", "m", &CurveRow::extension},
-                                          {"load", "N", &CurveRow::load},
-                                          {"knot_distance", "m", &CurveRow::knot_distance},
-                                          {"end_to_end", "m", &CurveRow::end_to_end},
-                                          {"load_lower", "N", &CurveRow::load_lower}}};
+constexpr std::array<Column, 6> kColumns{{{"time", sample_unit("time"), &CurveRow::time},
+                                          {"extension", sample_unit("extension"), &CurveRow::extension},
+                                          {"load", sample_unit("load"), &CurveRow::load},
+                                          {"knot_distance", sample_unit("knot_distance"), &CurveRow::knot_distance},
+                                          {"end_to_end", sample_unit("end_to_end"), &CurveRow::end_to_end},
+                                          {"load_lower", sample_unit("force_lower"), &CurveRow::load_lower}}};
 constexpr const char* kPhase = "phase";
-constexpr Column kCorrected = {"corrected_extension", "m", &CurveRow::corrected_extension};
+constexpr const char* kPhaseUnit = sample_unit(kPhase);
+constexpr Column kCorrected = {"corrected_extension", sample_unit("extension"), &CurveRow::corrected_extension};
 
 void open(std::ofstream& out, const std::string& file) {
   out.open(file, std::ios::binary | std::ios::trunc);
@@ -72,7 +74,7 @@ CurveWriter::CurveWriter(const std::string& file, bool compliant_frame)
     units += std::string(column.unit) + ',';
   }
   names += kPhase;
-  units += '-';
+  units += kPhaseUnit;
   if (compliant_frame_) {
     names += std::string(",") + kCorrected.name;
     units += std::string(",") + kCorrected.unit;
@@ -112,7 +114,7 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
   if (std::find(names.begin(), names.end(), kCorrected.name) != names.end()) columns.push_back(kCorrected);
   std::vector<std::size_t> places;
   for (const Column& column : columns) places.push_back(place(file, names, units, column.name, column.unit));
-  const std::size_t phase_place = place(file, names, units, kPhase, "-");
+  const std::size_t phase_place = place(file, names, units, kPhase, kPhaseUnit);
 
   std::vector<CurveRow> rows;
   while (text.next()) {

@@ -30,16 +30,9 @@ void YamlLines::number(const char* key, const std::optional<double>& value) {
   number(key, value.value_or(std::numeric_limits<double>::quiet_NaN()));
 }
 
-void YamlLines::count(const char* key, std::uint64_t value) {
-  numbers_.emplace_back(key, static_cast<double>(value));
-  word(key, std::to_string(value));
-}
-
-std::vector<std::string> YamlLines::number_keys() const {
-  std::vector<std::string> keys;
-  keys.reserve(numbers_.size());
-  for (const auto& [key, value] : numbers_) keys.push_back(key);
-  return keys;
+void YamlLines::count(const char* key, const std::optional<std::uint64_t>& value) {
+  numbers_.emplace_back(key, value ? std::optional<double>(static_cast<double>(*value)) : std::nullopt);
+  word(key, value ? std::to_string(*value) : "null");
 }
 
 std::optional<double> YamlLines::value(const std::string& key) const {
@@ -48,7 +41,9 @@ std::optional<double> YamlLines::value(const std::string& key) const {
   return found == numbers_.end() ? std::nullopt : found->second;
 }
 
-void YamlLines::flag(const char* key, bool value) { word(key, value ? "true" : "false"); }
+void YamlLines::flag(const char* key, const std::optional<bool>& value) {
+  word(key, !value ? "null" : *value ? "true" : "false");
+}
 
 void YamlLines::word(const char* key, const std::string& value) { all_ += std::string(key) + ": " + value + "\n"; }
 

@@ -64,18 +64,4 @@ bool lies_in_knot(const RodProperties& rod, const Points& position, int edge) {
   return false;
 }
 
-const char* break_place_name(BreakPlace place) {
-  switch (place) {
-    case BreakPlace::kStrand:
-      return "strand";
-    case BreakPlace::kKnot:
-      return "knot";
-    case BreakPlace::kGrip:
-      return "grip";
-    case BreakPlace::kNone:
-      break;
-  }
-  return "none";
-}
-
 }  // namespace knot_utm

@@ -1,38 +1,27 @@
 #include "knot_utm/record/program.hpp"
 
-#include <array>
-#include <utility>
+#include "knot_utm/record/choice_names.hpp"
 
 namespace knot_utm {
 namespace {
 
-constexpr std::array<std::pair<Phase, const char*>, 12> kPhaseNames{{{Phase::kIdle, "idle"},
-                                                                     {Phase::kTie, "tie"},
-                                                                     {Phase::kRelease, "release"},
-                                                                     {Phase::kMount, "mount"},
-                                                                     {Phase::kPreload, "preload"},
-                                                                     {Phase::kBalance, "balance"},
-                                                                     {Phase::kPull, "pull"},
-                                                                     {Phase::kHold, "hold"},
-                                                                     {Phase::kCycle, "cycle"},
-                                                                     {Phase::kReturn, "return"},
-                                                                     {Phase::kFollow, "follow"},
-                                                                     {Phase::kDone, "done"}}};
+constexpr ChoiceNames<Phase, 12> kPhaseNames{{{Phase::kIdle, "idle"},
+                                              {Phase::kTie, "tie"},
+                                              {Phase::kRelease, "release"},
+                                              {Phase::kMount, "mount"},
+                                              {Phase::kPreload, "preload"},
+                                              {Phase::kBalance, "balance"},
+                                              {Phase::kPull, "pull"},
+                                              {Phase::kHold, "hold"},
+                                              {Phase::kCycle, "cycle"},
+                                              {Phase::kReturn, "return"},
+                                              {Phase::kFollow, "follow"},
+                                              {Phase::kDone, "done"}}};
 
 }  // namespace
 
-const char* phase_name(Phase phase) {
-  for (const auto& [value, name] : kPhaseNames) {
-    if (value == phase) return name;
-  }
-  return "idle";
-}
+const char* phase_name(Phase phase) { return name_of(kPhaseNames, phase); }
 
-std::optional<Phase> phase_named(const std::string& name) {
-  for (const auto& [value, text] : kPhaseNames) {
-    if (name == text) return value;
-  }
-  return std::nullopt;
-}
+std::optional<Phase> phase_named(const std::string& name) { return choice_named(kPhaseNames, name); }
 
 }  // namespace knot_utm

@@ -1,27 +1,36 @@
 #include "knot_utm/record/sample.hpp"
 
+#include "knot_utm/record/choice_names.hpp"
+#include "knot_utm/record/sample_fields.hpp"
+
 namespace knot_utm {
+namespace {
+
+constexpr ChoiceNames<BreakPlace, 4> kBreakPlaceNames{{{BreakPlace::kNone, "none"},
+                                                       {BreakPlace::kStrand, "strand"},
+                                                       {BreakPlace::kKnot, "knot"},
+                                                       {BreakPlace::kGrip, "grip"}}};
+
+}  // namespace
+
+const char* break_place_name(BreakPlace place) { return name_of(kBreakPlaceNames, place); }
 
 // In the order of the journal's version 3: another one is another version (src/io/journal.cpp).
-
 void Command::state(Archive& archive) {
   archive(sequence, time, displacement, velocity, step);
-  archive.choice("phase", phase, Phase::kDone);
+  archive.choice("phase", phase, last_of(phase));
   archive(speed, duration, balance, read_cell);
 }
 
 void Sample::state(Archive& archive) {
-  archive(sequence, time);
-  archive.choice("phase", phase, Phase::kDone);
-  archive(displacement, extension, end_to_end, knot_distance, load, balance_offset, force_upper, force_lower,
-          tail_force, excess_length, max_penetration, normal_force, contacts, fastest_node, stretching_energy,
-          bending_energy, twisting_energy, contact_energy, kinetic_energy, grip_work, dissipation, friction_loss,
-          numerical_dissipation, reweighting_loss, moment_imbalance, steps, rejected_steps, newton_iterations);
-  archive.choice("knot type", knot_type, KnotType::kCrossed);
-  archive.choice("status", status, BenchStatus::kFailed);
-  archive(message, highest_load, lowest_load, break_arclength);
-  archive.choice("place of the break", break_place, BreakPlace::kGrip);
-  archive(knots_force, knot_on_roller, raw_extension);
+  visit_sample_fields([&](const auto& field) {
+    auto& value = field.of(*this);
+    if constexpr (std::is_enum_v<std::remove_reference_t<decltype(value)>>) {
+      archive.choice(field.name, value, last_of(value));
+    } else {
+      archive(value);
+    }
+  });
 }
 
 }  // namespace knot_utm

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <optional>
 #include <stdexcept>
+#include <string>
+#include <type_traits>
 
+#include "knot_utm/record/sample_fields.hpp"
 #include "knot_utm/ros/names.hpp"
 
 namespace knot_utm {
@@ -36,46 +39,35 @@ void copy_command(const From& from, To& to) {
   to.read_cell = from.read_cell != 0;
 }
 
-/// The same of a sample.
+void put(Phase phase, std::string& to) { to = phase_name(phase); }
 template <class From, class To>
-void copy_sample(const From& from, To& to) {
-  to.sequence = from.sequence;
-  to.time = from.time;
-  to.displacement = from.displacement;
-  to.extension = from.extension;
-  to.end_to_end = from.end_to_end;
-  to.knot_distance = from.knot_distance;
-  to.load = from.load;
-  to.highest_load = from.highest_load;
-  to.lowest_load = from.lowest_load;
-  to.break_arclength = from.break_arclength;
-  to.balance_offset = from.balance_offset;
-  to.force_upper = from.force_upper;
-  to.force_lower = from.force_lower;
-  std::copy(std::begin(from.tail_force), std::end(from.tail_force), std::begin(to.tail_force));
-  std::copy(std::begin(from.excess_length), std::end(from.excess_length), std::begin(to.excess_length));
-  to.max_penetration = from.max_penetration;
-  to.normal_force = from.normal_force;
-  to.contacts = from.contacts;
-  to.fastest_node = from.fastest_node;
-  to.stretching_energy = from.stretching_energy;
-  to.bending_energy = from.bending_energy;
-  to.twisting_energy = from.twisting_energy;
-  to.contact_energy = from.contact_energy;
-  to.kinetic_energy = from.kinetic_energy;
-  to.grip_work = from.grip_work;
-  to.dissipation = from.dissipation;
-  to.friction_loss = from.friction_loss;
-  to.numerical_dissipation = from.numerical_dissipation;
-  to.reweighting_loss = from.reweighting_loss;
-  to.moment_imbalance = from.moment_imbalance;
-  to.steps = from.steps;
-  to.rejected_steps = from.rejected_steps;
-  to.newton_iterations = from.newton_iterations;
-  to.message = from.message;
-  to.knots_force = from.knots_force;
-  to.knot_on_roller = from.knot_on_roller;
-  to.raw_extension = from.raw_extension;
+void put(const From& from, To& to) {
+  if constexpr (std::is_enum_v<From>) {
+    to = static_cast<To>(from);
+  } else {
+    to = from;
+  }
+}
+template <std::size_t N, class To>
+void put(const double (&from)[N], To& to) {
+  std::copy(std::begin(from), std::end(from), to.begin());
+}
+
+/// What `name` is called is for complaints.
+void take(const std::string& from, Phase& phase, const char* /*name*/) { phase = phase_from_name(from); }
+template <class From, class To>
+void take(const From& from, To& to, const char* name) {
+  if constexpr (std::is_enum_v<To>) {
+    if (from > static_cast<From>(last_of(To())))
+      throw std::invalid_argument(std::string(name) + " " + std::to_string(from) + " is unknown");
+    to = static_cast<To>(from);
+  } else {
+    to = from;
+  }
+}
+template <class From, std::size_t N>
+void take(const From& from, double (&to)[N], const char* /*name*/) {
+  std::copy(from.begin(), from.end(), std::begin(to));
 }
 
 }  // namespace
@@ -112,27 +104,13 @@ KnotState to_message(const Sample& sample, std::uint32_t run, const ros::Time& s
   m.header.stamp = stamp;
   m.header.frame_id = names::kBaseFrame;
   m.run = run;
-  m.phase = phase_name(sample.phase);
-  m.break_place = static_cast<std::uint8_t>(sample.break_place);
-  m.knot_type = static_cast<std::uint8_t>(sample.knot_type);
-  m.status = static_cast<std::uint8_t>(sample.status);
-  copy_sample(sample, m);
+  visit_sample_fields([&](const auto& field) { put(field.of(sample), field.of(m)); });
   return m;
 }
 
 Sample from_message(const KnotState& m) {
-  if (m.status > KnotState::FAILED) throw std::invalid_argument("status " + std::to_string(m.status) + " is unknown");
-  if (m.knot_type > KnotState::KNOT_CROSSED) {
-    throw std::invalid_argument("knot type " + std::to_string(m.knot_type) + " is unknown");
-  }
-  if (m.break_place > KnotState::BREAK_GRIP)
-    throw std::invalid_argument("place of the break " + std::to_string(m.break_place) + " is unknown");
   Sample sample;
-  sample.phase = phase_from_name(m.phase);
-  sample.break_place = static_cast<BreakPlace>(m.break_place);
-  sample.knot_type = static_cast<KnotType>(m.knot_type);
-  sample.status = static_cast<BenchStatus>(m.status);
-  copy_sample(m, sample);
+  visit_sample_fields([&](const auto& field) { take(field.of(m), field.of(sample), field.name); });
   return sample;
 }
 

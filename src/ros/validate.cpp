@@ -3,10 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
+#include <type_traits>
 #include <utility>
 
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/record/program.hpp"
+#include "knot_utm/record/sample_fields.hpp"
 
 namespace knot_utm {
 namespace {
@@ -75,50 +78,39 @@ class Check {
   std::string fault_;
 };
 
+/// A number in a field of a sample, or in one of its places.
+void check_number(Check& check, const char* name, Allowed allowed, double value) {
+  const double low = may_be_negative(allowed) ? -kInfinity : 0.0;
+  if (may_be_none(allowed)) {
+    check.number_or_none(name, value, low);
+  } else {
+    check.number(name, value, low);
+  }
+}
+
+/// What a message has in a field of its sample.
+template <class Field, class Value>
+void check_field(Check& check, const Field& field, const Value& value) {
+  using InSample = ValueOf<Field>;
+  if constexpr (std::is_same_v<InSample, Phase>) {
+    check.phase(value);
+  } else if constexpr (std::is_enum_v<InSample>) {
+    check.count(field.name, value, 0, static_cast<std::uint64_t>(last_of(InSample())));
+  } else if constexpr (std::is_same_v<InSample, std::string>) {
+    check.text(field.name, value);
+  } else if constexpr (std::is_array_v<InSample>) {
+    for (std::size_t i = 0; i < value.size(); ++i)
+      check_number(check, (field.name + ("[" + std::to_string(i) + "]")).c_str(), field.allowed, value[i]);
+  } else if (field.allowed != Allowed::kAny) {
+    check_number(check, field.name, field.allowed, static_cast<double>(value));
+  }
+}
+
 std::string fault_of_state(const KnotState& m, const std::string& prefix) {
-  return Check(prefix)
-      .text("header.frame_id", m.header.frame_id)
-      .number("time", m.time, 0.0)
-      .phase(m.phase)
-      .number("displacement", m.displacement)
-      .number("extension", m.extension)
-      .number("end_to_end", m.end_to_end)
-      .number_or_none("knot_distance", m.knot_distance, 0.0)
-      .number("load", m.load)
-      .number("highest_load", m.highest_load)
-      .number("lowest_load", m.lowest_load)
-      .number_or_none("break_arclength", m.break_arclength, 0.0)
-      .count("break_place", m.break_place, KnotState::BREAK_NONE, KnotState::BREAK_GRIP)
-      .number("balance_offset", m.balance_offset)
-      .number("force_upper", m.force_upper)
-      .number("force_lower", m.force_lower)
-      .number_or_none("tail_force[0]", m.tail_force[0])
-      .number_or_none("tail_force[1]", m.tail_force[1])
-      .number_or_none("excess_length[0]", m.excess_length[0])
-      .number_or_none("excess_length[1]", m.excess_length[1])
-      .number("max_penetration", m.max_penetration)
-      .number("normal_force", m.normal_force)
-      .number("contacts", m.contacts, 0.0)
-      .number("fastest_node", m.fastest_node, 0.0)
-      .number("stretching_energy", m.stretching_energy)
-      .number("bending_energy", m.bending_energy)
-      .number("twisting_energy", m.twisting_energy)
-      .number("contact_energy", m.contact_energy)
-      .number("kinetic_energy", m.kinetic_energy)
-      .number("grip_work", m.grip_work)
-      .number("dissipation", m.dissipation)
-      .number("friction_loss", m.friction_loss)
-      .number("numerical_dissipation", m.numerical_dissipation)
-      .number("reweighting_loss", m.reweighting_loss)
-      .number("moment_imbalance", m.moment_imbalance)
-      .count("knot_type", m.knot_type, KnotState::KNOT_KEPT, KnotState::KNOT_CROSSED)
-      .count("status", m.status, KnotState::RUNNING, KnotState::FAILED)
-      .text("message", m.message)
-      .text("motion_pattern", m.motion_pattern)
-      .number_or_none("knots_force", m.knots_force, 0.0)
-      .number_or_none("knot_on_roller", m.knot_on_roller, 0.0)
-      .number_or_none("raw_extension", m.raw_extension)
-      .fault();
+  Check check(prefix);
+  check.text("header.frame_id", m.header.frame_id);
+  visit_sample_fields([&](const auto& field) { check_field(check, field, field.of(m)); });
+  return check.text("motion_pattern", m.motion_pattern).fault();
 }
 
 std::string fault_of_shape(const KnotShape& m) {

@@ -12,6 +12,7 @@
 #include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/report.hpp"
+#include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/study/headless_run.hpp"
 #ifdef KNOT_UTM_HAS_ROS
@@ -147,6 +148,13 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
       ->capture_default_str();
   app.add_flag("--quiet", arguments.quiet, "say only what went wrong");
   app.add_flag("--report", arguments.report, "also write report.html and report.pdf");
+  app.add_flag_callback(
+      "--list-results",
+      [] {
+        std::fputs(result_keys_csv().c_str(), stdout);
+        throw CLI::Success();
+      },
+      "say which keys result.yaml has, with unit, kind and meaning, and do no more");
   const std::optional<int> code = parse(app, kTool, argc, argv, [&] {
     if (method->empty() && resume->empty()) throw CLI::RequiredError("METHOD");
   });

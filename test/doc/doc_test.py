@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """README.md and doc/ against the code: keys and their ranges, launch arguments, names, tests, files, links."""
+import csv
 import glob
 import os
 import re
@@ -108,12 +109,28 @@ class Method(unittest.TestCase):
 
 
 class Results(unittest.TestCase):
-    def test_has_every_key(self):
-        keys = re.findall(r'lines\.\w+\("(\w+)"', text("src/io/run_writer.cpp"))
-        said = rows(text("doc/results.md"))
-        self.assertGreater(len(keys), 20)
-        for key in keys:
-            self.assertTrue(key in said, key)
+    """doc/results.md against the table of the keys, which the program writes (tensile_test --list-results)."""
+    page = text("doc/results.md")
+    units = {row["key"]: row["unit"] for row in csv.DictReader(text("report/result_keys.csv").splitlines())}
+
+    def test_has_every_key_and_its_unit(self):
+        self.assertGreater(len(self.units), 20)
+        said = self.said()
+        self.assertEqual(set(said), set(self.units))
+        for key, unit in self.units.items():
+            self.assertEqual(said[key], unit.replace("-", "–"), key)
+
+    def said(self):
+        """Units by key; one unit may stand for all keys of a row."""
+        found = {}
+        table = self.page[self.page.index("## Keys of `result.yaml`"):self.page.index("## When a mean is a plateau")]
+        for line in table.splitlines():
+            cells = [cell.strip() for cell in line.strip("|").split("|")]
+            keys = re.findall(r"`(\w+)`", cells[0]) if line.startswith("| `") else []
+            units = cells[1].split(", ") if keys else []
+            for key, unit in zip(keys, units * len(keys) if len(units) == 1 else units):
+                found[key] = unit
+        return found
 
 
 class Ros(unittest.TestCase):

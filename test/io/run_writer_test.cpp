@@ -11,6 +11,8 @@
 #include <sstream>
 
 #include "knot_utm/io/gravity_warnings.hpp"
+#include "knot_utm/io/result_yaml.hpp"
+#include "knot_utm/io/run_warnings.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "machine/fake_bench.hpp"
 

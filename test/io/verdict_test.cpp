@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "knot_utm/io/run_writer.hpp"
+#include "knot_utm/io/result_yaml.hpp"
 
 namespace knot_utm {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/io/method.hpp"
-#include "knot_utm/io/run_writer.hpp"
+#include "knot_utm/io/run_warnings.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {

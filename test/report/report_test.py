@@ -213,9 +213,19 @@ class PageOfARun(unittest.TestCase):
         self.assertLess(html.index("<li>a &amp; b &lt; c</li>"), html.index("<h2>"))
 
 
+class Keys(unittest.TestCase):
+    def test_of_every_group_have_a_place_on_the_page(self):
+        places = {*quantities.TABLES, quantities.HEAD, quantities.BESIDE, quantities.CERTIFICATE}
+        self.assertEqual(set(quantities.GROUPS), places)
+
+    def test_that_are_checked_stand_in_the_certificate(self):
+        checked = {key for check in certificate.checks_of({}) for key in check.keys}
+        self.assertLessEqual(set(quantities.GROUPS[quantities.CERTIFICATE]), checked)
+
+
 class Certificate(unittest.TestCase):
     def test_limits_are_those_of_the_program(self):
-        source = read(ROOT, "src/io/run_writer.cpp")
+        source = read(ROOT, "src/io/run_warnings.cpp")
         for name, limit in certificate.LIMITS.items():
             self.assertEqual(float(re.search(rf"constexpr double {name} = ([\d.]+);", source).group(1)), limit, name)
         gate = re.search(r'"force_balance_error"\) .*?at_most\(([\d.]+)\)', read(ROOT, "bench/tighten.py"), re.DOTALL)

@@ -1,10 +1,15 @@
 #include "knot_utm/ros/conversions.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <limits>
+#include <cstdint>
 #include <stdexcept>
+#include <string>
+#include <type_traits>
+
+#include "knot_utm/record/sample_fields.hpp"
 
 namespace knot_utm {
 namespace {
@@ -12,78 +17,52 @@ namespace {
 /// A number with all its bits in use, different for each `i`.
 double odd_number(int i) { return std::sqrt(2.0 + i) * std::pow(10.0, i % 7 - 3); }
 
+/// A value of its own in each field, none of which is the one that a sample begins with.
 Sample full_sample() {
   Sample s;
-  s.sequence = (1ull << 60) + 7;
-  s.time = odd_number(0);
-  s.phase = Phase::kRelease;
-  double* const fields[] = {
-      &s.displacement,     &s.extension,       &s.end_to_end,     &s.knot_distance,         &s.load,
-      &s.force_upper,      &s.force_lower,     &s.tail_force[0],  &s.tail_force[1],         &s.excess_length[0],
-      &s.excess_length[1], &s.max_penetration, &s.normal_force,   &s.fastest_node,          &s.stretching_energy,
-      &s.bending_energy,   &s.twisting_energy, &s.contact_energy, &s.kinetic_energy,        &s.grip_work,
-      &s.dissipation,      &s.balance_offset,  &s.friction_loss,  &s.numerical_dissipation, &s.reweighting_loss,
-      &s.moment_imbalance, &s.highest_load,    &s.lowest_load,    &s.break_arclength,       &s.knots_force,
-      &s.knot_on_roller,   &s.raw_extension};
-  int i = 1;
-  for (double* field : fields) *field = odd_number(i++);
-  s.contacts = 31;
-  s.steps = 1001;
-  s.rejected_steps = 12;
-  s.newton_iterations = 5003;
-  s.break_place = BreakPlace::kKnot;
-  s.knot_type = KnotType::kCrossed;
-  s.status = BenchStatus::kNotEquilibrated;
-  s.message = "not at rest";
+  int i = 0;
+  visit_sample_fields([&](const auto& field) {
+    auto& value = field.of(s);
+    using Value = ValueOf<std::decay_t<decltype(field)>>;
+    ++i;
+    if constexpr (std::is_enum_v<Value>) {
+      value = last_of(value);
+    } else if constexpr (std::is_array_v<Value>) {
+      for (double& number : value) number = odd_number(i++);
+    } else if constexpr (std::is_same_v<Value, std::string>) {
+      value = "not at rest " + std::to_string(i);
+    } else if constexpr (std::is_same_v<Value, std::uint64_t>) {
+      value = (1ull << 60) + static_cast<std::uint64_t>(i);
+    } else {
+      value = static_cast<Value>(31.0 * odd_number(i));
+    }
+  });
   return s;
 }
 
 TEST(Conversions, SampleSurvivesBitForBit) {
   const Sample in = full_sample();
   const Sample out = from_message(to_message(in, 3, ros::Time(1.5)));
-  EXPECT_EQ(out.sequence, in.sequence);
-  EXPECT_EQ(out.time, in.time);
-  EXPECT_EQ(out.phase, in.phase);
-  EXPECT_EQ(out.displacement, in.displacement);
-  EXPECT_EQ(out.extension, in.extension);
-  EXPECT_EQ(out.end_to_end, in.end_to_end);
-  EXPECT_EQ(out.knot_distance, in.knot_distance);
-  EXPECT_EQ(out.load, in.load);
-  EXPECT_EQ(out.balance_offset, in.balance_offset);
-  EXPECT_EQ(out.highest_load, in.highest_load);
-  EXPECT_EQ(out.lowest_load, in.lowest_load);
-  EXPECT_EQ(out.break_arclength, in.break_arclength);
-  EXPECT_EQ(out.break_place, in.break_place);
-  EXPECT_EQ(out.force_upper, in.force_upper);
-  EXPECT_EQ(out.force_lower, in.force_lower);
-  for (int i = 0; i < 2; ++i) {
-    EXPECT_EQ(out.tail_force[i], in.tail_force[i]);
-    EXPECT_EQ(out.excess_length[i], in.excess_length[i]);
-  }
-  EXPECT_EQ(out.max_penetration, in.max_penetration);
-  EXPECT_EQ(out.normal_force, in.normal_force);
-  EXPECT_EQ(out.contacts, in.contacts);
-  EXPECT_EQ(out.fastest_node, in.fastest_node);
-  EXPECT_EQ(out.stretching_energy, in.stretching_energy);
-  EXPECT_EQ(out.bending_energy, in.bending_energy);
-  EXPECT_EQ(out.twisting_energy, in.twisting_energy);
-  EXPECT_EQ(out.contact_energy, in.contact_energy);
-  EXPECT_EQ(out.kinetic_energy, in.kinetic_energy);
-  EXPECT_EQ(out.grip_work, in.grip_work);
-  EXPECT_EQ(out.dissipation, in.dissipation);
-  EXPECT_EQ(out.friction_loss, in.friction_loss);
-  EXPECT_EQ(out.numerical_dissipation, in.numerical_dissipation);
-  EXPECT_EQ(out.reweighting_loss, in.reweighting_loss);
-  EXPECT_EQ(out.moment_imbalance, in.moment_imbalance);
-  EXPECT_EQ(out.steps, in.steps);
-  EXPECT_EQ(out.rejected_steps, in.rejected_steps);
-  EXPECT_EQ(out.newton_iterations, in.newton_iterations);
-  EXPECT_EQ(out.knot_type, in.knot_type);
-  EXPECT_EQ(out.status, in.status);
-  EXPECT_EQ(out.message, in.message);
-  EXPECT_EQ(out.knots_force, in.knots_force);
-  EXPECT_EQ(out.knot_on_roller, in.knot_on_roller);
-  EXPECT_EQ(out.raw_extension, in.raw_extension);
+  visit_sample_fields([&](const auto& field) {
+    if constexpr (std::is_array_v<ValueOf<std::decay_t<decltype(field)>>>) {
+      EXPECT_THAT(field.of(out), testing::ElementsAreArray(field.of(in))) << field.name;
+    } else {
+      EXPECT_EQ(field.of(out), field.of(in)) << field.name;
+    }
+  });
+}
+
+TEST(Conversions, RefusesWhatNoSampleIs) {
+  const KnotState good = to_message(Sample(), 1, ros::Time(1.0));
+  KnotState bad = good;
+  bad.status = KnotState::FAILED + 1;
+  EXPECT_THROW(from_message(bad), std::invalid_argument);
+  bad = good;
+  bad.knot_type = KnotState::KNOT_CROSSED + 1;
+  EXPECT_THROW(from_message(bad), std::invalid_argument);
+  bad = good;
+  bad.break_place = KnotState::BREAK_GRIP + 1;
+  EXPECT_THROW(from_message(bad), std::invalid_argument);
 }
 
 TEST(Conversions, WhatIsNotThereStaysNotANumber) {

@@ -2,15 +2,29 @@
 
 #include <string>
 
-#include "knot_utm/analysis/results.hpp"
-#include "knot_utm/io/run_facts.hpp"
+#include "knot_utm/io/result_keys.hpp"
 
 namespace knot_utm {
 
-/// Why a key of result.yaml is null, in a few words; empty where that goes without saying.
-std::string why_null(const std::string& key, const Results& results, const RunFacts& facts);
+// Why keys of result.yaml are null, where that depends on the test: reasons for the rows of result_keys(). They are
+// asked of keys that have no value.
 
-/// Sliding without a lock: where the load rose all the same, the knots were still on their way.
-bool slid_to_the_end(const Results& results);
+std::string why_not_pulled(const ResultSource& source);  ///< empty where something was pulled
+std::string why_no_margin(const ResultSource& source);
+std::string why_no_plateau(const ResultSource& source);
+std::string why_no_plateau_error(const ResultSource& source);
+std::string why_no_drop(const ResultSource& source);
+std::string why_no_place_of_drop(const ResultSource& source);
+std::string why_no_contact(const ResultSource& source);
+std::string why_no_lock(const ResultSource& source);
+std::string why_no_lock_error(const ResultSource& source);
+std::string why_no_lock_by_load(const ResultSource& source);
+std::string why_no_stiffness(const ResultSource& source);
+std::string why_no_stiffness_error(const ResultSource& source);
+std::string why_no_chord(const ResultSource& source);
+std::string why_no_break(const ResultSource& source);
+std::string why_no_touch(const ResultSource& source);
+std::string why_no_cell_error(const ResultSource& source);
+std::string why_no_cell_error_in_plateau(const ResultSource& source);
 
 }  // namespace knot_utm

@@ -7,6 +7,7 @@
 #include "knot_utm/io/csv.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/record.hpp"
+#include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
@@ -53,20 +54,5 @@ class RunWriter {
   CurveWriter curve_;
   CurveWriter full_curve_;
 };
-
-/// What befell the specimen while it was pulled, a line each: a knot that jumped open, a roller that was touched.
-std::vector<std::string> events(const Results& results);
-
-/// One line where the specimen had not come to rest, or the plateau force may be off by more than a tenth; else empty.
-std::string accuracy_warning(const Results& results, const ReadingErrors& errors);
-
-/// All that is said on the console, too, a line each.
-std::vector<std::string> told(const Results& results, const RunFacts& facts);
-
-/// result.yaml: the keys in a fixed order, SI units, null for what is not there; warnings of the results first.
-std::string result_yaml(const Results& results, const RunFacts& facts);
-
-/// The keys of result.yaml that are numbers, whether a test has a value of them or not: what a specification may name.
-std::vector<std::string> result_numbers();
 
 }  // namespace knot_utm

@@ -15,8 +15,8 @@ class YamlLines {
  public:
   void number(const char* key, double value);
   void number(const char* key, const std::optional<double>& value);
-  void count(const char* key, std::uint64_t value);
-  void flag(const char* key, bool value);
+  void count(const char* key, const std::optional<std::uint64_t>& value);
+  void flag(const char* key, const std::optional<bool>& value);
   void word(const char* key, const std::string& value);  ///< as it is
   void text(const char* key, const std::string& value);  ///< quoted; empty is null
   void pair(const char* key, const std::array<std::optional<double>, 2>& values);
@@ -27,7 +27,6 @@ class YamlLines {
 
   const std::string& all() const { return all_; }
 
-  std::vector<std::string> number_keys() const;               ///< of numbers and counts, null or not, in order
   std::optional<double> value(const std::string& key) const;  ///< of a number or count; none: null, or not there
 
  private:

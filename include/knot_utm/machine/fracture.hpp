@@ -33,6 +33,4 @@ double transit_time(const Material& material, double length);
 /// Whether another strand lies against an edge, nearer than 2.2 h to it and further than 5 h along the rod.
 bool lies_in_knot(const RodProperties& rod, const Points& position, int edge);
 
-const char* break_place_name(BreakPlace place);  ///< "strand", "knot", "grip"; of kNone "none"
-
 }  // namespace knot_utm

@@ -49,50 +49,53 @@ enum class BreakPlace {
   kGrip     ///< on a roller, or where a clamp or node holds it
 };
 
-/// One reading of the whole bench, at the physics' own accuracy but for `load`.
+const char* break_place_name(BreakPlace place);  ///< "none", "strand", "knot", "grip"
+
+/// One reading of the whole bench, at the physics' own accuracy but for `load`. What each field means, its unit and
+/// what it may be stand in record/sample_fields.hpp.
 struct Sample {
-  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  ///< for what is not there
   std::uint64_t sequence = 0;
-  double time = 0.0;  ///< [s]
+  double time = 0.0;
   Phase phase = Phase::kIdle;
-  double displacement = 0.0;     ///< of the crosshead [m]
-  double extension = 0.0;        ///< s [m], growth of L since balance
-  double end_to_end = 0.0;       ///< L [m]
-  double knot_distance = kNone;  ///< e [m]; NaN: no two knots
-  double load = 0.0;             ///< as the cell reads it at a sampling instant, else the balanced true force [N]
-  double balance_offset = 0.0;   ///< true force on the upper grip that the cell reads as zero [N]
-  double force_upper = 0.0;      ///< true force on the upper grip [N]
-  double force_lower = 0.0;      ///< true force on the lower grip [N]
-  double tail_force[2] = {kNone, kNone};     ///< tail grips while tying [N]
-  double excess_length[2] = {kNone, kNone};  ///< rod length hidden in each knot [m]
-  double max_penetration = 0.0;              ///< deepest contact [fraction of radius]
-  double normal_force = 0.0;                 ///< sum over all rod-rod contacts [N]
-  int contacts = 0;                          ///< contact points that carry force
-  double fastest_node = 0.0;                 ///< [m/s]
-  double stretching_energy = 0.0;            ///< [J]
-  double bending_energy = 0.0;               ///< [J]
-  double twisting_energy = 0.0;              ///< [J]
-  double contact_energy = 0.0;               ///< [J]
-  double kinetic_energy = 0.0;               ///< [J]
-  double grip_work = 0.0;                    ///< done by grips and fixtures since the start [J]
-  double dissipation = 0.0;                  ///< by friction and drag since the start [J]
-  double friction_loss = 0.0;                ///< of which by friction [J]
-  double numerical_dissipation = 0.0;        ///< by the time steps since the start [J]
-  double reweighting_loss = 0.0;             ///< of contact energy as weights changed since the start [J]
-  double moment_imbalance = 0.0;     ///< size of the sum of all moments on the rod, inertia and drag among them [N m]
-  std::uint64_t steps = 0;           ///< time steps since the start
-  std::uint64_t rejected_steps = 0;  ///< of which thrown away
-  std::uint64_t newton_iterations = 0;  ///< since the start
-  /// Balanced true force on the upper grip: largest and least of the command's time steps, of a time step its own [N].
-  double highest_load = 0.0, lowest_load = 0.0;
-  double break_arclength = kNone;  ///< of the place where the rod parted, from its first node [m]; NaN: it is whole
-  BreakPlace break_place = BreakPlace::kNone;
+  double displacement = 0.0;
+  double extension = 0.0;
+  double end_to_end = 0.0;
+  double knot_distance = kNone;
+  double load = 0.0;
+  double balance_offset = 0.0;
+  double force_upper = 0.0;
+  double force_lower = 0.0;
+  double tail_force[2] = {kNone, kNone};
+  double excess_length[2] = {kNone, kNone};
+  double max_penetration = 0.0;
+  double normal_force = 0.0;
+  int contacts = 0;
+  double fastest_node = 0.0;
+  double stretching_energy = 0.0;
+  double bending_energy = 0.0;
+  double twisting_energy = 0.0;
+  double contact_energy = 0.0;
+  double kinetic_energy = 0.0;
+  double grip_work = 0.0;
+  double dissipation = 0.0;
+  double friction_loss = 0.0;
+  double numerical_dissipation = 0.0;
+  double reweighting_loss = 0.0;
+  double moment_imbalance = 0.0;
+  std::uint64_t steps = 0;
+  std::uint64_t rejected_steps = 0;
+  std::uint64_t newton_iterations = 0;
   KnotType knot_type = KnotType::kKept;
   BenchStatus status = BenchStatus::kRunning;
   std::string message;
-  double knots_force = kNone;  ///< between the coils of the two knots, the sum of normal forces [N]; NaN: no two knots
-  double knot_on_roller = kNone;  ///< of rollers on the knots or their tails [N]; NaN: no two knots
-  double raw_extension = kNone;   ///< travel of the crosshead since balance [m]; NaN: a rigid frame, on which it is s
+  double highest_load = 0.0;
+  double lowest_load = 0.0;
+  double break_arclength = kNone;
+  BreakPlace break_place = BreakPlace::kNone;
+  double knots_force = kNone;
+  double knot_on_roller = kNone;
+  double raw_extension = kNone;
 
   void state(Archive& archive);
 };

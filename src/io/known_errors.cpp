@@ -1,0 +1,49 @@
+#include "knot_utm/io/known_errors.hpp"
+
+#include <cmath>
+#include <optional>
+
+namespace knot_utm {
+namespace {
+
+/// By how much a stiffness changes where the part that it is read from lies a little further along the curve: by twice
+/// as much as the lock may be off, or where there is none by a share of the part [-].
+double change_along_the_curve(const Results& results, const ReadingErrors& errors) {
+  constexpr double kOfLock = 2.0, kFurther = 0.3;  // chosen with the constants of reading_errors (machine/measured.hpp)
+  const std::optional<LockedPart>& part = results.curve.locked;
+  if (!part || !(part->width > 0.0) || part->stiffness == 0.0) return 0.0;
+  const bool locks = results.lock_extension && errors.lock_extension;
+  const double further = locks ? kOfLock * *errors.lock_extension * *results.lock_extension / part->width : kFurther;
+  return std::abs(part->change / part->stiffness) * further;
+}
+
+/// What the cell's noise makes of a stiffness, at 95 % [-]. Each of its three slopes, from n/3 readings over a third of
+/// the width w, has a standard deviation of (12/(n/3))^1/2 noise/(w/3), and the middle one of them 0.67 times that.
+double noise_of_stiffness(const Results& results, double noise) {
+  const std::optional<LockedPart>& part = results.curve.locked;
+  if (!part || !(part->width > 0.0) || part->stiffness == 0.0) return 0.0;
+  return std::abs(1.96 * 0.67 * std::sqrt(36.0 / part->points) * noise / (part->width / 3.0) / part->stiffness);
+}
+
+}  // namespace
+
+bool slid_to_the_end(const Results& results) {
+  return results.motion_pattern == MotionPattern::kSliding && !results.lock_extension;
+}
+
+ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
+  if (!results.not_equilibrated.empty() || results.curve.jump_force || results.opened_when_mounted) return {};
+  ReadingErrors out = facts.errors;
+  if (out.plateau_force && results.true_plateau_force)
+    *out.plateau_force *= hardly_closed(*results.true_plateau_force, facts.material);
+  // Studied are locks that the knots have come to, not loads that rise while they still slide.
+  if (slid_to_the_end(results)) out.locked_stiffness.reset();
+  if (out.locked_stiffness) *out.locked_stiffness += change_along_the_curve(results, out);
+  const double speed = results.rate.drag.value_or(0.0) + results.rate.inertia.value_or(0.0);
+  for (std::optional<double>* error : {&out.plateau_force, &out.locked_stiffness})
+    if (*error) **error += speed;
+  if (out.locked_stiffness) *out.locked_stiffness += noise_of_stiffness(results, facts.load_cell.noise);
+  return out;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,131 @@
+#include "knot_utm/io/run_warnings.hpp"
+
+#include <cmath>
+
+#include "knot_utm/io/gravity_warnings.hpp"
+#include "knot_utm/io/known_errors.hpp"
+#include "knot_utm/io/speed_warnings.hpp"
+#include "knot_utm/machine/load_cell.hpp"
+#include "knot_utm/numeric/number.hpp"
+
+namespace knot_utm {
+namespace {
+
+/// A contact deeper than this is no longer that of the rod it stands for [fraction of radius].
+constexpr double kDeep = 0.05;
+/// Where energies miss the work by more, what Newton's method leaves unbalanced has a part in the forces too: seen
+/// where a loose loop pulls with far less than k_b/h^2, of which `physics.residual` is a share.
+constexpr double kUnbalanced = 0.01;
+
+std::vector<std::string> warnings(const Results& results) {
+  std::vector<std::string> all;
+  if (results.knot_type == KnotType::kCrossed) {
+    all.push_back("the rod ran through itself at " + short_number(results.untangled_at.value_or(Sample::kNone)) + " s");
+  }
+  if (results.untangled_at && results.knot_type != KnotType::kCrossed && results.ended_by != EndedBy::kUntangled) {
+    all.push_back("the knot came undone at " + short_number(*results.untangled_at) +
+                  " s, while it was pulled, so there is no sliding force");
+  }
+  if (results.knot_type == KnotType::kChanged && !results.untangled_at) {
+    all.push_back(
+        "with its two ends joined, the rod is another knot than at the start; as it still bears the load, nothing came "
+        "undone");
+  }
+  if (results.max_penetration > kDeep) {
+    all.push_back("strands are pressed into each other by up to " + format_number(results.max_penetration) + " radii");
+  }
+  if (results.energy_balance_error > kUnbalanced) {
+    all.push_back("the energies and the work differ by " + format_number(*results.energy_balance_error) +
+                  " of the work: choose a smaller physics.residual");
+  }
+  return all;
+}
+
+/// What the cell cannot tell: forces below its floor, or beyond its stop.
+std::vector<std::string> warnings(const Results& results, const LoadCellOptions& cell) {
+  std::vector<std::string> all;
+  const std::string floor = "the load cell's floor of " + format_number(cell.floor * cell.capacity) + " N";
+  if (results.true_peak_force && is_below_floor(cell, *results.true_peak_force)) {
+    all.push_back("the peak force lies below " + floor);
+  } else if (results.true_plateau_force && is_below_floor(cell, *results.true_plateau_force)) {
+    all.push_back("the plateau force lies below " + floor);
+  }
+  const double stop = cell.overload * cell.capacity;
+  if (results.true_peak_force > stop) {
+    all.push_back("the load cell was overloaded: above " + format_number(stop) +
+                  " N it reads the force at its mechanical stop");
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::string> events(const Results& results) {
+  std::vector<std::string> all;
+  const CurveReadings& curve = results.curve;
+  if (results.opened_when_mounted)
+    all.push_back("a knot opened as the loop was mounted: before the pull the knots had come nearer to each other by " +
+                  short_number(*results.opened_when_mounted) + " m");
+  if (curve.jump_force)
+    all.push_back("a knot jumped open at an extension of " + short_number(*curve.jump_extension) +
+                  " m: the load went from " + short_number(*curve.jump_force) + " N to " +
+                  short_number(*curve.force_after_jump) + " N, and later readings belong to a looser knot");
+  if (slid_to_the_end(results) && results.true_plateau_force)
+    all.push_back(
+        "the pull ended while the knots still slid: the plateau force is the mean over the way that was pulled; where "
+        "the load rises it is smaller than the mean up to the lock");
+  if (results.roller_touched_at)
+    all.push_back("a roller bore on a knot or its tail from an extension of " +
+                  short_number(*results.roller_touched_at) + " m on");
+  constexpr double kMuchBalanced = 0.1;
+  const double balanced = results.balance_offset.value_or(0.0), plateau = results.true_plateau_force.value_or(0.0);
+  if (plateau > 0.0 && std::abs(balanced) > kMuchBalanced * plateau)
+    all.push_back("the balance set " + short_number(balanced) + " N to zero, of a sliding force that is in truth " +
+                  short_number(plateau) + " N: see true_plateau_force");
+  return all;
+}
+
+std::string accuracy_warning(const Results& results, const ReadingErrors& errors) {
+  if (!results.not_equilibrated.empty()) return results.not_equilibrated;
+  constexpr double kUnsure = 0.1;
+  if (!results.true_plateau_force || results.curve.jump_force || errors.plateau_force.value_or(0.0) <= kUnsure)
+    return {};
+  return "the plateau force may be off by " + format_number(std::round(100.0 * *errors.plateau_force)) +
+         " %; choose a finer physics.accuracy, a higher specimen.refinement or a lower specimen.preload to reduce the "
+         "error";
+}
+
+namespace {
+
+/// Knots that go on their way as they are let go are tied at another distance than was asked for.
+std::string knots_travelled(const Results& results, const RunFacts& facts) {
+  constexpr double kFar = 0.05;  // of the distance, by choice: shipped methods are within 1e-3
+  if (!results.tied_knot_distance || !(facts.knot_distance > 0.0)) return {};
+  if (std::abs(*results.tied_knot_distance / facts.knot_distance - 1.0) <= kFar) return {};
+  return "the knots travelled as they were let go: they are " + short_number(*results.tied_knot_distance) +
+         " m apart, where specimen.knot_distance is " + short_number(facts.knot_distance) + " m";
+}
+
+}  // namespace
+
+std::vector<std::string> told(const Results& results, const RunFacts& facts) {
+  std::vector<std::string> all = events(results);
+  for (const std::vector<std::string>& more :
+       {gravity_warnings(results, facts), speed_warnings(results.rate, facts.inertia),
+        snap_warnings(results, facts.pull_speed), facts.warnings})
+    all.insert(all.end(), more.begin(), more.end());
+  if (const std::string travelled = knots_travelled(results, facts); !travelled.empty()) all.push_back(travelled);
+  const std::string unsure = accuracy_warning(results, known_errors(results, facts));
+  if (!unsure.empty()) all.push_back(unsure);
+  if (!facts.margin.reason.empty()) all.push_back("no margin: " + facts.margin.reason);
+  return all;
+}
+
+std::vector<std::string> all_warnings(const Results& r, const RunFacts& f) {
+  std::vector<std::string> all = warnings(r);
+  for (const std::vector<std::string>& more : {warnings(r, f.load_cell), f.foreseen, told(r, f)})
+    all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,45 @@
+#include "knot_utm/io/result_keys.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <set>
+
+#include "knot_utm/io/result_yaml.hpp"
+#include "knot_utm/io/run_folder.hpp"
+
+namespace knot_utm {
+namespace {
+
+TEST(ResultKeys, StandInResultYamlInTheirOrder) {
+  std::vector<std::string> written, known;
+  for (const auto& line : YAML::Load(result_yaml(Results(), RunFacts()))) written.push_back(line.first.Scalar());
+  for (const ResultKey& key : result_keys()) known.emplace_back(key.name);
+  EXPECT_EQ(written, known);
+}
+
+TEST(ResultKeys, AreWrittenOnceAndSayWhatTheyAre) {
+  std::set<std::string> seen;
+  for (const ResultKey& key : result_keys()) {
+    EXPECT_TRUE(seen.insert(key.name).second) << key.name;
+    EXPECT_STRNE(key.unit, "") << key.name;
+    EXPECT_STRNE(key.meaning, "") << key.name;
+  }
+}
+
+/// The report has its labels and units from there. After a change: tensile_test --list-results > report/result_keys.csv
+TEST(ResultKeys, AreThoseOfTheReport) {
+  EXPECT_EQ(read_whole(std::string(KNOT_UTM_SOURCE_DIR) + "/report/result_keys.csv"), result_keys_csv());
+}
+
+TEST(ResultKeys, SayByHowMuchAKnotOpenedAsItWasMounted) {
+  Results results;
+  EXPECT_THAT(result_yaml(results, RunFacts()),
+              testing::HasSubstr("opened_when_mounted: null  # no knot opened as the loop was mounted\n"));
+  results.opened_when_mounted = 0.0125;
+  EXPECT_THAT(result_yaml(results, RunFacts()), testing::HasSubstr("opened_when_mounted: 0.0125\n"));
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,137 @@
+#include "knot_utm/record/sample_fields.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <regex>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace knot_utm {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// Stands for a value of any type.
+struct Anything {
+  template <typename T>
+  operator T() const;
+};
+
+template <typename T, typename Places, typename = void>
+struct IsMadeOf : std::false_type {};
+template <typename T, std::size_t... I>
+struct IsMadeOf<T, std::index_sequence<I...>, std::void_t<decltype(T{(static_cast<void>(I), Anything())...})>>
+    : std::true_type {};
+
+/// How many values a struct has, each place of an array for itself: as many as it can be made of.
+template <typename T, std::size_t N = 0>
+constexpr std::size_t values_of() {
+  if constexpr (IsMadeOf<T, std::make_index_sequence<N + 1>>::value) {
+    return values_of<T, N + 1>();
+  } else {
+    return N;
+  }
+}
+
+TEST(SampleFields, HaveARowForEveryMember) {
+  std::size_t values = 0;
+  visit_sample_fields([&](const auto& field) {
+    using Value = ValueOf<std::decay_t<decltype(field)>>;
+    values += std::is_array_v<Value> ? std::extent_v<Value> : 1;
+  });
+  EXPECT_EQ(values, values_of<Sample>());
+}
+
+TEST(SampleFields, AreMembersOfTheirOwn) {
+  Sample sample;
+  std::map<const void*, const char*> seen;
+  visit_sample_fields([&](const auto& field) {
+    EXPECT_TRUE(seen.emplace(&field.of(sample), field.name).second) << field.name << " is " << seen[&field.of(sample)];
+  });
+}
+
+/// What was recorded is read again as long as this order stays.
+TEST(SampleFields, StandInTheOrderOfTheJournal) {
+  std::vector<std::string> names;
+  visit_sample_fields([&](const auto& field) { names.emplace_back(field.name); });
+  EXPECT_THAT(names, ElementsAre("sequence", "time", "phase", "displacement", "extension", "end_to_end",
+                                 "knot_distance", "load", "balance_offset", "force_upper", "force_lower", "tail_force",
+                                 "excess_length", "max_penetration", "normal_force", "contacts", "fastest_node",
+                                 "stretching_energy", "bending_energy", "twisting_energy", "contact_energy",
+                                 "kinetic_energy", "grip_work", "dissipation", "friction_loss", "numerical_dissipation",
+                                 "reweighting_loss", "moment_imbalance", "steps", "rejected_steps", "newton_iterations",
+                                 "knot_type", "status", "message", "highest_load", "lowest_load", "break_arclength",
+                                 "break_place", "knots_force", "knot_on_roller", "raw_extension"));
+}
+
+/// A field of msg/KnotState.msg and the comment above it, lines joined.
+struct MessageField {
+  std::string type, comment;
+};
+
+std::map<std::string, MessageField> message_fields() {
+  std::ifstream in(std::string(KNOT_UTM_SOURCE_DIR) + "/msg/KnotState.msg");
+  std::map<std::string, MessageField> fields;
+  const std::regex field(R"(([\w/\[\]]+) (\w+))");
+  std::string comment;
+  for (std::string line; std::getline(in, line);) {
+    std::smatch parts;
+    if (line.rfind("# ", 0) == 0) {
+      comment += (comment.empty() ? "" : " ") + line.substr(2);
+      continue;
+    }
+    if (std::regex_match(line, parts, field)) fields[parts[2]] = {parts[1], comment};
+    comment.clear();
+  }
+  return fields;
+}
+
+template <typename Value>
+std::string message_type() {
+  if constexpr (std::is_same_v<Value, Phase> || std::is_same_v<Value, std::string>) return "string";
+  if constexpr (std::is_enum_v<Value>) return "uint8";
+  if constexpr (std::is_same_v<Value, std::uint64_t>) return "uint64";
+  if constexpr (std::is_same_v<Value, int>) return "int32";
+  if constexpr (std::is_array_v<Value>) return "float64[" + std::to_string(std::extent_v<Value>) + "]";
+  return "float64";
+}
+
+TEST(SampleFields, AreThoseOfTheMessage) {
+  std::map<std::string, MessageField> said = message_fields();
+  visit_sample_fields([&](const auto& field) {
+    ASSERT_TRUE(said.count(field.name)) << field.name;
+    const MessageField& message = said[field.name];
+    EXPECT_EQ(message.type, message_type<ValueOf<std::decay_t<decltype(field)>>>()) << field.name;
+    EXPECT_EQ(message.comment, field.meaning + (" [" + std::string(field.unit)) + "]") << field.name;
+    said.erase(field.name);
+  });
+  // What a message says beside its sample.
+  std::vector<std::string> others;
+  for (const auto& [name, field] : said) others.push_back(name);
+  EXPECT_THAT(others, ElementsAre("header", "locked", "motion_pattern", "run"));
+}
+
+TEST(SampleFields, SayEveryPhaseByItsName) {
+  visit_sample_fields([&](const auto& field) {
+    if (std::string(field.name) != "phase") return;
+    for (int i = 0; i <= static_cast<int>(last_of(Phase())); ++i)
+      EXPECT_THAT(field.meaning, HasSubstr(phase_name(static_cast<Phase>(i))));
+  });
+}
+
+TEST(ChoiceNames, LeadBackToTheirValues) {
+  for (int i = 0; i <= static_cast<int>(last_of(Phase())); ++i) {
+    const Phase phase = static_cast<Phase>(i);
+    EXPECT_EQ(phase_named(phase_name(phase)), phase);
+  }
+  EXPECT_EQ(phase_named("pulling"), std::nullopt);
+  EXPECT_STREQ(phase_name(static_cast<Phase>(99)), "idle");
+}
+
+}  // namespace
+}  // namespace knot_utm
