@@ -14,14 +14,14 @@ NodeRange between(Eigen::Index a, Eigen::Index b) {
 
 }  // namespace
 
-KnotTouch::KnotTouch(const std::vector<int>& standing, double radius)
-    : standing_{standing.at(0), standing.at(1)}, radius_(radius) {}
+KnotTouch::KnotTouch(const std::vector<int>& standing, double radius, int windings)
+    : standing_{standing.at(0), standing.at(1)}, radius_(radius), windings_(windings) {}
 
 void KnotTouch::follow(const TimeStep& stepper) {
   const Points& points = stepper.state().position;
   on_rollers_ = 0.0;
   for (std::size_t k = 0; k < 2; ++k) {
-    const OverhandStrand strand = OverhandStrand::follow(points, k, standing_[k], Vec3::UnitZ(), radius_);
+    const OverhandStrand strand = OverhandStrand::follow(points, k, standing_[k], Vec3::UnitZ(), radius_, windings_);
     if (strand.coil_found) coil_[k] = between(strand.top, strand.cut);
     if (coil_[k].empty()) continue;
     const int last = static_cast<int>(points.cols()) - 1;

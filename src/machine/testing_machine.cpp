@@ -111,17 +111,18 @@ struct TestingMachine::Impl {
     options.slip = 0.4 * material.radius;
     options.shortest = std::min(options.shortest, kShortestStep * bending_time);
     control = StepControl(options);
+    const int windings = centreline.knots.empty() ? 1 : centreline.knots.front().windings;
     if (!centreline.knots.empty()) {
       TyingRig::Options tying;
       tying.preload = tying_load(specimen, material);
       tying.rest_speed = std::max(specimen_scales(material).rest_speed, settings.friction.creep_speed());
       tying.grip_stiffness = tying.preload / (kGripStretch * material.radius);
       rig.emplace(centreline, rod, tying);
-      touch.emplace(rig->standing_nodes(), material.radius);
+      touch.emplace(rig->standing_nodes(), material.radius, windings);
     }
     if (!knot_of(specimen).straight()) {
       watch.emplace(rig ? rig->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
-                    centreline.points);
+                    centreline.points, windings);
     }
     take_up = TakeUp(kTautLoad * specimen_scales(material).force, material.radius);
     extension_zero = grips.end_to_end(grip);

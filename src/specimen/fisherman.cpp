@@ -14,11 +14,12 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kFineBeyondCoil = 3.0;  // of the strand that a coil holds [h]
-constexpr double kHalfOfWinding = 1.6;   // half the axial length of each winding after the first [h]
+constexpr double kFineBeyondCoil = 3.0;   // of the strand that a coil holds [h]
+constexpr double kHalfOfCoil = 2.0;       // half the axial length of a coil of one winding [h]
+constexpr double kBeyondWindings = 0.25;  // of a turn, from where the standing part is to where the tail is
 
-/// By which a coil of so many windings is longer, to either side of its middle.
-double longer_coil(int windings, double h) { return kHalfOfWinding * (windings - 1) * h; }
+/// By which a coil of so many windings is longer, to either side of its middle: all of them have the pitch of one.
+double longer_coil(int windings, double h) { return kHalfOfCoil / (1.0 + kBeyondWindings) * (windings - 1) * h; }
 
 /// One overhand of the fisherman's loop, in lengths.
 struct Coil {
@@ -91,8 +92,8 @@ Coil coil_of(const FishermanShape& shape) {
   coil.strand = (2.0 - std::sqrt(3.0)) * shape.looseness * h;
   coil.radius = before_smoothing(shape.looseness * h, h);
   coil.tail = shape.looseness * h - 2.0 * coil.strand;
-  coil.half = 2.0 * h + longer_coil(shape.windings, h);
-  coil.wrap = (0.5 + 2.0 * shape.windings) * M_PI;
+  coil.half = kHalfOfCoil * h + longer_coil(shape.windings, h);
+  coil.wrap = 2.0 * (kBeyondWindings + shape.windings) * M_PI;
   coil.outer = coil.half + 0.5 * (coil.radius - coil.strand);
   coil.inner = coil.half + 0.5 * (coil.radius - coil.tail);
   return coil;
@@ -237,19 +238,26 @@ EdgeGrading grading_of(const FishermanShape& shape, const Coil& coil, const Draw
 
 /// `way` leads from `middle`, where the knot's own strand begins, to its tail: 1 or -1 along the rod. `threaded`: where
 /// this knot's coil holds the other end's strand.
-KnotLandmarks landmarks_of(const Resampled& rod, const KnotMarks& marks, double middle, double way, double tail_end,
-                           double threaded, double longer) {
+KnotLandmarks landmarks_of(const FishermanShape& shape, const Resampled& rod, const KnotMarks& marks, double middle,
+                           double way, double tail_end, double threaded) {
   KnotLandmarks out{};
   out.tail_end = rod(tail_end);
   out.tail_exit = rod(middle + way * marks.tail_exit);
   out.coil_middle = rod(middle + way * marks.coil_middle);
   out.standing_begin = rod(middle + way * marks.standing_begin);
   out.threaded = rod(threaded);
-  out.longer = longer;
+  out.windings = shape.windings;
+  out.longer = longer_coil(shape.windings, shape.radius);
+  out.runs_out = runs_out(shape.windings, shape.looseness, shape.radius);
   return out;
 }
 
 }  // namespace
+
+double runs_out(int windings, double looseness, double h) {
+  const double tight = 2.0 + 2.0 / std::sqrt(3.0);
+  return M_PI * (looseness - tight) * h * (windings - 1);
+}
 
 Centreline fisherman_loop(const FishermanShape& shape) {
   check_fisherman(shape);
@@ -266,10 +274,9 @@ Centreline fisherman_loop(const FishermanShape& shape) {
   centreline.upper_apex = rod(0.5 * (drawn.upper_begin + drawn.upper_end));
   centreline.lower_apex = rod(0.5 * (drawn.lower_begin + drawn.lower_end));
   centreline.loop = {outline.length, outline.narrow, rod(drawn.upper_end), rod(drawn.lower_begin)};
-  const double longer = longer_coil(shape.windings, h);
   centreline.knots = {
-      landmarks_of(rod, drawn.marks, drawn.first_middle, -1.0, 0.0, drawn.second_middle - c, longer),
-      landmarks_of(rod, drawn.marks, drawn.second_middle, 1.0, drawn.path.length(), drawn.first_middle + c, longer)};
+      landmarks_of(shape, rod, drawn.marks, drawn.first_middle, -1.0, 0.0, drawn.second_middle - c),
+      landmarks_of(shape, rod, drawn.marks, drawn.second_middle, 1.0, drawn.path.length(), drawn.first_middle + c)};
   check_no_overlap(centreline, h, "specimen.knot_distance", text(shape.knot_distance));
   return centreline;
 }
@@ -320,7 +327,7 @@ void FishermanKnot::suit(const SpecimenOptions& known, double roller_diameter, d
   const double r = h / kPaperRadius, e = known.knot_distance;
   out.knot_distance = std::min(kKnotDistance * r, kShareOfLoop * known.end_to_end);
   // What further windings take up: of the strands outside of both coils, and of the tails.
-  const double longer = 6.0 * longer_coil(windings(known), h);
+  const double longer = 2.0 * runs_out(windings(known), FishermanShape().looseness, h);
   const bool roomy = kEndToEnd * r >= e + 12.0 * h + longer && roller_diameter <= kRollerDiameter * r;
   if (!roomy) out.end_to_end = std::max(kEndToEnd * r, least_end_to_end(e, roller_diameter, h) + longer);
   out.tail = kTail * r * windings(known);
@@ -350,7 +357,8 @@ Centreline FishermanKnot::centreline(const SpecimenOptions& specimen, const Mate
   shape.knot_distance = specimen.knot_distance;
   shape.windings = windings(specimen);
   if (specimen.to_be_tied && mounting.rollers)
-    shape.straight = TyingRig::straight_strand(material.radius, longer_coil(shape.windings, material.radius));
+    shape.straight =
+        TyingRig::straight_strand(material.radius, runs_out(shape.windings, shape.looseness, material.radius));
   shape.outward_shift = specimen.to_be_tied ? outward_shift(specimen, material, shape.windings) : 0.0;
   shape.end_to_end = specimen.end_to_end;
   shape.roller_radius = 0.5 * mounting.roller_diameter;

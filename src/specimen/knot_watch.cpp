@@ -4,9 +4,10 @@
 
 namespace knot_utm {
 
-KnotWatch::KnotWatch(const std::vector<int>& standing_nodes, bool closed, double radius, const Points& start)
+KnotWatch::KnotWatch(const std::vector<int>& standing_nodes, bool closed, double radius, const Points& start,
+                     int windings)
     : closed_(closed), radius_(radius) {
-  if (standing_nodes.size() == 2) loop_.emplace(standing_nodes[0], standing_nodes[1], radius);
+  if (standing_nodes.size() == 2) loop_.emplace(standing_nodes[0], standing_nodes[1], radius, windings);
   start_ = read(start);
 }
 

@@ -16,10 +16,10 @@ namespace {
 constexpr double kStandingFromKnot = 8.0;     // inwards
 constexpr double kThreadedBeyondKnot = 18.0;  // outwards: the knot ends 8 further out
 constexpr double kStraightBeyondClamp = 3.0;
-// A knot of several windings gives up more rod as it tightens, and ends further out.
-constexpr double kThreadedBeyondLonger = 3.0;  // [of what its coil is longer]
-constexpr int kGuideNodes = 3;                 // on the strand from there outwards: they guide its direction, too
-constexpr double kHalfKnot = 4.0;              // a tight knot reaches no further out from its middle [h]
+constexpr int kGuideNodes = 3;     // on the strand from there outwards: they guide its direction, too
+constexpr double kHalfKnot = 4.0;  // a tight knot of one winding reaches no further out from its middle [h]
+constexpr double kHalfTightWinding =
+    1.0;  // each further one lies beside it, by half of its thickness to either side [h]
 
 // The settling drag relaxes waves of so many radii in about a tenth of the settling time; so does the drag of the time
 // while the loop is put on, in which it moves as a whole.
@@ -54,6 +54,7 @@ TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const
     const double up = x(2, coil) > middle ? 1.0 : -1.0;
     knot.outwards = up * Vec3::UnitZ();
     knot.tail_node = marks.tail_end < marks.coil_middle ? 0 : nodes - 1;
+    knot.reach = (kHalfKnot + kHalfTightWinding * (marks.windings - 1)) * h;
 
     const int inward = knot.tail_node == 0 ? 1 : -1;
     int standing = centreline.nearest_node(marks.standing_begin);
@@ -64,7 +65,7 @@ TyingRig::TyingRig(const Centreline& centreline, const RodProperties& rod, const
     // The threaded strand is the other end's; away from its own tail it runs on outwards.
     int threaded = centreline.nearest_node(marks.threaded);
     const double knot_z = x(2, threaded);
-    const double beyond = kThreadedBeyondKnot * h + kThreadedBeyondLonger * marks.longer;
+    const double beyond = kThreadedBeyondKnot * h + marks.runs_out;
     while (up * (x(2, threaded) - knot_z) < beyond) threaded -= inward;
     for (int k = 0; k < kGuideNodes; ++k, threaded -= inward)
       clamps_.push_back({threaded, x.col(threaded), Vec3::Zero(), true});
@@ -140,14 +141,14 @@ void TyingRig::take_guides_off(const TimeStep& stepper, double time) {
   enter(Stage::kGuidesRamp, time);
 }
 
-double TyingRig::straight_strand(double radius, double longer) {
-  return (kThreadedBeyondKnot + kStraightBeyondClamp) * radius + kThreadedBeyondLonger * longer;
+double TyingRig::straight_strand(double radius, double runs_out) {
+  return (kThreadedBeyondKnot + kStraightBeyondClamp) * radius + runs_out;
 }
 
 int TyingRig::tail_begin(int knot, const TimeStep& stepper) const {
   const Knot& k = knots_[static_cast<std::size_t>(knot)];
   const Points& x = stepper.state().position;
-  const double end = knot_middle(knot, stepper.rod(), stepper.state()).dot(k.outwards) + kHalfKnot * radius_;
+  const double end = knot_middle(knot, stepper.rod(), stepper.state()).dot(k.outwards) + k.reach;
   const int inward = k.tail_node == 0 ? 1 : -1;
   int node = k.tail_node;
   while (node != k.standing_node && x.col(node).dot(k.outwards) > end) node += inward;

@@ -7,7 +7,6 @@
 
 #include "knot_utm/topology/crossings.hpp"
 #include "knot_utm/topology/modular.hpp"
-#include "knot_utm/topology/overhand_strand.hpp"
 
 namespace knot_utm {
 namespace {
@@ -255,11 +254,17 @@ std::int64_t determinant_of_overhand(const Points& points, const OverhandStrand&
 
 }  // namespace
 
-LoopTopology::LoopTopology(Eigen::Index lower_standing, Eigen::Index upper_standing, double radius)
-    : standing_{lower_standing, upper_standing}, radius_(radius) {}
+LoopTopology::LoopTopology(Eigen::Index lower_standing, Eigen::Index upper_standing, double radius, int windings)
+    : standing_{lower_standing, upper_standing}, radius_(radius), windings_(windings) {}
 
 LoopTopology::Reading LoopTopology::read_as(const Reading& known, const Points& points, const Vec3& load_axis) {
-  const Reading found = read(points, load_axis);
+  const std::array<double, 2> before = angle_;
+  Reading found = read(points, load_axis);
+  const PassedOver passed = passed_over(known, found, points, load_axis.normalized());
+  if (passed != PassedOver{}) {
+    angle_ = before;
+    found = read(points, load_axis, passed);
+  }
   if (found.same_knot(known) || !found.same_overhands(known)) return found;
   const std::array<double, 2> followed = angle_;
   for (const int most : {1, 2})
@@ -267,17 +272,38 @@ LoopTopology::Reading LoopTopology::read_as(const Reading& known, const Points& 
       for (int upper = -most; upper <= most; ++upper) {
         if (std::max(std::abs(lower), std::abs(upper)) < most) continue;  // tried before
         angle_ = {followed[0] + 2.0 * M_PI * lower, followed[1] + 2.0 * M_PI * upper};
-        Reading turned = read(points, load_axis);
+        Reading turned = read(points, load_axis, passed);
         if (turned.same_knot(known)) return turned;
       }
   angle_ = followed;
   return found;
 }
 
+OverhandStrand LoopTopology::follow(const Points& points, const Vec3& axis, std::size_t k, int passed_over) const {
+  return OverhandStrand::follow(points, k, standing_[k], axis, radius_, windings_, passed_over);
+}
+
+LoopTopology::PassedOver LoopTopology::passed_over(const Reading& known, const Reading& found, const Points& points,
+                                                   const Vec3& axis) const {
+  PassedOver out{};
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (found.overhand_determinant[k] == known.overhand_determinant[k]) continue;
+    for (int passed = 1; passed <= OverhandStrand::own_rises(windings_) && out[k] == 0; ++passed) {
+      const OverhandStrand strand = follow(points, axis, k, passed);
+      if (determinant_of_overhand(points, strand, axis) == known.overhand_determinant[k]) out[k] = passed;
+    }
+  }
+  return out;
+}
+
 LoopTopology::Reading LoopTopology::read(const Points& points, const Vec3& load_axis) {
+  return read(points, load_axis, PassedOver{});
+}
+
+LoopTopology::Reading LoopTopology::read(const Points& points, const Vec3& load_axis, const PassedOver& passed_over) {
   const Vec3 axis = load_axis.normalized();
-  const std::array<OverhandStrand, 2> strands{OverhandStrand::follow(points, 0, standing_[0], axis, radius_),
-                                              OverhandStrand::follow(points, 1, standing_[1], axis, radius_)};
+  const std::array<OverhandStrand, 2> strands{follow(points, axis, 0, passed_over[0]),
+                                              follow(points, axis, 1, passed_over[1])};
   const LoopAxes axes = axes_of(points, strands, axis);
   Reading reading;
   std::array<std::vector<Vec3>, 2> closures;

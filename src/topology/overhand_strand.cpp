@@ -11,7 +11,7 @@ constexpr double kTurn = 1.5;
 }  // namespace
 
 OverhandStrand OverhandStrand::follow(const Points& points, std::size_t k, Eigen::Index standing, const Vec3& axis,
-                                      double radius) {
+                                      double radius, int windings, int passed_over) {
   const Eigen::Index step = k == 0 ? -1 : 1;
   const double turn = kTurn * radius;
   const auto height = [&](Eigen::Index i) { return static_cast<double>(step) * points.col(i).dot(axis); };
@@ -19,6 +19,7 @@ OverhandStrand OverhandStrand::follow(const Points& points, std::size_t k, Eigen
   strand.begin = strand.top = standing;
   strand.cut = strand.end = k == 0 ? 0 : points.cols() - 1;
   double lowest = height(standing), highest = lowest, bottom = lowest, leaving = 0.0;
+  int aslant = own_rises(windings);  // that may still come
   enum { kRising, kFalling, kLeaving } part = kRising;
   for (Eigen::Index i = standing; i != strand.end + step; i += step) {
     const double z = height(i);
@@ -46,10 +47,16 @@ OverhandStrand OverhandStrand::follow(const Points& points, std::size_t k, Eigen
         leaving = z;
         strand.cut = i;
       }
-      if (z > highest + radius || z < leaving - turn) break;
+      if (z > highest + radius && passed_over <= 0) break;
+      if (z < leaving - turn) {
+        if (aslant-- == 0) break;
+        if (passed_over-- > 0) highest = std::max(highest, leaving);
+        part = kFalling;
+        bottom = z;
+      }
     }
   }
-  strand.coil_found = part == kLeaving;
+  strand.coil_found = part == kLeaving || aslant < own_rises(windings);
   strand.level = std::max(highest + radius, height(strand.cut));
   return strand;
 }

@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <vector>
 
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
 #include "knot_utm/topology/knot_invariants.hpp"
+#include "knot_utm/topology/overhand_strand.hpp"
 
 namespace knot_utm {
 namespace {
@@ -38,16 +41,40 @@ struct Scene {
 
   LoopTopology::Reading topology() const {
     const Centreline line = centreline();
+    return reader(line).read(line.points, Vec3::UnitZ());
+  }
+
+  LoopTopology reader(const Centreline& line) const {
+    const std::vector<int> standing = standing_nodes(line);
+    return {standing[0], standing[1], material.radius, line.knots[0].windings};
+  }
+
+  std::vector<int> standing_nodes(const Centreline& line) const {
     TyingRig rig(line,
                  make_rod(material,
                           (line.points.rightCols(line.points.cols() - 1) - line.points.leftCols(line.points.cols() - 1))
                               .colwise()
                               .norm()),
                  {});
-    const std::vector<int> standing = rig.standing_nodes();
-    return LoopTopology(standing[0], standing[1], material.radius).read(line.points, Vec3::UnitZ());
+    return rig.standing_nodes();
   }
 };
+
+/// The space around the upper knot sheared along the load axis, so that the windings of its coil lie aslant: at
+/// `slope`, fading over a way along that axis that is much longer than it shifts anything, so that it is one to one.
+Points aslant(const Centreline& line, double h, double slope, double heading) {
+  Points points = line.points;
+  const Vec3 threaded = points.col(line.nearest_node(line.knots[1].threaded));
+  const double reach = 8.0 * h;  // beyond the coil nothing shifts
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    const Vec3 from = points.col(i) - threaded;
+    const double beside = from.x() * std::cos(heading) + from.y() * std::sin(heading);
+    const double fades = std::exp(-std::pow(std::hypot(from.x(), from.y()) / reach, 4));
+    const double near = std::exp(-std::pow(from.z() / (3.0 * reach), 2));
+    points(2, i) += slope * beside * fades * near;
+  }
+  return points;
+}
 
 /// Each of its knots alone is a double (triple) overhand, the (2, 2n+1) torus knot, whose determinant is 2n + 1.
 TEST(MultipleFisherman, IsMadeOfMultipleOverhands) {
@@ -85,6 +112,74 @@ TEST(MultipleFisherman, EachWindingTakesInAnotherTurn) {
   const double h = 3.175e-3, winding = 2.0 * M_PI * 4.7 * h;
   EXPECT_GT(length(3) - length(2), 2.0 * winding);
   EXPECT_LT(length(3) - length(2), 2.0 * (winding + 2.0 * 3.2 * h));
+}
+
+/// What a tail that is wound once would be cut at is a winding that rises and falls again.
+TEST(MultipleFisherman, StaysTheSameKnotWhereItsWindingsLieAslant) {
+  const double h = 3.175e-3;
+  int misread_as_wound_once = 0;
+  for (const int turns : {2, 3})
+    for (const Handedness hands : {Handedness::kSame, Handedness::kOpposite}) {
+      const Scene scene("multiple_fisherman", turns, h, hands);
+      const Centreline line = scene.centreline();
+      LoopTopology topology = scene.reader(line);
+      const LoopTopology::Reading tied = topology.read(line.points, Vec3::UnitZ());
+      for (const double slope : {0.2, 0.4, 0.6})
+        for (double heading = 0.0; heading < 2.0 * M_PI; heading += 0.25 * M_PI) {
+          const Points tilted = aslant(line, h, slope, heading);
+          const LoopTopology::Reading reading = LoopTopology(topology).read_as(tied, tilted, Vec3::UnitZ());
+          EXPECT_EQ(reading.overhand_determinant, tied.overhand_determinant) << turns << " " << slope << " " << heading;
+          EXPECT_TRUE(reading.same_knot(tied)) << turns << " " << slope << " " << heading;
+          const OverhandStrand once =
+              OverhandStrand::follow(tilted, 1, line.nearest_node(line.knots[1].standing_begin), Vec3::UnitZ(), h);
+          if (line.nearest_node(line.knots[1].tail_exit) - once.cut > 10) ++misread_as_wound_once;
+        }
+    }
+  EXPECT_GT(misread_as_wound_once, 20) << "the windings do not lie aslant enough to mean anything";
+}
+
+/// The upper tail drawn back through its coil, winding by winding, and out of it: with each winding less the overhand
+/// is another one, and so is the loop.
+TEST(MultipleFisherman, IsAnotherKnotWithEachWindingThatItsTailIsPulledOutOf) {
+  const double h = 3.175e-3;
+  for (const int turns : {2, 3})
+    for (const Handedness hands : {Handedness::kSame, Handedness::kOpposite}) {
+      const Scene scene("multiple_fisherman", turns, h, hands), fewer("multiple_fisherman", turns - 1, h, hands);
+      const Centreline line = scene.centreline(), other = fewer.centreline();
+      LoopTopology topology = scene.reader(line);
+      const LoopTopology::Reading tied = topology.read(line.points, Vec3::UnitZ());
+      // As far as the reader knows, still `turns` windings.
+      const std::vector<int> standing = fewer.standing_nodes(other);
+      const LoopTopology::Reading reading =
+          LoopTopology(standing[0], standing[1], h, turns).read_as(tied, other.points, Vec3::UnitZ());
+      EXPECT_EQ(reading.overhand_determinant, (std::array<std::int64_t, 2>{2 * turns - 1, 2 * turns - 1}));
+      EXPECT_FALSE(reading.same_knot(tied));
+
+      // Out of all of them: sideways, from where the coil begins.
+      Points out = line.points;
+      const Eigen::Index from = line.nearest_node(line.knots[1].coil_middle);
+      const Vec3 sideways = (out.col(from) - out.col(line.nearest_node(line.knots[1].threaded))).normalized();
+      for (Eigen::Index i = from + 1; i < out.cols(); ++i) out.col(i) = out.col(i - 1) + 0.9 * h * sideways;
+      const LoopTopology::Reading gone = topology.read_as(tied, out, Vec3::UnitZ());
+      EXPECT_FALSE(gone.same_knot(tied));
+      EXPECT_LT(gone.overhand_determinant[1], 2 * turns + 1);
+      EXPECT_EQ(gone.overhand_determinant[0], 2 * turns + 1);
+    }
+}
+
+/// The clamps stand further out, and the rod to them is straight, by what a further winding may run out.
+TEST(MultipleFisherman, SaysHowFarItMayRunOut) {
+  const double h = 2e-3, tight = 2.0 + 2.0 / std::sqrt(3.0);
+  EXPECT_EQ(runs_out(1, 4.7, h), 0.0);
+  EXPECT_NEAR(runs_out(2, 4.7, h), 0.5 * 2.0 * M_PI * (4.7 - tight) * h, 1e-12);
+  EXPECT_NEAR(runs_out(3, 4.7, h), 2.0 * runs_out(2, 4.7, h), 1e-12);
+  const Centreline line = Scene("multiple_fisherman", 3, h, Handedness::kSame).centreline();
+  for (const KnotLandmarks& marks : line.knots) {
+    EXPECT_EQ(marks.windings, 3);
+    EXPECT_EQ(marks.runs_out, runs_out(3, 4.7, h));
+  }
+  EXPECT_NEAR(TyingRig::straight_strand(h, runs_out(3, 4.7, h)) - TyingRig::straight_strand(h), runs_out(3, 4.7, h),
+              1e-12);
 }
 
 TEST(MultipleFisherman, RefusesOneWindingWhichIsTheFishermansKnot) {

@@ -15,8 +15,8 @@ namespace knot_utm {
 /// the tail's end does. Where a strand no longer turns back and forth, its coil is where it was last found.
 class KnotTouch {
  public:
-  /// `standing`: as LoopTopology takes them, lower knot first. `radius`: of the rod [m].
-  KnotTouch(const std::vector<int>& standing, double radius);
+  /// `standing`: as LoopTopology takes them, lower knot first. `radius`: of the rod [m]. `windings`: of each tail.
+  KnotTouch(const std::vector<int>& standing, double radius, int windings);
 
   /// After an accepted step, before the next one is tried.
   void follow(const TimeStep& stepper);
@@ -29,6 +29,7 @@ class KnotTouch {
  private:
   std::array<int, 2> standing_;
   double radius_;
+  int windings_;
   std::array<NodeRange, 2> coil_{};  // none found yet: empty
   double between_knots_ = 0.0, on_rollers_ = 0.0;
 };

@@ -14,7 +14,9 @@ struct KnotLandmarks {
   double coil_middle;     ///< middle of the coil, on the knot's own strand
   double standing_begin;  ///< own strand, before the coil (5 h before the middle of a single winding)
   double threaded;        ///< the other strand, where it passes the middle of the coil
+  int windings = 1;       ///< of its coil
   double longer = 0.0;  ///< the coil is longer by this, to either side of its middle, than that of a single winding [m]
+  double runs_out = 0.0;  ///< as it tightens it may run outwards by so much more than a single winding does [m]
 };
 
 /// The loop as it is drawn and tied: two straight sides and two half circles, all of it as long as on the rollers.

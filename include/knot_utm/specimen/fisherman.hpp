@@ -34,6 +34,16 @@ struct FishermanShape {
   double coarsening = 1.0;  ///< those of the far side are longer by this one, up to the rod's diameter [-]
 };
 
+/// By how much further than a single winding a knot of several may run outwards as it tightens [m], drawn with coils of
+/// radius R = looseness h. Three strands run through a coil that is tight: standing part, threaded strand and tail,
+/// each against the other two, so that its centreline has the radius (2 + 2/sqrt 3) h. A winding then gives up
+///
+///     2 pi (R - (2 + 2/sqrt 3) h)
+///
+/// of the rod, half of it to the standing part and half to the tail, as friction is the same on both ways out. Where
+/// the standing part is held, the knot runs outwards by its half.
+double runs_out(int windings, double looseness, double h);
+
 /// Throws InvalidInput (specimen.*, machine.roller_diameter) where the shape does not fit on the machine or overlaps.
 Centreline fisherman_loop(const FishermanShape& shape);
 

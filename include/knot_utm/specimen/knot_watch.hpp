@@ -22,9 +22,9 @@ namespace knot_utm {
 class KnotWatch {
  public:
   /// `standing_nodes`: of a fisherman's loop the lower knot's and the upper knot's, see LoopTopology; else empty.
-  /// `closed`: the last node lies on the first. `radius`: h [m]. The rod must not run through itself at the start:
-  /// throws std::runtime_error.
-  KnotWatch(const std::vector<int>& standing_nodes, bool closed, double radius, const Points& start);
+  /// `closed`: the last node lies on the first. `radius`: h [m]. `windings`: of each tail of a fisherman's loop. The
+  /// rod must not run through itself at the start: throws std::runtime_error.
+  KnotWatch(const std::vector<int>& standing_nodes, bool closed, double radius, const Points& start, int windings = 1);
 
   /// The rod as it is now. What cannot be read, as the rod runs through itself, is a knot lost.
   KnotType follow(const Points& points);

@@ -66,8 +66,8 @@ class TyingRig {
   void put_on(const TimeStep& stepper, double time);
   void take_guides_off(const TimeStep& stepper, double time);
 
-  /// Beyond the middle of a drawn coil, that its clamps stand clear of all bends [m]; `longer` as in KnotLandmarks.
-  static double straight_strand(double radius, double longer = 0.0);
+  /// Beyond the middle of a drawn coil, that its clamps stand clear of all bends [m]; `runs_out` as in KnotLandmarks.
+  static double straight_strand(double radius, double runs_out = 0.0);
 
   /// Adds its clamps and grips, as they stand at `to`, to the boundary of a step.
   void hold(Boundary& boundary, double from, double to) const;
@@ -118,6 +118,7 @@ class TyingRig {
     Vec3 outwards;
     int tail_node;
     int standing_node;
+    double reach;  ///< outwards from its middle, once it is tight, at most [m]
   };
   void attach_grips();
   /// The outermost node of a knot from which its tail runs on.

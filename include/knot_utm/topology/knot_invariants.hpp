@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/topology/overhand_strand.hpp"
 
 namespace knot_utm {
 
@@ -50,7 +51,7 @@ class LoopTopology {
     KnotPolynomial polynomial;                           ///< of the loop closed by joining its tails
     std::int64_t determinant = 0;                        ///< |Delta(-1)| of it
     int linking = 0;                                     ///< of the two halves, each closed on its own
-    std::array<std::int64_t, 2> overhand_determinant{};  ///< of each overhand alone, lower first: 3
+    std::array<std::int64_t, 2> overhand_determinant{};  ///< of each overhand alone, lower first: 3; of n windings 2n+1
     std::array<bool, 2> coil_found{};                    ///< the strand turns back and forth as an overhand's does
 
     /// Whether this is the same knot, made of the same two overhands.
@@ -60,8 +61,8 @@ class LoopTopology {
   };
 
   /// `lower_standing`, `upper_standing`: a node in the standing part of the lower knot, tied into the rod's first end,
-  /// and of the upper, tied into its last; `radius`: of the rod [m].
-  LoopTopology(Eigen::Index lower_standing, Eigen::Index upper_standing, double radius);
+  /// and of the upper, tied into its last; `radius`: of the rod [m]; `windings`: of each tail (OverhandStrand).
+  LoopTopology(Eigen::Index lower_standing, Eigen::Index upper_standing, double radius, int windings = 1);
 
   /// Reads the rod as it is now. `load_axis`: from the lower grip to the upper one, of any length.
   Reading read(const Points& points, const Vec3& load_axis);
@@ -69,15 +70,23 @@ class LoopTopology {
   /// The same of a rod that was the knot `known`. Where the overhands still are the same and the whole is not, a tail
   /// may have gone around further than could be followed, as when a knot springs open: a free end may, and nothing
   /// comes undone by it. Then up to two more turns of each tail, either way, are tried, and kept where they give
-  /// `known`.
+  /// `known`. So are the rises of a coil of several windings which lie aslant (OverhandStrand).
   Reading read_as(const Reading& known, const Points& points, const Vec3& load_axis);
 
   /// How often the tails have gone around.
   void state(Archive& archive) { archive(angle_[0], angle_[1]); }
 
  private:
+  /// Rises of each strand that are its coil's own (OverhandStrand).
+  using PassedOver = std::array<int, 2>;
+  OverhandStrand follow(const Points& points, const Vec3& axis, std::size_t k, int passed_over) const;
+  Reading read(const Points& points, const Vec3& load_axis, const PassedOver& passed_over);
+  /// Those with which each overhand is the known one, or none.
+  PassedOver passed_over(const Reading& known, const Reading& found, const Points& points, const Vec3& axis) const;
+
   std::array<Eigen::Index, 2> standing_;
   double radius_;
+  int windings_;
   std::array<double, 2> angle_{};
 };
 

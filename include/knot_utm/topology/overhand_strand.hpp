@@ -9,6 +9,12 @@ namespace knot_utm {
 /// The own strand of one overhand of a fisherman's loop, which is tied into one end of the rod: along the load axis it
 /// rises to the coil's outermost point, falls to its innermost and rises again as the tail. "High" is outwards, from
 /// the other knot to this one.
+///
+/// A coil of n windings falls from one to the next. As it tightens they may lie aslant, and the strand then rises and
+/// falls again within each of them. So up to `own_rises` that end below the coil's outermost point plus h are the
+/// coil's, and the tail is the first that does not, or the last there is. One may even rise beyond that point: whoever
+/// knows which knot it is can have rises passed over however high they are. A single winding has none of its own: it
+/// closes on the strands in it before it lies that much aslant.
 struct OverhandStrand {
   Eigen::Index begin = 0;   ///< node of the standing part from which it was followed: on this side of the roller
   Eigen::Index top = 0;     ///< node of the coil's outermost point, where the strand turns back
@@ -17,11 +23,14 @@ struct OverhandStrand {
   double level = 0.0;       ///< height of the coil's outermost point plus h, or of the cut where that is higher [m]
   bool coil_found = false;  ///< the strand turns back and forth as an overhand's does
 
+  static int own_rises(int windings) { return windings > 1 ? windings : 0; }
+
   /// `standing`: a node in the standing part of the lower knot (k = 0), tied into the rod's first end, or of the upper
   /// (k = 1), tied into its last. It may have gone around the roller behind the other knot: the strand that falls from
   /// it is followed to where it rises again. `axis`: unit, from the lower grip to the upper one. `radius`: h [m].
+  /// `windings`: n. `passed_over`: so many rises are the coil's in any case, own_rises at most.
   static OverhandStrand follow(const Points& points, std::size_t k, Eigen::Index standing, const Vec3& axis,
-                               double radius);
+                               double radius, int windings = 1, int passed_over = 0);
 };
 
 }  // namespace knot_utm
