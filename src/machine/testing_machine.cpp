@@ -96,9 +96,9 @@ struct TestingMachine::Impl {
     RodState state;
     state.position = centreline.points;
     state.velocity = Points::Zero(3, nodes);
-    RodProperties rod = make_rod(material, rest);
-    if (specimen.to_be_tied && material.bending_set > 0.0) rod.natural_curvature.setZero(2, nodes - 2);
-    if (solves_for_twist(rod)) initialise_frames(&state);
+    const RodProperties rod = make_rod(material, rest);
+    if (specimen.to_be_tied && material.bending_set > 0.0) state.natural_curvature.setZero(2, nodes - 2);
+    if (solves_for_twist(rod, state)) initialise_frames(&state);
     const StepSettings settings = step_settings(specimen, material_, machine, physics);
     gravity = settings.gravity;
     stepper = TimeStep::make(rod, state, settings);
@@ -134,7 +134,7 @@ struct TestingMachine::Impl {
 
   /// `auto`: where frames are held at two places, or the rod at rest is curved or twisted. A rod whose ends are free
   /// to turn has no twist where friction acts on its centreline; nor has one that stays straight.
-  bool solves_for_twist(const RodProperties& rod) const {
+  bool solves_for_twist(const RodProperties& rod, const RodState& state) const {
     switch (physics.twist) {
       case TwistMode::kOn:
         return true;
@@ -143,7 +143,7 @@ struct TestingMachine::Impl {
       case TwistMode::kAuto:
         break;
     }
-    return rod.natural_curvature.cols() > 0 || rod.natural_twist.size() > 0 ||
+    return state.curved_at_rest() || rod.natural_twist.size() > 0 ||
            ((grips.hold_frames() || friction_rolls(material, machine, physics)) && !knot_of(specimen).straight());
   }
 

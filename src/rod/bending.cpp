@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
 
 namespace knot_utm {
@@ -143,6 +144,19 @@ StencilLocal bending(const BendingInput& input, const Vec3& e, const Vec3& f, co
   add(first_curvature(at, on_e, on_f), input.natural_curvature[0]);
   add(second_curvature(at, on_e, on_f), input.natural_curvature[1]);
   return local;
+}
+
+void take_bending_set(double share, RodState* state) {
+  if (!state->curved_at_rest())
+    throw InvalidInput("rod", "straight at rest", "made with natural curvatures, be they zero, to take a set");
+  const Points& x = state->position;
+  const auto edge = [&](Eigen::Index j) { return Vec3(x.col(j + 1) - x.col(j)); };
+  const auto directors = [&](Eigen::Index j) {
+    return material_directors(edge(j).normalized(), state->reference_director.col(j), state->twist[j]);
+  };
+  for (Eigen::Index i = 1; i <= state->natural_curvature.cols(); ++i)
+    state->natural_curvature.col(i - 1) =
+        share * material_curvature(edge(i - 1), edge(i), directors(i - 1), directors(i));
 }
 
 }  // namespace knot_utm

@@ -23,13 +23,13 @@ void expect_size(const char* key, Eigen::Index size, Eigen::Index expected) {
 void check(const RodProperties& rod, const RodState& state) {
   expect_size("state.position", state.position.cols(), rod.nodes());
   const Eigen::Index inner = rod.nodes() - 2;
-  if (rod.natural_curvature.cols() > 0) expect_size("rod.natural_curvature", rod.natural_curvature.cols(), inner);
+  if (state.curved_at_rest()) expect_size("state.natural_curvature", state.natural_curvature.cols(), inner);
   if (rod.natural_twist.size() > 0) expect_size("rod.natural_twist", rod.natural_twist.size(), inner);
   if (has_frame(state)) {
     expect_size("state.twist", state.twist.size(), rod.edges());
     expect_size("state.reference_director", state.reference_director.cols(), rod.edges());
     expect_size("state.reference_twist", state.reference_twist.size(), inner);
-  } else if (rod.natural_curvature.cols() > 0 || rod.natural_twist.size() > 0) {
+  } else if (state.curved_at_rest() || rod.natural_twist.size() > 0) {
     throw InvalidInput("state.twist", "empty", "given for a rod with natural curvature or twist");
   }
 }
@@ -63,7 +63,7 @@ InnerNode inner_node(const RodProperties& rod, const RodState& state, Eigen::Ind
   node.twist = state.twist[i] - state.twist[i - 1] + state.reference_twist[i - 1];
   node.bending.k_b = rod.material.bending_stiffness;
   node.bending.voronoi_length = rod.voronoi_length[i];
-  if (rod.natural_curvature.cols() > 0) node.bending.natural_curvature = rod.natural_curvature.col(i - 1);
+  if (state.curved_at_rest()) node.bending.natural_curvature = state.natural_curvature.col(i - 1);
   node.twisting.k_t = rod.material.twisting_stiffness;
   node.twisting.voronoi_length = rod.voronoi_length[i];
   if (rod.natural_twist.size() > 0) node.twisting.natural_twist = rod.natural_twist[i - 1];
@@ -74,7 +74,7 @@ ElasticEnergy elastic_energy(const RodProperties& rod, const RodState& state) {
   check(rod, state);
   ElasticEnergy energy;
   energy.stretching = stretching_energy(rod, state.position);
-  const bool straight_at_rest = rod.natural_curvature.cols() == 0;
+  const bool straight_at_rest = !state.curved_at_rest();
   if (straight_at_rest) energy.bending = isotropic_bending_energy(rod, state.position);
   if (!has_frame(state)) return energy;
   for (Eigen::Index i = 1; i + 1 < rod.nodes(); ++i) {

@@ -38,10 +38,8 @@ void RodProperties::state(Archive& archive) {
   archive.section("PROP");
   archive(material);
   for (Eigen::VectorXd* each : {&rest_length, &voronoi_length, &mass, &natural_twist}) archive.list(*each);
-  archive.list(natural_curvature);
-  const Eigen::Index inner = nodes() - 2, curved = natural_curvature.cols(), twisted = natural_twist.size();
-  const bool fits = inner >= 1 && edges() == inner + 1 && mass.size() == nodes() && (curved == 0 || curved == inner) &&
-                    (twisted == 0 || twisted == inner);
+  const Eigen::Index inner = nodes() - 2, twisted = natural_twist.size();
+  const bool fits = inner >= 1 && edges() == inner + 1 && mass.size() == nodes() && (twisted == 0 || twisted == inner);
   archive.require(fits, "nodes", std::to_string(nodes()));
   const auto positive = [](const Eigen::VectorXd& values) { return values.allFinite() && values.minCoeff() > 0.0; };
   const bool solid = positive(rest_length) && positive(voronoi_length) && positive(mass) && std::isfinite(length()) &&
@@ -51,9 +49,9 @@ void RodProperties::state(Archive& archive) {
 
 void RodState::state(Archive& archive) {
   archive.section("RODS");
-  archive(position, velocity, twist, twist_rate, reference_director, reference_twist);
+  archive(position, velocity, twist, twist_rate, reference_director, reference_twist, natural_curvature);
   const bool finite = are_places(position) && velocity.allFinite() && twist.allFinite() && twist_rate.allFinite() &&
-                      reference_director.allFinite() && reference_twist.allFinite();
+                      reference_director.allFinite() && reference_twist.allFinite() && natural_curvature.allFinite();
   archive.require(finite, "state of the rod", "that of no rod");
 }
 

@@ -83,7 +83,6 @@ struct Cross {
 
 FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
     : rod_(rod),
-      curved_(rod.natural_curvature.cols() > 0),
       rolls_(settings.friction_couple > 0.0),
       held_(static_cast<std::size_t>(rod.nodes()), 0),
       start_tangent_(held_.size() + 3, Lanes{1.0, 0.0, 0.0, 0.0}),
@@ -118,6 +117,7 @@ void FrameTerms::part(int edge) {
 
 void FrameTerms::begin_step(const RodState& start, const std::vector<FixedTwist>& held, double dt) {
   start_ = &start;
+  curved_ = start.curved_at_rest();
   dt_ = dt;
   const int edges = static_cast<int>(rod_.edges());
   for (int j = 0; j < edges; ++j) {
@@ -224,7 +224,7 @@ TwistingInput FrameTerms::twisting_input(int i) const {
 
 BendingInput FrameTerms::bending_input(int i) const {
   const double whole = i == parted_ || i == parted_ + 1 ? 0.0 : 1.0;
-  return {whole * rod_.material.bending_stiffness, rod_.voronoi_length[i], rod_.natural_curvature.col(i - 1)};
+  return {whole * rod_.material.bending_stiffness, rod_.voronoi_length[i], start_->natural_curvature.col(i - 1)};
 }
 
 StencilGradient FrameTerms::node_bending(int i) const {

@@ -28,11 +28,11 @@ template <int D, typename StrandContact>
 struct Equation {
   static constexpr bool kTwists = D == 4;
 
-  Equation(const RodProperties& rod_, const StepSettings& settings_)
+  Equation(const RodProperties& rod_, const RodState& state, const StepSettings& settings_)
       : rod(rod_),
         settings(settings_),
         motion(rod, settings),
-        centreline(rod, rod.natural_curvature.cols() == 0),
+        centreline(rod, !state.curved_at_rest()),
         frames(rod, settings),
         strands(strand_contact(rod, settings)),
         rollers(RollerContact(rod, settings.normal, settings.roller_friction, settings.motion_limit)),

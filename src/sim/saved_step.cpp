@@ -12,9 +12,9 @@ constexpr const char* kKind = "time step";
 struct Scene {
   RodProperties rod;
   StepSettings settings;
-  bool twist = false;
+  bool twist = false, curved = false;  // whether the state has frames, and natural curvatures
 
-  void state(Archive& archive) { archive(rod, settings, twist); }
+  void state(Archive& archive) { archive(rod, settings, twist, curved); }
 
   /// With any state that fits the rod: it is to be loaded.
   std::unique_ptr<TimeStep> make_stepper() const {
@@ -23,6 +23,7 @@ struct Scene {
     straight.position.row(2) = rod.arclength().transpose();
     straight.velocity = Points::Zero(3, rod.nodes());
     if (twist) initialise_frames(&straight);
+    if (curved) straight.natural_curvature.setZero(2, rod.nodes() - 2);
     return TimeStep::make(rod, straight, settings);
   }
 };
@@ -31,7 +32,7 @@ struct Scene {
 
 std::string save_step(TimeStep& stepper, const Boundary& boundary, double time, double dt) {
   Archive archive(kKind);
-  Scene scene{stepper.rod(), stepper.settings(), stepper.state().twist.size() > 0};
+  Scene scene{stepper.rod(), stepper.settings(), stepper.state().twist.size() > 0, stepper.state().curved_at_rest()};
   archive(scene, time, dt);
   Boundary own = boundary;
   own.state(archive, static_cast<int>(scene.rod.nodes()));

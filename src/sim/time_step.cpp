@@ -4,10 +4,8 @@
 #include "examine_step.hpp"
 #include "increment.hpp"
 #include "knot_utm/contact/tunnelling.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/energy.hpp"
-#include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stretching.hpp"
 #include "solution.hpp"
 #include "watch_increment.hpp"
@@ -23,7 +21,7 @@ class ImplicitStep final : public TimeStep {
  public:
   ImplicitStep(const RodProperties& rod, const RodState& state, const StepSettings& settings)
       : TimeStep(rod, state, settings),
-        equation_(rod_, settings_),
+        equation_(rod_, state_, settings_),
         tunnelling_(rod.nodes(), std::is_same_v<StrandContact, SmoothContact>),
         readings_(rod_, state_, initial_spin_energy()),
         increment_(3, rod.nodes()) {}
@@ -136,6 +134,7 @@ class ImplicitStep final : public TimeStep {
 };
 
 }  // namespace
+
 Eigen::VectorXd TimeStep::tension() const {
   Eigen::VectorXd out = Eigen::VectorXd::Zero(rod_.edges());
   for (Eigen::Index i = 0; i < rod_.edges(); ++i)
@@ -145,23 +144,9 @@ Eigen::VectorXd TimeStep::tension() const {
   return out;
 }
 
-void TimeStep::take_set(double share) {
-  if (rod_.natural_curvature.cols() == 0)
-    throw InvalidInput("rod", "straight at rest", "made with natural curvatures, be they zero, to take a set");
-  const Points& x = state_.position;
-  const auto edge = [&](Eigen::Index j) { return Vec3(x.col(j + 1) - x.col(j)); };
-  const auto directors = [&](Eigen::Index j) {
-    return material_directors(edge(j).normalized(), state_.reference_director.col(j), state_.twist[j]);
-  };
-  for (Eigen::Index i = 1; i <= rod_.natural_curvature.cols(); ++i)
-    rod_.natural_curvature.col(i - 1) =
-        share * material_curvature(edge(i - 1), edge(i), directors(i - 1), directors(i));
-}
+void TimeStep::take_set(double share) { take_bending_set(share, &state_); }
 
-void TimeStep::state(Archive& archive) {
-  archive(state_);
-  if (rod_.natural_curvature.cols() > 0) archive(rod_.natural_curvature);
-}
+void TimeStep::state(Archive& archive) { archive(state_); }
 
 std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodState& state,
                                          const StepSettings& settings) {

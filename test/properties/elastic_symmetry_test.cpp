@@ -22,7 +22,7 @@ struct Rod {
   /// Force on every node, and in the last row torque about every edge.
   Eigen::Matrix4Xd forces() const {
     std::vector<Lanes> sum(static_cast<std::size_t>(rod.nodes()), Lanes{0.0, 0.0, 0.0, 0.0});
-    CentrelineTerms(rod, rod.natural_curvature.cols() == 0).add_forces(state.position, sum);
+    CentrelineTerms(rod, !state.curved_at_rest()).add_forces(state.position, sum);
     StepSettings settings;
     settings.spin_inertia = false;
     FrameTerms frames(rod, settings);
@@ -60,10 +60,10 @@ Rod random_rod() {
   const Eigen::Index edges = out.rod.edges(), inner = edges - 1;
   const double a = random_between(-0.5, 0.5), b = random_between(-0.5, 0.5), c = random_between(0.1, 2.0);
   for (Eigen::Index j = 0; j < edges; ++j) out.state.twist[j] = a * std::sin(c * static_cast<double>(j));
-  out.rod.natural_curvature.resize(2, inner);
+  out.state.natural_curvature.resize(2, inner);
   out.rod.natural_twist.resize(inner);
   for (Eigen::Index i = 0; i < inner; ++i) {
-    out.rod.natural_curvature.col(i) << b, a * std::cos(c * static_cast<double>(i));
+    out.state.natural_curvature.col(i) << b, a * std::cos(c * static_cast<double>(i));
     out.rod.natural_twist[i] = 0.3 * b * std::cos(0.7 * static_cast<double>(i));
   }
   return out;
@@ -75,7 +75,7 @@ Rod moved(Rod rod, const Motion& motion) {
   rod.state.reference_director = motion.turn * rod.state.reference_director;
   rod.state.twist *= motion.handedness();
   rod.state.reference_twist *= motion.handedness();
-  rod.rod.natural_curvature.row(1) *= motion.handedness();
+  rod.state.natural_curvature.row(1) *= motion.handedness();
   rod.rod.natural_twist *= motion.handedness();
   return rod;
 }
@@ -88,8 +88,8 @@ Rod reversed(Rod rod) {
   rod.state.twist = -before.state.twist.reverse();
   rod.state.reference_twist = before.state.reference_twist.reverse();
   rod.rod = make_rod(before.rod.material, before.rod.rest_length.reverse());
-  rod.rod.natural_curvature = before.rod.natural_curvature.rowwise().reverse();
-  rod.rod.natural_curvature.row(1) *= -1.0;
+  rod.state.natural_curvature = before.state.natural_curvature.rowwise().reverse();
+  rod.state.natural_curvature.row(1) *= -1.0;
   rod.rod.natural_twist = before.rod.natural_twist.reverse();
   return rod;
 }

@@ -78,11 +78,11 @@ TEST(Energy, VanishesInTheNaturalShape) {
   RodState state = arc(8, 0.1, 0.3);
   initialise_frames(&state);
   state.twist.setLinSpaced(0.0, 0.7);
-  rod.natural_curvature.resize(2, 7);
+  state.natural_curvature.resize(2, 7);
   rod.natural_twist.resize(7);
   for (Eigen::Index i = 1; i < 8; ++i) {
     const InnerNode node = inner_node(rod, state, i);
-    rod.natural_curvature.col(i - 1) = material_curvature(node.e, node.f, node.on_e, node.on_f);
+    state.natural_curvature.col(i - 1) = material_curvature(node.e, node.f, node.on_e, node.on_f);
     rod.natural_twist[i - 1] = node.twist;
   }
   EXPECT_NEAR(elastic_energy(rod, state).total(), 0.0, 1e-20);
@@ -95,10 +95,11 @@ TEST(Energy, TensionIsPositiveWhereTheEdgeIsLonger) {
 }
 
 TEST(Energy, RefusesAStateThatDoesNotFitTheRod) {
-  RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(8, 0.1));
+  const RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(8, 0.1));
   EXPECT_THROW(elastic_energy(rod, arc(7, 0.1, 0.0)), InvalidInput);
-  rod.natural_curvature = Eigen::Matrix2Xd::Zero(2, 7);
-  EXPECT_THROW(elastic_energy(rod, arc(8, 0.1, 0.0)), InvalidInput);
+  RodState without_frames = arc(8, 0.1, 0.0);
+  without_frames.natural_curvature = Eigen::Matrix2Xd::Zero(2, 7);
+  EXPECT_THROW(elastic_energy(rod, without_frames), InvalidInput);
 }
 
 }  // namespace

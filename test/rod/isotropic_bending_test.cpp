@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "rod/finite_difference.hpp"
+#include "rod/isotropic_bending_local.hpp"
 
 namespace knot_utm {
 namespace {

@@ -9,8 +9,8 @@
 
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
-#include "knot_utm/rod/isotropic_bending.hpp"
 #include "knot_utm/rod/stretching.hpp"
+#include "rod/isotropic_bending_local.hpp"
 
 namespace knot_utm {
 

@@ -4,9 +4,9 @@
 #include <functional>
 
 #include "knot_utm/rod/bending.hpp"
-#include "knot_utm/rod/isotropic_bending.hpp"
 #include "knot_utm/rod/twisting.hpp"
 #include "rod/finite_difference.hpp"
+#include "rod/isotropic_bending_local.hpp"
 
 namespace knot_utm {
 namespace {

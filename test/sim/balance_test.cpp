@@ -154,7 +154,7 @@ struct Running {
       state = straight_state(rod);
     }
     if (scene.kind == Kind::kCurved)
-      rod.natural_curvature = Eigen::Matrix<double, 2, Eigen::Dynamic>::Constant(2, rod.nodes() - 2, 0.02);
+      state.natural_curvature = Eigen::Matrix<double, 2, Eigen::Dynamic>::Constant(2, rod.nodes() - 2, 0.02);
     if (scene.twist) initialise_frames(&state);
 
     const int last = static_cast<int>(rod.nodes()) - 1;

@@ -28,7 +28,6 @@ struct Arc {
   Arc() {
     material.twisting_stiffness = material.bending_stiffness;
     rod = make_rod(material, Eigen::VectorXd::Constant(kEdges, material.radius));
-    rod.natural_curvature.setZero(2, rod.nodes() - 2);
     settings = closed_form_settings(material);
     settings.drag = 5.0;
     state = straight_state(rod);
@@ -39,6 +38,7 @@ struct Arc {
       angle += kTurn / kEdges;
     }
     initialise_frames(&state);
+    state.natural_curvature.setZero(2, rod.nodes() - 2);
   }
 };
 
@@ -101,7 +101,7 @@ TEST(BendingSet, AHeldBendResistsBeingRolled) {
 /// Bending of a rod that is straight at rest knows of no natural curvature.
 TEST(BendingSet, IsOnlyTakenByARodMadeForIt) {
   Arc arc;
-  arc.rod.natural_curvature.resize(2, 0);
+  arc.state.natural_curvature.resize(2, 0);
   const std::unique_ptr<TimeStep> stepper = TimeStep::make(arc.rod, arc.state, arc.settings);
   EXPECT_THROW(stepper->take_set(kShare), InvalidInput);
 }

@@ -5,8 +5,8 @@
 #include <memory>
 #include <random>
 
-#include "knot_utm/rod/isotropic_bending.hpp"
 #include "knot_utm/rod/stretching.hpp"
+#include "rod/isotropic_bending_local.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {

@@ -39,8 +39,8 @@ class FrameTermsOf : public testing::TestWithParam<bool> {
     for (double& l : rest) l = 1.0 + 0.2 * uniform(random);
     rod = make_rod(material, rest);
     if (GetParam()) {
-      rod.natural_curvature.resize(2, kNodes - 2);
-      for (double& kappa : rod.natural_curvature.reshaped()) kappa = 0.5 * uniform(random);
+      start.natural_curvature.resize(2, kNodes - 2);
+      for (double& kappa : start.natural_curvature.reshaped()) kappa = 0.5 * uniform(random);
       rod.natural_twist.resize(kNodes - 2);
       for (double& twist : rod.natural_twist) twist = 0.5 * uniform(random);
     }

@@ -78,7 +78,7 @@ struct Ring {
     const Points edges = begin.rightCols(nodes - 1) - begin.leftCols(nodes - 1);
     const double strain = options.tension / material.stretching_stiffness;
     RodProperties rod = make_rod(material, edges.colwise().norm().transpose() / (1.0 + strain));
-    rod.natural_curvature.resize(2, nodes - 2);
+    state.natural_curvature.resize(2, nodes - 2);
     rod.natural_twist = Eigen::VectorXd::Zero(nodes - 2);
     for (int i = 1; i + 1 < nodes; ++i) {
       const auto directors = [&](int edge) {
@@ -86,7 +86,7 @@ struct Ring {
       };
       const Eigen::Vector2d curvature =
           material_curvature(edges.col(i - 1), edges.col(i), directors(i - 1), directors(i));
-      rod.natural_curvature.col(i - 1) = options.natural * rod.voronoi_length[i] * curvature.normalized();
+      state.natural_curvature.col(i - 1) = options.natural * rod.voronoi_length[i] * curvature.normalized();
     }
     stepper = TimeStep::make(rod, state, settings);
 

@@ -162,8 +162,8 @@ class Natural : public testing::TestWithParam<double> {};
 TEST_P(Natural, ShapeIsTheRodAtRest) {
   Bare bare(0.8);
   const double turn = 0.08, twist = GetParam();  // of a node [rad]
-  bare.rod.natural_curvature = Eigen::Matrix2Xd::Zero(2, kEdges - 1);
-  bare.rod.natural_curvature.row(0).setConstant(turn * std::cos(0.5 * twist));
+  bare.state.natural_curvature = Eigen::Matrix2Xd::Zero(2, kEdges - 1);
+  bare.state.natural_curvature.row(0).setConstant(turn * std::cos(0.5 * twist));
   bare.rod.natural_twist = Eigen::VectorXd::Constant(kEdges - 1, twist);
   bare.hold(0);
   bare.hold(1);
@@ -230,7 +230,7 @@ TEST(Twist, ARodFreeToTurnMovesAsWithoutIt) {
 
 TEST(Twist, ARodWithNaturalCurvatureNeedsFrames) {
   Bare bare(1.0);
-  bare.rod.natural_curvature = Eigen::Matrix2Xd::Constant(2, kEdges - 1, 0.1);
+  bare.state.natural_curvature = Eigen::Matrix2Xd::Constant(2, kEdges - 1, 0.1);
   bare.state.twist.resize(0);
   EXPECT_THROW(TimeStep::make(bare.rod, bare.state, bare.settings), InvalidInput);
 }

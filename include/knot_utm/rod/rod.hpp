@@ -18,12 +18,10 @@ bool are_places(const Points& points);
 /// Symbols: l_j rest length of edge j, lbar_i = (l_{i-1}+l_i)/2 Voronoi length of node i.
 struct RodProperties {
   Material material;
-  Eigen::VectorXd rest_length;         ///< l_j [m], N-1
-  Eigen::VectorXd voronoi_length;      ///< lbar_i [m], N (half an edge at the ends)
-  Eigen::VectorXd mass;                ///< m_i [kg], N
-  Eigen::Matrix2Xd natural_curvature;  ///< kappa-bar of inner node i+1 on (m1, m2), the angle it turns by [rad],
-                                       ///< N-2; empty: straight
-  Eigen::VectorXd natural_twist;       ///< m-bar of inner node i+1 [rad], N-2; empty: untwisted
+  Eigen::VectorXd rest_length;     ///< l_j [m], N-1
+  Eigen::VectorXd voronoi_length;  ///< lbar_i [m], N (half an edge at the ends)
+  Eigen::VectorXd mass;            ///< m_i [kg], N
+  Eigen::VectorXd natural_twist;   ///< m-bar of inner node i+1 [rad], N-2; empty: untwisted
 
   Eigen::Index nodes() const { return voronoi_length.size(); }
   Eigen::Index edges() const { return rest_length.size(); }
@@ -38,7 +36,7 @@ struct RodProperties {
 /// Straight, untwisted rod of the given rest lengths: masses rho pi h^2 lbar_i.
 RodProperties make_rod(const Material& material, const Eigen::VectorXd& rest_length);
 
-/// What moves. Twist members are empty where the scene does not solve for twist.
+/// What moves, and what the laws of the rod remember. Twist members are empty where the scene does not solve for twist.
 struct RodState {
   Points position;                  ///< x_i [m], 3 x N
   Points velocity;                  ///< v_i [m/s], 3 x N
@@ -46,6 +44,12 @@ struct RodState {
   Eigen::VectorXd twist_rate;       ///< [rad/s], N-1
   Points reference_director;        ///< d1_j, unit, normal to edge j, 3 x (N-1)
   Eigen::VectorXd reference_twist;  ///< m_ref of inner node i+1 [rad], N-2
+
+  /// What the bending law remembers: kappa-bar of inner node i+1 on (m1, m2), the angle it turns by at rest [rad], N-2.
+  /// Empty: straight at rest for good. Zeros: straight, but may take a set (take_bending_set).
+  Eigen::Matrix2Xd natural_curvature;
+
+  bool curved_at_rest() const { return natural_curvature.cols() > 0; }
 
   void state(Archive& archive);
 };

@@ -145,7 +145,7 @@ class FrameTerms {
   Eigen::VectorXd inertia_;  // I_j
   Eigen::VectorXd drag_;     // c h^2 l_j [N m s]
   Eigen::VectorXd rest_;     // r_j
-  bool curved_;              // at rest
+  bool curved_ = false;      // at rest, as the step begins
   bool rolls_;               // turns_ are asked for
   int parted_ = -2;          // edge; no node ends this one
   const RodState* start_ = nullptr;

@@ -70,9 +70,8 @@ class TimeStep {
   virtual void part(int edge) = 0;
   int parted_edge() const { return parted_edge_; }  ///< -1: none has
 
-  /// Bends take a set, between two steps: from the next one on the rod is curved at rest by `share` of its present
-  /// material curvatures. What bending energy that takes is lost as `StepWork::numerical`. Only of a rod that was made
-  /// with natural curvatures, be they zero (else it throws InvalidInput), and kept by `state`.
+  /// Bends take a set between two steps, as take_bending_set (rod/bending.hpp) says. What bending energy that takes is
+  /// lost in the next one as `StepWork::numerical`.
   void take_set(double share);
 
   const RodProperties& rod() const { return rod_; }
