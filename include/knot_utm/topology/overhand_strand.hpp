@@ -13,8 +13,8 @@ namespace knot_utm {
 /// A coil of n windings falls from one to the next. As it tightens they may lie aslant, and the strand then rises and
 /// falls again within each of them. So up to `own_rises` that end below the coil's outermost point plus h are the
 /// coil's, and the tail is the first that does not, or the last there is. One may even rise beyond that point: whoever
-/// knows which knot it is can have rises passed over however high they are. A single winding has none of its own: it
-/// closes on the strands in it before it lies that much aslant.
+/// knows which knot it is can have rises passed over however high they are. Of a single winding none is taken for
+/// its own: it has no other to lie aslant on, and a tail that turns back low would be followed too far.
 struct OverhandStrand {
   Eigen::Index begin = 0;   ///< node of the standing part from which it was followed: on this side of the roller
   Eigen::Index top = 0;     ///< node of the coil's outermost point, where the strand turns back
