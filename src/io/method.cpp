@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "config_library.hpp"
-#include "knot_utm/io/run_writer.hpp"
+#include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_defaults.hpp"

@@ -10,6 +10,7 @@
 #include "knot_utm/io/locked_file.hpp"
 #include "knot_utm/io/recovery.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/io/run_warnings.hpp"
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/run_test.hpp"
