@@ -12,6 +12,7 @@
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_reader.hpp"
 
@@ -116,10 +117,24 @@ void check_twist(const Method& m) {
     throw InvalidInput::sentence("physics.twist", "off",
                                  "physics.twist is off, but friction at the surface twists the rod: set "
                                  "physics.friction.at: centreline or material.friction_couple: 0 to go without");
+  if (remembers_bends(m.material))
+    throw InvalidInput::sentence(
+        "physics.twist", "off",
+        "physics.twist is off, but bends that yield curve the rod at rest, which takes part in "
+        "its twist: set material.bending_law: elastic to go without");
   if (m.specimen.to_be_tied && m.material.bending_set > 0.0)
     throw InvalidInput::sentence("physics.twist", "off",
                                  "physics.twist is off, but material.bending_set curves the rod at rest, which takes "
                                  "part in its twist: set material.bending_set: 0 to go without");
+}
+
+void check_bending(const Method& m) {
+  const bool remembers = remembers_bends(m.material);  // throws where its law misses a value
+  if (remembers && m.material.bending_set > 0.0)
+    throw InvalidInput::sentence(
+        "material.bending_set", format_number(m.material.bending_set),
+        "material.bending_set takes a set at once, and bending_law: plastic by itself: give one "
+        "of them only");
 }
 
 void check_machine(const Method& m) {
@@ -259,6 +274,7 @@ void check_report(const Method& m) {
 void check_method(const Method& method) {
   check_specimen(method);
   check_machine(method);
+  check_bending(method);
   check_twist(method);
   check_program(method);
   check_ends(method);

@@ -7,6 +7,7 @@
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
@@ -47,9 +48,10 @@ std::string strain_warning(double strain, const Material& material) {
   if (material.breaking_strain && *material.breaking_strain < strain)
     return needed + ", and the rod parts at a strain of " + digits(*material.breaking_strain) +
            " (material.breaking_strain), so it may part while it is tied";
+  if (remembers_bends(material)) return "";
   if (material.yield_strain && *material.yield_strain < strain)
     return needed + ", and the material yields at a strain of " + digits(*material.yield_strain) +
-           " (material.yield_strain), which is not simulated";
+           " (material.yield_strain), which only material.bending_law: plastic simulates";
   if (material.breaking_strain || material.yield_strain || !is_solid(material)) return "";
   const double modulus = material.stretching_stiffness / (M_PI * material.radius * material.radius);
   if (modulus < kMetal) return "";

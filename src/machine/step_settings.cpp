@@ -1,6 +1,7 @@
 #include "knot_utm/machine/step_settings.hpp"
 
 #include "knot_utm/machine/accuracy.hpp"
+#include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
@@ -32,6 +33,7 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
   out.normal = {default_contact_stiffness(material), tolerance.contact_tolerance * h, kStiffeningDepth * h};
   out.friction = Friction::of(physics.friction, {material.friction_coefficient, h, tolerance.presliding});
   out.roller_friction = Friction::of(physics.friction, {machine.roller_friction, h, tolerance.presliding});
+  out.bending = bending_law_of(material);
   out.friction_couple = friction_couple(material, physics);
   out.gravity = physics.gravity / inertia_factor(material, physics);  // the mass of the steps is not the rod's own
   // A slow test; and a rod that is free to turn is then the same with twist and without. But where friction rolls

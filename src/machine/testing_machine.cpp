@@ -15,6 +15,7 @@
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/machine/take_up.hpp"
+#include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/sim/saved_step.hpp"
 #include "knot_utm/sim/step_control.hpp"
@@ -97,7 +98,9 @@ struct TestingMachine::Impl {
     state.position = centreline.points;
     state.velocity = Points::Zero(3, nodes);
     const RodProperties rod = make_rod(material, rest);
-    if (specimen.to_be_tied && material.bending_set > 0.0) state.natural_curvature.setZero(2, nodes - 2);
+    const bool takes_set = specimen.to_be_tied && material.bending_set > 0.0;
+    if (takes_set || (remembers_bends(material) && !knot_of(specimen).straight()))
+      state.natural_curvature.setZero(2, nodes - 2);
     if (solves_for_twist(rod, state)) initialise_frames(&state);
     const StepSettings settings = step_settings(specimen, material_, machine, physics);
     gravity = settings.gravity;
@@ -367,7 +370,7 @@ struct TestingMachine::Impl {
     s.contact_energy = energies.contact;
     s.kinetic_energy = energies.kinetic;
     s.grip_work = work.boundary;
-    s.dissipation = work.friction + work.drag;
+    s.dissipation = work.friction + work.drag + work.plastic;
     s.friction_loss = work.friction;
     s.numerical_dissipation = work.numerical;
     s.reweighting_loss = work.reweighting;

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/rod/elastic_bending.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
 
 namespace knot_utm {
@@ -101,6 +102,10 @@ EdgePairHessian second_derivatives(const Curvature& k) {
   return h;
 }
 
+BendingResponse elastic(const BendingInput& input, const Eigen::Vector2d& bend) {
+  return ElasticBending{}.respond({input.k_b, input.voronoi_length, bend, input.natural_curvature});
+}
+
 }  // namespace
 
 Eigen::Vector2d material_curvature(const Vec3& e, const Vec3& f, const Directors& on_e, const Directors& on_f) {
@@ -108,42 +113,60 @@ Eigen::Vector2d material_curvature(const Vec3& e, const Vec3& f, const Directors
   return {first_curvature(at, on_e, on_f).value(), second_curvature(at, on_e, on_f).value()};
 }
 
+CurvatureSlopes curvature_slopes(const Vec3& e, const Vec3& f, const Directors& on_e, const Directors& on_f) {
+  const Corner at(e, f);
+  const Curvature first = first_curvature(at, on_e, on_f), second = second_curvature(at, on_e, on_f);
+  return {{first.value(), second.value()}, {on_nodes(first_derivatives(first)), on_nodes(first_derivatives(second))}};
+}
+
+CurvatureLocal curvature_local(const Vec3& e, const Vec3& f, const Directors& on_e, const Directors& on_f) {
+  const Corner at(e, f);
+  const Curvature first = first_curvature(at, on_e, on_f), second = second_curvature(at, on_e, on_f);
+  CurvatureLocal out;
+  out.value << first.value(), second.value();
+  out.slope[0] = on_nodes(first_derivatives(first));
+  out.slope[1] = on_nodes(first_derivatives(second));
+  out.second[0] = on_nodes(second_derivatives(first));
+  out.second[1] = on_nodes(second_derivatives(second));
+  return out;
+}
+
+StencilGradient on_nodes(const BendingResponse& law, const CurvatureSlopes& bend) {
+  StencilGradient out;
+  out.energy = law.energy;
+  for (int k = 0; k < 2; ++k) out.gradient += law.moment[k] * bend.slope[k];
+  return out;
+}
+
+StencilLocal on_nodes(const BendingResponse& law, const CurvatureLocal& bend) {
+  StencilLocal out;
+  out.energy = law.energy;
+  for (int k = 0; k < 2; ++k) {
+    out.gradient += law.moment[k] * bend.slope[k];
+    out.hessian += law.tangent(k, k) * bend.slope[k] * bend.slope[k].transpose() + law.moment[k] * bend.second[k];
+  }
+  if (law.tangent(0, 1) != 0.0) {
+    const StencilMatrix coupled = law.tangent(0, 1) * bend.slope[0] * bend.slope[1].transpose();
+    out.hessian += coupled + coupled.transpose();
+  }
+  return out;
+}
+
 double bending_energy(const BendingInput& input, const Vec3& e, const Vec3& f, const Directors& on_e,
                       const Directors& on_f) {
-  return 0.5 * input.k_b / input.voronoi_length *
-         (material_curvature(e, f, on_e, on_f) - input.natural_curvature).squaredNorm();
+  return elastic(input, material_curvature(e, f, on_e, on_f)).energy;
 }
 
 StencilGradient bending_gradient(const BendingInput& input, const Vec3& e, const Vec3& f, const Directors& on_e,
                                  const Directors& on_f) {
-  const Corner at(e, f);
-  const double stiffness = input.k_b / input.voronoi_length;
-  StencilGradient local;
-  const auto add = [&](const Curvature& k, double natural) {
-    const double off = k.value() - natural;
-    local.energy += 0.5 * stiffness * off * off;
-    local.gradient += (stiffness * off) * on_nodes(first_derivatives(k));
-  };
-  add(first_curvature(at, on_e, on_f), input.natural_curvature[0]);
-  add(second_curvature(at, on_e, on_f), input.natural_curvature[1]);
-  return local;
+  const CurvatureSlopes bend = curvature_slopes(e, f, on_e, on_f);
+  return on_nodes(elastic(input, bend.value), bend);
 }
 
 StencilLocal bending(const BendingInput& input, const Vec3& e, const Vec3& f, const Directors& on_e,
                      const Directors& on_f) {
-  const Corner at(e, f);
-  const double stiffness = input.k_b / input.voronoi_length;
-  StencilLocal local;
-  const auto add = [&](const Curvature& k, double natural) {
-    const double off = k.value() - natural;
-    const StencilVector slope = on_nodes(first_derivatives(k));
-    local.energy += 0.5 * stiffness * off * off;
-    local.gradient += (stiffness * off) * slope;
-    local.hessian += stiffness * slope * slope.transpose() + (stiffness * off) * on_nodes(second_derivatives(k));
-  };
-  add(first_curvature(at, on_e, on_f), input.natural_curvature[0]);
-  add(second_curvature(at, on_e, on_f), input.natural_curvature[1]);
-  return local;
+  const CurvatureLocal bend = curvature_local(e, f, on_e, on_f);
+  return on_nodes(elastic(input, bend.value), bend);
 }
 
 void take_bending_set(double share, RodState* state) {

@@ -83,6 +83,7 @@ struct Cross {
 
 FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
     : rod_(rod),
+      law_(settings.bending),
       rolls_(settings.friction_couple > 0.0),
       held_(static_cast<std::size_t>(rod.nodes()), 0),
       start_tangent_(held_.size() + 3, Lanes{1.0, 0.0, 0.0, 0.0}),
@@ -195,17 +196,23 @@ void FrameTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
   }
   if (curved_) {
     carry_directors();
-    for (int i = 1; i < edges; ++i) {
-      const StencilVector gradient = node_bending(i).gradient;
-      torque_[at(i - 1)] += gradient[3];
-      torque_[at(i)] += gradient[7];
-      subtract(gradient, i, force);
-    }
+    std::visit([&](const auto& law) { add_bending_forces(law, force); }, law_);
   }
   for (int j = 0; j < edges; ++j) {
     const double turned = angle_[at(j)] - start_->twist[j], rate = turned / dt_;
     if (rolls_) set_turn(at(j), turned);
     force[at(j)][3] -= inertia_[j] * (rate - start_->twist_rate[j]) / dt_ + drag_[j] * rate + rest_[j] * turned;
+  }
+}
+
+template <typename Law>
+void FrameTerms::add_bending_forces(const Law& law, std::vector<Lanes>& force) {
+  for (int i = 1; i < static_cast<int>(rod_.edges()); ++i) {
+    const CurvatureSlopes bend = curvature_slopes(i);
+    const StencilVector gradient = on_nodes(law.respond(bending_node(i, bend.value)), bend).gradient;
+    torque_[at(i - 1)] += gradient[3];
+    torque_[at(i)] += gradient[7];
+    subtract(gradient, i, force);
   }
 }
 
@@ -222,14 +229,13 @@ TwistingInput FrameTerms::twisting_input(int i) const {
           rod_.natural_twist.size() > 0 ? rod_.natural_twist[i - 1] : 0.0};
 }
 
-BendingInput FrameTerms::bending_input(int i) const {
+BendingNode FrameTerms::bending_node(int i, const Eigen::Vector2d& bend) const {
   const double whole = i == parted_ || i == parted_ + 1 ? 0.0 : 1.0;
-  return {whole * rod_.material.bending_stiffness, rod_.voronoi_length[i], start_->natural_curvature.col(i - 1)};
+  return {whole * rod_.material.bending_stiffness, rod_.voronoi_length[i], bend, start_->natural_curvature.col(i - 1)};
 }
 
-StencilGradient FrameTerms::node_bending(int i) const {
-  const int e = i - 1, f = i;
-  return bending_gradient(bending_input(i), to_vec3(edge_[at(e)]), to_vec3(edge_[at(f)]), directors(e), directors(f));
+CurvatureSlopes FrameTerms::curvature_slopes(int i) const {
+  return knot_utm::curvature_slopes(to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), directors(i - 1), directors(i));
 }
 
 double FrameTerms::twist(int i) const { return angle_[at(i)] - angle_[at(i - 1)] + reference_twist_[at(i)]; }
@@ -238,16 +244,18 @@ Directors FrameTerms::directors(int j) const {
   return material_directors(to_vec3(tangent_[at(j)]), director_.col(j), angle_[at(j)]);
 }
 
-StencilMatrix FrameTerms::bending_stiffness(int i) const {
-  return bending(bending_input(i), to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), directors(i - 1), directors(i))
-      .hessian;
+template <typename Law>
+StencilMatrix FrameTerms::bending_stiffness(const Law& law, int i) const {
+  const CurvatureLocal bend =
+      curvature_local(to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), directors(i - 1), directors(i));
+  return on_nodes(law.respond(bending_node(i, bend.value)), bend).hessian;
 }
 
 FrameTerms::NodeStiffness FrameTerms::node_stiffness(int i) const {
   NodeStiffness out = NodeStiffness::Zero();
   auto elastic = out.topLeftCorner<kStencilSize, kStencilSize>();
   elastic = twisting(twisting_input(i), to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), twist(i)).hessian;
-  if (curved_) elastic += bending_stiffness(i);
+  if (curved_) std::visit([&](const auto& law) { elastic += bending_stiffness(law, i); }, law_);
   return out;
 }
 
@@ -283,6 +291,23 @@ FrameTerms::TwistStiffness FrameTerms::twist_stiffness(std::size_t node) const {
     out.fe[c] = fe_b * b[c] - across.column[c];
   }
   return out;
+}
+
+template <typename Law>
+void FrameTerms::add_bending_stiffness(const Law& law, StepMatrix<4>& matrix) const {
+  for (int i = 1; i + 1 < static_cast<int>(held_.size()); ++i) {
+    NodeStiffness local = NodeStiffness::Zero();
+    local.topLeftCorner<kStencilSize, kStencilSize>() = bending_stiffness(law, i);
+    for (int k = 0; k < 3; ++k)
+      for (int l = 0; l < 3; ++l) {
+        Block<4>& block = matrix.band(i - 1, k, l);
+        for (int j = 0; j < 4; ++j) {
+          Lanes column;
+          std::copy_n(&local(4 * k, 4 * l + j), 4, reinterpret_cast<double*>(&column));
+          block.column[j] += column;
+        }
+      }
+  }
 }
 
 void FrameTerms::add_stiffness(StepMatrix<4>& matrix) const {
@@ -328,23 +353,7 @@ void FrameTerms::add_stiffness(StepMatrix<4>& matrix) const {
     }
     second_back.column[3] -= after.by_f;
   }
-  if (curved_) add_bending_stiffness(matrix);
-}
-
-void FrameTerms::add_bending_stiffness(StepMatrix<4>& matrix) const {
-  for (int i = 1; i + 1 < static_cast<int>(held_.size()); ++i) {
-    NodeStiffness local = NodeStiffness::Zero();
-    local.topLeftCorner<kStencilSize, kStencilSize>() = bending_stiffness(i);
-    for (int k = 0; k < 3; ++k)
-      for (int l = 0; l < 3; ++l) {
-        Block<4>& block = matrix.band(i - 1, k, l);
-        for (int j = 0; j < 4; ++j) {
-          Lanes column;
-          std::copy_n(&local(4 * k, 4 * l + j), 4, reinterpret_cast<double*>(&column));
-          block.column[j] += column;
-        }
-      }
-  }
+  if (curved_) std::visit([&](const auto& law) { add_bending_stiffness(law, matrix); }, law_);
 }
 
 double FrameTerms::angle_change(const std::vector<Lanes>& change, int j) const {
@@ -362,6 +371,15 @@ void FrameTerms::move(const std::vector<Lanes>& change, double share) {
   for (int j = 0; j < static_cast<int>(rod_.edges()); ++j) angle_[at(j)] += share * angle_change(change, j);
 }
 
+template <typename Law>
+void FrameTerms::remember_bends(const Law& law, RodState& state) const {
+  for (int i = 1; i < static_cast<int>(rod_.edges()); ++i) {
+    const Eigen::Vector2d bend =
+        material_curvature(to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), directors(i - 1), directors(i));
+    state.natural_curvature.col(i - 1) = law.remember(bending_node(i, bend)).natural;
+  }
+}
+
 void FrameTerms::commit(RodState& state) {
   const int edges = static_cast<int>(rod_.edges());
   carry_directors();
@@ -371,6 +389,7 @@ void FrameTerms::commit(RodState& state) {
   }
   for (int i = 1; i < edges; ++i) state.reference_twist[i - 1] = reference_twist_[at(i)];
   state.reference_director = director_;
+  if (curved_ && remembers(law_)) std::visit([&](const auto& law) { remember_bends(law, state); }, law_);
 }
 
 FrameTerms::Energy FrameTerms::energy(const Points& way, const std::vector<Lanes>& force) const {
@@ -378,18 +397,26 @@ FrameTerms::Energy FrameTerms::energy(const Points& way, const std::vector<Lanes
   const int edges = static_cast<int>(rod_.edges());
   const auto turn = [&](int j) { return angle_[at(j)] - start_->twist[j]; };
   const auto edge_change = [&](int j) { return to_lanes(Vec3(way.col(j + 1) - way.col(j))); };
-  for (int i = 1; i < edges; ++i) {
-    const double moment = moment_[at(i)], by_e = 0.5 * inverse_length_[at(i - 1)], by_f = 0.5 * inverse_length_[at(i)];
-    if (moment != 0.0) out.twisting += 0.5 * moment * moment / stiffness_[at(i)];
-    out.along +=
-        moment * (dot(binormal_[at(i)], by_e * edge_change(i - 1) + by_f * edge_change(i)) + turn(i) - turn(i - 1));
-    if (!curved_) continue;
-    const StencilGradient bend = node_bending(i);
-    out.bending += bend.energy;
-    StencilVector moved;
-    moved << way.col(i - 1), turn(i - 1), way.col(i), turn(i), way.col(i + 1);
-    out.along += bend.gradient.dot(moved);
-  }
+  const auto add_elastic = [&](const auto& law) {
+    for (int i = 1; i < edges; ++i) {
+      const double moment = moment_[at(i)], by_e = 0.5 * inverse_length_[at(i - 1)],
+                   by_f = 0.5 * inverse_length_[at(i)];
+      if (moment != 0.0) out.twisting += 0.5 * moment * moment / stiffness_[at(i)];
+      out.along +=
+          moment * (dot(binormal_[at(i)], by_e * edge_change(i - 1) + by_f * edge_change(i)) + turn(i) - turn(i - 1));
+      if (!curved_) continue;
+      const CurvatureSlopes curvature = curvature_slopes(i);
+      const BendingNode node = bending_node(i, curvature.value);
+      const StencilGradient bend = on_nodes(law.respond(node), curvature);
+      const double dissipated = law.remember(node).dissipated;
+      out.bending += bend.energy - dissipated;
+      out.plastic += dissipated;
+      StencilVector moved;
+      moved << way.col(i - 1), turn(i - 1), way.col(i), turn(i), way.col(i + 1);
+      out.along += bend.gradient.dot(moved);
+    }
+  };
+  std::visit(add_elastic, law_);
   for (int j = 0; j < edges; ++j) {
     const double turned = turn(j), rate = turned / dt_, change = rate - start_->twist_rate[j];
     if (!held(j)) out.residual += force[at(j)][3] * turned;

@@ -31,11 +31,12 @@ void Boundary::state(Archive& archive, int nodes) {
 }
 
 void StepSettings::state(Archive& archive) {
-  archive.section("SET2");  // "SETT" had friction on centrelines only
+  archive.section("SET3");  // "SETT" had friction on centrelines only, "SET2" no bending law
   archive.choice("contact law", contact_law, ContactLaw::kEdge);
   archive(normal, friction, roller_friction, friction_couple, share_time, gravity, drag, spin_inertia, residual,
           residual_from_step, residual_of_tension, residual_at_little_tension, newton_cap, motion_limit, overlap_limit,
           candidate_margin);
+  archive_law(archive, bending);
   archive.number("iterations", max_iterations, 1, kMostIterations);
   const bool finite = std::isfinite(normal.tolerance) && std::isfinite(candidate_margin) && normal.tolerance >= 0.0 &&
                       candidate_margin >= 0.0;

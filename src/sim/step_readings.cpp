@@ -104,14 +104,15 @@ void StepReadings::add_elastic(const CentrelineTerms::Energy& centreline, const 
   account_.energies.kinetic += frames.kinetic;
   account_.loads.moment -= frames.moment;
   account_.work.numerical += centreline.along;
-  account_.work.numerical += frames.along + frames.inertia + frames.rest;
+  account_.work.numerical += frames.along + frames.inertia + frames.rest - frames.plastic;
+  account_.work.plastic += frames.plastic;
   account_.work.drag += frames.drag;
   account_.work.residual += frames.residual;
   account_.work.numerical += account_.before.elastic() - account_.energies.elastic();
 }
 
 void StepReadings::state(Archive& archive) {
-  archive.section("REA2");  // "READ" had no sum of loads
+  archive.section("REA3");  // "READ" had no sum of loads, "REA2" no plastic work
   for (Lanes& force : force_)
     for (int i = 0; i < 4; ++i) archive(reinterpret_cast<double*>(&force)[i]);
   archive(account_.contact, account_.energies, account_.work, first_);

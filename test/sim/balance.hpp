@@ -44,7 +44,7 @@ class Balance {
 
   /// What StepWork's identity leaves, and what rounding may leave of it [J].
   double gap() const {
-    return sum_.boundary - (stepper_->energies().total() - begin_.total()) - sum_.friction - sum_.drag -
+    return sum_.boundary - (stepper_->energies().total() - begin_.total()) - sum_.friction - sum_.drag - sum_.plastic -
            sum_.numerical - sum_.reweighting - sum_.residual;
   }
   double rounding() const { return 1e-12 * gross_; }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "knot_utm/rod/bending_law.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/stencil.hpp"
@@ -48,6 +49,22 @@ struct BendingInput {
 /// kappa_1, kappa_2 [-] at the node between edges e and f.
 Eigen::Vector2d material_curvature(const Vec3& e, const Vec3& f, const Directors& on_e, const Directors& on_f);
 
+/// The same and their derivatives in the node's unknowns, for any bending law.
+struct CurvatureSlopes {
+  Eigen::Vector2d value;  ///< [-]
+  StencilVector slope[2];
+};
+struct CurvatureLocal : CurvatureSlopes {
+  StencilMatrix second[2];
+};
+CurvatureSlopes curvature_slopes(const Vec3& e, const Vec3& f, const Directors& on_e, const Directors& on_f);
+CurvatureLocal curvature_local(const Vec3& e, const Vec3& f, const Directors& on_e, const Directors& on_f);
+
+/// What a law says of one node, as derivatives in its unknowns.
+StencilGradient on_nodes(const BendingResponse& law, const CurvatureSlopes& bend);
+StencilLocal on_nodes(const BendingResponse& law, const CurvatureLocal& bend);
+
+/// By the elastic law (elastic_bending.hpp).
 double bending_energy(const BendingInput& input, const Vec3& e, const Vec3& f, const Directors& on_e,
                       const Directors& on_f);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -8,24 +9,30 @@
 
 namespace knot_utm {
 
+/// Number of a bending law in the registry (bending_laws.hpp).
+enum class BendingLaw : std::size_t {};
+
 /// What a rod of circular cross-section is made of. The three stiffnesses are independent: a braided rope
 /// bends 10^3 to 10^4 times softer than a solid rod of the same stretching stiffness.
 struct Material {
   std::string name;
-  double radius = 0.0;                      ///< h [m]
-  double density = 0.0;                     ///< rho [kg/m^3]
-  double stretching_stiffness = 0.0;        ///< k_s [N]
-  double bending_stiffness = 0.0;           ///< k_b [N m^2]
-  double twisting_stiffness = 0.0;          ///< k_t [N m^2]
-  double friction_coefficient = 0.0;        ///< mu [-]
-  std::optional<double> friction_couple;    ///< eta [-]; unset: default_friction_couple
+  double radius = 0.0;                    ///< h [m]
+  double density = 0.0;                   ///< rho [kg/m^3]
+  double stretching_stiffness = 0.0;      ///< k_s [N]
+  double bending_stiffness = 0.0;         ///< k_b [N m^2]
+  double twisting_stiffness = 0.0;        ///< k_t [N m^2]
+  double friction_coefficient = 0.0;      ///< mu [-]
+  std::optional<double> friction_couple;  ///< eta [-]; unset: default_friction_couple
+  BendingLaw bending_law{};
+  double hardening = 0.1;                   ///< r of bending that yields (plastic_bending.hpp) [-]
   double bending_set = 0.0;                 ///< share of the bend in its tied knots that the rod keeps at rest [-]
   std::optional<double> contact_stiffness;  ///< K [N/m^2], that of the normal law; unset: default_contact_stiffness
   std::optional<double> tying_preload;      ///< F_p [N]; unset: default_preload
   std::optional<double> breaking_force;     ///< F_b, tension at which it parts [N]; unset: it does not
   std::optional<double> breaking_strain;    ///< eps_b of its outermost fibre (machine/fracture.hpp) [-]; unset: none
-  std::optional<double> yield_strain;       ///< of its outermost fibre, from which on it stays bent; not simulated [-]
-  std::string load_cell;                    ///< name of the load cell that suits it
+  std::optional<double>
+      yield_strain;       ///< of its outermost fibre, from which on it stays bent, if bending_law is plastic [-]
+  std::string load_cell;  ///< name of the load cell that suits it
   std::string notes;
 
   void state(Archive& archive);  ///< all that a time step depends on

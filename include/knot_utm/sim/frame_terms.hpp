@@ -5,6 +5,7 @@
 #include "knot_utm/contact/surface_contact.hpp"
 #include "knot_utm/numeric/block.hpp"
 #include "knot_utm/rod/bending.hpp"
+#include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stencil.hpp"
 #include "knot_utm/rod/twisting.hpp"
@@ -102,6 +103,7 @@ class FrameTerms {
   /// Of the trial evaluated last, `way` [m] being that of its nodes since the step's beginning.
   struct Energy {
     double twisting = 0.0, bending = 0.0;  ///< bending where the rod has a natural curvature [J]
+    double plastic = 0.0;                  ///< dissipated by bending [J]
     double along = 0.0;                    ///< dE/d(x, s) . (way, turn) [J]
     double residual = 0.0;                 ///< torques on free edges times their turn [J]
     double drag = 0.0;                     ///< c h^2 l_j omega_j^2 dt [J]
@@ -126,7 +128,8 @@ class FrameTerms {
     double stiffness;  // k_t/lbar [N m]
   };
   TwistStiffness twist_stiffness(std::size_t node) const;
-  void add_bending_stiffness(StepMatrix<4>& matrix) const;
+  template <typename Law>
+  void add_bending_stiffness(const Law& law, StepMatrix<4>& matrix) const;
   void set_tangents(const Points& position);
   void set_twist();
   void carry_directors();
@@ -134,14 +137,20 @@ class FrameTerms {
 
   /// Stiffnesses of inner node i are zero where it ends a parted edge.
   TwistingInput twisting_input(int i) const;
-  BendingInput bending_input(int i) const;
-  StencilGradient node_bending(int i) const;
-  StencilMatrix bending_stiffness(int i) const;
+  BendingNode bending_node(int i, const Eigen::Vector2d& bend) const;
+  CurvatureSlopes curvature_slopes(int i) const;
+  template <typename Law>
+  StencilMatrix bending_stiffness(const Law& law, int i) const;
+  template <typename Law>
+  void add_bending_forces(const Law& law, std::vector<Lanes>& force);
+  template <typename Law>
+  void remember_bends(const Law& law, RodState& state) const;
   double twist(int i) const;  // m of inner node i
   Directors directors(int edge) const;
   double angle_change(const std::vector<Lanes>& change, int edge) const;
 
   const RodProperties& rod_;
+  BendingLaws law_;          // of bends that are remembered
   Eigen::VectorXd inertia_;  // I_j
   Eigen::VectorXd drag_;     // c h^2 l_j [N m s]
   Eigen::VectorXd rest_;     // r_j

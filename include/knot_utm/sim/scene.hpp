@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "knot_utm/contact/roller_contact.hpp"
+#include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/options.hpp"
 
@@ -83,6 +84,7 @@ struct StepSettings {
   NormalLaw normal;                              ///< between strands, and on rollers
   Friction friction;                             ///< between strands
   Friction roller_friction;
+  BendingLaws bending;  ///< of a rod that remembers its bends; all others bend elastically (isotropic_bending.hpp)
   double friction_couple =
       0.0;                   ///< eta, with which friction acts at the surfaces (surface_contact.hpp); 0: on centrelines
   double share_time = 0.05;  ///< time for a contact's share to follow the shape (smooth_contact.hpp) [s]

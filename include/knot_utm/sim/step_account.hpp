@@ -31,7 +31,7 @@ struct ContactReading {
 /// Where the work of the last accepted step went [J]; an identity of the step's equations, to rounding, in which each
 /// term has a formula of its own:
 ///
-///   boundary = change of Energies::total() + friction + drag + numerical + reweighting + residual
+///   boundary = change of Energies::total() + friction + drag + plastic + numerical + reweighting + residual
 ///
 /// with dx = x - x_n the increment, E the elastic energies, F the forces of held nodes and rollers on the rod, and for
 /// every contact its weight w, pressure p, slip s in the step, overlap D and energy e(D) per length:
@@ -40,6 +40,7 @@ struct ContactReading {
 ///   friction     sum w mu p z . s, all that is done against friction: what the presliding spring of a contact at rest
 ///                could give back, less than mu p w xi_s/2 each, counts as lost until it does
 ///   drag         sum c lbar |dx|^2/dt
+///   plastic      what bending dissipates by its law (bending_law.hpp)
 ///   numerical    that of the implicit Euler step, which takes all forces at its end:
 ///                  sum 1/2 m |v - v_n|^2 + E_n - E + dE/dx . dx + sum w [e(D_n) - e(D) - p n . s]
 ///                less 1/2 (F - F_n) . dx, by which it takes the work of the boundary for too much
@@ -54,6 +55,7 @@ struct StepWork {
   double boundary = 0.0;
   double friction = 0.0;
   double drag = 0.0;
+  double plastic = 0.0;
   double numerical = 0.0;
   double reweighting = 0.0;
   double residual = 0.0;
@@ -62,13 +64,14 @@ struct StepWork {
     boundary += other.boundary;
     friction += other.friction;
     drag += other.drag;
+    plastic += other.plastic;
     numerical += other.numerical;
     reweighting += other.reweighting;
     residual += other.residual;
     return *this;
   }
 
-  void state(Archive& archive) { archive(boundary, friction, drag, numerical, reweighting, residual); }
+  void state(Archive& archive) { archive(boundary, friction, drag, plastic, numerical, reweighting, residual); }
 };
 
 /// Sum of all that acted on the rod in the last accepted step: holders, grips, springs, rollers, forces and weight,

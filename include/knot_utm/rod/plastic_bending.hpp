@@ -1,0 +1,67 @@
+#pragma once
+
+#include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/rod/bending_law.hpp"
+#include "knot_utm/rod/material.hpp"
+
+namespace knot_utm {
+
+/// Elastic and plastic with linear hardening: two springs side by side, of which the stronger one yields. One carries
+/// the share r of the bending stiffness and stays elastic, the other one carries 1 - r up to its yield moment and no
+/// further, in whatever direction the rod bends. With the latter's elastic bend xi = kappa - kappabar_n, its direction
+/// n = xi/|xi|, k = k_b/lbar, and the bend at yield y = kappa_y lbar,
+///
+///   |xi| <= y   M = r k kappa + (1 - r) k xi     kappabar = kappabar_n                  dissipated 0
+///   |xi| >  y   M = r k kappa + (1 - r) k y n    kappabar = kappabar_n + (|xi| - y) n   dissipated (1 - r) k y (|xi| -
+///   y)
+///
+/// so that a rod that is bent for the first time yields at the curvature kappa_y, under the moment k_b kappa_y. Beyond,
+/// its tangent is r k + (1 - r) k y/|xi| (1 - n n^T): without hardening a bend would gather at a single node, and
+/// depend on the edges' length. A rod that is bent to a curvature kappa and released keeps kappa - M/k_b. Source:
+/// Prager 1956 (kinematic hardening); Simo, Hughes 1998, section 1.6.
+struct PlasticBending {
+  static constexpr const char* kName = "plastic";
+  static constexpr bool kRemembers = true;
+
+  double yield_curvature = 0.0;  ///< kappa_y, more than 0 [1/m]
+  double hardening = 0.0;        ///< r, 0 to 1 [-]
+
+  PlasticBending() = default;
+  PlasticBending(double kappa_y, double r) : yield_curvature(kappa_y), hardening(r) {}
+  static PlasticBending of(const Material& material);
+
+  BendingResponse respond(const BendingNode& node) const {
+    const double whole = node.stiffness / node.voronoi_length, stiff = hardening * whole, yields = whole - stiff;
+    const double yield = yield_curvature * node.voronoi_length;
+    const Eigen::Vector2d off = node.bend - node.natural;
+    const double size = off.norm();
+    BendingResponse out;
+    out.energy = 0.5 * stiff * node.bend.squaredNorm();
+    out.moment = stiff * node.bend;
+    out.tangent = stiff * Eigen::Matrix2d::Identity();
+    if (size <= yield) {
+      out.energy += 0.5 * yields * size * size;
+      out.moment += yields * off;
+      out.tangent += yields * Eigen::Matrix2d::Identity();
+      return out;
+    }
+    const Eigen::Vector2d direction = off / size;
+    out.energy += yields * yield * (size - 0.5 * yield);
+    out.moment += yields * yield * direction;
+    out.tangent += (yields * yield / size) * (Eigen::Matrix2d::Identity() - direction * direction.transpose());
+    return out;
+  }
+
+  BendingMemory remember(const BendingNode& node) const {
+    const double yields = (1.0 - hardening) * node.stiffness / node.voronoi_length;
+    const double yield = yield_curvature * node.voronoi_length;
+    const Eigen::Vector2d off = node.bend - node.natural;
+    const double size = off.norm();
+    if (size <= yield) return {node.natural, 0.0};
+    return {node.natural + (1.0 - yield / size) * off, yields * yield * (size - yield)};
+  }
+
+  void state(Archive& archive) { archive(yield_curvature, hardening); }
+};
+
+}  // namespace knot_utm

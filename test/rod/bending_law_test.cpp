@@ -1,0 +1,102 @@
+// Bending laws: moment and tangent are derivatives of W, and what is remembered agrees with them.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "knot_utm/rod/bending_laws.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kYield = 2.0, kHardening = 0.2;  // [1/m], [-]
+
+BendingNode node(const Eigen::Vector2d& bend) { return {3.0, 0.1, bend, {0.05, -0.02}}; }
+
+/// From well below yield, 0.2 of bend, to far beyond it.
+std::vector<Eigen::Vector2d> bends() {
+  std::vector<Eigen::Vector2d> out;
+  for (const double size : {0.01, 0.15, 0.25, 0.6, 2.0})
+    for (const double angle : {0.0, 0.8, 2.5, 4.0})
+      out.emplace_back(node({0.0, 0.0}).natural + size * Eigen::Vector2d(std::cos(angle), std::sin(angle)));
+  return out;
+}
+
+template <typename Law>
+Law law();
+template <>
+ElasticBending law() {
+  return {};
+}
+template <>
+PlasticBending law() {
+  return {kYield, kHardening};
+}
+
+template <typename Law>
+struct BendingLaw : testing::Test {
+  Law law = knot_utm::law<Law>();
+};
+using Laws = testing::Types<ElasticBending, PlasticBending>;
+TYPED_TEST_SUITE(BendingLaw, Laws);
+
+TYPED_TEST(BendingLaw, MomentAndTangentAreDerivatives) {
+  constexpr double kStep = 1e-5;
+  for (const Eigen::Vector2d& bend : bends()) {
+    const BendingResponse here = this->law.respond(node(bend));
+    for (int k = 0; k < 2; ++k) {
+      const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(k);
+      const BendingResponse on = this->law.respond(node(bend + step)), back = this->law.respond(node(bend - step));
+      EXPECT_NEAR((on.energy - back.energy) / (2.0 * kStep), here.moment[k], 1e-7);
+      for (int l = 0; l < 2; ++l)
+        EXPECT_NEAR((on.moment[l] - back.moment[l]) / (2.0 * kStep), here.tangent(l, k), 1e-6);
+    }
+  }
+}
+
+/// After the step the same bend needs the same moment, and W was what is then stored and what was dissipated.
+TYPED_TEST(BendingLaw, RemembersWhatItsMomentIsOf) {
+  for (const Eigen::Vector2d& bend : bends()) {
+    const BendingNode before = node(bend);
+    const BendingResponse response = this->law.respond(before);
+    const BendingMemory memory = this->law.remember(before);
+    EXPECT_GE(memory.dissipated, 0.0);
+    BendingNode after = before;
+    after.natural = memory.natural;
+    const BendingResponse again = this->law.respond(after);
+    EXPECT_LT((again.moment - response.moment).norm(), 1e-13 * response.moment.norm());
+    EXPECT_NEAR(again.energy + memory.dissipated, response.energy, 1e-13 * response.energy);
+  }
+}
+
+TEST(PlasticBending, AStripKeepsWhatItsMomentDoesNotHold) {
+  const PlasticBending law{kYield, kHardening};
+  const double lbar = 0.1, k_b = 3.0, kappa = 7.0;
+  BendingNode strip{k_b, lbar, {kappa * lbar, 0.0}, {0.0, 0.0}};
+  const double moment = law.respond(strip).moment[0];
+  EXPECT_NEAR(moment, k_b * (kHardening * kappa + (1.0 - kHardening) * kYield), 1e-14 * moment);
+  const BendingMemory memory = law.remember(strip);
+  EXPECT_NEAR(memory.dissipated, (1.0 - kHardening) * k_b * kYield * (kappa - kYield) * lbar, 1e-14 * moment);
+  strip.natural = memory.natural;
+  strip.bend[0] = (kappa - moment / k_b) * lbar;
+  EXPECT_LT(law.respond(strip).moment.norm(), 1e-14 * moment) << "released";
+}
+
+/// Bent to and fro between +kappa and -kappa, it dissipates 4 (1 - r) k_b kappa_y (kappa - kappa_y) lbar a cycle.
+TEST(PlasticBending, DissipatesTheLoopOfACycle) {
+  const PlasticBending law{kYield, kHardening};
+  const double lbar = 0.1, k_b = 3.0, kappa = 7.0;
+  BendingNode strip{k_b, lbar, {0.0, 0.0}, {0.0, 0.0}};
+  double dissipated = 0.0;
+  for (int turn = 0; turn < 7; ++turn) {
+    strip.bend[0] = (turn % 2 == 0 ? kappa : -kappa) * lbar;
+    const BendingMemory memory = law.remember(strip);
+    if (turn >= 1 && turn <= 6) dissipated += memory.dissipated;
+    strip.natural = memory.natural;
+  }
+  const double loop = 4.0 * (1.0 - kHardening) * k_b * kYield * (kappa - kYield) * lbar;
+  EXPECT_NEAR(dissipated, 3.0 * loop, 1e-12 * loop);
+}
+
+}  // namespace
+}  // namespace knot_utm
