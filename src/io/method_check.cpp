@@ -117,11 +117,6 @@ void check_twist(const Method& m) {
     throw InvalidInput::sentence("physics.twist", "off",
                                  "physics.twist is off, but friction at the surface twists the rod: set "
                                  "physics.friction.at: centreline or material.friction_couple: 0 to go without");
-  if (remembers_bends(m.material))
-    throw InvalidInput::sentence(
-        "physics.twist", "off",
-        "physics.twist is off, but bends that yield curve the rod at rest, which takes part in "
-        "its twist: set material.bending_law: elastic to go without");
   if (m.specimen.to_be_tied && m.material.bending_set > 0.0)
     throw InvalidInput::sentence("physics.twist", "off",
                                  "physics.twist is off, but material.bending_set curves the rod at rest, which takes "

@@ -99,8 +99,7 @@ struct TestingMachine::Impl {
     state.velocity = Points::Zero(3, nodes);
     const RodProperties rod = make_rod(material, rest);
     const bool takes_set = specimen.to_be_tied && material.bending_set > 0.0;
-    if (takes_set || (remembers_bends(material) && !knot_of(specimen).straight()))
-      state.natural_curvature.setZero(2, nodes - 2);
+    if (takes_set || remembers_bends(material)) state.natural_curvature.setZero(2, nodes - 2);
     if (solves_for_twist(rod, state)) initialise_frames(&state);
     const StepSettings settings = step_settings(specimen, material_, machine, physics);
     gravity = settings.gravity;
