@@ -126,10 +126,14 @@ void check_twist(const Method& m) {
 void check_bending(const Method& m) {
   const bool remembers = remembers_bends(m.material);  // throws where its law misses a value
   if (remembers && m.material.bending_set > 0.0)
+    throw InvalidInput::sentence("material.bending_set", format_number(m.material.bending_set),
+                                 "material.bending_set makes the rod keep a share of its bends at once, and "
+                                 "material.bending_law: plastic makes it keep what yields: give one of the two only");
+  if (remembers && m.physics.twist == TwistMode::kOff)
     throw InvalidInput::sentence(
-        "material.bending_set", format_number(m.material.bending_set),
-        "material.bending_set takes a set at once, and bending_law: plastic by itself: give one "
-        "of them only");
+        "physics.twist", "off",
+        "physics.twist is off, but bends that yield curve the rod at rest, which takes part in "
+        "its twist: set material.bending_law: elastic to go without");
 }
 
 void check_machine(const Method& m) {

@@ -211,6 +211,21 @@ TEST(BadInput, ABendThatSetsNeedsTwist) {
       AllOf(HasSubstr("tighten.yaml: physics.twist is off"), HasSubstr("material.bending_set"), Not(HasSubstr("\n"))));
 }
 
+TEST(BadInput, ABendThatYieldsNeedsAYieldStrainAndTwist) {
+  EXPECT_THAT(complaint(kTighten, {"material.bending_law=plastic"}),
+              AllOf(HasSubstr("material.yield_strain is missing"), Not(HasSubstr("\n"))));
+  const std::vector<std::string> plastic = {"material.bending_law=plastic", "material.yield_strain=0.05"};
+  const auto with = [&](const char* more) {
+    std::vector<std::string> all = plastic;
+    all.emplace_back(more);
+    return complaint(kTighten, all);
+  };
+  EXPECT_EQ(complaint(kTighten, plastic), "nothing was wrong");
+  EXPECT_THAT(with("physics.twist=off"), AllOf(HasSubstr("physics.twist is off"), Not(HasSubstr("\n"))));
+  EXPECT_THAT(with("material.bending_set=0.5"), AllOf(HasSubstr("material.bending_set"), Not(HasSubstr("\n"))));
+  EXPECT_THAT(with("material.hardening=2"), AllOf(HasSubstr("material.hardening"), HasSubstr("0.01 to 1")));
+}
+
 class BadFile : public ::testing::Test {
  protected:
   void SetUp() override { fs::create_directories(folder_ / "materials"); }
