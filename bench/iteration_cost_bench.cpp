@@ -47,7 +47,7 @@ class Matrix {
  public:
   Matrix(const RodProperties& rod, const StepSettings& settings, double dt)
       : rod_(rod),
-        contact_(rod, settings.normal, settings.friction, settings.candidate_margin, settings.share_time),
+        contact_(rod, settings.normal, settings.friction, settings.candidate_margin, settings.weighting_time),
         centreline_(rod, true),
         frames_(rod, settings),
         matrix_(static_cast<int>(rod.nodes())),

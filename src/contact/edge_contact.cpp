@@ -25,7 +25,7 @@ EdgeContact::EdgeContact(const RodProperties& rod, const NormalLaw& normal, cons
       diameter_(2.0 * rod.material.radius),
       window_(1.5 * rod.material.radius),
       reach_((2.0 + kReachMargin) * rod.material.radius),
-      least_estimate_(kLeastEstimate * normal.stiffness * normal.tolerance),
+      least_prediction_(kLeastEstimate * normal.stiffness * normal.tolerance),
       rest_length_(rod.rest_length),
       length_(rod.rest_length),
       // Candidates are segments around nodes; an edge is found by the node it ends at, and is the whole of its extent.
@@ -60,10 +60,10 @@ void EdgeContact::begin_step() {
 }
 
 void EdgeContact::evaluate(const Points& position, const Points& start, double dt) {
-  estimate_.assign(pairs_.size(), -1.0);
+  prediction_.assign(pairs_.size(), -1.0);
   for (std::size_t i = 0; i < contacts_.size(); ++i)
-    if (contacts_[i].estimate > least_estimate_)
-      estimate_[static_cast<std::size_t>(feet_[i].pair)] = contacts_[i].estimate;
+    if (contacts_[i].prediction > least_prediction_)
+      prediction_[static_cast<std::size_t>(feet_[i].pair)] = contacts_[i].prediction;
   contacts_.clear();
   feet_.clear();
   moving_.clear();
@@ -111,9 +111,9 @@ void EdgeContact::add_contact(int pair, const Points& position, const Points& st
   contact.db = db;
 
   const Memory* found = recall({a, b}, contact.arclength_a, contact.arclength_b);
-  contact.estimate = estimate_[static_cast<std::size_t>(pair)];
-  if (first_evaluation_ && found && found->edges == std::pair{a, b} && found->pressure > least_estimate_)
-    contact.estimate = found->pressure;
+  contact.prediction = prediction_[static_cast<std::size_t>(pair)];
+  if (first_evaluation_ && found && found->edges == std::pair{a, b} && found->pressure > least_prediction_)
+    contact.prediction = found->pressure;
 
   Feet feet{pair, da, Vec3::Zero()};
   EdgeFeet moving;
@@ -164,10 +164,10 @@ void EdgeContact::add_surface(const ContactPoint& contact, const Feet& feet, int
 
 EdgePressure pressure_of(const EdgeLaw& normal, const ContactLinearisation& how, const ContactPoint& contact) {
   EdgePressure out;
-  const double tangent_at = contact.estimate > 0.0 ? normal.overlap_at(contact.estimate) : contact.overlap;
+  const double tangent_at = contact.prediction > 0.0 ? normal.overlap_at(contact.prediction) : contact.overlap;
   out.slope = normal.slope(tangent_at);
   out.pressure = normal.pressure(tangent_at) + out.slope * (contact.overlap - tangent_at);
-  out.turning = how.expects ? expected_pressure(contact.estimate, out.pressure) : out.pressure;
+  out.turning = how.predicts ? predicted_pressure(contact.prediction, out.pressure) : out.pressure;
   return out;
 }
 

@@ -66,13 +66,13 @@ struct FourPressures {
 
   FourPressures() = default;
   FourPressures(const NormalLaw& normal, const ContactLinearisation& how, const Four<const ContactPoint>& four) {
-    const Lanes overlap = four(&ContactPoint::overlap), estimate = four(&ContactPoint::estimate);
+    const Lanes overlap = four(&ContactPoint::overlap), prediction = four(&ContactPoint::prediction);
     // A contact that is new and deep: the depth where the rod stiffens is a better guess than a wall.
     const Lanes without = select(overlap < normal.stiffening, overlap, constant<Lanes>(normal.stiffening));
-    const Lanes tangent_at = select(estimate > 0.0, normal.overlap_at(estimate), without);
+    const Lanes tangent_at = select(prediction > 0.0, normal.overlap_at(prediction), without);
     slope = normal.slope(tangent_at);
     pressure = normal.pressure(tangent_at) + slope * (overlap - tangent_at);
-    turning = how.expects ? expected_pressure(estimate, pressure) : pressure;
+    turning = how.predicts ? predicted_pressure(prediction, pressure) : pressure;
   }
 };
 

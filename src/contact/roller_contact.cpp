@@ -32,19 +32,19 @@ std::size_t RollerContact::index_of(const ContactPoint& contact) const {
 void RollerContact::begin_step() {
   contacts_.clear();
   first_evaluation_ = true;
-  estimate_ = committed_estimate_;
+  prediction_ = committed_prediction_;
   // Before the first accepted step there is nowhere to come from: what a rejected one took for that does not count.
-  if (committed_estimate_.empty()) start_.clear();
+  if (committed_prediction_.empty()) start_.clear();
 }
 
 void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& position, const Points& start,
                              double dt) {
-  for (const ContactPoint& contact : contacts_) estimate_[index_of(contact)] = contact.estimate;
+  for (const ContactPoint& contact : contacts_) prediction_[index_of(contact)] = contact.prediction;
   contacts_.clear();
   surfaces_.clear();
   if (start_.size() != rollers.size()) {
     start_ = rollers;
-    estimate_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), -1.0);
+    prediction_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), -1.0);
     memory_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), FrictionMemory());
     turn_.assign(rollers.size(), RollerTurn());
     for (std::size_t r = 0; r < rollers.size(); ++r) turn_[r].angle = rollers[r].turn;
@@ -97,7 +97,7 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
     contact.d = contact.x.norm();
     contact.overlap = roller.radius + radius_ - contact.d;
     contact.begins = normal_.begin();
-    contact.estimate = estimate_[memory];
+    contact.prediction = prediction_[memory];
     if (!contact.active()) continue;
     contact.a0 = segment - 1;
     contact.point = point;
@@ -187,9 +187,9 @@ ContactMotion RollerContact::motion(const ContactPoint& contact, const Points&, 
 void RollerContact::commit(const std::vector<Roller>& rollers) {
   start_ = rollers;
   for (std::size_t r = 0; r < rollers.size(); ++r) turn_[r] = {turn_[r].angle + turned_[r], turned_[r] / dt_};
-  std::fill(estimate_.begin(), estimate_.end(), -1.0);
-  for (const ContactPoint& contact : contacts_) estimate_[index_of(contact)] = contact.pressure;
-  committed_estimate_ = estimate_;
+  std::fill(prediction_.begin(), prediction_.end(), -1.0);
+  for (const ContactPoint& contact : contacts_) prediction_[index_of(contact)] = contact.pressure;
+  committed_prediction_ = prediction_;
   if (!friction_.on()) return;
   std::fill(memory_.begin(), memory_.end(), FrictionMemory());
   for (const ContactPoint& contact : contacts_) memory_[index_of(contact)] = remember(friction_, contact, dt_);
@@ -197,23 +197,23 @@ void RollerContact::commit(const std::vector<Roller>& rollers) {
 
 void RollerContact::state(Archive& archive) {
   archive.section("ROL3");  // "ROL2" had rollers that do not turn
-  bool committed = !committed_estimate_.empty();
+  bool committed = !committed_prediction_.empty();
   archive(committed);
   // Before, what stands here is what a rejected step took for it.
   if (!committed) start_.clear();
   archive.list(start_);
   if (!committed) {
     archive.require(start_.empty(), "rollers", std::to_string(start_.size()));
-    committed_estimate_.clear();
+    committed_prediction_.clear();
     memory_.clear();
     return;
   }
   archive.list(turn_);
   archive.require(turn_.size() == start_.size(), "turns of rollers", std::to_string(turn_.size()));
-  archive.list(committed_estimate_);
+  archive.list(committed_prediction_);
   archive.list(memory_);
   const std::size_t places = memory_index(voronoi_.size(), start_.size(), 0, 0);
-  archive.require(places > 0 && committed_estimate_.size() == places && memory_.size() == places, "places on rollers",
+  archive.require(places > 0 && committed_prediction_.size() == places && memory_.size() == places, "places on rollers",
                   std::to_string(memory_.size()));
 }
 

@@ -10,11 +10,11 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kUnknown = -1.0;     // share of a foot that recalls none yet
+constexpr double kUnknown = -1.0;     // weighting factor of a foot that recalls none yet
 constexpr double kSharpest = 2.0;     // turn of the centreline at a node that is no longer resolved [rad]
 constexpr double kReachMargin = 0.3;  // feet are followed up to this gap [fraction of radius]
 constexpr double kDeepest = 0.5;      // overlap of a contact that may begin [fraction of radius]
-constexpr double kFading = 0.25;      // way to the end of the spline on which a foot loses its share [radii]
+constexpr double kFading = 0.25;      // way to the end of the spline on which a foot loses its weighting factor [radii]
 
 /// Arclength at rest of parameter u on a segment: from the middle of one edge to the middle of the next.
 double arclength_at(const Eigen::VectorXd& arclength, int segment, double u) {
@@ -87,8 +87,8 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   search_.find();
   for (std::size_t i = 0; i < search_.feet().size();) i = follow(i);
   for (Tracked& foot : tracked_) {
-    if (foot.memory.share < 0.0) {
-      foot.memory.share = std::min(share(search_.feet()[foot.foot], position), most_of_share(foot.memory));
+    if (foot.memory.weighting < 0.0) {
+      foot.memory.weighting = std::min(weighting(search_.feet()[foot.foot], position), largest_weighting(foot.memory));
       foot.memory.outwards = outwards(search_.feet()[foot.foot], position);
       foot.memory.inside = !first_step_ && overlap(foot) > kDeepest * 0.5 * diameter_ && began_inside(foot);
     }
@@ -125,7 +125,7 @@ void SmoothContact::recall(std::size_t row, std::size_t first) {
       if (recalled_[static_cast<std::size_t>(m)]) continue;
       for (std::size_t i = first; i < tracked_.size(); ++i) {
         const double away = std::abs(candidate.arclength_b - tracked_[i].memory.arclength_b);
-        if (tracked_[i].memory.share >= 0.0 || away >= nearest) continue;
+        if (tracked_[i].memory.weighting >= 0.0 || away >= nearest) continue;
         nearest = away;
         memory = &candidate;
         own = &tracked_[i].memory;
@@ -184,9 +184,9 @@ void SmoothContact::add_contact(Tracked& tracked) {
   contact.n = to_vec3((1.0 / contact.d) * foot.x);
   contact.overlap = overlap(tracked);
   contact.begins = normal_.begin();
-  contact.share = tracked.memory.share;
-  contact.weight = 0.5 * voronoi_[segment] * contact.share;
-  contact.estimate = tracked.memory.pressure;
+  contact.weighting = tracked.memory.weighting;
+  contact.weight = 0.5 * voronoi_[segment] * contact.weighting;
+  contact.prediction = tracked.memory.pressure;
   contact.memory = tracked.memory.friction;
   const SegmentParabola& c = search_.parabola(foot.segment);
   const Lanes db = c.t + u * c.k;
@@ -262,7 +262,7 @@ ContactMotion SmoothContact::motion(const ContactPoint& contact, const Points& p
   return out;
 }
 
-double SmoothContact::share(const FootSearch::Foot& foot, const Points& position) const {
+double SmoothContact::weighting(const FootSearch::Foot& foot, const Points& position) const {
   const int segment = segment_of(foot.point);
   const double ua = kIntegrationPoints[foot.point % 2];
   const Vec3 x = to_vec3(foot.x);
@@ -276,7 +276,7 @@ double SmoothContact::share(const FootSearch::Foot& foot, const Points& position
   return b4 / (a4 + b4 + kBlind);
 }
 
-double SmoothContact::most_of_share(const Memory& memory) const {
+double SmoothContact::largest_weighting(const Memory& memory) const {
   const Eigen::Index last = arclength_.size() - 1;
   const double begin = 0.5 * (arclength_[0] + arclength_[1]), end = 0.5 * (arclength_[last - 1] + arclength_[last]);
   const double left = std::min(memory.arclength_b - begin, end - memory.arclength_b);
@@ -301,12 +301,12 @@ void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
     Memory& memory = list.entries.emplace_back(tracked.memory);
     const ContactPoint* contact = tracked.contact == kNone ? nullptr : &contacts_[tracked.contact];
     if (!accepted) {
-      if (contact) memory.pressure = contact->estimate;
+      if (contact) memory.pressure = contact->prediction;
       continue;
     }
     memory.inside = memory.inside && overlap(tracked) > 0.0;
-    memory.share += catch_up_ * (share(foot, *accepted) - memory.share);
-    memory.share = std::min(memory.share, most_of_share(memory));
+    memory.weighting += catch_up_ * (weighting(foot, *accepted) - memory.weighting);
+    memory.weighting = std::min(memory.weighting, largest_weighting(memory));
     memory.outwards += catch_up_ * (outwards(foot, *accepted) - memory.outwards);
     memory.pressure = contact ? contact->pressure : 0.0;
     memory.friction = contact ? knot_utm::remember(friction_, *contact, dt_) : FrictionMemory();
@@ -330,7 +330,7 @@ void SmoothContact::commit(const Points& position) {
 }
 
 void SmoothContact::Memory::state(Archive& archive) {
-  archive(arclength_b, share, outwards, pressure, friction, inside);
+  archive(arclength_b, weighting, outwards, pressure, friction, inside);
 }
 
 void SmoothContact::MemoryList::state(Archive& archive) {

@@ -87,7 +87,7 @@ class ContactTerm {
         moved += contact.c[k] * change[at(contact.a0 + k)];
         if (!contact.on_roller()) moved += contact.c[3 + k] * change[at(contact.b0 + k)];
       }
-      contact.estimate = p.pressure - factor * p.slope * dot(to_lanes(contact.n), moved);
+      contact.prediction = p.pressure - factor * p.slope * dot(to_lanes(contact.n), moved);
     }
   }
 

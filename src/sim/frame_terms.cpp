@@ -360,7 +360,7 @@ double FrameTerms::angle_change(const std::vector<Lanes>& change, int j) const {
   return held(j) ? 0.0 : change[at(j)][3] - dot(lean_[at(j)], change[at(j + 1)] - change[at(j)]);
 }
 
-double FrameTerms::longest_share(const std::vector<Lanes>& change) const {
+double FrameTerms::largest_factor(const std::vector<Lanes>& change) const {
   double longest = 0.0;
   for (int j = 0; j < static_cast<int>(rod_.edges()); ++j)
     longest = std::max(longest, std::abs(angle_change(change, j)));

@@ -74,7 +74,7 @@ struct Equation {
  private:
   static StrandContact strand_contact(const RodProperties& rod, const StepSettings& settings) {
     if constexpr (std::is_same_v<StrandContact, SmoothContact>)
-      return SmoothContact(rod, settings.normal, settings.friction, settings.candidate_margin, settings.share_time);
+      return SmoothContact(rod, settings.normal, settings.friction, settings.candidate_margin, settings.weighting_time);
     else
       return StrandContact(rod, settings.normal, settings.friction, settings.candidate_margin);
   }
@@ -153,7 +153,7 @@ class Increment {
                  cap = eq_.settings.newton_cap;
     factor_ = wanted * (longest > cap ? cap / longest : 1.0);
     if constexpr (D == 4) {
-      factor_ = std::min(factor_, wanted * eq_.frames.longest_share(eq_.change));
+      factor_ = std::min(factor_, wanted * eq_.frames.largest_factor(eq_.change));
       eq_.frames.move(eq_.change, factor_);
     }
     for (int i = 0; i < nodes(); ++i) eq_.x.col(i) += factor_ * to_vec3(eq_.change[static_cast<std::size_t>(i)]);

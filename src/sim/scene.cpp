@@ -33,7 +33,7 @@ void Boundary::state(Archive& archive, int nodes) {
 void StepSettings::state(Archive& archive) {
   archive.section("SET3");  // "SETT" had friction on centrelines only, "SET2" no bending law
   archive.choice("contact law", contact_law, ContactLaw::kEdge);
-  archive(normal, friction, roller_friction, friction_couple, share_time, gravity, drag, spin_inertia, residual,
+  archive(normal, friction, roller_friction, friction_couple, weighting_time, gravity, drag, spin_inertia, residual,
           residual_from_step, residual_of_tension, residual_at_little_tension, newton_cap, motion_limit, overlap_limit,
           candidate_margin);
   archive_law(archive, bending);

@@ -4,6 +4,7 @@
 #include "examine_step.hpp"
 #include "increment.hpp"
 #include "knot_utm/contact/tunnelling.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/stretching.hpp"

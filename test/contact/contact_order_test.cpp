@@ -40,7 +40,7 @@ TEST(IntegrationPoints, StandForTheVoronoiLengthOfTheirSegment) {
     double weight = 0.0, place = 0.0;
     for (const ContactPoint& point : points) {
       EXPECT_NEAR(point.overlap, 0.1, 1e-12);
-      weight += point.weight / point.share;
+      weight += point.weight / point.weighting;
       place += point.arclength_a / static_cast<double>(points.size());
     }
     EXPECT_NEAR(weight, voronoi, 1e-12);
@@ -75,7 +75,7 @@ struct Wound {
     double on_node = 0.0, on_segment_itself = 0.0;
     for (int segment = kMiddle - 1; segment <= kMiddle + 1; ++segment)
       for (const ContactPoint& point : on_segment(contact.contacts(), segment)) {
-        const Vec3 whole = point.force / point.share;
+        const Vec3 whole = point.force / point.weighting;
         on_node += point.c[kMiddle - point.a0] * whole.x();
         if (segment != kMiddle) continue;
         on_segment_itself += whole.norm();

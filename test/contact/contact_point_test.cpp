@@ -32,23 +32,23 @@ TEST(ContactModel, FrictionOfADrawnApartContactThatIsExpectedToPressHoldsIt) {
   const MemoryFriction friction{0.5, 1e-5};
   std::vector<ContactPoint> contacts = {drawn_apart()};
   ContactPoint& contact = contacts[0];
-  contact.estimate = 100.0;
+  contact.prediction = 100.0;
   evaluate_forces(normal, friction, kStep, contacts);
   EXPECT_EQ(contact.pressure, 0.0);
   std::vector<ContactModel> models;
   linearise(normal, friction, kStep, expecting, contacts, models);
-  EXPECT_LT(models[0].pressure, 0.0) << "the tangent at the estimate, so far out";
+  EXPECT_LT(models[0].pressure, 0.0) << "the tangent at the prediction, so far out";
   // Across both strands: what holds is mu w p/xi_s, what turns with n is w p/d.
   const Vec3 across = to_vec3(models[0].still[1]);
-  const double hold = friction.coefficient * contact.weight * contact.estimate / friction.presliding;
+  const double hold = friction.coefficient * contact.weight * contact.prediction / friction.presliding;
   EXPECT_NEAR(across.y(), hold, 0.02 * hold);
   linearise(normal, friction, kStep, {}, contacts, models);
   EXPECT_LT(models[0].still[1][1], 0.0) << "the tangent's pressure drives it on";
 }
 
 TEST(ContactModel, WithoutAnEstimateThePressureThatTurnsIsThatOfTheTangent) {
-  EXPECT_EQ(expected_pressure(-1.0, 7.0), 7.0);
-  EXPECT_EQ(expected_pressure(100.0, 7.0), 100.0);
+  EXPECT_EQ(predicted_pressure(-1.0, 7.0), 7.0);
+  EXPECT_EQ(predicted_pressure(100.0, 7.0), 100.0);
 }
 
 TEST(ContactModel, EachContactHasItsOwnHoweverManyThereAre) {
@@ -63,7 +63,7 @@ TEST(ContactModel, EachContactHasItsOwnHoweverManyThereAre) {
     contact.begins = normal.begin();
     contact.slip *= i;  // some stick, some slip
     contact.turn = 1e-7 * i * Vec3::UnitX();
-    if (i % 3 == 0) contact.estimate = 10.0 * (i - 1);
+    if (i % 3 == 0) contact.prediction = 10.0 * (i - 1);
   }
   std::vector<ContactModel> models;
   evaluate_forces(normal, friction, kStep, many);
@@ -76,7 +76,7 @@ TEST(ContactModel, EachContactHasItsOwnHoweverManyThereAre) {
     evaluate_forces(normal, friction, kStep, alone);
     linearise(normal, friction, kStep, expecting, alone, own);
     EXPECT_EQ(alone[0].force, contact.force);
-    // The overlap of an estimate is found to 1e-9 of the pressure, or better beside one that takes longer.
+    // The overlap of an prediction is found to 1e-9 of the pressure, or better beside one that takes longer.
     const double rounding = 1e-8 * (own[0].slope * kRadius + std::abs(own[0].pressure));
     EXPECT_NEAR(own[0].pressure, models[n].pressure, rounding);
     EXPECT_NEAR(own[0].slope, models[n].slope, rounding / kRadius);

@@ -154,7 +154,7 @@ struct TwoEdges {
     contact.begin_step();
     contact.evaluate(x, start, dt);
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x.size(), x.size());
-    for (ContactPoint& point : contact.contacts()) point.estimate = -1.0;  // tangents at the present overlap
+    for (ContactPoint& point : contact.contacts()) point.prediction = -1.0;  // tangents at the present overlap
     std::vector<EdgeContactModel> models;
     contact.linearise(dt, models);
     std::size_t n = 0;

@@ -108,7 +108,7 @@ TEST_P(RollerContactJacobian, IsTheDerivativeOfTheForces) {
   end.row(1).array() += 2.0 * GetParam();
   end.row(2).array() += 1e-6;
   RollerContact contact = scene.touch(friction, end, kTurn);
-  for (ContactPoint& point : contact.contacts()) point.estimate = point.pressure;  // tangents at the present overlap
+  for (ContactPoint& point : contact.contacts()) point.prediction = point.pressure;  // tangents at the present overlap
   Eigen::MatrixXd analytic = Eigen::MatrixXd::Zero(end.size(), end.size());
   std::vector<RollerModel> models;
   contact.linearise(0.01, models);
@@ -135,7 +135,7 @@ TEST_P(RollerContactJacobian, OfATurningRollerIsTheDerivativeOfForcesAndTorque) 
   end.row(0).array() += GetParam();
   end.row(1).array() += 2.0 * GetParam();
   RollerContact contact = scene.touch(friction, end, kTurn);
-  for (ContactPoint& point : contact.contacts()) point.estimate = point.pressure;
+  for (ContactPoint& point : contact.contacts()) point.prediction = point.pressure;
   Roller free = scene.roller;
   free.inertia = 1e-300;  // it is free, and nothing beside what is looked at
   RollerTurns turns;

@@ -54,7 +54,8 @@ struct TwoStrands {
   Eigen::MatrixXd stiffness(SmoothContact& contact, const Points& x, double dt) const {
     contact.begin_step();
     contact.evaluate(x, start, dt);
-    for (ContactPoint& point : contact.contacts()) point.estimate = point.pressure;  // tangents at the present overlap
+    for (ContactPoint& point : contact.contacts())
+      point.prediction = point.pressure;  // tangents at the present overlap
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x.size(), x.size());
     std::vector<ContactModel> models;
     contact.linearise(dt, models);

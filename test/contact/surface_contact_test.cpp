@@ -144,7 +144,7 @@ class Surface : public testing::Test {
   static Eigen::MatrixXd stiffness(Kind& kind) {
     kind.contact.begin_step();
     kind.evaluate();
-    for (ContactPoint& point : kind.contact.contacts()) point.estimate = point.pressure;  // tangents where it is
+    for (ContactPoint& point : kind.contact.contacts()) point.prediction = point.pressure;  // tangents where it is
     StepMatrix<4> matrix(static_cast<int>(kind.scene.nodes()));
     if constexpr (std::is_same_v<Kind, OnARoller>)
       matrix.locate({});  // contacts with rollers stand within the band
@@ -252,7 +252,7 @@ TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
   Eigen::VectorXd at(4 * scene.nodes() + 1);
   at << scene.unknowns(), scene.roller.turn;
   evaluated(at);
-  for (ContactPoint& point : kind.contact.contacts()) point.estimate = point.pressure;
+  for (ContactPoint& point : kind.contact.contacts()) point.prediction = point.pressure;
   Roller free = scene.roller;
   free.inertia = 1e-300;
   RollerTurns border_of;

@@ -94,7 +94,7 @@ class RandomScene {
     s.rod = make_rod(material, rest);
     const double bending_time = h_ * h_ * std::sqrt(material.density * M_PI * h_ * h_ / material.bending_stiffness);
     s.dt = bending_time * between(0.1, 0.5);
-    s.settings.share_time = between(1.0, 10.0) * s.dt;
+    s.settings.weighting_time = between(1.0, 10.0) * s.dt;
     s.settings.contact_law = law;
     s.settings.normal = {300.0 * material.bending_stiffness / std::pow(h_, 4), 0.02 * h_, 0.05 * h_};
     s.settings.friction = MemoryFriction{between(0.0, 0.4), 0.02 * h_};

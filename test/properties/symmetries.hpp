@@ -84,7 +84,7 @@ inline Scene scaled(Scene scene, const Units& units) {
   settings.normal.stiffening *= units.length;
   settings.friction = scaled(settings.friction, units);
   settings.roller_friction = scaled(settings.roller_friction, units);
-  settings.share_time *= units.time;
+  settings.weighting_time *= units.time;
   settings.gravity *= units.speed() / units.time;
   settings.drag *= units.stress() * units.time;
   settings.residual *= units.force;

@@ -33,10 +33,10 @@ struct ContactPoint {
   double d = 0.0;             ///< [m]
   double overlap = 0.0;       ///< D, more than 2h - d where the strand of b stands outwards of it [m]
   double begins = 0.0;        ///< overlap at which the normal law begins [m]
-  double share = 1.0;         ///< omega, of the contact that this side carries
-  double weight = 0.0;        ///< w: rest length it stands for, times its share of the contact [m]
+  double weighting = 1.0;     ///< omega, weighting factor of this side of the contact
+  double weight = 0.0;        ///< w: rest length it stands for, times its weighting factor [m]
   double pressure = 0.0;      ///< p [N/m]
-  double estimate = -1.0;     ///< of the pressure at the solution, from the last linear solve [N/m]; < 0: none
+  double prediction = -1.0;   ///< of the pressure at the solution, from the last linear solve [N/m]; < 0: none
   Vec3 db = Vec3::Zero();     ///< b' [m]
   double inverse_g = 0.0;     ///< 1/G [1/m^2]; 0 against a roller
   Vec3 axis = Vec3::Zero();   ///< of the roller, unit; zero between strands
@@ -54,7 +54,7 @@ struct ContactPoint {
   bool on_roller() const { return roller >= 0; }
   bool touches() const { return overlap > begins; }
   /// Takes part in the next linear solve.
-  bool active() const { return overlap > begins || estimate > 0.0; }
+  bool active() const { return overlap > begins || prediction > 0.0; }
 };
 
 /// How a contact came to be where it is in a step.
@@ -69,10 +69,10 @@ struct ContactMotion {
 ///
 ///     p(D) ~ p(D^) + p'(D^) (D - D^),
 ///
-/// taken at the overlap D^ whose pressure is the estimate that the last linear solve gave, and at the present overlap
+/// taken at the overlap D^ whose pressure is the prediction that the last linear solve gave, and at the present overlap
 /// where there is none. The law starts with p' = 0: tangents at the present overlap only halve the overlap of a strand
-/// that was pushed in too far, while the estimate has it nearly right at once. As strands move, n and z turn too, and
-/// of the product (p + dp) (f + df) the part (p + dp) df takes the estimate for p + dp, or the tangent's p: the
+/// that was pushed in too far, while the prediction has it nearly right at once. As strands move, n and z turn too, and
+/// of the product (p + dp) (f + df) the part (p + dp) df takes the prediction for p + dp, or the tangent's p: the
 /// slower way, but where strands creep under `smoothed` friction the only one. At the solution all are the same.
 ///
 /// With g = g(S, u) it is the force's derivative where the foot stays, and where it slides on:
@@ -97,15 +97,15 @@ struct RollerModel : ContactModel {
 /// How Newton's method wants contacts linearised.
 struct ContactLinearisation {
   Linearisation friction = Linearisation::kTangent;
-  bool expects = false;  ///< it is the expected pressure that turns with n and z, else that of the tangent
+  bool predicts = false;  ///< it is the predicted pressure that turns with n and z, else that of the tangent
 };
 
-/// Of a linear model: the pressure that the change leads to, by its estimate, where there is one, or else by the
+/// Of a linear model: the pressure that the change leads to, by its prediction, where there is one, or else by the
 /// tangent. Where a prediction has drawn strands apart, the tangent would have them pull, and friction drive them on.
 /// `Real`: double, or Lanes for four contacts at once.
 template <typename Real>
-Real expected_pressure(const Real& estimate, const Real& of_tangent) {
-  return select(estimate > 0.0, estimate, of_tangent);
+Real predicted_pressure(const Real& prediction, const Real& of_tangent) {
+  return select(prediction > 0.0, prediction, of_tangent);
 }
 
 /// Fills z, mu and force of the active contacts from pressure, n, slip and weight, in a step of length dt [s].

@@ -68,7 +68,7 @@ class EdgeContact {
   /// Pairs of edges that may touch.
   const std::vector<std::pair<int, int>>& pairs() const { return pairs_; }
 
-  /// Before the first evaluation of a step: estimates of the pressures are those of the last accepted step.
+  /// Before the first evaluation of a step: predictions of the pressures are those of the last accepted step.
   void begin_step();
 
   /// All contacts at `position` in a step of length dt from `start`.
@@ -134,15 +134,15 @@ class EdgeContact {
   ContactLinearisation how_;
   double dt_ = 0.0;  // of this step [s]
   double diameter_;
-  double window_;          // of arclengths within which a contact is the same one [m]
-  double reach_;           // of centrelines within which contacts are kept [m]
-  double least_estimate_;  // pressures below are no guide to the next [N/m]
+  double window_;            // of arclengths within which a contact is the same one [m]
+  double reach_;             // of centrelines within which contacts are kept [m]
+  double least_prediction_;  // pressures below are no guide to the next [N/m]
   Eigen::VectorXd rest_length_;
   Eigen::VectorXd length_;     // of the edges at the evaluated position [m]
   Eigen::VectorXd arclength_;  // of the nodes
   Candidates candidates_;
   std::vector<std::pair<int, int>> pairs_;
-  std::vector<double> estimate_;  // of the pressure of each pair, < 0: none
+  std::vector<double> prediction_;  // of the pressure of each pair, < 0: none
   std::vector<ContactPoint> contacts_;
   std::vector<Feet> feet_;               // of the contacts
   std::vector<EdgeFeet> moving_;         // of the contacts

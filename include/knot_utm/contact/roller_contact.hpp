@@ -74,7 +74,7 @@ class RollerContact {
     return number < turn_.size() ? turn_[number] : RollerTurn();
   }
 
-  /// Before the first evaluation of a step: estimates of the pressures are those of the last accepted step.
+  /// Before the first evaluation of a step: predictions of the pressures are those of the last accepted step.
   void begin_step();
 
   /// All contacts at `position` in a step of length dt from `start`, in which the rollers move from where the last
@@ -154,8 +154,8 @@ class RollerContact {
   double couple_ = 0.0;                  // that a section passes on
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
   std::vector<SurfacePoint> surfaces_;
-  std::vector<double> estimate_, committed_estimate_;  // of the pressure, < 0: none; indexed as memory_
-  std::vector<FrictionMemory> memory_;                 // of roller r at point q of segment i: [(r segments + i) 2 + q]
+  std::vector<double> prediction_, committed_prediction_;  // of the pressure, < 0: none; indexed as memory_
+  std::vector<FrictionMemory> memory_;  // of roller r at point q of segment i: [(r segments + i) 2 + q]
 };
 
 }  // namespace knot_utm

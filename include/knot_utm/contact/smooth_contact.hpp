@@ -21,7 +21,7 @@ namespace knot_utm {
 /// so that the curved strand is integrated and the straighter one projected on: where a strand coils around another
 /// at the distance of contact, the other one stands in its centre of curvature and has no foot on it.
 /// g is linear between the middle of a segment, where it is its own, and its ends, where it is the smaller one of the
-/// two segments that meet: a foot that is about to vanish has lost its share by then.
+/// two segments that meet: a foot that is about to vanish has a weighting factor of zero by then.
 /// omega, and how far the foot stands outwards, follow the shape within a set time: were they to follow at once, two
 /// places of a tight knot could throw a contact to and fro in steps however short, a flutter that no step resolves.
 /// They and the friction's memory belong to the last accepted step and are constant within a step: they are carried by
@@ -48,7 +48,7 @@ class SmoothContact {
   /// From now on the rod has parted at an edge.
   void part(int edge) { candidates_.part(edge); }
 
-  /// Before the first evaluation of a step: estimates of the pressures are those of the last accepted step.
+  /// Before the first evaluation of a step: predictions of the pressures are those of the last accepted step.
   void begin_step();
 
   /// All contacts at `position` in a step of length dt from `start`.
@@ -90,9 +90,9 @@ class SmoothContact {
   /// What a foot carries from iteration to iteration, and from step to step.
   struct Memory {
     double arclength_b;
-    double share;     // omega
-    double outwards;  // of the spline stands the foot, towards its point [m]
-    double pressure;  // estimate of it; < 0: none
+    double weighting;  // omega
+    double outwards;   // of the spline stands the foot, towards its point [m]
+    double pressure;   // prediction of it; < 0: none
     FrictionMemory friction;
     bool pressed = false;  // at the beginning of the step
     bool inside = false;   // was deep inside when it appeared, and has not come out yet
@@ -138,10 +138,11 @@ class SmoothContact {
   /// Of the accepted position, at first that of the start; where the rod is bent more sharply than its edges resolve,
   /// less and less.
   void put_outwards(const Points& position);
-  double share(const FootSearch::Foot& foot, const Points& position) const;
-  /// What the share of a foot cannot exceed: it falls to zero on the last radius before the spline ends, where a strand
-  /// slips off. A force that vanished there all at once would leave steps, however short, without a solution.
-  double most_of_share(const Memory& memory) const;
+  double weighting(const FootSearch::Foot& foot, const Points& position) const;
+  /// What the weighting factor of a foot cannot exceed: it falls to zero on the last radius before the spline ends,
+  /// where a strand slips off. A force that vanished there all at once would leave steps, however short, without a
+  /// solution.
+  double largest_weighting(const Memory& memory) const;
   double outwards(const FootSearch::Foot& foot, const Points& position) const;
 
   NormalLaw normal_;
@@ -166,7 +167,7 @@ class SmoothContact {
   MemoryList iterate_;          // of the last evaluation; before the first of a step, the accepted ones
   std::vector<Lanes> moved_;    // by which the nodes moved in this step [m]
   double catch_up_time_;
-  double catch_up_ = 1.0;  // by which the shares and feet follow in this step
+  double catch_up_ = 1.0;  // by which weighting factors and feet follow in this step
   bool first_evaluation_ = true;
   bool first_step_ = true;  // none was accepted yet
 };

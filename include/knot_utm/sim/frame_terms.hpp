@@ -97,7 +97,7 @@ class FrameTerms {
   bool held(int edge) const { return held_[static_cast<std::size_t>(edge)] != 0; }
 
   /// A share of at most 1 of the change (dx, ds) that no angle takes further than it may go in one iteration.
-  double longest_share(const std::vector<Lanes>& change) const;
+  double largest_factor(const std::vector<Lanes>& change) const;
   void move(const std::vector<Lanes>& change, double share);
 
   /// Of the trial evaluated last, `way` [m] being that of its nodes since the step's beginning.

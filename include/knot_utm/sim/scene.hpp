@@ -86,8 +86,8 @@ struct StepSettings {
   Friction roller_friction;
   BendingLaws bending;  ///< of a rod that remembers its bends; all others bend elastically (isotropic_bending.hpp)
   double friction_couple =
-      0.0;                   ///< eta, with which friction acts at the surfaces (surface_contact.hpp); 0: on centrelines
-  double share_time = 0.05;  ///< time for a contact's share to follow the shape (smooth_contact.hpp) [s]
+      0.0;  ///< eta, with which friction acts at the surfaces (surface_contact.hpp); 0: on centrelines
+  double weighting_time = 0.05;             ///< time for a contact's share to follow the shape (smooth_contact.hpp) [s]
   Vec3 gravity = Vec3::Zero();              ///< g [m/s^2]
   double drag = 0.0;                        ///< c, force -c v per length [N s/m^2]
   bool spin_inertia = true;                 ///< turning of the rod about itself has inertia and drag (frame_terms.hpp)
