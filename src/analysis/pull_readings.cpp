@@ -16,6 +16,13 @@ double energy(const Pull& pull) {
 
 double energy_to_peak(const Pull& pull) { return pull.empty() ? 0.0 : WayToPeak(pull).work(); }
 
+std::optional<double> late_force(const Pull& pull) {
+  if (pull.empty()) return std::nullopt;
+  const double begin = pull.front().extension, end = pull.back().extension;
+  const Integrals half = integrate(pull, {0.5 * (begin + end), end});
+  return half.width > 0.0 ? std::optional<double>(half.force / half.width) : std::nullopt;
+}
+
 std::optional<double> chord_stiffness(const Pull& pull) {
   if (pull.empty()) return std::nullopt;
   const WayToPeak way(pull);

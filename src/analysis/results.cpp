@@ -57,6 +57,7 @@ Pull with_ends(const Pull& pull, const std::optional<Sample>& origin, const std:
 }
 
 void read_pull(const Pull& pull, Results& results) {
+  results.late_force = late_force(pull);
   results.energy_to_peak = energy_to_peak(pull);
   if (results.break_extension) results.energy_to_break = energy(pull);
   results.chord_stiffness = chord_stiffness(pull);

@@ -74,16 +74,21 @@ void check_effects(const Method& m) {
   of_knot("length", s.length, unset.length);
   of_knot("tail", s.tail, unset.tail);
   of_knot("preload", s.preload.value_or(0.0), 0.0);
+  of_knot("wrap", s.wrap, unset.wrap);
+  of_knot("post_diameter", s.post_diameter, unset.post_diameter);
+  of_knot("tail_load", s.tail_load.value_or(0.0), 0.0);
 
   const MachineOptions& machine = m.machine;
   const MachineOptions bare;
   const bool loop = knot_of(s).loop();
   has_effect(loop, "machine.roller_diameter", machine.roller_diameter, bare.roller_diameter, "for knot: " + loops());
-  has_effect(machine.grips == GripKind::kRollers, "machine.roller_friction", machine.roller_friction,
-             bare.roller_friction, "with grips: rollers");
-  has_effect(machine.roller_friction > 0.0, "machine.roller_rotation",
+  const bool rollers = machine.grips == GripKind::kRollers;
+  has_effect(rollers || knot_of(s).on_posts(), "machine.roller_friction", machine.roller_friction, bare.roller_friction,
+             "with grips: rollers or knot: " + knots_with("post_diameter"));
+  has_effect(rollers && machine.roller_friction > 0.0, "machine.roller_rotation",
              std::string(fields::kRotations[static_cast<std::size_t>(machine.roller_rotation)]),
-             std::string(fields::kRotations[0]), "with a roller_friction above 0");
+             std::string(fields::kRotations[0]),
+             std::string("with a roller_friction above 0") + (rollers ? "" : " of grips: rollers"));
   has_effect(machine.roller_rotation == RollerRotation::kTurned, "machine.roller_rate", machine.roller_rate,
              bare.roller_rate, "with roller_rotation: turned");
   if (machine.roller_rotation == RollerRotation::kTurned && machine.roller_rate == 0.0)

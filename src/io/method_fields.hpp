@@ -49,6 +49,9 @@ void specimen(Fields& f, SpecimenOptions& o) {
   f.scaled_number("length", o.length, Range{1e-4, 50.0, "m"});
   f.scaled_number("tail", o.tail, Range{1e-5, 2.0, "m"});
   f.optional_number("preload", o.preload, Range{1e-9, 1e9, "N"}, "auto");
+  f.number("wrap", o.wrap, Range{0.1, 20.0, "rad"});
+  f.scaled_number("post_diameter", o.post_diameter, Range{1e-5, 5.0, "m"});
+  f.optional_number("tail_load", o.tail_load, Range{1e-9, 1e8, "N"}, "auto");
   f.scaled_number("edge_length", o.edge_length, Range{1e-6, 0.1, "m"});
   f.optional_number("refinement", o.refinement, Range{1.0, 8.0, "-"}, "auto");
 }

@@ -74,6 +74,14 @@ Number moment_balance_error(const Source& of) {
   return arm ? Number(*arm / of.facts.material.radius) : std::nullopt;
 }
 
+Number force_ratio(const Source& of) {
+  const Number& late = of.results.late_force;
+  return late && of.facts.dead_load > 0.0 ? Number(*late / of.facts.dead_load) : std::nullopt;
+}
+std::string why_no_force_ratio(const Source& of) {
+  return of.facts.dead_load > 0.0 ? why_not_pulled(of) : "no dead load pulls the specimen's other end";
+}
+
 template <auto Force>
 Number held(const Source& of) {
   return of.results.relaxation ? Number((*of.results.relaxation).*Force) : std::nullopt;
@@ -165,6 +173,8 @@ constexpr ResultKey kKeys[] = {
      margin<&Margin::friction>, why_no_margin},
     {"margin_preload", "-", kCurve, "Share of the pre-load that may be missing before the knots open",
      margin<&Margin::preload>, why_no_margin},
+    {"force_ratio", "-", kCurve, "Mean true force over the second half of the pull, over the tail load", force_ratio,
+     why_no_force_ratio},
     {"no_plateau_because", "-", kCurve, "Why there is no plateau", no_plateau_because, "there is a plateau"},
     {"largest_drop", "N", kCurve, "Largest sudden fall of the force before the lock", curve<&C::largest_drop>,
      why_no_drop},

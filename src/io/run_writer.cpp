@@ -35,6 +35,8 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
       full_curve_((fs::path(folder) / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)) {
   known_.errors = reading_errors(method.specimen, method.material, method.machine, method.physics);
   known_.material = method.material;
+  for (const NodeForce& load : knot_of(method.specimen).supports(method.specimen, method.material).loads)
+    known_.dead_load += load.force.norm();
   if (method.specimen.to_be_tied) known_.knot_distance = method.specimen.knot_distance;
   if (method.machine.roller_rotation == RollerRotation::kTurned)
     known_.warnings.push_back(

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
@@ -59,7 +58,8 @@ Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, con
     held.push_back({at.next, centreline.points.col(at.next)});
     held_frames_.push_back({at.edge(), 0.0});
   };
-  hold(lower_nodes_, knot.held_below(centreline, clamped));
+  supports_ = knot.supports(specimen, material);
+  if (!on_posts()) hold(lower_nodes_, knot.held_below(centreline, clamped));
   hold(upper_nodes_, knot.held_above(centreline, clamped));
 }
 
@@ -89,6 +89,8 @@ void Grips::set(double displacement, double left, Boundary& boundary) const {
     boundary.rollers[1].centre[2] += displacement;
     if (left > 0.0) narrow(left, boundary.rollers);
   }
+  boundary.rollers.insert(boundary.rollers.end(), supports_.posts.begin(), supports_.posts.end());
+  boundary.forces = supports_.loads;
   boundary.holds.clear();
   if (holds_far_side_) {
     boundary.holds.push_back(*far_middle_);
@@ -137,7 +139,10 @@ void Grips::put_on(const Points& loop, double displacement, double radius) {
   for (double drop = 0.0; drop < most && touches(1); drop += step) rollers_[1].centre[2] -= step;
 }
 
-Vec3 Grips::lower() const { return on_rollers() ? rollers_[0].centre : lower_nodes_.front().position; }
+Vec3 Grips::lower() const {
+  if (on_posts()) return supports_.posts.front().centre;
+  return on_rollers() ? rollers_[0].centre : lower_nodes_.front().position;
+}
 
 Vec3 Grips::upper(double displacement) const {
   const Vec3 start = on_rollers() ? rollers_[1].centre : upper_nodes_.front().position;
@@ -146,6 +151,7 @@ Vec3 Grips::upper(double displacement) const {
 
 double Grips::end_to_end(double displacement) const {
   if (on_rollers()) return rollers_[1].centre[2] + displacement - rollers_[0].centre[2];
+  if (on_posts()) return upper(displacement)[2] - lower()[2];
   return (upper(displacement) - lower()).norm();
 }
 
@@ -161,6 +167,9 @@ double Grips::force_upper(const TimeStep& step) const {
 double Grips::force_lower(const TimeStep& step) const {
   if (on_rollers()) return step.roller_force(0)[2];
   double sum = 0.0;
+  const int posts = static_cast<int>(supports_.posts.size());
+  for (int i = 0; i < posts; ++i) sum += step.roller_force(i)[2];
+  for (const NodeForce& load : supports_.loads) sum -= load.force[2];
   for (const FixedNode& node : lower_nodes_) sum -= step.reaction(node.node)[2];
   return sum;
 }

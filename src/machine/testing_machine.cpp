@@ -122,7 +122,7 @@ struct TestingMachine::Impl {
       rig.emplace(centreline, rod, tying);
       touch.emplace(rig->standing_nodes(), material.radius, windings);
     }
-    if (!knot_of(specimen).straight()) {
+    if (knot_of(specimen).knotted()) {
       watch.emplace(rig ? rig->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
                     centreline.points, windings);
     }
@@ -172,7 +172,6 @@ struct TestingMachine::Impl {
         roller.last_node = rig->loop_end();
       }
     grips.turn_rollers(to, boundary.rollers);
-    boundary.forces.clear();
     boundary.grips.clear();
     boundary.extra_drag = drag_of_settling(to);
     if (rig && rig->stage() != TyingRig::Stage::kIdle) rig->hold(boundary, from, to);
@@ -198,10 +197,11 @@ struct TestingMachine::Impl {
     return settling_drag(material, kSettlingWave * material.radius, kSettlingTime) * left * left;
   }
 
-  /// `auto`: what brings it to rest. In the forces of a loop and of a straight rod it stays far below a thousandth. A
-  /// loose knot between clamps pulls with no more than the drag on its length: there is none from the first pull on.
+  /// `auto`: what brings it to rest. In the forces of a loop, of a straight rod and of one on posts it stays far below
+  /// a thousandth. A loose knot between clamps pulls with no more than the drag on its length: there is none from the
+  /// first pull on.
   double drag() const {
-    const bool drawn_knot = !knot_of(specimen).straight() && !knot_of(specimen).loop();
+    const bool drawn_knot = knot_of(specimen).knotted() && !knot_of(specimen).loop();
     return physics.drag.value_or(pulled && drawn_knot ? 0.0 : drag_to_rest(material));
   }
 

@@ -2,6 +2,7 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
+#include "knot_utm/specimen/capstan.hpp"
 #include "knot_utm/specimen/drawn_rod.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -17,7 +18,8 @@ const std::vector<const Knot*>& knots() {
   static const OverhandKnot overhand;
   static const StraightRod straight;
   static const DrawnRod file;
-  static const std::vector<const Knot*> all = {&fisherman, &multiple_fisherman, &overhand, &straight, &file};
+  static const CapstanSpecimen capstan;
+  static const std::vector<const Knot*> all = {&fisherman, &multiple_fisherman, &overhand, &straight, &file, &capstan};
   return all;
 }
 
@@ -69,6 +71,8 @@ bool Knot::has(const std::string& key) const {
 void Knot::suit(const SpecimenOptions&, double, double, SpecimenOptions&) const {}
 
 std::optional<double> Knot::roller_diameter(double) const { return std::nullopt; }
+
+Supports Knot::supports(const SpecimenOptions&, const Material&) const { return {}; }
 
 HeldNode Knot::held_below(const Centreline&, bool) const { return {0, 1}; }
 

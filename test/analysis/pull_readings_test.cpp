@@ -26,6 +26,12 @@ TEST(PullReadings, OfASpringAllStiffnessesAreItsOwn) {
   EXPECT_NEAR(*tangent_stiffness(spring), 160.0, 1e-9);
 }
 
+TEST(PullReadings, LateForceIsTheMeanOfTheSecondHalf) {
+  EXPECT_NEAR(*late_force(pull([](double s) { return 160.0 * s; })), 160.0 * 0.075, 1e-9);
+  EXPECT_FALSE(late_force({}));
+  EXPECT_FALSE(late_force({{0.0, 0.1}}));
+}
+
 /// F = a s^2: s at a share of the peak is the root of it, and a tenth's least-squares slope is that in its middle.
 TEST(PullReadings, OfAParabolaTheyAreItsClosedForms) {
   constexpr double kFactor = 3e4, kEnd = 0.1, kPeak = kFactor * kEnd * kEnd;

@@ -92,7 +92,7 @@ TEST(Method, EveryShippedFileLoads) {
 
 TEST(Method, WritesBackToTheSame) {
   const std::string copy = ::testing::TempDir() + "knot_utm_round_trip.yaml";
-  for (const std::string name : {"tighten", "overhand", "straight", "from_file"}) {
+  for (const std::string name : {"tighten", "overhand", "straight", "capstan", "from_file"}) {
     const std::string text = method_yaml(load_method(kConfig + name + ".yaml"));
     std::ofstream(copy) << text;
     EXPECT_EQ(method_yaml(load_method(copy)), text) << name;

@@ -41,5 +41,16 @@ TEST(ResultKeys, SayByHowMuchAKnotOpenedAsItWasMounted) {
   EXPECT_THAT(result_yaml(results, RunFacts()), testing::HasSubstr("opened_when_mounted: 0.0125\n"));
 }
 
+TEST(ResultKeys, SayTheForceOverTheDeadLoadAtTheOtherEnd) {
+  Results results;
+  RunFacts facts;
+  results.late_force = 12.0;
+  EXPECT_THAT(result_yaml(results, facts), testing::HasSubstr("force_ratio: null  # no dead load"));
+  facts.dead_load = 8.0;
+  EXPECT_THAT(result_yaml(results, facts), testing::HasSubstr("force_ratio: 1.5\n"));
+  results.late_force.reset();
+  EXPECT_THAT(result_yaml(results, facts), testing::HasSubstr("force_ratio: null  # "));
+}
+
 }  // namespace
 }  // namespace knot_utm

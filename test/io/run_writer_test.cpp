@@ -115,6 +115,7 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
                           "breakaway_force",
                           "margin_friction",
                           "margin_preload",
+                          "force_ratio",
                           "lock_extension_by_load",
                           "true_plateau_force",
                           "true_breakaway_force",

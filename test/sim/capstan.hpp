@@ -29,6 +29,11 @@ inline double elastic_capstan(double t1, double mu, double phi) {
   return ratio;
 }
 
+/// The same where friction acts at the surface, of curvature 1/rho throughout: T grows as exp(x phi) with eta = h/rho.
+inline double surface_exponent(double mu, double eta) {
+  return (std::sqrt(1.0 + 4.0 * mu * mu * eta * (1.0 - eta)) - 1.0) / (2.0 * mu * eta);
+}
+
 /// A rod of bending stiffness 1 around a shaft of a radius near 1, pulled at T1 or more.
 inline StepSettings capstan_settings(const Material& material, double t1, double tolerance, double residual) {
   StepSettings settings = closed_form_settings(material);

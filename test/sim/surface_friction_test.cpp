@@ -322,10 +322,6 @@ struct SurfaceCapstan {
   }
 };
 
-double surface_exponent(double mu, double eta) {
-  return (std::sqrt(1.0 + 4.0 * mu * mu * eta * (1.0 - eta)) - 1.0) / (2.0 * mu * eta);
-}
-
 class R15Capstan : public testing::TestWithParam<double> {};
 
 TEST_P(R15Capstan, TensionGrowsByTheLeverOfTheSurface) {

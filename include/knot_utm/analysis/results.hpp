@@ -73,6 +73,7 @@ struct Results {
   std::string failure_mode;  ///< sliding then fracture, stretching then fracture, fracture, untangling; empty: none
 
   // Of the pull, with the state that it began from as its origin (pull_readings.hpp).
+  std::optional<double> late_force;         ///< mean over the second half of the way [N]
   std::optional<double> energy_to_peak;     ///< [J]
   std::optional<double> energy_to_break;    ///< where the rod broke [J]
   std::optional<double> chord_stiffness;    ///< from 10 % to 50 % of the peak [N/m]

@@ -26,6 +26,7 @@ struct RunFacts {
   double weight = 0.0;                ///< of the rod where gravity acts on it [N]
   double slid_along = 0.0;            ///< of a loop on rollers along their axes, at most [m]
   Material material;                  ///< of the rod
+  double dead_load = 0.0;             ///< that pulls the specimen's other end [N]; 0: none does
   double knot_distance = 0.0;         ///< that the knots were to be tied at [m]; 0: none were tied
   double pull_speed = 0.0;            ///< the largest that is programmed [m/s]; 0: none is
   LoadCellOptions load_cell;          ///< that read the forces

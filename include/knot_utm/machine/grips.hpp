@@ -7,6 +7,7 @@
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/centreline.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
@@ -16,8 +17,9 @@ bool rollers_hold(const SpecimenOptions& specimen, const MachineOptions& machine
 bool clamps_hold(const SpecimenOptions& specimen, const MachineOptions& machine);
 
 /// What the machine holds the specimen by: two rollers in the loop of a fisherman's knot, or nodes, which clamps hold
-/// two by two with their material frames. The lower grip stands; the upper one moves along +z by its displacement [m]:
-/// the crosshead's, less what a compliant frame gives (frame.hpp).
+/// two by two with their material frames. Where fixed posts and dead loads bear the specimen's lower end, its first
+/// post is the lower grip. The lower grip stands; the upper one moves along +z by its displacement [m]: the
+/// crosshead's, less what a compliant frame gives (frame.hpp).
 class Grips {
  public:
   /// At displacement 0.
@@ -25,9 +27,10 @@ class Grips {
         const Material& material);
 
   bool on_rollers() const { return !rollers_.empty(); }
-  bool hold_frames() const { return !held_frames_.empty(); }
+  /// At both ends, so that the rod cannot turn about itself.
+  bool hold_frames() const { return held_frames_.size() > 1; }
 
-  /// Rollers, held nodes and held frames of the boundary.
+  /// Rollers and posts, held nodes and held frames, holds and dead loads of the boundary.
   /// While the loop is put on, by the share of this that is `left`, the rollers are pins that widen.
   void set(double displacement, double left, Boundary& boundary) const;
 
@@ -43,7 +46,7 @@ class Grips {
 
   void state(Archive& archive);
 
-  /// Centres of rollers, or places of the nodes between which the specimen's length counts [m].
+  /// Centres of rollers or of the post, or places of the nodes between which the specimen's length counts [m].
   Vec3 lower() const;
   Vec3 upper(double displacement) const;
   /// How far these are apart [m].
@@ -55,11 +58,13 @@ class Grips {
   /// Whether a point of the rod's centreline lies on a roller, or within two radii of a node that is held.
   bool hold(double displacement, const Vec3& point, double radius) const;
 
-  /// Force of the rod on each grip along z, tension positive [N].
+  /// Force of the rod on each grip along z, tension positive [N]. On the lower one it is that on all posts and dead
+  /// loads.
   double force_upper(const TimeStep& step) const;
   double force_lower(const TimeStep& step) const;
 
  private:
+  bool on_posts() const { return !supports_.posts.empty(); }
   double half_way(double displacement) const;
   void narrow(double left, std::vector<Roller>& rollers) const;
 
@@ -68,7 +73,8 @@ class Grips {
   double lift_ = 0.0;       // of the lower one while the loop is put on [m]
   std::vector<FixedNode> lower_nodes_, upper_nodes_;
   std::vector<FixedTwist> held_frames_;
-  std::vector<Roller> rollers_;           // lower, upper
+  std::vector<Roller> rollers_;  // lower, upper
+  Supports supports_;
   double roller_rate_ = 0.0;              // of driven ones [rad/s]
   std::optional<double> turning_from_;    // [s]
   std::optional<SpringHold> far_middle_;  // keeps the loop from going round on the rollers; from half-way

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knot_utm/rod/material.hpp"
+#include "knot_utm/sim/scene.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/options.hpp"
 
@@ -23,6 +24,12 @@ struct Mounting {
 struct HeldNode {
   int node = 0, next = 0;
   int edge() const { return node < next ? node : next; }  ///< between the two
+};
+
+/// What bears a specimen beside its grips, and stays as it is throughout a test.
+struct Supports {
+  std::vector<Roller> posts;     ///< fixed to the machine's base; the first one stands for the lower grip
+  std::vector<NodeForce> loads;  ///< dead loads
 };
 
 /// The face of a knot: what a specimen of this kind is made of, and everything that the program asks of one. A knot is
@@ -46,6 +53,8 @@ class Knot {
   virtual bool straight() const { return false; }
   /// Strands touch in it: its edges must not be longer than the rod is thick.
   virtual bool knotted() const { return true; }
+  /// Fixed posts and dead loads bear its lower end (`supports`): the upper grip alone holds it.
+  virtual bool on_posts() const { return false; }
   virtual ErrorStudy error_study() const { return ErrorStudy::kNone; }
 
   /// What `auto` stands for with a rod of radius h [m]. Keys that it does not have keep their plain value, so that they
@@ -65,6 +74,8 @@ class Knot {
   /// InvalidInput where it does not fit.
   virtual Centreline centreline(const SpecimenOptions& specimen, const Material& material,
                                 const Mounting& mounting) const = 0;
+  /// One post or more where it lies `on_posts`; else nothing.
+  virtual Supports supports(const SpecimenOptions& specimen, const Material& material) const;
   /// What the lower and the upper grip hold of it where there are no rollers.
   virtual HeldNode held_below(const Centreline& centreline, bool clamped) const;
   virtual HeldNode held_above(const Centreline& centreline, bool clamped) const;

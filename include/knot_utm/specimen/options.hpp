@@ -22,6 +22,9 @@ struct SpecimenOptions {
   double length = 1.0;                        ///< straight and overhand: rod length [m]
   double tail = 0.03;                         ///< free tails [m]
   std::optional<double> preload;              ///< F_p [N]; unset (auto): material's tying_preload, else 4 k_b/h^2
+  double wrap = 3.141592653589793;            ///< capstan: angle by which the rod lies around the post [rad]
+  double post_diameter = 0.0381;              ///< capstan [m]
+  std::optional<double> tail_load;            ///< capstan: T1 [N]; unset: auto
   double edge_length = 0.0032;                ///< discretisation [m]
   std::optional<double> refinement;           ///< edges between and within knots are shorter by this; unset: auto
   bool to_be_tied =

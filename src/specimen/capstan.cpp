@@ -1,0 +1,115 @@
+#include "knot_utm/specimen/capstan.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/specimen/scales.hpp"
+#include "shape_checks.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr double kPost = 12.0;          // diameter, as that of the paper's rollers [h]
+constexpr double kStrand = 30.0;        // of the tail, and from the post to the grip [h]
+constexpr double kEdgesARadian = 4.0;   // at least: the tension ratio is then right within half a percent
+constexpr double kFewestARadian = 2.0;  // edges that still follow the bend
+constexpr double kPull = 1.5;           // by then the rod slides everywhere on the post [rho]
+constexpr double kBeyondPull = 15.0;    // of the tail, so that its end keeps off the post [h]
+constexpr double kTailStrain = 0.01;    // so that a strand that stretches slides within the pull
+constexpr double kPitch = 4.0;          // of a helix, so that strands side by side do not touch [h]
+
+double bend_radius(const SpecimenOptions& specimen, double h) { return 0.5 * specimen.post_diameter + h; }
+
+/// The wrapped part and what turns it so that its end runs along z.
+class Winding {
+ public:
+  Winding(const SpecimenOptions& specimen, double h) : rho_(bend_radius(specimen, h)) {
+    const double rise = specimen.wrap > M_PI ? kPitch * h / (2.0 * M_PI) : 0.0;  // a radian about the axis
+    a_radian_ = std::hypot(rho_, rise);
+    rise_ = rise;
+    // The tangent turns by rho/a_radian for each radian about the axis.
+    angle_ = specimen.wrap * a_radian_ / rho_;
+    tilt_ = Eigen::AngleAxisd(std::atan2(rise, rho_), Vec3::UnitX()).toRotationMatrix();
+  }
+
+  double length() const { return angle_ * a_radian_; }
+  Vec3 axis() const { return tilt_ * Vec3::UnitY(); }
+
+  /// At an arclength from its upper end backwards; straight on beyond both ends.
+  Vec3 at(double back) const {
+    const double on = std::clamp(back, 0.0, length());
+    const double angle = -on / a_radian_;
+    const Vec3 place(rho_ * std::cos(angle), rise_ * angle, rho_ * std::sin(angle));
+    return tilt_ * place - (back - on) * tangent(on);
+  }
+
+  /// Towards the upper end.
+  Vec3 tangent(double back) const {
+    const double angle = -back / a_radian_;
+    return tilt_ * Vec3(-rho_ * std::sin(angle), rise_, rho_ * std::cos(angle)) / a_radian_;
+  }
+
+ private:
+  double rho_, rise_ = 0.0;
+  double a_radian_ = 0.0;  // arclength of a radian about the axis [m]
+  double angle_ = 0.0;     // about the axis [rad]
+  Mat3 tilt_;
+};
+
+}  // namespace
+
+double tail_load(const SpecimenOptions& specimen, const Material& material) {
+  return specimen.tail_load.value_or(
+      std::min(specimen_scales(material).force, kTailStrain * material.stretching_stiffness));
+}
+
+SpecimenOptions CapstanSpecimen::defaults(double h) const {
+  SpecimenOptions out;
+  out.edge_length = kPaperEdge * (h / kPaperRadius);
+  out.post_diameter = kPost * h;
+  out.tail = out.end_to_end = kStrand * h;
+  return out;
+}
+
+void CapstanSpecimen::suit(const SpecimenOptions& known, double, double h, SpecimenOptions& out) const {
+  out.edge_length = std::min(kPaperEdge * (h / kPaperRadius), bend_radius(known, h) / kEdgesARadian);
+  out.tail = std::max(kStrand * h, pull(known, h) + kBeyondPull * h);
+}
+
+double CapstanSpecimen::pull(const SpecimenOptions& specimen, double h) const {
+  return kPull * bend_radius(specimen, h);
+}
+
+void CapstanSpecimen::check(const SpecimenOptions& specimen, double h) const {
+  const double longest = bend_radius(specimen, h) / kFewestARadian;
+  if (specimen.edge_length > longest)
+    throw InvalidInput("specimen.edge_length", text(specimen.edge_length),
+                       "at most " + text(longest) + " m, half the radius of the bend around the post");
+}
+
+Centreline CapstanSpecimen::centreline(const SpecimenOptions& specimen, const Material& material,
+                                       const Mounting&) const {
+  const Winding winding(specimen, material.radius);
+  const double length = specimen.tail + winding.length() + specimen.end_to_end;
+  const int edges = std::max(4, static_cast<int>(std::lround(length / specimen.edge_length)));
+  Centreline out;
+  out.points.resize(3, edges + 1);
+  for (int i = 0; i <= edges; ++i) out.points.col(i) = winding.at(length * (edges - i) / edges - specimen.end_to_end);
+  return out;
+}
+
+Supports CapstanSpecimen::supports(const SpecimenOptions& specimen, const Material& material) const {
+  const Winding winding(specimen, material.radius);
+  Supports out;
+  Roller post;
+  post.axis = winding.axis();
+  post.radius = 0.5 * specimen.post_diameter;
+  out.posts.push_back(post);
+  out.loads.push_back({0, -tail_load(specimen, material) * winding.tangent(winding.length())});
+  return out;
+}
+
+}  // namespace knot_utm
