@@ -17,6 +17,14 @@ constexpr int kEdges = 24;
 constexpr double kTurn = 2.0, kYield = 0.6;  // of the arc, end to end [rad]; share of it at yield
 constexpr double kHardening = 0.2;
 
+/// A circular arc of edges that turn by `angle` at every node.
+Points arc(double angle, double edge) {
+  Points x = Points::Zero(3, kEdges + 1);
+  for (int i = 1; i <= kEdges; ++i)
+    x.col(i) = x.col(i - 1) + edge * Vec3(std::cos((i - 1) * angle), std::sin((i - 1) * angle), 0.0);
+  return x;
+}
+
 struct Strip {
   Material material = braided_rope();
   RodProperties rod;
@@ -31,9 +39,7 @@ struct Strip {
     settings.bending = PlasticBending{kYield * kTurn / kEdges / material.radius, kHardening};
     state = straight_state(rod);
     state.natural_curvature.setZero(2, rod.nodes() - 2);
-    double angle = 0.0;
-    for (int i = 1; i <= kEdges; ++i, angle += kTurn / kEdges)
-      state.position.col(i) = state.position.col(i - 1) + material.radius * Vec3(std::cos(angle), std::sin(angle), 0.0);
+    state.position = arc(kTurn / kEdges, material.radius);
     initialise_frames(&state);
   }
 };
@@ -43,20 +49,28 @@ double turning_angle(const Points& x, int i) {
   return std::atan2(e.cross(f).norm(), e.dot(f));
 }
 
+/// It is unbent slowly: let go at once, its ends would swing back, and their inertia and drag bend the middle further.
 TEST(PlasticBending, AReleasedStripKeepsWhatItsMomentDoesNotHold) {
   const Strip strip;
   Balance balance(TimeStep::make(strip.rod, strip.state, strip.settings), strip.settings, 0.02);
-  Boundary held;
-  for (int i = 0; i <= kEdges; ++i) held.fixed_nodes.push_back({i, strip.state.position.col(i)});
-  balance.run(0.02, [&](double) -> const Boundary& { return held; });
-  const double bend = kTurn / kEdges, stiffness = strip.material.bending_stiffness / strip.material.radius;
-  const double dissipated = (kEdges - 1) * (1.0 - kHardening) * stiffness * kYield * bend * (1.0 - kYield) * bend;
+  const double h = strip.material.radius, bend = kTurn / kEdges, stiffness = strip.material.bending_stiffness / h;
   const double kept = bend * (1.0 - kHardening) * (1.0 - kYield);  // kappa - M/k_b
+  Boundary held;
+  const auto hold_at = [&](double angle) -> const Boundary& {
+    const Points x = arc(angle, h);
+    held.fixed_nodes.clear();
+    for (int i = 0; i <= kEdges; ++i) held.fixed_nodes.push_back({i, x.col(i)});
+    return held;
+  };
+  balance.run(0.02, [&](double) -> const Boundary& { return hold_at(bend); });
+  const double dissipated = (kEdges - 1) * (1.0 - kHardening) * stiffness * kYield * bend * (1.0 - kYield) * bend;
   EXPECT_NEAR(balance.sum().plastic, dissipated, 1e-9 * dissipated);
-  EXPECT_LT(std::abs(balance.gap()), balance.rounding());
+  balance.run(1.0, [&](double to) -> const Boundary& { return hold_at(bend + (kept - bend) * (to - 0.02)); });
+  EXPECT_NEAR(balance.sum().plastic, dissipated, 1e-9 * dissipated) << "unbending is elastic";
   const Boundary free;
-  balance.run(20.0, [&](double) -> const Boundary& { return free; });
-  for (int i = 1; i < kEdges; ++i) EXPECT_NEAR(turning_angle(balance.stepper().state().position, i), kept, 1e-5) << i;
+  balance.run(5.0, [&](double) -> const Boundary& { return free; });
+  for (int i = 1; i < kEdges; ++i)
+    EXPECT_NEAR(turning_angle(balance.stepper().state().position, i), kept, 1e-3 * kept) << i;
   EXPECT_LT(std::abs(balance.gap()), balance.rounding());
 }
 
