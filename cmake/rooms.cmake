@@ -34,7 +34,12 @@ foreach(line ${room_lines})
   # Under sanitizers headers that most files include are read once: a quarter less to compile. The plain build does
   # without, so that a file that includes too little does not pass unseen.
   if(KNOT_UTM_SANITIZE)
-    target_precompile_headers(knot_utm_${room} PRIVATE <Eigen/Core> <Eigen/Geometry> <functional> <string> <vector>)
+    list(GET core_rooms 0 first_room)
+    if(room STREQUAL first_room)
+      target_precompile_headers(knot_utm_${room} PRIVATE <Eigen/Core> <Eigen/Geometry> <functional> <string> <vector>)
+    else()
+      target_precompile_headers(knot_utm_${room} REUSE_FROM knot_utm_${first_room})
+    endif()
   elseif(KNOT_UTM_TESTS)
     set(linked)
     foreach(used ${room} ${room_uses_${room}})
