@@ -14,6 +14,7 @@
 #include "batch_table.hpp"
 #include "knot_utm/io/claimed_folder.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/study/specimens.hpp"
 
 namespace knot_utm {
@@ -105,6 +106,8 @@ class SideBySide {
   std::string fault_;
 };
 
+std::string statistics_file(const std::string& folder) { return (fs::path(folder) / "statistics.yaml").string(); }
+
 /// The journal of the batch's folder has no records: it holds the folder, and stands there until the batch has ended.
 ClaimedFolder folder_of_batch(const Method& method, const BatchOptions& options) {
   const std::string& asked = options.folder;
@@ -132,6 +135,9 @@ std::string specimen_folder(const std::string& folder, int number) {
 }
 
 BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
+  if (options.resume && fs::exists(statistics_file(options.folder)))
+    throw InvalidInput::sentence("--resume", options.folder,
+                                 "cannot resume " + shown(options.folder) + ": all of its specimens have been tested");
   const std::vector<DrawnSpecimen> specimens = draw_specimens(method);
   require_no_record_in(options.folder, method);
   ClaimedFolder claimed = folder_of_batch(method, options);
@@ -149,7 +155,7 @@ BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
   const BatchTable table(claimed.folder, specimens);
   out.rejected = table.rejected();
   write_whole((fs::path(claimed.folder) / "specimens.csv").string(), table.csv());
-  write_whole((fs::path(claimed.folder) / "statistics.yaml").string(), table.statistics());
+  write_whole(statistics_file(claimed.folder), table.statistics());  // the last: where it is, all is
   claimed.journal.remove();
   return out;
 }

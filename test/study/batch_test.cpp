@@ -92,6 +92,7 @@ TEST_F(Batch, InterruptedAndResumedItLeavesTheSameStatistics) {
   EXPECT_FALSE(run_batch(again, options).interrupted);
   EXPECT_EQ(written("statistics.yaml") + written("specimens.csv"), whole);
   EXPECT_EQ(fs::last_write_time(specimen_folder(options.folder, 1) + "/curve.csv"), first) << "was tested twice";
+  EXPECT_THROW(run_batch(again, options), InvalidInput) << "there is nothing to resume";
 }
 
 TEST_F(Batch, AnotherOneGoesToAFolderOfItsOwn) {
