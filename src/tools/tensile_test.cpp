@@ -48,6 +48,8 @@ struct Arguments {
   std::vector<std::string> overrides;
   std::string out;
   std::string resume;       // a folder; empty: a new test
+  std::string begin_with;   // the folder of a run that stopped; empty: from the start
+  std::string stop_before;  // a step of the program; empty: none
   int specimens = 0;        // 0: as many as the method says
   int jobs = 0;             // 0: as many as there are processors
   double checkpoint = 5.0;  // wall time between two [s]; 0: none
@@ -96,6 +98,16 @@ void tell_end(const HeadlessOutcome& outcome, const Method& method, bool quiet) 
                  what_keeps_a_knot(method).c_str());
 }
 
+std::optional<int> step_to_stop_before(const Arguments& arguments, const Method& method) {
+  if (arguments.stop_before.empty()) return std::nullopt;
+  const std::optional<int> step = step_called(method.program, arguments.stop_before);
+  if (step && *step > 0) return step;
+  throw InvalidInput::sentence("--stop-before", arguments.stop_before,
+                               "--stop-before " + shown(arguments.stop_before) +
+                                   ": give the number of a step of the program from 1 on (the first step is 0), or the "
+                                   "name of a step that stands there once");
+}
+
 HeadlessOutcome run_and_tell(const Arguments& arguments, const Method& method) {
   ProgressLine progress(arguments.quiet);
   HeadlessOptions options;
@@ -103,6 +115,8 @@ HeadlessOutcome run_and_tell(const Arguments& arguments, const Method& method) {
   options.resume = !arguments.resume.empty();
   options.overwrite = arguments.overwrite;
   options.checkpoint_period = arguments.checkpoint;
+  options.begin_with = arguments.begin_with;
+  options.stop_before = step_to_stop_before(arguments, method);
 #ifdef KNOT_UTM_HAS_ROS
   options.further = bag_in;
 #endif
@@ -170,12 +184,16 @@ int run(const Arguments& arguments) {
   if (method.specimens.count > 1) return run_all_specimens(arguments, method);
   if (!arguments.resume.empty()) require_resumable(arguments.resume);
   const HeadlessOutcome outcome = run_and_tell(arguments, method);
+  const bool stopped = !outcome.ended && !arguments.stop_before.empty() && stop_asked == 0;
   if (outcome.ended)
     tell_end(outcome, method, arguments.quiet);
-  else
+  else if (!stopped)
     tell_interruption(outcome);
+  else if (!arguments.quiet)
+    std::printf("the test stopped before %s, after %.1f s; others can begin with %s\n", arguments.stop_before.c_str(),
+                outcome.results.simulated_time, outcome.folder.c_str());
   if (arguments.report) tell_report(arguments, outcome.folder);
-  return outcome.ended && !outcome.failed ? kDone : kFailed;
+  return stopped || (outcome.ended && !outcome.failed) ? kDone : kFailed;
 }
 
 /// Reads the command line; an exit code where that is all there is to do.
@@ -200,6 +218,13 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   app.add_option("--jobs", arguments.jobs,
                  "how many specimens are tested side by side; unless given, one for each processor")
       ->check(CLI::PositiveNumber);
+  CLI::Option* begin_with = app.add_option(
+      "--begin-with", arguments.begin_with,
+      "the folder of a test of the same specimen, stopped by --stop-before: this test begins where that one stopped");
+  CLI::Option* stop_before =
+      app.add_option("--stop-before", arguments.stop_before,
+                     "a step of the program, before which the test stops; --resume or --begin-with goes on from there");
+  for (CLI::Option* one : {begin_with, stop_before}) one->excludes(specimens)->excludes(resume);
   resume->excludes(method)->excludes(set)->excludes(out)->excludes(overwrite)->excludes(specimens);
   app.add_option("--checkpoint", arguments.checkpoint,
                  "the time between two checkpoints, of the clock on the wall [s]; 0 for none")
