@@ -29,6 +29,8 @@ def read_specimens(folder):
     for name in ("specimen", *OUTCOME):
         if name not in columns:
             raise CannotReport(f"{file}: no column {name}")
+    if not columns["specimen"]:
+        raise CannotReport(f"{file}: no specimens")
     names = list(columns)
     drawn, readings = names[1:names.index(OUTCOME[0])], names[names.index(OUTCOME[-1]) + 1:]
     values = {name: numbers(file, name, columns[name]).tolist() for name in ("specimen", *drawn, *readings)}
