@@ -2,9 +2,10 @@
 """The report of a batch: every specimen, their mean curve with its band, the statistics, and the specimens that are rejected."""
 import os
 import re
+import subprocess
 import unittest
 
-from runs import FISHERMAN, STRAIGHT, Folders, command_of, keys_on, open_bytes, page_of, read, row_of, script, tool, write
+from runs import FISHERMAN, ROOT, STRAIGHT, Folders, command_of, keys_on, open_bytes, page_of, read, row_of, script, tool, write
 
 import matplotlib.text
 import numpy as np
@@ -305,6 +306,16 @@ class FiguresOfABatch(unittest.TestCase):
         batch_figures.draw(axes[0], [(s, s)] * 100, None, 1.0, 1.0)
         self.assertLessEqual(sum(len(line.get_xdata()) for line in axes[0].get_lines()), 1.1 * batch_figures.IN_ALL)
         batch_figures.as_svg(figure)
+
+
+class Efficiency(unittest.TestCase):
+    def test_is_the_ratio_of_the_means_of_both_batches(self):
+        done = subprocess.run([os.path.join(ROOT, "scripts/efficiency"), loops, rods, "--key", "locked_stiffness"],
+                              capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        said, means = yaml.safe_load(done.stdout), [statistics(folder)["locked_stiffness"]["mean"] for folder in (loops, rods)]
+        self.assertEqual((said["knotted"]["n"], said["straight"]["n"]), (3, 2))
+        self.assertAlmostEqual(said["ratio"]["of_means"], means[0] / means[1], places=3)
 
 
 class Failures(unittest.TestCase):

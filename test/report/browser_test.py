@@ -177,7 +177,7 @@ class OnPaper(unittest.TestCase):
 
     def test_a_batch(self):
         text = self.pages(batch)
-        for words in ("Batch of specimens, simulated", "Standard deviation", "95 % interval of the mean, high end",
+        for words in ("Means of the 2 specimens that count", "Kept by", "Standard deviation", "95 % interval of the mean, high end",
                       "specimens keep all limits", "What was drawn for each specimen", "normal, 10 %"):
             self.assertIn(words, text)
 
