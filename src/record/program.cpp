@@ -24,4 +24,11 @@ const char* phase_name(Phase phase) { return name_of(kPhaseNames, phase); }
 
 std::optional<Phase> phase_named(const std::string& name) { return choice_named(kPhaseNames, name); }
 
+std::vector<std::string> step_names() {
+  std::vector<std::string> names;
+  for (const auto& [phase, name] : kPhaseNames)
+    if (phase != Phase::kIdle && phase != Phase::kDone) names.emplace_back(name);
+  return names;
+}
+
 }  // namespace knot_utm
