@@ -321,6 +321,7 @@ KnotDescription FishermanKnot::description() {
   out.keys = {"handedness", "knot_distance", "end_to_end", "refinement", "tail", "preload"};
   out.knots = 2;
   out.loop = true;
+  out.drawn_coil = FishermanShape().looseness;
   out.error_study = ErrorStudy::kFisherman;
   return out;
 }

@@ -46,7 +46,8 @@ struct KnotDescription {
   /// Two strands bear the load, and rollers can hold it. It has two knots, each of which is tied into an end of the rod
   /// around the other strand: what is read between two knots is read of it.
   bool loop = false;
-  bool straight = false;  ///< it never bends, so that nothing of it settles, twists or touches
+  double drawn_coil = 0.0;  ///< of a loop: radius of its coils' centreline before they are tied [h]
+  bool straight = false;    ///< it never bends, so that nothing of it settles, twists or touches
   ErrorStudy error_study = ErrorStudy::kNone;
 };
 
