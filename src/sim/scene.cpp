@@ -36,7 +36,7 @@ void StepSettings::state(Archive& archive) {
   archive(normal, friction, roller_friction, friction_couple, weighting_time, gravity, drag, spin_inertia, residual,
           residual_from_step, residual_of_tension, residual_at_little_tension, newton_cap, motion_limit, overlap_limit,
           candidate_margin);
-  archive_law(archive, bending);
+  LawRegistry<BendingLaws>::archive(archive, "bending law", bending);
   archive.number("iterations", max_iterations, 1, kMostIterations);
   const bool finite = std::isfinite(normal.tolerance) && std::isfinite(candidate_margin) && normal.tolerance >= 0.0 &&
                       candidate_margin >= 0.0;

@@ -9,10 +9,10 @@ enum class BreakLimit { kForce, kStrain };  ///< breaking force, breaking strain
 
 /// How near a rod is to parting, and at which edge: at a share of 1 it parts there.
 ///
-/// Symbols: T tension [N], F_b breaking force [N], k_s stretching stiffness [N], h radius [m], kappa curvature at the
-/// edge's more bent end, the angle it turns by over lbar [1/m], eps_b breaking strain [-]. Of edge j
+/// Symbols: T tension [N], F_b breaking force [N], lambda stretch of the edge [-], h radius [m], kappa curvature at its
+/// more bent end, the angle it turns by over lbar [1/m], eps_b breaking strain [-]. Of edge j
 ///
-///   share_j = max(T_j/F_b, (T_j/k_s + h kappa_j)/eps_b),
+///   share_j = max(T_j/F_b, (lambda_j - 1 + h kappa_j)/eps_b),
 ///
 /// each where the material gives its limit: the rod's tension, and the strain of its outermost fibre, which a solid rod
 /// feels. In a rope fibres slip past each other as it bends; it is given a breaking force only.

@@ -11,6 +11,8 @@ namespace knot_utm {
 
 /// Number of a bending law in the registry (bending_laws.hpp).
 enum class BendingLaw : std::size_t {};
+/// Number of a stretching law in the registry (stretching_laws.hpp).
+enum class StretchingLaw : std::size_t {};
 
 /// What a rod of circular cross-section is made of. The three stiffnesses are independent: a braided rope
 /// bends 10^3 to 10^4 times softer than a solid rod of the same stretching stiffness.
@@ -23,6 +25,7 @@ struct Material {
   double twisting_stiffness = 0.0;        ///< k_t [N m^2]
   double friction_coefficient = 0.0;      ///< mu [-]
   std::optional<double> friction_couple;  ///< eta [-]; unset: default_friction_couple
+  StretchingLaw stretching_law{};
   BendingLaw bending_law{};
   double hardening = 0.1;                   ///< r of bending that yields (plastic_bending.hpp) [-]
   double bending_set = 0.0;                 ///< share of the bend in its tied knots that the rod keeps at rest [-]
