@@ -38,11 +38,11 @@ Exposure most_exposed(const RodProperties& rod, const RodState& state) {
     if (material.breaking_strain) {
       const double bend = curvature(rod, state.position, j + 1);
       const double strain = stretched.stretch - 1.0 + material.radius * std::max(bend, bend_before);
-      const double share = strain / *material.breaking_strain;
-      if (share > edge.share) edge = {share, static_cast<int>(j), BreakLimit::kStrain, strain};
+      const double fraction = strain / *material.breaking_strain;
+      if (fraction > edge.fraction) edge = {fraction, static_cast<int>(j), BreakLimit::kStrain, strain};
       bend_before = bend;
     }
-    if (edge.share > out.share) out = edge;
+    if (edge.fraction > out.fraction) out = edge;
   }
   return out;
 }

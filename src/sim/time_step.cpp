@@ -141,7 +141,7 @@ Eigen::VectorXd TimeStep::tension() const {
   return out;
 }
 
-void TimeStep::take_set(double share) { take_bending_set(share, &state_); }
+void TimeStep::take_set(double fraction) { take_bending_set(fraction, &state_); }
 
 void TimeStep::state(Archive& archive) { archive(state_); }
 
