@@ -217,7 +217,7 @@ EnergyParts energy_between(const Sample& from, const Sample& to) {
 
 namespace {
 
-constexpr double kBears = 0.5;  // share of the median force of a pull: what bears less is next to no load
+constexpr double kBears = 0.5;  // fraction of the median force of a pull: what bears less is next to no load
 
 /// One way through all samples, in order.
 class Course {

@@ -51,15 +51,17 @@ std::vector<double> of_knots(const Source& of) {
   return {values.begin(), values.end()};
 }
 
-Number share_of(const Number& reading, const Number& share) {
-  return reading && share ? Number(std::abs(*reading) * *share) : std::nullopt;
+Number fraction_of(const Number& reading, const Number& fraction) {
+  return reading && fraction ? Number(std::abs(*reading) * *fraction) : std::nullopt;
 }
 Number plateau_force_error(const Source& of) {
-  return share_of(of.results.true_plateau_force, of.errors.plateau_force);
+  return fraction_of(of.results.true_plateau_force, of.errors.plateau_force);
 }
-Number lock_extension_error(const Source& of) { return share_of(of.results.lock_extension, of.errors.lock_extension); }
+Number lock_extension_error(const Source& of) {
+  return fraction_of(of.results.lock_extension, of.errors.lock_extension);
+}
 Number locked_stiffness_error(const Source& of) {
-  return share_of(of.results.curve.locked_stiffness, of.errors.locked_stiffness);
+  return fraction_of(of.results.curve.locked_stiffness, of.errors.locked_stiffness);
 }
 
 /// Of the load cell, at a true force.

@@ -36,7 +36,7 @@ struct Relaxation {
   double from;  ///< F where the hold begins, which is positive [N]
   double to;    ///< and where it ends [N]
 
-  double lost() const { return (from - to) / from; }  ///< share of F [-]
+  double lost() const { return (from - to) / from; }  ///< fraction of F [-]
 };
 
 /// What a test says: every measured key of result.yaml. A value that the test does not have is empty.

@@ -38,18 +38,18 @@ struct SegmentParabola {
 constexpr double kIntegrationPoints[2] = {0.25, 0.75};
 
 /// Weights of a point of integration. The spline of a rod of edges l that is bent by kappa runs l^2 kappa/12 inside of
-/// the arc that has the rod's own length. The point is put back outwards by a share of x_{i-1} - 2 x_i + x_{i+1}: with
-/// the whole share, 1/12, a strand that is wound around something presses on it by just the force that its tension asks
-/// for, to fourth order in l, and stands at just its own distance.
+/// the arc that has the rod's own length. The point is put back outwards by a fraction of x_{i-1} - 2 x_i + x_{i+1}:
+/// with the whole fraction, 1/12, a strand that is wound around something presses on it by just the force that its
+/// tension asks for, to fourth order in l, and stands at just its own distance.
 struct PointWeights {
   double value[3];
 
-  PointWeights(double u, double share) : value{0.0, 0.0, 0.0} {
+  PointWeights(double u, double fraction) : value{0.0, 0.0, 0.0} {
     const SegmentWeights w(u);
-    for (int k = 0; k < 3; ++k) value[k] = w.value[k] - share * kSecondDifference[k];
+    for (int k = 0; k < 3; ++k) value[k] = w.value[k] - fraction * kSecondDifference[k];
   }
 
-  static constexpr double kWholeShare = 1.0 / 12.0;
+  static constexpr double kWhole = 1.0 / 12.0;
   static constexpr double kSecondDifference[3] = {1.0, -2.0, 1.0};
 };
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "knot_utm/contact/friction.hpp"
-#include "knot_utm/contact/normal_law.hpp"
+#include "knot_utm/contact/pressure_laws.hpp"
 #include "knot_utm/numeric/lanes.hpp"
 #include "knot_utm/rod/rod.hpp"
 
@@ -32,7 +32,7 @@ struct ContactPoint {
   Vec3 n = Vec3::Zero();      ///< x/d
   double d = 0.0;             ///< [m]
   double overlap = 0.0;       ///< D, more than 2h - d where the strand of b stands outwards of it [m]
-  double begins = 0.0;        ///< overlap at which the normal law begins [m]
+  double begins = 0.0;        ///< overlap at which the pressure law begins [m]
   double weighting = 1.0;     ///< omega, weighting factor of this side of the contact
   double weight = 0.0;        ///< w: rest length it stands for, times its weighting factor [m]
   double pressure = 0.0;      ///< p [N/m]
@@ -61,11 +61,11 @@ struct ContactPoint {
 struct ContactMotion {
   Vec3 slip = Vec3::Zero();     ///< of the material points a and b against each other, across and along n [m]
   Vec3 rolling = Vec3::Zero();  ///< what the sections' turn adds for points of their surfaces (surface_contact.hpp) [m]
-  double passed_on = 0.0;       ///< share of friction's couple about the gap that the sections take [-]
+  double passed_on = 0.0;       ///< fraction of friction's couple about the gap that the sections take [-]
   double overlap_before = 0.0;  ///< D of point a at the step's beginning [m]
 };
 
-/// The linear model of a contact that Newton's method solves with. Its pressure is the tangent of the normal law,
+/// The linear model of a contact that Newton's method solves with. Its pressure is the tangent of the pressure law,
 ///
 ///     p(D) ~ p(D^) + p'(D^) (D - D^),
 ///
@@ -112,7 +112,8 @@ Real predicted_pressure(const Real& prediction, const Real& of_tangent) {
 void evaluate_forces(const Friction& friction, double dt, std::vector<ContactPoint>& contacts);
 
 /// The same with the pressure from the overlap.
-void evaluate_forces(const NormalLaw& normal, const Friction& friction, double dt, std::vector<ContactPoint>& contacts);
+void evaluate_forces(const PressureLaws& normal, const Friction& friction, double dt,
+                     std::vector<ContactPoint>& contacts);
 
 /// What friction's law is told of a contact that has been evaluated.
 FrictionInput<Vec3> friction_input(const ContactPoint& contact, double dt);
@@ -121,9 +122,9 @@ FrictionMemory remember(const Friction& friction, const ContactPoint& contact, d
 
 /// The consistent linearisation of `evaluate_forces`, movement of the foot included; weight w is held constant.
 /// `models`: of the active contacts, in order; some more may follow that mean nothing.
-void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+void linearise(const PressureLaws& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                const std::vector<ContactPoint>& contacts, std::vector<ContactModel>& models);
-void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+void linearise(const PressureLaws& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                const std::vector<ContactPoint>& contacts, std::vector<RollerModel>& models);
 
 }  // namespace knot_utm

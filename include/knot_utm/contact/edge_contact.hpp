@@ -52,7 +52,7 @@ class EdgeContact {
  public:
   using Model = EdgeContactModel;
 
-  EdgeContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin);
+  EdgeContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction, double margin);
 
   /// As SmoothContact's.
   void act_at_surface(double couple, const SectionTurns& turns) {
@@ -61,15 +61,13 @@ class EdgeContact {
   }
   bool at_surface() const { return turns_ != nullptr; }
 
-  /// Rebuilds the candidates where something moved far enough; true if it did.
-  bool refresh(const Points& position);
   /// From now on the rod has parted at an edge.
   void part(int edge) { candidates_.part(edge); }
   /// Pairs of edges that may touch.
   const std::vector<std::pair<int, int>>& pairs() const { return pairs_; }
 
-  /// Before the first evaluation of a step: predictions of the pressures are those of the last accepted step.
-  void begin_step();
+  /// As SmoothContact's.
+  void begin(const Points& start);
 
   /// All contacts at `position` in a step of length dt from `start`.
   void evaluate(const Points& position, const Points& start, double dt);
@@ -79,14 +77,10 @@ class EdgeContact {
   const std::vector<SurfacePoint>& surfaces() const { return surfaces_; }
 
   /// The consistent linearisation of the active contacts, in order.
-  void linearise(double dt, std::vector<EdgeContactModel>& models) const;
-  /// Where friction acts at the surface: visit(number of the contact, its model) for each active one, in order.
-  template <typename Visit>
-  void linearise_surfaces(double dt, Visit visit) const {
-    const auto next = [&](std::size_t from, SurfaceModels& models) {
-      return knot_utm::linearise(normal_, friction_, dt, how_, contacts_, surfaces_, moving_, from, models);
-    };
-    visit_models(next, visit);
+  void linearise(const ContactLinearisation& how, double dt, std::vector<EdgeContactModel>& models) const;
+  /// Where friction acts at the surface, of the next few from number `from` on (linearise_surfaces).
+  std::size_t linearise(const ContactLinearisation& how, double dt, std::size_t from, SurfaceModels& models) const {
+    return knot_utm::linearise(normal_, friction_, dt, how, contacts_, surfaces_, moving_, from, models);
   }
 
   /// Of one of `contacts()`.
@@ -95,16 +89,16 @@ class EdgeContact {
   /// The evaluated state becomes the one that the next step remembers.
   void commit(const Points& position);
 
-  const EdgeLaw& normal() const { return normal_; }
-  /// From now on.
-  void linearise_by(const ContactLinearisation& how) { how_ = how; }
+  /// Of the pressure law, per length [N]
+  double energy(double overlap) const { return normal_.energy(overlap); }
 
   /// Of the last accepted step.
   void state(Archive& archive);
 
  private:
   template <typename Law>
-  void linearise_contact(const ContactPoint& contact, const Law& law, double dt, EdgeContactModel& model) const;
+  void linearise_contact(const ContactPoint& contact, const Law& law, const ContactLinearisation& how, double dt,
+                         EdgeContactModel& model) const;
 
   /// What a contact between edges knows beside its ContactPoint.
   struct Feet {
@@ -131,7 +125,6 @@ class EdgeContact {
 
   EdgeLaw normal_;
   Friction friction_;
-  ContactLinearisation how_;
   double dt_ = 0.0;  // of this step [s]
   double diameter_;
   double window_;            // of arclengths within which a contact is the same one [m]

@@ -11,7 +11,7 @@ struct EdgePair {
   Vec3 a0, a1, b0, b1;
 };
 
-/// Where two edges meet: shares of the way along each, 0 to 1.
+/// Where two edges meet: fractions of the way along each, 0 to 1.
 struct EdgeMeeting {
   double on_a = 0.0, on_b = 0.0;
 };

@@ -3,12 +3,13 @@
 #include <cmath>
 #include <limits>
 
+#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/lanes.hpp"
 
 namespace knot_utm {
 
-/// Normal contact between two strands of radius h, per length of rod: the line pressure p [N/m] as a function of
-/// the overlap D = 2h - d [m] of two centrelines at distance d,
+/// A pressure law (pressure_laws.hpp) of two strands of radius h: the line pressure p [N/m] as a function of the
+/// overlap D = 2h - d [m] of two centrelines at distance d,
 ///
 ///     p = K s (1 + (s/c)^4),      s = (D + delta/2)^2 / (2 delta)  for |D| < delta/2,   s = D beyond, 0 before,
 ///
@@ -17,6 +18,8 @@ namespace knot_utm {
 /// corner where strands just touch: it stands symmetrically about D = 0, so that a contact pressed by more than
 /// K delta/2 does not know of it.
 struct NormalLaw {
+  static constexpr const char* kName = "normal";
+
   double stiffness = 0.0;                                       ///< K [N/m^2]
   double tolerance = 0.0;                                       ///< delta [m]
   double stiffening = std::numeric_limits<double>::infinity();  ///< c [m]
@@ -25,6 +28,7 @@ struct NormalLaw {
 
   /// Overlap at which strands begin to feel each other, below zero [m].
   double begin() const { return -0.5 * tolerance; }
+  double stiffens_at() const { return stiffening; }
 
   /// `Real`: double, or Lanes for four contacts at once.
   template <typename Real>

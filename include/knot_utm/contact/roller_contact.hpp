@@ -56,7 +56,7 @@ class RollerContact {
 
   /// `farthest`: no node moves further in a step that is accepted [m]. What is further from all rollers when a step
   /// begins is not looked at in it.
-  RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double farthest);
+  RollerContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction, double farthest);
 
   /// As SmoothContact's.
   void act_at_surface(double couple, const SectionTurns& turns) {
@@ -74,11 +74,11 @@ class RollerContact {
     return number < turn_.size() ? turn_[number] : RollerTurn();
   }
 
-  /// Before the first evaluation of a step: predictions of the pressures are those of the last accepted step.
-  void begin_step();
+  /// Begins a step of length dt from `start`, at whose end the rollers stand as `rollers` says: those that are free
+  /// turn on as they did, and predictions of the pressures are those of the last accepted step.
+  void begin(const std::vector<Roller>& rollers, const Points& start, double dt);
 
-  /// All contacts at `position` in a step of length dt from `start`, in which the rollers move from where the last
-  /// commit left them to `rollers`.
+  /// All contacts at `position` in that step, in which the rollers move from where the last commit left them.
   void evaluate(const std::vector<Roller>& rollers, const Points& position, const Points& start, double dt);
   const std::vector<ContactPoint>& contacts() const { return contacts_; }
   std::vector<ContactPoint>& contacts() { return contacts_; }
@@ -86,17 +86,12 @@ class RollerContact {
   const std::vector<SurfacePoint>& surfaces() const { return surfaces_; }
 
   /// The consistent linearisation of the active contacts, in order; some more may follow that mean nothing.
-  void linearise(double dt, std::vector<RollerModel>& models) const {
-    knot_utm::linearise(normal_, friction_, dt, how_, contacts_, models);
+  void linearise(const ContactLinearisation& how, double dt, std::vector<RollerModel>& models) const {
+    knot_utm::linearise(normal_, friction_, dt, how, contacts_, models);
   }
-
-  /// Where friction acts at the surface: visit(number of the contact, its model) for each active one, in order.
-  template <typename Visit>
-  void linearise_surfaces(double dt, Visit visit) const {
-    const auto next = [&](std::size_t from, SurfaceModels& models) {
-      return knot_utm::linearise(normal_, friction_, dt, how_, contacts_, surfaces_, from, models);
-    };
-    visit_models(next, visit);
+  /// Where friction acts at the surface, of the next few from number `from` on (linearise_surfaces).
+  std::size_t linearise(const ContactLinearisation& how, double dt, std::size_t from, SurfaceModels& models) const {
+    return knot_utm::linearise(normal_, friction_, dt, how, contacts_, surfaces_, from, models);
   }
 
   /// From now on the rod has parted at an edge, and what reaches into it touches nothing.
@@ -113,9 +108,8 @@ class RollerContact {
 
   void commit(const std::vector<Roller>& rollers);
 
-  const NormalLaw& normal() const { return normal_; }
-  /// From now on.
-  void linearise_by(const ContactLinearisation& how) { how_ = how; }
+  /// e(D) of the pressure law [N]
+  double energy(double overlap) const { return energy_of(normal_, overlap); }
 
   /// Of the last accepted step.
   void state(Archive& archive);
@@ -137,13 +131,12 @@ class RollerContact {
   std::size_t index_of(const ContactPoint& contact) const;
   double lever_of(const ContactPoint& contact) const;
 
-  NormalLaw normal_;
+  PressureLaws normal_;
+  double begins_;  // overlap at which it does [m]
   Friction friction_;
-  ContactLinearisation how_;
   double dt_ = 0.0;  // of this step [s]
   double radius_;
   double farthest_;
-  bool first_evaluation_ = true;
   std::vector<Near> near_;  // of this step
   int parted_ = -2;         // edge; no segment reaches into this one
   Eigen::VectorXd voronoi_;

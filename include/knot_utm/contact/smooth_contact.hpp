@@ -32,10 +32,10 @@ class SmoothContact {
   using Model = ContactModel;
 
   /// `catch_up`: time within which omega, and how far feet stand outwards, follow the shape [s].
-  SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,
+  SmoothContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction, double margin,
                 double catch_up = 0.05);
 
-  /// Friction acts at the surfaces of the strands, whose sections pass on that share of its couple (SurfacePoint);
+  /// Friction acts at the surfaces of the strands, whose sections pass on that fraction of its couple (SurfacePoint);
   /// `turns` are those of the positions that are evaluated, and must outlive this. At first it acts on the centrelines.
   void act_at_surface(double couple, const SectionTurns& turns) {
     lever_ = 0.5 * couple;
@@ -43,13 +43,12 @@ class SmoothContact {
   }
   bool at_surface() const { return turns_ != nullptr; }
 
-  /// Rebuilds the candidates where something moved far enough; true if it did.
-  bool refresh(const Points& position) { return candidates_.refresh(position); }
   /// From now on the rod has parted at an edge.
   void part(int edge) { candidates_.part(edge); }
 
-  /// Before the first evaluation of a step: predictions of the pressures are those of the last accepted step.
-  void begin_step();
+  /// Begins a step from `start`: candidates are looked for anew where something has moved far enough, and predictions
+  /// of the pressures are those of the last accepted step.
+  void begin(const Points& start);
 
   /// All contacts at `position` in a step of length dt from `start`.
   void evaluate(const Points& position, const Points& start, double dt);
@@ -60,17 +59,12 @@ class SmoothContact {
   const std::vector<SurfacePoint>& surfaces() const { return surfaces_; }
 
   /// The consistent linearisation of the active contacts, in order; some more may follow that mean nothing.
-  void linearise(double dt, std::vector<ContactModel>& models) const {
-    knot_utm::linearise(normal_, friction_, dt, how_, contacts_, models);
+  void linearise(const ContactLinearisation& how, double dt, std::vector<ContactModel>& models) const {
+    knot_utm::linearise(normal_, friction_, dt, how, contacts_, models);
   }
-
-  /// Where friction acts at the surface: visit(number of the contact, its model) for each active one, in order.
-  template <typename Visit>
-  void linearise_surfaces(double dt, Visit visit) const {
-    const auto next = [&](std::size_t from, SurfaceModels& models) {
-      return knot_utm::linearise(normal_, friction_, dt, how_, contacts_, surfaces_, from, models);
-    };
-    visit_models(next, visit);
+  /// Where friction acts at the surface, of the next few from number `from` on (linearise_surfaces).
+  std::size_t linearise(const ContactLinearisation& how, double dt, std::size_t from, SurfaceModels& models) const {
+    return knot_utm::linearise(normal_, friction_, dt, how, contacts_, surfaces_, from, models);
   }
 
   /// Of one of `contacts()`; the overlap but for the third order of the way of its foot.
@@ -79,9 +73,8 @@ class SmoothContact {
   /// The evaluated state becomes the one that the next step remembers. `position` is what was last evaluated.
   void commit(const Points& position);
 
-  const NormalLaw& normal() const { return normal_; }
-  /// From now on.
-  void linearise_by(const ContactLinearisation& how) { how_ = how; }
+  /// e(D) of the pressure law [N]
+  double energy(double overlap) const { return energy_of(normal_, overlap); }
 
   /// Of the last accepted step.
   void state(Archive& archive);
@@ -145,16 +138,16 @@ class SmoothContact {
   double largest_weighting(const Memory& memory) const;
   double outwards(const FootSearch::Foot& foot, const Points& position) const;
 
-  NormalLaw normal_;
+  PressureLaws normal_;
+  double begins_;  // overlap at which it does [m]
   Friction friction_;
-  ContactLinearisation how_;
   double dt_ = 0.0;  // of this step [s]
   double diameter_;
   double window_;              // of arclength within which a foot is the same one [m]
   double reach_;               // of centrelines within which feet are followed [m]
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd voronoi_;
-  Eigen::VectorXd outwards_;  // share of the second difference by which a segment stands outwards; at first empty
+  Eigen::VectorXd outwards_;  // fraction of the second difference by which a segment stands outwards; at first empty
   Candidates candidates_;
   FootSearch search_;
   std::vector<Tracked> tracked_;

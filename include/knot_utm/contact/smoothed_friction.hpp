@@ -34,7 +34,7 @@ struct SmoothedFriction : FrictionLawDefaults {
   FrictionTraction<Vector> traction(const FrictionInput<Vector>& in) const {
     const Vector y = (1.0 / scale(in.dt)) * in.slip;
     const auto size = square_root(dot(y, y));
-    return {share(size) * y, constant<decltype(dot(y, y))>(coefficient)};
+    return {ratio(size) * y, constant<decltype(dot(y, y))>(coefficient)};
   }
 
   template <typename Vector>
@@ -42,7 +42,7 @@ struct SmoothedFriction : FrictionLawDefaults {
     using Real = typename FrictionInput<Vector>::Real;
     const double over_scale = 1.0 / scale(in.dt);
     const Vector y = over_scale * in.slip;
-    const Real size = square_root(dot(y, y)), across = share(size);
+    const Real size = square_root(dot(y, y)), across = ratio(size);
     Real along = Real{};  // d|z|/d|y| - |z|/|y|
     if (linearisation == Linearisation::kTangent) {
       const Real value = across * size;
@@ -62,7 +62,7 @@ struct SmoothedFriction : FrictionLawDefaults {
  private:
   /// |z|/|y|
   template <typename Real>
-  static Real share(const Real& size) {
+  static Real ratio(const Real& size) {
     return select(size > 1e-12, tanh(7.5 * size) / size, constant<Real>(7.5));
   }
 };

@@ -24,10 +24,10 @@ struct SectionTurns {
 ///     phi = c^ x V + Psi c^,    c^ = c'/|c'|^2,    Psi = sum_j sigma_j |e_j| psi_j,
 ///
 /// c' being the derivative of the centreline there, V how c' changed in this step, psi_j how far the two edges about it
-/// spun, and sigma_j their shares in c' = sum_j sigma_j e_j: a rod that turns as a whole turns its sections with it,
+/// spun, and sigma_j their weights in c' = sum_j sigma_j e_j: a rod that turns as a whole turns its sections with it,
 /// however it is bent. The strands' surfaces meet half way between the centrelines, at
-/// lambda x from either, lambda = 1/2, x the gap; a soft section (material.friction_couple = eta) passes on a share of
-/// the couple only, and its surface moves as if it stood at lambda = eta/2. On a roller of radius R, whose own turn
+/// lambda x from either, lambda = 1/2, x the gap; a soft section (material.friction_couple = eta) passes on a fraction
+/// of the couple only, and its surface moves as if it stood at lambda = eta/2. On a roller of radius R, whose own turn
 /// RollerContact adds, lambda = eta h/(R + h). Material points of the two surfaces slid against each other in this step
 /// by
 ///
@@ -115,7 +115,7 @@ struct SurfaceModels {
 /// The consistent linearisation of `evaluate_forces` and add_couples, as `linearise` of contact_point.hpp, of the next
 /// four active contacts from number `from` on, or as many as are left. `surfaces`: one for each of `contacts`. Returns
 /// where to go on.
-std::size_t linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+std::size_t linearise(const PressureLaws& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                       const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
                       std::size_t from, SurfaceModels& models);
 
@@ -124,11 +124,13 @@ std::size_t linearise(const EdgeLaw& normal, const Friction& friction, double dt
                       const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
                       const std::vector<EdgeFeet>& feet, std::size_t from, SurfaceModels& models);
 
-/// Calls visit(number of the contact, its SurfaceModel) for all that `next(from, models)` linearises.
-template <typename Next, typename Visit>
-void visit_models(Next next, Visit visit) {
+/// Of contacts with friction at the surface: calls visit(number of the contact, its SurfaceModel) for each active one,
+/// in order.
+template <typename Contacts, typename Visit>
+void linearise_surfaces(const Contacts& contacts, const ContactLinearisation& how, double dt, Visit visit) {
   SurfaceModels models;
-  for (std::size_t from = next(std::size_t{0}, models); models.count > 0; from = next(from, models))
+  for (std::size_t from = contacts.linearise(how, dt, 0, models); models.count > 0;
+       from = contacts.linearise(how, dt, from, models))
     for (int i = 0; i < models.count; ++i) visit(models.contact[i], models.model[i]);
 }
 

@@ -8,7 +8,7 @@
 
 namespace knot_utm {
 
-/// Two places of the rod that meet: edges a < b, and the share of the way along each, 0 to 1.
+/// Two places of the rod that meet: edges a < b, and the fraction of the way along each, 0 to 1.
 struct Tunnelling {
   int edge_a = 0, edge_b = 0;
   double on_a = 0.0, on_b = 0.0;

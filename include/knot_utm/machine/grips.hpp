@@ -31,7 +31,7 @@ class Grips {
   bool hold_frames() const { return held_frames_.size() > 1; }
 
   /// Rollers and posts, held nodes and held frames, holds and dead loads of the boundary.
-  /// While the loop is put on, by the share of this that is `left`, the rollers are pins that widen.
+  /// While the loop is put on, by the fraction of this that is `left`, the rollers are pins that widen.
   void set(double displacement, double left, Boundary& boundary) const;
 
   /// The loop, off the rollers until now, is put on them: they come nearer to each other as far as it asks for.

@@ -17,13 +17,13 @@ enum class RollerRotation { kFixed, kFree, kTurned };
 /// What the load cell makes of the force on the upper grip (load_cell.hpp).
 struct LoadCellOptions {
   std::string name;
-  double capacity = 50e3;                                     ///< [N]
-  double sampling_rate = 3.0;                                 ///< [Hz]
-  double accuracy = 0.0;                                      ///< bound on its systematic error [share of the reading]
-  double floor = 0.0;                                         ///< below it accuracy is not promised [of capacity]
-  double resolution = 0.0;                                    ///< [N]; 0: none
-  double noise = 0.0;                                         ///< standard deviation of a reading [N]; 0: none
-  double drift = 0.0;                                         ///< of its zero since balance [N/s]
+  double capacity = 50e3;      ///< [N]
+  double sampling_rate = 3.0;  ///< [Hz]
+  double accuracy = 0.0;       ///< bound on its systematic error [fraction of the reading]
+  double floor = 0.0;          ///< below it accuracy is not promised [of capacity]
+  double resolution = 0.0;     ///< [N]; 0: none
+  double noise = 0.0;          ///< standard deviation of a reading [N]; 0: none
+  double drift = 0.0;          ///< of its zero since balance [N/s]
   double overload = std::numeric_limits<double>::infinity();  ///< where its stop takes over [of capacity]
   unsigned seed = 1;                                          ///< of the systematic error and the noise
   std::string notes;

@@ -79,7 +79,7 @@ class ProgramRunner {
 
   Phase phase() const;       ///< of the last command; done once the test has ended
   double period() const;     ///< of commands [s]
-  double progress() const;   ///< 0..1, share of the programmed time that has passed, estimated
+  double progress() const;   ///< 0..1, fraction of the programmed time that has passed, estimated
   double time_left() const;  ///< programmed time that is left [s], estimated
 
   void state(Archive& archive);

@@ -13,8 +13,8 @@ namespace knot_utm {
 StepSettings step_settings(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                            const PhysicsOptions& physics);
 
-/// eta, the share of friction's couple that the rod's sections take: the material's, or 0 where a method puts friction
-/// on the centreline [-].
+/// eta, the fraction of friction's couple that the rod's sections take: the material's, or 0 where a method puts
+/// friction on the centreline [-].
 double friction_couple(const Material& material, const PhysicsOptions& physics);
 
 /// Whether friction turns the rod about itself, so that a scene must solve for twist.

@@ -24,16 +24,16 @@ class TakeUp {
   void follow(double load, double displacement, double knot_distance);
 
   /// Of the crosshead, outwards, in the step's own speed.
-  double velocity() const { return done_ ? 0.0 : sense_ * share_; }
+  double velocity() const { return done_ ? 0.0 : sense_ * fraction_; }
   bool done() const { return done_; }
 
   void state(Archive& archive);
 
  private:
   double taut_ = 0.0, radius_ = 0.0;
-  double sense_ = 1.0;   ///< of the way: outwards 1, back -1
-  double share_ = 1.0;   ///< of the speed
-  double finest_ = 1.0;  ///< largest share from now on
+  double sense_ = 1.0;     ///< of the way: outwards 1, back -1
+  double fraction_ = 1.0;  ///< of the speed
+  double finest_ = 1.0;    ///< largest fraction from now on
   double begin_ = 0.0, knot_distance_ = 0.0;
   bool moved_ = false;  ///< since it began
   bool done_ = false;

@@ -74,8 +74,8 @@ StencilGradient bending_gradient(const BendingInput& input, const Vec3& e, const
 StencilLocal bending(const BendingInput& input, const Vec3& e, const Vec3& f, const Directors& on_e,
                      const Directors& on_f);
 
-/// Bends take a set: the state's natural curvatures become `share` of its present material curvatures. Only of a state
-/// that has natural curvatures, be they zero; else it throws InvalidInput.
-void take_bending_set(double share, RodState* state);
+/// Bends take a set: the state's natural curvatures become `fraction` of its present material curvatures. Only of a
+/// state that has natural curvatures, be they zero; else it throws InvalidInput.
+void take_bending_set(double fraction, RodState* state);
 
 }  // namespace knot_utm

@@ -11,6 +11,8 @@ namespace knot_utm {
 
 /// Number of a bending law in the registry (bending_laws.hpp).
 enum class BendingLaw : std::size_t {};
+/// Number of a stretching law in the registry (stretching_laws.hpp).
+enum class StretchingLaw : std::size_t {};
 
 /// What a rod of circular cross-section is made of. The three stiffnesses are independent: a braided rope
 /// bends 10^3 to 10^4 times softer than a solid rod of the same stretching stiffness.
@@ -23,9 +25,10 @@ struct Material {
   double twisting_stiffness = 0.0;        ///< k_t [N m^2]
   double friction_coefficient = 0.0;      ///< mu [-]
   std::optional<double> friction_couple;  ///< eta [-]; unset: default_friction_couple
+  StretchingLaw stretching_law{};
   BendingLaw bending_law{};
   double hardening = 0.1;                   ///< r of bending that yields (plastic_bending.hpp) [-]
-  double bending_set = 0.0;                 ///< share of the bend in its tied knots that the rod keeps at rest [-]
+  double bending_set = 0.0;                 ///< fraction of the bend in its tied knots that the rod keeps at rest [-]
   std::optional<double> contact_stiffness;  ///< K [N/m^2], that of the normal law; unset: default_contact_stiffness
   std::optional<double> tying_preload;      ///< F_p [N]; unset: default_preload
   std::optional<double> breaking_force;     ///< F_b, tension at which it parts [N]; unset: it does not
@@ -60,9 +63,9 @@ inline bool is_solid(const Material& material) {
   return material.stretching_stiffness * h * h < kStiffest * material.bending_stiffness;
 }
 
-/// Share of friction's couple that the section passes on where `friction_couple: auto` stands: none. A bundle of fibres
-/// that slide past one another carries the couple as a shift of its line of tension; a solid rod takes all of it, but
-/// its knots then roll open, which those of the source paper did not (doc/model.md says more).
+/// Fraction of friction's couple that the section passes on where `friction_couple: auto` stands: none. A bundle of
+/// fibres that slide past one another carries the couple as a shift of its line of tension; a solid rod takes all of
+/// it, but its knots then roll open, which those of the source paper did not (doc/model.md says more).
 inline double default_friction_couple(const Material& material) { return material.friction_couple.value_or(0.0); }
 
 }  // namespace knot_utm

@@ -7,7 +7,7 @@
 namespace knot_utm {
 
 /// Elastic and plastic with linear hardening: two springs side by side, of which the stronger one yields. One carries
-/// the share r of the bending stiffness and stays elastic, the other one carries 1 - r up to its yield moment and no
+/// the fraction r of the bending stiffness and stays elastic, the other one carries 1 - r up to its yield moment and no
 /// further, in whatever direction the rod bends. With the latter's elastic bend xi = kappa - kappabar_n, its direction
 /// n = xi/|xi|, k = k_b/lbar, and the bend at yield y = kappa_y lbar,
 ///

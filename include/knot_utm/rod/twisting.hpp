@@ -2,12 +2,13 @@
 
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/stencil.hpp"
+#include "knot_utm/rod/twisting_law.hpp"
 
 namespace knot_utm {
 
-/// Twisting at one inner node.
+/// Twisting at one inner node by a law E(m - mbar) (twisting_law.hpp).
 ///
-///   E = k_t/(2 lbar) (m - mbar)^2,   m = theta_f - theta_e + m_ref
+///   m = theta_f - theta_e + m_ref
 ///
 ///   theta_e, theta_f  angle of the material against the reference frame on the two edges  [rad]
 ///   m_ref             reference twist (frames.hpp)        [rad]

@@ -7,8 +7,8 @@
 
 namespace knot_utm {
 
-/// Stretching (stretching.hpp) of every edge and isotropic bending (isotropic_bending.hpp) of every inner node: forces
-/// and stiffness of a whole centreline, which share its tangents.
+/// Stretching (stretching.hpp) of every edge by the rod's law and isotropic bending (isotropic_bending.hpp) of every
+/// inner node: forces and stiffness of a whole centreline, which share its tangents.
 class CentrelineTerms {
  public:
   /// Without `bends`, stretching only: bending about a curved rest shape needs frames. `rod` must outlive this.
@@ -36,12 +36,12 @@ class CentrelineTerms {
     return j > 0 ? std::max(std::abs(tension_[j - 1]), ahead) : ahead;
   }
 
-  /// Both energies at that position, and how they would change along `way` [m] by their gradient there.
+  /// Both energies at that position, and how they would change with an `increment` [m] by their gradient there.
   struct Energy {
     double stretching = 0.0, bending = 0.0;  ///< [J]
-    double along = 0.0;                      ///< dE/dx . way [J]
+    double along = 0.0;                      ///< dE/dx . increment [J]
   };
-  Energy energy(const Points& way) const;
+  Energy energy(const Points& increment) const;
 
   /// Writes blocks (i, i) to (i, i+2) and their mirrors: the Hessian of both energies, and `diagonal` [N/m] of each
   /// node on the diagonal of its three positions. What stood there before is gone.
@@ -59,7 +59,13 @@ class CentrelineTerms {
     Lanes ee[3], ef[3], fe[3], ff[3];
   };
   NodeHessian bending_hessian(std::size_t node) const;
+  template <typename Law>
+  void add_stretching_forces(const Law& law, const Points& position, std::vector<Lanes>& force);
   void add_bending_forces(std::vector<Lanes>& force);
+  /// As it was evaluated last.
+  StretchedEdge stretched(std::size_t edge) const {
+    return {stretching_stiffness_[edge], rod_.rest_length[static_cast<Eigen::Index>(edge)], stretch_[edge]};
+  }
 
   const RodProperties& rod_;
   bool bends_;
@@ -67,8 +73,10 @@ class CentrelineTerms {
   std::vector<double> stretching_stiffness_;  // k_s of every edge [N]; 0: parted
   std::vector<double> bending_stiffness_;     // k_b/lbar of every node [N m]; 0: at a parted edge
   // As isotropic_bending.hpp names them.
-  std::vector<Lanes> tangent_;                    // t of every edge
-  std::vector<double> inverse_length_, tension_;  // 1/|e| [1/m], T [N]
+  std::vector<Lanes> tangent_;           // t of every edge
+  std::vector<double> inverse_length_;   // 1/|e| [1/m]
+  std::vector<double> stretch_;          // lambda
+  std::vector<double> tension_, slope_;  // T, dT/dlambda [N]
   bool predicts_ = false;
   std::vector<double> predicted_tension_;  // [N]
   // c of every node, 1 of the ends; W' and W'' over k_b/lbar, four nodes side by side.

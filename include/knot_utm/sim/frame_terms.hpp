@@ -24,9 +24,10 @@ namespace knot_utm {
 ///   I_j      rho pi h^4/2 l_j, polar moment of inertia      [kg m^2]
 ///   c        viscous drag per length, as for the positions: it acts on the rod's surface, whose speed is h omega and
 ///            whose lever is h [N s/m^2]
-///   r_j      0, or where spin has neither inertia nor drag a regularisation, a small share of k_t/l_j, so that a rod
+///   r_j      0, or where spin has neither inertia nor drag a regularisation, a small fraction of k_t/l_j, so that a
+///   rod
 ///            that is free to turn stays where it is [N m]
-///   E        k_t/(2 lbar) (m - mbar)^2 at every inner node (twisting.hpp) and, where the rod has a natural curvature,
+///   E        of twist at every inner node (twisting.hpp) and, where the rod has a natural curvature,
 ///            bending.hpp [J]; a rod that is straight at rest bends as without frames (isotropic_bending.hpp)
 ///   T_j      torque of the holder of a held frame about the tangent [N m]
 ///
@@ -73,7 +74,7 @@ class FrameTerms {
 
   /// Begins a step of length dt [s] from `start`, a state with frames, which must stay unchanged until it ends. Held
   /// angles stand where they must, all others turn on as they did.
-  void begin_step(const RodState& start, const std::vector<FixedTwist>& held, double dt);
+  void begin(const RodState& start, const std::vector<FixedTwist>& held, double dt);
 
   /// Adds forces [N] (lanes 0 to 2 of every node) and torques [N m] (lane 3: of the edge behind the node) at trial
   /// positions. The stiffness that is read later belongs to them.
@@ -96,15 +97,15 @@ class FrameTerms {
   /// The angle is prescribed; so is that of the last node, which has no edge behind it.
   bool held(int edge) const { return held_[static_cast<std::size_t>(edge)] != 0; }
 
-  /// A share of at most 1 of the change (dx, ds) that no angle takes further than it may go in one iteration.
+  /// A factor of at most 1 for the change (dx, ds) that no angle takes further than it may go in one iteration.
   double largest_factor(const std::vector<Lanes>& change) const;
-  void move(const std::vector<Lanes>& change, double share);
+  void move(const std::vector<Lanes>& change, double factor);
 
-  /// Of the trial evaluated last, `way` [m] being that of its nodes since the step's beginning.
+  /// Of the trial evaluated last, `increment` [m] being how far its nodes have moved in the step.
   struct Energy {
     double twisting = 0.0, bending = 0.0;  ///< bending where the rod has a natural curvature [J]
     double plastic = 0.0;                  ///< dissipated by bending [J]
-    double along = 0.0;                    ///< dE/d(x, s) . (way, turn) [J]
+    double along = 0.0;                    ///< dE/d(x, s) . (increment, turn) [J]
     double residual = 0.0;                 ///< torques on free edges times their turn [J]
     double drag = 0.0;                     ///< c h^2 l_j omega_j^2 dt [J]
     double rest = 0.0;                     ///< r_j turn^2 [J]
@@ -112,7 +113,7 @@ class FrameTerms {
     double kinetic = 0.0;                  ///< [J]
     Vec3 moment = Vec3::Zero();            ///< of inertia, drag and r_j, about the edges' tangents [N m]
   };
-  Energy energy(const Points& way, const std::vector<Lanes>& force) const;
+  Energy energy(const Points& increment, const std::vector<Lanes>& force) const;
   /// Of spinning at these rates [rad/s]; [J].
   double kinetic_energy(const Eigen::VectorXd& rate) const { return 0.5 * inertia_.dot(rate.cwiseAbs2()); }
 
@@ -121,11 +122,11 @@ class FrameTerms {
 
  private:
   /// What twisting at one inner node adds, by edge vectors e and f before and behind it: columns of d2E/(de df), with
-  /// fe = ef^T, and m_e, m_f times k_t/lbar.
+  /// fe = ef^T, and m_e, m_f times d2E/dm2.
   struct TwistStiffness {
     Lanes ee[3], ef[3], fe[3], ff[3];
     Lanes by_e, by_f;
-    double stiffness;  // k_t/lbar [N m]
+    double stiffness;  // d2E/dm2 [N m]
   };
   TwistStiffness twist_stiffness(std::size_t node) const;
   template <typename Law>
@@ -161,20 +162,22 @@ class FrameTerms {
   double dt_ = 0.0;
   std::vector<char> held_;  // N
   // Of edges and nodes; what is worked out for four at once has room for three more behind the last.
-  std::vector<Lanes> start_tangent_;     // t^n
-  std::vector<Lanes> edge_, tangent_;    // e_j, t_j of the trial positions
-  std::vector<double> inverse_length_;   // 1/|e_j|
-  std::vector<Lanes> lean_;              // lean_j
-  SectionTurns turns_;                   // in this step
-  std::vector<double> stiffness_;        // k_t/lbar of every node, 0 at a parted edge [N m]
-  std::vector<Lanes> binormal_;          // b of every node, as twisting.hpp has it
-  std::vector<double> over_chi_;         // 1/chi
-  std::vector<double> moment_;           // k_t/lbar (m - mbar) [N m]
-  Points director_;                      // d1_j; of a rod that is straight at rest once a step
-  std::vector<double> angle_;            // theta_j
-  std::vector<double> start_twist_;      // m_ref - mbar of every node as the step began
-  std::vector<double> reference_twist_;  // m_ref of every node
-  std::vector<double> torque_;           // dE/dtheta_j [N m]
+  std::vector<Lanes> start_tangent_;       // t^n
+  std::vector<Lanes> edge_, tangent_;      // e_j, t_j of the trial positions
+  std::vector<double> inverse_length_;     // 1/|e_j|
+  std::vector<Lanes> lean_;                // lean_j
+  SectionTurns turns_;                     // in this step
+  std::vector<double> stiffness_;          // k_t/lbar of every node, 0 at a parted edge [N m]
+  std::vector<Lanes> binormal_;            // b of every node, as twisting.hpp has it
+  std::vector<double> over_chi_;           // 1/chi
+  std::vector<double> twist_;              // m - mbar of every node
+  std::vector<double> moment_;             // dE/dm [N m]
+  std::vector<double> tangent_stiffness_;  // d2E/dm2 [N m]
+  Points director_;                        // d1_j; of a rod that is straight at rest once a step
+  std::vector<double> angle_;              // theta_j
+  std::vector<double> start_twist_;        // m_ref - mbar of every node as the step began
+  std::vector<double> reference_twist_;    // m_ref of every node
+  std::vector<double> torque_;             // dE/dtheta_j [N m]
 };
 
 }  // namespace knot_utm

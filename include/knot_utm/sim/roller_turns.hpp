@@ -43,8 +43,8 @@ class RollerTurns {
 
   /// What the largest turn of the last solution moves a roller's surface by [m].
   double largest_motion() const;
-  /// Takes that share of the turns.
-  void move(RollerContact& contact, double share) const;
+  /// Takes so many times the turns.
+  void move(RollerContact& contact, double factor) const;
 
   /// Of one free roller.
   struct Border {

@@ -81,20 +81,20 @@ struct Boundary {
 /// What a time step needs to know besides rod and boundary; constant during a run.
 struct StepSettings {
   ContactLaw contact_law = ContactLaw::kSmooth;  ///< between strands; rollers always touch the smooth centreline
-  NormalLaw normal;                              ///< between strands, and on rollers
+  PressureLaws normal;                           ///< between strands, and on rollers
   Friction friction;                             ///< between strands
   Friction roller_friction;
   BendingLaws bending;  ///< of a rod that remembers its bends; all others bend elastically (isotropic_bending.hpp)
   double friction_couple =
       0.0;  ///< eta, with which friction acts at the surfaces (surface_contact.hpp); 0: on centrelines
-  double weighting_time = 0.05;             ///< time for a contact's share to follow the shape (smooth_contact.hpp) [s]
-  Vec3 gravity = Vec3::Zero();              ///< g [m/s^2]
-  double drag = 0.0;                        ///< c, force -c v per length [N s/m^2]
-  bool spin_inertia = true;                 ///< turning of the rod about itself has inertia and drag (frame_terms.hpp)
-  double residual = 0.0;                    ///< tolerance of a node's residual [N]
-  double residual_from_step = 0.0;          ///< in shorter steps it shrinks with their square, to a thousandth [s]
-  double residual_of_tension = 0.0;         ///< tolerance scaling: more by this share of the node's tension [-]
-  double residual_at_little_tension = 0.0;  ///< it shrinks to this share of the largest tension; 0: no [-]
+  double weighting_time = 0.05;      ///< time for a weighting factor to follow the shape (smooth_contact.hpp) [s]
+  Vec3 gravity = Vec3::Zero();       ///< g [m/s^2]
+  double drag = 0.0;                 ///< c, force -c v per length [N s/m^2]
+  bool spin_inertia = true;          ///< turning of the rod about itself has inertia and drag (frame_terms.hpp)
+  double residual = 0.0;             ///< tolerance of a node's residual [N]
+  double residual_from_step = 0.0;   ///< in shorter steps it shrinks with their square, to a thousandth [s]
+  double residual_of_tension = 0.0;  ///< tolerance scaling: more by this fraction of the node's tension [-]
+  double residual_at_little_tension = 0.0;  ///< it shrinks to this fraction of the largest tension; 0: no [-]
   double newton_cap = 0.0;                  ///< longest movement of a node in one Newton iteration [m]
   double motion_limit = 0.0;                ///< longest movement of a node in one step [m]
   double overlap_limit = 0.0;               ///< deepest overlap of a step that may be accepted [m]

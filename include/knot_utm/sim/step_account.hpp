@@ -89,7 +89,7 @@ struct LoadSum {
   void state(Archive& archive) { archive(force, moment); }
 };
 
-/// What the terms of a step enter their shares of an accepted step into.
+/// What the terms of a step enter their parts of an accepted step into.
 struct StepAccount {
   Energies energies;
   Energies before;  ///< those of the step before

@@ -34,8 +34,8 @@ class StepMatrix {
 
   explicit StepMatrix(int nodes) : nodes_(nodes) { build(); }
 
-  /// Before a step: the pattern is that of the last accepted one.
-  void begin_step();
+  /// Begins a step: the pattern is that of the last accepted one.
+  void begin();
   /// The step was accepted.
   void commit() { rebuilt_ = false; }
 
@@ -106,7 +106,7 @@ class StepMatrix {
   enum class Feet { kNone, kOne, kTwo };
 
   /// What lengthens an edge lengthens the lever of its spin.
-  void add_lengthening(int first, const double* shares, double torque, const SectionTurns& turns);
+  void add_lengthening(int first, const double* weights, double torque, const SectionTurns& turns);
   template <Feet kFeet>
   void add_columns(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
                    const SectionTurns& turns, std::size_t n);

@@ -72,7 +72,7 @@ class TimeStep {
 
   /// Bends take a set between two steps, as take_bending_set (rod/bending.hpp) says. What bending energy that takes is
   /// lost in the next one as `StepWork::numerical`.
-  void take_set(double share);
+  void take_set(double fraction);
 
   const RodProperties& rod() const { return rod_; }
   const RodState& state() const { return state_; }

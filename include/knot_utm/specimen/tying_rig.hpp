@@ -87,7 +87,7 @@ class TyingRig {
   /// Empty, or why the knots cannot be tied.
   const std::string& not_tied() const { return not_tied_; }
 
-  /// Share of the time of putting the loop on that is left.
+  /// Fraction of the time of putting the loop on that is left.
   double left_to_put_on(double time) const;
 
   /// Nodes between the tails, once the loop is put on.
