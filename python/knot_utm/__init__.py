@@ -1,0 +1,6 @@
+"""knot_utm from Python: one test (run), what a test left (read), many tests (sweep). doc/studies.md has examples."""
+from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.runs import Run, read, run
+from knot_utm.sweeping import sweep
+
+__all__ = ["Interrupted", "Run", "WrongInput", "read", "run", "sweep"]

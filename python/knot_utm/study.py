@@ -1,0 +1,86 @@
+"""A study: a method, the keys of it that are varied, and how (doc/studies.md)."""
+import os
+from dataclasses import dataclass
+
+from knot_utm import design, tool
+from knot_utm.errors import WrongInput
+from knot_utm.yaml_text import load, text_of
+
+KEYS = ("method", "vary", "design", "runs", "repeat", "seed")
+SEED = "machine.load_cell.seed"  # what tells repeats apart
+DESIGNS = ("grid", "list", "sobol")
+
+
+@dataclass(frozen=True)
+class Study:
+    """One whole study: every run is the method with other values of the keys."""
+
+    file: str
+    method: str    # path of the method's file
+    points: list   # [{key: value}], one a run
+
+    @property
+    def name(self):
+        return os.path.splitext(os.path.basename(self.file))[0]
+
+    @property
+    def keys(self):
+        return list(self.points[0])
+
+
+def load_study(file):
+    """Reads a study's file. Raises WrongInput, which names file, key and value."""
+    given = load(file)
+    try:
+        return _study(file, given)
+    except WrongInput as wrong:
+        raise WrongInput(f"{file}: {wrong}") from wrong
+
+
+def _study(file, given):
+    if not isinstance(given, dict):
+        raise WrongInput("a study is a map with the keys " + ", ".join(KEYS))
+    for key in given:
+        if key not in KEYS:
+            raise WrongInput(f"{key} is no key of a study; its keys are " + ", ".join(KEYS))
+    method = tool.find_method(_method(given), os.path.dirname(os.path.abspath(file)))
+    vary = given.get("vary")
+    if not isinstance(vary, dict) or not vary:
+        raise WrongInput(f"vary is {text_of(vary)}, but must be a map of at least one key of the method and its values")
+    kind = given.get("design", "grid")
+    if kind not in DESIGNS:
+        raise WrongInput(f"design is {text_of(kind)}, but must be " + ", ".join(DESIGNS))
+    runs, seed = _integer(given, "runs", 1, design.MOST_RUNS), _integer(given, "seed", 0, 2**32 - 1)
+    for name, value in (("runs", runs), ("seed", seed)):
+        if kind == "grid" and value is not None:
+            raise WrongInput(f"{name} is {value}, but has no effect in a grid")
+    kinds = {key: design.varied(key, values) for key, values in vary.items()}
+    points = design.points(kinds, kind, runs, 1 if seed is None else seed)
+    return Study(file, method, _repeated(points, _integer(given, "repeat", 1, 10_000) or 1))
+
+
+def _method(given):
+    method = given.get("method")
+    if not isinstance(method, str) or not method:
+        raise WrongInput("method is missing: give a file, from the folder of the study, or the name of a shipped method"
+                         if method is None else f"method is {text_of(method)}, but must be a file or a name")
+    return method
+
+
+def _integer(given, key, low, high):
+    value = given.get(key)
+    if value is None and key not in given:
+        return None
+    if not isinstance(value, int) or isinstance(value, bool) or not low <= value <= high:
+        raise WrongInput(f"{key} is {text_of(value)}, but must be an integer from {low} to {high}")
+    return value
+
+
+def _repeated(points, times):
+    if times == 1:
+        return points
+    if SEED in points[0]:
+        raise WrongInput(f"repeat is {times}, but vary has the key {SEED}, by which repeats differ")
+    if len(points) * times > design.MOST_RUNS:
+        raise WrongInput(f"repeat is {times}: these are {len(points) * times} runs, of at most {design.MOST_RUNS}")
+    return [{**point, SEED: seed} for point in points for seed in range(1, times + 1)]

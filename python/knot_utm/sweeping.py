@@ -1,0 +1,175 @@
+"""A study, run by run, on all cores."""
+import contextlib
+import errno
+import os
+import signal
+import subprocess
+import threading
+from concurrent.futures import ThreadPoolExecutor, as_completed
+
+from tqdm import tqdm
+
+from knot_utm import tool
+from knot_utm.address import Addresses
+from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.study import load_study
+from knot_utm.sweep_folder import SweepFolder
+from knot_utm.table import Table
+from knot_utm.yaml_text import load, text_of
+
+DISK_IS_FULL = [os.strerror(code).lower() for code in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)]
+
+
+def sweep(study, out=None, jobs=None):
+    """Runs a study's file and returns its table, a pandas.DataFrame with its units in `.attrs["units"]`.
+
+    `out`: the folder, unless given out/ and the study's name; runs that are there are not run again. `jobs`: runs at a
+    time, unless given as many as there are cores. Raises WrongInput where the study or one of its runs would be refused,
+    before anything is written; Interrupted where it was cut short: the same call goes on."""
+    study = load_study(os.fspath(study))
+    jobs = jobs or len(os.sched_getaffinity(0))
+    addresses = Addresses(study.method)
+    runs = [addresses.of(point) for point in study.points]
+    folder = SweepFolder(os.path.abspath(out or os.path.join("out", study.name)))
+    with _Work(study, folder) as work:
+        open_runs = {run: point for run, point in zip(runs, study.points) if folder.record(run) is None}
+        work.check(open_runs, jobs)
+        folder.claim()
+        try:
+            work.run({run: point for run, point in open_runs.items() if folder.record(run) is None}, jobs)
+            table = work.table(runs)
+            with work.stopping():
+                table.write(folder.path)
+        finally:
+            folder.release()
+        work.require_all()
+    return table.frame()
+
+
+class _Work:
+    """What is done for a study, until it is done or stopped."""
+
+    def __init__(self, study, folder):
+        self.study, self.folder = study, folder
+        self.stopped = None  # why
+        self.left_none = {}  # run -> how it ended, of those that left no result
+        self._live = set()
+        self._handlers = {}
+
+    def __enter__(self):
+        if threading.current_thread() is threading.main_thread():
+            for code in (signal.SIGINT, signal.SIGTERM):
+                self._handlers[code] = signal.signal(code, lambda *_: self.stop("it was interrupted"))
+        return self
+
+    def __exit__(self, *_):
+        for code, handler in self._handlers.items():
+            signal.signal(code, handler)
+
+    def stop(self, why):
+        """No run begins any more, and those in flight are lost."""
+        self.stopped = self.stopped or why
+        for process in list(self._live):
+            process.kill()
+
+    @contextlib.contextmanager
+    def stopping(self):
+        """What cannot be written stops it; it goes on when there is room again."""
+        try:
+            yield
+        except OSError as error:
+            self.stop(f"cannot write {error.filename or self.folder.path}: {error.strerror.lower()}")
+
+    def require_all(self):
+        if self.stopped:
+            raise Interrupted(self.stopped)
+
+    def check(self, points, jobs):
+        """Raises WrongInput where tensile_test would refuse one of them."""
+        refused = [(point, why) for point, why in zip(points.values(), self._each(self._refusal, points, jobs, "checked")) if why]
+        self.require_all()
+        if refused:
+            point, why = refused[0]
+            more = f"; {len(refused)} of {len(points)} runs would be refused" if len(refused) > 1 else ""
+            raise WrongInput(f"{self.study.file}: the run with {described(point)} would be refused: {why}{more}")
+
+    def run(self, points, jobs):
+        """Makes each of them; those that left no result are in `left_none`."""
+        self._each(self._make, points, jobs, "run")
+
+    def table(self, runs):
+        """Of all runs that have ended, in the order of the study."""
+        study = self.study
+        table = Table({key: tool.key_unit(study.method, key, study.points[0]) for key in study.keys})
+        for run, point in zip(runs, study.points):
+            record = self.left_none.get(run) or self.folder.record(run)
+            if record is not None:
+                result = {} if run in self.left_none else self.folder.result(run)
+                table.add(point, run, record["exit_code"], record["error"], result)
+        return table
+
+    def _each(self, do, points, jobs, what):
+        """`do(run, point)` for all, some at a time; what each returned, in their order."""
+        with ThreadPoolExecutor(jobs) as pool, tqdm(total=len(points), desc=what, unit="run", disable=None) as bar:
+            futures = [pool.submit(do, run, point) for run, point in points.items()]
+            try:
+                for future in as_completed(futures):
+                    future.result()
+                    bar.update()
+            except BaseException as error:
+                self.stop(str(error))
+                raise
+            return [future.result() for future in futures]
+
+    def _refusal(self, _run, point):
+        return None if self.stopped else tool.refusal(self.study.method, point)
+
+    def _make(self, run, point):
+        """One run, to the end or until it is stopped."""
+        if self.stopped:
+            return
+        with self.stopping(), self.folder.making(run) as part:
+            code, said = self._wait(self._start(point, part))
+            if not self.stopped:
+                self._keep(part, run, point, code, said.replace(part, self.folder.of(run)))
+
+    def _start(self, point, part):
+        # Not in the terminal's group, whose Ctrl-C is for the sweep; and it dies with the sweep.
+        process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *tool.command(self.study.method, point, part, "--quiet")],
+                                   cwd=os.path.dirname(self.study.method), text=True, errors="replace", process_group=0,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        self._live.add(process)
+        if self.stopped:  # between the question and the start
+            process.kill()
+        return process
+
+    def _wait(self, process):
+        _, stderr = process.communicate()
+        self._live.discard(process)
+        return process.returncode, tool.said_by(stderr)
+
+    def _keep(self, part, run, point, code, said):
+        """What became of a run that ended by itself, or was ended by another than the sweep."""
+        result = result_of(part)
+        if result is not None and result["reason"] != "interrupted":
+            error = None if code == 0 else result["reason"]
+            self.folder.finish(part, run, {"exit_code": code, "error": error, "set": point, "version": tool.version()})
+        elif code > 0 and any(text in said.lower() for text in DISK_IS_FULL):
+            self.stop(said.partition(";")[0])
+        elif code < 0:
+            self.left_none[run] = {"exit_code": 128 - code, "error": f"killed by {signal.Signals(-code).name}"}
+        else:
+            self.left_none[run] = {"exit_code": code, "error": said}
+
+
+def result_of(folder):
+    """result.yaml of a run that has ended; None where there is none, or it is not whole."""
+    with contextlib.suppress(WrongInput):
+        result = load(os.path.join(folder, "result.yaml"))
+        if isinstance(result, dict) and "specification_failed" in result:
+            return result
+    return None
+
+
+def described(point):
+    return ", ".join(f"{key}={text_of(value)}" for key, value in point.items())
