@@ -13,7 +13,7 @@ PROGRAM = "scripts/sweep"
 def main(words):
     asked = _arguments(words)
     try:
-        table = sweep(asked.study, asked.out, asked.jobs)
+        table = sweep(asked.study, asked.out, asked.jobs, asked.plot)
     except WrongInput as wrong:
         return _say(wrong, 2)
     except (Interrupted, OSError) as error:
@@ -31,6 +31,7 @@ def _arguments(words):
     parser.add_argument("study")
     parser.add_argument("--out")
     parser.add_argument("--jobs", type=int)
+    parser.add_argument("--plot", action="append", default=[])
     asked = parser.parse_args(words)
     if asked.jobs is not None and asked.jobs < 1:
         parser.error(f"--jobs is {asked.jobs}, but must be at least 1")

@@ -12,6 +12,7 @@ from tqdm import tqdm
 from knot_utm import tool
 from knot_utm.address import Addresses
 from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.plots import require_plottable, write_plot
 from knot_utm.study import load_study
 from knot_utm.sweep_folder import SweepFolder
 from knot_utm.table import Table
@@ -20,12 +21,14 @@ from knot_utm.yaml_text import load, text_of
 DISK_IS_FULL = [os.strerror(code).lower() for code in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)]
 
 
-def sweep(study, out=None, jobs=None):
+def sweep(study, out=None, jobs=None, plots=()):
     """Runs a study's file and returns its table, a pandas.DataFrame with its units in `.attrs["units"]`.
 
     `out`: the folder, unless given out/ and the study's name; runs that are there are not run again. `jobs`: runs at a
-    time, unless given as many as there are cores. Raises WrongInput where the study or one of its runs would be refused,
-    before anything is written; Interrupted where it was cut short: the same call goes on."""
+    time, unless given as many as there are cores. `plots`: keys of result.yaml, of each of which a picture is made. Raises
+    WrongInput where the study or one of its runs would be refused, before anything is written; Interrupted where it was cut
+    short: the same call goes on."""
+    require_plottable(plots)
     study = load_study(os.fspath(study))
     jobs = jobs or len(os.sched_getaffinity(0))
     addresses = Addresses(study.method)
@@ -38,12 +41,15 @@ def sweep(study, out=None, jobs=None):
         try:
             work.run({run: point for run, point in open_runs.items() if folder.record(run) is None}, jobs)
             table = work.table(runs)
+            frame = table.frame()
             with work.stopping():
                 table.write(folder.path)
+                for result in plots if table.rows else ():
+                    write_plot(frame, study.keys, result, folder.path)
         finally:
             folder.release()
         work.require_all()
-    return table.frame()
+    return frame
 
 
 class _Work:
