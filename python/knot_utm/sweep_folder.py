@@ -14,44 +14,56 @@ RECORD = "run.yaml"  # beside what tensile_test wrote: how the run ended
 
 
 class SweepFolder:
-    """A run is made in a hidden folder, and gets its name when it is whole: one with a name needs no second look."""
+    """A run is made in a hidden folder, and gets its name when it has ended: one with a name is whole."""
 
     def __init__(self, path):
         self.path = path
         self.runs = os.path.join(path, "runs")
-        self._lock = None
 
-    def claim(self):
-        """Makes it, keeps other sweeps out, and clears away what a killed one left. Raises WrongInput."""
+    @contextlib.contextmanager
+    def claimed(self):
+        """For one sweep alone; what a killed one left is cleared away. Raises WrongInput where others are at work."""
+        with self._locked(fcntl.LOCK_EX):
+            for name in os.listdir(self.runs):
+                if name.startswith("."):
+                    shutil.rmtree(os.path.join(self.runs, name), ignore_errors=True)
+            yield
+
+    def shared(self):
+        """For several that make a run each. Raises WrongInput where a sweep is at work."""
+        return self._locked(fcntl.LOCK_SH)
+
+    @contextlib.contextmanager
+    def _locked(self, kind):
         try:
             os.makedirs(self.runs, exist_ok=True)
         except (FileExistsError, NotADirectoryError, PermissionError) as error:
             raise WrongInput(f"cannot make the folder {error.filename}: {error.strerror.lower()}") from error
-        self._lock = open(os.path.join(self.path, ".lock"), "w", encoding="utf-8")  # closed with the process, if killed
-        try:
-            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError as error:
-            self.release()
-            raise WrongInput(f"another sweep is at work in {self.path}") from error
-        for name in os.listdir(self.runs):
-            if name.startswith("."):
-                shutil.rmtree(os.path.join(self.runs, name), ignore_errors=True)
-
-    def release(self):
-        self._lock.close()
+        with open(os.path.join(self.path, ".lock"), "w", encoding="utf-8") as lock:
+            try:
+                fcntl.flock(lock, kind | fcntl.LOCK_NB)
+            except BlockingIOError as error:
+                raise WrongInput(f"another sweep is at work in {self.path}") from error
+            yield
 
     def of(self, run):
         return os.path.join(self.runs, run)
 
     def record(self, run):
-        """{exit_code, error, set, version} of a run that is whole; None of any other."""
-        try:
-            return load(os.path.join(self.of(run), RECORD))
-        except WrongInput:
-            return None
+        """{exit_code, error, set, version} of a run that has ended; None of any other."""
+        file = os.path.join(self.of(run), RECORD)
+        return load(file) if os.path.exists(file) else None
+
+    def is_done(self, run):
+        """Whether it has ended and left a result; those that left none are tried again."""
+        return self.record(run) is not None and os.path.exists(self._result(run))
 
     def result(self, run):
-        return load(os.path.join(self.of(run), "result.yaml"))
+        """Of a run that has ended; empty where it left none."""
+        return load(self._result(run)) if os.path.exists(self._result(run)) else {}
+
+    def _result(self, run):
+        return os.path.join(self.of(run), "result.yaml")
 
     @contextlib.contextmanager
     def making(self, run):
@@ -62,9 +74,14 @@ class SweepFolder:
         finally:
             shutil.rmtree(part, ignore_errors=True)
 
+    def empty(self, part):
+        shutil.rmtree(part)
+        os.mkdir(part)
+
     def finish(self, part, run, record):
-        """Keeps what was made there."""
+        """Keeps what was made there, in place of what may be there already."""
         with open(os.path.join(part, RECORD), "w", encoding="utf-8") as file:
             yaml.safe_dump(record, file, sort_keys=False, allow_unicode=True)
         os.chmod(part, 0o755)  # mkdtemp's are for nobody else
+        shutil.rmtree(self.of(run), ignore_errors=True)
         os.rename(part, self.of(run))

@@ -1,24 +1,14 @@
-"""A study, run by run, on all cores."""
-import contextlib
-import errno
+"""A study, run by run, on all cores; and its parts, for those who start the runs in another way."""
 import os
-import signal
-import subprocess
-import threading
-from concurrent.futures import ThreadPoolExecutor, as_completed
-
-from tqdm import tqdm
 
 from knot_utm import tool
 from knot_utm.address import Addresses
-from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.errors import WrongInput
 from knot_utm.plots import require_plottable, write_plot
 from knot_utm.study import load_study
 from knot_utm.sweep_folder import SweepFolder
 from knot_utm.table import Table
-from knot_utm.yaml_text import load, text_of
-
-DISK_IS_FULL = [os.strerror(code).lower() for code in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)]
+from knot_utm.work import Work
 
 
 def sweep(study, out=None, jobs=None, plots=()):
@@ -28,154 +18,64 @@ def sweep(study, out=None, jobs=None, plots=()):
     time, unless given as many as there are cores. `plots`: keys of result.yaml, of each of which a picture is made. Raises
     WrongInput where the study or one of its runs would be refused, before anything is written; Interrupted where it was cut
     short: the same call goes on."""
-    require_plottable(plots)
-    study = load_study(os.fspath(study))
-    jobs = jobs or len(os.sched_getaffinity(0))
-    addresses = Addresses(study.method)
-    runs = [addresses.of(point) for point in study.points]
-    folder = SweepFolder(os.path.abspath(out or os.path.join("out", study.name)))
-    with _Work(study, folder) as work:
-        open_runs = {run: point for run, point in zip(runs, study.points) if folder.record(run) is None}
-        work.check(open_runs, jobs)
-        folder.claim()
-        try:
-            work.run({run: point for run, point in open_runs.items() if folder.record(run) is None}, jobs)
-            table = work.table(runs)
-            frame = table.frame()
-            with work.stopping():
-                table.write(folder.path)
-                for result in plots if table.rows else ():
-                    write_plot(frame, study.keys, result, folder.path)
-        finally:
-            folder.release()
-        work.require_all()
-    return frame
+    return Sweep(study, out, plots).all(jobs or len(os.sched_getaffinity(0)))
 
 
-class _Work:
-    """What is done for a study, until it is done or stopped."""
+class Sweep:
+    """A study in its folder. `runs`: {name: {key: value}}, each once."""
 
-    def __init__(self, study, folder):
-        self.study, self.folder = study, folder
-        self.stopped = None  # why
-        self.left_none = {}  # run -> how it ended, of those that left no result
-        self._live = set()
-        self._handlers = {}
+    def __init__(self, study, out=None, plots=()):
+        require_plottable(plots)
+        self.study = load_study(os.fspath(study))
+        self.plots = plots
+        self.folder = SweepFolder(os.path.abspath(out or os.path.join("out", self.study.name)))
+        addresses = Addresses(self.study.method)
+        self.names = [addresses.of(point) for point in self.study.points]
+        self.runs = dict(zip(self.names, self.study.points))
 
-    def __enter__(self):
-        if threading.current_thread() is threading.main_thread():
-            for code in (signal.SIGINT, signal.SIGTERM):
-                self._handlers[code] = signal.signal(code, lambda *_: self.stop("it was interrupted"))
-        return self
+    def all(self, jobs):
+        """All parts: checks, runs what is open, writes the table and returns it."""
+        with Work(self.study, self.folder) as work:
+            work.check(self._open(), jobs)
+            with self.folder.claimed():
+                work.run(self._open(), jobs)
+                frame = self._written(work)
+            work.require_all()
+        return frame
 
-    def __exit__(self, *_):
-        for code, handler in self._handlers.items():
-            signal.signal(code, handler)
+    def check(self, jobs):
+        """Raises WrongInput where one of the runs that are open would be refused."""
+        with Work(self.study, self.folder) as work:
+            work.check(self._open(), jobs)
 
-    def stop(self, why):
-        """No run begins any more, and those in flight are lost."""
-        self.stopped = self.stopped or why
-        for process in list(self._live):
-            process.kill()
+    def one(self, run):
+        """That run alone, beside others of other processes."""
+        if run not in self.runs:
+            raise WrongInput(f"{run} is no run of {self.study.file}")
+        with Work(self.study, self.folder) as work, self.folder.shared():
+            work.run({run: self.runs[run]} if run in self._open() else {}, 1)
+            work.require_all()
 
-    @contextlib.contextmanager
-    def stopping(self):
-        """What cannot be written stops it; it goes on when there is room again."""
-        try:
-            yield
-        except OSError as error:
-            self.stop(f"cannot write {error.filename or self.folder.path}: {error.strerror.lower()}")
+    def table(self):
+        """The table of the runs that are there."""
+        with Work(self.study, self.folder) as work, self.folder.shared():
+            frame = self._written(work)
+            work.require_all()
+        return frame
 
-    def require_all(self):
-        if self.stopped:
-            raise Interrupted(self.stopped)
+    def _open(self):
+        return {run: point for run, point in self.runs.items() if not self.folder.is_done(run)}
 
-    def check(self, points, jobs):
-        """Raises WrongInput where tensile_test would refuse one of them."""
-        refused = [(point, why) for point, why in zip(points.values(), self._each(self._refusal, points, jobs, "checked")) if why]
-        self.require_all()
-        if refused:
-            point, why = refused[0]
-            more = f"; {len(refused)} of {len(points)} runs would be refused" if len(refused) > 1 else ""
-            raise WrongInput(f"{self.study.file}: the run with {described(point)} would be refused: {why}{more}")
-
-    def run(self, points, jobs):
-        """Makes each of them; those that left no result are in `left_none`."""
-        self._each(self._make, points, jobs, "run")
-
-    def table(self, runs):
-        """Of all runs that have ended, in the order of the study."""
+    def _written(self, work):
         study = self.study
         table = Table({key: tool.key_unit(study.method, key, study.points[0]) for key in study.keys})
-        for run, point in zip(runs, study.points):
-            record = self.left_none.get(run) or self.folder.record(run)
+        for run, point in zip(self.names, study.points):
+            record = self.folder.record(run)
             if record is not None:
-                result = {} if run in self.left_none else self.folder.result(run)
-                table.add(point, run, record["exit_code"], record["error"], result)
-        return table
-
-    def _each(self, do, points, jobs, what):
-        """`do(run, point)` for all, some at a time; what each returned, in their order."""
-        with ThreadPoolExecutor(jobs) as pool, tqdm(total=len(points), desc=what, unit="run", disable=None) as bar:
-            futures = [pool.submit(do, run, point) for run, point in points.items()]
-            try:
-                for future in as_completed(futures):
-                    future.result()
-                    bar.update()
-            except BaseException as error:
-                self.stop(str(error))
-                raise
-            return [future.result() for future in futures]
-
-    def _refusal(self, _run, point):
-        return None if self.stopped else tool.refusal(self.study.method, point)
-
-    def _make(self, run, point):
-        """One run, to the end or until it is stopped."""
-        if self.stopped:
-            return
-        with self.stopping(), self.folder.making(run) as part:
-            code, said = self._wait(self._start(point, part))
-            if not self.stopped:
-                self._keep(part, run, point, code, said.replace(part, self.folder.of(run)))
-
-    def _start(self, point, part):
-        # Not in the terminal's group, whose Ctrl-C is for the sweep; and it dies with the sweep.
-        process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *tool.command(self.study.method, point, part, "--quiet")],
-                                   cwd=os.path.dirname(self.study.method), text=True, errors="replace", process_group=0,
-                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-        self._live.add(process)
-        if self.stopped:  # between the question and the start
-            process.kill()
-        return process
-
-    def _wait(self, process):
-        _, stderr = process.communicate()
-        self._live.discard(process)
-        return process.returncode, tool.said_by(stderr)
-
-    def _keep(self, part, run, point, code, said):
-        """What became of a run that ended by itself, or was ended by another than the sweep."""
-        result = result_of(part)
-        if result is not None and result["reason"] != "interrupted":
-            error = None if code == 0 else result["reason"]
-            self.folder.finish(part, run, {"exit_code": code, "error": error, "set": point, "version": tool.version()})
-        elif code > 0 and any(text in said.lower() for text in DISK_IS_FULL):
-            self.stop(said.partition(";")[0])
-        elif code < 0:
-            self.left_none[run] = {"exit_code": 128 - code, "error": f"killed by {signal.Signals(-code).name}"}
-        else:
-            self.left_none[run] = {"exit_code": code, "error": said}
-
-
-def result_of(folder):
-    """result.yaml of a run that has ended; None where there is none, or it is not whole."""
-    with contextlib.suppress(WrongInput):
-        result = load(os.path.join(folder, "result.yaml"))
-        if isinstance(result, dict) and "specification_failed" in result:
-            return result
-    return None
-
-
-def described(point):
-    return ", ".join(f"{key}={text_of(value)}" for key, value in point.items())
+                table.add(point, run, record["exit_code"], record["error"], self.folder.result(run))
+        frame = table.frame()
+        with work.stopping():
+            table.write(self.folder.path)
+            for result in self.plots if table.rows else ():
+                write_plot(frame, study.keys, result, self.folder.path)
+        return frame
