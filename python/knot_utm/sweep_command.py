@@ -14,7 +14,9 @@ def main(words):
     asked = _arguments(words)
     try:
         work = Sweep(asked.study, asked.out, asked.plot)
-        if asked.only == "check":
+        if asked.only == "names":
+            print("\n".join(work.runs))
+        elif asked.only == "check":
             work.check(asked.jobs)
         elif asked.only not in (None, "table"):
             work.one(asked.only)
