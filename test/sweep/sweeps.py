@@ -25,7 +25,7 @@ vary:
 TOLD = r"""#!/bin/bash
 # What is only asked of the real one, or would be refused by it, is no run.
 case " $* " in *" --version "* | *" --list-results "* | *"/checked "*) exec "$REAL" "$@" ;; esac
-echo "$*" >>"$LOG"
+echo "$* job=${SLURM_JOB_ID:-}" >>"$LOG"
 case " $* " in
   *" ${HOLD_AT:-none} "*) exec 3>"$HELD"; echo held >&3; read -r _ <"$NEVER" ;;
   *" ${KILL_AT:-none} "*) kill -SEGV $$ ;;
