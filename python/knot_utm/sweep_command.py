@@ -21,7 +21,7 @@ def main(words):
         elif asked.only not in (None, "table"):
             work.one(asked.only)
         else:
-            _tell(work, work.table() if asked.only else work.all(asked.jobs))
+            _tell(asked.out or os.path.relpath(work.folder.path), work.table() if asked.only else work.all(asked.jobs))
     except WrongInput as wrong:
         return _say(wrong, 2)
     except (Interrupted, OSError) as error:
@@ -31,9 +31,8 @@ def main(words):
     return 0
 
 
-def _tell(work, table):
+def _tell(out, table):
     failed = int((table["exit_code"] != 0).sum())
-    out = os.path.relpath(work.folder.path)
     print(f"{len(table)} runs, {failed} of which failed: the table is in {out}/table.csv and {out}/table.h5")
 
 
