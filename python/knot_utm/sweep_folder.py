@@ -11,6 +11,7 @@ from knot_utm.errors import WrongInput
 from knot_utm.yaml_text import load
 
 RECORD = "run.yaml"  # beside what tensile_test wrote: how the run ended
+RESULT = "result.yaml"
 
 
 class SweepFolder:
@@ -51,19 +52,20 @@ class SweepFolder:
 
     def record(self, run):
         """{exit_code, error, set, version} of a run that has ended; None of any other."""
-        file = os.path.join(self.of(run), RECORD)
+        file = self._file(run, RECORD)
         return load(file) if os.path.exists(file) else None
 
     def is_done(self, run):
         """Whether it has ended and left a result; those that left none are tried again."""
-        return self.record(run) is not None and os.path.exists(self._result(run))
+        return os.path.exists(self._file(run, RECORD)) and os.path.exists(self._file(run, RESULT))
 
     def result(self, run):
         """Of a run that has ended; empty where it left none."""
-        return load(self._result(run)) if os.path.exists(self._result(run)) else {}
+        file = self._file(run, RESULT)
+        return load(file) if os.path.exists(file) else {}
 
-    def _result(self, run):
-        return os.path.join(self.of(run), "result.yaml")
+    def _file(self, run, name):
+        return os.path.join(self.of(run), name)
 
     @contextlib.contextmanager
     def making(self, run):

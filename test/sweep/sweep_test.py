@@ -292,6 +292,7 @@ class Refused(Sweeps):
         self.study = write(self.path("study.yaml"), f"method: {CONFIG}/straight.yaml\nvary: {{specimen.length: [0.2]}}")
         self.assertIn("cannot make the folder", self.sweep("out", code=2))
         self.assertIn("--jobs is 0", self.sweep("out", "--jobs", "0", code=2))
+        self.assertIn("star is no run of " + self.study, self.sweep("out", "--only", "star", code=2))
 
 
 class FromPython(Sweeps):
@@ -314,6 +315,15 @@ class FromPython(Sweeps):
             knot_utm.run("strait", self.path("run"))
         with self.assertRaisesRegex(knot_utm.WrongInput, "no such file"):
             knot_utm.read(self.path("run"))
+
+    def test_messages_of_ros_are_a_part_of_it(self):
+        os.makedirs(self.path("devel/knot_utm/msg"))
+        write(self.path("devel/knot_utm/__init__.py"), "")
+        write(self.path("devel/knot_utm/msg/__init__.py"), "Crosshead = 'a message'")
+        path = os.pathsep.join([os.path.join(ROOT, "python"), self.path("devel")])
+        said = subprocess.run([sys.executable, "-Bc", "import knot_utm.msg; print(knot_utm.msg.Crosshead, knot_utm.read)"],
+                              env={**os.environ, "PYTHONPATH": path}, check=True, text=True, stdout=subprocess.PIPE).stdout
+        self.assertRegex(said, "^a message <function read")
 
     def test_a_sweep_gives_its_table(self):
         table = knot_utm.sweep(self.study, self.path("out"), jobs=1)
