@@ -14,6 +14,7 @@ from knot_utm.errors import Interrupted, WrongInput
 from knot_utm.yaml_text import load, text_of
 
 DISK_IS_FULL = [os.strerror(code).lower() for code in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)]
+INTERRUPTED = "interrupted"  # the reason of a run that may go on
 
 
 class Work:
@@ -47,7 +48,7 @@ class Work:
         try:
             yield
         except OSError as error:
-            self.stop(f"cannot write {error.filename or self.folder.path}: {error.strerror.lower()}")
+            self.stop(f"{error.filename or self.folder.path}: {(error.strerror or str(error)).lower()}")
 
     def require_all(self):
         if self.stopped:
@@ -108,25 +109,23 @@ class Work:
 
     def _keep(self, part, run, point, code, said):
         """What became of a run that ended by itself, or was ended by another than the sweep."""
-        result = result_of(part)
-        if result is not None and result["reason"] != "interrupted":
-            error = None if code == 0 else result["reason"]
-        elif code > 0 and any(text in said.lower() for text in DISK_IS_FULL):
+        reason = reason_of(part)
+        if code > 0 and reason is None and any(text in said.lower() for text in DISK_IS_FULL):
             self.stop(said.partition(";")[0])
             return
-        else:
+        if reason in (None, INTERRUPTED):
             self.folder.empty(part)  # there is nothing in it to rely on
-            error = said if code >= 0 else f"killed by {signal.Signals(-code).name}"
+        error = None if code == 0 else f"killed by {signal.Signals(-code).name}" if code < 0 else reason or said
         record = {"exit_code": code if code >= 0 else 128 - code, "error": error, "set": point, "version": tool.version()}
         self.folder.finish(part, run, record)
 
 
-def result_of(folder):
-    """result.yaml of a run that has ended; None where there is none, or it is not whole."""
+def reason_of(folder):
+    """Why a run ended, as its result.yaml says; None where there is none, or it is not whole."""
     with contextlib.suppress(WrongInput):
         result = load(os.path.join(folder, "result.yaml"))
         if isinstance(result, dict) and "specification_failed" in result:
-            return result
+            return result["reason"]
     return None
 
 

@@ -102,6 +102,14 @@ class TheTable(Sweeps):
         self.assertEqual(self.table("out"), self.table("whole"))
         self.assertEqual(sorted(self.started()), sorted(2 * LENGTHS + LENGTHS[1:2]))
 
+    def test_has_a_row_for_runs_that_others_interrupt_which_are_tried_again(self):
+        self.sweep("out", "--jobs", "1", INTERRUPT_AT=f"specimen.length={LENGTHS[1]}")
+        _, _, *runs = rows(self.table("out"))
+        self.assertEqual([run[2:4] for run in runs], [["0", ""], ["1", "interrupted"], ["0", ""], ["0", ""]])
+        self.sweep("out")
+        self.sweep("whole")
+        self.assertEqual(self.table("out"), self.table("whole"))
+
     def test_has_a_row_a_point_where_points_are_the_same_run(self):
         write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{physics.accuracy: [draft], specimen.length: [0.2, 0.2]}}")
         self.sweep("out")

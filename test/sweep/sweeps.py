@@ -29,6 +29,10 @@ echo "$* job=${SLURM_JOB_ID:-}" >>"$LOG"
 case " $* " in
   *" ${HOLD_AT:-none} "*) exec 3>"$HELD"; echo held >&3; read -r _ <"$NEVER" ;;
   *" ${KILL_AT:-none} "*) kill -SEGV $$ ;;
+  *" ${INTERRUPT_AT:-none} "*)
+    "$REAL" "$@"
+    for out in "$(dirname "$LOG")"/*/runs/.*/result.yaml; do sed -i 's/^reason: .*/reason: "interrupted"/' "$out"; done
+    exit 1 ;;
 esac
 exec "$REAL" "$@"
 """
