@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes report.html and report.pdf into the folder of a test, or of a comparison.
+"""Writes report.html and report.pdf into the folder of a test, of a batch of specimens, or of a comparison.
 
     make_report.py FOLDER [--command TEXT] [--version VERSION]
 
@@ -28,7 +28,7 @@ def refuse(message):
 
 def main():
     parser = OneLineParser(prog="report", description="Writes report.html and report.pdf into the folder of "
-                                     "a test, or of a comparison.")
+                                     "a test, of a batch of specimens, or of a comparison.")
     parser.add_argument("folder", help="that tensile_test, a recorder or compare --report wrote")
     parser.add_argument("--command", help="that the page names as the one that made it")
     parser.add_argument("--version", help="of knot_utm, that made it", default="")
@@ -51,16 +51,16 @@ def main():
 def make(folder, command, version):
     from failure import CannotReport
 
-    # A run that was put into the folder of a comparison is newer: `compare` takes no folder of a run.
-    if os.path.exists(os.path.join(folder, "result.yaml")):
-        kind = "run"
-    elif os.path.exists(os.path.join(folder, "comparison.yaml")):
-        kind = "comparison"
-    else:
-        raise CannotReport(f"{folder}: neither result.yaml nor comparison.yaml is there")
+    # The first is the newest where a folder holds two: `compare` takes no folder of a run, and tests take away what
+    # older tests and comparisons left.
+    kinds = {"result.yaml": "run", "comparison.yaml": "comparison", "statistics.yaml": "batch"}
+    kind = next((kinds[name] for name in kinds if os.path.exists(os.path.join(folder, name))), None)
+    if kind is None:
+        raise CannotReport(f"{folder}: none of {', '.join(kinds)} is there")
+    import batch_page
     import page
 
-    makers = {"run": page.report_on_run, "comparison": page.report_on_comparison}
+    makers = {"run": page.report_on_run, "comparison": page.report_on_comparison, "batch": batch_page.report_on_batch}
     page.write(folder, makers[kind](folder, command, version))
 
 

@@ -15,6 +15,7 @@
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_reader.hpp"
+#include "specimens_section.hpp"
 
 namespace knot_utm {
 namespace {
@@ -285,6 +286,7 @@ void check_method(const Method& method) {
   check_effects(method);
   check_analysis(method);
   check_report(method);
+  check_scatter(method);
   if (method.specimen.to_be_tied && pulls_anything(method)) check_tying(method.specimen, method.material);
 }
 

@@ -122,7 +122,7 @@ struct TestingMachine::Impl {
       rig.emplace(centreline, rod, tying);
       touch.emplace(rig->standing_nodes(), material.radius, windings);
     }
-    if (knot_of(specimen).knotted()) {
+    if (knot_of(specimen).may_hold_a_knot()) {
       watch.emplace(rig ? rig->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
                     centreline.points, windings);
     }
@@ -201,7 +201,7 @@ struct TestingMachine::Impl {
   /// a thousandth. A loose knot between clamps pulls with no more than the drag on its length: there is none from the
   /// first pull on.
   double drag() const {
-    const bool drawn_knot = knot_of(specimen).knotted() && !knot_of(specimen).loop();
+    const bool drawn_knot = knot_of(specimen).may_hold_a_knot() && !knot_of(specimen).loop();
     return physics.drag.value_or(pulled && drawn_knot ? 0.0 : drag_to_rest(material));
   }
 

@@ -56,4 +56,7 @@ struct ProgramStep {
 
 using Program = std::vector<ProgramStep>;
 
+/// The step that a number from 0 means, or the name of a step that stands there once ("pull"); nothing where none does.
+std::optional<int> step_called(const Program& program, const std::string& name);
+
 }  // namespace knot_utm

@@ -53,6 +53,8 @@ class Knot {
   virtual bool straight() const { return false; }
   /// Strands touch in it: its edges must not be longer than the rod is thick.
   virtual bool knotted() const { return true; }
+  /// Whether a knot may come undone in it: a shape from a file may hold one, too.
+  bool may_hold_a_knot() const { return !straight() && !on_posts(); }
   /// Fixed posts and dead loads bear its lower end (`supports`): the upper grip alone holds it.
   virtual bool on_posts() const { return false; }
   virtual ErrorStudy error_study() const { return ErrorStudy::kNone; }
