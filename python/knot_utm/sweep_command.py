@@ -21,7 +21,7 @@ def main(words):
         elif asked.only not in (None, "table"):
             work.one(asked.only)
         else:
-            _tell(asked.out or os.path.relpath(work.folder.path), work.table() if asked.only else work.all(asked.jobs))
+            _tell(work, work.table() if asked.only else work.all(asked.jobs))
     except WrongInput as wrong:
         return _say(wrong, 2)
     except (Interrupted, OSError) as error:
@@ -31,7 +31,13 @@ def main(words):
     return 0
 
 
-def _tell(out, table):
+def _tell(work, table):
+    if work.begun:
+        print(f"{len(work.begun)} runs began with {len(set(work.begun))} specimens that were tied once, which saved "
+              f"{work.saved():.1f} s of computing")
+    out = os.path.relpath(work.folder.path)
+    if out.startswith(os.pardir):
+        out = work.folder.path
     failed = int((table["exit_code"] != 0).sum())
     print(f"{len(table)} runs, {failed} of which failed: the table is in {out}/table.csv and {out}/table.h5")
 

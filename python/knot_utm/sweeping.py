@@ -5,10 +5,12 @@ from knot_utm import tool
 from knot_utm.address import Addresses
 from knot_utm.errors import WrongInput
 from knot_utm.plots import require_plottable, write_plot
+from knot_utm.sharing import beginnings
 from knot_utm.study import load_study
 from knot_utm.sweep_folder import SweepFolder
 from knot_utm.table import Table
 from knot_utm.work import Work
+from knot_utm.yaml_text import load
 
 
 def sweep(study, out=None, jobs=None, plots=()):
@@ -32,10 +34,14 @@ class Sweep:
         addresses = Addresses(self.study.method)
         self.names = [addresses.of(point) for point in self.study.points]
         self.runs = dict(zip(self.names, self.study.points))
+        self.beginnings = {run: (addresses.of({**beginning.shared, "--stop-before": beginning.step}), beginning)
+                           for run, beginning in zip(self.runs, beginnings(self.study.method, list(self.runs.values())))
+                           if beginning is not None}
+        self.begun = []  # names of the beginnings that runs began with
 
     def all(self, jobs):
         """All parts: checks, runs what is open, writes the table and returns it."""
-        with Work(self.study, self.folder) as work:
+        with self._work() as work:
             work.check(self._open(), jobs)
             with self.folder.claimed():
                 work.run(self._open(), jobs)
@@ -45,23 +51,33 @@ class Sweep:
 
     def check(self, jobs):
         """Raises WrongInput where one of the runs that are open would be refused."""
-        with Work(self.study, self.folder) as work:
+        with self._work() as work:
             work.check(self._open(), jobs)
 
     def one(self, run):
         """That run alone, beside others of other processes."""
         if run not in self.runs:
             raise WrongInput(f"{run} is no run of {self.study.file}")
-        with Work(self.study, self.folder) as work, self.folder.shared():
+        with self._work() as work, self.folder.shared():
             work.run({run: self.runs[run]} if run in self._open() else {}, 1)
             work.require_all()
 
     def table(self):
         """The table of the runs that are there."""
-        with Work(self.study, self.folder) as work, self.folder.shared():
+        with self._work() as work, self.folder.shared():
             frame = self._written(work)
             work.require_all()
         return frame
+
+    def saved(self):
+        """What it saved to compute shared beginnings once: the time they took, for each run that began with one but the first [s]."""
+        return sum((self.begun.count(name) - 1) * load(os.path.join(self.folder.tied(name), "result.yaml"))["wall_time"]
+                   for name in set(self.begun))
+
+    def _work(self):
+        work = Work(self.study, self.folder, self.beginnings)
+        self.begun = work.begun
+        return work
 
     def _open(self):
         return {run: point for run, point in self.runs.items() if not self.folder.is_done(run)}

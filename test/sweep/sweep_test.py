@@ -241,6 +241,52 @@ class CutShort(Sweeps):
         process.communicate()
 
 
+class TiedOnce(Sweeps):
+    PULLED = f"""
+        method: {CONFIG}/tighten.yaml
+        vary:
+          physics.accuracy: [draft]
+          material: [polypropylene]
+          program.pull.until.extension: """
+
+    def started_with(self, option):
+        return content(self.log).decode().count(f" {option} ")
+
+    def test_pulled_often_has_the_bits_of_runs_from_the_start(self):
+        write(self.study, self.PULLED + "[0.004, 0.006, 0.008]")
+        process = self.start("out")
+        told, said = process.communicate()
+        self.assertEqual(process.returncode, 0, said)
+        self.assertRegex(told, r"3 runs began with 1 specimens that were tied once, which saved \d+\.\d s of computing")
+        self.assertEqual((self.started_with("--stop-before"), self.started_with("--begin-with")), (1, 3))
+        _, _, *runs = rows(self.table("out"))
+        for run in runs:
+            self.sweep("alone", "--only", run[-1])
+            for name in ("curve.csv", "curve_full.csv", "final_shape.csv", "method.yaml"):
+                self.assertEqual(content(self.path("out/runs", run[-1]), name), content(self.path("alone/runs", run[-1]), name))
+        self.assertEqual(self.started_with("--begin-with"), 3, "a run alone is one from the start")
+        self.sweep("alone", "--only", "table")
+        self.assertEqual(self.table("out"), self.table("alone"))
+        # Others that are pulled later begin with the same specimen.
+        write(self.study, self.PULLED + "[0.004, 0.006, 0.008, 0.005]")
+        self.sweep("out")
+        self.assertEqual((self.started_with("--stop-before"), self.started_with("--begin-with")), (1, 4))
+
+    def test_what_does_not_suit_begins_at_the_start(self):
+        # The way of the crosshead, which belongs to the machine, is twice the largest extension, at least 1 m.
+        write(self.path("method.yaml"), f"""
+            specimen: {{knot: straight}}
+            material: nylon
+            machine: {{grips: clamps}}
+            program: [hold: {{duration: 1}}, pull: {{speed: 0.01, until: {{extension: 0.001, break: true}}}}]""")
+        write(self.study, "method: method.yaml\nvary: {program.pull.until.extension: [0.001, 0.002, 5]}")
+        self.sweep("out")
+        self.assertEqual((self.started_with("--stop-before"), self.started_with("--begin-with")), (1, 3))
+        names, _, *runs = rows(self.table("out"))
+        self.assertEqual([run[names.index("ended_by")] for run in runs], ["extension", "extension", "break"])
+        self.assertEqual(len(content(self.log).decode().splitlines()), 5, "the third run was started twice")
+
+
 class Content(Sweeps):
     def test_of_a_study_that_grows_is_kept(self):
         self.sweep("out", "--jobs", "1")
