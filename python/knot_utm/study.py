@@ -44,6 +44,7 @@ def _study(file, given):
         if key not in KEYS:
             raise WrongInput(f"{key} is no key of a study; its keys are " + ", ".join(KEYS))
     method = tool.find_method(_method(given), os.path.dirname(os.path.abspath(file)))
+    _require_one_specimen(method)
     vary = given.get("vary")
     if not isinstance(vary, dict) or not vary:
         raise WrongInput(f"vary is {text_of(vary)}, but must be a map of at least one key of the method and its values")
@@ -54,6 +55,9 @@ def _study(file, given):
     for name, value in (("runs", runs), ("seed", seed)):
         if kind == "grid" and value is not None:
             raise WrongInput(f"{name} is {value}, but has no effect in a grid")
+    for key in vary:
+        if key.split(".")[0] == "specimens":
+            raise WrongInput(f"vary has the key {key}, but a run of a study is one specimen: give repeat")
     kinds = {key: design.varied(key, values) for key, values in vary.items()}
     points = design.points(kinds, kind, runs, 1 if seed is None else seed)
     return Study(file, method, _repeated(points, _integer(given, "repeat", 1, 10_000) or 1))
@@ -65,6 +69,14 @@ def _method(given):
         raise WrongInput("method is missing: give a file, from the folder of the study, or the name of a shipped method"
                          if method is None else f"method is {text_of(method)}, but must be a file or a name")
     return method
+
+
+def _require_one_specimen(method):
+    given = load(method)
+    specimens = given.get("specimens") if isinstance(given, dict) else None
+    count = specimens.get("count", 1) if isinstance(specimens, dict) else 1
+    if count != 1:
+        raise WrongInput(f"method: {method} has specimens.count {text_of(count)}, but a run of a study is one specimen: give repeat")
 
 
 def _integer(given, key, low, high):

@@ -33,7 +33,7 @@ def main(words):
 
 def _tell(work, table):
     if work.begun:
-        print(f"{len(work.begun)} runs began with {len(set(work.begun))} specimens that were tied once, which saved "
+        print(f"{len(work.begun)} runs began with tied specimens that they share, {len(set(work.begun))} in all, which saved "
               f"{work.saved():.1f} s of computing")
     out = os.path.relpath(work.folder.path)
     if out.startswith(os.pardir):

@@ -195,6 +195,11 @@ class Refused(Studies):
         self.refuses("method: straight\nvary: {1: [0.1]}", "1 is no key")
         self.refuses("{", "study.yaml")
 
+    def test_batches(self):
+        self.refuses("method: straight\nvary: {specimens.count: [1, 2]}", "specimens.count", "give repeat")
+        write(self.file + ".method", "specimens: {count: 8}")
+        self.refuses(f"method: {self.file}.method\nvary: {{a: [1]}}", "specimens.count 8", "give repeat")
+
     def test_values_of_a_key(self):
         def refuses(value, *words, design=""):
             self.refuses(f"method: straight\nvary: {{specimen.length: {value}}}\n{design}", "vary.specimen.length", *words)

@@ -257,7 +257,7 @@ class TiedOnce(Sweeps):
         process = self.start("out")
         told, said = process.communicate()
         self.assertEqual(process.returncode, 0, said)
-        self.assertRegex(told, r"3 runs began with 1 specimens that were tied once, which saved \d+\.\d s of computing")
+        self.assertRegex(told, r"3 runs began with tied specimens that they share, 1 in all, which saved \d+\.\d s of computing")
         self.assertEqual((self.started_with("--stop-before"), self.started_with("--begin-with")), (1, 3))
         _, _, *runs = rows(self.table("out"))
         for run in runs:
