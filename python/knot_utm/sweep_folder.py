@@ -12,6 +12,7 @@ from knot_utm.yaml_text import load
 
 RECORD = "run.yaml"  # beside what tensile_test wrote: how the run ended
 RESULT = "result.yaml"
+STATISTICS = "statistics.yaml"  # of a batch of specimens
 
 
 class SweepFolder:
@@ -64,12 +65,18 @@ class SweepFolder:
 
     def is_done(self, run):
         """Whether it has ended and left a result; those that left none are tried again."""
-        return os.path.exists(self._file(run, RECORD)) and os.path.exists(self._file(run, RESULT))
+        return os.path.exists(self._file(run, RECORD)) and any(os.path.exists(self._file(run, name))
+                                                               for name in (RESULT, STATISTICS))
 
     def result(self, run):
         """Of a run that has ended; empty where it left none."""
         file = self._file(run, RESULT)
         return load(file) if os.path.exists(file) else {}
+
+    def rejected(self, run):
+        """{specimen: reason} of a batch."""
+        file = self._file(run, STATISTICS)
+        return {entry["specimen"]: entry["reason"] for entry in load(file)["rejected"]} if os.path.exists(file) else {}
 
     def _file(self, run, name):
         return os.path.join(self.of(run), name)

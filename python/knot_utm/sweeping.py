@@ -12,6 +12,8 @@ from knot_utm.table import Table
 from knot_utm.work import Work
 from knot_utm.yaml_text import load
 
+SPECIMEN = "specimen"  # the column that tells repeats apart
+
 
 def sweep(study, out=None, jobs=None, plots=()):
     """Runs a study's file and returns its table, a pandas.DataFrame with its units in `.attrs["units"]`.
@@ -32,11 +34,12 @@ class Sweep:
         self.plots = plots
         self.folder = SweepFolder(os.path.abspath(out or os.path.join("out", self.study.name)))
         addresses = Addresses(self.study.method)
-        self.names = [addresses.of(point) for point in self.study.points]
-        self.runs = dict(zip(self.names, self.study.points))
+        self.names = [addresses.of(settings) for settings in self.study.settings]
+        self.runs = dict(zip(self.names, self.study.settings))
+        # Of a batch every specimen is another one.
+        shared = beginnings(self.study.method, list(self.runs.values())) if self.study.repeat == 1 else []
         self.beginnings = {run: (addresses.of({**beginning.shared, "--stop-before": beginning.step}), beginning)
-                           for run, beginning in zip(self.runs, beginnings(self.study.method, list(self.runs.values())))
-                           if beginning is not None}
+                           for run, beginning in zip(self.runs, shared) if beginning is not None}
         self.begun = []  # names of the beginnings that runs began with
 
     def all(self, jobs):
@@ -84,14 +87,28 @@ class Sweep:
 
     def _written(self, work):
         study = self.study
-        table = Table({key: tool.key_unit(study.method, key, study.points[0]) for key in study.keys})
+        units = {key: tool.key_unit(study.method, key, study.points[0]) for key in study.keys}
+        table = Table({**units, SPECIMEN: "-"} if study.repeat > 1 else units)
         for run, point in zip(self.names, study.points):
             record = self.folder.record(run)
             if record is not None:
-                table.add(point, run, record["exit_code"], record["error"], self.folder.result(run))
+                self._add(table, point, run, record)
         frame = table.frame()
         with work.stopping():
             table.write(self.folder.path)
             for result in self.plots if table.rows else ():
                 write_plot(frame, study.keys, result, self.folder.path)
         return frame
+
+    def _add(self, table, point, run, record):
+        """A row for a run, or for each specimen of its batch."""
+        if self.study.repeat == 1:
+            table.add(point, run, record["exit_code"], record["error"], self.folder.result(run))
+            return
+        rejected = self.folder.rejected(run)
+        for number in range(1, self.study.repeat + 1):
+            specimen = f"{run}/specimen_{number:03d}"
+            result = self.folder.result(specimen)
+            error = rejected.get(number) if result else record["error"]
+            code = int(error is not None) if result else record["exit_code"]
+            table.add({**point, SPECIMEN: number}, specimen, code, error, result)

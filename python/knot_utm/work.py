@@ -12,6 +12,7 @@ from tqdm import tqdm
 
 from knot_utm import tool
 from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.sweep_folder import RESULT, STATISTICS
 from knot_utm.yaml_text import load, text_of
 
 DISK_IS_FULL = [os.strerror(code).lower() for code in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)]
@@ -123,6 +124,7 @@ class Work:
         return code, said
 
     def _start(self, point, part, *more):
+        more += ("--jobs", "1") if self.study.repeat > 1 else ()
         command = tool.command(self.study.method, point, part, "--quiet", *more)
         # Not in the terminal's group, whose Ctrl-C is for the sweep; and it dies with the sweep.
         process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *command], cwd=os.path.dirname(self.study.method),
@@ -144,9 +146,9 @@ class Work:
         if code > 0 and result is None and is_of_a_full_disk(said):
             self.stop(said.partition(";")[0])
             return
-        if result is None or result["reason"] == INTERRUPTED:
+        if result is None or result.get("reason") == INTERRUPTED:
             self.folder.empty(part)  # there is nothing in it to rely on
-        why = result["reason"] if result else None
+        why = result.get("reason") if result else None
         error = None if code == 0 else f"killed by {signal.Signals(-code).name}" if code < 0 else why or said
         record = {"exit_code": code if code >= 0 else 128 - code, "error": error, "set": point, "version": tool.version()}
         self.folder.finish(part, run, record)
@@ -157,9 +159,11 @@ def is_of_a_full_disk(said):
 
 
 def result_of(folder):
-    """result.yaml of a run that has ended; None where there is none, or it is not whole."""
+    """result.yaml of a run that has ended, or statistics.yaml of a batch; None where there is none, or it is not whole."""
     with contextlib.suppress(WrongInput):
-        result = load(os.path.join(folder, "result.yaml"))
+        if os.path.exists(os.path.join(folder, STATISTICS)):
+            return load(os.path.join(folder, STATISTICS))
+        result = load(os.path.join(folder, RESULT))
         if isinstance(result, dict) and "specification_failed" in result:
             return result
     return None

@@ -113,10 +113,9 @@ class Designs(Studies):
             self.assertEqual(self.values(text), self.values(text + "\n        seed: 1"))
             self.assertNotEqual(self.values(text), self.values(text + "\n        seed: 2"))
 
-    def test_repeats_differ_by_the_seed_of_the_load_cell(self):
-        points = self.study("method: straight\nvary: {specimen.length: [0.1, 0.2]}\nrepeat: 3").points
-        self.assertEqual(points, [{"specimen.length": length, "machine.load_cell.seed": seed}
-                                  for length in (0.1, 0.2) for seed in (1, 2, 3)])
+    def test_repeats_are_batches(self):
+        study = self.study("method: straight\nvary: {specimen.length: [0.1, 0.2]}\nrepeat: 3")
+        self.assertEqual(study.settings, [{"specimen.length": length, "specimens.count": 3} for length in (0.1, 0.2)])
 
 
 class Shared(Studies):
@@ -190,7 +189,6 @@ class Refused(Studies):
         self.refuses(self.ONE + "seed: 3", "seed is 3", "no effect in a grid")
         self.refuses(self.ONE + "repeat: 0", "repeat is 0", "from 1 to")
         self.refuses(self.ONE + "repeat: true", "repeat is true")
-        self.refuses("method: straight\nvary: {machine.load_cell.seed: [1]}\nrepeat: 2", "repeat is 2", "machine.load_cell.seed")
         self.refuses(self.ONE + "repeat: 2\nrepeat: 3", "repeat stands there twice")
         self.refuses("method: straight\nvary: {1: [0.1]}", "1 is no key")
         self.refuses("{", "study.yaml")
@@ -228,7 +226,7 @@ class Refused(Studies):
         self.refuses("method: straight\ndesign: sobol\nvary: {a: [1, 2]}", "runs is missing")
         many = "{from: 1, to: 2, steps: 2000}"
         self.refuses(f"method: straight\nvary: {{a: {many}, b: {many}}}", "4000000 runs", "1000000")
-        self.refuses(f"method: straight\nvary: {{a: {many}}}\nrepeat: 1000", "repeat is 1000", "2000000 runs")
+        self.refuses(f"method: straight\nvary: {{a: {many}}}\nrepeat: 1000", "repeat is 1000", "2000000 tests")
 
 
 class Yaml(Studies):

@@ -241,6 +241,56 @@ class CutShort(Sweeps):
         process.communicate()
 
 
+class Repeated(Sweeps):
+    SCATTERED = f"""
+        method: method.yaml
+        vary: {{physics.accuracy: [draft], specimen.length: [0.2, 0.3]}}
+        repeat: 3"""
+
+    def setUp(self):
+        super().setUp()
+        method = content(CONFIG, "straight.yaml").decode()
+        write(self.path("method.yaml"), method + "specimens: {scatter: {material.breaking_force: {normal: 0.1}}}\n")
+        write(self.study, self.SCATTERED)
+
+    def test_a_row_is_a_specimen_of_a_batch(self):
+        self.sweep("out", "--jobs", "2")
+        names, units, *runs = rows(self.table("out"))
+        self.assertEqual((names[:5], units[2]), (["physics.accuracy", "specimen.length", "specimen", "exit_code", "error"], "-"))
+        self.assertEqual([run[1:4] for run in runs], [[length, number, "0"] for length in ("0.2", "0.3") for number in "123"])
+        forces = [run[names.index("peak_force")] for run in runs]
+        for length, peaks in (("0.2", forces[:3]), ("0.3", forces[3:])):
+            self.assertEqual(len(set(peaks)), 3, "they scatter")
+            alone = self.path("alone", length)
+            subprocess.run([REAL, self.path("method.yaml"), "--quiet", "--out", alone, "--specimens", "3", "--set",
+                            "physics.accuracy=draft", "--set", "specimen.length=" + length], check=True)
+            self.assertEqual(list(map(float, peaks)), [load(os.path.join(alone, f"specimen_00{i}/result.yaml"))["peak_force"]
+                                                       for i in (1, 2, 3)])
+        self.sweep("one", "--jobs", "1")
+        self.assertEqual(self.table("one"), self.table("out"))
+        self.sweep("out")
+        self.assertEqual(self.started().count(0.2), 2, "not run again")
+
+    def test_rejected_specimens_say_why(self):
+        write(self.study, f"""
+            method: {CONFIG}/tighten.yaml
+            vary: {{physics.accuracy: [draft], material.friction_coefficient: [0.05]}}
+            repeat: 2""")
+        self.sweep("out")
+        names, _, *runs = rows(self.table("out"))
+        for run in runs:
+            run = dict(zip(names, run))
+            self.assertEqual((run["exit_code"], run["ended_by"]), ("1", "untangled"))
+            self.assertIn("undone", run["error"])
+
+    def test_a_batch_that_crashes_is_as_many_rows_and_tried_again(self):
+        self.sweep("out", KILL_AT="specimen.length=0.2")
+        _, _, *runs = rows(self.table("out"))
+        self.assertEqual([run[3:5] for run in runs], [["139", "killed by SIGSEGV"]] * 3 + [["0", ""]] * 3)
+        self.sweep("out")
+        self.assertEqual([run[3:5] for run in rows(self.table("out"))[2:]], [["0", ""]] * 6)
+
+
 class TiedOnce(Sweeps):
     PULLED = f"""
         method: {CONFIG}/tighten.yaml
