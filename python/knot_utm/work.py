@@ -60,7 +60,8 @@ class Work:
 
     def check(self, points, jobs):
         """Raises WrongInput where tensile_test would refuse one of them."""
-        refused = [(point, why) for point, why in zip(points.values(), self._each(self._refusal, points, jobs, "checked")) if why]
+        reasons = self._each(self._refusal, points, jobs, "checked")
+        refused = [(point, why) for point, why in zip(points.values(), reasons) if why]
         self.require_all()
         if refused:
             point, why = refused[0]

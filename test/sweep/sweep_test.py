@@ -242,9 +242,9 @@ class CutShort(Sweeps):
 
 
 class Repeated(Sweeps):
-    SCATTERED = f"""
+    SCATTERED = """
         method: method.yaml
-        vary: {{physics.accuracy: [draft], specimen.length: [0.2, 0.3]}}
+        vary: {physics.accuracy: [draft], specimen.length: [0.2, 0.3]}
         repeat: 3"""
 
     def setUp(self):
@@ -324,11 +324,11 @@ class TiedOnce(Sweeps):
 
     def test_what_does_not_suit_begins_at_the_start(self):
         # The way of the crosshead, which belongs to the machine, is twice the largest extension, at least 1 m.
-        write(self.path("method.yaml"), f"""
-            specimen: {{knot: straight}}
+        write(self.path("method.yaml"), """
+            specimen: {knot: straight}
             material: nylon
-            machine: {{grips: clamps}}
-            program: [hold: {{duration: 1}}, pull: {{speed: 0.01, until: {{extension: 0.001, break: true}}}}]""")
+            machine: {grips: clamps}
+            program: [hold: {duration: 1}, pull: {speed: 0.01, until: {extension: 0.001, break: true}}]""")
         write(self.study, "method: method.yaml\nvary: {program.pull.until.extension: [0.001, 0.002, 5]}")
         self.sweep("out")
         self.assertEqual((self.started_with("--stop-before"), self.started_with("--begin-with")), (1, 3))
