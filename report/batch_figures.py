@@ -6,7 +6,7 @@ from few_points import few_points
 from style import BLUE, GREY, INK, ORANGE, as_svg, stacked
 
 IN_ALL = 60000  # points of all curves together: more of them make a page that is slow to open
-FEWEST = 200    # points of one curve
+FEWEST = 60     # points of one curve
 
 
 def curves(batch, mean, look):
@@ -34,26 +34,30 @@ def curves(batch, mean, look):
 def place_legend(axes, look):
     """Above the axes, as curves and bands may be anywhere in them."""
     if look.is_narrow:
-        axes.legend(loc="lower left", bbox_to_anchor=(-0.22, 1.0), ncol=2, columnspacing=0.8, handlelength=1.2, borderpad=0.2)
+        legend = axes.legend(loc="lower left", bbox_to_anchor=(-0.22, 1.0), ncol=2, columnspacing=0.8, handlelength=1.2,
+                             borderpad=0.2)
     else:
-        axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=4, borderpad=0.2)
+        legend = axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncol=4, borderpad=0.2)
+    for line in legend.get_lines():
+        line.set_alpha(1.0)
 
 
 def draw(axes, pulls, mean, force, length):
     most = max(FEWEST, IN_ALL // len(pulls))
+    faint = min(0.6, max(0.1, 6.0 / len(pulls)))  # so that many do not hide the band
     label = "the specimen" if len(pulls) == 1 else f"{len(pulls)} specimens"
     for s, load in pulls:
         rows = few_points(load, most=most)
-        axes.plot(length * s[rows], force * load[rows], color=BLUE, lw=0.8, alpha=0.55, label=label)
+        axes.plot(length * s[rows], force * load[rows], color=BLUE, lw=0.8, alpha=faint, label=label)
         label = None
     if mean is None:
         return
     s, middle = length * mean.extension, force * mean.mean
     axes.fill_between(s, middle - force * mean.sd, middle + force * mean.sd, color=ORANGE, alpha=0.28, lw=0, zorder=3,
                       label="mean ± standard deviation")
-    axes.plot(s, middle, color=ORANGE, lw=1.5, zorder=4, label="mean")
+    axes.plot(s, middle, color=ORANGE, lw=1.5, zorder=5, label="mean")
     for sign, name in ((-1.0, "95 % interval of the mean"), (1.0, None)):
-        axes.plot(s, middle + sign * force * mean.half, color=INK, lw=0.8, ls=(0, (3, 2)), zorder=4, label=name)
+        axes.plot(s, middle + sign * force * mean.half, color=INK, lw=0.7, ls=(0, (3, 2)), zorder=4, label=name)
     for end in (s[0], s[-1]):
         axes.axvline(end, color=GREY, lw=0.6, ls=":")
 

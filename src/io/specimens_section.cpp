@@ -82,7 +82,7 @@ std::vector<Scatter> default_scatter(const Method& method) {
   if (knot.has("knot_distance")) {
     add("specimen.knot_distance", kByRuler);
     add("specimen.tail", kByEye);
-  } else if (knot.knotted() && knot.has("end_to_end")) {
+  } else if (knot.about().knots > 0 && knot.has("end_to_end")) {
     add("specimen.end_to_end", kByRuler);
   }
   const bool tied = std::any_of(method.program.begin(), method.program.end(),

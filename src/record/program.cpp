@@ -35,4 +35,11 @@ std::optional<int> step_called(const Program& program, const std::string& name) 
 
 std::optional<Phase> phase_named(const std::string& name) { return choice_named(kPhaseNames, name); }
 
+std::vector<std::string> step_names() {
+  std::vector<std::string> names;
+  for (const auto& [phase, name] : kPhaseNames)
+    if (phase != Phase::kIdle && phase != Phase::kDone) names.emplace_back(name);
+  return names;
+}
+
 }  // namespace knot_utm

@@ -313,6 +313,19 @@ double least_end_to_end(double knot_distance, double roller_diameter, double h) 
 
 }  // namespace
 
+FishermanKnot::FishermanKnot() : FishermanKnot(description()) {}
+
+KnotDescription FishermanKnot::description() {
+  KnotDescription out;
+  out.name = "fisherman";
+  out.keys = {"handedness", "knot_distance", "end_to_end", "refinement", "tail", "preload"};
+  out.knots = 2;
+  out.loop = true;
+  out.drawn_coil = FishermanShape().looseness;
+  out.error_study = ErrorStudy::kFisherman;
+  return out;
+}
+
 SpecimenOptions FishermanKnot::defaults(double h) const {
   const double r = h / kPaperRadius;
   SpecimenOptions out;

@@ -290,6 +290,17 @@ class FiguresOfABatch(unittest.TestCase):
             legend = [text.get_text() for text in axes.get_legend().get_texts()]
             self.assertEqual(legend, [f"{counted} specimens", "mean ± standard deviation", "mean", "95 % interval of the mean"])
 
+    def test_draw_the_mean_and_its_band_in_the_units_of_the_page(self):
+        folder = changed(rods, "method.yaml", lambda method: method.update(report={"units": {"force": "kN", "length": "m"}}))
+        axes = self.drawn(folder, style.WIDE).axes[0]
+        mean = mean_curve([one.pull for one in Batch(folder).tested])
+        drawn = {line.get_label(): line.get_xydata().T for line in axes.get_lines()}
+        np.testing.assert_allclose(drawn["mean"], (mean.extension, 1e-3 * mean.mean))
+        np.testing.assert_allclose(drawn["95 % interval of the mean"], (mean.extension, 1e-3 * (mean.mean - mean.half)))
+        band = axes.collections[0].get_paths()[0].vertices[:, 1]
+        np.testing.assert_allclose((band.min(), band.max()),
+                                   (1e-3 * (mean.mean - mean.sd).min(), 1e-3 * (mean.mean + mean.sd).max()))
+
     def test_show_small_loads_once_more(self):
         peaks = Batch(loops).mean("peak_force") / Batch(loops).mean("plateau_force")
         self.assertEqual(len(self.drawn(loops, style.WIDE).axes), 2 if peaks >= curve_figures.MANY else 1)

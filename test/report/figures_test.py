@@ -4,6 +4,7 @@ import base64
 import re
 import struct
 import unittest
+from types import SimpleNamespace
 
 from runs import FISHERMAN, ROOT, STRAIGHT, Folders, OfValues, a_pull, html_of, read, row_of, write
 
@@ -84,6 +85,17 @@ class APicture(unittest.TestCase):
         picture = rod_pictures.pictures(run, [marks.end_of(run.curve)], [shapes.Shape(0.0, across, None)], style.WIDE)
         width, height = struct.unpack(">II", base64.b64decode(picture.split(",")[1])[16:24])  # of a PNG's header
         self.assertLess(height, width)
+
+    def test_has_the_rollers_of_every_loop_and_the_post_of_a_strand_around_one(self):
+        shape = shapes.Shape(0.0, np.zeros((2, 3)), None)
+        for knot, grips, expected in (("fisherman", "rollers", [(0.0, 20.0), (250.0, 20.0)]),
+                                      ("multiple_fisherman", "rollers", [(0.0, 20.0), (250.0, 20.0)]),
+                                      ("fisherman", "clamps", []), ("capstan", "nodes", [(0.0, 15.0)]),
+                                      ("straight", "clamps", []), ("overhand", "nodes", [])):
+            run = SimpleNamespace(method={"specimen": {"knot": knot, "post_diameter": 0.03},
+                                          "machine": {"grips": grips, "roller_diameter": 0.04}},
+                                  curve={"time": [0.0, 1.0], "end_to_end": [0.25, 0.3]})
+            self.assertEqual(rod_pictures.rollers(run, shape), expected, (knot, grips))
 
     def test_is_as_wide_as_the_widest_view(self):
         self.assertEqual(rod_pictures.width_of([(0.0, 50.0, 0.0, 10.0), (0.0, 100.0, 0.0, 10.0)]), 100.0)
