@@ -1,0 +1,55 @@
+"""One run of tensile_test: made, and read."""
+import csv
+import os
+import subprocess
+from dataclasses import dataclass
+
+import pandas as pd
+
+from knot_utm import tool
+from knot_utm.errors import WrongInput
+from knot_utm.yaml_text import load
+
+
+@dataclass(frozen=True)
+class Run:
+    """What a test left in its folder. `results` and `curve` have their units in `.attrs["units"]`, by key and column."""
+
+    folder: str
+    method: dict
+    results: pd.Series
+    curve: pd.DataFrame
+
+
+def read(folder):
+    """The run in a folder. Raises WrongInput where there is none."""
+    folder = os.fspath(folder)
+    results = pd.Series(load(os.path.join(folder, "result.yaml")), dtype=object)
+    results.attrs["units"] = {row["key"]: row["unit"] for row in tool.result_keys()}
+    return Run(folder, load(os.path.join(folder, "method.yaml")), results, _curve(os.path.join(folder, "curve.csv")))
+
+
+def run(method, out, **overrides):
+    """Runs a method's file, or a shipped method by its name, to its end and reads what it left in `out`.
+
+    `overrides`: dotted keys of the method, as in run("tighten", "out/a", **{"specimen.preload": 20}). Raises WrongInput
+    where tensile_test refuses, or `out` holds a run; RuntimeError where it leaves no result."""
+    out = os.path.abspath(out)
+    if os.path.exists(os.path.join(out, "result.yaml")):
+        raise WrongInput(f"{out} holds a run already: choose another folder")
+    method = tool.find_method(os.fspath(method), os.getcwd())
+    done = subprocess.run(tool.command(method, overrides, out, "--quiet"), check=False, text=True, errors="replace",
+                          stdin=subprocess.DEVNULL, capture_output=True)
+    if done.returncode == tool.REFUSED:
+        raise WrongInput(tool.said_by(done.stderr))
+    if not os.path.exists(os.path.join(out, "result.yaml")):
+        raise RuntimeError(f"{out}: {tool.said_by(done.stderr) or f'tensile_test ended with {done.returncode}'}")
+    return read(out)
+
+
+def _curve(path):
+    curve = pd.read_csv(path, skiprows=[1], float_precision="round_trip")
+    with open(path, encoding="utf-8", newline="") as file:
+        names, units = (row for _, row in zip(range(2), csv.reader(file)))
+    curve.attrs["units"] = dict(zip(names, units))
+    return curve

@@ -1,0 +1,98 @@
+"""A study: a method, the keys of it that are varied, and how (doc/studies.md)."""
+import os
+from dataclasses import dataclass
+
+from knot_utm import design, tool
+from knot_utm.errors import WrongInput
+from knot_utm.yaml_text import load, text_of
+
+KEYS = ("method", "vary", "design", "runs", "repeat", "seed")
+COUNT = "specimens.count"  # how tensile_test is told of repeats
+DESIGNS = ("grid", "list", "sobol")
+
+
+@dataclass(frozen=True)
+class Study:
+    """One whole study: every run is the method with other values of the keys. With repeats a run is a batch of specimens."""
+
+    file: str
+    method: str    # path of the method's file
+    points: list   # [{key: value}], one a run
+    repeat: int
+
+    @property
+    def name(self):
+        return os.path.splitext(os.path.basename(self.file))[0]
+
+    @property
+    def keys(self):
+        return list(self.points[0])
+
+    @property
+    def settings(self):
+        """[{key: value}] of every run, with all that it is told."""
+        return [{**point, COUNT: self.repeat} for point in self.points] if self.repeat > 1 else self.points
+
+
+def load_study(file):
+    """Reads a study's file. Raises WrongInput, which names file, key and value."""
+    given = load(file)
+    try:
+        return _study(file, given)
+    except WrongInput as wrong:
+        raise WrongInput(f"{file}: {wrong}") from wrong
+
+
+def _study(file, given):
+    if not isinstance(given, dict):
+        raise WrongInput("a study is a map with the keys " + ", ".join(KEYS))
+    for key in given:
+        if key not in KEYS:
+            raise WrongInput(f"{key} is no key of a study; its keys are " + ", ".join(KEYS))
+    method = tool.find_method(_method(given), os.path.dirname(os.path.abspath(file)))
+    _require_one_specimen(method)
+    vary = given.get("vary")
+    if not isinstance(vary, dict) or not vary:
+        raise WrongInput(f"vary is {text_of(vary)}, but must be a map of at least one key of the method and its values")
+    kind = given.get("design", "grid")
+    if kind not in DESIGNS:
+        raise WrongInput(f"design is {text_of(kind)}, but must be " + ", ".join(DESIGNS))
+    runs, seed = _integer(given, "runs", 1, design.MOST_RUNS), _integer(given, "seed", 0, 2**32 - 1)
+    for name, value in (("runs", runs), ("seed", seed)):
+        if kind == "grid" and value is not None:
+            raise WrongInput(f"{name} is {value}, but has no effect in a grid")
+    for key in vary:
+        if key in (COUNT, "specimens"):
+            raise WrongInput(f"vary has the key {key}, but a run of a study is one specimen: give repeat")
+    kinds = {key: design.varied(key, values) for key, values in vary.items()}
+    points = design.points(kinds, kind, runs, 1 if seed is None else seed)
+    repeat = _integer(given, "repeat", 1, 10_000) or 1
+    if len(points) * repeat > design.MOST_RUNS:
+        raise WrongInput(f"repeat is {repeat}: these are {len(points) * repeat} tests, of at most {design.MOST_RUNS}")
+    return Study(file, method, points, repeat)
+
+
+def _method(given):
+    method = given.get("method")
+    if not isinstance(method, str) or not method:
+        raise WrongInput("method is missing: give a file, from the folder of the study, or the name of a shipped method"
+                         if method is None else f"method is {text_of(method)}, but must be a file or a name")
+    return method
+
+
+def _require_one_specimen(method):
+    given = load(method)
+    specimens = given.get("specimens") if isinstance(given, dict) else None
+    count = specimens.get("count", 1) if isinstance(specimens, dict) else 1
+    if count != 1:
+        raise WrongInput(f"method: {method} has specimens.count {text_of(count)}, but a run of a study is one specimen: give repeat")
+
+
+def _integer(given, key, low, high):
+    value = given.get(key)
+    if value is None and key not in given:
+        return None
+    if not isinstance(value, int) or isinstance(value, bool) or not low <= value <= high:
+        raise WrongInput(f"{key} is {text_of(value)}, but must be an integer from {low} to {high}")
+    return value
+

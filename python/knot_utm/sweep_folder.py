@@ -1,0 +1,108 @@
+"""The folder of a sweep: which runs are in it, whole."""
+import contextlib
+import fcntl
+import os
+import shutil
+import tempfile
+
+import yaml
+
+from knot_utm.errors import WrongInput
+from knot_utm.yaml_text import load
+
+RECORD = "run.yaml"  # beside what tensile_test wrote: how the run ended
+RESULT = "result.yaml"
+STATISTICS = "statistics.yaml"  # of a batch of specimens
+
+
+class SweepFolder:
+    """A run is made in a hidden folder, and gets its name when it has ended: one with a name is whole."""
+
+    def __init__(self, path):
+        self.path = path
+        self.runs = os.path.join(path, "runs")
+        self._tied = os.path.join(path, "tied")
+
+    @contextlib.contextmanager
+    def claimed(self):
+        """For one sweep alone; what a killed one left is cleared away. Raises WrongInput where others are at work."""
+        with self._locked(fcntl.LOCK_EX):
+            for folder in (self.runs, self._tied):
+                for name in os.listdir(folder):
+                    if name.startswith("."):
+                        shutil.rmtree(os.path.join(folder, name), ignore_errors=True)
+            yield
+
+    def shared(self):
+        """For several that make a run each. Raises WrongInput where a sweep is at work."""
+        return self._locked(fcntl.LOCK_SH)
+
+    @contextlib.contextmanager
+    def _locked(self, kind):
+        try:
+            for folder in (self.runs, self._tied):
+                os.makedirs(folder, exist_ok=True)
+        except (FileExistsError, NotADirectoryError, PermissionError) as error:
+            raise WrongInput(f"cannot make the folder {error.filename}: {error.strerror.lower()}") from error
+        with open(os.path.join(self.path, ".lock"), "w", encoding="utf-8") as lock:
+            try:
+                fcntl.flock(lock, kind | fcntl.LOCK_NB)
+            except BlockingIOError as error:
+                raise WrongInput(f"another sweep is at work in {self.path}") from error
+            yield
+
+    def of(self, run):
+        return os.path.join(self.runs, run)
+
+    def tied(self, name):
+        """Of a beginning that runs share."""
+        return os.path.join(self._tied, name)
+
+    def record(self, run):
+        """{exit_code, error, set, version} of a run that has ended; None of any other."""
+        file = self._file(run, RECORD)
+        return load(file) if os.path.exists(file) else None
+
+    def is_done(self, run):
+        """Whether it has ended and left a result; those that left none are tried again."""
+        return os.path.exists(self._file(run, RECORD)) and any(os.path.exists(self._file(run, name))
+                                                               for name in (RESULT, STATISTICS))
+
+    def result(self, run):
+        """Of a run that has ended; empty where it left none."""
+        file = self._file(run, RESULT)
+        return load(file) if os.path.exists(file) else {}
+
+    def rejected(self, run):
+        """{specimen: reason} of a batch."""
+        file = self._file(run, STATISTICS)
+        return {entry["specimen"]: entry["reason"] for entry in load(file)["rejected"]} if os.path.exists(file) else {}
+
+    def _file(self, run, name):
+        return os.path.join(self.of(run), name)
+
+    @contextlib.contextmanager
+    def making(self, place):
+        """A hidden folder beside `place`, that of a run or of a beginning, in which to make it; gone in the end where it was
+        not put there."""
+        part = tempfile.mkdtemp(prefix=f".{os.path.basename(place)}.", dir=os.path.dirname(place))
+        try:
+            yield part
+        finally:
+            shutil.rmtree(part, ignore_errors=True)
+
+    def empty(self, part):
+        shutil.rmtree(part)
+        os.mkdir(part)
+
+    def put(self, part, place):
+        """What was made is whole: it goes where it belongs, instead of what may be there."""
+        os.chmod(part, 0o755)  # mkdtemp's are for nobody else
+        shutil.rmtree(place, ignore_errors=True)
+        os.rename(part, place)
+
+    def finish(self, part, run, record):
+        """Keeps a run that was made."""
+        with open(os.path.join(part, RECORD), "w", encoding="utf-8") as file:
+            yaml.safe_dump(record, file, sort_keys=False, allow_unicode=True)
+        self.put(part, self.of(run))

@@ -1,0 +1,84 @@
+"""tensile_test, as this package calls it."""
+import csv
+import functools
+import os
+import re
+import shutil
+import subprocess
+
+from knot_utm.errors import WrongInput
+from knot_utm.yaml_text import text_of
+
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
+CONFIG = os.path.join(ROOT, "config")
+REFUSED = 2  # its exit code for wrong input
+
+
+@functools.cache
+def tensile_test():
+    """The program: in the folder that KNOT_UTM_TOOLS_DIR names, else as scripts/build made it, else the one on the path."""
+    folder = os.environ.get("KNOT_UTM_TOOLS_DIR") or os.path.join(ROOT, "build/devel/lib/knot_utm")
+    place = os.path.join(folder, "tensile_test")
+    found = place if os.access(place, os.X_OK) else shutil.which("tensile_test")
+    if not found:
+        raise WrongInput(f"{place} is not there: scripts/build tensile_test makes it")
+    return os.path.abspath(found)
+
+
+@functools.cache
+def version():
+    return _said("--version").strip()
+
+
+@functools.cache
+def result_keys():
+    """[{key, unit, kind, group, meaning}] of result.yaml."""
+    return list(csv.DictReader(_said("--list-results").splitlines()))
+
+
+def find_method(name, folder):
+    """The file of a method, from a folder, or of one that comes with the package. Raises WrongInput."""
+    places = [os.path.join(folder, name)]
+    if os.path.basename(name) == name:
+        places += [os.path.join(CONFIG, name), os.path.join(CONFIG, name + ".yaml")]
+    for place in places:
+        if os.path.isfile(place):
+            return os.path.abspath(place)
+    raise WrongInput(f"method is {name}, but must be a file, from {folder}, or the name of a method that comes with the "
+                     "package")
+
+
+def command(method, settings, out, *more):
+    """The command line of one run; `settings`: {dotted key: value}."""
+    sets = [word for key, value in settings.items() for word in ("--set", f"{key}={text_of(value)}")]
+    return [tensile_test(), method, *sets, "--out", out, *more]
+
+
+def refusal(method, settings):
+    """Why tensile_test would refuse to run that, in a line; None where it would not.
+
+    It refuses a method before it makes the folder. None can be made within a file, so that nothing runs."""
+    nowhere = os.path.join(method, "checked")
+    done = subprocess.run(command(method, settings, nowhere, "--quiet"), check=False, text=True, errors="replace",
+                          cwd=os.path.dirname(method), stdin=subprocess.DEVNULL, capture_output=True)
+    if done.returncode != REFUSED:
+        raise RuntimeError(f"tensile_test could not check {method}: {said_by(done.stderr) or f'exit code {done.returncode}'}")
+    why = said_by(done.stderr)
+    return None if why.startswith(f'cannot make the folder "{nowhere}"') else why
+
+
+def key_unit(method, key, settings):
+    """The unit of a method's key, "-" of what has none: tensile_test names it where it asks for another value."""
+    said = refusal(method, {**settings, key: "?"}) or ""
+    unit = re.search(r"\((?:in (.+)|(of .+))\)", said.partition(' is "?", but must be ')[2])
+    return unit[1] or unit[2] if unit else "-"
+
+
+def said_by(stderr):
+    """The last line that tensile_test said, without its name."""
+    lines = stderr.strip().splitlines()
+    return lines[-1].removeprefix("tensile_test: ") if lines else ""
+
+
+def _said(option):
+    return subprocess.run([tensile_test(), option], check=True, text=True, stdin=subprocess.DEVNULL, capture_output=True).stdout

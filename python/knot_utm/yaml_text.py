@@ -1,0 +1,47 @@
+"""YAML as tensile_test reads and writes it."""
+import re
+
+import yaml
+
+from knot_utm.errors import WrongInput
+
+
+class _Loader(getattr(yaml, "CSafeLoader", yaml.SafeLoader)):
+    """1e-5 and 2e4 are numbers, as in YAML 1.2, and no key stands twice in a map."""
+
+    def construct_mapping(self, node, deep=False):
+        seen = set()
+        for key_node, _ in node.value:
+            key = self.construct_object(key_node, deep=True)
+            if not isinstance(key, str):
+                raise WrongInput(f"line {key_node.start_mark.line + 1}: {key_node.value or 'this'} is no key: a key is a word")
+            if key in seen:
+                raise WrongInput(f"line {key_node.start_mark.line + 1}: {key} stands there twice")
+            seen.add(key)
+        return super().construct_mapping(node, deep)
+
+
+class _Dumper(yaml.SafeDumper):
+    """Writes a text that would read back as such a number in quotes."""
+
+
+for _side in (_Loader, _Dumper):
+    _side.add_implicit_resolver("tag:yaml.org,2002:float", re.compile(r"^[-+]?(\d+\.?\d*|\.\d+)[eE][-+]?\d+$"),
+                                list("-+.0123456789"))
+
+
+def load(path):
+    """What the file holds. Raises WrongInput, which names the file."""
+    try:
+        with open(path, encoding="utf-8") as file:
+            return yaml.load(file, _Loader)
+    except OSError as error:
+        raise WrongInput(f"{path}: {error.strerror.lower()}") from error
+    except (yaml.YAMLError, UnicodeDecodeError, WrongInput) as error:
+        raise WrongInput(f"{path}: {' '.join(str(error).split())}") from error
+
+
+def text_of(value):
+    """A value in one line, which reads back as the same value."""
+    text = yaml.dump(value, Dumper=_Dumper, default_flow_style=True, width=float("inf"), allow_unicode=True)
+    return text.removesuffix("\n").removesuffix("...").rstrip("\n")

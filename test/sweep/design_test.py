@@ -1,0 +1,242 @@
+#!/usr/bin/python3
+"""The designs of a study, against NumPy and SciPy used directly, and what a study refuses. Skipped, with exit code 77, where
+a module is not installed."""
+import glob
+import itertools
+import os
+import sys
+import tempfile
+import unittest
+
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(ROOT, "python"))
+
+try:
+    import numpy as np
+    from scipy import special, stats
+
+    from knot_utm import WrongInput, tool
+    from knot_utm.design import DRAWS
+    from knot_utm.sharing import beginnings
+    from knot_utm.study import KEYS, load_study
+    from knot_utm.yaml_text import load, text_of
+except ModuleNotFoundError as absent:
+    print(f"skipped: {absent} (scripts/sweep installs it)")
+    sys.exit(77)
+
+
+def write(path, text):
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
+
+
+class Studies(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.file = os.path.join(folder.name, "study.yaml")
+
+    def study(self, text):
+        write(self.file, text)
+        return load_study(self.file)
+
+    def values(self, text):
+        """[values of a run], in the order of the keys."""
+        return [tuple(point.values()) for point in self.study(text).points]
+
+    def refuses(self, text, *words):
+        with self.assertRaises(WrongInput) as caught:
+            self.study(text)
+        said = str(caught.exception)
+        self.assertTrue(said.startswith(self.file), said)
+        self.assertNotIn("\n", said)
+        for word in words:
+            self.assertIn(word, said)
+
+
+class Designs(Studies):
+    def test_grid_has_every_combination_the_last_key_fastest(self):
+        found = self.values("""
+            method: straight
+            vary:
+              material: [nylon, polypropylene]
+              specimen.length: {from: 0.1, to: 0.4, steps: 3}
+              specimen.edge_length: {from: 1e-3, to: 1e-2, steps: 4, scale: log}""")
+        self.assertEqual(found, list(itertools.product(["nylon", "polypropylene"], np.linspace(0.1, 0.4, 3).tolist(),
+                                                       np.geomspace(1e-3, 1e-2, 4).tolist())))
+
+    def test_list_puts_values_side_by_side_and_one_value_beside_all(self):
+        found = self.values("""
+            method: straight
+            design: list
+            vary: {specimen.length: [0.1, 0.3, 0.2], physics.accuracy: [draft], machine.travel: {from: 1, to: 3, steps: 3}}""")
+        self.assertEqual(found, [(0.1, "draft", 1.0), (0.3, "draft", 2.0), (0.2, "draft", 3.0)])
+
+    DRAWN = """
+        method: straight
+        vary:
+          a: {draw: uniform, from: 2, to: 6}
+          b: {draw: log_uniform, from: 1e-3, to: 10}
+          c: {draw: normal, mean: 5, sd: 0.5}
+        """
+
+    def test_sobol_has_the_quantiles_at_its_points(self):
+        found = np.array(self.values(self.DRAWN + "design: sobol\n        runs: 64\n        seed: 3"))
+        shares = stats.qmc.Sobol(3, seed=3).random_base2(6)
+        expected = np.array([2 + 4 * shares[:, 0], 10 ** (-3 + 4 * shares[:, 1]), 5 + 0.5 * special.ndtri(shares[:, 2])]).T
+        np.testing.assert_allclose(found, expected, rtol=1e-12)
+        # Of 64 points each of 64 equal parts of a range has one: no draw of independent numbers does that.
+        self.assertEqual(sorted(np.floor((found[:, 0] - 2) * 16).astype(int)), list(range(64)))
+
+    def test_sobol_takes_each_value_of_a_list_equally_often(self):
+        found = self.values("""
+            method: straight
+            design: sobol
+            runs: 16
+            vary: {material: [nylon, polypropylene], machine.travel: {from: 1, to: 2}, specimen.length: {from: 1, to: 4, steps: 4}}""")
+        self.assertEqual([sum(run[0] == name for run in found) for name in ("nylon", "polypropylene")], [8, 8])
+        self.assertEqual([sum(run[2] == length for run in found) for length in (1.0, 2.0, 3.0, 4.0)], [4, 4, 4, 4])
+        self.assertTrue(all(1 <= run[1] <= 2 for run in found))
+
+    def test_drawn_lists_have_their_distributions(self):
+        found = np.array(self.values(self.DRAWN + "design: list\n        runs: 2000"))
+        for column, distribution in zip(found.T, (stats.uniform(2, 4), stats.loguniform(1e-3, 10), stats.norm(5, 0.5))):
+            self.assertGreater(stats.kstest(column, distribution.cdf).pvalue, 0.001)
+        correlation = np.corrcoef(found[:, 0], found[:, 2])[0, 1]
+        self.assertLess(abs(correlation), 5 / np.sqrt(2000))
+
+    def test_draws_are_the_same_each_time_and_others_by_another_seed(self):
+        for design in ("list", "sobol"):
+            text = self.DRAWN + f"design: {design}\n        runs: 8"
+            self.assertEqual(self.values(text), self.values(text))
+            self.assertEqual(self.values(text), self.values(text + "\n        seed: 1"))
+            self.assertNotEqual(self.values(text), self.values(text + "\n        seed: 2"))
+
+    def test_repeats_are_batches(self):
+        study = self.study("method: straight\nvary: {specimen.length: [0.1, 0.2]}\nrepeat: 3")
+        self.assertEqual(study.settings, [{"specimen.length": length, "specimens.count": 3} for length in (0.1, 0.2)])
+
+
+class Shared(Studies):
+    METHOD = """
+        specimen: {knot: fisherman}
+        program: [tie: {}, release: {}, mount: {}, balance: {}, pull: {speed: 0.001}, hold: {duration: 1}, pull: {speed: 0.002}]
+        """
+
+    def beginnings(self, vary, design="grid"):
+        """(step, what is shared) of each run; None of one that shares nothing."""
+        write(self.file + ".method", self.METHOD)
+        study = self.study(f"method: {self.file}.method\ndesign: {design}\nvary: {vary}")
+        return [found and (found.step, found.shared) for found in beginnings(study.method, study.points)]
+
+    def test_runs_are_the_same_up_to_the_first_step_that_differs(self):
+        found = self.beginnings("{material: [nylon, pink_vps], program.hold.duration: [1, 2], physics.accuracy: [draft]}")
+        self.assertEqual(found, [(5, {"material": name, "physics.accuracy": "draft"}) for name in ("nylon", "pink_vps") for _ in "12"])
+        self.assertEqual(self.beginnings("{program.4.pull.speed: [1, 2]}"), [(4, {})] * 2)
+
+    def test_the_latest_step_that_runs_share_counts(self):
+        self.assertEqual(self.beginnings("{program.4.pull.speed: [1, 2], program.hold.duration: [1, 2]}"),
+                         [(5, {"program.4.pull.speed": speed}) for speed in (1, 1, 2, 2)])
+        self.assertEqual(self.beginnings("{program.4.pull.speed: [1, 2], program.hold.duration: [1, 2]}", "list"), [(4, {})] * 2)
+        self.assertEqual(self.beginnings("{material: [a, a, b], program.4.pull.speed: [1, 2, 3]}", "list"),
+                         [(4, {"material": "a"})] * 2 + [None])
+
+    def test_the_first_of_those_that_share_stands_for_them(self):
+        write(self.file + ".method", self.METHOD)
+        study = self.study(f"method: {self.file}.method\nvary: {{material: [a, b], program.hold.duration: [1, 2]}}")
+        found = beginnings(study.method, study.points)
+        self.assertEqual([beginning.point for beginning in found], [study.points[i] for i in (0, 0, 2, 2)])
+
+    def test_where_nothing_is_shared_there_is_none(self):
+        for vary in ("{material: [a, b]}", "{program.tie.speed: [1, 2]}", "{ends.load: [1, 2]}", "{program: [[], [1]]}",
+                     "{program.pull.speed: [1, 2]}", "{program.9.speed: [1, 2]}"):  # two steps pull; there is no tenth
+            self.assertEqual(self.beginnings(vary), [None] * 2, vary)
+        self.METHOD = "program: [balance: {}, pull: {}]"
+        self.assertEqual(self.beginnings("{program.pull.speed: [1, 2]}"), [None] * 2, "a balance takes no time")
+
+
+class Documented(unittest.TestCase):
+    def test_every_key_and_draw(self):
+        with open(os.path.join(ROOT, "doc/studies.md"), encoding="utf-8") as file:
+            page = file.read()
+        for key in KEYS:
+            self.assertIn(f"\n| `{key}` |", page)
+        for name, parts in DRAWS.items():
+            self.assertIn(f"`{{draw: {name}, {', '.join(parts)}}}`", page)
+
+    def test_shipped_studies_would_run(self):
+        studies = glob.glob(os.path.join(ROOT, "config/studies/*.yaml"))
+        self.assertTrue(studies)
+        for file in studies:
+            study = load_study(file)
+            for point in study.points:
+                self.assertIsNone(tool.refusal(study.method, point), file)
+
+
+class Refused(Studies):
+    ONE = "method: straight\nvary: {specimen.length: [0.1]}\n"
+
+    def test_keys_and_values_of_a_study(self):
+        self.refuses("[]", "a study is a map")
+        self.refuses("a: 1\n" + self.ONE, "a is no key of a study")
+        self.refuses("vary: {specimen.length: [0.1]}", "method is missing")
+        self.refuses("method: strait\nvary: {specimen.length: [0.1]}", "method is strait")
+        self.refuses("method: straight", "vary is null")
+        self.refuses("method: straight\nvary: {}", "vary is {}")
+        self.refuses(self.ONE + "design: star", "design is star", "grid, list, sobol")
+        self.refuses(self.ONE + "runs: 3", "runs is 3", "no effect in a grid")
+        self.refuses(self.ONE + "seed: 3", "seed is 3", "no effect in a grid")
+        self.refuses(self.ONE + "repeat: 0", "repeat is 0", "from 1 to")
+        self.refuses(self.ONE + "repeat: true", "repeat is true")
+        self.refuses(self.ONE + "repeat: 2\nrepeat: 3", "repeat stands there twice")
+        self.refuses("method: straight\nvary: {1: [0.1]}", "1 is no key")
+        self.refuses("{", "study.yaml")
+
+    def test_batches(self):
+        self.refuses("method: straight\nvary: {specimens.count: [1, 2]}", "specimens.count", "give repeat")
+        write(self.file + ".method", "specimens: {count: 8}")
+        self.refuses(f"method: {self.file}.method\nvary: {{a: [1]}}", "specimens.count 8", "give repeat")
+
+    def test_values_of_a_key(self):
+        def refuses(value, *words, design=""):
+            self.refuses(f"method: straight\nvary: {{specimen.length: {value}}}\n{design}", "vary.specimen.length", *words)
+
+        refuses("0.1", "0.1", "a list of values")
+        refuses("[]", "[]", "a list of values")
+        refuses("{from: 1, to: 2, steps: 1}", "steps is 1", "from 2 to")
+        refuses("{from: 1, steps: 2}", "to is missing")
+        refuses("{from: 1, to: far, steps: 2}", "to is far", "a number")
+        refuses("{from: 0, to: 1, steps: 2, scale: log}", "from is 0", "above 0")
+        refuses("{from: 1, to: 2, steps: 2, scale: cubic}", "scale is cubic")
+        refuses("{from: 1, to: 2, step: 2}", "step is no key")
+        refuses("{from: 1, to: 2}", "give steps")
+        refuses("{draw: uniform, from: 1, to: 2}", "a grid needs values")
+        sobol = "design: sobol\nruns: 4"
+        refuses("{draw: beta, from: 1, to: 2}", "draw is beta", "log_uniform", design=sobol)
+        refuses("{draw: normal, mean: 1, sd: 0}", "sd is 0", design=sobol)
+        refuses("{draw: uniform, mean: 1}", "mean is no key", design=sobol)
+        refuses("{draw: uniform, from: 2, to: 1}", "to is 1", "above from", design=sobol)
+        refuses("{draw: log_uniform, from: -1, to: 1}", "from is -1", design=sobol)
+
+    def test_numbers_of_runs(self):
+        self.refuses("method: straight\ndesign: list\nvary: {a: [1, 2], b: [1, 2, 3]}", "vary.b has 3 values", "have 2")
+        self.refuses("method: straight\ndesign: list\nruns: 3\nvary: {a: [1, 2]}", "vary.a has 2 values", "have 3")
+        self.refuses("method: straight\ndesign: list\nvary: {a: {draw: uniform, from: 1, to: 2}}", "runs is missing")
+        self.refuses("method: straight\ndesign: sobol\nvary: {a: [1, 2]}", "runs is missing")
+        many = "{from: 1, to: 2, steps: 2000}"
+        self.refuses(f"method: straight\nvary: {{a: {many}, b: {many}}}", "4000000 runs", "1000000")
+        self.refuses(f"method: straight\nvary: {{a: {many}}}\nrepeat: 1000", "repeat is 1000", "2000000 tests")
+
+
+class Yaml(Studies):
+    def test_values_read_back_as_they_were(self):
+        for value in (1, 1e-5, 2e22, 0.1, float("inf"), True, None, "nylon", "1e-5", "a: b", "Gruß", [1, [2.5]],
+                      {"radius": 0.001, "name": "own"}, "x" * 300):
+            write(self.file, "value: " + text_of(value))
+            self.assertEqual(load(self.file), {"value": value})
+            self.assertNotIn("\n", text_of(value))
+
+
+if __name__ == "__main__":
+    unittest.main()
