@@ -35,7 +35,6 @@ class LoadCell {
   void state(Archive& archive);
 
  private:
-
   LoadCellOptions options_;
   double gain_ = 1.0;  ///< 1 + g
   double balanced_ = 0.0;
