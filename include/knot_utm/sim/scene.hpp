@@ -87,19 +87,18 @@ struct StepSettings {
   BendingLaws bending;  ///< of a rod with natural curvature; all others bend elastically (isotropic_bending.hpp)
   double friction_couple =
       0.0;  ///< eta: friction acts at the surfaces (surface_contact.hpp); 0: on the centrelines [-]
-  double weighting_time = 0.05;      ///< relaxation time of weighting factors (smooth_contact.hpp) [s]
-  Vec3 gravity = Vec3::Zero();       ///< g [m/s^2]
-  double drag = 0.0;                 ///< c, force -c v per length [N s/m^2]
-  bool spin_inertia = true;          ///< spin has inertia and drag (frame_terms.hpp)
-  double residual = 0.0;             ///< tolerance of a node's residual [N]
-  double residual_from_step = 0.0;   ///< in shorter steps it falls with their square, down to a thousandth [s]
-  double residual_of_tension = 0.0;  ///< tolerance scaling: more by this fraction of the node's tension [-]
-  double residual_at_little_tension =
-      0.0;                        ///< at small tension it falls to this fraction of the largest one; 0: it does not [-]
-  double newton_cap = 0.0;        ///< longest movement of a node in one Newton iteration [m]
-  double motion_limit = 0.0;      ///< longest movement of a node in one step [m]
-  double overlap_limit = 0.0;     ///< deepest overlap of a step that may be accepted [m]
-  double candidate_margin = 0.0;  ///< of the contact search [m]
+  double weighting_time = 0.05;             ///< relaxation time of weighting factors (smooth_contact.hpp) [s]
+  Vec3 gravity = Vec3::Zero();              ///< g [m/s^2]
+  double drag = 0.0;                        ///< c, force -c v per length [N s/m^2]
+  bool spin_inertia = true;                 ///< spin has inertia and drag (frame_terms.hpp)
+  double residual = 0.0;                    ///< tolerance of a node's residual [N]
+  double residual_from_step = 0.0;          ///< in shorter steps it falls with their square, down to a thousandth [s]
+  double residual_of_tension = 0.0;         ///< tolerance scaling: more by this fraction of the node's tension [-]
+  double residual_at_little_tension = 0.0;  ///< then it falls to this fraction of the largest; 0: not [-]
+  double newton_cap = 0.0;                  ///< longest movement of a node in one Newton iteration [m]
+  double motion_limit = 0.0;                ///< longest movement of a node in one step [m]
+  double overlap_limit = 0.0;               ///< deepest overlap of a step that may be accepted [m]
+  double candidate_margin = 0.0;            ///< of the contact search [m]
   int max_iterations = 20;
 
   void state(Archive& archive);

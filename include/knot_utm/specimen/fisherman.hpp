@@ -19,11 +19,10 @@ namespace knot_utm {
 /// Same-handed: the two knots are images of each other under a half turn about an axis normal to the load axis.
 /// Opposite-handed: the lower knot is the mirror image of that.
 struct FishermanShape {
-  double radius = 3.175e-3;    ///< h, of the rod [m]
-  double knot_distance = 0.1;  ///< e, distance of the middles of the two coils, once tied [m]
-  double outward_shift =
-      0.0;                   ///< distance by which tying moves the coils apart, so that they are drawn closer by it [m]
-  double end_to_end = 0.25;  ///< L, distance of the rollers' centres [m]
+  double radius = 3.175e-3;        ///< h, of the rod [m]
+  double knot_distance = 0.1;      ///< e, distance of the middles of the two coils, once tied [m]
+  double outward_shift = 0.0;      ///< distance by which tying moves the coils apart [m]
+  double end_to_end = 0.25;        ///< L, distance of the rollers' centres [m]
   double roller_radius = 0.01905;  ///< [m]
   double tail = 0.03;              ///< free tail beyond the outermost point of the coil [m]
   Handedness handedness = Handedness::kSame;

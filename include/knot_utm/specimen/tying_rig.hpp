@@ -38,9 +38,8 @@ class TyingRig {
     double rest_speed = 0.0;      ///< every node slower than this ... [m/s]
     double rest_time = 0.3;       ///< ... for this long: at rest [s]
     double patience = 60.0;       ///< without rest for this long the test goes on, not equilibrated [s]
-    double pull_patience =
-        90.0;                 ///< the knots cannot be tied if the grips have not reached the pre-load by then [s] ...
-    double pull_way = 300.0;  ///< ... and have gone this far [h]
+    double pull_patience = 90.0;  ///< not tied if the pre-load is not reached by then [s] ...
+    double pull_way = 300.0;      ///< ... and have gone this far [h]
   };
   enum class Stage {
     kIdle,
