@@ -94,7 +94,7 @@ struct StepSettings {
   double residual = 0.0;                    ///< tolerance of a node's residual [N]
   double residual_from_step = 0.0;          ///< in shorter steps it falls with their square, down to a thousandth [s]
   double residual_of_tension = 0.0;         ///< tolerance scaling: more by this fraction of the node's tension [-]
-  double residual_at_little_tension = 0.0;  ///< then it falls to this fraction of the largest; 0: not [-]
+  double residual_at_little_tension = 0.0;  ///< small tension: tolerance at most this times the largest; 0: any [-]
   double newton_cap = 0.0;                  ///< longest movement of a node in one Newton iteration [m]
   double motion_limit = 0.0;                ///< longest movement of a node in one step [m]
   double overlap_limit = 0.0;               ///< deepest overlap of a step that may be accepted [m]
