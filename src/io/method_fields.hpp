@@ -93,6 +93,7 @@ void load_cell(Fields& f, LoadCellOptions& o) {
   f.number("drift", o.drift, Range{-1e3, 1e3, "N/s"});
   f.number("overload", o.overload, Range{1.0, kInfinity, "of capacity"});
   f.integer("seed", o.seed, 0u, std::numeric_limits<unsigned>::max());
+  f.integer("noise_run", o.noise_run, 0u, std::numeric_limits<unsigned>::max());
   f.text("notes", o.notes);
 }
 

@@ -87,7 +87,7 @@ ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& ma
   const bool studied = study == ErrorStudy::kFisherman && specimen.to_be_tied &&
                        physics.contact_law == ContactLaw::kSmooth && entry_of(physics.friction.law).studied &&
                        friction_couple(material, physics) == 0.0 && material.bending_set == 0.0 &&
-                       !remembers_bends(material) && machine.roller_friction == 0.0;
+                       !bends_on_frames(material) && machine.roller_friction == 0.0;
   if (!studied) return out;
   const double h = material.radius, edge = specimen.edge_length / h;
   const bool solid = stretches(specimen, material), opposite = specimen.handedness == Handedness::kOpposite;

@@ -93,7 +93,7 @@ struct TestingMachine::Impl {
     state.velocity = Points::Zero(3, nodes);
     const RodProperties rod = make_rod(material, rest);
     const bool takes_set = specimen.to_be_tied && material.bending_set > 0.0;
-    if (takes_set || remembers_bends(material)) state.natural_curvature.setZero(2, nodes - 2);
+    if (takes_set || bends_on_frames(material)) state.natural_curvature.setZero(2, nodes - 2);
     if (solves_for_twist(rod, state)) initialise_frames(&state);
     const StepSettings settings = step_settings(specimen, material_, machine, physics);
     gravity = settings.gravity;
@@ -280,6 +280,7 @@ struct TestingMachine::Impl {
     s.grip_work = work.boundary;
     s.dissipation = work.friction + work.drag + work.plastic;
     s.friction_loss = work.friction;
+    s.plastic_loss = work.plastic;
     s.numerical_dissipation = work.numerical;
     s.reweighting_loss = work.reweighting;
     s.moment_imbalance = stepper->loads().moment.norm();

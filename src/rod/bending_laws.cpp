@@ -6,6 +6,10 @@ BendingLaws bending_law_of(const Material& material) {
   return LawRegistry<BendingLaws>::of(static_cast<std::size_t>(material.bending_law), material);
 }
 
+bool bends_on_frames(const BendingLaws& law) { return !std::holds_alternative<ElasticBending>(law); }
+
+bool bends_on_frames(const Material& material) { return bends_on_frames(bending_law_of(material)); }
+
 bool remembers(const BendingLaws& law) {
   return std::visit([](const auto& of) { return of.kRemembers; }, law);
 }

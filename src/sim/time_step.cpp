@@ -148,7 +148,7 @@ void TimeStep::state(Archive& archive) { archive(state_); }
 std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodState& state,
                                          const StepSettings& settings) {
   elastic_energy(rod, state);  // throws where rod and state do not fit together
-  if (remembers(settings.bending) && !state.curved_at_rest())
+  if (bends_on_frames(settings.bending) && !state.curved_at_rest())
     throw InvalidInput("rod", "one without a memory of bends", "made with natural curvatures, be they zero");
   const bool edges = settings.contact_law == ContactLaw::kEdge;
   if (state.twist.size() == 0) {

@@ -68,9 +68,13 @@ TEST(Specimens, StayTheSameHoweverManyThereAreAndWhateverElseScatters) {
   EXPECT_NE(few[0].method.specimen.length, other[0].method.specimen.length);
 }
 
-TEST(Specimens, EachHasNoiseOfItsOwn) {
-  const auto drawn = draw_specimens(straight("{count: 2}"));
-  EXPECT_NE(drawn[0].method.machine.load_cell.seed, drawn[1].method.machine.load_cell.seed);
+/// No number of specimens averages the cell's systematic error out, as in a laboratory.
+TEST(Specimens, AreReadByOneCellWithNoiseOfItsOwnForEach) {
+  const auto drawn = draw_specimens(straight("{count: 2}")), others = draw_specimens(straight("{count: 2, seed: 2}"));
+  const auto cell = [](const DrawnSpecimen& specimen) { return specimen.method.machine.load_cell; };
+  EXPECT_EQ(cell(drawn[0]).seed, cell(drawn[1]).seed);
+  EXPECT_NE(cell(drawn[0]).noise_run, cell(drawn[1]).noise_run);
+  EXPECT_NE(cell(drawn[0]).noise_run, cell(others[0]).noise_run);
 }
 
 /// What a resumed batch reads is its own method.yaml.

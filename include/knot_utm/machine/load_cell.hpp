@@ -17,8 +17,8 @@ namespace knot_utm {
 /// resolution [N]. With default options the reading is F - F_balance.
 ///
 /// An accuracy class is a bound on the gain's error, so a cell draws g once, uniformly between the bounds. g and the
-/// normally distributed noise follow from the seed alone and do not depend on each other. The n-th readings of two
-/// cells with the same seed have the same noise.
+/// normally distributed noise follow from the seed and do not depend on each other; the noise also follows from the
+/// number of the run. The n-th readings of two cells with the same seed and run have the same noise.
 class LoadCell {
  public:
   /// Throws InvalidInput where a number is out of range.

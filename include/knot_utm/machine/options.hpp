@@ -24,7 +24,8 @@ struct LoadCellOptions {
   double noise = 0.0;          ///< standard deviation of a reading [N]; 0: none
   double drift = 0.0;          ///< of its zero since balance [N/s]
   double overload = std::numeric_limits<double>::infinity();  ///< load of its stop [of capacity]
-  unsigned seed = 1;                                          ///< of the systematic error and the noise
+  unsigned seed = 1;                                          ///< of the cell: its systematic error, and its noise
+  unsigned noise_run = 0;                                     ///< the same cell has other noise in each run
   std::string notes;
 };
 

@@ -81,6 +81,7 @@ struct Sample {
   double grip_work = 0.0;
   double dissipation = 0.0;
   double friction_loss = 0.0;
+  double plastic_loss = 0.0;
   double numerical_dissipation = 0.0;
   double reweighting_loss = 0.0;
   double moment_imbalance = 0.0;

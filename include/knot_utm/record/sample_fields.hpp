@@ -79,6 +79,7 @@ inline constexpr auto kSampleFields = std::make_tuple(
     KNOT_UTM_FIELD(grip_work, "J", kFinite, "done by grips and fixtures since the start"),
     KNOT_UTM_FIELD(dissipation, "J", kFinite, "by friction, drag and yielding since the start"),
     KNOT_UTM_FIELD(friction_loss, "J", kFinite, "part of the dissipation that is by friction"),
+    KNOT_UTM_FIELD(plastic_loss, "J", kFinite, "part of the dissipation that is by bends that yield"),
     KNOT_UTM_FIELD(numerical_dissipation, "J", kFinite,
                    "by the time steps since the start, beside friction and drag; may be negative"),
     KNOT_UTM_FIELD(reweighting_loss, "J", kFinite,

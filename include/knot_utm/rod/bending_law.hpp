@@ -16,8 +16,7 @@ namespace knot_utm {
 ///
 ///     static constexpr const char* kName          is what a method calls it (material.bending_law)
 ///     static Law of(Material)                     from a method; throws InvalidInput where a value is missing
-///     static constexpr bool kRemembers            whether what it remembers changes in a step; the rod then needs
-///                                                 frames and RodState::natural_curvature, be it zero
+///     static constexpr bool kRemembers            whether what it remembers changes in a step
 ///     respond(BendingNode) -> BendingResponse
 ///     remember(BendingNode) -> BendingMemory      once the step is accepted
 ///     state(Archive&)                             its parameters

@@ -84,7 +84,8 @@ struct StepSettings {
   PressureLaws normal;                           ///< between strands, and on rollers
   Friction friction;                             ///< between strands
   Friction roller_friction;
-  BendingLaws bending;  ///< of a rod with natural curvature; all others bend elastically (isotropic_bending.hpp)
+  BendingLaws bending;  ///< of a rod with natural curvature; others bend elastically (isotropic_bending.hpp);
+                        ///< `bends_on_frames` tells
   double friction_couple =
       0.0;  ///< eta: friction acts at the surfaces (surface_contact.hpp); 0: on the centrelines [-]
   double weighting_time = 0.05;             ///< relaxation time of weighting factors (smooth_contact.hpp) [s]
