@@ -166,9 +166,7 @@ int run_all_specimens(const Arguments& arguments, const Method& method) {
   options.resume = !arguments.resume.empty();
   options.overwrite = arguments.overwrite;
   options.checkpoint_period = arguments.checkpoint;
-#ifdef KNOT_UTM_HAS_ROS
-  options.further = bag_in;
-#endif
+  // No bags: rosbag::Bag loads a plugin as it is made, which several threads must not do at once.
   ProgressLine progress(arguments.quiet);
   options.interrupted = [] { return stop_asked != 0; };
   options.notice = [&](const std::string& line) {

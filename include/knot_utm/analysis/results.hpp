@@ -20,7 +20,7 @@ struct EnergyParts {
   double stored = 0.0;  ///< change of stretching, bending, twisting and contact energy
   double kinetic = 0.0;
   double friction = 0.0;
-  double drag = 0.0;
+  double drag = 0.0;  ///< and yielding (bending_law: plastic)
   double numerical = 0.0;
   double reweighting = 0.0;
 

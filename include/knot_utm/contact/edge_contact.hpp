@@ -17,7 +17,7 @@ namespace knot_utm {
 ///     dx = S + a' dt - b' du,     H (dt, du) = (-a'.S - x.A,  b'.S + x.R),
 ///     H = [ |a'|^2 + r   -a'.b' ;  -a'.b'   |b'|^2 + r ],
 ///
-/// a foot at the end of its edge staying there. Pressure as in ContactModel.
+/// and a foot at the end of its edge stays there. The pressure is that of ContactModel.
 struct EdgeContactModel {
   Lanes force = {};       ///< g with that pressure [N]
   double pressure = 0.0;  ///< of the tangent at the present overlap [N/m]
@@ -32,18 +32,18 @@ struct EdgeContactModel {
   }
 };
 
-/// The pressure of a contact between edges as ContactModel has it.
+/// The pressures of a contact between edges, as in ContactModel.
 struct EdgePressure {
   double slope;     ///< p'(D^) [N/m^2]
   double pressure;  ///< of the tangent at the present overlap [N/m]
-  double turning;   ///< what turns with n and z [N/m]
+  double turning;   ///< of the terms in which n and z turn [N/m]
 };
 EdgePressure pressure_of(const EdgeLaw& normal, const ContactLinearisation& how, const ContactPoint& contact);
 
-/// Self-contact of the rod between its edges, as in the source paper: each pair of edges presses on one another at
-/// its closest points (Lumelsky, regularised, see closest_points.hpp) with EdgeLaw, a pair standing for its mean rest
-/// length. Near the ends of edges two pairs see the same contact and both count, as in the paper: the force ripples
-/// as strands slide over nodes, and strands side by side are up to three times stiffer than K.
+/// Self-contact of the rod between its edges, as in the source paper: the edges of each pair press on each other at
+/// their closest points (Lumelsky, regularised, see closest_points.hpp) by EdgeLaw, over their mean rest length. Near
+/// the ends of edges two pairs see the same contact and both count, as in the paper. The force therefore ripples as
+/// strands slide over nodes, and strands side by side are up to three times stiffer than K.
 ///
 /// ContactPoint's stencils take three nodes a strand; an edge fills two of them. Its `beta` holds dc_k/dt on a.
 /// Friction's memory belongs to the last accepted step and is found again by the arclengths of both feet, so that it
@@ -89,7 +89,7 @@ class EdgeContact {
   /// The evaluated state becomes the one that the next step remembers.
   void commit(const Points& position);
 
-  /// Of the pressure law, per length [N]
+  /// Energy of the pressure law per length of rod [N]
   double energy(double overlap) const { return normal_.energy(overlap); }
 
   /// Of the last accepted step.
@@ -116,7 +116,7 @@ class EdgeContact {
   };
 
   void find_pairs();
-  /// Between two edges, drawn a trifle to their middles.
+  /// Closest points of two edges, drawn slightly towards the middles of the edges.
   ClosestPoints closest(int a, int b, const Points& position) const;
   void add_contact(int pair, const Points& position, const Points& start);
   void add_surface(const ContactPoint& contact, const Feet& feet, int a, int b);
@@ -129,7 +129,7 @@ class EdgeContact {
   double diameter_;
   double window_;            // of arclengths within which a contact is the same one [m]
   double reach_;             // of centrelines within which contacts are kept [m]
-  double least_prediction_;  // pressures below are no guide to the next [N/m]
+  double least_prediction_;  // smallest pressure that serves as a prediction [N/m]
   Eigen::VectorXd rest_length_;
   Eigen::VectorXd length_;     // of the edges at the evaluated position [m]
   Eigen::VectorXd arclength_;  // of the nodes

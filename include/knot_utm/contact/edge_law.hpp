@@ -11,8 +11,8 @@ namespace knot_utm {
 ///     f = [ log(1 + exp(K1 D)) / K1 ]^2       -delta < D < delta,  K1 = 15 / delta
 ///     f = 0                                   beyond,
 ///
-/// and the line pressure p = dE/dD [N/m]. At D = 0 the force is log(2) delta/15 times the factor K/2 of f.
-/// K [N/m^2] is the same as in NormalLaw: pressure per overlap once pressed in.
+/// and the line pressure p = dE/dD [N/m]. At D = 0 the pressure is log(2) K delta/30. K [N/m^2] is the same as in
+/// NormalLaw: pressure per overlap once pressed in.
 struct EdgeLaw {
   double stiffness = 0.0;  ///< K [N/m^2]
   double tolerance = 0.0;  ///< delta [m]

@@ -60,7 +60,7 @@ class Friction {
   Friction(const Law& law) : law_(law), on_(law.coefficient > 0.0) {}  // NOLINT(google-explicit-constructor)
   static Friction of(const FrictionOptions& options, const FrictionScales& scales);
 
-  /// Calls use(law) with the law itself: once for all contacts, so that no contact pays for the choice.
+  /// Calls use(law) with the law itself, once for all contacts, so that the law is not chosen at every contact.
   template <typename Use>
   auto visit(Use&& use) const {
     return std::visit(std::forward<Use>(use), law_);

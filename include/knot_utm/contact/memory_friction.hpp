@@ -7,7 +7,7 @@
 
 namespace knot_utm {
 
-/// Coulomb friction that remembers: a tangential spring with a return mapping to Coulomb's cone,
+/// Coulomb friction with presliding: a tangential spring with return mapping to Coulomb's cone,
 ///
 ///     z = y for |y| < 1, else y/|y|,      y = r / xi_s,     xi = xi_s z is remembered,
 ///

@@ -6,14 +6,13 @@
 
 namespace knot_utm {
 
-/// All pressure laws there are. At every contact a law says which line pressure p [N/m] an overlap D [m] needs. It is
-/// elastic, with the energy e(D) per length,
+/// All pressure laws there are. At every contact a law gives the line pressure p [N/m] of an overlap D [m]. It is
+/// elastic, with the energy e(D) per length of rod,
 ///
 ///     p = de/dD,
 ///
-/// and remembers nothing: what a contact remembers is its friction's (friction_law.hpp) and the prediction of its
-/// pressure (ContactPoint). Strands along their smooth centrelines and rollers take one of these laws. EdgeLaw has the
-/// same face for one contact at a time.
+/// and has no internal variables. Contacts along smooth centrelines and on rollers use one of these laws. EdgeLaw has
+/// the same interface for one contact at a time.
 ///
 /// A law is one header and one line here. It is a plain struct, which
 ///
@@ -31,8 +30,8 @@ namespace knot_utm {
 ///                                            new; infinity: nowhere [m]
 ///     state(Archive&)                        its parameters
 ///
-/// pressure, slope and overlap_at are templates: of a double, or of Lanes for four contacts side by side. All contacts
-/// are visited once per evaluation (std::visit), so that no contact pays for the choice.
+/// pressure, slope and overlap_at are templates: of a double, or of Lanes for four contacts side by side. An evaluation
+/// of all contacts chooses the law once (std::visit), not at every contact.
 using PressureLaws = std::variant<NormalLaw>;
 
 inline double begin_of(const PressureLaws& law) {

@@ -20,14 +20,14 @@ struct SmoothedFriction : FrictionLawDefaults {
 
   double coefficient = 0.0;     ///< mu [-]
   double slip_tolerance = 0.0;  ///< v_s [m/s]
-  double least_slip = 0.0;      ///< in the shortest steps dt v_s would be steeper than any solver follows [m]
+  double least_slip = 0.0;      ///< least slip, without which short steps would be too steep to solve [m]
 
   SmoothedFriction() = default;
   SmoothedFriction(double mu, double v_s, double least = 0.0)
       : coefficient(mu), slip_tolerance(v_s), least_slip(least) {}
   static SmoothedFriction of(const FrictionOptions& options, const FrictionScales& scales);
 
-  /// What the slip is divided by [m]: dt v_s, but not less than `least_slip`. A still shorter step would not be easier.
+  /// What the slip is divided by [m]: dt v_s, but at least `least_slip`.
   double scale(double dt) const { return std::max(dt * slip_tolerance, least_slip); }
 
   template <typename Vector>

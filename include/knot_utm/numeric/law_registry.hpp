@@ -8,8 +8,8 @@
 
 namespace knot_utm {
 
-/// The laws of one kind, plain structs in a variant, by their numbers in it. Each has a `kName`, a static `of(...)`
-/// that makes it of what a method says, and a visitor `state(Archive&)` of its parameters.
+/// The laws of one kind: plain structs in a variant, numbered by their place in it. Each has a `kName`, a static
+/// `of(...)` that makes it from a method, and a visitor `state(Archive&)` of its parameters.
 template <typename Laws>
 struct LawRegistry;
 
@@ -28,7 +28,7 @@ struct LawRegistry<std::variant<Law...>> {
     return out;
   }
 
-  /// Which law it is, and its parameters. `what`: the kind of law, for complaints.
+  /// Saves or loads which law it is, and its parameters. `what`: the kind of law, for messages.
   static void archive(Archive& archive, const char* what, Laws& law) {
     int number = static_cast<int>(law.index());
     archive.number(what, number, 0, static_cast<int>(sizeof...(Law)) - 1);

@@ -10,13 +10,13 @@
 
 namespace knot_utm {
 
-/// Which numbers stand in a field: what else comes from outside, as in a message, is refused.
+/// Which numbers a field may have. Any other number that comes from outside, as in a message, is refused.
 enum class Allowed {
-  kAny,                ///< counts, texts and enumerations, of which their type says enough
+  kAny,                ///< counts, texts and enumerations, which their type restricts enough
   kFinite,             ///< negative or not
   kNotNegative,        ///< and finite
-  kFiniteOrNone,       ///< or NaN for what is not there
-  kNotNegativeOrNone,  ///< or NaN for what is not there
+  kFiniteOrNone,       ///< or NaN where the value does not exist
+  kNotNegativeOrNone,  ///< or NaN where the value does not exist
 };
 
 constexpr bool may_be_none(Allowed allowed) {

@@ -16,8 +16,8 @@ inline constexpr auto kBendingLawNames = LawRegistry<BendingLaws>::kNames;
 /// The law that a material names, with its parameters. Throws InvalidInput where one is missing.
 BendingLaws bending_law_of(const Material& material);
 
-/// Whether what the law remembers changes from step to step. The rod then needs frames and a memory of its bends
-/// (RodState::natural_curvature), be it zero.
+/// Whether the law has an internal variable that changes from step to step. The rod then needs frames and
+/// RodState::natural_curvature, be it zero.
 bool remembers(const BendingLaws& law);
 bool remembers_bends(const Material& material);
 

@@ -13,9 +13,9 @@ namespace knot_utm {
 ///     T = k_s/3 (lambda - lambda^-2)           nominal, a force
 ///     dT/dlambda = k_s/3 (1 + 2 lambda^-3)
 ///
-/// Pulled it softens, to a third of k_s; compressed it stiffens. Rubber follows it up to a strain of about 50 %. That
-/// the bar grows thinner as it is pulled is in the tension alone: contacts keep the radius at rest, and bending its
-/// stiffness. Source: Treloar 1975, chapter 4; Ogden 1997, chapter 4.
+/// Pulled, it softens to a third of k_s; compressed, it stiffens. Rubber follows it up to a strain of about 50 %. The
+/// bar grows thinner in its tension alone: contacts keep the radius at rest, and bending and twisting their
+/// stiffnesses. Source: Treloar 1975, chapter 4; Ogden 1997, chapter 4.
 struct NeoHookeanStretching {
   static constexpr const char* kName = "neo_hookean";
   static constexpr bool kStudied = false;
@@ -24,8 +24,7 @@ struct NeoHookeanStretching {
 
   StretchingResponse respond(const StretchedEdge& edge) const {
     const double lambda = edge.stretch, inverse = 1.0 / lambda, third = edge.stiffness / 3.0;
-    // lambda^2 + 2/lambda - 3 with its double root at 1 taken out: its digits are kept where the edge is hardly
-    // strained.
+    // lambda^2 + 2/lambda - 3 with its double root at 1 factored out, which keeps its digits at small strains.
     const double strain = lambda - 1.0, energy = strain * strain * (1.0 + 2.0 * inverse);
     return {0.5 * third * energy * edge.rest_length, third * (lambda - inverse * inverse),
             third * (1.0 + 2.0 * inverse * inverse * inverse)};

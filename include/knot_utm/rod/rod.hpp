@@ -31,7 +31,7 @@ struct RodProperties {
   /// Arclength at rest of every node from the first [m], N
   Eigen::VectorXd arclength() const;
 
-  /// All of it: loaded, it is another rod.
+  /// Saves or loads all of it; loading replaces the whole rod.
   void state(Archive& archive);
 };
 

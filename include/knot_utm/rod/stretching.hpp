@@ -44,7 +44,7 @@ inline StretchedEdge stretched_edge(const RodProperties& rod, const Points& posi
   return {rod.material.stretching_stiffness, rod.rest_length[j], edge.norm() / rod.rest_length[j]};
 }
 
-/// What the rod's own law says of it.
+/// Response of the rod's own law to it.
 inline StretchingResponse respond(const RodProperties& rod, const StretchedEdge& edge) {
   return std::visit([&](const auto& law) { return law.respond(edge); }, rod.stretching);
 }

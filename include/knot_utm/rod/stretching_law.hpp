@@ -2,7 +2,8 @@
 
 namespace knot_utm {
 
-/// The face of a stretching law. Of every edge a law says which tension its stretch lambda = |e|/l0 needs,
+/// The interface of a stretching law. For every edge a law gives the tension as a function of the stretch lambda =
+/// |e|/l0,
 ///
 ///     T = dW/dlambda,   l0 W the energy that the edge stores.
 ///
@@ -15,11 +16,11 @@ namespace knot_utm {
 ///     respond(StretchedEdge) -> StretchingResponse
 ///     state(Archive&)                             its parameters
 ///
-/// k_s is the stiffness dT/dlambda at rest with every law, so that all that needs a scale of the tension takes k_s. An
-/// edge that has parted has k_s = 0, and then no tension. The tension depends on the present stretch alone: a law that
-/// remembers would keep what it remembers in the rod's state, as bending does (bending_law.hpp).
+/// With every law k_s is the stiffness dT/dlambda at rest, so that k_s can serve as the scale of the tension. An edge
+/// that has parted has k_s = 0 and bears no tension. The tension depends on the present stretch alone; a law with an
+/// internal variable would keep it in the rod's state, as bending does (bending_law.hpp).
 ///
-/// A whole rod is visited once per evaluation (std::visit), so that no edge pays for the choice.
+/// An evaluation of the rod chooses the law once (std::visit), not at every edge.
 
 /// What a law is told of one edge.
 struct StretchedEdge {
@@ -28,7 +29,7 @@ struct StretchedEdge {
   double stretch;      ///< lambda, more than 0 [-]
 };
 
-/// No energy is read of an edge without stiffness.
+/// The energy of an edge without stiffness (k_s = 0) is undefined and must not be read.
 struct StretchingResponse {
   double energy;   ///< l0 W [J]
   double tension;  ///< T, positive pulls [N]

@@ -22,8 +22,9 @@ namespace knot_utm {
 ///   m_ef = ((2/chi) [u]x - b t^T)/(2 |e| |f|)
 ///
 /// The Hessian is that of E as a function of positions and angles, the reference frame being transported from the
-/// present one; it is symmetric. Differentiating m_e as it stands gives m_ee plus an antisymmetric part, the area
-/// that the tangent sweeps on its way; it stands against dE/dtheta, and balances where the edge is free to turn.
+/// present one; it is symmetric. Differentiating m_e as it stands gives m_ee plus an antisymmetric part, from the area
+/// that the tangent sweeps. Summed over both nodes of an edge, this part is proportional to dE/dtheta, which vanishes
+/// in equilibrium where the edge is free to turn.
 /// Source: Bergou et al. 2010, section 4.2; Jawed, Novelia, O'Reilly 2018, chapters 4 and 7.
 struct TwistingInput {
   double k_t = 0.0;             ///< [N m^2]

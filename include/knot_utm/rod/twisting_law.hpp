@@ -16,13 +16,13 @@ struct TwistingResponse {
   Real tangent;  ///< d2E/dm2 [N m]
 };
 
-/// A twisting law says of every inner node which moment its twist needs. This one is linear,
+/// A twisting law gives the twisting moment of an inner node as a function of its twist. This one is linear,
 ///
 ///     E = k_t/(2 lbar) (m - mbar)^2.
 ///
-/// All that twists takes energy, moment and tangent from `TwistingLaw`, once for four nodes side by side. It is the
+/// Energy, moment and tangent are taken from `TwistingLaw` everywhere, for one node or for four side by side. It is the
 /// only law there is, so it has no key in a method and nothing to save; a second one would make a variant of it, as
-/// StretchingLaws is. No energy is read of a node without stiffness.
+/// StretchingLaws is. The energy of a node without stiffness is undefined and must not be read.
 struct LinearTwisting {
   template <typename Real>
   TwistingResponse<Real> respond(const TwistedNode<Real>& node) const {
