@@ -109,6 +109,7 @@ TEST(KeyUnits, AreThoseOfTheMethodsKeys) {
   EXPECT_EQ(unit_of_key(method, "specimen.knot_distance"), "m");
   EXPECT_EQ(unit_of_key(method, "material.bending_stiffness"), "N m2");
   EXPECT_EQ(unit_of_key(method, "program.pull.speed"), "m/s");
+  EXPECT_EQ(unit_of_key(method, "program.0.tie.speed"), "m/s");
   EXPECT_EQ(unit_of_key(method, "machine.load_cell.sampling_rate"), "Hz");
   EXPECT_EQ(unit_of_key(method, "specimen.handedness"), "");
   EXPECT_EQ(unit_of_key(method, "specimen.no_key"), "");
