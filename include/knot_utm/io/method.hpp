@@ -43,8 +43,8 @@ struct Method {
 ///
 /// Each override has the form "dotted.key=YAML", as `--set` takes it. An entry of a list is named by its index from 0
 /// or, in the program, by the name of the step ("program.pull.speed"). A key inside a material or load cell that is
-/// given by name changes a copy of it. Short keys are applied before long ones, and keys of the same length in the
-/// order given.
+/// given by name changes a copy of it. Overrides whose keys have fewer parts are applied first; others keep the order
+/// given.
 ///
 /// Throws InvalidInput with one line that names file, key, value and what is allowed. Reasons are a file that is
 /// missing, longer than 64 KiB or not YAML, an unknown or repeated key, a value of the wrong type or out of range, and
