@@ -52,14 +52,14 @@ inline std::string one_line(const YAML::Node& node) {
   return line;
 }
 
-/// The same where it is said what a key is: a text in quotes, so that it is seen where it begins and ends.
+/// The same for a message about the value of a key. A text is put in quotes, so that its beginning and end can be seen.
 inline std::string as_given(const YAML::Node& node) {
   if (!node.IsDefined() || node.IsNull()) return "empty";
   const bool text = node.IsScalar() && !node.Scalar().empty() && !parse_number(node.Scalar());
   return text ? "\"" + shown(node.Scalar()) + "\"" : one_line(node);
 }
 
-/// A bound of a range as one writes it: 100000 and 1e8, not 1e+05 and 1e+08.
+/// A bound of a range in its usual form: 100000 and 1e8, not 1e+05 and 1e+08.
 inline std::string plain_number(double value) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
