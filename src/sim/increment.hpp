@@ -168,8 +168,8 @@ class Increment {
 
   /// Whether the solution has settled although the residual is above the tolerance of a short step. In the shortest
   /// steps the tolerance falls to a thousandth. Where a contact's closest-point projection jumps between two places,
-  /// the residuals on both sides may differ by as much as that. The step is accepted if a whole change moved nothing by
-  /// more than 1e-7 h and the residual is within the tolerance of long steps.
+  /// the residuals on both sides may differ by as much as that. The solution counts as settled if a whole change moved
+  /// nothing by more than 1e-7 h and the residual is within the tolerance of long steps.
   bool stands_still() const {
     constexpr double kStill = 1e-7;
     return factor_ == 1.0 && motion_ <= kStill * eq_.rod.material.radius && worst_.residual <= eq_.settings.residual;

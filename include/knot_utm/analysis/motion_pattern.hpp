@@ -31,14 +31,19 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 ///
 /// The pattern is decided in this order:
 ///
-///   untangling  the knot type has changed, and one of these holds: F was below 5 % of its largest value when last
-///               pulled or held; nothing has been pulled yet; the excess length of a knot is below a quarter of that of
-///               the tied knot; the rod has passed through itself. Or F has been below 5 % of its largest value for a
-///               window and, where excess lengths are known, that of a knot has grown beyond 1.5 times its tied value
-///   sliding     de/ds < -1 over at least one window and over 15 % of all extension, and the knots came nearer to each
-///               other by more than s grew up to the last of these windows. This is counted from the beginning of the
-///               pull, or else from the first of these windows; then F must also be less than twice its mean in between
-///               when sliding ends. Otherwise something other than the knots gave way
+///   untangling  one of these holds:
+///               (a) the knot type has changed and, in addition, F was below 5 % of its largest value when last pulled
+///                   or held, or nothing has been pulled yet, or the excess length of a knot is below a quarter of its
+///                   tied value, or the rod has passed through itself;
+///               (b) F has been below 5 % of its largest value over a window and, where excess lengths are known, one
+///               of
+///                   them has grown beyond 1.5 times its tied value
+///   sliding     both of these hold:
+///               (a) de/ds < -1 over at least one window, and over 15 % of all extension;
+///               (b) until de/ds was last below -1, the knots came nearer to each other by more than s grew. This is
+///                   counted from the beginning of the pull or, where it does not hold there, from where sliding began;
+///                   then F at the end of sliding must be less than twice its mean since sliding began.
+///               If (b) fails, something other than the knots gave way
 ///   stretching  anything else
 ///
 /// A changed knot type alone does not mean untangling while the load is borne. The type is found by closing the open
