@@ -35,9 +35,8 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 ///               (a) the knot type has changed and, in addition, F was below 5 % of its largest value when last pulled
 ///                   or held, or nothing has been pulled yet, or the excess length of a knot is below a quarter of its
 ///                   tied value, or the rod has passed through itself;
-///               (b) F has been below 5 % of its largest value over a window and, where excess lengths are known, one
-///               of
-///                   them has grown beyond 1.5 times its tied value
+///               (b) F has been below 5 % of its largest value over a window and, where excess lengths are known,
+///                   one of them has grown beyond 1.5 times its tied value
 ///   sliding     both of these hold:
 ///               (a) de/ds < -1 over at least one window, and over 15 % of all extension;
 ///               (b) until de/ds was last below -1, the knots came nearer to each other by more than s grew. This is
