@@ -8,6 +8,10 @@
 
 namespace knot_utm {
 
+/// A contact deeper than this is no longer that of the rod it stands for, and deeper than those of any shipped material
+/// at its largest load [fraction of radius].
+inline constexpr double kDeepContact = 0.05;
+
 /// What befell the specimen while it was pulled, a line each: a knot that jumped open, a roller that was touched.
 std::vector<std::string> events(const Results& results);
 
