@@ -82,6 +82,8 @@ void material(Fields& f, Material& o) {
   f.text("notes", o.notes);
 }
 
+constexpr Range kSpeeds{1e-7, kFastestCrosshead, "m/s"};  // of the crosshead and of tail grips
+
 template <class Fields>
 void load_cell(Fields& f, LoadCellOptions& o) {
   f.text("name", o.name);
@@ -120,7 +122,7 @@ void step(Fields& f, ProgramStep& o, double way = 0.0) {
   switch (o.phase) {
     case Phase::kTie:
     case Phase::kMount:
-      f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
+      f.scaled_number("speed", o.speed, kSpeeds);
       break;
     case Phase::kRelease:
       f.number("duration", o.duration, Range{1e-3, 1e4, "s"});
@@ -129,23 +131,23 @@ void step(Fields& f, ProgramStep& o, double way = 0.0) {
       f.required_number("duration", o.duration, Range{1e-3, 1e6, "s"});
       f.choice("control", o.hold_load, std::array{"extension", "load"});
       f.optional_number("load", o.held_load, Range{-1e8, 1e8, "N"}, "auto");
-      if (o.hold_load) f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
+      if (o.hold_load) f.scaled_number("speed", o.speed, kSpeeds);
       break;
     case Phase::kPreload:
       f.required_number("load", o.load, Range{1e-6, 1e8, "N"});
-      f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
+      f.scaled_number("speed", o.speed, kSpeeds);
       f.optional_number("load_rate", o.load_rate, Range{1e-6, 1e8, "N/s"}, "none");
       f.flag("balance", o.balance);
       break;
     case Phase::kCycle:
       f.turns("extension", o.extension_turns, Range{-100.0, 100.0, "m"});
       f.turns("load", o.load_turns, Range{-1e8, 1e8, "N"});
-      f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
+      f.scaled_number("speed", o.speed, kSpeeds);
       f.integer("count", o.cycles, 0, 1000000);
       f.optional_number("time", o.until.time, Range{1e-3, 1e6, "s"}, "none");
       break;
     case Phase::kReturn:
-      f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
+      f.scaled_number("speed", o.speed, kSpeeds);
       f.number("extension", o.return_extension, Range{-100.0, 100.0, "m"});
       f.optional_number("load", o.until.load, Range{-1e8, 1e8, "N"}, "none");
       break;
@@ -154,7 +156,7 @@ void step(Fields& f, ProgramStep& o, double way = 0.0) {
       f.text("columns", o.columns);
       break;
     case Phase::kPull:
-      f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
+      f.scaled_number("speed", o.speed, kSpeeds);
       f.optional_number("load_rate", o.load_rate, Range{1e-6, 1e8, "N/s"}, "none");
       f.section("until", [&o, way](auto& until) {
         until.optional_number("extension", o.until.extension, Range{1e-6, 100.0, "m"}, "none", way);

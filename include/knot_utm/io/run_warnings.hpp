@@ -8,6 +8,10 @@
 
 namespace knot_utm {
 
+/// Overlap beyond which a contact no longer represents the contact of the rod [fraction of radius]. It is larger than
+/// the overlaps of every shipped material at its largest load.
+inline constexpr double kDeepContact = 0.05;
+
 /// Events of the pull, one line each: a knot that jumped open, a roller that touched a knot.
 std::vector<std::string> events(const Results& results);
 
