@@ -20,9 +20,15 @@ TEST(Phase, HasANameOfItsOwn) {
 /// The rest of the package takes these for granted.
 TEST(Phase, HasTraitsThatGoTogether) {
   for (const PhaseTraits& traits : all_phases()) {
-    if (traits.pulls) EXPECT_TRUE(traits.moves && !traits.prepares) << traits.name;
-    if (traits.forms) EXPECT_TRUE(traits.prepares && traits.ends_by_itself && !traits.moves) << traits.name;
-    if (!traits.is_step) EXPECT_FALSE(traits.moves || traits.forms || traits.can_break) << traits.name;
+    if (traits.pulls) {
+      EXPECT_TRUE(traits.moves && !traits.prepares) << traits.name;
+    }
+    if (traits.forms) {
+      EXPECT_TRUE(traits.prepares && traits.ends_by_itself && !traits.moves) << traits.name;
+    }
+    if (!traits.is_step) {
+      EXPECT_FALSE(traits.moves || traits.forms || traits.can_break) << traits.name;
+    }
   }
   EXPECT_THAT(step_names(), testing::ElementsAre("tie", "release", "mount", "preload", "balance", "pull", "hold",
                                                  "cycle", "return", "follow"));

@@ -30,7 +30,7 @@ inline bool forms(Phase phase) { return traits_of(phase).forms; }
 inline bool moves(Phase phase) { return traits_of(phase).moves; }
 inline bool pulls(Phase phase) { return traits_of(phase).pulls; }
 
-std::optional<Phase> phase_named(const std::string& name);  ///< nothing for a name that is none
+std::optional<Phase> phase_named(const std::string& name);  ///< empty where no phase has this name
 
 std::vector<PhaseTraits> all_phases();  ///< in the order of the enumeration
 std::vector<std::string> step_names();  ///< of the phases that are steps
