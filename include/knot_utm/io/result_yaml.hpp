@@ -14,7 +14,7 @@ std::string result_yaml(const Results& results, const RunFacts& facts);
 /// The keys of result.yaml that are numbers, whether a test has a value of them or not: what a specification may name.
 std::vector<std::string> result_numbers();
 
-/// The table of the keys as CSV: key, unit, kind, group, meaning. It is report/result_keys.csv.
+/// The table of the keys as CSV: key, unit, kind, group, table, meaning. It is report/result_keys.csv.
 std::string result_keys_csv();
 
 }  // namespace knot_utm
