@@ -1,4 +1,5 @@
 """A method as a person reads it: what was tested, on what, and how."""
+import quantities
 from key_tables import table
 from quantities import number
 from is_number import is_number
@@ -10,8 +11,8 @@ UNITS = {row["key"]: row["unit"] for row in table("method_keys.csv")}
 # What a knot is called, and the keys that are shown of it: tensile_test --list-knots.
 TITLES = {row["knot"]: row["title"] for row in table("knots.csv")}
 KEYS_OF_KNOTS = {row["knot"]: row["keys"].split() for row in table("knots.csv")}
-# How a unit is shown, where the page has one of its own for it.
-KINDS = {"N": "force", "m": "length", "N/m": "stiffness", "m/s": "speed", "N/s": "force_rate", "-": "",
+# How a unit of method_keys.csv is shown, where that is not as in a result.
+KINDS = {**quantities.KINDS, "m/s": "speed", "N/s": "force_rate", "of the radius": "of the radius",
          "of capacity": "of its capacity", "of k_b/h2": "k_b/h²", "of friction_coefficient": "of the friction coefficient"}
 NOT_FACTS = ("name", "notes", "tying_preload", "seed", "load_cell")
 
