@@ -7,7 +7,7 @@ from certificate import certificate, specification_checks
 from failure import CannotReport
 from is_number import is_number
 from largest_load import largest_load
-from run import Run, numbers, read_columns, read_yaml, texts_of
+from run import Run, numbers, read_table, read_yaml, texts_of
 from units import units_of
 
 # What stands in a row of specimens.csv before the readings, and behind what was drawn.
@@ -23,9 +23,9 @@ class Specimen:
 
 
 def read_specimens(folder):
-    """The specimens in order."""
+    """The specimens in order, and the units of the columns by name."""
     file = os.path.join(folder, "specimens.csv")
-    columns = read_columns(file)
+    columns, units = read_table(file)
     for name in ("specimen", *OUTCOME):
         if name not in columns:
             raise CannotReport(f"{file}: no column {name}")
@@ -39,7 +39,7 @@ def read_specimens(folder):
         return {key: values[key][i] if is_number(values[key][i]) else None for key in keys}
 
     return [Specimen(int(number), [columns[name][i] for name in OUTCOME], row(drawn, i), row(readings, i))
-            for i, number in enumerate(values["specimen"])]
+            for i, number in enumerate(values["specimen"])], units
 
 
 class Tested:
@@ -61,7 +61,7 @@ class Batch:
         method = os.path.join(folder, "method.yaml")
         self.method, self.report = read_yaml(method), texts_of(method, "report")
         self.units = units_of(self.report)
-        self.specimens = read_specimens(folder)
+        self.specimens, _ = read_specimens(folder)
         file = os.path.join(folder, "statistics.yaml")
         self.facts = read_yaml(file)
         for key in ("specimens", "rejected", "motion_pattern"):
