@@ -1,6 +1,4 @@
 """The units of a page: files are in SI, a page is in what its reader measures with."""
-from is_number import is_number
-
 FORCES = {"N": 1.0, "kN": 1e-3, "lbf": 1.0 / 4.4482216152605}
 LENGTHS = {"mm": 1e3, "in": 1.0 / 0.0254, "m": 1.0}
 
@@ -31,8 +29,3 @@ def units_of(report):
     """Those that `report` of a method asks for."""
     asked = report.get("units") or {}
     return Units(asked.get("force", "N"), asked.get("length", "mm"))
-
-
-def in_unit(value, unit):
-    """None where there is no number."""
-    return value * unit.scale if is_number(value) else None

@@ -1,5 +1,6 @@
 #include "knot_utm/io/result_keys.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
@@ -130,6 +131,9 @@ constexpr const char* kComputation = "The computation";
 constexpr const char* kHead = result_place::kHead;
 constexpr const char* kBeside = result_place::kBeside;
 constexpr const char* kCertificate = result_place::kCertificate;
+
+/// The tables of the report, in their order.
+constexpr const char* kTables[] = {kHappened, kCurve, kKnots, kEnergy, kComputation};
 
 constexpr const char* kNoReason = "";  // never null, or that goes without saying
 constexpr const char* kNoJump = "no knot jumped open";
@@ -305,6 +309,12 @@ const char* ResultKey::kind() const {
   constexpr std::array kKinds{"number", "count", "flag", "word", "text", "numbers", "list"};
   static_assert(kKinds.size() == std::variant_size_v<ReadResult>);
   return kKinds[read.index()];
+}
+
+int ResultKey::table() const {
+  const auto found = std::find_if(std::begin(kTables), std::end(kTables),
+                                  [this](const char* title) { return std::string(title) == group; });
+  return found == std::end(kTables) ? 0 : static_cast<int>(found - std::begin(kTables)) + 1;
 }
 
 bool ResultKey::is_number() const {

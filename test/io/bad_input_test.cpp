@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "io/command.hpp"
+#include "knot_utm/io/key_units.hpp"
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 namespace {
@@ -323,6 +327,33 @@ TEST(BadInput, WhatHasNoEffectOnAStraightRod) {
                 AllOf(HasSubstr(wrong.key), HasSubstr(wrong.value), HasSubstr(wrong.allowed)))
         << wrong.set;
   }
+}
+
+/// A value of a key of `specimen` that is not its plain one, in the range of each number.
+std::string other_value(const Method& method, const std::string& key) {
+  if (!unit_of_key(method, "specimen." + key).empty()) return "2";
+  const std::map<std::string, std::string> words{{"handedness", "opposite"}, {"file", "shape.csv"}, {"closed", "true"}};
+  return words.at(key);
+}
+
+TEST(BadInput, EveryKeyOfAKnotIsRefusedOfTheOthers) {
+  std::set<std::string> seen;
+  for (const fs::directory_entry& entry : fs::directory_iterator(std::string(KNOT_UTM_SOURCE_DIR) + "/config")) {
+    if (entry.path().extension() != ".yaml") continue;
+    const std::string file = entry.path().string();
+    const Method method = load_method(file);
+    const Knot& knot = knot_of(method.specimen);
+    seen.insert(knot.about().name);
+    for (const Knot* other : knots())
+      for (const std::string& key : other->about().keys) {
+        if (knot.has(key)) continue;
+        const std::string line = complaint(file, {"specimen." + key + "=" + other_value(method, key)});
+        // The ends of no rod can be joined.
+        EXPECT_THAT(line, AllOf(HasSubstr(": specimen." + key + " is "),
+                                HasSubstr(key == "closed" ? "must be false" : "only for knot: " + knots_with(key))));
+      }
+  }
+  EXPECT_EQ(seen.size(), knots().size());
 }
 
 /// A pull that would take the rod off its post. The shipped method's own is allowed.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include <map>
 #include <set>
 
 #include "knot_utm/io/result_yaml.hpp"
@@ -31,6 +32,15 @@ TEST(ResultKeys, AreWrittenOnceAndSayWhatTheyAre) {
 /// The report has its labels and units from there. After a change: tensile_test --list-results > report/result_keys.csv
 TEST(ResultKeys, AreThoseOfTheReport) {
   EXPECT_EQ(read_whole(std::string(KNOT_UTM_SOURCE_DIR) + "/report/result_keys.csv"), result_keys_csv());
+}
+
+TEST(ResultKeys, StandInATableOfTheReportOrInAnotherPlace) {
+  const std::set<std::string> places{result_place::kHead, result_place::kBeside, result_place::kCertificate};
+  std::map<std::string, int> tables;
+  for (const ResultKey& key : result_keys()) {
+    EXPECT_EQ(key.table() == 0, places.count(key.group) == 1) << key.name;
+    EXPECT_EQ(tables.emplace(key.group, key.table()).first->second, key.table()) << key.name;
+  }
 }
 
 TEST(ResultKeys, SayByHowMuchAKnotOpenedAsItWasMounted) {

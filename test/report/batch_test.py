@@ -36,10 +36,6 @@ def setUpModule():
     loose = folders.run("loose", [*LOOSE, "--specimens", "3"])
 
 
-def tearDownModule():
-    folders.remove()
-
-
 def html_of(folder):
     return batch_page.report_on_batch(folder, "of the test", "")
 

@@ -6,8 +6,8 @@ import re
 import subprocess
 import unittest
 
-from runs import (FISHERMAN, ROOT, STRAIGHT, Folders, command_of, html_of, keys_on, open_bytes, page_of, put_into,
-                  read, row_of, script, tool, write)
+from runs import (FISHERMAN, ROOT, STRAIGHT, command_of, html_of, keys_on, open_bytes, page_of, put_into, read, row_of,
+                  script, tool, two_runs, write)
 
 import yaml
 
@@ -20,13 +20,7 @@ from run import Run
 
 def setUpModule():
     global folders, straight, fisherman
-    folders = Folders()
-    straight = folders.run("straight", STRAIGHT)
-    fisherman = folders.run("fisherman", FISHERMAN, "--report")
-
-
-def tearDownModule():
-    folders.remove()
+    folders, straight, fisherman = two_runs("--report")
 
 
 class PageOfARun(unittest.TestCase):
