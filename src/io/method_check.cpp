@@ -214,6 +214,14 @@ void check_ends(const Method& m) {
   has_effect(breaks.drop.has_value(), "ends.drop_extension", breaks.drop_extension, unset.drop_extension, "with drop");
 }
 
+void check_pull(const Method& m, const ProgramStep& step, const std::string& key) {
+  const std::optional<double> longest = knot_of(m.specimen).longest_pull(m.specimen, m.material.radius);
+  if (!longest || step.phase != Phase::kPull || !step.until.extension || *step.until.extension <= *longest) return;
+  reject(key + ".pull.until.extension", *step.until.extension,
+         "at most " + format_number(*longest) + " m, where the rod's lower end comes to the post: a longer " +
+             "specimen.tail allows more");
+}
+
 void check_program(const Method& m) {
   const bool loop = knot_of(m.specimen).about().loop;
   const std::string loop_only = "needs specimen.knot: " + loops() + "; begin the program with another step";
@@ -250,6 +258,7 @@ void check_program(const Method& m) {
       throw InvalidInput::missing(key + ".pull.until", "one or more of extension, load, time and break");
     }
     check_step(step, key + "." + name, m.machine.load_cell.capacity);
+    check_pull(m, step, key);
   }
 }
 

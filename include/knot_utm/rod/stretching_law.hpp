@@ -14,6 +14,7 @@ namespace knot_utm {
 ///                                                 (machine/accuracy.hpp)
 ///     static Law of(Material)                     from a method; throws InvalidInput where a value is missing
 ///     respond(StretchedEdge) -> StretchingResponse
+///     strain(k_s, T) -> lambda - 1 of an edge that bears T >= 0, the inverse of `respond`
 ///     state(Archive&)                             its parameters
 ///
 /// With every law k_s is the stiffness dT/dlambda at rest, so that k_s can serve as the scale of the tension. An edge
