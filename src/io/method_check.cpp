@@ -159,9 +159,10 @@ void check_twist(const Method& m) {
 void check_bending(const Method& m) {
   const bool remembers = remembers_bends(m.material);  // throws where its law misses a value
   if (remembers && m.material.bending_set > 0.0)
-    throw InvalidInput::sentence("material.bending_set", format_number(m.material.bending_set),
-                                 "material.bending_set makes the rod keep a share of its bends at once, and "
-                                 "material.bending_law: plastic makes it keep what yields: give one of the two only");
+    throw InvalidInput::sentence(
+        "material.bending_set", format_number(m.material.bending_set),
+        "material.bending_set makes the rod keep a share of its bends at once, and "
+        "this material.bending_law makes it keep what the law remembers: give one of the two only");
   if (bends_on_frames(m.material) && m.physics.twist == TwistMode::kOff)
     throw InvalidInput::sentence(
         "physics.twist", "off",

@@ -236,7 +236,8 @@ TwistingInput FrameTerms::twisting_input(int i) const {
 
 BendingNode FrameTerms::bending_node(int i, const Eigen::Vector2d& bend) const {
   const double whole = i == parted_ || i == parted_ + 1 ? 0.0 : 1.0;
-  return {whole * rod_.material.bending_stiffness, rod_.voronoi_length[i], bend, start_->natural_curvature.col(i - 1)};
+  return {whole * rod_.material.bending_stiffness, rod_.voronoi_length[i], bend, start_->natural_curvature.col(i - 1),
+          dt_};
 }
 
 CurvatureSlopes FrameTerms::curvature_slopes(int i) const {
@@ -414,9 +415,9 @@ FrameTerms::Energy FrameTerms::energy(const Points& increment, const std::vector
       const CurvatureSlopes curvature = curvature_slopes(i);
       const BendingNode node = bending_node(i, curvature.value);
       const StencilGradient bend = on_nodes(law.respond(node), curvature);
-      const double dissipated = law.remember(node).dissipated;
-      out.bending += bend.energy - dissipated;
-      out.plastic += dissipated;
+      const BendingMemory memory = law.remember(node);
+      out.bending += memory.stored;
+      out.plastic += memory.dissipated;
       StencilVector moved;
       moved << increment.col(i - 1), turn(i - 1), increment.col(i), turn(i), increment.col(i + 1);
       out.along += bend.gradient.dot(moved);

@@ -7,10 +7,12 @@ namespace knot_utm {
 /// The interface of a bending law. At every inner node a law gives the bending moment as a function of the bend and of
 /// an internal variable, the natural curvature kappabar_n of the last accepted step,
 ///
-///     M = dW/dkappa,   W(kappa; kappabar_n) = E(kappa, kappabar) + (energy dissipated in this step),
+///     M = dW/dkappa,   W(kappa; kappabar_n, dt) = E(kappa, kappabar) + dt psi((kappabar - kappabar_n)/dt),
 ///
-/// kappabar being the natural curvature that is kept once this step is accepted. W is the incremental energy of the
-/// variational form; where nothing is dissipated, it is the elastic energy E.
+/// kappabar being the natural curvature that is kept once this step is accepted, and psi the dissipation potential. W
+/// is the incremental energy of the variational form. Where nothing is dissipated, it is the elastic energy E. Where
+/// the rate does not matter, as of a rod that yields, dt psi is the energy dissipated in this step. Of a viscous law,
+/// whose psi is quadratic, it is half of that.
 ///
 /// A law is a pair of files, or a header, and one line in `BendingLaws` (bending_laws.hpp). It is a plain struct, which
 /// has
@@ -31,6 +33,7 @@ struct BendingNode {
   double voronoi_length;    ///< lbar [m]
   Eigen::Vector2d bend;     ///< kappa [-]
   Eigen::Vector2d natural;  ///< kappabar_n, of the last accepted step [-]
+  double dt = 0.0;          ///< length of this step, for laws that depend on the rate; 0: bent at once [s]
 };
 
 struct BendingResponse {
@@ -43,6 +46,7 @@ struct BendingResponse {
 struct BendingMemory {
   Eigen::Vector2d natural;  ///< kappabar [-]
   double dissipated;        ///< in this step, at least 0 [J]
+  double stored;            ///< E(kappa, kappabar) [J]
 };
 
 }  // namespace knot_utm

@@ -20,7 +20,7 @@ struct ElasticBending {
     return {0.5 * stiffness * off[0] * off[0] + 0.5 * stiffness * off[1] * off[1], stiffness * off,
             stiffness * Eigen::Matrix2d::Identity()};
   }
-  BendingMemory remember(const BendingNode& node) const { return {node.natural, 0.0}; }
+  BendingMemory remember(const BendingNode& node) const { return {node.natural, 0.0, respond(node).energy}; }
 
   void state(Archive& /*archive*/) {}
 };

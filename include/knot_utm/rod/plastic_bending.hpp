@@ -57,8 +57,10 @@ struct PlasticBending {
     const double yield = yield_curvature * node.voronoi_length;
     const Eigen::Vector2d off = node.bend - node.natural;
     const double size = off.norm();
-    if (size <= yield) return {node.natural, 0.0};
-    return {node.natural + (1.0 - yield / size) * off, yields * yield * (size - yield)};
+    const double energy = respond(node).energy;  // W: what is stored and what is dissipated
+    if (size <= yield) return {node.natural, 0.0, energy};
+    const double dissipated = yields * yield * (size - yield);
+    return {node.natural + (1.0 - yield / size) * off, dissipated, energy - dissipated};
   }
 
   void state(Archive& archive) { archive(yield_curvature, hardening); }
