@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "knot_utm/analysis/curve_readings.hpp"
+#include "knot_utm/analysis/elongations.hpp"
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/analysis/rate_shares.hpp"
 #include "knot_utm/record/ended_by.hpp"
@@ -84,8 +85,12 @@ struct Results {
   std::optional<Relaxation> relaxation;  ///< of the last hold under a load
 
   // Of the last step that cycles (cycles.hpp).
-  std::size_t cycles = 0;            ///< that were closed
-  std::optional<double> hysteresis;  ///< of the last of them [J]
+  std::size_t cycles = 0;                  ///< that were closed
+  std::optional<double> hysteresis;        ///< of the last of them [J]
+  std::optional<Elongations> elongations;  ///< of the last of them
+
+  std::optional<double> gauge_length;         ///< between the grips, where the specimen is first pulled [m]
+  std::optional<double> elongation_at_break;  ///< (L - L_0)/L_0, L where the rod parted, L_0 the gauge length [-]
 
   std::optional<double> untangled_at;    ///< time [s], see MotionPatternTracker
   KnotType knot_type = KnotType::kKept;  ///< at the end, see KnotWatch

@@ -16,6 +16,8 @@ struct ReportOptions {
   std::string customer;
   std::string date;  ///< as the user writes it: a page made again is the same to the last byte
   std::string standard;
+  std::string conditioning;  ///< of the specimens before the test
+  std::string terminations;  ///< of the specimen's ends in the grips
   std::string notes;
   std::string logo;       ///< a PNG or SVG file; empty: none
   std::string signature;  ///< the name under a line to sign on; empty: no line

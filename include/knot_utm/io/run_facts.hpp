@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ struct RunFacts {
   double weight = 0.0;                ///< of the rod where gravity acts on it [N]
   double slid_along = 0.0;            ///< of a loop on rollers along their axes, at most [m]
   Material material;                  ///< of the rod
+  int strands = 1;                    ///< that bear the load, two of a loop
+  bool may_hold_a_knot = false;       ///< as the specimen is made
+  bool one_knot_in_a_strand = false;  ///< a knot of its own, and no loop
+  std::optional<double> knot_hole;    ///< hole_diameter at the end of the test, of one knot in a strand [m]
   double dead_load = 0.0;             ///< that pulls the specimen's other end [N]; 0: none does
   double knot_distance = 0.0;         ///< that the knots were to be tied at [m]; 0: none were tied
   double pull_speed = 0.0;            ///< the largest that is programmed [m/s]; 0: none is
