@@ -1,8 +1,7 @@
 """What a laboratory says of a test by a standard, beside what the user gives: gauge length, speed and specimens."""
 from is_number import is_number
 from quantities import number
-
-PULLING = ("pull", "cycle")
+from run import PULLING
 
 
 def particulars(report, method, gauge_length, units, specimens=""):
