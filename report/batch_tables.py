@@ -7,8 +7,8 @@ from results_table import NOTHING, labels_of, short_label
 
 WIDEST = 5  # readings beside each other: as many as a telephone has room for
 # What is looked for first, in this order, where the specimens have it.
-MAIN = ("plateau_force", "jump_force", "force_ratio", "lock_extension", "locked_stiffness", "peak_force", "break_extension",
-        "energy_to_break")
+MAIN = ("knotability", "plateau_force", "jump_force", "force_ratio", "lock_extension", "locked_stiffness", "peak_force",
+        "break_extension", "knot_efficiency", "elongation_total", "elongation_at_break", "energy_to_break")
 STATISTICS = (("Mean", "mean"), ("Standard deviation", "sd"), ("Coefficient of variation", "cv"), ("Minimum", "minimum"),
               ("Maximum", "maximum"), ("95 % interval of the mean, low end", "low"),
               ("95 % interval of the mean, high end", "high"), ("Readings", "n"))

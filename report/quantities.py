@@ -13,7 +13,8 @@ class Quantity:
 
 
 # How a unit of result_keys.csv is shown, where the page has one of its own for it.
-KINDS = {"N": "force", "m": "length", "N/m": "stiffness", "bytes": "memory", "-": "", "0 to 1": "", "of the radius": ""}
+KINDS = {"N": "force", "m": "length", "N/m": "stiffness", "bytes": "memory", "-": "", "0 to 1": "", "of the radius": "",
+         "of the gauge length": "percent", "of the strength without a knot": "percent"}
 # Groups that are no table of results: what they hold has another place on the page.
 HEAD, BESIDE, CERTIFICATE = "head", "beside", "certificate"
 

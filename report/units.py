@@ -16,13 +16,15 @@ class Units:
         self.stiffness = Unit(f"{force}/{length}", self.force.scale / self.length.scale)
         self.speed = Unit(f"{length}/s", self.length.scale)
         self.force_rate = Unit(f"{force}/s", self.force.scale)
+        self.rate = Unit(f"{length}/min", 60.0 * self.length.scale)
         self.memory = Unit("MB", 1e-6)
+        self.percent = Unit("%", 100.0)
         self.are_default = (force, length) == ("N", "mm")
 
     def of(self, kind):
         """`kind`: one of the quantities above, else the name of a unit that every page uses."""
-        return getattr(self, kind) if kind in ("force", "length", "stiffness", "speed", "force_rate", "memory") \
-            else Unit(kind)
+        return getattr(self, kind) if kind in ("force", "length", "stiffness", "speed", "force_rate", "memory",
+                                               "percent") else Unit(kind)
 
 
 def units_of(report):

@@ -226,6 +226,8 @@ void report(Fields& f, ReportOptions& o) {
   f.short_text("customer", o.customer, 200);
   f.short_text("date", o.date, 80);
   f.short_text("standard", o.standard, 200);
+  f.short_text("conditioning", o.conditioning, 200);
+  f.short_text("terminations", o.terminations, 200);
   f.short_text("notes", o.notes, 4000);
   f.short_text("logo", o.logo, 4000);
   f.short_text("signature", o.signature, 80);

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "knot_utm/contact/friction.hpp"
+#include "knot_utm/io/shipped.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
@@ -88,6 +89,20 @@ TEST(Method, EveryShippedFileLoads) {
   for (const auto& file : fs::directory_iterator(kConfig + "load_cells")) {
     EXPECT_NO_THROW(load_method(kTighten, {"machine.load_cell=" + file.path().stem().string()})) << file.path();
   }
+}
+
+TEST(Method, EveryStandardLoadsAndSaysWhatItIsAndWhatIsNotSimulated) {
+  int standards = 0;
+  for (const auto& file : fs::directory_iterator(kConfig + "standards")) {
+    const std::string name = "standards/" + file.path().stem().string();
+    const Method method = load_method(find_method(name));
+    EXPECT_NE(method.report.standard, "") << name;
+    EXPECT_NE(method.report.conditioning, "") << name;
+    EXPECT_NE(method.report.terminations, "") << name;
+    EXPECT_THAT(method.report.notes, HasSubstr("Not simulated: ")) << name;
+    ++standards;
+  }
+  EXPECT_GE(standards, 5);
 }
 
 TEST(Method, WritesBackToTheSame) {
