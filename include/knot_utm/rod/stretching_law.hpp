@@ -10,6 +10,7 @@ namespace knot_utm {
 /// A law is one header and one line in `StretchingLaws` (stretching_laws.hpp). It is a plain struct, which
 ///
 ///     static constexpr const char* kName          is what a method calls it (material.stretching_law)
+///     static constexpr std::array kKeys           its keys in `material` (LawKey), or NoKeys
 ///     static constexpr bool kStudied              whether the errors beside readings were studied with this law
 ///                                                 (machine/accuracy.hpp)
 ///     static Law of(Material)                     from a method; throws InvalidInput where a value is missing
@@ -25,7 +26,7 @@ namespace knot_utm {
 
 /// What a law is told of one edge.
 struct StretchedEdge {
-  double stiffness;    ///< k_s [N]
+  double k_s;          ///< stiffness [N]
   double rest_length;  ///< l0 [m]
   double stretch;      ///< lambda, more than 0 [-]
 };

@@ -1,0 +1,42 @@
+#pragma once
+
+namespace knot_utm {
+
+/// The interface of a pressure law. At every contact a law gives the line pressure p [N/m] of an overlap D [m]. It is
+/// elastic, with the energy e(D) per length of rod,
+///
+///     p = de/dD,
+///
+/// and has no internal variables. Contacts along smooth centrelines and on rollers use a law as it is. Contacts between
+/// edges use EdgeLaw, which has this interface for one contact at a time.
+///
+/// A law is one header and one line in `PressureLaws` (pressure_laws.hpp). With the second one a method gets the key
+/// `material.pressure_law`, which has nothing to choose while there is only one. It is a plain struct, which
+///
+///     static constexpr const char* kName     is what a method calls it
+///     static constexpr std::array kKeys      its keys in `material` (LawKey), or NoKeys
+///     static constexpr bool kStudied         whether the errors beside readings were studied with this law
+///                                            (machine/accuracy.hpp)
+///     static Law of(Material, PressureScales)
+///                                            from a method; throws InvalidInput where a value is missing
+///     double stiffness, tolerance            K [N/m^2], delta [m]: scale of its slope, and of the overlaps within
+///                                            which it rounds the corner where strands just touch; EdgeLaw takes them
+///                                            over
+///     begin()                                overlap at which strands begin to feel each other, at most 0 [m]
+///     pressure(D)                            p [N/m], 0 up to begin() and more than 0 beyond
+///     slope(D)                               dp/dD [N/m^2], not negative
+///     overlap_at(p)                          the overlap at which p is the pressure, p >= 0 [m]
+///     energy(D)                              e [N]; of a double only
+///     stiffens_at()                          overlap beyond which the tangent is too stiff a guess for a contact that
+///                                            is new; infinity: nowhere [m]
+///     state(Archive&)                        its parameters
+///
+/// pressure, slope and overlap_at are templates: of a double, or of Lanes for four contacts side by side. An evaluation
+/// of all contacts chooses the law once (std::visit), not at every contact.
+
+/// What a law's parameters depend on besides the material.
+struct PressureScales {
+  double tolerance = 0.0;  ///< delta [m]
+};
+
+}  // namespace knot_utm
