@@ -165,18 +165,16 @@ void check_load(const std::string& key, double load, double highest, const char*
     reject(key, load, std::string("at most the load cell's ") + what + ", " + format_number(highest) + " N");
 }
 
-/// Faster than any testing machine: a record in other units than it says, or not one.
-constexpr double kFastest = 0.5;  // [m/s]
-
+/// A record that is faster than any testing machine is in other units than it says, or is none.
 void check_record(const ProgramStep& step, const std::string& key) {
   for (std::size_t i = 1; i < step.recorded.size(); ++i) {
     const RecordedPlace &from = step.recorded[i - 1], &to = step.recorded[i];
     const double speed = std::abs(to.displacement - from.displacement) / (to.time - from.time);
-    if (speed > kFastest)
+    if (speed > kFastestCrosshead)
       throw InvalidInput::sentence(key, step.record,
                                    key + ": the crosshead of " + shown(step.record) + " moves at " +
                                        format_number(speed) + " m/s at " + format_number(from.time) +
-                                       " s, but must be no faster than " + format_number(kFastest) + " m/s");
+                                       " s, but must be no faster than " + format_number(kFastestCrosshead) + " m/s");
   }
 }
 
@@ -248,14 +246,8 @@ void check_program(const Method& m) {
         if (pulled) misplaced(key, name, "can only stand before the first step that moves the crosshead");
         pulled = true;
         break;
-      case Phase::kPreload:
-      case Phase::kPull:
-      case Phase::kCycle:
-      case Phase::kReturn:
-      case Phase::kFollow:
-        pulled = true;
-        break;
       default:
+        pulled |= moves(step.phase);
         break;
     }
     if (step.phase == Phase::kPull && !step.until.extension && !step.until.load && !step.until.time &&

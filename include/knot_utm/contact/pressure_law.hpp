@@ -7,21 +7,22 @@ namespace knot_utm {
 ///
 ///     p = de/dD,
 ///
-/// and has no internal variables. Contacts along smooth centrelines and on rollers use a law as it is. Contacts between
-/// edges use EdgeLaw, which has this interface for one contact at a time.
+/// and has no internal variables. Contacts along smooth centrelines and on rollers use such a law. EdgeLaw has the
+/// same interface for one contact at a time.
 ///
-/// A law is one header and one line in `PressureLaws` (pressure_laws.hpp). With the second one a method gets the key
-/// `material.pressure_law`, which has nothing to choose while there is only one. It is a plain struct, which
+/// A law is one header and one line in `PressureLaws` (pressure_laws.hpp). With the second law a method gets the key
+/// `material.pressure_law` by itself; while there is one law, there is nothing to choose. It is a plain struct, which
+/// has
 ///
-///     static constexpr const char* kName     is what a method calls it
+///     static constexpr const char* kName     the name that methods use
 ///     static constexpr std::array kKeys      its keys in `material` (LawKey), or NoKeys
 ///     static constexpr bool kStudied         whether the errors beside readings were studied with this law
 ///                                            (machine/accuracy.hpp)
 ///     static Law of(Material, PressureScales)
-///                                            from a method; throws InvalidInput where a value is missing
-///     double stiffness, tolerance            K [N/m^2], delta [m]: scale of its slope, and of the overlaps within
-///                                            which it rounds the corner where strands just touch; EdgeLaw takes them
-///                                            over
+///                                            made from a method; throws InvalidInput where a value is missing
+///     double stiffness, tolerance            K [N/m^2], the scale of its slope, and delta [m], the scale of the
+///                                            overlaps within which it rounds the corner where strands just touch;
+///                                            EdgeLaw uses both
 ///     begin()                                overlap at which strands begin to feel each other, at most 0 [m]
 ///     pressure(D)                            p [N/m], 0 up to begin() and more than 0 beyond
 ///     slope(D)                               dp/dD [N/m^2], not negative
