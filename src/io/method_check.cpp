@@ -48,16 +48,18 @@ void has_effect(bool has, const char* key, const Value& value, const Value& unse
 }
 
 /// A law has all keys that it needs, and none of another law.
-void check_friction(const FrictionOptions& friction) {
-  const FrictionLawEntry& law = entry_of(friction.law);
-  for (const FrictionKey& key : friction_keys()) {
-    const std::string name = std::string("physics.friction.") + key.name;
-    const std::optional<double> value = friction.value(key.name);
+/// `section`: where its keys stand, with a dot; `chosen_by`: the key that names it.
+template <class Registry, class Number>
+void check_law(const LawOptions<Number>& given, const std::string& section, const std::string& chosen_by) {
+  const LawEntry& law = Registry::entry(given.law);
+  for (const LawKey& key : Registry::keys()) {
+    const std::string name = section + key.name;
+    const std::optional<double> value = given.value(key.name);
     const bool own = law.has(key.name);
-    if (own && !value && key.otherwise == FrictionDefault::kNone)
-      throw InvalidInput::missing(
-          name, fields::number_text({key.min, key.max, key.unit}) + ", which law: " + law.name + " needs");
-    if (value) has_effect(own, name.c_str(), *value, key.plain, "with law: " + laws_with(key.name));
+    if (own && !value && key.otherwise == LawDefault::kNone)
+      throw InvalidInput::missing(name, fields::number_text({key.min, key.max, key.unit}) + ", which " + chosen_by +
+                                            ": " + law.name + " needs");
+    if (value) has_effect(own, name.c_str(), *value, key.plain, "with " + chosen_by + ": " + Registry::with(key.name));
   }
 }
 
@@ -125,7 +127,11 @@ void check_effects(const Method& m) {
   has_effect(rollers_hold(s, machine), "machine.far_side", std::string(held ? "held" : "free"), std::string("held"),
              "for knot: " + loops() + ", with grips: rollers");
 
-  check_friction(m.physics.friction);
+  check_law<FrictionRegistry>(m.physics.friction, "physics.friction.", "law");
+  check_law<StretchingRegistry>(m.material.stretching, "material.", "stretching_law");
+  check_law<BendingRegistry>(m.material.bending, "material.", "bending_law");
+  check_law<TwistingRegistry>(m.material.twisting, "material.", "twisting_law");
+  check_law<PressureRegistry>(m.material.pressure, "material.", "pressure_law");
 }
 
 void check_specimen(const Method& m) {

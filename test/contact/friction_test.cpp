@@ -16,11 +16,11 @@ constexpr double kMu = 0.4, kPresliding = 1e-5, kStep = 0.1;
 /// Of every law, with its keys in the middle of their ranges.
 std::vector<Friction> laws() {
   std::vector<Friction> out;
-  for (std::size_t number = 0; number < friction::kEntries.size(); ++number) {
+  for (std::size_t number = 0; number < FrictionRegistry::kCount; ++number) {
     FrictionOptions options;
     options.law = static_cast<FrictionLaw>(number);
-    for (const FrictionKey& key : friction_keys())
-      if (entry_of(options.law).has(key.name))
+    for (const LawKey& key : FrictionRegistry::keys())
+      if (FrictionRegistry::entry(options.law).has(key.name))
         options.set(key.name, key.min > 0.0 ? std::sqrt(key.min * key.max) : 0.5 * (key.min + key.max));
     out.push_back(Friction::of(options, {kMu, 100.0 * kPresliding, 0.01}));
   }

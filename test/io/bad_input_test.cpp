@@ -153,6 +153,8 @@ const std::vector<Wrong>& wrong_overrides() {
        "only with law: stribeck"},
       {"physics.friction={law: stribeck, slip_length: 0.1}", "physics.friction.kinetic_share", "",
        "is missing: give a number from 0 to 1 (of friction_coefficient), which law: stribeck needs"},
+      {"material.hardening=0.5", "material.hardening", "0.5", "only with bending_law: plastic"},
+      {"material.twisting_law=linear", "material.twisting_law is no key", "", "the keys of material are"},
       {"physics.friction.at=skin", "physics.friction.at", "skin", "surface or centreline"},
       {"material.friction_couple=1.5", "material.friction_couple", "1.5", "must be 0 to 1"},
       {"physics.friction={law: smoothed, presliding: 0.01}", "physics.friction.presliding", "0.01",

@@ -21,7 +21,7 @@ namespace knot_utm {
 /// A law is a pair of files and one line in `FrictionLaws` (friction.hpp). It is a plain struct, which has
 ///
 ///     static constexpr const char* kName              the name that methods use
-///     static constexpr std::array kKeys               its keys in physics.friction (FrictionKey)
+///     static constexpr std::array kKeys               its keys in physics.friction (LawKey)
 ///     static Law of(options, scales)                  made from a method
 ///     double coefficient                              mu of the method [-]; 0: no friction. Where mu depends on more
 ///                                                     than the material, the law says which of its values this is
@@ -91,23 +91,6 @@ struct FrictionTangent {
 /// the tangent along the slip vanishes, and Newton's method may jump for ever from one saturated side to the other. The
 /// secant bounds the law from above (Kacanov's method) and converges slowly, but from any start.
 enum class Linearisation { kTangent, kSecant };
-
-/// Where the value of a key comes from that a method does not give.
-enum class FrictionDefault {
-  kNone,        ///< a method must give it
-  kPresliding,  ///< from physics.accuracy
-  kCreep,       ///< from the slowest pull, beside which the creep must be small
-};
-
-/// A key of physics.friction.
-struct FrictionKey {
-  const char* name;
-  double min, max;  ///< both allowed
-  const char* unit;
-  FrictionDefault otherwise;
-  double plain;  ///< value that older methods give although their law does not have the key; it is allowed there; NaN:
-                 ///< none
-};
 
 /// What a law's parameters depend on besides its keys.
 struct FrictionScales {

@@ -19,6 +19,9 @@ namespace knot_utm {
 ///
 ///     static constexpr const char* kName          the name that methods use (material.bending_law)
 ///     static Law of(Material)                     made from a method; throws InvalidInput where a value is missing
+///     static constexpr std::array kKeys           its keys in `material` (LawKey), or NoKeys
+///     static constexpr bool kStudied              whether the errors beside readings were studied with this law
+///                                                 (machine/accuracy.hpp)
 ///     static constexpr bool kRemembers            whether its internal variable changes in a step
 ///     respond(BendingNode)                        -> BendingResponse
 ///     remember(BendingNode)                       -> BendingMemory, once the step is accepted
@@ -29,7 +32,7 @@ namespace knot_utm {
 
 /// What a law is told of one inner node. Curvatures are integrated over the Voronoi length, on (m1, m2).
 struct BendingNode {
-  double stiffness;         ///< k_b [N m^2]
+  double k_b;               ///< stiffness [N m^2]
   double voronoi_length;    ///< lbar [m]
   Eigen::Vector2d bend;     ///< kappa [-]
   Eigen::Vector2d natural;  ///< kappabar_n, of the last accepted step [-]
