@@ -45,3 +45,8 @@ def text_of(value):
     """A value in one line, which reads back as the same value."""
     text = yaml.dump(value, Dumper=_Dumper, default_flow_style=True, width=float("inf"), allow_unicode=True)
     return text.removesuffix("\n").removesuffix("...").rstrip("\n")
+
+
+def value_of(text):
+    """What a text in YAML says. Raises yaml.YAMLError or WrongInput."""
+    return yaml.load(text, _Loader)

@@ -1,0 +1,131 @@
+"""A fit: the values of a method's keys with which it produces a measured curve (doc/fits.md)."""
+import os
+import shutil
+
+from knot_utm import tool
+from knot_utm.errors import WrongInput
+from knot_utm.fitting.curves import read_measured
+from knot_utm.fitting.errors import require_known
+from knot_utm.fitting.files import write_fit
+from knot_utm.fitting.keys import free_key, parse_free
+from knot_utm.fitting.records import Record
+from knot_utm.fitting.runs import EXACT_CELL, Runs, read_model
+from knot_utm.fitting.scatter import SPECIMENS, Batch
+from knot_utm.fitting.search import MOST_WAVES, Case, Search
+from knot_utm.fitting.verdict import judge
+from knot_utm.yaml_text import load
+
+
+def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, command=None):
+    """Finds the values of the free keys and returns them as fitting.verdict.Fitted.
+
+    `measured`: a curve.csv, or what else `compare` reads; `free`: ["KEY" or "KEY=low:high"]; `settings`: {key: value} over the method;
+    `also`: [(measured, {key: value})], more records and what is other for them; `out`: the folder for fit.yaml, method.yaml and
+    report.html, unless given out/ and the name of the measured file. Raises WrongInput where it cannot be fitted, before anything is
+    written; Interrupted where it was cut short."""
+    name = os.path.splitext(os.path.basename(os.fspath(measured)))[0]
+    out = os.path.abspath(out or os.path.join("out", name + "_fit"))
+    _require_room(out)
+    method = tool.find_method(os.fspath(method), os.getcwd())
+    asked = [(os.fspath(measured), dict(settings or {}))]
+    asked += [(os.fspath(file), {**(settings or {}), **more}) for file, more in also]
+    with Runs(jobs or len(os.sched_getaffinity(0))) as runs:
+        fitted = _Fit(runs, method, asked, [parse_free(word) for word in free]).go()
+        methods = [fitted_method(runs, method, given, fitted) for _, given in asked]
+        write_fit(out, fitted, methods, command)
+    return fitted
+
+
+class _Fit:
+    def __init__(self, runs, method, asked, free):
+        self.runs = runs
+        self.method = method
+        if not free:
+            raise WrongInput("--free is missing: say which keys may move")
+        names = [name for name, _ in free]
+        for name in names:
+            if names.count(name) > 1:
+                raise WrongInput(f"--free has {name} twice")
+        if all(name.startswith("record.") for name in names):
+            raise WrongInput("--free has nothing but offsets of the record: a fit needs a key of the method")
+        starts = [self._start(given) for _, given in asked]
+        self.records = []
+        for (file, given), (folder, _) in zip(asked, starts):
+            record = Record(file, read_measured(file, os.path.join(folder, "curve.csv")), method, given)
+            self.records.append(record)
+        resolved = load(os.path.join(starts[0][0], "method.yaml"))
+        self.keys = [free_key(name, limits, resolved, self.records) for name, limits in free]
+        self._require_allowed()
+        for record, (folder, _) in zip(self.records, starts):
+            record.require_producible(read_model(folder, {}))
+        self.cells = [load(os.path.join(folder, "method.yaml"))["machine"]["load_cell"] for folder, _ in starts]
+        for folder, _ in starts:
+            shutil.rmtree(folder)
+
+    def _start(self, given):
+        if refused := tool.refusal(self.method, given):
+            raise WrongInput(refused)
+        return self.runs.whole(self.method, given, "--specimens", "1")
+
+    def _require_allowed(self):
+        """All ends of all ranges, for all records."""
+        for record in self.records:
+            for key in self.keys:
+                for value in (key.low, key.high) if key.offset is None else ():
+                    if refused := tool.refusal(self.method, {**record.settings, key.name: value}):
+                        raise WrongInput(f"--free {key.name}={key.low:.6g}:{key.high:.6g}: {refused}")
+
+    def go(self):
+        inputs = sum(key.offset is None for key in self.keys)
+        first, more = Search.runs_of(inputs)
+        self.runs.expect(len(self.records) * (first + MOST_WAVES * more))
+        batches = [self._batch(record.settings) for record in self.records]
+        self.cases = [Case(record, number, self.keys, cell, batch)
+                      for number, (record, cell, batch) in enumerate(zip(self.records, self.cells, batches), start=1)]
+        for case in self.cases:
+            require_known(case.record, case.cell, case.scatter)
+        search = Search(self.cases, self.keys, self._run, self._renew)
+        search.go()
+        return judge(search)
+
+    def _batch(self, given):
+        """Specimens, where they scatter."""
+        folder, _ = self.runs.whole(self.method, {**given, **EXACT_CELL}, "--specimens", str(SPECIMENS), "--jobs", str(self.runs.jobs))
+        batch = Batch(folder)
+        shutil.rmtree(folder)
+        return batch if batch.draws[0] else None
+
+    def _renew(self, best):
+        for case in self.cases:
+            if case.batch:
+                free = {key.name: float(key.value(at)) for key, at in zip(self.keys, best) if key.offset is None}
+                case.renew(self._batch({**case.record.settings, **free}))
+
+    def _run(self, places, first):
+        asked = [(self.method, case.settings(place, first + i)) for case in self.cases for i, place in enumerate(places)]
+        models = self.runs.all(asked)
+        count = len(places)
+        made = [models[k * count:(k + 1) * count] for k in range(len(self.cases))]
+        for case, of_case in zip(self.cases, made):
+            if not case.models and not any(case.record.is_reached(model) for model in of_case):
+                raise WrongInput(f"{case.record.name}: no run in the ranges of the free keys reaches as far as the record: narrow the ranges")
+        return made
+
+
+def fitted_method(runs, method, given, fitted):
+    """The text of a resolved method with the values that were found."""
+    values = {key: one.value for key, one in fitted.found.items() if not key.startswith("record.")}
+    folder, _ = runs.whole(method, {**given, **values}, "--specimens", "1")
+    with open(os.path.join(folder, "method.yaml"), encoding="utf-8") as file:
+        return file.read()
+
+
+def _require_room(out):
+    if os.path.exists(os.path.join(out, "result.yaml")):
+        raise WrongInput(f"{out} holds a run: choose another folder")
+    try:
+        os.makedirs(os.path.dirname(out), exist_ok=True)
+        if os.path.exists(out) and not os.path.isdir(out):
+            raise FileExistsError(0, "file exists", out)
+    except (FileExistsError, NotADirectoryError, PermissionError) as error:
+        raise WrongInput(f"cannot make the folder {error.filename}: {error.strerror.lower()}") from error
