@@ -1,6 +1,8 @@
-"""knot_utm from Python: one test (run), what a test left (read), many tests (sweep). doc/studies.md has examples."""
+"""knot_utm from Python: one test (run), what a test left (read), many tests (sweep), the
+values with which a test produces a measured curve (fit). doc/studies.md and doc/fits.md have examples."""
 from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.finding import fit
 from knot_utm.runs import Run, read, run
 from knot_utm.sweeping import sweep
 
-__all__ = ["Interrupted", "Run", "WrongInput", "read", "run", "sweep"]
+__all__ = ["Interrupted", "Run", "WrongInput", "fit", "read", "run", "sweep"]

@@ -7,7 +7,7 @@ import sys
 import yaml
 
 from knot_utm.errors import Interrupted, WrongInput
-from knot_utm.fit import fit
+from knot_utm.finding import fit
 from knot_utm.yaml_text import value_of
 
 PROGRAM = "scripts/fit"

@@ -3,7 +3,7 @@ import os
 
 import yaml
 
-DIGITS = 6
+from knot_utm.fitting.verdict import short
 
 
 def write_fit(folder, fitted, methods, command=None):
@@ -15,17 +15,13 @@ def write_fit(folder, fitted, methods, command=None):
 
 
 def summary(fitted):
-    """The map of fit.yaml. Numbers have the digits that mean something."""
-    found = {key: {"value": _short(one.value), "low": _short(one.low), "high": _short(one.high), "identifiable": one.identifiable}
+    """The map of fit.yaml."""
+    found = {key: {"value": one.value, "low": one.low, "high": one.high, "identifiable": one.identifiable}
              for key, one in fitted.found.items()}
-    return {**found, "rms": _short(fitted.rms),
+    return {**found, "rms": short(fitted.rms),
             "correlation": {key: {other: round(value, 4) for other, value in row.items()} for key, row in fitted.correlation.items()},
-            "fits": fitted.fits, "chi_square": _short(fitted.chi_square), "degrees_of_freedom": fitted.degrees_of_freedom,
+            "fits": fitted.fits, "chi_square": short(fitted.chi_square), "degrees_of_freedom": fitted.degrees_of_freedom,
             "notes": fitted.notes}
-
-
-def _short(value):
-    return None if value is None else float(f"{value:.{DIGITS}g}")
 
 
 def _replace(folder, name, text):

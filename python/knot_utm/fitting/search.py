@@ -38,7 +38,9 @@ class Case:
                 np.cov(np.array([pull.at(self.grid) for pull in pulls]), rowvar=False))
 
     def renew(self, batch):
-        """Another batch, of specimens nearer to the best values."""
+        """Another batch, of specimens nearer to the best values; one that fails there tells nothing."""
+        if 2 * sum(self.record.is_reached(model) for model in batch.models) < len(batch.models):
+            return
         self.batch = batch
         self.scatter, self.grid_scatter = self._scatter()
 
@@ -133,7 +135,9 @@ class Search:
         """The box of all that may be best, and places in it for the next runs: the best one, and others far from each other."""
         tried = profiles.candidates(self.low, self.high, 100 + wave)
         rises = self.likelihood.at(tried) - self.value
-        kept = tried[rises <= max(KEPT, np.sort(rises)[LEAST_KEPT - 1])]
+        # Where nothing fits as yet, neither the emulator nor a rise of -2 log L can be relied on.
+        misfit = max(1.0, self.likelihood.chi_square(self.best) / self._means())
+        kept = tried[rises <= max(KEPT * misfit, np.sort(rises)[LEAST_KEPT - 1])]
         kept = np.concatenate([self.best[None], kept])
         width = np.maximum(np.ptp(kept, axis=0), 1e-6)
         low = np.maximum(kept.min(axis=0) - GROWN * width, self.low)

@@ -9,6 +9,7 @@ from knot_utm.fitting.profiles import KNOWN_TOGETHER
 
 LEAST_PROBABILITY = 1e-3  # of residuals as large as these, below which the curve does not fit
 AT_THE_END = 1e-3         # of the range
+DIGITS = 6                # that a number keeps: more would be of the machine, and not of the fit
 
 
 @dataclass(frozen=True)
@@ -40,6 +41,10 @@ class Fitted:
         return self.probability >= LEAST_PROBABILITY
 
 
+def short(value):
+    return float(f"{value:.{DIGITS}g}")
+
+
 def judge(search):
     """A search that has ended, as Fitted."""
     keys, best, likelihood = search.keys, search.best, search.likelihood
@@ -49,8 +54,8 @@ def judge(search):
         # Places beyond the box were given up because they are much less likely.
         low = profile.low if profile.low is not None or search.low[i] <= 0.0 else search.low[i]
         high = profile.high if profile.high is not None or search.high[i] >= 1.0 else search.high[i]
-        ends = [None if place is None else float(key.value(place)) for place in (low, high)]
-        found[key.name] = Found(float(key.value(best[i])), *ends, None not in ends)
+        ends = [None if place is None else short(key.value(place)) for place in (low, high)]
+        found[key.name] = Found(short(key.value(best[i])), *ends, None not in ends)
         drawn[key.name] = key.value(profile.places), profile.rises
     matrix = profiles.correlations(likelihood, best, search.low, search.high)
     correlation = {a.name: {b.name: float(matrix[i, j]) for j, b in enumerate(keys) if j != i} for i, a in enumerate(keys)}
