@@ -46,7 +46,7 @@ class Case:
     def fit(self, runner, fit):
         begun = time.process_time(), os.times()
         self.fitted = fit(self.measure(runner), os.path.join(runner.root, "config", self.method + ".yaml"), self.free,
-                          os.path.join(runner.folder, self.title.replace(" ", "_") + "_fit"), {**self.settings, **self.cell})
+                          os.path.join(runner.folder, self.title.replace(" ", "_") + "_fit"), {**self.settings, **self.cell}, report=False)
         ended = os.times()
         self.cpu_time = time.process_time() - begun[0] + ended.children_user + ended.children_system \
             - begun[1].children_user - begun[1].children_system

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes report.html and report.pdf into the folder of a test, or of a comparison.
+"""Writes report.html and report.pdf into the folder of a test, of a comparison, or of a fit.
 
     make_report.py FOLDER [--command TEXT] [--version VERSION]
 
@@ -28,8 +28,8 @@ def refuse(message):
 
 def main():
     parser = OneLineParser(prog="report", description="Writes report.html and report.pdf into the folder of "
-                                     "a test, or of a comparison.")
-    parser.add_argument("folder", help="that tensile_test, a recorder or compare --report wrote")
+                                     "a test, of a comparison, or of a fit.")
+    parser.add_argument("folder", help="that tensile_test, a recorder, compare --report or scripts/fit wrote")
     parser.add_argument("--command", help="that the page names as the one that made it")
     parser.add_argument("--version", help="of knot_utm, that made it", default="")
     arguments = parser.parse_args()
@@ -56,11 +56,14 @@ def make(folder, command, version):
         kind = "run"
     elif os.path.exists(os.path.join(folder, "comparison.yaml")):
         kind = "comparison"
+    elif os.path.exists(os.path.join(folder, "fit.yaml")):
+        kind = "fit"
     else:
-        raise CannotReport(f"{folder}: neither result.yaml nor comparison.yaml is there")
+        raise CannotReport(f"{folder}: neither result.yaml nor comparison.yaml nor fit.yaml is there")
+    import fit_page
     import page
 
-    makers = {"run": page.report_on_run, "comparison": page.report_on_comparison}
+    makers = {"run": page.report_on_run, "comparison": page.report_on_comparison, "fit": fit_page.report_on_fit}
     page.write(folder, makers[kind](folder, command, version))
 
 

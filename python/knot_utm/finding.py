@@ -6,7 +6,7 @@ from knot_utm import tool
 from knot_utm.errors import WrongInput
 from knot_utm.fitting.curves import read_measured
 from knot_utm.fitting.errors import require_known
-from knot_utm.fitting.files import write_fit
+from knot_utm.fitting.files import write_fit, write_report
 from knot_utm.fitting.keys import free_key, parse_free
 from knot_utm.fitting.records import Record
 from knot_utm.fitting.runs import EXACT_CELL, Runs, read_model
@@ -16,12 +16,12 @@ from knot_utm.fitting.verdict import judge
 from knot_utm.yaml_text import load
 
 
-def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, command=None):
+def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, command=None, report=True):
     """Finds the values of the free keys and returns them as fitting.verdict.Fitted.
 
     `measured`: a curve.csv, or what else `compare` reads; `free`: ["KEY" or "KEY=low:high"]; `settings`: {key: value} over the method;
-    `also`: [(measured, {key: value})], more records and what is other for them; `out`: the folder for fit.yaml, method.yaml and
-    report.html, unless given out/ and the name of the measured file. Raises WrongInput where it cannot be fitted, before anything is
+    `also`: [(measured, {key: value})], more records and what is other for them; `out`: the folder for fit.yaml, method.yaml and, with
+    `report`, report.html, unless given out/ and the name of the measured file; `command`: that the page names. Raises WrongInput where it cannot be fitted, before anything is
     written; Interrupted where it was cut short."""
     name = os.path.splitext(os.path.basename(os.fspath(measured)))[0]
     out = os.path.abspath(out or os.path.join("out", name + "_fit"))
@@ -32,7 +32,9 @@ def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, com
     with Runs(jobs or len(os.sched_getaffinity(0))) as runs:
         fitted = _Fit(runs, method, asked, [parse_free(word) for word in free]).go()
         methods = [fitted_method(runs, method, given, fitted) for _, given in asked]
-        write_fit(out, fitted, methods, command)
+        write_fit(out, fitted, methods)
+    if report:
+        write_report(out, command or "knot_utm.fit in Python")
     return fitted
 
 

@@ -18,7 +18,7 @@ def main(words):
     try:
         also = [(file, _settings(more, "--also")) for file, *more in asked.also]
         fitted = fit(asked.measured, asked.method, asked.free, asked.out, _settings(asked.set, "--set"), also, asked.jobs,
-                     shlex.join([PROGRAM, *words]))
+                     shlex.join([PROGRAM, *words]), not asked.no_report)
     except WrongInput as wrong:
         return _say(wrong, 2)
     except (Interrupted, OSError, RuntimeError) as error:
@@ -54,6 +54,7 @@ def _arguments(words):
     parser.add_argument("--set", action="append", default=[])
     parser.add_argument("--out")
     parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--no-report", action="store_true")
     asked = parser.parse_args(words)
     if asked.jobs < 1:
         parser.error(f"--jobs is {asked.jobs}, but must be at least 1")

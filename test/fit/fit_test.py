@@ -73,7 +73,7 @@ class Fits(unittest.TestCase):
 
     def fit(self, out, *words, settings=None, code=0):
         """What fit.yaml says, and what the command said."""
-        said = self.command(*words, "--out", self.path(out), settings=settings, code=code)
+        said = self.command(*words, "--out", self.path(out), "--no-report", settings=settings, code=code)
         return load(self.path(out, "fit.yaml")), said
 
     def assert_found(self, found, truth):
@@ -100,8 +100,18 @@ class Hidden(Fits):
         record = self.straight()
         for jobs in ("1", "3"):
             self.fit("fit" + jobs, record, "straight", "--free", STRETCH, "--jobs", jobs, settings={**SHORT, **CELL})
-        for name in ("fit.yaml", "method.yaml"):
+        for name in ("fit.yaml", "method.yaml", "curves.csv", "profiles.csv"):
             self.assertEqual(content(self.path("fit1", name)), content(self.path("fit3", name)), name)
+
+    def test_it_has_a_page(self):
+        words = [self.straight(), "straight", "--free", STRETCH, "record.force_offset", "--out", self.path("fit")]
+        self.command(*words, settings={**SHORT, **CELL})
+        pages = [content(self.path("fit", name)) for name in ("report.html", "report.pdf")]
+        self.command(*words, settings={**SHORT, **CELL})
+        self.assertEqual(pages, [content(self.path("fit", name)) for name in ("report.html", "report.pdf")], "the same bytes")
+        for word in (f'data-key="{STRETCH}"', 'data-key="record.force_offset"', "The curve fits within the errors", "record/curve.csv",
+                     f"{STRETCH}, record.force_offset", "curves.csv", "profiles.csv"):
+            self.assertIn(word, pages[0].decode())
 
     def test_friction_on_a_post_is_found_from_two_records(self):
         truth, cell = 0.23, {**CELL, "machine.load_cell.noise": 0.05}

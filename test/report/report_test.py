@@ -513,7 +513,7 @@ class Failures(unittest.TestCase):
         return done.stderr
 
     def test_a_folder_without_a_result(self):
-        self.assertIn("neither result.yaml nor comparison.yaml", self.one_line(script(folders.path), 1))
+        self.assertIn("neither result.yaml nor comparison.yaml nor fit.yaml", self.one_line(script(folders.path), 1))
         self.assertFalse(os.path.exists(os.path.join(folders.path, "report.html")))
 
     def test_no_folder(self):
