@@ -74,12 +74,14 @@ add_test(NAME stress_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/tes
 add_test(NAME scripts_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/scripts_test.py)
 add_test(NAME material_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/material_test.py)
 set_tests_properties(material_test PROPERTIES TIMEOUT 600 ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
-# Studies: their designs, and what scripts/sweep makes of small ones.
-foreach(name design_test sweep_test)
+add_test(NAME efficiency_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/efficiency_test.py)
+# Studies: their designs, what scripts/sweep makes of small ones, and the same as jobs on this machine and of Slurm.
+foreach(name design_test sweep_test workflow_test)
   add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/sweep/${name}.py)
   set_tests_properties(${name} PROPERTIES TIMEOUT 600 SKIP_RETURN_CODE 77
                        ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
 endforeach()
+set_tests_properties(workflow_test PROPERTIES LABELS long)
 # Fits: their parts against closed forms, and what scripts/fit finds of hidden values.
 foreach(name interval_test fit_test)
   add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/fit/${name}.py)
@@ -101,7 +103,7 @@ set_tests_properties(site_test PROPERTIES SKIP_RETURN_CODE 77)
 add_test(NAME panel_test COMMAND ${PYTHON_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/test/panel/panel_test.py)
 
 # The report: what is made of a run, and what a browser and a printer make of that. Label `long`: they run whole tests.
-foreach(name report_test browser_test)
+foreach(name report_test certificate_test figures_test comparison_test batch_test browser_test)
   add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/report/${name}.py)
   set_tests_properties(${name} PROPERTIES TIMEOUT 1800 LABELS long ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
 endforeach()

@@ -1,22 +1,17 @@
 """Two curves overlaid, and their difference."""
-import matplotlib.pyplot as plt
 import numpy as np
 
+from curve_figures import MANY
 from few_points import few_points
 from quantities import number
-from style import BLUE, GREEN, GREY, INK, ORANGE, SMALL, as_svg
-
-MANY = 8.0  # a peak above this many plateaus hides the plateau: it gets axes of its own
+from style import BLUE, GREEN, GREY, INK, ORANGE, SMALL, as_svg, stacked
 
 
 def overlay(comparison, look):
     """Both curves, again where loads are small beside the peak, and B less A over the extensions that both have."""
     closer = near_the_plateau(comparison)
     heights = [2.9] + ([1.8] if closer else []) + [1.6]
-    tall = sum(heights) + 0.9
-    figure, all_axes = plt.subplots(len(heights), 1, figsize=(look.width, tall), sharex=True, squeeze=False,
-                                    gridspec_kw={"height_ratios": heights, "hspace": 0.12})
-    all_axes = list(all_axes[:, 0])
+    figure, all_axes, tall = stacked(look, heights)
     for axes in all_axes[:-1]:
         draw_both(axes, comparison, 34 if look.is_narrow else 60)
     all_axes[0].legend(loc="upper left")

@@ -6,7 +6,7 @@ from matplotlib.ticker import MaxNLocator
 from error_band import error_band
 from few_points import few_points
 from quantities import shown, with_unit
-from style import BLUE, GOLD, GREEN, GREY, INK, ORANGE, PHASES, RED, SMALL, USUAL, VIOLET, as_svg
+from style import BLUE, GOLD, GREEN, GREY, INK, ORANGE, PHASES, RED, SMALL, USUAL, VIOLET, as_svg, stacked
 
 MANY = 8.0  # a peak above this many plateaus hides the plateau: it gets axes of its own
 FEW = 250   # readings of the cell that are drawn as points
@@ -81,10 +81,7 @@ def force_extension(run, marks, look):
     closer = near_the_plateau(run)
     knots = tested.has_knot_distance()
     heights = [2.8] + ([1.7] if closer else []) + ([1.4] if knots else [])
-    tall = sum(heights) + 0.9
-    figure, all_axes = plt.subplots(len(heights), 1, figsize=(look.width, tall), sharex=True, squeeze=False,
-                                    gridspec_kw={"height_ratios": heights, "hspace": 0.12})
-    all_axes = list(all_axes[:, 0])
+    figure, all_axes, tall = stacked(look, heights)
     draw_load(all_axes[0], run, marks)
     all_axes[0].legend(loc="upper left", bbox_to_anchor=(0.0, 0.93), borderpad=0.2)
     if closer:
@@ -120,12 +117,16 @@ def extension_limits(run):
 def near_the_plateau(run):
     """Loads to show once more: those of sliding, or up to a knot's jump, where they are small beside the peak; else
     None."""
-    plateau, peak = run.value("plateau_force") or run.value("jump_force"), run.value("peak_force")
+    return small_loads(run.value, run.curve.tested()["load"], run.units.force.scale)
+
+
+def small_loads(value, load, scale):
+    """As above, of loads [N] and the readings that `value` gives by key, in a unit of `scale`."""
+    plateau, peak = value("plateau_force") or value("jump_force"), value("peak_force")
     if plateau is None or plateau <= 0.0 or peak is None or peak < MANY * plateau:
         return None
-    top = max(2.5 * plateau, 1.3 * (run.value("breakaway_force") or 0.0))
-    lowest = min(0.0, float(run.curve.tested()["load"].min()))
-    scale = run.units.force.scale
+    top = max(2.5 * plateau, 1.3 * (value("breakaway_force") or 0.0))
+    lowest = min(0.0, float(load.min()))
     return scale * (max(lowest, -0.5 * top) - 0.05 * top), scale * top
 
 

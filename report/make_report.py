@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes report.html and report.pdf into the folder of a test, of a comparison, or of a fit.
+"""Writes report.html and report.pdf into the folder of a test, of a batch of specimens, of a comparison, or of a fit.
 
     make_report.py FOLDER [--command TEXT] [--version VERSION]
 
@@ -28,7 +28,7 @@ def refuse(message):
 
 def main():
     parser = OneLineParser(prog="report", description="Writes report.html and report.pdf into the folder of "
-                                     "a test, of a comparison, or of a fit.")
+                                     "a test, of a batch of specimens, of a comparison, or of a fit.")
     parser.add_argument("folder", help="that tensile_test, a recorder, compare --report or scripts/fit wrote")
     parser.add_argument("--command", help="that the page names as the one that made it")
     parser.add_argument("--version", help="of knot_utm, that made it", default="")
@@ -51,19 +51,18 @@ def main():
 def make(folder, command, version):
     from failure import CannotReport
 
-    # A run that was put into the folder of a comparison is newer: `compare` takes no folder of a run.
-    if os.path.exists(os.path.join(folder, "result.yaml")):
-        kind = "run"
-    elif os.path.exists(os.path.join(folder, "comparison.yaml")):
-        kind = "comparison"
-    elif os.path.exists(os.path.join(folder, "fit.yaml")):
-        kind = "fit"
-    else:
-        raise CannotReport(f"{folder}: neither result.yaml nor comparison.yaml nor fit.yaml is there")
+    # The first is the newest where a folder holds two: `compare` takes no folder of a run, and tests take away what
+    # older tests and comparisons left.
+    kinds = {"result.yaml": "run", "comparison.yaml": "comparison", "statistics.yaml": "batch", "fit.yaml": "fit"}
+    kind = next((kinds[name] for name in kinds if os.path.exists(os.path.join(folder, name))), None)
+    if kind is None:
+        raise CannotReport(f"{folder}: none of {', '.join(kinds)} is there")
+    import batch_page
     import fit_page
     import page
 
-    makers = {"run": page.report_on_run, "comparison": page.report_on_comparison, "fit": fit_page.report_on_fit}
+    makers = {"run": page.report_on_run, "comparison": page.report_on_comparison, "batch": batch_page.report_on_batch,
+              "fit": fit_page.report_on_fit}
     page.write(folder, makers[kind](folder, command, version))
 
 

@@ -7,6 +7,7 @@ KEYS = {
     "handedness": ("Handedness of the two overhands", ""), "turns": ("Turns", ""),
     "knot_distance": ("Knot distance e", "length"), "end_to_end": ("End to end L", "length"),
     "length": ("Length of rod", "length"), "tail": ("Tails", "length"), "preload": ("Pre-load F_p", "force"),
+    "wrap": ("Angle around the post", "rad"), "post_diameter": ("Post diameter", "length"), "tail_load": ("Tail load", "force"),
     "edge_length": ("Edge length of the mesh", "length"), "refinement": ("Refinement within the knots", ""),
     "file": ("Shape from", ""), "radius": ("Radius", "length"), "density": ("Density", "kg/m³"),
     "stretching_stiffness": ("Stretching stiffness", "force"), "bending_stiffness": ("Bending stiffness", "N m²"),
@@ -33,10 +34,13 @@ KEYS = {
     "presliding": ("presliding", "of the radius"), "tolerance": ("tolerance", "of the radius"),
     "drag": ("Drag", "N s/m²"), "max_step": ("Longest step", "s"),
     "residual": ("Residual", "k_b/h²"), "twist": ("Twist", "")}
-OF_KNOT = {"fisherman": ("handedness", "knot_distance", "end_to_end", "tail", "preload", "edge_length", "refinement"),
+OF_LOOP = ("handedness", "knot_distance", "end_to_end", "tail", "preload", "edge_length", "refinement")
+OF_KNOT = {"fisherman": OF_LOOP, "multiple_fisherman": ("turns", *OF_LOOP),
+           "capstan": ("wrap", "post_diameter", "tail_load", "tail", "end_to_end", "edge_length"),
            "overhand": ("turns", "length", "end_to_end", "edge_length", "refinement"),
            "straight": ("length", "edge_length"), "file": ("file", "closed", "edge_length")}
-KNOTS = {"fisherman": "Fisherman's knot", "overhand": "Overhand knot", "straight": "Straight rod",
+KNOTS = {"fisherman": "Fisherman's knot", "multiple_fisherman": "Multiple fisherman's knot",
+         "capstan": "Strand around a post (capstan)", "overhand": "Overhand knot", "straight": "Straight rod",
          "file": "Rod of a shape from a file"}
 NOT_FACTS = ("name", "notes", "tying_preload", "seed", "load_cell")
 
@@ -76,6 +80,12 @@ def sentence(label):
 
 def knot_of(method):
     return KNOTS.get(method["specimen"]["knot"], str(method["specimen"]["knot"]))
+
+
+def post_diameter(method):
+    """Of the post around which the specimen lies [m]; None: there is none."""
+    specimen = method["specimen"]
+    return specimen["post_diameter"] if "post_diameter" in OF_KNOT.get(specimen["knot"], ()) else None
 
 
 def without_idle_keys(method):

@@ -5,7 +5,7 @@ import re
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from certificate import certificate, specification_checks, specification_verdict, stiffness_name, verdict
+from certificate import certificate, specification_checks, specification_verdict, verdict
 from comparison import READINGS, Comparison, run_beside
 from comparison_figures import overlay
 from curve_figures import course, force_extension
@@ -15,8 +15,8 @@ from largest_load import largest_load
 from marks import end_of, marks_of, time_of_break
 from method_facts import knot_of, method_facts, program
 from is_number import is_number
-from quantities import error_shown, number, quantity_of, shown, with_unit
-from results_table import results_table
+from quantities import error_shown, percent, quantity_of, shown, with_unit
+from results_table import results_table, short_label
 from rod_pictures import pictures
 from run import Run, printable
 from shapes import shapes_at
@@ -27,6 +27,8 @@ FILES = [
     ("curve.csv", "load, extension and knot distance at every reading of the load cell"),
     ("curve_full.csv", "the same at every time step"),
     ("result.yaml", "every result in full precision"),
+    ("statistics.yaml", "the statistics of the batch in full precision"),
+    ("specimens.csv", "a row for each specimen: what was drawn, how its test ended, and all of its readings"),
     ("method.yaml", "the method with every value, which gives the same curve when it is run again"),
     ("final_shape.csv", "the rod at the end"),
     ("test.bag", "the topics of the test"),
@@ -129,16 +131,9 @@ def headlines(run, largest):
         if value is not None:
             unit = run.units.of(quantity_of(key).kind)
             remark = largest.where if key == "peak_force" and largest else ""
-            found.append(Headline(headline(run.result, key, largest), shown(value, unit.scale, error),
+            found.append(Headline(short_label(run.result, key, largest), shown(value, unit.scale, error),
                                   error_shown(error, unit.scale), unit.name, remark))
     return found
-
-
-def headline(result, key, largest):
-    if key == "peak_force" and largest and not largest.is_peak:
-        return "Largest load"
-    name = stiffness_name(result) if key == "locked_stiffness" else key.replace("_", " ")
-    return name[:1].upper() + name[1:]
 
 
 def report_on_comparison(folder, command, version):
@@ -170,10 +165,6 @@ def comparison_row(comparison, key, units):
     return (key, "Largest load" if rises else re.split("[,;]", quantity.label)[0], unit.name,
             *(shown(both[part], unit.scale) if is_number(both.get(part)) else "none" if part != "difference" else ""
               for part in ("a", "b", "difference")), percent(both.get("relative")))
-
-
-def percent(share):
-    return number(float(f"{100.0 * share:.3g}")) + " %" if is_number(share) else ""
 
 
 def side_facts(beside):

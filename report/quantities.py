@@ -93,5 +93,9 @@ def error_shown(error, scale):
     return number(float(f"{error * scale:.1e}")) if is_number(error) else ""
 
 
+def percent(share):
+    return number(float(f"{100.0 * share:.3g}")) + " %" if is_number(share) else ""
+
+
 def with_unit(value, unit, error=None):
     return f"{shown(value, unit.scale, error)} {unit.name}".strip()

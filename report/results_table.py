@@ -41,6 +41,14 @@ def labels_of(result, peak):
     return {"locked_stiffness": name[:1].upper() + name[1:], "peak_force": peak}
 
 
+def short_label(result, key, largest):
+    """For a place that has no room for the label. `largest`: the LargestLoad of the test, or None."""
+    if key == "peak_force" and largest and not largest.is_peak:
+        return "Largest load"
+    name = stiffness_name(result) if key == "locked_stiffness" else key.replace("_", " ")
+    return name[:1].upper() + name[1:]
+
+
 def results_table(result, units, peak):
     """Groups of rows, those with a label first, and the keys of which this test has no value."""
     labels = labels_of(result, peak)

@@ -6,6 +6,7 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import LinearSegmentedColormap, LogNorm, to_rgb
 from matplotlib.ticker import FuncFormatter, LogLocator
 
+from method_facts import post_diameter
 from quantities import number, with_unit
 from shapes import pieces
 from style import GREY, HUB, INK, ROLLER, SMALL, USUAL, as_png
@@ -80,8 +81,11 @@ def base_of(shape, part, along, norm):
 
 
 def rollers(run, shape):
-    """[(place along the load axis, radius)] [mm]"""
-    if run.method["specimen"]["knot"] != "fisherman" or run.method["machine"]["grips"] != "rollers":
+    """[(place along the load axis, radius)] [mm], and so of a post."""
+    post = post_diameter(run.method)
+    if post is not None:
+        return [(0.0, 0.5e3 * post)]
+    if run.method["machine"]["grips"] != "rollers":
         return []
     radius = 0.5e3 * run.method["machine"]["roller_diameter"]
     return [(z, radius) for z in (0.0, 1e3 * float(np.interp(shape.time, run.curve["time"], run.curve["end_to_end"])))]

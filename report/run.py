@@ -111,12 +111,17 @@ def texts_of(file, key):
 
 
 def read_columns(file):
-    """Columns by name, as text; row 1 has names, row 2 units."""
+    """Columns by name, as text."""
+    return read_table(file)[0]
+
+
+def read_table(file):
+    """Columns and their units by name, as text; row 1 has names, row 2 units."""
     rows = list(csv.reader(read_text(file).splitlines()))
     if len(rows) < 2 or any(len(row) != len(rows[0]) for row in rows):
         raise CannotReport(f"{file}: not a table with a row of names and a row of units")
     columns = list(zip(*rows[2:])) if len(rows) > 2 else [()] * len(rows[0])
-    return dict(zip(rows[0], columns))
+    return dict(zip(rows[0], columns)), dict(zip(rows[0], rows[1]))
 
 
 def numbers(file, name, column):

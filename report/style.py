@@ -46,6 +46,14 @@ plt.rcParams.update({
     "axes.labelsize": USUAL, "xtick.labelsize": SMALL, "ytick.labelsize": SMALL, "axes.titlesize": USUAL})
 
 
+def stacked(look, heights):
+    """Axes of these heights [in], one below the other over the same extensions; and how tall the figure is [in]."""
+    tall = sum(heights) + 0.9
+    figure, axes = plt.subplots(len(heights), 1, figsize=(look.width, tall), sharex=True, squeeze=False,
+                                gridspec_kw={"height_ratios": heights, "hspace": 0.12})
+    return figure, list(axes[:, 0]), tall
+
+
 def as_svg(figure):
     """A data: URI."""
     return data_uri(figure, "image/svg+xml", format="svg", metadata={"Date": None, "Creator": None})

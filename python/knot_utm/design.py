@@ -56,7 +56,8 @@ def points(kinds, design, runs=None, seed=1):
 def _grid(kinds, _runs, _seed):
     for key, kind in kinds.items():
         if isinstance(kind, Drawn):
-            raise WrongInput(f"vary.{key} is drawn or has no steps, but a grid needs values: give steps, or design: list or sobol")
+            raise WrongInput(f"vary.{key} is drawn or has no steps, but a grid needs values: give steps, or design: list or "
+                             "sobol")
     count = math.prod(len(kind.values) for kind in kinds.values())
     if count > MOST_RUNS:
         raise WrongInput(f"vary asks for {count} runs, but must ask for at most {MOST_RUNS}")

@@ -5,7 +5,6 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from knot_utm.errors import WrongInput
-from knot_utm.study import SEED
 from knot_utm.table import NUMBERS, result_columns
 
 FAR = 20  # times the smallest value: the axis is then logarithmic
@@ -30,7 +29,7 @@ def write_plot(table, keys, result, folder):
 def figure(table, keys, result):
     """`table`: of knot_utm.sweep. Two numbers in a grid make maps, one for each combination of the words that were varied
     too; anything else is a panel for each number, with a colour for each such combination."""
-    varied = [key for key in keys if key != SEED and table[key].nunique() > 1]
+    varied = [key for key in keys if table[key].nunique() > 1]
     numbers = [key for key in varied if table[key].dtype.kind in "if"]
     words = [key for key in varied if key not in numbers]
     groups = list(table.groupby(words if len(words) > 1 else words[0], sort=False)) if words else [("", table)]

@@ -7,17 +7,18 @@ from knot_utm.errors import WrongInput
 from knot_utm.yaml_text import load, text_of
 
 KEYS = ("method", "vary", "design", "runs", "repeat", "seed")
-SEED = "machine.load_cell.seed"  # what tells repeats apart
+COUNT = "specimens.count"  # how tensile_test is told of repeats
 DESIGNS = ("grid", "list", "sobol")
 
 
 @dataclass(frozen=True)
 class Study:
-    """One whole study: every run is the method with other values of the keys."""
+    """One whole study: every run is the method with other values of the keys. With repeats a run is a batch of specimens."""
 
     file: str
     method: str    # path of the method's file
     points: list   # [{key: value}], one a run
+    repeat: int
 
     @property
     def name(self):
@@ -26,6 +27,11 @@ class Study:
     @property
     def keys(self):
         return list(self.points[0])
+
+    @property
+    def settings(self):
+        """[{key: value}] of every run, with all that it is told."""
+        return [{**point, COUNT: self.repeat} for point in self.points] if self.repeat > 1 else self.points
 
 
 def load_study(file):
@@ -44,6 +50,7 @@ def _study(file, given):
         if key not in KEYS:
             raise WrongInput(f"{key} is no key of a study; its keys are " + ", ".join(KEYS))
     method = tool.find_method(_method(given), os.path.dirname(os.path.abspath(file)))
+    _require_one_specimen(method)
     vary = given.get("vary")
     if not isinstance(vary, dict) or not vary:
         raise WrongInput(f"vary is {text_of(vary)}, but must be a map of at least one key of the method and its values")
@@ -54,9 +61,15 @@ def _study(file, given):
     for name, value in (("runs", runs), ("seed", seed)):
         if kind == "grid" and value is not None:
             raise WrongInput(f"{name} is {value}, but has no effect in a grid")
+    for key in vary:
+        if key in (COUNT, "specimens"):
+            raise WrongInput(f"vary has the key {key}, but a run of a study is one specimen: give repeat")
     kinds = {key: design.varied(key, values) for key, values in vary.items()}
     points = design.points(kinds, kind, runs, 1 if seed is None else seed)
-    return Study(file, method, _repeated(points, _integer(given, "repeat", 1, 10_000) or 1))
+    repeat = _integer(given, "repeat", 1, 10_000) or 1
+    if len(points) * repeat > design.MOST_RUNS:
+        raise WrongInput(f"repeat is {repeat}: these are {len(points) * repeat} tests, of at most {design.MOST_RUNS}")
+    return Study(file, method, points, repeat)
 
 
 def _method(given):
@@ -67,6 +80,14 @@ def _method(given):
     return method
 
 
+def _require_one_specimen(method):
+    given = load(method)
+    specimens = given.get("specimens") if isinstance(given, dict) else None
+    count = specimens.get("count", 1) if isinstance(specimens, dict) else 1
+    if count != 1:
+        raise WrongInput(f"method: {method} has specimens.count {text_of(count)}, but a run of a study is one specimen: give repeat")
+
+
 def _integer(given, key, low, high):
     value = given.get(key)
     if value is None and key not in given:
@@ -75,12 +96,3 @@ def _integer(given, key, low, high):
         raise WrongInput(f"{key} is {text_of(value)}, but must be an integer from {low} to {high}")
     return value
 
-
-def _repeated(points, times):
-    if times == 1:
-        return points
-    if SEED in points[0]:
-        raise WrongInput(f"repeat is {times}, but vary has the key {SEED}, by which repeats differ")
-    if len(points) * times > design.MOST_RUNS:
-        raise WrongInput(f"repeat is {times}: these are {len(points) * times} runs, of at most {design.MOST_RUNS}")
-    return [{**point, SEED: seed} for point in points for seed in range(1, times + 1)]

@@ -11,6 +11,8 @@ from knot_utm.errors import WrongInput
 from knot_utm.yaml_text import load
 
 RECORD = "run.yaml"  # beside what tensile_test wrote: how the run ended
+RESULT = "result.yaml"
+STATISTICS = "statistics.yaml"  # of a batch of specimens
 
 
 class SweepFolder:
@@ -19,14 +21,16 @@ class SweepFolder:
     def __init__(self, path):
         self.path = path
         self.runs = os.path.join(path, "runs")
+        self._tied = os.path.join(path, "tied")
 
     @contextlib.contextmanager
     def claimed(self):
         """For one sweep alone; what a killed one left is cleared away. Raises WrongInput where others are at work."""
         with self._locked(fcntl.LOCK_EX):
-            for name in os.listdir(self.runs):
-                if name.startswith("."):
-                    shutil.rmtree(os.path.join(self.runs, name), ignore_errors=True)
+            for folder in (self.runs, self._tied):
+                for name in os.listdir(folder):
+                    if name.startswith("."):
+                        shutil.rmtree(os.path.join(folder, name), ignore_errors=True)
             yield
 
     def shared(self):
@@ -36,7 +40,8 @@ class SweepFolder:
     @contextlib.contextmanager
     def _locked(self, kind):
         try:
-            os.makedirs(self.runs, exist_ok=True)
+            for folder in (self.runs, self._tied):
+                os.makedirs(folder, exist_ok=True)
         except (FileExistsError, NotADirectoryError, PermissionError) as error:
             raise WrongInput(f"cannot make the folder {error.filename}: {error.strerror.lower()}") from error
         with open(os.path.join(self.path, ".lock"), "w", encoding="utf-8") as lock:
@@ -49,26 +54,38 @@ class SweepFolder:
     def of(self, run):
         return os.path.join(self.runs, run)
 
+    def tied(self, name):
+        """Of a beginning that runs share."""
+        return os.path.join(self._tied, name)
+
     def record(self, run):
         """{exit_code, error, set, version} of a run that has ended; None of any other."""
-        file = os.path.join(self.of(run), RECORD)
+        file = self._file(run, RECORD)
         return load(file) if os.path.exists(file) else None
 
     def is_done(self, run):
         """Whether it has ended and left a result; those that left none are tried again."""
-        return self.record(run) is not None and os.path.exists(self._result(run))
+        return os.path.exists(self._file(run, RECORD)) and any(os.path.exists(self._file(run, name))
+                                                               for name in (RESULT, STATISTICS))
 
     def result(self, run):
         """Of a run that has ended; empty where it left none."""
-        return load(self._result(run)) if os.path.exists(self._result(run)) else {}
+        file = self._file(run, RESULT)
+        return load(file) if os.path.exists(file) else {}
 
-    def _result(self, run):
-        return os.path.join(self.of(run), "result.yaml")
+    def rejected(self, run):
+        """{specimen: reason} of a batch."""
+        file = self._file(run, STATISTICS)
+        return {entry["specimen"]: entry["reason"] for entry in load(file)["rejected"]} if os.path.exists(file) else {}
+
+    def _file(self, run, name):
+        return os.path.join(self.of(run), name)
 
     @contextlib.contextmanager
-    def making(self, run):
-        """A folder in which to make a run; gone in the end where the run was not finished."""
-        part = tempfile.mkdtemp(prefix=f".{run}.", dir=self.runs)
+    def making(self, place):
+        """A hidden folder beside `place`, that of a run or of a beginning, in which to make it; gone in the end where it was
+        not put there."""
+        part = tempfile.mkdtemp(prefix=f".{os.path.basename(place)}.", dir=os.path.dirname(place))
         try:
             yield part
         finally:
@@ -78,10 +95,14 @@ class SweepFolder:
         shutil.rmtree(part)
         os.mkdir(part)
 
+    def put(self, part, place):
+        """What was made is whole: it goes where it belongs, instead of what may be there."""
+        os.chmod(part, 0o755)  # mkdtemp's are for nobody else
+        shutil.rmtree(place, ignore_errors=True)
+        os.rename(part, place)
+
     def finish(self, part, run, record):
-        """Keeps what was made there, in place of what may be there already."""
+        """Keeps a run that was made."""
         with open(os.path.join(part, RECORD), "w", encoding="utf-8") as file:
             yaml.safe_dump(record, file, sort_keys=False, allow_unicode=True)
-        os.chmod(part, 0o755)  # mkdtemp's are for nobody else
-        shutil.rmtree(self.of(run), ignore_errors=True)
-        os.rename(part, self.of(run))
+        self.put(part, self.of(run))

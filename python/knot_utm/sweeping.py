@@ -5,10 +5,14 @@ from knot_utm import tool
 from knot_utm.address import Addresses
 from knot_utm.errors import WrongInput
 from knot_utm.plots import require_plottable, write_plot
+from knot_utm.sharing import beginnings
 from knot_utm.study import load_study
 from knot_utm.sweep_folder import SweepFolder
 from knot_utm.table import Table
 from knot_utm.work import Work
+from knot_utm.yaml_text import load
+
+SPECIMEN = "specimen"  # the column that tells repeats apart
 
 
 def sweep(study, out=None, jobs=None, plots=()):
@@ -30,12 +34,17 @@ class Sweep:
         self.plots = plots
         self.folder = SweepFolder(os.path.abspath(out or os.path.join("out", self.study.name)))
         addresses = Addresses(self.study.method)
-        self.names = [addresses.of(point) for point in self.study.points]
-        self.runs = dict(zip(self.names, self.study.points))
+        self.names = [addresses.of(settings) for settings in self.study.settings]
+        self.runs = dict(zip(self.names, self.study.settings))
+        # Of a batch every specimen is another one.
+        shared = beginnings(self.study.method, list(self.runs.values())) if self.study.repeat == 1 else []
+        self.beginnings = {run: (addresses.of({**beginning.shared, "--stop-before": beginning.step}), beginning)
+                           for run, beginning in zip(self.runs, shared) if beginning is not None}
+        self.begun = []  # names of the beginnings that runs began with
 
     def all(self, jobs):
         """All parts: checks, runs what is open, writes the table and returns it."""
-        with Work(self.study, self.folder) as work:
+        with self._work() as work:
             work.check(self._open(), jobs)
             with self.folder.claimed():
                 work.run(self._open(), jobs)
@@ -45,37 +54,61 @@ class Sweep:
 
     def check(self, jobs):
         """Raises WrongInput where one of the runs that are open would be refused."""
-        with Work(self.study, self.folder) as work:
+        with self._work() as work:
             work.check(self._open(), jobs)
 
     def one(self, run):
         """That run alone, beside others of other processes."""
         if run not in self.runs:
             raise WrongInput(f"{run} is no run of {self.study.file}")
-        with Work(self.study, self.folder) as work, self.folder.shared():
+        with self._work() as work, self.folder.shared():
             work.run({run: self.runs[run]} if run in self._open() else {}, 1)
             work.require_all()
 
     def table(self):
         """The table of the runs that are there."""
-        with Work(self.study, self.folder) as work, self.folder.shared():
+        with self._work() as work, self.folder.shared():
             frame = self._written(work)
             work.require_all()
         return frame
+
+    def saved(self):
+        """What it saved to compute shared beginnings once: the time they took, for each run that began with one but the first [s]."""
+        return sum((self.begun.count(name) - 1) * load(os.path.join(self.folder.tied(name), "result.yaml"))["wall_time"]
+                   for name in set(self.begun))
+
+    def _work(self):
+        work = Work(self.study, self.folder, self.beginnings)
+        self.begun = work.begun
+        return work
 
     def _open(self):
         return {run: point for run, point in self.runs.items() if not self.folder.is_done(run)}
 
     def _written(self, work):
         study = self.study
-        table = Table({key: tool.key_unit(study.method, key, study.points[0]) for key in study.keys})
+        units = {key: tool.key_unit(study.method, key, study.points[0]) for key in study.keys}
+        table = Table({**units, SPECIMEN: "-"} if study.repeat > 1 else units)
         for run, point in zip(self.names, study.points):
             record = self.folder.record(run)
             if record is not None:
-                table.add(point, run, record["exit_code"], record["error"], self.folder.result(run))
+                self._add(table, point, run, record)
         frame = table.frame()
         with work.stopping():
             table.write(self.folder.path)
             for result in self.plots if table.rows else ():
                 write_plot(frame, study.keys, result, self.folder.path)
         return frame
+
+    def _add(self, table, point, run, record):
+        """A row for a run, or for each specimen of its batch."""
+        if self.study.repeat == 1:
+            table.add(point, run, record["exit_code"], record["error"], self.folder.result(run))
+            return
+        rejected = self.folder.rejected(run)
+        for number in range(1, self.study.repeat + 1):
+            specimen = f"{run}/specimen_{number:03d}"
+            result = self.folder.result(specimen)
+            error = rejected.get(number) if result else record["error"]
+            code = int(error is not None) if result else record["exit_code"]
+            table.add({**point, SPECIMEN: number}, specimen, code, error, result)

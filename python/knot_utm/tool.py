@@ -44,7 +44,8 @@ def find_method(name, folder):
     for place in places:
         if os.path.isfile(place):
             return os.path.abspath(place)
-    raise WrongInput(f"method is {name}, but must be a file, from {folder}, or the name of a method that comes with the package")
+    raise WrongInput(f"method is {name}, but must be a file, from {folder}, or the name of a method that comes with the "
+                     "package")
 
 
 def command(method, settings, out, *more):

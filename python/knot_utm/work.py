@@ -5,23 +5,28 @@ import os
 import signal
 import subprocess
 import threading
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor, as_completed
 
 from tqdm import tqdm
 
 from knot_utm import tool
 from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.sweep_folder import RESULT, STATISTICS
 from knot_utm.yaml_text import load, text_of
 
 DISK_IS_FULL = [os.strerror(code).lower() for code in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)]
+INTERRUPTED = "interrupted"  # the reason of a run that may go on
 
 
 class Work:
     """What is done for a study, until it is done or stopped."""
 
-    def __init__(self, study, folder):
-        self.study, self.folder = study, folder
+    def __init__(self, study, folder, beginnings):
+        """`beginnings`: {run: (name, Beginning)} of the runs that share one."""
+        self.study, self.folder, self.beginnings = study, folder, beginnings
         self.stopped = None  # why
+        self.begun = []  # names of the beginnings that runs began with
         self._live = set()
         self._handlers = {}
 
@@ -47,7 +52,7 @@ class Work:
         try:
             yield
         except OSError as error:
-            self.stop(f"cannot write {error.filename or self.folder.path}: {error.strerror.lower()}")
+            self.stop(f"{error.filename or self.folder.path}: {(error.strerror or str(error)).lower()}")
 
     def require_all(self):
         if self.stopped:
@@ -55,7 +60,8 @@ class Work:
 
     def check(self, points, jobs):
         """Raises WrongInput where tensile_test would refuse one of them."""
-        refused = [(point, why) for point, why in zip(points.values(), self._each(self._refusal, points, jobs, "checked")) if why]
+        reasons = self._each(self._refusal, points, jobs, "checked")
+        refused = [(point, why) for point, why in zip(points.values(), reasons) if why]
         self.require_all()
         if refused:
             point, why = refused[0]
@@ -63,7 +69,11 @@ class Work:
             raise WrongInput(f"{self.study.file}: the run with {described(point)} would be refused: {why}{more}")
 
     def run(self, points, jobs):
-        """Makes each of them."""
+        """Makes each of them, and before that each beginning that several of them share."""
+        shared = dict(self.beginnings[run] for run in points if run in self.beginnings)
+        wanted = Counter(self.beginnings[run][0] for run in points if run in self.beginnings)
+        self._each(self._tie, {name: beginning for name, beginning in shared.items()
+                               if wanted[name] > 1 and not os.path.exists(self.folder.tied(name))}, jobs, "tied")
         self._each(self._make, points, jobs, "run")
 
     def _each(self, do, points, jobs, what):
@@ -82,20 +92,45 @@ class Work:
     def _refusal(self, _run, point):
         return None if self.stopped else tool.refusal(self.study.method, point)
 
+    def _tie(self, name, beginning):
+        """A beginning, up to the step before which it stops. Where it comes to nothing, the runs say why."""
+        place = self.folder.tied(name)
+        if self.stopped:
+            return
+        with self.stopping(), self.folder.making(place) as part:
+            code, said = self._wait(self._start(beginning.point, part, "--stop-before", str(beginning.step)))
+            if code > 0 and is_of_a_full_disk(said):
+                self.stop(said.partition(";")[0].replace(part, place))
+            elif code == 0 and not self.stopped and os.path.exists(os.path.join(part, "checkpoint")):
+                self.folder.put(part, place)
+
     def _make(self, run, point):
         """One run, to the end or until it is stopped."""
         if self.stopped:
             return
-        with self.stopping(), self.folder.making(run) as part:
-            code, said = self._wait(self._start(point, part))
+        with self.stopping(), self.folder.making(self.folder.of(run)) as part:
+            code, said = self._go_on(run, point, part) or self._wait(self._start(point, part))
             if not self.stopped:
                 self._keep(part, run, point, code, said.replace(part, self.folder.of(run)))
 
-    def _start(self, point, part):
+    def _go_on(self, run, point, part):
+        """The same with the beginning that it shares; None where there is none that suits it."""
+        name = self.beginnings[run][0] if run in self.beginnings else ""
+        if not name or not os.path.exists(self.folder.tied(name)):
+            return None
+        code, said = self._wait(self._start(point, part, "--begin-with", self.folder.tied(name)))
+        if code == tool.REFUSED:
+            return None
+        self.begun.append(name)
+        return code, said
+
+    def _start(self, point, part, *more):
+        more += ("--jobs", "1") if self.study.repeat > 1 else ()
+        command = tool.command(self.study.method, point, part, "--quiet", *more)
         # Not in the terminal's group, whose Ctrl-C is for the sweep; and it dies with the sweep.
-        process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *tool.command(self.study.method, point, part, "--quiet")],
-                                   cwd=os.path.dirname(self.study.method), text=True, errors="replace", process_group=0,
-                                   stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *command], cwd=os.path.dirname(self.study.method),
+                                   text=True, errors="replace", process_group=0, stdin=subprocess.DEVNULL,
+                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         self._live.add(process)
         if self.stopped:  # between the question and the start
             process.kill()
@@ -109,22 +144,27 @@ class Work:
     def _keep(self, part, run, point, code, said):
         """What became of a run that ended by itself, or was ended by another than the sweep."""
         result = result_of(part)
-        if result is not None and result["reason"] != "interrupted":
-            error = None if code == 0 else result["reason"]
-        elif code > 0 and any(text in said.lower() for text in DISK_IS_FULL):
+        if code > 0 and result is None and is_of_a_full_disk(said):
             self.stop(said.partition(";")[0])
             return
-        else:
+        if result is None or result.get("reason") == INTERRUPTED:
             self.folder.empty(part)  # there is nothing in it to rely on
-            error = said if code >= 0 else f"killed by {signal.Signals(-code).name}"
+        why = result.get("reason") if result else None
+        error = None if code == 0 else f"killed by {signal.Signals(-code).name}" if code < 0 else why or said
         record = {"exit_code": code if code >= 0 else 128 - code, "error": error, "set": point, "version": tool.version()}
         self.folder.finish(part, run, record)
 
 
+def is_of_a_full_disk(said):
+    return any(text in said.lower() for text in DISK_IS_FULL)
+
+
 def result_of(folder):
-    """result.yaml of a run that has ended; None where there is none, or it is not whole."""
+    """result.yaml of a run that has ended, or statistics.yaml of a batch; None where there is none, or it is not whole."""
     with contextlib.suppress(WrongInput):
-        result = load(os.path.join(folder, "result.yaml"))
+        if os.path.exists(os.path.join(folder, STATISTICS)):
+            return load(os.path.join(folder, STATISTICS))
+        result = load(os.path.join(folder, RESULT))
         if isinstance(result, dict) and "specification_failed" in result:
             return result
     return None

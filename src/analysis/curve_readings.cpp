@@ -82,22 +82,21 @@ std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double wa
   return out;
 }
 
-/// Every point with the least that each knot holds of the rod from there over `way`: a tail that whips past has a knot
+/// At every point the least that each knot holds of the rod from there over `way`: a tail that whips past has a knot
 /// take in rod for a moment, a knot that opens keeps it.
-Pull as_kept(const Pull& pull, double way) {
-  Pull out = pull;
-  for (std::size_t i = 0; i < pull.size(); ++i)
+HiddenRod as_kept(const Pull& pull, const HiddenRod& hidden, double way) {
+  HiddenRod out = hidden;
+  for (std::size_t i = 0; i < out.size(); ++i)
     for (std::size_t j = i; j <= last_within(pull, i, way, pull.back().extension); ++j)
-      for (std::size_t k = 0; k < 2; ++k)
-        out[i].excess_length[k] = std::min(out[i].excess_length[k], pull[j].excess_length[k]);
+      for (std::size_t k = 0; k < out[i].size(); ++k) out[i][k] = std::min(out[i][k], hidden[j].at(k));
   return out;
 }
 
-/// Of the rod that a knot holds: what it took in over what it held at first, the larger of both knots; NaN: not known.
-double taken_in(const Pull& pull, const PullPoint& from, const PullPoint& to) {
+/// Of the rod that a knot holds: what it took in from one point to another over what it held at `first`, the largest of
+/// all knots; NaN: not known.
+double taken_in(const PerKnot& first, const PerKnot& from, const PerKnot& to) {
   double most = Sample::kNone;
-  for (std::size_t k = 0; k < 2; ++k)
-    most = std::fmax(most, (to.excess_length[k] - from.excess_length[k]) / pull.front().excess_length[k]);
+  for (std::size_t k = 0; k < first.size(); ++k) most = std::fmax(most, (to.at(k) - from.at(k)) / first.at(k));
   return most;
 }
 
@@ -109,10 +108,10 @@ double let_out(const Pull& pull, const PullPoint& from, const PullPoint& to) {
          pull.front().knot_distance;
 }
 
-/// How much a knot opened from one point to another, over the least that is a jump: 0 where F grew by half, as in a
-/// lock; NaN: nothing tells.
-double opened(const Pull& pull, const PullPoint& from, const PullPoint& to) {
-  const double known = taken_in(pull, from, to) / kTakenIn;
+/// How much a knot opened from one point to another, by the share of rod that it has `taken` in, over the least that is
+/// a jump: 0 where F grew by half, as in a lock; NaN: nothing tells.
+double opened(const Pull& pull, const PullPoint& from, const PullPoint& to, double taken) {
+  const double known = taken / kTakenIn;
   if (!std::isfinite(known)) return let_out(pull, from, to) / kLetOut;
   return to.force > kStill * from.force ? 0.0 : known;
 }
@@ -195,22 +194,24 @@ std::optional<Drop> largest_drop(const Pull& pull, double end) {
   return largest_drop(pull, {pull.front().extension, end}, sudden(pull, end));
 }
 
-std::optional<Drop> jump(const Pull& pull) {
+std::optional<Drop> jump(const Pull& pull, const HiddenRod& hidden) {
   if (pull.empty()) return std::nullopt;
   const auto less = [&](const PullPoint& a, const PullPoint& b) { return a.force < b.force; };
   const auto point = [&](std::size_t i) { return pull.begin() + static_cast<std::ptrdiff_t>(i); };
   const double first = pull.front().knot_distance, end = pull.back().extension;
   const double at_once = kSudden * first / std::abs(kSliding);  // knots have met after half of e at the latest
-  const Pull kept = as_kept(pull, at_once);
+  const HiddenRod kept = as_kept(pull, hidden, at_once);
   double most = 1.0;
   std::optional<Drop> out;
   for (std::size_t i = 0; i < pull.size(); ++i) {
     const std::size_t last = last_within(pull, i, at_once, end);
-    for (std::size_t j = i + 1; j <= last; ++j)
-      if (const double much = opened(pull, pull[i], kept[j]); much > most) {
+    for (std::size_t j = i + 1; j <= last; ++j) {
+      const double taken = hidden.empty() ? Sample::kNone : taken_in(hidden.front(), hidden[i], kept[j]);
+      if (const double much = opened(pull, pull[i], pull[j], taken); much > most) {
         most = much;
         out = Drop{i, j};
       }
+    }
   }
   if (!out) return std::nullopt;
   const std::size_t left = last_within(pull, out->to, at_once, end);
@@ -297,14 +298,14 @@ void read_plateau(const Pull& pull, CurveReadings& out) {
 
 }  // namespace
 
-CurveReadings curve_readings(const Pull& pull) {
+CurveReadings curve_readings(const Pull& pull, const HiddenRod& hidden) {
   CurveReadings out;
   out.no_plateau = out.no_lock_by_load = "nothing was pulled";
   if (pull.empty()) return out;
   const Pull borne = borne_of(pull);
   out.rises_at = lock_by_load(borne);
   out.slides_to = out.rises_at.value_or(pull.back().extension);
-  out.jumped = jump(borne);
+  out.jumped = jump(borne, hidden);
   out.peak_force = peak_force(pull);
   const std::optional<Drop> fall = largest_drop(borne, out.slides_to);
   if (!has_few_for_drops(borne, out.slides_to)) out.largest_drop = fall ? fall->force(borne) : 0.0;

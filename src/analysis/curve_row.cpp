@@ -1,6 +1,7 @@
 #include "knot_utm/analysis/curve_row.hpp"
 
 #include <cmath>
+#include <optional>
 
 namespace knot_utm {
 namespace {
@@ -15,7 +16,6 @@ PullPoint point_of(const CurveRow& row, ExtensionOf extension) {
   const double s = extension == ExtensionOf::kMachine ? row.extension : own_extension(row);
   PullPoint point{row.time, s, row.knot_distance, row.load};
   point.borne = row.load_lower;
-  point.excess_length = row.excess_length;
   return point;
 }
 
@@ -24,6 +24,28 @@ PullPoint origin_of(const CurveRow& before, const CurveRow& first, ExtensionOf e
   PullPoint origin = point_of(before, extension);
   if (balanced_between(before, first)) origin.extension = origin.force = 0.0;
   return origin;
+}
+
+/// Calls `add` with every point of the pull and the row that it is made of.
+template <class Add>
+void visit_pull(const std::vector<CurveRow>& rows, ExtensionOf extension, Add add) {
+  std::optional<double> farthest;
+  bool first = true;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!pulls(rows[i].phase)) continue;
+    const PullPoint point = point_of(rows[i], extension);
+    if (first && i > 0) {
+      const PullPoint origin = origin_of(rows[i - 1], rows[i], extension);
+      if (origin.extension < point.extension) {
+        add(origin, rows[i - 1]);
+        farthest = origin.extension;
+      }
+    }
+    first = false;
+    if (farthest && !(point.extension > *farthest)) continue;
+    add(point, rows[i]);
+    farthest = point.extension;
+  }
 }
 
 }  // namespace
@@ -41,7 +63,7 @@ CurveRow curve_row(const Sample& sample) {
   row.end_to_end = sample.end_to_end;
   row.load_lower = sample.force_lower;
   row.phase = sample.phase;
-  row.excess_length = {sample.excess_length[0], sample.excess_length[1]};
+  row.excess_length = sample.excess_length;
   return row;
 }
 
@@ -53,18 +75,14 @@ bool balanced_between(const CurveRow& before, const CurveRow& after) {
 
 Pull pull_of(const std::vector<CurveRow>& rows, ExtensionOf extension) {
   Pull pull;
-  bool first = true;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    if (!pulls(rows[i].phase)) continue;
-    const PullPoint point = point_of(rows[i], extension);
-    if (first && i > 0) {
-      const PullPoint origin = origin_of(rows[i - 1], rows[i], extension);
-      if (origin.extension < point.extension) pull.push_back(origin);
-    }
-    first = false;
-    if (pull.empty() || point.extension > pull.back().extension) pull.push_back(point);
-  }
+  visit_pull(rows, extension, [&](const PullPoint& point, const CurveRow&) { pull.push_back(point); });
   return pull;
+}
+
+HiddenRod hidden_rod_of(const std::vector<CurveRow>& rows, ExtensionOf extension) {
+  HiddenRod hidden;
+  visit_pull(rows, extension, [&](const PullPoint&, const CurveRow& row) { hidden.push_back(row.excess_length); });
+  return hidden;
 }
 
 }  // namespace knot_utm

@@ -89,21 +89,22 @@ void MotionPatternTracker::add(const Sample& sample) {
 
 /// The end of tying sets the mark; a release that lets the knot open does not move it.
 void MotionPatternTracker::add_tied(const Sample& sample) {
-  for (int k = 0; k < 2; ++k) {
+  for (std::size_t k = 0; k < sample.excess_length.size(); ++k) {
     const double excess = sample.excess_length[k];
-    if (std::isfinite(excess) && (sample.phase == Phase::kTie || !std::isfinite(tied_excess_[k])))
-      tied_excess_[k] = excess;
+    double& tied = excess_[k].tied;
+    if (std::isfinite(excess) && (sample.phase == Phase::kTie || !std::isfinite(tied))) tied = excess;
   }
 }
 
 void MotionPatternTracker::add_pulled(const Sample& sample) {
   if (!std::isfinite(sample.extension) || !std::isfinite(sample.force_upper)) return;
-  for (int k = 0; k < 2; ++k) {
+  for (std::size_t k = 0; k < sample.excess_length.size(); ++k) {
     const double excess = sample.excess_length[k];
     if (!std::isfinite(excess)) continue;
-    if (!std::isfinite(tied_excess_[k])) tied_excess_[k] = excess;
-    excess_[k] = excess;
-    if (!(largest_excess_[k] > excess)) largest_excess_[k] = excess;
+    Excess& knot = excess_[k];
+    if (!std::isfinite(knot.tied)) knot.tied = excess;
+    knot.last = excess;
+    if (!(knot.largest > excess)) knot.largest = excess;
   }
   if (!pull_.empty() && sample.extension <= pull_.back().extension) return;
   const double before = pull_.empty() ? sample.extension : pull_.back().extension;
@@ -145,22 +146,19 @@ void MotionPatternTracker::follow_slope(double extension, double before) {
 }
 
 bool MotionPatternTracker::opened() const {
-  for (int k = 0; k < 2; ++k) {
-    if (largest_excess_[k] > kOpened * tied_excess_[k]) return true;
-  }
-  return false;
+  return std::any_of(excess_.begin(), excess_.end(),
+                     [](const Excess& knot) { return knot.largest > kOpened * knot.tied; });
 }
 
 bool MotionPatternTracker::vanished() const {
-  for (int k = 0; k < 2; ++k) {
-    if (excess_[k] < kVanished * tied_excess_[k]) return true;
-  }
-  return false;
+  return std::any_of(excess_.begin(), excess_.end(),
+                     [](const Excess& knot) { return knot.last < kVanished * knot.tied; });
 }
 
 bool MotionPatternTracker::load_gone() const {
   if (!gone_since_ || pull_.back().extension - gone_extension_ < window_) return false;
-  const bool known = std::isfinite(largest_excess_[0]) || std::isfinite(largest_excess_[1]);
+  const bool known =
+      std::any_of(excess_.begin(), excess_.end(), [](const Excess& knot) { return std::isfinite(knot.largest); });
   return !known || opened();
 }
 

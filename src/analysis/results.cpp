@@ -173,7 +173,7 @@ void keep_first(const Sample& sample, double force, double least, std::optional<
 void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>& at_break, Results& results) {
   const std::vector<CurveRow> rows = rows_of(readings);
   const Pull pull = pull_of(rows), true_pull = true_pull_of(rows, readings);
-  results.curve = curve_readings(pull);
+  results.curve = curve_readings(pull, hidden_rod_of(rows));
   if (const std::optional<Drop>& jumped = results.curve.jumped) {
     results.lock_extension.reset();  // what comes after it is another knot
     results.true_jump_force = true_pull[jumped->from].force;
@@ -323,7 +323,7 @@ void read_end(const Sample& last, Results& results) {
   results.rejected_steps = last.rejected_steps;
   results.newton_iterations = last.newton_iterations;
   results.simulated_time = last.time;
-  for (std::size_t k = 0; k < 2; ++k) results.final_excess_length[k] = known(last.excess_length[k]);
+  results.final_excess_length = last.excess_length;
 }
 
 void read_holds_and_cycles(const std::vector<Sample>& samples, Results& results) {
@@ -337,7 +337,7 @@ void read_tied(const Course& course, Results& results) {
   const Sample *tied = course.tied(), *pull_begin = course.pull_begin();
   if (pull_begin) results.balance_offset = pull_begin->balance_offset;
   if (!tied) return;
-  for (std::size_t k = 0; k < 2; ++k) results.tied_excess_length[k] = known(tied->excess_length[k]);
+  results.tied_excess_length = tied->excess_length;
   results.tied_knot_distance = known(tied->knot_distance);
   if (!pull_begin) return;
   const double nearer = tied->knot_distance - pull_begin->knot_distance;

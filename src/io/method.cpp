@@ -15,6 +15,7 @@
 #include "method_overrides.hpp"
 #include "method_program.hpp"
 #include "method_reader.hpp"
+#include "specimens_section.hpp"
 #include "yaml_text.hpp"
 
 namespace knot_utm {
@@ -130,6 +131,9 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   top.section("analysis", [&](Reader& reader) { fields::analysis(reader, method.analysis); });
   top.section("report", [&](Reader& reader) { fields::report(reader, method.report); });
   method.specification = read_specification(top.take("specification"), file);
+  bool automatic = true;
+  method.specimens = read_specimens(top.take("specimens"), file, automatic);
+  if (automatic) method.specimens.scatter = default_scatter(method);
   top.finish();
   return method;
 }

@@ -15,6 +15,7 @@
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_reader.hpp"
+#include "specimens_section.hpp"
 
 namespace knot_utm {
 namespace {
@@ -80,10 +81,11 @@ void check_effects(const Method& m) {
 
   const MachineOptions& machine = m.machine;
   const MachineOptions bare;
-  const bool loop = knot_of(s).loop();
+  const bool loop = knot_of(s).about().loop;
   has_effect(loop, "machine.roller_diameter", machine.roller_diameter, bare.roller_diameter, "for knot: " + loops());
   const bool rollers = machine.grips == GripKind::kRollers;
-  has_effect(rollers || knot_of(s).on_posts(), "machine.roller_friction", machine.roller_friction, bare.roller_friction,
+  const bool on_posts = !knot_of(s).supports(s, m.material).posts.empty();
+  has_effect(rollers || on_posts, "machine.roller_friction", machine.roller_friction, bare.roller_friction,
              "with grips: rollers or knot: " + knots_with("post_diameter"));
   has_effect(rollers && machine.roller_friction > 0.0, "machine.roller_rotation",
              std::string(fields::kRotations[static_cast<std::size_t>(machine.roller_rotation)]),
@@ -103,7 +105,7 @@ void check_effects(const Method& m) {
 void check_specimen(const Method& m) {
   const SpecimenOptions& s = m.specimen;
   const double h = m.material.radius;
-  if (knot_of(s).knotted() && s.edge_length > 2.0 * h) {
+  if (knot_of(s).about().knots > 0 && s.edge_length > 2.0 * h) {
     reject("specimen.edge_length", s.edge_length, "at most twice the radius, " + format_number(2.0 * h) + " m");
   }
   knot_of(s).check(s, h);
@@ -117,7 +119,7 @@ void check_specimen(const Method& m) {
 
 /// Friction at the surface turns strands about themselves, which only a rod with twist can do.
 void check_twist(const Method& m) {
-  if (m.physics.twist != TwistMode::kOff || knot_of(m.specimen).straight()) return;
+  if (m.physics.twist != TwistMode::kOff || knot_of(m.specimen).about().straight) return;
   if (friction_rolls(m.material, m.machine, m.physics))
     throw InvalidInput::sentence("physics.twist", "off",
                                  "physics.twist is off, but friction at the surface twists the rod: set "
@@ -147,7 +149,7 @@ void check_machine(const Method& m) {
     reject("machine.load_cell.resolution", cell.resolution,
            "less than capacity, " + format_number(cell.capacity) + " N");
   }
-  if (m.machine.grips == GripKind::kRollers && !knot_of(m.specimen).loop()) {
+  if (m.machine.grips == GripKind::kRollers && !knot_of(m.specimen).about().loop) {
     throw InvalidInput("machine.grips", "rollers", "nodes or clamps: rollers hold only a loop, knot: " + loops());
   }
 }
@@ -212,7 +214,7 @@ void check_ends(const Method& m) {
 }
 
 void check_program(const Method& m) {
-  const bool loop = knot_of(m.specimen).loop();
+  const bool loop = knot_of(m.specimen).about().loop;
   const std::string loop_only = "needs specimen.knot: " + loops() + "; begin the program with another step";
   bool pulled = false;
   for (std::size_t i = 0; i < m.program.size(); ++i) {
@@ -285,6 +287,7 @@ void check_method(const Method& method) {
   check_effects(method);
   check_analysis(method);
   check_report(method);
+  check_scatter(method);
   if (method.specimen.to_be_tied && pulls_anything(method)) check_tying(method.specimen, method.material);
 }
 

@@ -133,6 +133,26 @@ void put(YAML::Node parent, const Override& set, std::size_t depth) {
 
 }  // namespace
 
+YAML::Node value_at(const YAML::Node& root, const std::string& key) {
+  // Nodes are handles: assigning one would change what it stands for.
+  std::vector<YAML::Node> way{root};
+  const std::vector<std::string> path = split(key);
+  for (std::size_t depth = 0; depth < path.size();) {
+    const YAML::Node& here = way.back();
+    if (here.IsSequence()) {
+      const std::optional<std::size_t> index = entry(here, path[depth]);
+      if (!index) return YAML::Node(YAML::NodeType::Undefined);
+      if (path[depth] == std::to_string(*index)) ++depth;
+      way.push_back(here[*index]);
+    } else if (here.IsMap() && here[path[depth]].IsDefined()) {
+      way.push_back(here[path[depth++]]);
+    } else {
+      return YAML::Node(YAML::NodeType::Undefined);
+    }
+  }
+  return way.back();
+}
+
 void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides, const ConfigLibrary& library) {
   std::vector<Override> sets;
   sets.reserve(overrides.size());

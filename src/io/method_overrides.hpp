@@ -14,4 +14,7 @@ namespace knot_utm {
 /// InvalidInput where one has no place in the map.
 void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides, const ConfigLibrary& library);
 
+/// What stands at the dotted key of an override; undefined where nothing does.
+YAML::Node value_at(const YAML::Node& root, const std::string& key);
+
 }  // namespace knot_utm

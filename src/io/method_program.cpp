@@ -29,8 +29,7 @@ ProgramStep default_step(Phase phase, double scale) {
 }  // namespace
 
 Program read_program(const YAML::Node& node, const std::string& file, const fields::Defaults& defaults) {
-  const std::vector<std::string> steps{"tie",  "release", "mount", "preload", "balance",
-                                       "pull", "hold",    "cycle", "return",  "follow"};
+  const std::vector<std::string> steps = step_names();
   const std::string form = "a list of steps, such as [{pull: {until: {break: true}}}]";
   if (!node.IsDefined() || node.IsNull()) throw InvalidInput::missing("program", form).in_file(file);
   if (!node.IsSequence() || node.size() == 0) throw InvalidInput(file, "program", as_given(node), form);

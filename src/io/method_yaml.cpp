@@ -1,6 +1,8 @@
 // The method written as YAML.
 #include "knot_utm/io/method.hpp"
+#include "method_overrides.hpp"
 #include "method_reader.hpp"
+#include "specimens_section.hpp"
 
 namespace knot_utm {
 
@@ -49,9 +51,19 @@ std::string method_yaml(const Method& method) {
     limits_map.SetStyle(YAML::EmitterStyle::Flow);
     root["specification"][required.key] = limits_map;
   }
+  // A single specimen is the one that the method describes.
+  if (m.specimens.count > 1) root["specimens"] = specimens_map(m.specimens);
   YAML::Emitter out;
   out << root;
   return std::string(out.c_str()) + "\n";
+}
+
+std::optional<double> number_at(const Method& method, const std::string& key) {
+  Method one = method;
+  one.specimens.count = 1;
+  const YAML::Node value = value_at(YAML::Load(method_yaml(one)), key);
+  if (!value.IsDefined() || !value.IsScalar()) return std::nullopt;
+  return parse_number(value.Scalar());
 }
 
 }  // namespace knot_utm

@@ -29,6 +29,11 @@ LockedFile lock(const std::string& folder) {
 Method journalled_method(const std::string& folder, const JournalHeader& header) {
   const std::string file = (fs::path(folder) / "method.yaml").string();
   Method method = load_method(file);
+  if (method.specimens.count > 1)
+    throw InvalidInput::sentence("DIR", folder,
+                                 shown(folder) +
+                                     " holds a batch: recover its specimens one by one, or go on with it by "
+                                     "tensile_test --resume");
   if (read_whole(file) != header.method) {
     throw InvalidInput::sentence("file", journal_file(folder),
                                  "the journal belongs to another method than " + shown(file) + " beside it")

@@ -132,7 +132,7 @@ bool holds_another(const fs::path& folder, const std::string& yaml) {
   std::error_code error;
   const fs::path before = folder / kOfComparison.front();
   if (fs::is_regular_file(before, error)) return names_of(read_whole(before.string())) != names_of(yaml);
-  for (const char* name : {"a.csv", "b.csv", "report.html", "report.pdf", "result.yaml", "journal"})
+  for (const char* name : {"a.csv", "b.csv", "report.html", "report.pdf", "result.yaml", "statistics.yaml", "journal"})
     if (fs::is_regular_file(folder / name, error)) return true;
   return false;
 }

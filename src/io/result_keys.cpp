@@ -14,7 +14,6 @@ using Source = ResultSource;
 using Number = std::optional<double>;
 using Count = std::optional<std::uint64_t>;
 using Flag = std::optional<bool>;
-using Pair = std::array<std::optional<double>, 2>;
 
 // What is a member of something is read by its name.
 
@@ -47,8 +46,9 @@ Count counted(const Source& of) {
   return of.results.*Member;
 }
 template <auto Member>
-Pair of_knots(const Source& of) {
-  return of.results.*Member;
+std::vector<double> of_knots(const Source& of) {
+  const PerKnot& values = of.results.*Member;
+  return {values.begin(), values.end()};
 }
 
 Number share_of(const Number& reading, const Number& share) {
@@ -123,6 +123,7 @@ constexpr const char* kNoReason = "";  // never null, or that goes without sayin
 constexpr const char* kNoJump = "no knot jumped open";
 constexpr const char* kNoHold = "the crosshead was not held under a load";
 constexpr const char* kNoKnots = "there are no two knots";
+constexpr const char* kNoLoop = "the specimen is no loop";
 
 using R = Results;
 using C = CurveReadings;
@@ -144,9 +145,9 @@ constexpr ResultKey kKeys[] = {
     {"preload", "N", kKnots, "Pre-load by which each overhand was tied", fact<&F::preload>, "nothing was tied"},
     {"tied_knot_distance", "m", kKnots, "Knot distance once tied", result<&R::tied_knot_distance>, kNoKnots},
     {"excess_length", "m", kKnots, "Length of rod within each knot once tied", of_knots<&R::tied_excess_length>,
-     kNoKnots},
+     kNoLoop},
     {"final_excess_length", "m", kKnots, "Length of rod within each knot at the end", of_knots<&R::final_excess_length>,
-     kNoKnots},
+     kNoLoop},
     {"opened_when_mounted", "m", kKnots,
      "How much nearer the knots came as the loop was mounted and one of them opened", result<&R::opened_when_mounted>,
      "no knot opened as the loop was mounted"},
@@ -288,7 +289,7 @@ constexpr ResultKey kKeys[] = {
 }  // namespace
 
 const char* ResultKey::kind() const {
-  constexpr std::array kKinds{"number", "count", "flag", "word", "text", "pair", "list"};
+  constexpr std::array kKinds{"number", "count", "flag", "word", "text", "numbers", "list"};
   static_assert(kKinds.size() == std::variant_size_v<ReadResult>);
   return kKinds[read.index()];
 }

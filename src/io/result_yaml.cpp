@@ -14,9 +14,7 @@ void add(const char* key, const std::optional<std::uint64_t>& value, YamlLines& 
 void add(const char* key, const std::optional<bool>& value, YamlLines& lines) { lines.flag(key, value); }
 void add(const char* key, const char* value, YamlLines& lines) { lines.word(key, value); }
 void add(const char* key, const std::string& value, YamlLines& lines) { lines.text(key, value); }
-void add(const char* key, const std::array<std::optional<double>, 2>& value, YamlLines& lines) {
-  lines.pair(key, value);
-}
+void add(const char* key, const std::vector<double>& value, YamlLines& lines) { lines.numbers(key, value); }
 void add(const char* key, const std::vector<std::string>& value, YamlLines& lines) { lines.list(key, value); }
 
 /// The whole file, or of it the keys that are numbers.

@@ -80,7 +80,7 @@ std::vector<std::string> speed_warnings(const Method& method) {
     if (step.phase == Phase::kTie && speed > kTiedSlow)
       all.push_back("the knots are tied at " + told + " radii a second, by default at " +
                     format_number(kTiedByDefault) + kTiedFast);
-    if (pulls(step.phase) && speed > kPulledSlow && knot_of(method.specimen).loop())
+    if (pulls(step.phase) && speed > kPulledSlow && knot_of(method.specimen).about().loop)
       all.push_back("the loop is pulled at " + told + " radii a second, as shipped at " +
                     format_number(kPulledAsShipped) + kPulledFast);
   }

@@ -49,9 +49,13 @@ void YamlLines::word(const char* key, const std::string& value) { all_ += std::s
 
 void YamlLines::text(const char* key, const std::string& value) { word(key, value.empty() ? "null" : quoted(value)); }
 
-void YamlLines::pair(const char* key, const std::array<std::optional<double>, 2>& values) {
-  if (!values[0] || !values[1]) return word(key, "null");
-  word(key, "[" + format_yaml_number(*values[0]) + ", " + format_yaml_number(*values[1]) + "]");
+void YamlLines::numbers(const char* key, const std::vector<double>& values) {
+  std::string all;
+  for (const double value : values) {
+    if (!std::isfinite(value)) return word(key, "null");
+    all += (all.empty() ? "" : ", ") + format_yaml_number(value);
+  }
+  word(key, values.empty() ? "null" : "[" + all + "]");
 }
 
 void YamlLines::list(const char* key, const std::vector<std::string>& texts) {

@@ -17,7 +17,7 @@ using namespace measured;
 
 /// A loop of a solid rod stretches, while one of a rope lets its knots slide first.
 bool stretches(const SpecimenOptions& specimen, const Material& material) {
-  return knot_of(specimen).loop() && is_solid(material);
+  return knot_of(specimen).about().loop && is_solid(material);
 }
 
 /// F_p h^2/k_b.
@@ -28,7 +28,7 @@ double preload_group(const SpecimenOptions& specimen, const Material& material) 
 
 /// By which edges in the knots of a rope that is tied hard are shorter.
 double shorter_where_tied_hard(const SpecimenOptions& specimen, const Material& material) {
-  if (!knot_of(specimen).loop() || !specimen.to_be_tied) return 1.0;
+  if (!knot_of(specimen).about().loop || !specimen.to_be_tied) return 1.0;
   return std::clamp(std::pow(preload_group(specimen, material) / kTiedHard, 0.25), 1.0, kShortestForHard);
 }
 
@@ -79,10 +79,10 @@ double hardly_closed(double plateau_force, const Material& material) {
 
 ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                              const PhysicsOptions& physics) {
-  const Knot::ErrorStudy study = knot_of(specimen).error_study();
+  const ErrorStudy study = knot_of(specimen).about().error_study;
   ReadingErrors out;
-  if (study == Knot::ErrorStudy::kStraight) out.locked_stiffness = kStraightStiffness;
-  const bool studied = study == Knot::ErrorStudy::kFisherman && specimen.to_be_tied &&
+  if (study == ErrorStudy::kStraight) out.locked_stiffness = kStraightStiffness;
+  const bool studied = study == ErrorStudy::kFisherman && specimen.to_be_tied &&
                        physics.contact_law == ContactLaw::kSmooth && entry_of(physics.friction.law).studied &&
                        friction_couple(material, physics) == 0.0 && material.bending_set == 0.0 &&
                        !remembers_bends(material) && machine.roller_friction == 0.0;

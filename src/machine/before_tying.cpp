@@ -8,7 +8,6 @@
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
-#include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
@@ -22,7 +21,7 @@ constexpr double kCoarsestEdge =
 constexpr double kMostStretch = 2.0;  // by a pre-load, in which the linear law of tension still says something [-]
 constexpr double kMetal = 20e9;       // modulus that no polymer reaches, but metals, glass and carbon do [Pa]
 
-double drawn_coil() { return FishermanShape().looseness; }  // R_0 [h]
+double drawn_coil(const SpecimenOptions& specimen) { return knot_of(specimen).about().drawn_coil; }  // R_0 [h]
 
 double bending_force(const Material& material) {
   return material.bending_stiffness / (material.radius * material.radius);
@@ -30,8 +29,8 @@ double bending_force(const Material& material) {
 
 /// Pre-load below which the coils stay as they are drawn, but no more than closes them without friction: strands that
 /// hold each other by friction alone may be pulled tight later.
-double least_preload(const Material& material) {
-  const double closed = closing_preload(material), share = kClosed / drawn_coil();
+double least_preload(const SpecimenOptions& specimen, const Material& material) {
+  const double closed = closing_preload(material), share = kClosed / drawn_coil(specimen);
   return std::min(closed * share * share, bending_force(material) / (2.0 * kClosed * kClosed));
 }
 
@@ -83,12 +82,12 @@ double coil_radius(const Material& material, double preload) {
 }
 
 void check_tying(const SpecimenOptions& specimen, const Material& material) {
-  const double preload = tying_load(specimen, material), least = least_preload(material);
+  const double preload = tying_load(specimen, material), least = least_preload(specimen, material);
   if (preload < least)
     throw InvalidInput("specimen.preload", digits(preload),
                        "at least " + digits(least) + " N: a smaller one does not move the coils, which close only at " +
                            digits(closing_preload(material)) + " N");
-  const double strain = preload / material.stretching_stiffness + 1.0 / drawn_coil();
+  const double strain = preload / material.stretching_stiffness + 1.0 / drawn_coil(specimen);
   if (material.breaking_strain && *material.breaking_strain <= strain)
     throw InvalidInput("material.breaking_strain", digits(*material.breaking_strain),
                        "more than " + digits(strain) +
@@ -102,7 +101,7 @@ std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const M
   const double preload = tying_load(specimen, material), closing = closing_preload(material);
   if (preload < closing)
     all.push_back("a pre-load of " + digits(preload) + " N leaves the coils open, at a radius of about " +
-                  digits(std::min(coil_radius(material, preload) / h, drawn_coil())) +
+                  digits(std::min(coil_radius(material, preload) / h, drawn_coil(specimen))) +
                   " radii of the rod: they close at " + digits(closing) + " N");
   const double stretch = preload / material.stretching_stiffness;
   if (stretch > kMostStretch)

@@ -18,7 +18,7 @@ constexpr double kHeld = 100.0;     // stiffness of what holds the middle of the
 }  // namespace
 
 bool rollers_hold(const SpecimenOptions& specimen, const MachineOptions& machine) {
-  return knot_of(specimen).loop() && machine.grips == GripKind::kRollers;
+  return knot_of(specimen).about().loop && machine.grips == GripKind::kRollers;
 }
 
 bool clamps_hold(const SpecimenOptions& specimen, const MachineOptions& machine) {

@@ -7,15 +7,11 @@
 #include <sstream>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/random.hpp"
 
 namespace knot_utm {
 
 namespace {
-
-constexpr double kUnit = 0x1p-53;
-
-/// From 0 to 1, without the end.
-double uniform(std::mt19937_64& random) { return static_cast<double>(random() >> 11) * kUnit; }
 
 /// Between the bounds that the class sets, from random numbers that no noise is made of.
 double gain_error(const LoadCellOptions& options) {
@@ -50,7 +46,7 @@ double LoadCell::read(double true_force, double time) {
   const double stop = options_.overload * options_.capacity;
   double reading = gain_ * balanced(std::clamp(true_force, -stop, stop));
   if (options_.drift != 0.0) reading += options_.drift * (time - balanced_at_);
-  if (options_.noise > 0.0) reading += options_.noise * normal();
+  if (options_.noise > 0.0) reading += options_.noise * standard_normal(random_);
   if (options_.resolution > 0.0) reading = std::round(reading / options_.resolution) * options_.resolution;
   return reading;
 }
@@ -66,13 +62,6 @@ void LoadCell::state(Archive& archive) {
   random.str(text);
   random >> random_;
   archive.require(!random.fail(), "state of the random numbers", std::to_string(text.size()) + " letters");
-}
-
-double LoadCell::normal() {
-  // Box and Muller: std::normal_distribution differs between standard libraries.
-  const double u = uniform(random_) + kUnit;
-  const double v = uniform(random_);
-  return std::sqrt(-2.0 * std::log(u)) * std::cos(2.0 * M_PI * v);
 }
 
 bool is_below_floor(const LoadCellOptions& cell, double true_force) {

@@ -3,10 +3,11 @@
 #include "knot_utm/machine/accuracy.hpp"
 
 /// The tolerances behind `physics.accuracy` and the errors beside readings: what was measured, and by which bench.
+/// doc/measured.md lists these and all other constants that were measured or chosen.
 namespace knot_utm::measured {
 
 // Longest step [s], residual [k_b/h^2], contact tolerance [h], presliding [h], refinement [-]. `scripts/bench
-// convergence` halves each of them; its table is bench/results/convergence.md.
+// convergence` makes each of those of `normal` smaller, and compares with `fine`: bench/results/convergence.md.
 inline constexpr Tolerances kDraft{0.34, 2e-4, 0.06, 4e-3, 1.3};
 inline constexpr Tolerances kNormal{0.17, 1e-4, 0.005, 2e-3, 2.25};
 inline constexpr Tolerances kFine{0.05, 1e-5, 0.0025, 1e-3, 3.0};

@@ -10,11 +10,10 @@
 #include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/frame.hpp"
 #include "knot_utm/machine/grips.hpp"
-#include "knot_utm/machine/knot_touch.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/step_settings.hpp"
-#include "knot_utm/machine/take_up.hpp"
+#include "knot_utm/machine/tied_loop.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/sim/saved_step.hpp"
@@ -23,14 +22,10 @@
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/knot_watch.hpp"
 #include "knot_utm/specimen/scales.hpp"
-#include "knot_utm/specimen/tying_rig.hpp"
 
 namespace knot_utm {
 
 namespace {
-
-constexpr double kGripStretch = 2.4;  // of a tail's grip when it slips [h]
-constexpr double kTautLoad = 0.03;    // of a loop whose slack is taken up [k_b/h^2]
 
 constexpr double kShortestStep = 0.01;  // below it the run gives up, where that is less than usual [bending time]
 
@@ -54,9 +49,8 @@ struct TestingMachine::Impl {
   std::unique_ptr<TimeStep> stepper;
   StepControl control{StepControl::Options{}};
   LoadCell cell;
-  std::optional<TyingRig> rig;
-  std::optional<KnotWatch> watch;  // of anything that is knotted
-  std::optional<KnotTouch> touch;  // of two knots
+  std::optional<TiedLoop> loop;    // where it is one
+  std::optional<KnotWatch> watch;  // where it is knotted
   Boundary boundary;
 
   double time = 0.0;
@@ -67,7 +61,6 @@ struct TestingMachine::Impl {
   double exposure = 0.0;    // share of the way to a break
   double recoil_end = 0.0;  // of a rod that has just parted [s]
   BreakPlace break_place = BreakPlace::kNone;
-  TakeUp take_up;
   double travel_tried = 0.0;  // of the crosshead, in the step that is being made [m]
   int step_index = -1;
   Phase phase = Phase::kIdle;
@@ -88,7 +81,8 @@ struct TestingMachine::Impl {
         physics(physics_),
         centreline(specimen_centreline(specimen_, material_, machine_, physics_)),
         grips(specimen_, machine_, centreline, material),
-        frame(machine_.stiffness, material, knot_of(specimen_).loop() ? 2 : 1, grips.length_around(material_.radius)),
+        frame(machine_.stiffness, material, knot_of(specimen_).about().loop ? 2 : 1,
+              grips.length_around(material_.radius)),
         cell(machine_.load_cell) {
     const Eigen::Index nodes = centreline.points.cols();
     Eigen::VectorXd rest(nodes - 1);
@@ -108,25 +102,17 @@ struct TestingMachine::Impl {
     StepControl::Options options;
     options.longest = options.first = tolerances(physics, specimen, material).longest_step;
     // A drawn shape springs apart at once.
-    if (!knot_of(specimen).straight()) options.first = std::min(bending_time, options.longest);
+    if (!knot_of(specimen).about().straight) options.first = std::min(bending_time, options.longest);
     options.motion = 0.6 * material.radius;
     options.slip = 0.4 * material.radius;
     options.shortest = std::min(options.shortest, kShortestStep * bending_time);
     control = StepControl(options);
-    const int windings = centreline.knots.empty() ? 1 : centreline.knots.front().windings;
-    if (!centreline.knots.empty()) {
-      TyingRig::Options tying;
-      tying.preload = tying_load(specimen, material);
-      tying.rest_speed = std::max(specimen_scales(material).rest_speed, settings.friction.creep_speed());
-      tying.grip_stiffness = tying.preload / (kGripStretch * material.radius);
-      rig.emplace(centreline, rod, tying);
-      touch.emplace(rig->standing_nodes(), material.radius, windings);
+    const KnotDescription& knot = knot_of(specimen).about();
+    if (knot.loop) loop.emplace(specimen, material, centreline, settings.friction.creep_speed(), *stepper, grips);
+    if (knot.may_hold_a_knot()) {
+      watch.emplace(loop ? loop->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
+                    centreline.points, centreline.windings());
     }
-    if (knot_of(specimen).knotted()) {
-      watch.emplace(rig ? rig->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
-                    centreline.points, windings);
-    }
-    take_up = TakeUp(kTautLoad * specimen_scales(material).force, material.radius);
     extension_zero = grips.end_to_end(grip);
     has_weight = !specimen.to_be_tied;
     apply_gravity();
@@ -146,7 +132,7 @@ struct TestingMachine::Impl {
         break;
     }
     return state.curved_at_rest() || rod.natural_twist.size() > 0 ||
-           ((grips.hold_frames() || friction_rolls(material, machine, physics)) && !knot_of(specimen).straight());
+           ((grips.hold_frames() || friction_rolls(material, machine, physics)) && !knot_of(specimen).about().straight);
   }
 
   const Boundary& boundary_at(const Command& command, double from, double to, double start_time,
@@ -154,45 +140,30 @@ struct TestingMachine::Impl {
     const double whole = command.time - start_time;
     // A recoil may go on behind the command; the crosshead does not.
     const double share = whole > 0.0 ? std::min(1.0, (to - start_time) / whole) : 1.0;
-    const double travel = mounts() ? displacement + mounting_speed(command) * (to - from)
+    const double travel = mounts() ? displacement + loop->mounting_velocity(command.speed) * (to - from)
                                    : start_displacement + share * (command.displacement - start_displacement);
     travel_tried = travel;
     // Of what was last accepted alone: a step that is tried again at another length begins from the same.
     grip_tried = frame.rigid()
                      ? travel
                      : frame.grip_after(grip, travel, grips.force_upper(*stepper), held_length(from, to), to - from);
-    grips.set(grip_tried, rig ? rig->left_to_put_on(to) : 0.0, boundary);
-    if (rig && rig->off_rollers()) {
-      boundary.rollers.clear();
-      boundary.holds.clear();
-    }
-    if (rig)
-      for (Roller& roller : boundary.rollers) {
-        roller.first_node = rig->loop_begin();
-        roller.last_node = rig->loop_end();
-      }
+    grips.set(grip_tried, loop ? loop->left_to_put_on(to) : 0.0, boundary);
     grips.turn_rollers(to, boundary.rollers);
     boundary.grips.clear();
     boundary.extra_drag = drag_of_settling(to);
-    if (rig && rig->stage() != TyingRig::Stage::kIdle) rig->hold(boundary, from, to);
+    if (loop) loop->hold(boundary, from, to);
     return boundary;
   }
 
-  /// Of the strands below the upper grip, as far as the lower one or the rig's clamps, as mounted [m].
+  /// Of the strands that bear on the upper grip, as mounted [m].
   double held_length(double from, double to) const {
-    double length = grips.end_to_end(0.0);
-    // Off the rollers nothing bears on the grip.
-    if (!rig || rig->stage() == TyingRig::Stage::kIdle || rig->off_rollers()) return length;
-    Boundary held;
-    rig->hold(held, from, to);
-    for (const FixedNode& node : held.fixed_nodes) length = std::min(length, grips.upper(0.0)[2] - node.position[2]);
-    return length;
+    return loop ? loop->held_length(from, to) : grips.end_to_end(0.0);
   }
 
   /// A drawn shape's stored energy is an artefact of the drawing, and would throw it about. A straight rod has none;
   /// what the rig ties settles there.
   double drag_of_settling(double at_time) const {
-    if (knot_of(specimen).straight() || specimen.to_be_tied || at_time >= kSettlingTime) return 0.0;
+    if (knot_of(specimen).about().straight || specimen.to_be_tied || at_time >= kSettlingTime) return 0.0;
     const double left = 1.0 - at_time / kSettlingTime;
     return settling_drag(material, kSettlingWave * material.radius, kSettlingTime) * left * left;
   }
@@ -201,7 +172,8 @@ struct TestingMachine::Impl {
   /// a thousandth. A loose knot between clamps pulls with no more than the drag on its length: there is none from the
   /// first pull on.
   double drag() const {
-    const bool drawn_knot = knot_of(specimen).knotted() && !knot_of(specimen).loop();
+    const KnotDescription& knot = knot_of(specimen).about();
+    const bool drawn_knot = knot.may_hold_a_knot() && !knot.loop;
     return physics.drag.value_or(pulled && drawn_knot ? 0.0 : drag_to_rest(material));
   }
 
@@ -213,57 +185,13 @@ struct TestingMachine::Impl {
     status = BenchStatus::kRunning;
     has_weight |= phase != Phase::kTie && phase != Phase::kRelease && phase != Phase::kHold;
     apply_gravity();
-    if (!rig) return;
-    if (phase == Phase::kTie) rig->tie(command.speed, time, stepper->state().position);
-    if (rig->tied() && material.bending_set > 0.0) stepper->take_set(material.bending_set);
-    if (phase == Phase::kRelease) {
-      rig->release(command.duration, time);
-    } else if (rig->tied()) {
-      rig->let_go(*stepper, time);
-    } else if (rig->released() && phase != Phase::kHold) {
-      put_on();
-    } else if (rig->guides() && phase != Phase::kMount) {
-      let_loop_go();
-    }
-    if (phase == Phase::kMount) take_up.begin(load_on_both(), displacement, knot_distance());
+    if (loop) loop->enter(command, place());
   }
 
-  void put_on() {
-    rig->put_on(*stepper, time);
-    grips.put_on(stepper->state().position.middleCols(rig->loop_begin(), rig->loop_end() - rig->loop_begin() + 1), grip,
-                 material.radius);
-  }
+  /// The crosshead takes up the slack by itself.
+  bool mounts() const { return loop && phase == Phase::kMount; }
 
-  /// Guides off: the loop is on the rollers alone.
-  void let_loop_go() { rig->take_guides_off(*stepper, time); }
-
-  /// The crosshead takes up the slack by itself, no faster than it is told.
-  bool mounts() const { return rig && phase == Phase::kMount; }
-
-  /// It stands while the loop is put on [m/s].
-  double mounting_speed(const Command& command) const {
-    return rig->guides() ? command.speed * take_up.velocity() : 0.0;
-  }
-
-  double load_on_both() const { return std::min(grips.force_upper(*stepper), grips.force_lower(*stepper)); }
-
-  void follow_tying(double to, double dt) {
-    const bool put_on = rig->puts_on();
-    rig->follow(*stepper, to, dt);
-    // From here on weight, if there is any, would carry the slack loop round.
-    if (put_on && rig->guides()) grips.hold_far_side(stepper->state().position, grip);
-    if (!mounts() || !rig->guides()) return;
-    if (put_on)
-      take_up.begin(load_on_both(), displacement, knot_distance());
-    else
-      take_up.follow(load_on_both(), displacement, knot_distance());
-  }
-
-  double knot_distance() const {
-    const RodProperties& rod = stepper->rod();
-    const RodState& state = stepper->state();
-    return (rig->knot_middle(0, rod, state) - rig->knot_middle(1, rod, state)).norm();
-  }
+  TiedLoop::Place place() const { return {time, displacement, grip}; }
 
   bool parted() const { return stepper->parted_edge() >= 0; }
 
@@ -310,29 +238,17 @@ struct TestingMachine::Impl {
 
   void judge_phase() {
     if (parted()) return;
-    bool done = false;
-    switch (phase) {
-      case Phase::kTie:
-        done = !rig || rig->tied();
-        break;
-      case Phase::kRelease:
-        done = !rig || rig->released();
-        break;
-      case Phase::kMount:
-        done = !rig || (rig->guides() && take_up.done());
-        break;
-      default:
-        break;
-    }
-    if (rig && !rig->not_tied().empty()) {
+    if (loop && !loop->not_tied().empty()) {
       status = BenchStatus::kFailed;
-      message = rig->not_tied();
-    } else if (done) {
-      status = BenchStatus::kPhaseDone;
-      if (phase == Phase::kMount || !rig || rig->not_equilibrated().empty()) return;
-      status = BenchStatus::kNotEquilibrated;
-      message = rig->not_equilibrated();
+      message = loop->not_tied();
+      return;
     }
+    const bool ends_by_itself = phase == Phase::kTie || phase == Phase::kRelease || phase == Phase::kMount;
+    if (!ends_by_itself || (loop && !loop->done(phase))) return;
+    status = BenchStatus::kPhaseDone;
+    if (phase == Phase::kMount || !loop || loop->not_equilibrated().empty()) return;
+    status = BenchStatus::kNotEquilibrated;
+    message = loop->not_equilibrated();
   }
 
   Sample read(const Command& command, double at_time) const {
@@ -348,15 +264,8 @@ struct TestingMachine::Impl {
     s.force_lower = grips.force_lower(*stepper);
     s.load = s.highest_load = s.lowest_load = cell.balanced(s.force_upper);
     s.balance_offset = cell.offset();
-    if (rig) {
-      for (int k = 0; k < 2; ++k) {
-        s.tail_force[k] = rig->tail_force(k);
-        s.excess_length[k] = rig->excess_length(k, stepper->state());
-      }
-      s.knot_distance = knot_distance();
-      s.knots_force = touch->between_knots();
-      s.knot_on_roller = touch->on_rollers();
-    }
+    s.tail_force = s.excess_length = PerKnot::unknown(static_cast<std::size_t>(knot_of(specimen).about().knots));
+    if (loop) loop->read(s);
     const ContactReading contact = stepper->contact_reading();
     s.max_penetration = contact.largest_overlap / material.radius;
     s.normal_force = contact.normal_force;
@@ -386,25 +295,23 @@ struct TestingMachine::Impl {
   }
 
   void state(Archive& archive) {
-    archive.section("BNCK");  // "BNCJ" mounted as far as its commands went
+    archive.section("BNCL");  // "BNCK" had a loop's slack taken up, whatever the specimen was
     int parted_edge = stepper->parted_edge();
     archive.number("parted edge", parted_edge, -1, static_cast<int>(stepper->rod().edges()) - 1);
     if (archive.loads() && parted_edge >= 0) stepper->part(parted_edge);
     archive.choice("place of the break", break_place, BreakPlace::kGrip);
     archive(exposure);
-    archive(time, displacement, grip, extension_zero, raw_extension_zero, take_up, step_index, has_weight, work,
-            message);
+    archive(time, displacement, grip, extension_zero, raw_extension_zero, step_index, has_weight, work, message);
     archive.choice("phase", phase, Phase::kDone);
     archive(pulled);
     archive.choice("status", status, BenchStatus::kFailed);
     archive.require(parted() == (status == BenchStatus::kBroken), "status of a rod that parted",
                     break_place_name(break_place));
     archive(control, cell, *stepper, grips);
-    bool ties = rig.has_value(), watches = watch.has_value();
-    archive.same("tying rig", ties ? 1 : 0);
-    archive.same("knot", watches ? 1 : 0);
-    if (ties) archive(*rig, *touch);
-    if (watches) archive(*watch);
+    archive.same("loop", loop ? 1 : 0);
+    archive.same("knot", watch ? 1 : 0);
+    if (loop) archive(*loop);
+    if (watch) archive(*watch);
     if (!archive.loads()) return;
     substeps.clear();
     apply_gravity();
@@ -430,8 +337,7 @@ struct TestingMachine::Impl {
                                              : command.displacement;
           grip = frame.rigid() ? displacement : grip_tried;
           work += stepper->work();
-          if (rig) follow_tying(to, dt);
-          if (touch) touch->follow(*stepper);
+          if (loop) loop->follow(phase, {to, displacement, grip}, dt);
           watch_for_break(dt);
           substeps.push_back(read(command, to));
         });
@@ -461,9 +367,7 @@ struct TestingMachine::Impl {
     } else {
       if (!mounts()) displacement = command.displacement;
       if (frame.rigid()) grip = displacement;
-      // What the knots and the load do while they are let go is not the slack's.
-      if (rig && rig->released() && phase != Phase::kRelease && phase != Phase::kHold) put_on();
-      if (rig && rig->guides() && phase != Phase::kMount) let_loop_go();
+      if (loop) loop->leave(phase, place());
       judge_phase();
     }
     if (watch && !parted()) watch->follow(stepper->state().position);

@@ -48,9 +48,9 @@ void put(const From& from, To& to) {
     to = from;
   }
 }
-template <std::size_t N, class To>
-void put(const double (&from)[N], To& to) {
-  std::copy(std::begin(from), std::end(from), to.begin());
+template <class To>
+void put(const PerKnot& from, To& to) {
+  to.assign(from.begin(), from.end());
 }
 
 /// What `name` is called is for complaints.
@@ -65,9 +65,10 @@ void take(const From& from, To& to, const char* name) {
     to = from;
   }
 }
-template <class From, std::size_t N>
-void take(const From& from, double (&to)[N], const char* /*name*/) {
-  std::copy(from.begin(), from.end(), std::begin(to));
+template <class From>
+void take(const From& from, PerKnot& to, const char* name) {
+  if (from.size() > PerKnot::kMost) throw std::invalid_argument(std::string(name) + " is of too many knots");
+  to = PerKnot::of(from);
 }
 
 }  // namespace

@@ -88,19 +88,23 @@ Marker base_marker(const char* ns, int id, int type) {
   return m;
 }
 
-Marker grip_marker(int id, const MachineOptions& machine, const Vec3& center, double radius) {
-  const bool roller = machine.grips == GripKind::kRollers;
-  const Vec3 size = 2.0 * half_of_grip(machine, radius);
-  Marker m = base_marker("grips", id, roller ? Marker::CYLINDER : Marker::CUBE);
-  m.pose.position = to_point(center);
+Marker body_marker(int id, const GripBody& body, const Vec3& grip, double radius) {
+  const bool cylinder = body.cylinder_radius > 0.0;
+  Marker m = base_marker("grips", id, cylinder ? Marker::CYLINDER : Marker::CUBE);
+  m.pose.position = to_point(grip + body.from_grip);
+  Vec3 size = 2.0 * body.half_box(radius);
+  if (cylinder) {
+    // A marker's cylinder stands along z.
+    const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), body.axis);
+    m.pose.orientation.w = turn.w();
+    m.pose.orientation.x = turn.x();
+    m.pose.orientation.y = turn.y();
+    m.pose.orientation.z = turn.z();
+    size = 2.0 * Vec3(body.cylinder_radius, body.cylinder_radius, body.half_length(radius));
+  }
   m.scale.x = size.x();
   m.scale.y = size.y();
   m.scale.z = size.z();
-  if (roller) {
-    // A marker's cylinder stands along z; the rollers lie along y.
-    m.pose.orientation.x = m.pose.orientation.w = std::sqrt(0.5);
-    std::swap(m.scale.y, m.scale.z);
-  }
   m.color = color(0.45, 0.47, 0.52);
   return m;
 }
@@ -220,11 +224,6 @@ Eigen::VectorXd curvature_at_nodes(const Points& points, double radius) {
   return out;
 }
 
-Vec3 half_of_grip(const MachineOptions& machine, double radius) {
-  if (machine.grips != GripKind::kRollers) return Vec3(3.0, 3.0, 2.0) * radius;
-  return {0.5 * machine.roller_diameter, 6.0 * radius, 0.5 * machine.roller_diameter};
-}
-
 Marker tube_marker(const Points& points, const Colors& colors, double radius, const TubeOptions& options) {
   Marker m = triangles("rod");
   if (points.cols() < 2) return m;
@@ -275,8 +274,8 @@ Marker contact_marker(const std::vector<ContactForce>& forces, double radius, co
   return m;
 }
 
-ScenePicture::ScenePicture(const MachineOptions& machine, const Material& material)
-    : machine_(machine),
+ScenePicture::ScenePicture(const SpecimenOptions& specimen, const MachineOptions& machine, const Material& material)
+    : bodies_(grip_bodies(specimen, machine, material)),
       radius_(material.radius),
       tension_(ColorScale::of_tension(material, machine.load_cell)),
       curvature_(ColorScale::of_curvature()) {}
@@ -315,6 +314,12 @@ Marker ScenePicture::rod_marker(const SceneView& view) const {
   return tube_marker(view.points, colors(view, tube.parted), radius_, tube);
 }
 
+void ScenePicture::add_bodies(const SceneView& view, std::vector<Marker>& markers) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    markers.push_back(
+        body_marker(static_cast<int>(i), bodies_[i], bodies_[i].goes_up ? view.upper_grip : view.lower_grip, radius_));
+}
+
 Marker ScenePicture::reading_marker(const SceneView& view, const Vec3& eye) const {
   Marker m = base_marker("reading", 0, Marker::TEXT_VIEW_FACING);
   m.header.frame_id = names::kViewMachineFrame;
@@ -345,12 +350,11 @@ visualization_msgs::MarkerArray stamped(std::vector<Marker> markers, const ros::
 }  // namespace
 
 visualization_msgs::MarkerArray ScenePicture::draw(const SceneView& view, const ros::Time& stamp) const {
-  return stamped(
-      {rod_marker(view), gauge_marker(view.points, gauge_, radius_),
-       contact_marker(show_contacts_ ? view.contacts : std::vector<ContactForce>(), radius_, tension_,
-                      kLongestForce * radius_),
-       grip_marker(0, machine_, view.lower_grip, radius_), grip_marker(1, machine_, view.upper_grip, radius_)},
-      stamp);
+  std::vector<Marker> markers{rod_marker(view), gauge_marker(view.points, gauge_, radius_),
+                              contact_marker(show_contacts_ ? view.contacts : std::vector<ContactForce>(), radius_,
+                                             tension_, kLongestForce * radius_)};
+  add_bodies(view, markers);
+  return stamped(std::move(markers), stamp);
 }
 
 visualization_msgs::MarkerArray ScenePicture::draw_small(const SceneView& view, const Vec3& eye,
@@ -359,10 +363,10 @@ visualization_msgs::MarkerArray ScenePicture::draw_small(const SceneView& view, 
   Colors shown = colors(view, std::min(parted, view.points.cols() - 2));
   for (const Eigen::Index node : gauge_)
     if (node < view.points.cols()) shown[static_cast<std::size_t>(node)] = kInk;
-  return stamped(
-      {spheres_marker(view.points, shown, radius_, parted), grip_marker(0, machine_, view.lower_grip, radius_),
-       grip_marker(1, machine_, view.upper_grip, radius_), reading_marker(view, eye)},
-      stamp);
+  std::vector<Marker> markers{spheres_marker(view.points, shown, radius_, parted)};
+  add_bodies(view, markers);
+  markers.push_back(reading_marker(view, eye));
+  return stamped(std::move(markers), stamp);
 }
 
 }  // namespace knot_utm

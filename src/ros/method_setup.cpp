@@ -84,6 +84,12 @@ MethodSetup read_parameters(const ros::NodeHandle& node) {
     overrides.push_back(following(setup.data, setup.method.program));
     setup.method = load_method(file, overrides);
   }
+  if (setup.method.specimens.count > 1)
+    throw InvalidInput::sentence("specimens.count", std::to_string(setup.method.specimens.count),
+                                 "specimens.count is " + std::to_string(setup.method.specimens.count) +
+                                     ", but under ROS the machine tests one specimen: tensile_test tests them all; "
+                                     "set it to 1 to test one here")
+        .in_file(file);
   // The folder's name below out/.
   if (setup.method.name == "." || setup.method.name == "..") {
     throw InvalidInput::sentence("method", file,

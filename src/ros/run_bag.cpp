@@ -31,8 +31,8 @@ RunBag::RunBag(const std::string& file, const Method& method)
       radius_(method.material.radius),
       grips_(grips_of(method)),
       frames_(grips_.lower(), method.specimen.end_to_end),
-      picture_(method.machine, method.material),
-      views_(method.machine, method.material.radius) {}
+      picture_(method.specimen, method.machine, method.material),
+      views_(method.specimen, method.machine, method.material) {}
 
 void RunBag::add(const Record& record) {
   const Command& command = record.command;

@@ -98,7 +98,10 @@ void check_field(Check& check, const Field& field, const Value& value) {
     check.count(field.name, value, 0, static_cast<std::uint64_t>(last_of(InSample())));
   } else if constexpr (std::is_same_v<InSample, std::string>) {
     check.text(field.name, value);
-  } else if constexpr (std::is_array_v<InSample>) {
+  } else if constexpr (std::is_same_v<InSample, PerKnot>) {
+    check.that(
+        value.size() <= PerKnot::kMost, field.name, [&] { return "of " + std::to_string(value.size()) + " knots"; },
+        [] { return "of at most " + std::to_string(PerKnot::kMost); });
     for (std::size_t i = 0; i < value.size(); ++i)
       check_number(check, (field.name + ("[" + std::to_string(i) + "]")).c_str(), field.allowed, value[i]);
   } else if (field.allowed != Allowed::kAny) {

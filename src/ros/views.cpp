@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <optional>
-
-#include "knot_utm/ros/markers.hpp"
 
 namespace knot_utm {
 namespace {
@@ -59,10 +56,10 @@ Looks Views::look(const Points& points, const Vec3& lower_grip, const Vec3& uppe
   seen_ = true;
   phase_ = sample.phase;
   if (anew) all_ = {lower_grip, lower_grip};
-  const Vec3 half = half_of_grip(machine_, radius_);
-  for (const Vec3& grip : {lower_grip, upper_grip}) {
-    all_.take_in(grip - half);
-    all_.take_in(grip + half);
+  for (const GripBody& body : bodies_) {
+    const Vec3 middle = (body.goes_up ? upper_grip : lower_grip) + body.from_grip, half = body.half_box(radius_);
+    all_.take_in(middle - half);
+    all_.take_in(middle + half);
   }
   if (points.cols() > 0) {
     all_.take_in(points.rowwise().minCoeff() - Vec3::Constant(radius_));

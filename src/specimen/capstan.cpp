@@ -59,12 +59,21 @@ class Winding {
   Mat3 tilt_;
 };
 
+KnotDescription description() {
+  KnotDescription out;
+  out.name = "capstan";
+  out.keys = {"wrap", "post_diameter", "tail_load", "tail", "end_to_end"};
+  return out;
+}
+
 }  // namespace
 
 double tail_load(const SpecimenOptions& specimen, const Material& material) {
   return specimen.tail_load.value_or(
       std::min(specimen_scales(material).force, kTailStrain * material.stretching_stiffness));
 }
+
+CapstanSpecimen::CapstanSpecimen() : Knot(description()) {}
 
 SpecimenOptions CapstanSpecimen::defaults(double h) const {
   SpecimenOptions out;

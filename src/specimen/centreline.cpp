@@ -20,6 +20,8 @@ constexpr double kMostEdges = 2e4;  // of a shape from a file: each is held agai
 
 double Centreline::length() const { return arclengths(points).back(); }
 
+int Centreline::windings() const { return knots.empty() ? 1 : knots.front().windings; }
+
 int Centreline::nearest_node(double arclength) const {
   const std::vector<double> at = arclengths(points);
   const auto next = std::lower_bound(at.begin() + 1, at.end() - 1, arclength);

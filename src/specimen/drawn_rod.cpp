@@ -13,7 +13,17 @@ namespace {
 
 constexpr double kWay = 0.04;  // of a pull, for the paper's radius [m]
 
+KnotDescription description() {
+  KnotDescription out;
+  out.name = "file";
+  out.keys = {"file"};
+  out.any_shape = true;
+  return out;
+}
+
 }  // namespace
+
+DrawnRod::DrawnRod() : Knot(description()) {}
 
 SpecimenOptions DrawnRod::defaults(double h) const {
   SpecimenOptions out;

@@ -294,8 +294,8 @@ constexpr double kCoarsening = 1.5;  // of edges on the far side of a loop, whic
 // that is asked for, with e from 0.11 to 0.19 m: `tied_knot_distance` of config/tighten.yaml with material= and
 // specimen.knot_distance= set, and specimen.end_to_end=0.3, which has room for all of them.
 constexpr double kGivenUp = 16.6;  // both knots run outwards by what their coils give up as they tighten [h]
-constexpr double kGivenUpByWinding =
-    3.0;  // more by this for each winding after the first, within 8 % of the distance [h]
+// More by this for each winding after the first; the double fisherman's knots then end within 8 % of the distance [h].
+constexpr double kGivenUpByWinding = 3.0;
 constexpr double kGivenUpByStrain = 2.6;  // more by this where the pre-load stretches the rod [h per unit of strain]
 constexpr double kRecovered = 0.075;      // of what it stretched between them, which is short again once released [-]
 constexpr double kLargestTyingStrain = 1.0;  // beyond it nothing was measured, and the shift stays what it is [-]
@@ -312,6 +312,19 @@ double least_end_to_end(double knot_distance, double roller_diameter, double h) 
 }
 
 }  // namespace
+
+FishermanKnot::FishermanKnot() : FishermanKnot(description()) {}
+
+KnotDescription FishermanKnot::description() {
+  KnotDescription out;
+  out.name = "fisherman";
+  out.keys = {"handedness", "knot_distance", "end_to_end", "refinement", "tail", "preload"};
+  out.knots = 2;
+  out.loop = true;
+  out.drawn_coil = FishermanShape().looseness;
+  out.error_study = ErrorStudy::kFisherman;
+  return out;
+}
 
 SpecimenOptions FishermanKnot::defaults(double h) const {
   const double r = h / kPaperRadius;

@@ -27,7 +27,7 @@ const Knot& knot_of(KnotKind kind) { return *knots().at(static_cast<std::size_t>
 
 std::vector<const char*> knot_names() {
   std::vector<const char*> out;
-  for (const Knot* knot : knots()) out.push_back(knot->name());
+  for (const Knot* knot : knots()) out.push_back(knot->about().name);
   return out;
 }
 
@@ -37,7 +37,7 @@ template <typename Which>
 std::string listed_knots(Which which) {
   std::vector<std::string> names;
   for (const Knot* knot : knots())
-    if (which(*knot)) names.emplace_back(knot->name());
+    if (which(*knot)) names.emplace_back(knot->about().name);
   return listed(names);
 }
 
@@ -45,7 +45,7 @@ std::string listed_knots(Which which) {
 
 KnotKind knot_named(const std::string& name) {
   const std::vector<const Knot*>& all = knots();
-  const auto found = std::find_if(all.begin(), all.end(), [&](const Knot* knot) { return name == knot->name(); });
+  const auto found = std::find_if(all.begin(), all.end(), [&](const Knot* knot) { return name == knot->about().name; });
   if (found == all.end())
     throw InvalidInput("specimen.knot", shown(name), listed_knots([](const Knot&) { return true; }));
   return static_cast<KnotKind>(found - all.begin());
@@ -56,7 +56,7 @@ std::string knots_with(const std::string& key) {
 }
 
 std::string loops() {
-  return listed_knots([](const Knot& knot) { return knot.loop(); });
+  return listed_knots([](const Knot& knot) { return knot.about().loop; });
 }
 
 double tying_load(const SpecimenOptions& specimen, const Material& material) {
@@ -64,8 +64,7 @@ double tying_load(const SpecimenOptions& specimen, const Material& material) {
 }
 
 bool Knot::has(const std::string& key) const {
-  const std::vector<std::string> own = keys();
-  return std::find(own.begin(), own.end(), key) != own.end();
+  return std::find(about_.keys.begin(), about_.keys.end(), key) != about_.keys.end();
 }
 
 void Knot::suit(const SpecimenOptions&, double, double, SpecimenOptions&) const {}

@@ -6,9 +6,13 @@
 
 namespace knot_utm {
 
-std::vector<std::string> MultipleFishermanKnot::keys() const {
-  std::vector<std::string> out = FishermanKnot::keys();
-  out.emplace_back("turns");
+MultipleFishermanKnot::MultipleFishermanKnot() : FishermanKnot(description()) {}
+
+KnotDescription MultipleFishermanKnot::description() {
+  KnotDescription out = FishermanKnot::description();
+  out.name = "multiple_fisherman";
+  out.keys.emplace_back("turns");
+  out.error_study = ErrorStudy::kNone;
   return out;
 }
 

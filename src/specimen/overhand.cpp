@@ -136,6 +136,14 @@ double fitting_loop(const OverhandShape& shape, double spacing) {
                               {largest, longest + shape.end_to_end - shape.length}, spacing);
 }
 
+KnotDescription description() {
+  KnotDescription out;
+  out.name = "overhand";
+  out.keys = {"turns", "end_to_end", "length", "refinement"};
+  out.knots = 1;
+  return out;
+}
+
 }  // namespace
 
 Centreline overhand(const OverhandShape& shape) {
@@ -147,6 +155,8 @@ Centreline overhand(const OverhandShape& shape) {
   check_no_overlap(centreline, shape.radius, "specimen.end_to_end", text(shape.end_to_end));
   return centreline;
 }
+
+OverhandKnot::OverhandKnot() : Knot(description()) {}
 
 SpecimenOptions OverhandKnot::defaults(double h) const {
   const double r = h / kPaperRadius;

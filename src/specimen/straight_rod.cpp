@@ -12,7 +12,18 @@ namespace {
 
 constexpr double kLength = 0.25;  // of the shipped method, for the paper's radius [m]
 
+KnotDescription description() {
+  KnotDescription out;
+  out.name = "straight";
+  out.keys = {"length"};
+  out.straight = true;
+  out.error_study = ErrorStudy::kStraight;
+  return out;
+}
+
 }  // namespace
+
+StraightRod::StraightRod() : Knot(description()) {}
 
 SpecimenOptions StraightRod::defaults(double h) const {
   const double r = h / kPaperRadius;

@@ -18,8 +18,8 @@ constexpr double kThreadedBeyondKnot = 18.0;  // outwards: the knot ends 8 furth
 constexpr double kStraightBeyondClamp = 3.0;
 constexpr int kGuideNodes = 3;     // on the strand from there outwards: they guide its direction, too
 constexpr double kHalfKnot = 4.0;  // a tight knot of one winding reaches no further out from its middle [h]
-constexpr double kHalfTightWinding =
-    1.0;  // each further one lies beside it, by half of its thickness to either side [h]
+// Each further winding of a tight knot lies beside it, by half of its thickness to either side [h].
+constexpr double kHalfTightWinding = 1.0;
 
 // The settling drag relaxes waves of so many radii in about a tenth of the settling time; so does the drag of the time
 // while the loop is put on, in which it moves as a whole.

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <stdexcept>
 
+#include "earlier_run.hpp"
 #include "knot_utm/io/claimed_folder.hpp"
 #include "knot_utm/io/locked_file.hpp"
 #include "knot_utm/io/recovery.hpp"
@@ -96,8 +97,14 @@ struct Test {
   TestingMachine& bench;
   ProgramRunner& program;
   const Checkpoint& checkpoint;
-  std::optional<PastRecords> past;  ///< none: it is new
+  std::optional<PastRecords> past;    ///< none: it is new
+  std::optional<EarlierRun> earlier;  ///< what comes before is that one's
 };
+
+/// Before this command the test is to stop.
+bool stops_here(const Test& test) {
+  return test.options.stop_before && test.program.last().step >= *test.options.stop_before;
+}
 
 /// Where the method asks for it, of knots that slide.
 Margin margin_of(const Test& test, const Results& results) {
@@ -146,18 +153,25 @@ void pull(const Test& test, Writers& writers, JournalWriter& journal, const Wall
         writers.add(record);
         if (test.options.progress) test.options.progress(sample, test.program, clock.seconds());
       },
-      test.options.interrupted);
+      [&] { return stops_here(test) || test.options.interrupted(); });
+}
+
+/// All records that there are before anything is stepped; the wall time that had passed [s].
+double replay(const Test& test, Writers& writers, JournalWriter& journal) {
+  const auto add = [&](const Record& record) { writers.add(record); };
+  if (test.past) return test.past->replay(add, journal);
+  return test.earlier ? test.earlier->replay(add, journal) : 0.0;
 }
 
 HeadlessOutcome run_to_end(const Test& test, JournalWriter& journal) {
   if (!test.past) test.checkpoint.remove();
   Writers writers(test.folder, test.method, test.options);
-  const WallClock clock(test.past ? test.past->replay([&](const Record& record) { writers.add(record); }, journal)
-                                  : 0.0);
+  const WallClock clock(replay(test, writers, journal));
   pull(test, writers, journal, clock);
   if (!test.program.ended()) {
     // Before anything that takes long: a second Ctrl-C ends the program.
-    if (test.options.checkpoint_period > 0.0) test.checkpoint.write(test.bench, test.program, journal.bytes());
+    if (test.options.checkpoint_period > 0.0 || stops_here(test))
+      test.checkpoint.write(test.bench, test.program, journal.bytes());
     test.program.stop();
     return outcome_of(test, write_results(test, writers, clock, true), clock);
   }
@@ -200,9 +214,11 @@ HeadlessOutcome run_headless(const Method& method, const HeadlessOptions& option
   std::optional<PastRecords> past;
   if (options.resume)
     past.emplace(options.folder, method, Checkpoint(options.folder, method_file_text(method)), bench, program);
+  std::optional<EarlierRun> earlier;
+  if (!options.begin_with.empty()) earlier.emplace(options.begin_with, method, bench, program);
   ClaimedFolder claimed = folder_of_run(options, method);
   const Checkpoint checkpoint(claimed.folder, method_file_text(method));
-  const Test test{method, options, claimed.folder, bench, program, checkpoint, past};
+  const Test test{method, options, claimed.folder, bench, program, checkpoint, past, earlier};
   if (method.specimen.to_be_tied)
     for (const std::string& warning : tying_warnings(method.specimen, method.material, method.physics))
       tell(options, warning);

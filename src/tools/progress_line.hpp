@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <chrono>
 #include <cstdio>
 
 #include "knot_utm/machine/program_runner.hpp"
@@ -28,6 +29,15 @@ class ProgressLine {
     std::fflush(stderr);
   }
 
+  /// Of tests that run side by side.
+  void show(int ended, int count) {
+    if (!on_) return;
+    shown_ = true;
+    const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count();
+    std::fprintf(stderr, "\r%d of %d specimens tested  %5.0f s left ", ended, count, passed / ended * (count - ended));
+    std::fflush(stderr);
+  }
+
   /// What is written next begins on a line of its own.
   void end() {
     if (shown_) std::fputc('\n', stderr);
@@ -38,6 +48,7 @@ class ProgressLine {
   bool on_;
   bool shown_ = false;
   double next_ = 0.0;  ///< [s]
+  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace knot_utm

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "knot_utm/io/knot_advice.hpp"
@@ -14,6 +15,7 @@
 #include "knot_utm/io/report.hpp"
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/shipped.hpp"
+#include "knot_utm/study/batch.hpp"
 #include "knot_utm/study/headless_run.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/run_bag.hpp"
@@ -46,6 +48,10 @@ struct Arguments {
   std::vector<std::string> overrides;
   std::string out;
   std::string resume;       // a folder; empty: a new test
+  std::string begin_with;   // the folder of a run that stopped; empty: from the start
+  std::string stop_before;  // a step of the program; empty: none
+  int specimens = 0;        // 0: as many as the method says
+  int jobs = 0;             // 0: as many as there are processors
   double checkpoint = 5.0;  // wall time between two [s]; 0: none
   bool overwrite = false;
   bool quiet = false;
@@ -59,6 +65,10 @@ FurtherWriter bag_in(const std::string& folder, const Method& method) {
   return {[bag](const Record& record) { bag->add(record); }, [bag] { bag->close(); }};
 }
 #endif
+
+std::string folder_of(const Arguments& arguments, const Method& method) {
+  return arguments.out.empty() ? "out/" + method.name : arguments.out;
+}
 
 void tell_interruption(const HeadlessOutcome& outcome) {
   const std::array<const char*, 3> go_on{kTool, "--resume", outcome.folder.c_str()};
@@ -88,13 +98,25 @@ void tell_end(const HeadlessOutcome& outcome, const Method& method, bool quiet) 
                  what_keeps_a_knot(method).c_str());
 }
 
+std::optional<int> step_to_stop_before(const Arguments& arguments, const Method& method) {
+  if (arguments.stop_before.empty()) return std::nullopt;
+  const std::optional<int> step = step_called(method.program, arguments.stop_before);
+  if (step && *step > 0) return step;
+  throw InvalidInput::sentence("--stop-before", arguments.stop_before,
+                               "--stop-before " + shown(arguments.stop_before) +
+                                   ": give the number of a step of the program from 1 on (the first step is 0), or the "
+                                   "name of a step that stands there once");
+}
+
 HeadlessOutcome run_and_tell(const Arguments& arguments, const Method& method) {
   ProgressLine progress(arguments.quiet);
   HeadlessOptions options;
-  options.folder = arguments.out.empty() ? "out/" + method.name : arguments.out;
+  options.folder = folder_of(arguments, method);
   options.resume = !arguments.resume.empty();
   options.overwrite = arguments.overwrite;
   options.checkpoint_period = arguments.checkpoint;
+  options.begin_with = arguments.begin_with;
+  options.stop_before = step_to_stop_before(arguments, method);
 #ifdef KNOT_UTM_HAS_ROS
   options.further = bag_in;
 #endif
@@ -109,20 +131,69 @@ HeadlessOutcome run_and_tell(const Arguments& arguments, const Method& method) {
   return run_headless(method, options);
 }
 
+void tell_report(const Arguments& arguments, const std::string& folder) {
+  write_report(folder, arguments.command);
+  if (!arguments.quiet)
+    std::printf("the report is in %s/report.html and %s/report.pdf\n", folder.c_str(), folder.c_str());
+}
+
+void tell_end(const BatchOutcome& outcome, bool quiet) {
+  const char* folder = outcome.folder.c_str();
+  if (outcome.interrupted) {
+    const std::array<const char*, 3> go_on{kTool, "--resume", folder};
+    std::fprintf(stderr, "%s: the batch was interrupted; what was measured is in %s; go on with: %s\n", kTool, folder,
+                 command_line(go_on.size(), go_on.data()).c_str());
+    return;
+  }
+  for (const Rejected& one : outcome.rejected)
+    std::fprintf(stderr, "%s: specimen %d is rejected: %s\n", kTool, one.specimen, one.reason.c_str());
+  if (!quiet)
+    std::printf(
+        "%d of %d specimens count; the statistics are in %s/statistics.yaml, all readings in "
+        "%s/specimens.csv\n",
+        outcome.specimens - static_cast<int>(outcome.rejected.size()), outcome.specimens, folder, folder);
+}
+
+int run_all_specimens(const Arguments& arguments, const Method& method) {
+  BatchOptions options;
+  options.folder = folder_of(arguments, method);
+  options.jobs = arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::thread::hardware_concurrency());
+  options.resume = !arguments.resume.empty();
+  options.overwrite = arguments.overwrite;
+  options.checkpoint_period = arguments.checkpoint;
+#ifdef KNOT_UTM_HAS_ROS
+  options.further = bag_in;
+#endif
+  ProgressLine progress(arguments.quiet);
+  options.interrupted = [] { return stop_asked != 0; };
+  options.notice = [&](const std::string& line) {
+    progress.end();
+    std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
+  };
+  options.progress = [&](int ended, int count) { progress.show(ended, count); };
+  const BatchOutcome outcome = run_batch(method, options);
+  progress.end();
+  tell_end(outcome, arguments.quiet);
+  if (arguments.report && !outcome.interrupted) tell_report(arguments, outcome.folder);
+  const bool none_counts = static_cast<int>(outcome.rejected.size()) == outcome.specimens;
+  return outcome.interrupted || none_counts ? kFailed : kDone;
+}
+
 int run(const Arguments& arguments) {
-  if (!arguments.resume.empty()) require_resumable(arguments.resume);
   const Method method = load_method(arguments.method, arguments.overrides);
+  if (method.specimens.count > 1) return run_all_specimens(arguments, method);
+  if (!arguments.resume.empty()) require_resumable(arguments.resume);
   const HeadlessOutcome outcome = run_and_tell(arguments, method);
+  const bool stopped = !outcome.ended && !arguments.stop_before.empty() && stop_asked == 0;
   if (outcome.ended)
     tell_end(outcome, method, arguments.quiet);
-  else
+  else if (!stopped)
     tell_interruption(outcome);
-  if (arguments.report) {
-    const char* folder = outcome.folder.c_str();
-    write_report(folder, arguments.command);
-    if (!arguments.quiet) std::printf("the report is in %s/report.html and %s/report.pdf\n", folder, folder);
-  }
-  return outcome.ended && !outcome.failed ? kDone : kFailed;
+  else if (!arguments.quiet)
+    std::printf("the test stopped before %s, after %.1f s; others can begin with %s\n", arguments.stop_before.c_str(),
+                outcome.results.simulated_time, outcome.folder.c_str());
+  if (arguments.report) tell_report(arguments, outcome.folder);
+  return stopped || (outcome.ended && !outcome.failed) ? kDone : kFailed;
 }
 
 /// Reads the command line; an exit code where that is all there is to do.
@@ -141,7 +212,20 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::Option* overwrite =
       app.add_flag("--overwrite", arguments.overwrite,
                    "write over what the folder holds, instead of to the next free one, -2, -3, ...");
-  resume->excludes(method)->excludes(set)->excludes(out)->excludes(overwrite);
+  CLI::Option* specimens = app.add_option("--specimens", arguments.specimens,
+                                          "how many specimens are tested, instead of what the method says")
+                               ->check(CLI::Range(1, kMostSpecimens));
+  app.add_option("--jobs", arguments.jobs,
+                 "how many specimens are tested side by side; unless given, one for each processor")
+      ->check(CLI::PositiveNumber);
+  CLI::Option* begin_with = app.add_option(
+      "--begin-with", arguments.begin_with,
+      "the folder of a test of the same specimen, stopped by --stop-before: this test begins where that one stopped");
+  CLI::Option* stop_before =
+      app.add_option("--stop-before", arguments.stop_before,
+                     "a step of the program, before which the test stops; --resume or --begin-with goes on from there");
+  for (CLI::Option* one : {begin_with, stop_before}) one->excludes(specimens)->excludes(resume);
+  resume->excludes(method)->excludes(set)->excludes(out)->excludes(overwrite)->excludes(specimens);
   app.add_option("--checkpoint", arguments.checkpoint,
                  "the time between two checkpoints, of the clock on the wall [s]; 0 for none")
       ->check(CLI::NonNegativeNumber)
@@ -159,6 +243,7 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
     if (method->empty() && resume->empty()) throw CLI::RequiredError("METHOD");
   });
   if (code) return code;
+  if (arguments.specimens > 0) arguments.overrides.push_back("specimens.count=" + std::to_string(arguments.specimens));
   if (resume->empty()) {
     arguments.method = find_method(arguments.method);
     return std::nullopt;

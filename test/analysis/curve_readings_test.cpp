@@ -154,13 +154,14 @@ TEST(CurveReadings, NoLockAndNoStiffnessStandBehindAJump) {
 TEST(CurveReadings, AKnotThatTakesInRodAtOnceJumpedOpen) {
   const auto slips = [](double takes_in, double force_left) {
     Pull out = with_knots(pull(sliding), 0.0);
+    HiddenRod hidden;
     for (PullPoint& point : out) {
       const bool behind = point.extension > 0.03;
       if (behind) point.knot_distance -= 0.02;
       if (behind) point.force *= force_left;
-      if (std::isfinite(takes_in)) point.excess_length = {0.08, 0.08 + (behind ? takes_in : 0.0)};
+      if (std::isfinite(takes_in)) hidden.push_back({0.08, 0.08 + (behind ? takes_in : 0.0)});
     }
-    return curve_readings(out);
+    return curve_readings(out, hidden);
   };
   EXPECT_TRUE(slips(0.0225, 0.95).jump_force) << "28 % of what it held";
   EXPECT_TRUE(slips(0.0225, 1.1).jump_force) << "loose coils that hardly bear anything";
@@ -175,12 +176,13 @@ TEST(CurveReadings, AKnotThatTakesInRodAtOnceJumpedOpen) {
 /// The knot's rod is counted to the tail's end, which comes nearer and goes away again.
 TEST(CurveReadings, ATailThatWhipsPastIsNoJump) {
   const auto whips = [](double until) {
-    Pull out = with_knots(pull(sliding), 0.0);
-    for (PullPoint& point : out) {
+    const Pull out = with_knots(pull(sliding), 0.0);
+    HiddenRod hidden;
+    for (const PullPoint& point : out) {
       const bool near = point.extension > 0.03 && point.extension < until;
-      point.excess_length = {0.08, 0.08 + (near ? 0.0225 : 0.0)};
+      hidden.push_back({0.08, 0.08 + (near ? 0.0225 : 0.0)});
     }
-    return curve_readings(out);
+    return curve_readings(out, hidden);
   };
   EXPECT_FALSE(whips(0.032).jump_force);
   EXPECT_TRUE(whips(1.0).jump_force) << "it stays";
@@ -189,11 +191,12 @@ TEST(CurveReadings, ATailThatWhipsPastIsNoJump) {
 /// Its load rises from nothing to its breakaway and then only falls, which looks like a lock.
 TEST(CurveReadings, AKnotThatJumpsBehindItsPeakDidSo) {
   Pull falling = pull([](double s) { return s < 0.01 ? 600.0 * s : std::max(0.1, 6.0 - 150.0 * (s - 0.01)); });
+  HiddenRod hidden;
   for (PullPoint& point : falling) {
     point.knot_distance = 0.2 - 2.0 * point.extension - (point.extension > 0.03 ? 0.03 : 0.0);
-    point.excess_length = {0.08, point.extension > 0.03 ? 0.11 : 0.08};
+    hidden.push_back({0.08, point.extension > 0.03 ? 0.11 : 0.08});
   }
-  EXPECT_TRUE(curve_readings(falling).jump_force);
+  EXPECT_TRUE(curve_readings(falling, hidden).jump_force);
 }
 
 TEST(CurveReadings, AreJudgedByTheForceThatTheRodBears) {

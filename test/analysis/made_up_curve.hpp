@@ -45,7 +45,7 @@ struct Curve {
       sample.force_upper = sample.load;
       sample.force_lower = sample.load * (1.0 + 1e-3);
       sample.normal_force = 3.0 * sample.load + 20.0;
-      sample.excess_length[0] = sample.excess_length[1] = 0.04;
+      sample.excess_length = {0.04, 0.04};
       result.push_back(sample);
     }
     return result;

@@ -307,7 +307,7 @@ TEST(Results, CountsAndNotEquilibratedAreCarriedOver) {
   tie.message = "a node still moved";
   tie.max_penetration = 0.04;
   tie.knot_distance = 0.16;
-  tie.excess_length[0] = tie.excess_length[1] = 0.05;
+  tie.excess_length = {0.05, 0.05};
   samples.insert(samples.begin(), tie);
   samples.back().steps = 100;
   samples.back().rejected_steps = 3;

@@ -108,6 +108,31 @@ class Method(unittest.TestCase):
                 self.assertTrue(any(f"at most {most} characters" in cells[1] for cells in self.rows[key]), key)
 
 
+class Measured(unittest.TestCase):
+    """doc/measured.md against the code."""
+
+    PAGE = text("doc/measured.md")
+    ROWS = [[cell.strip() for cell in line.strip("|").split("|")] for line in PAGE.splitlines() if line.startswith("| `")]
+
+    def test_every_constant_has_the_value_of_the_code(self):
+        self.assertGreater(len(self.ROWS), 30)
+        for constants, file, *_ in self.ROWS:
+            code = text(file.strip("`"))
+            for name, value in re.findall(r"`(k\w+)`(?: = ([-\d.e]+))?", constants):
+                with self.subTest(name):
+                    found = re.search(rf"\b{name}(?: = ([^;,]+)|{{)", code)
+                    self.assertTrue(found, f"{file} has no {name}")
+                    if value:
+                        self.assertEqual(float(found.group(1)), float(value))
+
+    def test_every_constant_of_the_error_study_is_listed(self):
+        listed = {name for row in self.ROWS for name in re.findall(r"`(k\w+)`", row[0])}
+        code = text("src/machine/measured.hpp")
+        names = set(re.findall(r"\b(k[A-Z]\w+)(?= = |{)", code))
+        self.assertGreater(len(names), 15)
+        self.assertEqual(names - listed, set())
+
+
 class Results(unittest.TestCase):
     """doc/results.md against the table of the keys, which the program writes (tensile_test --list-results)."""
     page = text("doc/results.md")

@@ -78,7 +78,11 @@ void expect_the_same(const Pull& a, const Pull& b) {
   const double peak = *found.a.peak_force;
   EXPECT_LT(std::abs(found.difference->largest), 1e-10 * peak);
   EXPECT_NEAR(*found.b.peak_force, peak, 1e-10 * peak);
+  ASSERT_TRUE(found.a.plateau_force && found.b.plateau_force);
   EXPECT_NEAR(*found.b.plateau_force, *found.a.plateau_force, 1e-9);
+  // At 20 mm/s and 3 Hz too few readings tell where it locks.
+  ASSERT_EQ(found.b.lock_extension_by_load.has_value(), found.a.lock_extension_by_load.has_value());
+  if (!found.a.lock_extension_by_load) return;
   EXPECT_NEAR(*found.b.lock_extension_by_load, *found.a.lock_extension_by_load, 1e-12);
 }
 

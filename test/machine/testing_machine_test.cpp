@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
+#include <map>
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -69,6 +70,30 @@ TEST(TestingMachine, AStraightRodIsASpringOfStiffnessOverLength) {
     extension = sample.extension;
   }
   EXPECT_NEAR(extension, 6.6e-3, 1e-12);
+}
+
+/// What is read of two knots is read of a loop alone, and each list has a number for each knot.
+TEST(TestingMachine, ReadsAsManyKnotsAsTheSpecimenHas) {
+  for (const auto& [name, knots] : std::map<const char*, std::size_t>{
+           {"straight", 0}, {"capstan", 0}, {"overhand", 1}, {"fisherman", 2}, {"multiple_fisherman", 2}}) {
+    const double h = nylon().radius;
+    SpecimenOptions specimen = knot_of(knot_named(name)).defaults(h);
+    specimen.knot = knot_named(name);
+    MachineOptions machine;
+    const bool loop = knot_of(specimen).about().loop;
+    machine.grips = loop ? GripKind::kRollers : GripKind::kNodes;
+    machine.roller_diameter = knot_of(specimen).roller_diameter(h).value_or(machine.roller_diameter);
+    const SpecimenOptions known = specimen;
+    knot_of(specimen).suit(known, machine.roller_diameter, h, specimen);
+    PhysicsOptions physics;
+    physics.accuracy = Accuracy::kDraft;
+    const Sample sample = TestingMachine(specimen, nylon(), machine, physics).respond(Command{});
+    EXPECT_EQ(sample.tail_force.size(), knots) << name;
+    EXPECT_EQ(sample.excess_length.size(), knots) << name;
+    EXPECT_EQ(std::isfinite(sample.knot_distance), loop) << name;
+    EXPECT_EQ(std::isfinite(sample.knots_force), loop) << name;
+    for (const double excess : sample.excess_length) EXPECT_EQ(excess > 0.0, loop) << name;
+  }
 }
 
 /// Two springs in series, F = D/(1/K + L/k_s), of a frame that is softer than the rod, as stiff and stiffer.
@@ -179,31 +204,49 @@ TEST(TestingMachine, ADrawnOverhandSettlesGently) {
   }
 }
 
-/// A loose knot pulls with less than the drag on its length, were there any.
-TEST(TestingMachine, ThereIsNoDragInTheForceOfAKnotBetweenClampsUnlessTheMethodSetsOne) {
+/// Arch as a user would draw one, between the ends that the clamps hold.
+SpecimenOptions arch_from_a_file(const std::string& name) {
+  std::ofstream file(name);
+  file << "x,y,z\n";
+  for (int i = 0; i <= 40; ++i) file << 0.05 * std::sin(M_PI * i / 40.0) << ",0," << 0.2 * i / 40.0 << "\n";
+  SpecimenOptions out;
+  out.knot = knot_named("file");
+  out.file = name;
+  out.edge_length = 0.0063;
+  return out;
+}
+
+/// A loose knot, or a drawn shape, pulls with less than the drag on its length, were there any.
+TEST(TestingMachine, ThereIsNoDragInTheForceBetweenClampsUnlessTheMethodSetsOne) {
+  const std::string name = ::testing::TempDir() + "knot_utm_arch.csv";
   SpecimenOptions overhand;
   overhand.knot = knot_named("overhand");
   overhand.end_to_end = 0.7;
   overhand.edge_length = 0.0063;
   MachineOptions machine;
   machine.grips = GripKind::kClamps;
-  for (const double drag : {0.0, 0.1}) {
-    PhysicsOptions physics;
-    physics.accuracy = Accuracy::kDraft;
-    if (drag > 0.0) physics.drag = drag;
-    TestingMachine bench(overhand, nylon(), machine, physics);
-    Command settle;
-    settle.time = 1.5;
-    const Sample settled = bench.respond(settle);
-    EXPECT_GT(settled.dissipation, settled.friction_loss);
-    const Sample pulled = bench.respond(pull(1, 2.5, 0.0033));
-    ASSERT_EQ(pulled.status, BenchStatus::kRunning) << pulled.message;
-    const double loss = pulled.dissipation - pulled.friction_loss - settled.dissipation + settled.friction_loss;
-    if (drag > 0.0)
-      EXPECT_GT(loss, 0.1 * drag * 1.0 * 0.0033 * 0.0033 / 3.0);  // c l v^2/3 of a rod that one end pulls
-    else
-      EXPECT_NEAR(loss, 0.0, 1e-12 * pulled.dissipation);
-  }
+  for (const SpecimenOptions& specimen : {overhand, arch_from_a_file(name)})
+    for (const double drag : {0.0, 0.1}) {
+      SCOPED_TRACE(specimen.file);
+      PhysicsOptions physics;
+      physics.accuracy = Accuracy::kDraft;
+      if (drag > 0.0) physics.drag = drag;
+      TestingMachine bench(specimen, nylon(), machine, physics);
+      Command settle;
+      settle.time = 1.5;
+      const Sample settled = bench.respond(settle);
+      EXPECT_GT(settled.dissipation, settled.friction_loss);
+      const Sample pulled = bench.respond(pull(1, 2.5, 0.0033));
+      ASSERT_EQ(pulled.status, BenchStatus::kRunning) << pulled.message;
+      const double loss = pulled.dissipation - pulled.friction_loss - settled.dissipation + settled.friction_loss;
+      if (drag > 0.0) {
+        const double length = bench.rod().rest_length.sum();
+        EXPECT_GT(loss, 0.1 * drag * length * 0.0033 * 0.0033 / 3.0);  // c l v^2/3 of a rod that one end pulls
+      } else {
+        EXPECT_NEAR(loss, 0.0, 1e-12 * pulled.dissipation);
+      }
+    }
+  std::filesystem::remove(name);
 }
 
 /// Friction's part of a force is at most mu times its pressure, and tangential.

@@ -43,13 +43,14 @@ PROBE = """<script>window.addEventListener("load", () => {
 
 
 def setUpModule():
-    global folders, run, comparison
+    global folders, run, comparison, batch
     folders = Folders()
     run = folders.run("run", FISHERMAN, "--report")
     other = folders.run("other", [*FISHERMAN, "--set", "material.friction_coefficient=0.5"])
     comparison = os.path.join(folders.path, "comparison")
     done = tool("compare", f"{run}/curve.csv", f"{other}/curve.csv", "--report", comparison)
     assert done.returncode == 0, done.stderr
+    batch = folders.run("batch", [*FISHERMAN, "--specimens", "2"], "--report")
 
 
 def tearDownModule():
@@ -114,6 +115,9 @@ class InABrowser(unittest.TestCase):
     def test_the_page_of_a_comparison_is_legible_at_every_width(self):
         self.is_legible(comparison)
 
+    def test_the_page_of_a_batch_is_legible_at_every_width(self):
+        self.is_legible(batch)
+
     def test_the_page_of_a_run_is_whole(self):
         result = yaml.safe_load(read(run, "result.yaml"))
         seen = self.is_whole(run, 3, result)
@@ -121,6 +125,9 @@ class InABrowser(unittest.TestCase):
 
     def test_the_page_of_a_comparison_is_whole(self):
         self.is_whole(comparison, 1, yaml.safe_load(read(comparison, "comparison.yaml")))
+
+    def test_the_page_of_a_batch_is_whole(self):
+        self.is_whole(batch, 1, yaml.safe_load(read(batch, "statistics.yaml")))
 
     def test_what_is_not_whole_would_be_seen(self):
         seen, console = in_browser('<html><body><img src="data:image/png;base64,AAAA">'
@@ -167,6 +174,12 @@ class OnPaper(unittest.TestCase):
             self.assertIn(words, text)
         lock = yaml.safe_load(read(run, "result.yaml"))["lock_extension_by_load"]
         self.assertRegex(text, rf"lock_extension_by_load\s+{in_mm(lock)}")
+
+    def test_a_batch(self):
+        text = self.pages(batch)
+        for words in ("Means of the 2 specimens that count", "Kept by", "Standard deviation", "95 % interval of the mean, high end",
+                      "specimens keep all limits", "What was drawn for each specimen", "normal, 10 %"):
+            self.assertIn(words, text)
 
     def test_a_comparison(self):
         text = self.pages(comparison)

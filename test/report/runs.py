@@ -6,12 +6,19 @@ import subprocess
 import sys
 import tempfile
 
+import numpy as np
+import yaml
+
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
 SCRIPT = os.path.join(ROOT, "scripts/report")
 TOOLS = os.environ["KNOT_UTM_TOOLS_DIR"]
 
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(ROOT, "report"))
+
+import page  # noqa: E402
+from run import Curve, Run  # noqa: E402
+from units import Units  # noqa: E402
 
 STRAIGHT = ["config/straight.yaml", "--set", "physics.accuracy=draft", "--set", "material.breaking_force=none"]
 # Coarse and heavy-handed, but tied, slid and locked in a second or two.
@@ -49,6 +56,44 @@ def put_into(folder, name, old, new):
     write(text.replace(old, new, 1), folder, name)
 
 
+def open_bytes(*parts):
+    with open(os.path.join(*parts), "rb") as content:
+        return content.read()
+
+
+def html_of(folder):
+    """The page as the script makes it, without the time that its PDF takes."""
+    return page.report_on_run(folder, "of the test", "")
+
+
+def command_of(html):
+    """That made the page, as it says itself."""
+    return re.sub(r"</?span>", "", re.search(r'class="command">(.*?)</code>', html, re.DOTALL)[1]).strip()
+
+
+def keys_on(html):
+    return set(re.findall(r'data-key="(\w+)"', html))
+
+
+def row_of(html, key, table=0):
+    """Cells of the row of a key, in the first table that has it or in a later one."""
+    rows = [row for row in re.findall(r"<tr>.*?</tr>", html, re.DOTALL) if f'data-key="{key}"' in row]
+    return [re.sub(r"<[^>]+>", " ", cell).strip() for cell in re.findall(r"<td.*?</td>", rows[table], re.DOTALL)]
+
+
+def a_pull(extension, load):
+    columns = {"time": 10.0 * extension, "extension": extension, "load": load,
+               "knot_distance": np.full(len(load), np.nan), "end_to_end": extension}
+    return Curve(columns, np.full(len(load), "pull"))
+
+
+class OfValues(Run):
+    """A run that is not in a folder."""
+
+    def __init__(self, curve, **result):
+        self.curve, self.readings, self.result, self.units = curve, curve, result, Units()
+
+
 class Folders:
     """A folder for runs, and copies of them to be changed."""
 
@@ -65,6 +110,15 @@ class Folders:
     def copy(self, of):
         self.copies += 1
         return shutil.copytree(of, f"{of}-{self.copies}")
+
+    def with_report(self, of, report="", specification="", **results):
+        """A copy of a run whose method has a report and a specification, and whose result has other values."""
+        folder = self.copy(of)
+        method = re.sub(r"^(report|specification):.*?(?=^\S|\Z)", "", read(folder, "method.yaml"), flags=re.M | re.S)
+        write(f"{method}report: {{{report}}}\nspecification: {{{specification}}}\n", folder, "method.yaml")
+        result = {**yaml.safe_load(read(folder, "result.yaml")), **results}
+        write(yaml.safe_dump(result, sort_keys=False), folder, "result.yaml")
+        return folder
 
     def remove(self):
         shutil.rmtree(self.path)

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "knot_utm/specimen/knot.hpp"
+
 namespace knot_utm {
 namespace {
 
@@ -128,7 +130,7 @@ class ScenePictureTest : public testing::Test {
     rod.breaking_force = 500.0;
     return rod;
   }
-  ScenePicture picture{MachineOptions(), material()};
+  ScenePicture picture{SpecimenOptions(), MachineOptions(), material()};
 };
 
 /// They are painted on the rod: where its nodes go, they go.
@@ -180,6 +182,25 @@ TEST_F(ScenePictureTest, ARodThatPartedHasAGap) {
   const auto marker = part(draw(rod), "rod");
   EXPECT_NEAR(enclosed_volume(marker), 0.99 * whole, 1e-9 * whole);
   for (const auto& point : marker.points) EXPECT_FALSE(point.z > 0.3 + 1e-9 && point.z < 0.31 - 1e-9) << point.z;
+}
+
+/// Its axis is the cylinder's, which stands along z before the marker's pose turns it.
+TEST_F(ScenePictureTest, APostIsACylinderWhereTheSpecimenHasIt) {
+  SpecimenOptions capstan = knot_of(knot_named("capstan")).defaults(material().radius);
+  capstan.knot = knot_named("capstan");
+  capstan.wrap = 4.0 * M_PI;
+  MachineOptions machine;
+  machine.grips = GripKind::kNodes;
+  picture = ScenePicture(capstan, machine, material());
+  picture.begin(helix(50));
+  const auto post = part(draw(helix(50)), "grips");
+  EXPECT_EQ(post.type, visualization_msgs::Marker::CYLINDER);
+  EXPECT_EQ(post.scale.x, capstan.post_diameter);
+  EXPECT_EQ(post.scale.y, capstan.post_diameter);
+  const auto& q = post.pose.orientation;
+  const Vec3 axis = Eigen::Quaterniond(q.w, q.x, q.y, q.z) * Vec3::UnitZ();
+  const Vec3 wanted = knot_of(capstan).supports(capstan, material()).posts.front().axis;
+  EXPECT_NEAR((axis - wanted).norm(), 0.0, 1e-12);
 }
 
 TEST_F(ScenePictureTest, ForcesThatAreNotShownAreTakenAway) {

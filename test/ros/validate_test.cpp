@@ -113,7 +113,9 @@ TEST(Validate, StateOfNoSpecimen) {
   EXPECT_THAT(fault([](KnotState& m) { m.load = kNan; }), StartsWith("load is nan"));
   EXPECT_THAT(fault([](KnotState& m) { m.force_lower = kInf; }), StartsWith("force_lower is inf"));
   EXPECT_THAT(fault([](KnotState& m) { m.dissipation = kNan; }), StartsWith("dissipation is nan"));
-  EXPECT_THAT(fault([](KnotState& m) { m.tail_force[1] = kInf; }), StartsWith("tail_force[1] is inf"));
+  EXPECT_THAT(fault([](KnotState& m) { m.tail_force = {0.0, kInf}; }), StartsWith("tail_force[1] is inf"));
+  EXPECT_THAT(fault([](KnotState& m) { m.excess_length.assign(1000, 0.0); }),
+              StartsWith("excess_length is of 1000 knots, but must be of at most"));
   EXPECT_THAT(fault([](KnotState& m) { m.contacts = -1; }), StartsWith("contacts is -1"));
   EXPECT_THAT(fault([](KnotState& m) { m.status = 5; }), StartsWith("status is 5"));
   EXPECT_THAT(fault([](KnotState& m) { m.knot_type = 3; }), StartsWith("knot_type is 3"));

@@ -38,11 +38,13 @@ void expect_all_in_picture(const TestingMachine& bench, const Method& method, co
       for (const double side : {-radius, radius})
         expect_in_picture(eye, bench.state().position.col(i) + side * way, sample);
   }
-  const Vec3 half = half_of_grip(method.machine, radius);
-  for (const Vec3& grip : {bench.lower_grip(), bench.upper_grip()})
+  for (const GripBody& body : grip_bodies(method.specimen, method.machine, method.material)) {
+    const Vec3 middle = (body.goes_up ? bench.upper_grip() : bench.lower_grip()) + body.from_grip;
+    const Vec3 half = body.half_box(radius);
     for (const double x : {-1.0, 1.0})
       for (const double y : {-1.0, 1.0})
-        for (const double z : {-1.0, 1.0}) expect_in_picture(eye, grip + half.cwiseProduct(Vec3(x, y, z)), sample);
+        for (const double z : {-1.0, 1.0}) expect_in_picture(eye, middle + half.cwiseProduct(Vec3(x, y, z)), sample);
+  }
 }
 
 /// The text stands in the frame of the eye. As rviz draws it, lines are 3.8 times `scale.z` apart, and a
@@ -70,9 +72,9 @@ TEST_P(ViewsOfATest, MachineRodAndReadingsStayInThePicture) {
   const Method method = load_method(config(GetParam().method), GetParam().overrides);
   TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
   ProgramRunner program = make_program(method, bench.longest_step());
-  ScenePicture picture(method.machine, method.material);
+  ScenePicture picture(method.specimen, method.machine, method.material);
   picture.begin(bench.state().position);
-  Views views(method.machine, method.material.radius);
+  Views views(method.specimen, method.machine, method.material);
   double nearest = 0.0;
   run_test(bench, program, [&](const Command& command, const Sample& sample) {
     if (!command.read_cell && !program.ended() && sample.status == BenchStatus::kRunning) return;
@@ -103,9 +105,9 @@ const std::vector<std::string> kThinCord = {
 INSTANTIATE_TEST_SUITE_P(Shipped, ViewsOfATest,
                          testing::Values(Case{"tighten.yaml", {"physics.accuracy=draft"}},
                                          Case{"tighten.yaml", {"physics.accuracy=draft", "material=pink_vps"}},
-                                         Case{"overhand.yaml", {}}, Case{"from_file.yaml", {}},
-                                         Case{"straight.yaml", {"specimen.length=1"}}, Case{"straight.yaml", {}},
-                                         Case{"overhand.yaml", kThinCord}));
+                                         Case{"overhand.yaml", {}}, Case{"capstan.yaml", {}},
+                                         Case{"from_file.yaml", {}}, Case{"straight.yaml", {"specimen.length=1"}},
+                                         Case{"straight.yaml", {}}, Case{"overhand.yaml", kThinCord}));
 
 /// The camera that all of this is about, and those of the saved views.
 TEST(RvizConfig, HasTheCameraInTheFramesThatFollow) {

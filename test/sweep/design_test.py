@@ -18,11 +18,17 @@ try:
 
     from knot_utm import WrongInput, tool
     from knot_utm.design import DRAWS
+    from knot_utm.sharing import beginnings
     from knot_utm.study import KEYS, load_study
     from knot_utm.yaml_text import load, text_of
 except ModuleNotFoundError as absent:
     print(f"skipped: {absent} (scripts/sweep installs it)")
     sys.exit(77)
+
+
+def write(path, text):
+    with open(path, "w", encoding="utf-8") as file:
+        file.write(text)
 
 
 class Studies(unittest.TestCase):
@@ -32,8 +38,7 @@ class Studies(unittest.TestCase):
         self.file = os.path.join(folder.name, "study.yaml")
 
     def study(self, text):
-        with open(self.file, "w", encoding="utf-8") as file:
-            file.write(text)
+        write(self.file, text)
         return load_study(self.file)
 
     def values(self, text):
@@ -108,10 +113,47 @@ class Designs(Studies):
             self.assertEqual(self.values(text), self.values(text + "\n        seed: 1"))
             self.assertNotEqual(self.values(text), self.values(text + "\n        seed: 2"))
 
-    def test_repeats_differ_by_the_seed_of_the_load_cell(self):
-        points = self.study("method: straight\nvary: {specimen.length: [0.1, 0.2]}\nrepeat: 3").points
-        self.assertEqual(points, [{"specimen.length": length, "machine.load_cell.seed": seed}
-                                  for length in (0.1, 0.2) for seed in (1, 2, 3)])
+    def test_repeats_are_batches(self):
+        study = self.study("method: straight\nvary: {specimen.length: [0.1, 0.2]}\nrepeat: 3")
+        self.assertEqual(study.settings, [{"specimen.length": length, "specimens.count": 3} for length in (0.1, 0.2)])
+
+
+class Shared(Studies):
+    METHOD = """
+        specimen: {knot: fisherman}
+        program: [tie: {}, release: {}, mount: {}, balance: {}, pull: {speed: 0.001}, hold: {duration: 1}, pull: {speed: 0.002}]
+        """
+
+    def beginnings(self, vary, design="grid"):
+        """(step, what is shared) of each run; None of one that shares nothing."""
+        write(self.file + ".method", self.METHOD)
+        study = self.study(f"method: {self.file}.method\ndesign: {design}\nvary: {vary}")
+        return [found and (found.step, found.shared) for found in beginnings(study.method, study.points)]
+
+    def test_runs_are_the_same_up_to_the_first_step_that_differs(self):
+        found = self.beginnings("{material: [nylon, pink_vps], program.hold.duration: [1, 2], physics.accuracy: [draft]}")
+        self.assertEqual(found, [(5, {"material": name, "physics.accuracy": "draft"}) for name in ("nylon", "pink_vps") for _ in "12"])
+        self.assertEqual(self.beginnings("{program.4.pull.speed: [1, 2]}"), [(4, {})] * 2)
+
+    def test_the_latest_step_that_runs_share_counts(self):
+        self.assertEqual(self.beginnings("{program.4.pull.speed: [1, 2], program.hold.duration: [1, 2]}"),
+                         [(5, {"program.4.pull.speed": speed}) for speed in (1, 1, 2, 2)])
+        self.assertEqual(self.beginnings("{program.4.pull.speed: [1, 2], program.hold.duration: [1, 2]}", "list"), [(4, {})] * 2)
+        self.assertEqual(self.beginnings("{material: [a, a, b], program.4.pull.speed: [1, 2, 3]}", "list"),
+                         [(4, {"material": "a"})] * 2 + [None])
+
+    def test_the_first_of_those_that_share_stands_for_them(self):
+        write(self.file + ".method", self.METHOD)
+        study = self.study(f"method: {self.file}.method\nvary: {{material: [a, b], program.hold.duration: [1, 2]}}")
+        found = beginnings(study.method, study.points)
+        self.assertEqual([beginning.point for beginning in found], [study.points[i] for i in (0, 0, 2, 2)])
+
+    def test_where_nothing_is_shared_there_is_none(self):
+        for vary in ("{material: [a, b]}", "{program.tie.speed: [1, 2]}", "{ends.load: [1, 2]}", "{program: [[], [1]]}",
+                     "{program.pull.speed: [1, 2]}", "{program.9.speed: [1, 2]}"):  # two steps pull; there is no tenth
+            self.assertEqual(self.beginnings(vary), [None] * 2, vary)
+        self.METHOD = "program: [balance: {}, pull: {}]"
+        self.assertEqual(self.beginnings("{program.pull.speed: [1, 2]}"), [None] * 2, "a balance takes no time")
 
 
 class Documented(unittest.TestCase):
@@ -147,10 +189,14 @@ class Refused(Studies):
         self.refuses(self.ONE + "seed: 3", "seed is 3", "no effect in a grid")
         self.refuses(self.ONE + "repeat: 0", "repeat is 0", "from 1 to")
         self.refuses(self.ONE + "repeat: true", "repeat is true")
-        self.refuses("method: straight\nvary: {machine.load_cell.seed: [1]}\nrepeat: 2", "repeat is 2", "machine.load_cell.seed")
         self.refuses(self.ONE + "repeat: 2\nrepeat: 3", "repeat stands there twice")
         self.refuses("method: straight\nvary: {1: [0.1]}", "1 is no key")
         self.refuses("{", "study.yaml")
+
+    def test_batches(self):
+        self.refuses("method: straight\nvary: {specimens.count: [1, 2]}", "specimens.count", "give repeat")
+        write(self.file + ".method", "specimens: {count: 8}")
+        self.refuses(f"method: {self.file}.method\nvary: {{a: [1]}}", "specimens.count 8", "give repeat")
 
     def test_values_of_a_key(self):
         def refuses(value, *words, design=""):
@@ -180,15 +226,14 @@ class Refused(Studies):
         self.refuses("method: straight\ndesign: sobol\nvary: {a: [1, 2]}", "runs is missing")
         many = "{from: 1, to: 2, steps: 2000}"
         self.refuses(f"method: straight\nvary: {{a: {many}, b: {many}}}", "4000000 runs", "1000000")
-        self.refuses(f"method: straight\nvary: {{a: {many}}}\nrepeat: 1000", "repeat is 1000", "2000000 runs")
+        self.refuses(f"method: straight\nvary: {{a: {many}}}\nrepeat: 1000", "repeat is 1000", "2000000 tests")
 
 
 class Yaml(Studies):
     def test_values_read_back_as_they_were(self):
         for value in (1, 1e-5, 2e22, 0.1, float("inf"), True, None, "nylon", "1e-5", "a: b", "Gruß", [1, [2.5]],
                       {"radius": 0.001, "name": "own"}, "x" * 300):
-            with open(self.file, "w", encoding="utf-8") as file:
-                file.write("value: " + text_of(value))
+            write(self.file, "value: " + text_of(value))
             self.assertEqual(load(self.file), {"value": value})
             self.assertNotIn("\n", text_of(value))
 

@@ -102,6 +102,14 @@ class TheTable(Sweeps):
         self.assertEqual(self.table("out"), self.table("whole"))
         self.assertEqual(sorted(self.started()), sorted(2 * LENGTHS + LENGTHS[1:2]))
 
+    def test_has_a_row_for_runs_that_others_interrupt_which_are_tried_again(self):
+        self.sweep("out", "--jobs", "1", INTERRUPT_AT=f"specimen.length={LENGTHS[1]}")
+        _, _, *runs = rows(self.table("out"))
+        self.assertEqual([run[2:4] for run in runs], [["0", ""], ["1", "interrupted"], ["0", ""], ["0", ""]])
+        self.sweep("out")
+        self.sweep("whole")
+        self.assertEqual(self.table("out"), self.table("whole"))
+
     def test_has_a_row_a_point_where_points_are_the_same_run(self):
         write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{physics.accuracy: [draft], specimen.length: [0.2, 0.2]}}")
         self.sweep("out")
@@ -233,6 +241,102 @@ class CutShort(Sweeps):
         process.communicate()
 
 
+class Repeated(Sweeps):
+    SCATTERED = """
+        method: method.yaml
+        vary: {physics.accuracy: [draft], specimen.length: [0.2, 0.3]}
+        repeat: 3"""
+
+    def setUp(self):
+        super().setUp()
+        method = content(CONFIG, "straight.yaml").decode()
+        write(self.path("method.yaml"), method + "specimens: {scatter: {material.breaking_force: {normal: 0.1}}}\n")
+        write(self.study, self.SCATTERED)
+
+    def test_a_row_is_a_specimen_of_a_batch(self):
+        self.sweep("out", "--jobs", "2")
+        names, units, *runs = rows(self.table("out"))
+        self.assertEqual((names[:5], units[2]), (["physics.accuracy", "specimen.length", "specimen", "exit_code", "error"], "-"))
+        self.assertEqual([run[1:4] for run in runs], [[length, number, "0"] for length in ("0.2", "0.3") for number in "123"])
+        forces = [run[names.index("peak_force")] for run in runs]
+        for length, peaks in (("0.2", forces[:3]), ("0.3", forces[3:])):
+            self.assertEqual(len(set(peaks)), 3, "they scatter")
+            alone = self.path("alone", length)
+            subprocess.run([REAL, self.path("method.yaml"), "--quiet", "--out", alone, "--specimens", "3", "--set",
+                            "physics.accuracy=draft", "--set", "specimen.length=" + length], check=True)
+            self.assertEqual(list(map(float, peaks)), [load(os.path.join(alone, f"specimen_00{i}/result.yaml"))["peak_force"]
+                                                       for i in (1, 2, 3)])
+        self.sweep("one", "--jobs", "1")
+        self.assertEqual(self.table("one"), self.table("out"))
+        self.sweep("out")
+        self.assertEqual(self.started().count(0.2), 2, "not run again")
+
+    def test_rejected_specimens_say_why(self):
+        write(self.study, f"""
+            method: {CONFIG}/tighten.yaml
+            vary: {{physics.accuracy: [draft], material.friction_coefficient: [0.05]}}
+            repeat: 2""")
+        self.sweep("out")
+        names, _, *runs = rows(self.table("out"))
+        for run in runs:
+            run = dict(zip(names, run))
+            self.assertEqual((run["exit_code"], run["ended_by"]), ("1", "untangled"))
+            self.assertIn("undone", run["error"])
+
+    def test_a_batch_that_crashes_is_as_many_rows_and_tried_again(self):
+        self.sweep("out", KILL_AT="specimen.length=0.2")
+        _, _, *runs = rows(self.table("out"))
+        self.assertEqual([run[3:5] for run in runs], [["139", "killed by SIGSEGV"]] * 3 + [["0", ""]] * 3)
+        self.sweep("out")
+        self.assertEqual([run[3:5] for run in rows(self.table("out"))[2:]], [["0", ""]] * 6)
+
+
+class TiedOnce(Sweeps):
+    PULLED = f"""
+        method: {CONFIG}/tighten.yaml
+        vary:
+          physics.accuracy: [draft]
+          material: [polypropylene]
+          program.pull.until.extension: """
+
+    def started_with(self, option):
+        return content(self.log).decode().count(f" {option} ")
+
+    def test_pulled_often_has_the_bits_of_runs_from_the_start(self):
+        write(self.study, self.PULLED + "[0.004, 0.006, 0.008]")
+        process = self.start("out")
+        told, said = process.communicate()
+        self.assertEqual(process.returncode, 0, said)
+        self.assertRegex(told, r"3 runs began with tied specimens that they share, 1 in all, which saved \d+\.\d s of computing")
+        self.assertEqual((self.started_with("--stop-before"), self.started_with("--begin-with")), (1, 3))
+        _, _, *runs = rows(self.table("out"))
+        for run in runs:
+            self.sweep("alone", "--only", run[-1])
+            for name in ("curve.csv", "curve_full.csv", "final_shape.csv", "method.yaml"):
+                self.assertEqual(content(self.path("out/runs", run[-1]), name), content(self.path("alone/runs", run[-1]), name))
+        self.assertEqual(self.started_with("--begin-with"), 3, "a run alone is one from the start")
+        self.sweep("alone", "--only", "table")
+        self.assertEqual(self.table("out"), self.table("alone"))
+        # Others that are pulled later begin with the same specimen.
+        write(self.study, self.PULLED + "[0.004, 0.006, 0.008, 0.005]")
+        self.sweep("out")
+        self.assertEqual((self.started_with("--stop-before"), self.started_with("--begin-with")), (1, 4))
+
+    def test_what_does_not_suit_begins_at_the_start(self):
+        # The way of the crosshead, which belongs to the machine, is twice the largest extension, at least 1 m.
+        write(self.path("method.yaml"), """
+            specimen: {knot: straight}
+            material: nylon
+            machine: {grips: clamps}
+            program: [hold: {duration: 1}, pull: {speed: 0.01, until: {extension: 0.001, break: true}}]""")
+        write(self.study, "method: method.yaml\nvary: {program.pull.until.extension: [0.001, 0.002, 5]}")
+        self.sweep("out")
+        self.assertEqual((self.started_with("--stop-before"), self.started_with("--begin-with")), (1, 3))
+        names, _, *runs = rows(self.table("out"))
+        self.assertEqual([run[names.index("ended_by")] for run in runs], ["extension", "extension", "break"])
+        self.assertEqual(len(content(self.log).decode().splitlines()), 5, "the third run was started twice")
+
+
 class Content(Sweeps):
     def test_of_a_study_that_grows_is_kept(self):
         self.sweep("out", "--jobs", "1")
@@ -292,6 +396,7 @@ class Refused(Sweeps):
         self.study = write(self.path("study.yaml"), f"method: {CONFIG}/straight.yaml\nvary: {{specimen.length: [0.2]}}")
         self.assertIn("cannot make the folder", self.sweep("out", code=2))
         self.assertIn("--jobs is 0", self.sweep("out", "--jobs", "0", code=2))
+        self.assertIn("star is no run of " + self.study, self.sweep("out", "--only", "star", code=2))
 
 
 class FromPython(Sweeps):
@@ -314,6 +419,15 @@ class FromPython(Sweeps):
             knot_utm.run("strait", self.path("run"))
         with self.assertRaisesRegex(knot_utm.WrongInput, "no such file"):
             knot_utm.read(self.path("run"))
+
+    def test_messages_of_ros_are_a_part_of_it(self):
+        os.makedirs(self.path("devel/knot_utm/msg"))
+        write(self.path("devel/knot_utm/__init__.py"), "")
+        write(self.path("devel/knot_utm/msg/__init__.py"), "Crosshead = 'a message'")
+        path = os.pathsep.join([os.path.join(ROOT, "python"), self.path("devel")])
+        said = subprocess.run([sys.executable, "-Bc", "import knot_utm.msg; print(knot_utm.msg.Crosshead, knot_utm.read)"],
+                              env={**os.environ, "PYTHONPATH": path}, check=True, text=True, stdout=subprocess.PIPE).stdout
+        self.assertRegex(said, "^a message <function read")
 
     def test_a_sweep_gives_its_table(self):
         table = knot_utm.sweep(self.study, self.path("out"), jobs=1)

@@ -25,10 +25,14 @@ vary:
 TOLD = r"""#!/bin/bash
 # What is only asked of the real one, or would be refused by it, is no run.
 case " $* " in *" --version "* | *" --list-results "* | *"/checked "*) exec "$REAL" "$@" ;; esac
-echo "$*" >>"$LOG"
+echo "$* job=${SLURM_JOB_ID:-}" >>"$LOG"
 case " $* " in
   *" ${HOLD_AT:-none} "*) exec 3>"$HELD"; echo held >&3; read -r _ <"$NEVER" ;;
   *" ${KILL_AT:-none} "*) kill -SEGV $$ ;;
+  *" ${INTERRUPT_AT:-none} "*)
+    "$REAL" "$@"
+    for out in "$(dirname "$LOG")"/*/runs/.*/result.yaml; do sed -i 's/^reason: .*/reason: "interrupted"/' "$out"; done
+    exit 1 ;;
 esac
 exec "$REAL" "$@"
 """

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,17 +8,20 @@
 
 namespace knot_utm {
 
-/// One reading of a pull. The samples of a pull that count are those that reach a new largest extension.
-struct PullPoint {
+/// One reading of a pull. The samples of a pull that count are those that reach a new largest extension. Each fills a
+/// cache line, as sums go over all of a pull.
+struct alignas(64) PullPoint {
   double time;                           ///< [s]
   double extension;                      ///< s [m]
   double knot_distance = Sample::kNone;  ///< e [m]
   double force = 0.0;                    ///< F on the upper grip [N]
   double normal_force = Sample::kNone;   ///< sum over all contacts of strands [N]
   double borne = Sample::kNone;  ///< by the rod, without the cell's zero and noise [N]; NaN: not known, F counts
-  std::array<double, 2> excess_length{Sample::kNone, Sample::kNone};  ///< hidden in each knot [m]; NaN: not known
 };
 using Pull = std::vector<PullPoint>;
+
+/// Rod hidden in each knot at every point of a pull [m]; empty where that is not known.
+using HiddenRod = std::vector<PerKnot>;
 
 double peak_force(const Pull& pull);  ///< largest F of a pull that has a point [N]
 
@@ -74,7 +76,7 @@ std::optional<Drop> largest_drop(const Pull& pull, double end);
 /// The fall is that from the largest F in there to the smallest from then on, within as long a way. None where no knot
 /// jumped, or nothing tells. It does not ask for a lock: a load that rises to its breakaway and then falls has a false
 /// one.
-std::optional<Drop> jump(const Pull& pull);
+std::optional<Drop> jump(const Pull& pull, const HiddenRod& hidden = {});
 
 /// F(s) where the rod carries the load: over the points from s = `from` on, up to the peak, whose F lies between half
 /// the peak and the peak, at least the last three.
@@ -135,6 +137,6 @@ struct CurveReadings {
 /// that lies in the first 15 % of the pull, that has no plateau before it, or that lies between two readings further
 /// apart than a twentieth of the way. In simulations of the shipped materials that lock, it lies 1 to 5 % of s_l
 /// behind the one that the knots tell (`Results::lock_extension`): F doubles after they have begun to hold.
-CurveReadings curve_readings(const Pull& pull);
+CurveReadings curve_readings(const Pull& pull, const HiddenRod& hidden = {});
 
 }  // namespace knot_utm

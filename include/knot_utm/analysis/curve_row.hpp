@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <vector>
 
 #include "knot_utm/analysis/curve_readings.hpp"
@@ -19,7 +18,7 @@ struct CurveRow {
   double load_lower = Sample::kNone;     ///< [N]; NaN: not known, of a measured curve
   Phase phase = Phase::kIdle;
   double corrected_extension = Sample::kNone;  ///< s where the frame is compliant [m]; NaN: it is rigid, or not known
-  std::array<double, 2> excess_length{Sample::kNone, Sample::kNone};  ///< in each knot [m]; NaN: curve.csv has none
+  PerKnot excess_length{};                     ///< in each knot [m]; curve.csv has none
 };
 
 CurveRow curve_row(const Sample& sample);
@@ -36,5 +35,7 @@ enum class ExtensionOf { kSpecimen, kMachine };
 /// two, the origin is s = 0 and F = 0, as it makes them. The lower grip, which nothing balances, tells what the rod
 /// bears.
 Pull pull_of(const std::vector<CurveRow>& rows, ExtensionOf extension = ExtensionOf::kSpecimen);
+/// The rod hidden in the knots at the points of that pull.
+HiddenRod hidden_rod_of(const std::vector<CurveRow>& rows, ExtensionOf extension = ExtensionOf::kSpecimen);
 
 }  // namespace knot_utm

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <optional>
 
 #include "knot_utm/analysis/curve_readings.hpp"
@@ -67,6 +68,13 @@ class MotionPatternTracker {
   const Pull& pull() const { return pull_; }
 
  private:
+  /// Rod length hidden in a knot [m]; NaN: not known, or there is no such knot.
+  struct Excess {
+    double tied = Sample::kNone;
+    double last = Sample::kNone;     ///< of the pull
+    double largest = Sample::kNone;  ///< of the pull
+  };
+
   void add_tied(const Sample& sample);
   void add_pulled(const Sample& sample);
   void follow_slope(double extension, double before);
@@ -79,22 +87,20 @@ class MotionPatternTracker {
   bool load_gone() const;
 
   Pull pull_;
-  std::size_t window_begin_ = 0;  ///< first sample of the current window
-  double window_ = 0.0;           ///< its width [m]
-  double slope_ = 0.0;            ///< de/ds in the current window, NaN before the first is full
-  double centre_ = 0.0;           ///< mean extension of the current window [m]
-  double slid_ = 0.0;             ///< extension passed while sliding [m]
-  double first_sliding_ = 0.0;    ///< where de/ds was first below -1 [m]
-  double last_sliding_ = 0.0;     ///< where de/ds last rose through -1 or was still below [m]
-  double peak_ = 0.0;             ///< largest F [N]
-  double tied_excess_[2] = {Sample::kNone, Sample::kNone};     ///< [m]
-  double excess_[2] = {Sample::kNone, Sample::kNone};          ///< last of the pull [m]
-  double largest_excess_[2] = {Sample::kNone, Sample::kNone};  ///< during the pull [m]
-  std::optional<double> gone_since_;                           ///< time since which F is gone [s]
-  double gone_extension_ = 0.0;                                ///< extension there [m]
-  std::optional<double> type_lost_;                            ///< since when the knot type is another one [s]
-  double borne_ = 0.0;                                         ///< F, as last pulled or held [N]
-  bool crossed_ = false;                                       ///< the rod ran through itself
+  std::size_t window_begin_ = 0;               ///< first sample of the current window
+  double window_ = 0.0;                        ///< its width [m]
+  double slope_ = 0.0;                         ///< de/ds in the current window, NaN before the first is full
+  double centre_ = 0.0;                        ///< mean extension of the current window [m]
+  double slid_ = 0.0;                          ///< extension passed while sliding [m]
+  double first_sliding_ = 0.0;                 ///< where de/ds was first below -1 [m]
+  double last_sliding_ = 0.0;                  ///< where de/ds last rose through -1 or was still below [m]
+  double peak_ = 0.0;                          ///< largest F [N]
+  std::array<Excess, PerKnot::kMost> excess_;  ///< of each knot
+  std::optional<double> gone_since_;           ///< time since which F is gone [s]
+  double gone_extension_ = 0.0;                ///< extension there [m]
+  std::optional<double> type_lost_;            ///< since when the knot type is another one [s]
+  double borne_ = 0.0;                         ///< F, as last pulled or held [N]
+  bool crossed_ = false;                       ///< the rod ran through itself
   bool broken_ = false;
 };
 

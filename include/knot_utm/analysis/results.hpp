@@ -105,9 +105,9 @@ struct Results {
   std::optional<EnergyParts> energy;  ///< from the beginning of the pull to the end of the test
 
   // Once tied and released; where nothing is tied: when the pull begins.
-  std::optional<double> tied_knot_distance;                  ///< e [m]
-  std::array<std::optional<double>, 2> tied_excess_length;   ///< rod hidden in each knot [m]
-  std::array<std::optional<double>, 2> final_excess_length;  ///< and at the end of the test [m]
+  std::optional<double> tied_knot_distance;  ///< e [m]
+  PerKnot tied_excess_length;                ///< rod hidden in each knot [m]; NaN: not read
+  PerKnot final_excess_length;               ///< and at the end of the test [m]
   /// By which the knots came nearer to each other between release and pull, where that is a twentieth of e or more: a
   /// knot opened as the loop was mounted [m].
   std::optional<double> opened_when_mounted;

@@ -1,10 +1,12 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "knot_utm/io/analysis_options.hpp"
 #include "knot_utm/io/report_options.hpp"
+#include "knot_utm/io/specimens_options.hpp"
 #include "knot_utm/machine/end_options.hpp"
 #include "knot_utm/machine/options.hpp"
 #include "knot_utm/machine/program_runner.hpp"
@@ -28,6 +30,7 @@ struct Method {
   AnalysisOptions analysis;
   ReportOptions report;
   Specification specification;
+  SpecimensOptions specimens;
 };
 
 /// Reads a method file. Materials and load cells are found by name in
@@ -51,6 +54,10 @@ Method parse_method(const std::string& text, const std::string& file, const std:
 /// The method as YAML that `load_method` reads back to the same: every value stands in it, no other file is needed
 /// but `specimen.file`, `report.logo` and records.
 std::string method_yaml(const Method& method);
+
+/// The number that `method_yaml` of a single specimen has at a dotted key, as overrides name it ("program.pull.speed"); nothing where no
+/// number stands there.
+std::optional<double> number_at(const Method& method, const std::string& key);
 
 /// Its program, for a physics whose longest step is `longest_step` [s].
 ProgramRunner make_program(const Method& method, double longest_step);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -29,9 +28,9 @@ using ReadCount = ReadAs<std::optional<std::uint64_t>>;
 using ReadFlag = ReadAs<std::optional<bool>>;
 using ReadWord = ReadAs<const char*>;  ///< one of a few words, without quotes; never empty
 using ReadText = ReadAs<std::string>;
-using ReadPair = ReadAs<std::array<std::optional<double>, 2>>;  ///< of the two knots
+using ReadNumbers = ReadAs<std::vector<double>>;  ///< one of each knot
 using ReadList = ReadAs<std::vector<std::string>>;
-using ReadResult = std::variant<ReadNumber, ReadCount, ReadFlag, ReadWord, ReadText, ReadPair, ReadList>;
+using ReadResult = std::variant<ReadNumber, ReadCount, ReadFlag, ReadWord, ReadText, ReadNumbers, ReadList>;
 
 /// Why a key is null, in a few words: always the same, or by what became of the test. Empty: that goes without saying.
 class NullReason {
@@ -57,7 +56,7 @@ struct ResultKey {
   ReadResult read;
   NullReason why_null;
 
-  const char* kind() const;  ///< "number", "count", "flag", "word", "text", "pair" or "list"
+  const char* kind() const;  ///< "number", "count", "flag", "word", "text", "numbers" or "list"
   bool is_number() const;    ///< a number or a count: what a specification may name
 };
 

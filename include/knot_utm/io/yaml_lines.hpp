@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -17,9 +16,9 @@ class YamlLines {
   void number(const char* key, const std::optional<double>& value);
   void count(const char* key, const std::optional<std::uint64_t>& value);
   void flag(const char* key, const std::optional<bool>& value);
-  void word(const char* key, const std::string& value);  ///< as it is
-  void text(const char* key, const std::string& value);  ///< quoted; empty is null
-  void pair(const char* key, const std::array<std::optional<double>, 2>& values);
+  void word(const char* key, const std::string& value);              ///< as it is
+  void text(const char* key, const std::string& value);              ///< quoted; empty is null
+  void numbers(const char* key, const std::vector<double>& values);  ///< none, or one that is NaN, is null
   void list(const char* key, const std::vector<std::string>& texts);
 
   /// Behind each null a comment that says why, where `why` has something to say of that key.

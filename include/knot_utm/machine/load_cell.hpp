@@ -35,7 +35,6 @@ class LoadCell {
   void state(Archive& archive);
 
  private:
-  double normal();  ///< mean 0, standard deviation 1
 
   LoadCellOptions options_;
   double gain_ = 1.0;  ///< 1 + g

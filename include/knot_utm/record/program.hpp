@@ -12,6 +12,9 @@ enum class Phase { kIdle, kTie, kRelease, kMount, kPreload, kBalance, kPull, kHo
 const char* phase_name(Phase phase);  ///< "idle", "tie", "release", ... as in methods and curve files
 std::optional<Phase> phase_named(const std::string& name);  ///< the other way; nothing for a name that is none
 
+/// What a step of a program may be called: every phase but those before the first step and after the last.
+std::vector<std::string> step_names();
+
 /// Phases in which the specimen is pulled further than before: what reaches a new largest extension in them is the
 /// force-extension curve.
 inline bool pulls(Phase phase) { return phase == Phase::kPull || phase == Phase::kCycle || phase == Phase::kFollow; }
@@ -55,5 +58,8 @@ struct ProgramStep {
 };
 
 using Program = std::vector<ProgramStep>;
+
+/// The step that a number from 0 means, or the name of a step that stands there once ("pull"); nothing where none does.
+std::optional<int> step_called(const Program& program, const std::string& name);
 
 }  // namespace knot_utm

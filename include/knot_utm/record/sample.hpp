@@ -5,6 +5,7 @@
 #include <string>
 
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/record/per_knot.hpp"
 #include "knot_utm/record/program.hpp"
 
 namespace knot_utm {
@@ -66,8 +67,8 @@ struct Sample {
   double balance_offset = 0.0;
   double force_upper = 0.0;
   double force_lower = 0.0;
-  double tail_force[2] = {kNone, kNone};
-  double excess_length[2] = {kNone, kNone};
+  PerKnot tail_force;
+  PerKnot excess_length;
   double max_penetration = 0.0;
   double normal_force = 0.0;
   int contacts = 0;

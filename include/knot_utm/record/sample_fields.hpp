@@ -45,7 +45,7 @@ SampleField(const char*, const char*, Allowed, const char*, Member) -> SampleFie
 #name, unit, Allowed::allowed, meaning, [](auto& sample) -> auto& { return sample.name; } \
   }
 
-/// All fields of a sample, in the order of the journal's version 3: another order is another version
+/// All fields of a sample, in the order of the journal's version 4: another order is another version
 /// (src/io/journal.cpp). From these rows come the journal, the message with both of its conversions and its check, and
 /// the units in curve files. A new field is a row here, a member of Sample and a line of msg/KnotState.msg; tests
 /// compare the three.
@@ -64,8 +64,9 @@ inline constexpr auto kSampleFields = std::make_tuple(
     KNOT_UTM_FIELD(balance_offset, "N", kFinite, "true force on the upper grip that the cell reads as zero"),
     KNOT_UTM_FIELD(force_upper, "N", kFinite, "true force on the upper grip"),
     KNOT_UTM_FIELD(force_lower, "N", kFinite, "true force on the lower grip"),
-    KNOT_UTM_FIELD(tail_force, "N", kFiniteOrNone, "on the tail grips while tying; NaN: not held"),
-    KNOT_UTM_FIELD(excess_length, "m", kFiniteOrNone, "rod length hidden in each knot; NaN: no such knot"),
+    KNOT_UTM_FIELD(tail_force, "N", kFiniteOrNone,
+                   "of each knot, on its tail's grip while it is tied; NaN: nothing holds its tail"),
+    KNOT_UTM_FIELD(excess_length, "m", kFiniteOrNone, "of each knot, rod length hidden in it; NaN: not read"),
     KNOT_UTM_FIELD(max_penetration, "fraction of the rod's radius", kFinite, "deepest contact"),
     KNOT_UTM_FIELD(normal_force, "N", kFinite, "sum over all contacts of rod with rod"),
     KNOT_UTM_FIELD(contacts, "-", kNotNegative, "contact points that carry force"),

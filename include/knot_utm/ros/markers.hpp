@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/machine/options.hpp"
+#include "knot_utm/machine/grip_bodies.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/ros/color_scale.hpp"
@@ -21,9 +21,6 @@ Eigen::VectorXd tension_at_nodes(const Eigen::VectorXd& tension);
 /// Curvature at the nodes, of the circle whose tangents its two edges are in their middles, times the radius of the
 /// rod: the strain that bending gives its surface. Zero at both ends. [-]
 Eigen::VectorXd curvature_at_nodes(const Points& points, double radius);
-
-/// Half of the edges of the box that a grip fills around its middle: a roller along y, else a block [m].
-Vec3 half_of_grip(const MachineOptions& machine, double radius);
 
 using Colors = std::vector<std_msgs::ColorRGBA>;
 
@@ -61,7 +58,7 @@ struct SceneView {
 /// The pictures of one test after the other.
 class ScenePicture {
  public:
-  ScenePicture(const MachineOptions& machine, const Material& material);
+  ScenePicture(const SpecimenOptions& specimen, const MachineOptions& machine, const Material& material);
 
   void begin(const Points& points);  ///< a new specimen, which gets its gauge marks now
   void color_by(ColorBy what) { color_by_ = what; }
@@ -70,20 +67,21 @@ class ScenePicture {
   /// What the colours of the rod mean now.
   const ColorScale& scale() const { return color_by_ == ColorBy::kTension ? tension_ : curvature_; }
 
-  /// The rod with its gauge marks, the forces between its strands, and both grips.
+  /// The rod with its gauge marks, the forces between its strands, and what holds and bears it.
   visualization_msgs::MarkerArray draw(const SceneView& view, const ros::Time& stamp) const;
 
-  /// For a bag, small: the rod as spheres, both grips, and the readings as text that stands still in the picture that
-  /// the camera takes from `eye`, before all else.
+  /// For a bag, small: the rod as spheres, what holds and bears it, and the readings as text that stands still in the
+  /// picture that the camera takes from `eye`, before all else.
   visualization_msgs::MarkerArray draw_small(const SceneView& view, const Vec3& eye, const ros::Time& stamp) const;
 
  private:
   Eigen::Index parted_edge(const Sample& sample) const;
   Colors colors(const SceneView& view, Eigen::Index parted) const;
   visualization_msgs::Marker rod_marker(const SceneView& view) const;
+  void add_bodies(const SceneView& view, std::vector<visualization_msgs::Marker>& markers) const;
   visualization_msgs::Marker reading_marker(const SceneView& view, const Vec3& eye) const;
 
-  MachineOptions machine_;
+  std::vector<GripBody> bodies_;
   double radius_;                    ///< of the rod [m]
   Eigen::VectorXd arclength_;        ///< of the nodes, as the specimen began [m]
   std::vector<Eigen::Index> gauge_;  ///< nodes with a mark

@@ -1,6 +1,8 @@
 #pragma once
 
-#include "knot_utm/machine/options.hpp"
+#include <vector>
+
+#include "knot_utm/machine/grip_bodies.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/knot_places.hpp"
 
@@ -41,14 +43,15 @@ struct Looks {
 /// than the knots move.
 class Views {
  public:
-  Views(const MachineOptions& machine, double radius) : machine_(machine), radius_(radius) {}
+  Views(const SpecimenOptions& specimen, const MachineOptions& machine, const Material& material)
+      : bodies_(grip_bodies(specimen, machine, material)), radius_(material.radius) {}
 
   void begin() { seen_ = false; }  ///< a new specimen
 
   Looks look(const Points& points, const Vec3& lower_grip, const Vec3& upper_grip, const Sample& sample);
 
  private:
-  MachineOptions machine_;
+  std::vector<GripBody> bodies_;
   double radius_;  ///< of the rod [m]
   bool seen_ = false;
   Phase phase_ = Phase::kIdle;

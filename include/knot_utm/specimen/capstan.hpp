@@ -13,12 +13,7 @@ namespace knot_utm {
 /// tangents turn by `wrap` in all, and the axis is tilted so that the strand to the grip still runs along z.
 class CapstanSpecimen final : public Knot {
  public:
-  const char* name() const override { return "capstan"; }
-  std::vector<std::string> keys() const override {
-    return {"wrap", "post_diameter", "tail_load", "tail", "end_to_end"};
-  }
-  bool knotted() const override { return false; }
-  bool on_posts() const override { return true; }
+  CapstanSpecimen();
   SpecimenOptions defaults(double h) const override;
   void suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const override;
   double pull(const SpecimenOptions& specimen, double h) const override;

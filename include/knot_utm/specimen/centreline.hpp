@@ -32,15 +32,17 @@ struct DrawnLoop {
 /// A specimen's centreline at rest: an open polyline, and where its parts lie. Edges may be shorter in its knots.
 /// Frame: z up and along the load axis. Arclengths are those of the polyline.
 struct Centreline {
-  Points points;                     ///< nodes in order along the rod [m]
-  bool closed = false;               ///< the last node lies on the first
-  std::vector<KnotLandmarks> knots;  ///< fisherman: [0] lower knot at the rod's first end, [1] upper at its last
-  double upper_apex = 0.0;           ///< fisherman: arclength of the top of the loop, on the upper roller [m]
-  double lower_apex = 0.0;           ///< fisherman: arclength of the bottom of the loop [m]
-  DrawnLoop loop;                    ///< fisherman
+  Points points;        ///< nodes in order along the rod [m]
+  bool closed = false;  ///< the last node lies on the first
+  /// Of a loop, for the rig that ties them: [0] the lower knot at the rod's first end, [1] the upper one at its last.
+  std::vector<KnotLandmarks> knots;
+  double upper_apex = 0.0;  ///< of a loop: arclength of the top of the loop, on the upper roller [m]
+  double lower_apex = 0.0;  ///< of a loop: arclength of the bottom of the loop [m]
+  DrawnLoop loop;
 
   double length() const;                     ///< [m]
   int nearest_node(double arclength) const;  ///< to an arclength [m]
+  int windings() const;                      ///< of the coil of each knot; 1 where no knot is known
 };
 
 /// A straight rod along z from the origin.

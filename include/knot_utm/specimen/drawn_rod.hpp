@@ -5,12 +5,10 @@
 namespace knot_utm {
 
 /// knot: file. A rod whose centreline a CSV holds (centreline_file.hpp). The grips hold its ends, the last of them in
-/// the upper grip, which moves along +z.
+/// the upper grip, which moves along +z. Whether it is knotted nobody is told.
 class DrawnRod final : public Knot {
  public:
-  const char* name() const override { return "file"; }
-  std::vector<std::string> keys() const override { return {"file"}; }
-  bool knotted() const override { return false; }
+  DrawnRod();
   SpecimenOptions defaults(double h) const override;
   double pull(const SpecimenOptions& specimen, double h) const override;
   void check(const SpecimenOptions& specimen, double h) const override;

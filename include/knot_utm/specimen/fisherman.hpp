@@ -50,12 +50,7 @@ Centreline fisherman_loop(const FishermanShape& shape);
 /// knot: fisherman.
 class FishermanKnot : public Knot {
  public:
-  const char* name() const override { return "fisherman"; }
-  std::vector<std::string> keys() const override {
-    return {"handedness", "knot_distance", "end_to_end", "refinement", "tail", "preload"};
-  }
-  bool loop() const override { return true; }
-  ErrorStudy error_study() const override { return ErrorStudy::kFisherman; }
+  FishermanKnot();
   SpecimenOptions defaults(double h) const override;
   void suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const override;
   std::optional<double> roller_diameter(double h) const override;
@@ -66,6 +61,11 @@ class FishermanKnot : public Knot {
   /// The bottom and the top of the loop.
   HeldNode held_below(const Centreline& centreline, bool clamped) const override;
   HeldNode held_above(const Centreline& centreline, bool clamped) const override;
+
+ protected:
+  /// Another knot of the same loop.
+  explicit FishermanKnot(KnotDescription about) : Knot(std::move(about)) {}
+  static KnotDescription description();
 
  private:
   /// Of each tail.

@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "knot_utm/rod/material.hpp"
@@ -32,30 +33,35 @@ struct Supports {
   std::vector<NodeForce> loads;  ///< dead loads
 };
 
+/// Which study tells the errors of a knot's readings (machine/accuracy.hpp).
+enum class ErrorStudy { kNone, kStraight, kFisherman };
+
+/// What a knot is, whatever its keys say.
+struct KnotDescription {
+  const char* name = "";          ///< what a method calls it
+  std::vector<std::string> keys;  ///< of `specimen`, that it has beside `knot` and `edge_length`
+  /// How many knots are in it, and numbers in each list of a sample (PerKnot). Where there is one, strands touch: its
+  /// edges must not be longer than the rod is thick, and its type is followed (KnotWatch).
+  int knots = 0;
+  /// Two strands bear the load, and rollers can hold it. It has two knots, each of which is tied into an end of the rod
+  /// around the other strand: what is read between two knots is read of it.
+  bool loop = false;
+  double drawn_coil = 0.0;  ///< of a loop: radius of its coils' centreline before they are tied [h]
+  bool any_shape = false;   ///< its shape is the user's own: any knot may be in it, and is followed
+  bool straight = false;    ///< it never bends, so that nothing of it settles, twists or touches
+  ErrorStudy error_study = ErrorStudy::kNone;
+
+  bool may_hold_a_knot() const { return knots > 0 || any_shape; }
+};
+
 /// The face of a knot: what a specimen of this kind is made of, and everything that the program asks of one. A knot is
 /// a pair of files in specimen/ and one line in knots.cpp. Nobody else asks which knot a specimen has.
 class Knot {
  public:
-  /// Which study tells the errors of its readings (machine/accuracy.hpp).
-  enum class ErrorStudy { kNone, kStraight, kFisherman };
-
   virtual ~Knot() = default;
 
-  /// What a method calls it.
-  virtual const char* name() const = 0;
-  /// The keys of `specimen` that it has, beside `knot` and `edge_length`.
-  virtual std::vector<std::string> keys() const = 0;
+  const KnotDescription& about() const { return about_; }
   bool has(const std::string& key) const;
-
-  /// A loop: two strands bear the load, rollers can hold it, and the two overhands in it can be tied and mounted.
-  virtual bool loop() const { return false; }
-  /// Never bends, so that nothing of it settles, twists or touches.
-  virtual bool straight() const { return false; }
-  /// Strands touch in it: its edges must not be longer than the rod is thick.
-  virtual bool knotted() const { return true; }
-  /// Fixed posts and dead loads bear its lower end (`supports`): the upper grip alone holds it.
-  virtual bool on_posts() const { return false; }
-  virtual ErrorStudy error_study() const { return ErrorStudy::kNone; }
 
   /// What `auto` stands for with a rod of radius h [m]. Keys that it does not have keep their plain value, so that they
   /// may stand in a method with it.
@@ -74,7 +80,7 @@ class Knot {
   /// InvalidInput where it does not fit.
   virtual Centreline centreline(const SpecimenOptions& specimen, const Material& material,
                                 const Mounting& mounting) const = 0;
-  /// One post or more where it lies `on_posts`; else nothing.
+  /// Nothing where the grips hold both its ends. Where fixed posts bear its lower end, the upper grip alone holds it.
   virtual Supports supports(const SpecimenOptions& specimen, const Material& material) const;
   /// What the lower and the upper grip hold of it where there are no rollers.
   virtual HeldNode held_below(const Centreline& centreline, bool clamped) const;
@@ -82,6 +88,12 @@ class Knot {
 
   /// Of its keys the change that keeps a knot which came undone, "a larger specimen.end_to_end"; empty: none.
   virtual std::string what_keeps_it() const { return ""; }
+
+ protected:
+  explicit Knot(KnotDescription about) : about_(std::move(about)) {}
+
+ private:
+  KnotDescription about_;
 };
 
 /// All knots there are, in the order in which messages name them; the first is the default.

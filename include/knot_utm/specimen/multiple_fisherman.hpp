@@ -8,13 +8,12 @@ namespace knot_utm {
 /// knot, whose tails are each wound `turns` times around the other strand and themselves before they go through.
 class MultipleFishermanKnot final : public FishermanKnot {
  public:
-  const char* name() const override { return "multiple_fisherman"; }
-  std::vector<std::string> keys() const override;
-  ErrorStudy error_study() const override { return ErrorStudy::kNone; }
+  MultipleFishermanKnot();
   SpecimenOptions defaults(double h) const override;
   void check(const SpecimenOptions& specimen, double h) const override;
 
  private:
+  static KnotDescription description();
   int windings(const SpecimenOptions& specimen) const override { return specimen.turns; }
 };
 

@@ -25,8 +25,7 @@ Centreline overhand(const OverhandShape& shape);
 /// knot: overhand.
 class OverhandKnot final : public Knot {
  public:
-  const char* name() const override { return "overhand"; }
-  std::vector<std::string> keys() const override { return {"turns", "end_to_end", "length", "refinement"}; }
+  OverhandKnot();
   SpecimenOptions defaults(double h) const override;
   void suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const override;
   double pull(const SpecimenOptions& specimen, double h) const override;

@@ -8,11 +8,7 @@ namespace knot_utm {
 /// by k_s/length.
 class StraightRod final : public Knot {
  public:
-  const char* name() const override { return "straight"; }
-  std::vector<std::string> keys() const override { return {"length"}; }
-  bool straight() const override { return true; }
-  bool knotted() const override { return false; }
-  ErrorStudy error_study() const override { return ErrorStudy::kStraight; }
+  StraightRod();
   SpecimenOptions defaults(double h) const override;
   void suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const override;
   double pull(const SpecimenOptions& specimen, double h) const override;

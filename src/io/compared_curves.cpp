@@ -1,0 +1,107 @@
+#include "knot_utm/io/compared_curves.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include "knot_utm/io/raw_zero.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/number.hpp"
+
+namespace knot_utm {
+namespace {
+
+using Tell = std::function<void(const std::string& line)>;
+
+void require_finite(const CurveOfFile& curve) {
+  for (std::size_t i = 0; i < curve.rows.size(); ++i) {
+    const CurveRow& row = curve.rows[i];
+    if (pulls(row.phase) && !(std::isfinite(row.time) && std::isfinite(row.extension) && std::isfinite(row.load)))
+      throw InvalidInput::sentence("reading", std::to_string(i + 1),
+                                   "reading " + std::to_string(i + 1) + " has no time, no extension or no load")
+          .in_file(curve.file);
+  }
+}
+
+/// One of the two curves.
+class Side {
+ public:
+  Side(CurveOfFile curve, const Tell& tell) : curve_(std::move(curve)), tell_(tell), has_zero_(has_its_zero(rows())) {
+    require_finite(curve_);
+    require_readings();
+  }
+
+  bool has_zero() const { return has_zero_; }
+  const std::vector<CurveRow>& rows() const { return curve_.rows; }
+
+  void balance_at_rest(const Pull& other) {
+    const RawZero zero = zero_at_rest(rows(), other);
+    const std::string place = format_number(zero.load) + " N at " + format_number(zero.extension) + " m";
+    if (zero.readings > 1) {
+      note("zero is " + place + ", the mean of its " + std::to_string(zero.readings) +
+           " readings before the crosshead moves");
+    } else {
+      note("the record shows no rest before the pull, so its first reading, " + place +
+           ", is taken for zero; if the record was cut, say with --begins-at where it begins");
+    }
+    curve_.rows = balanced(rows(), zero);
+    require_readings();
+  }
+
+  void balance_cut(double begins_at, const Pull& other) {
+    const std::optional<RawZero> zero = zero_of_cut(rows(), begins_at, other);
+    if (!zero)
+      throw InvalidInput::sentence("--begins-at", format_number(begins_at),
+                                   "the other curve has no load at an extension of " + format_number(begins_at) + " m");
+    note("the first reading is taken to lie at an extension of " + format_number(begins_at) +
+         " m, where its load is set to that of the other curve");
+    curve_.rows = balanced(rows(), *zero);
+  }
+
+ private:
+  void require_readings() const {
+    const std::size_t readings = pull_of(rows()).size();
+    if (readings < 2)
+      throw InvalidInput::sentence("pull", std::to_string(readings),
+                                   "the pull has " + std::to_string(readings) + " readings, but must have at least 2")
+          .in_file(curve_.file);
+  }
+  void note(const std::string& words) const { tell_(curve_.file + ": " + words); }
+
+  CurveOfFile curve_;
+  const Tell& tell_;
+  bool has_zero_;  // of its own
+};
+
+/// Raw data alone: a curve of ours has its zero.
+void balance(const ZeroWanted& wanted, Side& a, Side& b, const Tell& tell) {
+  if (a.has_zero() && b.has_zero())
+    tell("--balance changes nothing, since both curves are of knot_utm and have their zero");
+  Side& raw = a.has_zero() ? b : a;
+  const Side& other = a.has_zero() ? a : b;
+  const Pull beside = other.has_zero() ? pull_of(other.rows(), ExtensionOf::kMachine) : Pull();
+  if (wanted.begins_at) {
+    if (a.has_zero() == b.has_zero())
+      throw InvalidInput::sentence("--begins-at", format_number(*wanted.begins_at),
+                                   "one of the curves must be raw data, and the other one a curve of knot_utm");
+    return raw.balance_cut(*wanted.begins_at, beside);
+  }
+  for (Side* side : {&a, &b})
+    if (!side->has_zero()) side->balance_at_rest(beside);
+}
+
+}  // namespace
+
+ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, const ZeroWanted& zero, const Tell& tell) {
+  Side side_a(std::move(a), tell), side_b(std::move(b), tell);
+  if (zero.balance) balance(zero, side_a, side_b, tell);
+  const bool both = side_a.has_zero() && side_b.has_zero();
+  const ExtensionOf extension = both ? ExtensionOf::kSpecimen : ExtensionOf::kMachine;
+  ComparedCurves out{pull_of(side_a.rows(), extension), pull_of(side_b.rows(), extension), {}};
+  out.comparison = compare(out.a, out.b);
+  if (!out.comparison.difference)
+    throw InvalidInput::sentence("extensions", "none that both have",
+                                 "the curves have no extension in common, so they cannot be compared");
+  return out;
+}
+
+}  // namespace knot_utm

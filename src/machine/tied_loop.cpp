@@ -1,0 +1,138 @@
+#include "knot_utm/machine/tied_loop.hpp"
+
+#include <algorithm>
+
+#include "knot_utm/specimen/scales.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr double kGripStretch = 2.4;  // of a tail's grip when it slips [h]
+constexpr double kTautLoad = 0.03;    // of a loop whose slack is taken up [k_b/h^2]
+
+TyingRig::Options tying_options(const SpecimenOptions& specimen, const Material& material, double creep_speed) {
+  TyingRig::Options out;
+  out.preload = tying_load(specimen, material);
+  out.rest_speed = std::max(specimen_scales(material).rest_speed, creep_speed);
+  out.grip_stiffness = out.preload / (kGripStretch * material.radius);
+  return out;
+}
+
+}  // namespace
+
+TiedLoop::TiedLoop(const SpecimenOptions& specimen, const Material& material, const Centreline& centreline,
+                   double creep_speed, TimeStep& stepper, Grips& grips)
+    : stepper_(stepper),
+      grips_(grips),
+      radius_(material.radius),
+      bending_set_(material.bending_set),
+      rig_(centreline, stepper.rod(), tying_options(specimen, material, creep_speed)),
+      touch_(rig_.standing_nodes(), material.radius, centreline.windings()),
+      take_up_(kTautLoad * specimen_scales(material).force, material.radius) {}
+
+void TiedLoop::enter(const Command& command, const Place& now) {
+  const Phase phase = command.phase;
+  if (phase == Phase::kTie) rig_.tie(command.speed, now.time, stepper_.state().position);
+  if (rig_.tied() && bending_set_ > 0.0) stepper_.take_set(bending_set_);
+  if (phase == Phase::kRelease) {
+    rig_.release(command.duration, now.time);
+  } else if (rig_.tied()) {
+    rig_.let_go(stepper_, now.time);
+  } else if (rig_.released() && phase != Phase::kHold) {
+    put_on(now);
+  } else if (rig_.guides() && phase != Phase::kMount) {
+    rig_.take_guides_off(stepper_, now.time);
+  }
+  if (phase == Phase::kMount) begin_to_take_up(now);
+}
+
+void TiedLoop::put_on(const Place& now) {
+  rig_.put_on(stepper_, now.time);
+  grips_.put_on(stepper_.state().position.middleCols(rig_.loop_begin(), rig_.loop_end() - rig_.loop_begin() + 1),
+                now.grip, radius_);
+}
+
+void TiedLoop::leave(Phase phase, const Place& now) {
+  // What the knots and the load do while they are let go is not the slack's.
+  if (rig_.released() && phase != Phase::kRelease && phase != Phase::kHold) put_on(now);
+  if (rig_.guides() && phase != Phase::kMount) rig_.take_guides_off(stepper_, now.time);
+}
+
+void TiedLoop::follow(Phase phase, const Place& now, double dt) {
+  const bool puts_on = rig_.puts_on();
+  rig_.follow(stepper_, now.time, dt);
+  // From here on weight, if there is any, would carry the slack loop round.
+  if (puts_on && rig_.guides()) grips_.hold_far_side(stepper_.state().position, now.grip);
+  if (phase == Phase::kMount && rig_.guides()) {
+    if (puts_on)
+      begin_to_take_up(now);
+    else
+      take_up_.follow(load_on_both(), now.displacement, knot_distance());
+  }
+  touch_.follow(stepper_);
+}
+
+void TiedLoop::begin_to_take_up(const Place& now) { take_up_.begin(load_on_both(), now.displacement, knot_distance()); }
+
+void TiedLoop::hold(Boundary& boundary, double from, double to) const {
+  if (rig_.off_rollers()) {
+    boundary.rollers.clear();
+    boundary.holds.clear();
+  }
+  for (Roller& roller : boundary.rollers) {
+    roller.first_node = rig_.loop_begin();
+    roller.last_node = rig_.loop_end();
+  }
+  if (rig_.stage() != TyingRig::Stage::kIdle) rig_.hold(boundary, from, to);
+}
+
+double TiedLoop::held_length(double from, double to) const {
+  double length = grips_.end_to_end(0.0);
+  // Off the rollers nothing bears on the grip.
+  if (rig_.stage() == TyingRig::Stage::kIdle || rig_.off_rollers()) return length;
+  Boundary held;
+  rig_.hold(held, from, to);
+  for (const FixedNode& node : held.fixed_nodes) length = std::min(length, grips_.upper(0.0)[2] - node.position[2]);
+  return length;
+}
+
+double TiedLoop::mounting_velocity(double speed) const {
+  // It stands while the loop is put on.
+  return rig_.guides() ? speed * take_up_.velocity() : 0.0;
+}
+
+bool TiedLoop::done(Phase phase) const {
+  switch (phase) {
+    case Phase::kTie:
+      return rig_.tied();
+    case Phase::kRelease:
+      return rig_.released();
+    case Phase::kMount:
+      return rig_.guides() && take_up_.done();
+    default:
+      return false;
+  }
+}
+
+double TiedLoop::load_on_both() const { return std::min(grips_.force_upper(stepper_), grips_.force_lower(stepper_)); }
+
+double TiedLoop::knot_distance() const {
+  const RodProperties& rod = stepper_.rod();
+  const RodState& state = stepper_.state();
+  return (rig_.knot_middle(0, rod, state) - rig_.knot_middle(1, rod, state)).norm();
+}
+
+void TiedLoop::read(Sample& sample) const {
+  for (std::size_t k = 0; k < sample.tail_force.size(); ++k) {
+    sample.tail_force[k] = rig_.tail_force(static_cast<int>(k));
+    sample.excess_length[k] = rig_.excess_length(static_cast<int>(k), stepper_.state());
+  }
+  sample.knot_distance = knot_distance();
+  sample.knots_force = touch_.between_knots();
+  sample.knot_on_roller = touch_.on_rollers();
+}
+
+void TiedLoop::state(Archive& archive) { archive(rig_, touch_, take_up_); }
+
+}  // namespace knot_utm

@@ -1,0 +1,114 @@
+#include "batch_table.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <map>
+
+#include "knot_utm/io/key_units.hpp"
+#include "knot_utm/io/result_keys.hpp"
+#include "knot_utm/numeric/number.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+/// What belongs to the computer and not to the specimen differs from run to run.
+bool is_of_the_specimen(const ResultKey& key) {
+  static const std::vector<std::string> of_the_computer{"wall_time", "real_time_factor", "peak_memory", "seed"};
+  return key.is_number() &&
+         std::find(of_the_computer.begin(), of_the_computer.end(), key.name) == of_the_computer.end();
+}
+
+std::vector<const ResultKey*> keys_of_table() {
+  std::vector<const ResultKey*> out;
+  for (const ResultKey& key : result_keys())
+    if (is_of_the_specimen(key)) out.push_back(&key);
+  return out;
+}
+
+std::string word(const YAML::Node& results, const char* key) {
+  const YAML::Node value = results[key];
+  return value.IsDefined() && value.IsScalar() ? value.Scalar() : "";
+}
+
+std::string why_rejected(const std::string& ended_by, const std::string& reason) {
+  if (ended_by == ended_by_name(EndedBy::kSolver)) return "the physics gave up: " + reason;
+  if (ended_by == ended_by_name(EndedBy::kUntangled)) return "the knot came undone before it was pulled";
+  return "";
+}
+
+std::string csv_number(const std::optional<double>& value) { return value ? format_number(*value) : "nan"; }
+
+}  // namespace
+
+BatchTable::BatchTable(const std::string& folder, const std::vector<DrawnSpecimen>& specimens) {
+  for (const DrawnSpecimen& specimen : specimens) {
+    const YAML::Node results = YAML::LoadFile(specimen_folder(folder, specimen.number) + "/result.yaml");
+    Row row{&specimen, true, word(results, "ended_by"), word(results, "motion_pattern"), {}};
+    for (const ResultKey* key : keys_of_table()) row.numbers.push_back(parse_number(word(results, key->name)));
+    const std::string why = why_rejected(row.ended_by, word(results, "reason"));
+    row.counts = why.empty();
+    if (!row.counts) rejected_.push_back({specimen.number, why});
+    rows_.push_back(std::move(row));
+  }
+}
+
+std::string BatchTable::csv() const {
+  std::string names = "specimen", units = "-", all;
+  if (!rows_.empty())
+    for (const auto& [key, value] : rows_.front().specimen->drawn) {
+      names += "," + key;
+      units += "," + unit_of_key(rows_.front().specimen->method, key);
+    }
+  names += ",rejected,ended_by,motion_pattern";
+  units += ",-,-,-";
+  for (const ResultKey* key : keys_of_table()) {
+    names += std::string(",") + key->name;
+    units += std::string(",") + key->unit;
+  }
+  all = names + "\n" + units + "\n";
+  for (const Row& row : rows_) {
+    all += std::to_string(row.specimen->number);
+    for (const auto& [key, value] : row.specimen->drawn) all += "," + format_number(value);
+    all += std::string(row.counts ? ",false," : ",true,") + row.ended_by + "," + row.motion_pattern;
+    for (const std::optional<double>& number : row.numbers) all += "," + csv_number(number);
+    all += "\n";
+  }
+  return all;
+}
+
+std::string BatchTable::statistics() const {
+  const auto number = [](const std::optional<double>& value) { return value ? format_yaml_number(*value) : "null"; };
+  std::string out = "specimens: " + std::to_string(rows_.size()) + "\n";
+  out += rejected_.empty() ? "rejected: []\n" : "rejected:\n";
+  for (const Rejected& one : rejected_) {
+    YAML::Emitter reason;
+    reason << YAML::DoubleQuoted << one.reason;
+    out += "  - {specimen: " + std::to_string(one.specimen) + ", reason: " + reason.c_str() + "}\n";
+  }
+  std::map<std::string, int> patterns;
+  for (const Row& row : rows_)
+    if (row.counts) ++patterns[row.motion_pattern];
+  out += "motion_pattern: {";
+  const char* comma = "";
+  for (const auto& [pattern, count] : patterns) {
+    out += comma + pattern + ": " + std::to_string(count);
+    comma = ", ";
+  }
+  out += "}\n";
+  const std::vector<const ResultKey*> keys = keys_of_table();
+  for (std::size_t k = 0; k < keys.size(); ++k) {
+    std::vector<double> readings;
+    for (const Row& row : rows_)
+      if (row.counts && row.numbers[k]) readings.push_back(*row.numbers[k]);
+    const Statistics s = statistics_of(readings);
+    out += std::string(keys[k]->name) + ": {mean: " + number(s.mean) + ", sd: " + number(s.sd) +
+           ", cv: " + number(s.cv) + ", low: " + number(s.low) + ", high: " + number(s.high) +
+           ", minimum: " + number(s.minimum) + ", maximum: " + number(s.maximum) + ", n: " + std::to_string(s.n) +
+           "}\n";
+  }
+  return out;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+#include "knot_utm/io/journal.hpp"
+#include "knot_utm/io/method.hpp"
+#include "knot_utm/machine/program_runner.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
+
+namespace knot_utm {
+
+/// A run that stopped before a step of its program, from where runs of other methods begin. They must have the same
+/// specimen, material, machine and physics, and their programs must give the same commands up to that place. A run that
+/// begins here therefore leaves the same bytes as one from the beginning.
+class EarlierRun {
+ public:
+  /// Puts bench and program, just made from `method`, to where the run in `folder` stopped. Throws InvalidInput
+  /// (key "--begin-with") where there is none, or where it does not suit the method.
+  EarlierRun(const std::string& folder, const Method& method, TestingMachine& bench, ProgramRunner& program);
+
+  /// Hands every record to `add` and to the journal of the new run; the wall time that had passed [s].
+  double replay(const std::function<void(const Record&)>& add, JournalWriter& journal) const;
+
+ private:
+  void check_method(const Method& method) const;
+  void follow(ProgramRunner& program) const;
+
+  std::string folder_;
+  Method method_;
+  std::uint64_t bytes_ = 0;  ///< of its journal
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,65 @@
+#include "knot_utm/study/specimens.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/numeric/random.hpp"
+
+namespace knot_utm {
+
+namespace {
+
+constexpr double kFurthest = 3.0;  // standard deviations
+
+double drawn(double x0, const Scatter& scatter, std::mt19937_64 random) {
+  if (scatter.law == ScatterLaw::kUniform) return x0 * (1.0 + scatter.spread * (2.0 * uniform(random) - 1.0));
+  double z = standard_normal(random);
+  while (std::abs(z) > kFurthest) z = standard_normal(random);
+  return scatter.law == ScatterLaw::kNormal ? x0 * (1.0 + scatter.spread * z) : x0 * std::exp(scatter.spread * z);
+}
+
+/// Refused now, and not once others have been tested.
+void check_fits(const Method& method) {
+  TestingMachine(method.specimen, method.material, method.machine, method.physics);
+}
+
+}  // namespace
+
+std::vector<DrawnSpecimen> draw_specimens(const Method& method) {
+  const SpecimensOptions& specimens = method.specimens;
+  Method one = method;
+  one.specimens = {};
+  one.specimens.scatter.clear();
+  const std::string text = method_yaml(one);
+  std::vector<DrawnSpecimen> out;
+  std::vector<double> nominal;
+  for (const Scatter& scatter : specimens.scatter) nominal.push_back(number_at(method, scatter.key).value());
+  for (int number = 1; number <= specimens.count; ++number) {
+    DrawnSpecimen specimen;
+    specimen.number = number;
+    std::vector<std::string> overrides;
+    for (std::size_t i = 0; i < nominal.size(); ++i) {
+      const Scatter& scatter = specimens.scatter[i];
+      const double value =
+          drawn(nominal[i], scatter, sequence_of(specimens.seed, static_cast<std::uint64_t>(number), scatter.key));
+      specimen.drawn.emplace_back(scatter.key, value);
+      overrides.push_back(scatter.key + "=" + format_yaml_number(value));
+    }
+    const unsigned noise = method.machine.load_cell.seed + static_cast<unsigned>(number) - 1u;
+    overrides.push_back("machine.load_cell.seed=" + std::to_string(noise));
+    try {
+      specimen.method = parse_method(text, method.name + ".yaml", overrides);
+      check_fits(specimen.method);
+    } catch (const InvalidInput& invalid) {
+      throw InvalidInput::sentence("specimens", std::to_string(number),
+                                   "specimen " + std::to_string(number) + " of " + std::to_string(specimens.count) +
+                                       " cannot be made: " + invalid.what());
+    }
+    out.push_back(std::move(specimen));
+  }
+  return out;
+}
+
+}  // namespace knot_utm

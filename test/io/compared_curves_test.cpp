@@ -1,0 +1,80 @@
+#include "knot_utm/io/compared_curves.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "knot_utm/numeric/invalid_input.hpp"
+
+namespace knot_utm {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// 10 N/mm from an extension on [m], `offset` [N] off. What knows L is a curve of ours.
+CurveOfFile curve(const std::string& file, double length, double from = 0.0, double offset = 0.0) {
+  CurveOfFile out{file, {}};
+  for (int i = 0; i <= 10; ++i) {
+    CurveRow row;
+    row.time = i;
+    row.extension = from + 1e-3 * i;
+    row.load = offset + 10.0 * i;
+    row.end_to_end = length + row.extension;
+    row.phase = Phase::kPull;
+    out.rows.push_back(row);
+  }
+  return out;
+}
+CurveOfFile ours(double from = 0.0) { return curve("ours.csv", 0.2, from); }
+CurveOfFile raw(double from = 0.0, double offset = 0.0) {
+  return curve("raw.csv", std::numeric_limits<double>::quiet_NaN(), from, offset);
+}
+
+struct Told {
+  std::vector<std::string> lines;
+  ComparedCurves compare(const CurveOfFile& a, const CurveOfFile& b, const ZeroWanted& zero = {}) {
+    return compare_curves(a, b, zero, [&](const std::string& line) { lines.push_back(line); });
+  }
+};
+
+TEST(ComparedCurves, AreTheSameWhereTheirNumbersAre) {
+  Told told;
+  EXPECT_NEAR(told.compare(ours(), raw()).comparison.difference->largest, 0.0, 1e-9);
+  EXPECT_THAT(told.lines, IsEmpty());
+}
+
+TEST(ComparedCurves, SayWhatIsTakenForZero) {
+  Told told;
+  const ComparedCurves compared = told.compare(ours(), raw(0.0, 5.0), {true, std::nullopt});
+  EXPECT_NEAR(compared.comparison.difference->largest, 0.0, 1e-9);
+  EXPECT_THAT(told.lines, ElementsAre(HasSubstr("raw.csv: the record shows no rest before the pull")));
+  Told of_ours;
+  of_ours.compare(ours(), ours(), {true, std::nullopt});
+  EXPECT_THAT(of_ours.lines, ElementsAre(HasSubstr("--balance changes nothing")));
+}
+
+TEST(ComparedCurves, OfACutRecordTheOtherOneTellsTheLoad) {
+  Told told;
+  CurveOfFile cut = raw(0.0, -20.0);
+  const ComparedCurves compared = told.compare(ours(), cut, {true, 0.002});
+  EXPECT_NEAR(compared.b.front().extension, 0.002, 1e-12);
+  EXPECT_NEAR(compared.b.front().force, 20.0, 1e-9);
+  EXPECT_THROW(told.compare(ours(), cut, {true, 1.0}), InvalidInput);
+  EXPECT_THROW(told.compare(cut, cut, {true, 0.002}), InvalidInput);
+}
+
+TEST(ComparedCurves, AreRefusedWhereTheyCannotBeCompared) {
+  Told told;
+  EXPECT_THROW(told.compare(ours(), ours(1.0)), InvalidInput);
+  CurveOfFile few = ours(), lost = ours();
+  few.rows.resize(1);
+  EXPECT_THROW(told.compare(few, ours()), InvalidInput);
+  lost.rows[3].load = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(told.compare(ours(), lost), InvalidInput);
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,114 @@
+#!/usr/bin/python3
+"""The report: verdicts on the computation and on the specification, numbers, and the facts of the method."""
+import re
+import unittest
+
+from runs import FISHERMAN, ROOT, STRAIGHT, Folders, OfValues, html_of, read, row_of
+
+import yaml
+
+import certificate
+import method_facts
+import page
+import quantities
+from run import Run
+from units import Units
+
+
+def setUpModule():
+    global folders, straight, fisherman
+    folders = Folders()
+    straight = folders.run("straight", STRAIGHT)
+    fisherman = folders.run("fisherman", FISHERMAN)
+
+
+def tearDownModule():
+    folders.remove()
+
+
+class Certificate(unittest.TestCase):
+    def test_limits_are_those_of_the_program(self):
+        source = read(ROOT, "src/io/run_warnings.cpp")
+        for name, limit in certificate.LIMITS.items():
+            self.assertEqual(float(re.search(rf"constexpr double {name} = ([\d.]+);", source).group(1)), limit, name)
+        gate = re.search(r'"force_balance_error"\) .*?at_most\(([\d.]+)\)', read(ROOT, "bench/tighten.py"), re.DOTALL)
+        self.assertEqual(float(gate.group(1)), certificate.BENCH_FORCE_BALANCE)
+
+    def test_misses_where_the_program_warns(self):
+        good = yaml.safe_load(read(fisherman, "result.yaml"))
+        self.assertTrue(certificate.verdict(certificate.certificate(good))[1])
+        for key, bad in (("max_penetration", 0.06), ("jump_force", 1.0), ("energy_balance_error", 0.02),
+                         ("force_balance_error", 0.02), ("knot_type_preserved", False), ("not_equilibrated", True),
+                         ("ended_by", "solver"), ("plateau_force_error", 0.2 * good["true_plateau_force"])):
+            missed = [check.keys for check in certificate.certificate({**good, key: bad}) if check.verdict == "fail"]
+            self.assertEqual(missed, [[key]])
+
+    def test_makes_up_no_limit(self):
+        checks = {check.keys[0]: check for check in certificate.certificate(
+            {"moment_balance_error": 0.5, "max_penetration": None, "knot_type_preserved": True})}
+        self.assertEqual((checks["moment_balance_error"].limit, checks["moment_balance_error"].verdict),
+                         ("no limit is set", ""))
+        self.assertNotIn("max_penetration", checks)
+
+
+class Specification(unittest.TestCase):
+    SPECIFICATION = ["--set", "specification={peak_force: {min: 1}, chord_stiffness: {min: 1, max: 2}, untangled_at: {max: 9}}"]
+
+    def test_verdicts_are_those_of_the_program(self):
+        folder = folders.run("specified", [*STRAIGHT, *self.SPECIFICATION])
+        run = Run(folder)
+        checks = certificate.specification_checks(run.method, run.result, run.units)
+        self.assertEqual([check.verdict for check in checks], ["pass", "fail", "fail"])
+        self.assertEqual(checks[2].value, "not measured")
+        self.assertEqual([line.split()[0] for line in run.result["specification_failed"]],
+                         [check.keys[0] for check in checks if check.verdict == "fail"])
+        words, passed = certificate.specification_verdict(run.result, checks)
+        self.assertFalse(passed)
+        html = html_of(folder)
+        self.assertIn("2 of 3 requirements are not met", words)
+        self.assertEqual(html.count(words), 2)
+        self.assertEqual(row_of(html, "chord_stiffness", 1)[2:], ["at least 0.001 and at most 0.002 N/mm", "fail"])
+
+    def test_passes_where_every_requirement_is_met(self):
+        html = html_of(folders.with_report(straight, "", "peak_force: {max: 1e6}", specification_passed=True))
+        self.assertIn("The test meets its specification.", html)
+
+    def test_is_not_there_where_nothing_was_asked_for(self):
+        self.assertNotIn("specification.", html_of(straight))
+
+
+class Facts(unittest.TestCase):
+    def test_have_the_units_of_the_method(self):
+        method = {"specimen": {"knot": "straight"}, "material": {}, "machine": {"load_cell": {"accuracy": 0.005}},
+                  "physics": {"gravity": [0, 0, -9.81], "accuracy": "draft", "contact": {"tolerance": 0.02},
+                              "friction": {"slip_tolerance": 0.001, "presliding": 0.01}},
+                  "ends": {"sharp_drop": 0.5, "drop": 0.3, "break_at_fraction_of_peak": 0.2}}
+        found = {row for _, rows, _ in method_facts.method_facts(method, Units()) for row in rows}
+        self.assertLessEqual({
+            ("Accuracy of the cell", "0.005 of the reading"), ("Accuracy", "draft"), ("Gravity", "[0, 0, –9.81] m/s²"),
+            ("Contact", "tolerance 0.02 of the radius"),
+            ("Friction", "slip tolerance 0.001 m/s, presliding 0.01 of the radius"),
+            ("Sharp drop by", "0.5 of the peak"), ("Drop by", "0.3 of the peak"),
+            ("Break at no more than", "0.2 of the peak")}, found)
+
+    def test_call_the_stiffness_of_the_whole_pull_so(self):
+        result = {"lock_extension": None, "locked_stiffness": 1.0, "locked_stiffness_error": 0.1}
+        for lock, name in ((None, "tiffness of the pull"), (0.05, "ocked stiffness")):
+            result["lock_extension"] = lock
+            shown = page.headlines(OfValues(None, **result), None)
+            self.assertTrue(any(headline.label.endswith(name) for headline in shown))
+            self.assertTrue(any(name in check.words for check in certificate.certificate(result)))
+
+
+class Numbers(unittest.TestCase):
+    def test_have_the_digits_that_their_error_leaves(self):
+        self.assertEqual(quantities.number(6.08745, 0.4664), "6.09")
+        self.assertEqual(quantities.number(0.0744, 0.0014), "0.0744")
+        self.assertEqual(quantities.number(-1.94937), "–1.949")
+        self.assertEqual(quantities.number(123456.7), "123457")
+        self.assertEqual(quantities.number(5.55e-8), "5.55 · 10⁻⁸")
+        self.assertEqual(quantities.shown(float("nan")), "–")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,126 @@
+#include "knot_utm/study/batch.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <atomic>
+#include <filesystem>
+
+#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/study/specimens.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
+
+class Batch : public ::testing::Test {
+ protected:
+  Batch() {
+    fs::remove_all(folder);
+    options.folder = folder + "/batch";
+    options.interrupted = [] { return false; };
+    options.notice = [&](const std::string& line) { said += line + "\n"; };
+  }
+  ~Batch() override { fs::remove_all(folder); }
+
+  std::string written(const char* file) const { return read_whole(options.folder + "/" + file); }
+  YAML::Node statistics() const { return YAML::Load(written("statistics.yaml")); }
+
+  const std::string folder =
+      ::testing::TempDir() + "batch_" + ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  /// Rods that are pulled within milliseconds, of different stiffness.
+  const Method method = load_method(kConfig + "straight.yaml",
+                                    {"specimens={count: 5, scatter: {material.stretching_stiffness: {normal: 0.1}}}"});
+  BatchOptions options;
+  std::string said;
+};
+
+TEST_F(Batch, LeavesTheSameBytesHoweverManyAreTestedSideBySide) {
+  std::vector<std::string> all;
+  for (const int jobs : {1, 3, 8}) {
+    options.folder = folder + "/jobs_" + std::to_string(jobs);
+    options.jobs = jobs;
+    const BatchOutcome outcome = run_batch(method, options);
+    EXPECT_FALSE(outcome.interrupted);
+    EXPECT_TRUE(outcome.rejected.empty());
+    std::string bytes = written("statistics.yaml") + written("specimens.csv");
+    for (int k = 1; k <= 5; ++k) bytes += read_whole(specimen_folder(options.folder, k) + "/curve_full.csv");
+    all.push_back(bytes);
+  }
+  EXPECT_EQ(all[0], all[1]);
+  EXPECT_EQ(all[0], all[2]);
+}
+
+/// A rod's stiffness is proportional to k_s: the statistics are those of what was drawn, but for the solver's residual.
+TEST_F(Batch, StatisticsAreThoseOfTheSpecimens) {
+  run_batch(method, options);
+  std::vector<double> stiffness;
+  for (const DrawnSpecimen& specimen : draw_specimens(method)) stiffness.push_back(specimen.drawn[0].second);
+  const Statistics drawn = statistics_of(stiffness);
+  const YAML::Node chord = statistics()["chord_stiffness"];
+  EXPECT_EQ(chord["n"].as<int>(), 5);
+  EXPECT_NEAR(chord["cv"].as<double>(), *drawn.cv, 1e-3 * *drawn.cv);
+  EXPECT_NEAR(chord["maximum"].as<double>() / chord["minimum"].as<double>(), *drawn.maximum / *drawn.minimum, 1e-3);
+  EXPECT_LT(chord["low"].as<double>(), chord["mean"].as<double>());
+  EXPECT_FALSE(statistics()["wall_time"].IsDefined()) << "of the computer, not of a specimen";
+}
+
+TEST_F(Batch, InterruptedAndResumedItLeavesTheSameStatistics) {
+  run_batch(method, options);
+  const std::string whole = written("statistics.yaml") + written("specimens.csv");
+  options.folder += "_interrupted";
+  std::atomic<int> ended{0};
+  std::atomic<int> asked{0};
+  options.progress = [&](int count, int) { ended = count; };
+  options.interrupted = [&] { return ended >= 2 && ++asked > 3; };  // amid the third
+  const BatchOutcome cut_off = run_batch(method, options);
+  EXPECT_TRUE(cut_off.interrupted);
+  EXPECT_FALSE(fs::exists(options.folder + "/statistics.yaml"));
+  EXPECT_TRUE(has_complete_result(specimen_folder(options.folder, 2)));
+  EXPECT_FALSE(has_complete_result(specimen_folder(options.folder, 5)));
+  const fs::file_time_type first = fs::last_write_time(specimen_folder(options.folder, 1) + "/curve.csv");
+
+  options.interrupted = [] { return false; };
+  options.resume = true;
+  const Method again = load_method(options.folder + "/method.yaml");
+  EXPECT_FALSE(run_batch(again, options).interrupted);
+  EXPECT_EQ(written("statistics.yaml") + written("specimens.csv"), whole);
+  EXPECT_EQ(fs::last_write_time(specimen_folder(options.folder, 1) + "/curve.csv"), first) << "was tested twice";
+  EXPECT_THROW(run_batch(again, options), InvalidInput) << "there is nothing to resume";
+}
+
+TEST_F(Batch, AnotherOneGoesToAFolderOfItsOwn) {
+  run_batch(method, options);
+  const std::string first = written("statistics.yaml");
+  EXPECT_EQ(run_batch(method, options).folder, options.folder + "-2");
+  EXPECT_EQ(written("statistics.yaml"), first);
+  EXPECT_THAT(said, HasSubstr("holds a run already"));
+}
+
+TEST_F(Batch, SpecimensThatFailAreRejectedAndTheirReadingsLeftOut) {
+  // Hardly tied and slippery, the knots open as they are released.
+  const Method slippery = load_method(
+      kConfig + "tighten.yaml", {"physics.accuracy=draft", "specimen.preload=1", "material.friction_coefficient=0.01",
+                                 "specimens={count: 2, scatter: none}"});
+  const BatchOutcome outcome = run_batch(slippery, options);
+  ASSERT_EQ(outcome.rejected.size(), 2u);
+  EXPECT_EQ(outcome.rejected[0].specimen, 1);
+  EXPECT_THAT(outcome.rejected[0].reason, HasSubstr("came undone before it was pulled"));
+  EXPECT_EQ(statistics()["rejected"].size(), 2u);
+  EXPECT_EQ(statistics()["peak_force"]["n"].as<int>(), 0);
+}
+
+TEST_F(Batch, AWarningIsToldOnceForAllSpecimens) {
+  run_batch(load_method(kConfig + "tighten.yaml", {"physics.accuracy=draft", "specimens={count: 2, scatter: none}"}),
+            options);
+  EXPECT_THAT(said, HasSubstr("specimens 1 and 2: the plateau force may be off"));
+}
+
+}  // namespace
+}  // namespace knot_utm
