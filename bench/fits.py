@@ -18,7 +18,8 @@ KINDS = {
                      {"material.stretching_stiffness": ((4e4, 7e4), None)}),
     "capstan": ("capstan", {}, 0.05, {"machine.roller_friction": ((0.15, 0.45), (0.05, 0.8))}),
     "overhand": ("overhand", {"physics.accuracy": "draft"}, 5e-5,
-                 {"material.friction_coefficient": ((0.3, 0.8), (0.1, 1.5)), "material.bending_stiffness": ((3e-6, 7e-6), None)}),
+                 {"material.friction_coefficient": ((0.3, 0.8), (0.1, 1.5)),
+                  "material.bending_stiffness": ((3e-6, 7e-6), None)}),
     "loop": ("tighten", {"physics.accuracy": "draft", "material": "polypropylene", "program.pull.until.extension": 0.05}, 0.03,
              {"material.friction_coefficient": ((0.58, 0.85), (0.5, 1.0))}),
 }
@@ -40,13 +41,15 @@ class Case:
         """The first of two specimens: of one alone nothing scatters."""
         name = self.title.replace(" ", "_")
         words = words_of("--set", {**self.settings, **self.cell, **self.seeds, **self.truth}, runner.overrides)
-        runner.launch(runner.tool, name, f"config/{self.method}.yaml", [*words, "--specimens", "2"], runner.core, None, ["--quiet"]).wait()
+        runner.launch(runner.tool, name, f"config/{self.method}.yaml", [*words, "--specimens", "2"], runner.core, None,
+                      ["--quiet"]).wait()
         return os.path.join(runner.folder, name, "specimen_001", "curve.csv")
 
     def fit(self, runner, fit):
         begun = time.process_time(), os.times()
-        self.fitted = fit(self.measure(runner), os.path.join(runner.root, "config", self.method + ".yaml"), self.free,
-                          os.path.join(runner.folder, self.title.replace(" ", "_") + "_fit"), {**self.settings, **self.cell}, report=False)
+        out = os.path.join(runner.folder, self.title.replace(" ", "_") + "_fit")
+        self.fitted = fit(self.measure(runner), os.path.join(runner.root, "config", self.method + ".yaml"), self.free, out,
+                          {**self.settings, **self.cell}, report=False)
         ended = os.times()
         self.cpu_time = time.process_time() - begun[0] + ended.children_user + ended.children_system \
             - begun[1].children_user - begun[1].children_system
@@ -66,9 +69,10 @@ def report(runner, _materials):
     draw = random.Random(SEED)
     cases = [Case(kind, number, draw).fit(runner, fit) for kind in KINDS for number in range(1, CASES + 1)]
     return Report("Fits of curves with hidden parameters",
-                  f"Curves of specimens whose values are drawn at random (seed {SEED}), read by a cell of class {100 * CLASS:g} with noise, and "
-                  "what scripts/fit finds of them when it knows the method but for these values. The specimens are others than those of the "
-                  "fit. An interval of 95 % should hold 19 of 20 values.", [summary(cases), *tables(cases)])
+                  f"Curves of specimens whose values are drawn at random (seed {SEED}), read by a cell of class {100 * CLASS:g} "
+                  "with noise, and what scripts/fit finds of them when it knows the method but for these values. The specimens are "
+                  "others than those of the fit. An interval of 95 % should hold 19 of 20 values.",
+                  [summary(cases), *tables(cases)])
 
 
 def summary(cases):
@@ -84,12 +88,13 @@ def summary(cases):
 
 def tables(cases):
     for kind in KINDS:
-        table = Table(kind.capitalize(), ["truth", "value", "low", "high", "half width, relative", "inside", "chi square", "CPU time [s]"])
+        table = Table(kind.capitalize(), ["truth", "value", "low", "high", "half width, relative", "inside", "chi square",
+                                          "CPU time [s]"])
         for case in cases:
             for key, truth, one in case.rows() if case.kind == kind else ():
                 known = one.low is not None and one.high is not None
                 table.add(f"{case.title}: {key}", "-",
                           [truth, one.value, one.low, one.high, 0.5 * (one.high - one.low) / truth if known else None,
-                           known and one.low <= truth <= one.high, f"{case.fitted.chi_square:.3g} of {case.fitted.degrees_of_freedom}",
-                           case.cpu_time])
+                           known and one.low <= truth <= one.high,
+                           f"{case.fitted.chi_square:.3g} of {case.fitted.degrees_of_freedom}", case.cpu_time])
         yield table

@@ -15,7 +15,8 @@ class Key:
 
     def __init__(self, name, found, places, rises):
         self.name = name
-        self.value, self.low, self.high = (found.get(part) if is_number(found.get(part)) else None for part in ("value", "low", "high"))
+        self.value, self.low, self.high = (found.get(part) if is_number(found.get(part)) else None
+                                           for part in ("value", "low", "high"))
         self.is_identifiable = bool(found.get("identifiable"))
         self.places, self.rises = places, rises
 

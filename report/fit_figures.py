@@ -12,9 +12,11 @@ HIGHEST = 12.0
 def curve(one, look):
     """Measured and simulated, and their difference over its error."""
     tall = 4.6
-    figure, (above, below) = plt.subplots(2, 1, figsize=(look.width, tall), sharex=True, gridspec_kw={"height_ratios": [2.4, 1.2], "hspace": 0.12})
+    figure, (above, below) = plt.subplots(2, 1, figsize=(look.width, tall), sharex=True,
+                                          gridspec_kw={"height_ratios": [2.4, 1.2], "hspace": 0.12})
     s = 1e3 * one.extension
-    above.fill_between(s, one.simulated - 2.0 * one.error, one.simulated + 2.0 * one.error, color=BLUE, alpha=0.18, lw=0, label="twice the error")
+    above.fill_between(s, one.simulated - 2.0 * one.error, one.simulated + 2.0 * one.error, color=BLUE, alpha=0.18, lw=0,
+                       label="twice the error")
     above.plot(s, one.simulated, color=BLUE, lw=1.4, label="fitted")
     above.plot(s, one.measured, "o", color=ORANGE, ms=3.5, label="measured: " + short(one.name, 34 if look.is_narrow else 60))
     above.set_ylabel("load F [N]")

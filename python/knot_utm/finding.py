@@ -19,10 +19,10 @@ from knot_utm.yaml_text import load
 def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, command=None, report=True):
     """Finds the values of the free keys and returns them as fitting.verdict.Fitted.
 
-    `measured`: a curve.csv, or what else `compare` reads; `free`: ["KEY" or "KEY=low:high"]; `settings`: {key: value} over the method;
-    `also`: [(measured, {key: value})], more records and what is other for them; `out`: the folder for fit.yaml, method.yaml and, with
-    `report`, report.html, unless given out/ and the name of the measured file; `command`: that the page names. Raises WrongInput where it cannot be fitted, before anything is
-    written; Interrupted where it was cut short."""
+    `measured`: a curve.csv, or what else `compare` reads; `free`: ["KEY" or "KEY=low:high"]; `settings`: {key: value} over the
+    method; `also`: [(measured, {key: value})], more records and what is other for them; `out`: the folder for fit.yaml,
+    method.yaml and, with `report`, report.html, unless given out/ and the name of the measured file; `command`: that the page
+    names. Raises WrongInput where it cannot be fitted, before anything is written; Interrupted where it was cut short."""
     name = os.path.splitext(os.path.basename(os.fspath(measured)))[0]
     out = os.path.abspath(out or os.path.join("out", name + "_fit"))
     _require_room(out)
@@ -85,14 +85,16 @@ class _Fit:
         self.cases = [Case(record, number, self.keys, cell, batch)
                       for number, (record, cell, batch) in enumerate(zip(self.records, self.cells, batches), start=1)]
         for case in self.cases:
-            require_known(case.record, case.cell, case.scatter)
+            scatter, _ = case.scatter()
+            require_known(case.record, case.cell, scatter)
         search = Search(self.cases, self.keys, self._run, self._renew)
         search.go()
         return judge(search)
 
     def _batch(self, given):
         """Specimens, where they scatter."""
-        folder, _ = self.runs.whole(self.method, {**given, **EXACT_CELL}, "--specimens", str(SPECIMENS), "--jobs", str(self.runs.jobs))
+        folder, _ = self.runs.whole(self.method, {**given, **EXACT_CELL}, "--specimens", str(SPECIMENS), "--jobs",
+                                    str(self.runs.jobs))
         batch = Batch(folder)
         shutil.rmtree(folder)
         return batch if batch.draws[0] else None
@@ -110,7 +112,8 @@ class _Fit:
         made = [models[k * count:(k + 1) * count] for k in range(len(self.cases))]
         for case, of_case in zip(self.cases, made):
             if not case.models and not any(case.record.is_reached(model) for model in of_case):
-                raise WrongInput(f"{case.record.name}: no run in the ranges of the free keys reaches as far as the record: narrow the ranges")
+                raise WrongInput(f"{case.record.name}: no run in the ranges of the free keys reaches as far as the record: narrow "
+                                 "the ranges")
         return made
 
 

@@ -2,6 +2,7 @@
 import argparse
 import os
 import shlex
+import signal
 import sys
 
 import yaml
@@ -15,12 +16,15 @@ PROGRAM = "scripts/fit"
 
 def main(words):
     asked = _arguments(words)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C
     try:
         also = [(file, _settings(more, "--also")) for file, *more in asked.also]
         fitted = fit(asked.measured, asked.method, asked.free, asked.out, _settings(asked.set, "--set"), also, asked.jobs,
                      shlex.join([PROGRAM, *words]), not asked.no_report)
     except WrongInput as wrong:
         return _say(wrong, 2)
+    except KeyboardInterrupt:
+        return _say("it was interrupted", 1)
     except (Interrupted, OSError, RuntimeError) as error:
         return _say(error, 1)
     for key, one in fitted.found.items():

@@ -19,9 +19,9 @@ try:
     from knot_utm.fitting.emulator import Emulator
     from knot_utm.fitting.keys import FreeKey, free_key, parse_free, value_at
     from knot_utm.fitting.likelihood import Likelihood, RecordLikelihood
-    from knot_utm.fitting.records import Record
+    from knot_utm.fitting.records import MOST_BINS, Record
     from knot_utm.fitting.runs import Model
-    from knot_utm.fitting.scatter import covariance_of
+    from knot_utm.fitting.scatter import covariance_of, left_over
 except ModuleNotFoundError as missing:
     if missing.name not in ("numpy", "pandas", "scipy", "tqdm", "yaml"):
         raise
@@ -137,12 +137,14 @@ class Likelihoods(unittest.TestCase):
         curves = self.keys[0].value(places) * grid
         sigma = 0.1
         covariance = np.diag(np.full(12, sigma**2))
-        one = RecordLikelihood(measured, 1, self.keys, np.array([0]), Emulator(places, curves, np.full(100, sigma)), grid, covariance)
+        emulator = Emulator(places, curves, np.full(100, sigma))
+        one = RecordLikelihood(measured, 1, self.keys, np.array([0]), emulator, grid, covariance)
         all_ = Likelihood([one], nothing_is_lost)
         for k, force, shift in ((2.0, 0.3, 0.0), (2.3, -0.2, 0.05), (1.5, 0.0, -0.1), (2.9, 0.9, 0.013)):
             place = np.array([[(k - 1.0) / 2.0, (force + 1.0) / 2.0, (shift + 0.1) / 0.2]])
             residual = measured.measured - (k * (measured.centres - shift) + force)
-            self.assertAlmostEqual(all_.chi_square(place[0]), float((residual**2).sum()) / sigma**2, delta=1e-2 * (1.0 + (residual**2).sum() / sigma**2))
+            expected = float((residual**2).sum()) / sigma**2
+            self.assertAlmostEqual(all_.chi_square(place[0]), expected, delta=1e-2 * (1.0 + expected))
             np.testing.assert_allclose(one.simulated(place[0]), measured.measured - residual, atol=1e-3)
 
 
@@ -156,7 +158,8 @@ class Errors(unittest.TestCase):
     def test_have_noise_of_each_reading(self):
         many = np.linspace(0.0, 1.0, 240)
         measured = record(many, many)
-        found = errors.covariance(measured, {"noise": 0.2, "resolution": 0.0}, measured.measured, {}, np.zeros((24, 24)))
+        none = np.zeros((len(measured.centres), len(measured.centres)))
+        found = errors.covariance(measured, {"noise": 0.2, "resolution": 0.0}, measured.measured, {}, none)
         np.testing.assert_allclose(np.diag(found), 0.2**2 / measured.counts, rtol=1e-4)
 
     def test_have_the_numerical_errors_of_the_result(self):
@@ -180,11 +183,33 @@ class Errors(unittest.TestCase):
         linalg.cholesky(covariance_of(drawn[:8]))
         np.testing.assert_array_equal(covariance_of(np.ones((8, 3))), np.zeros((3, 3)))
 
+    def test_scatter_of_a_few_specimens_does_not_promise_too_much(self):
+        """Means weighted by it are as far off as they are said to be, where they move together and where they do not."""
+        random = np.random.default_rng(4)
+        s = np.linspace(0.0, 1.0, 12)
+        truth = 0.8 + 0.2 * np.exp(-np.abs(s[:, None] - s[None, :]) / 0.1)
+        slope = 1.0 + s
+        off = []
+        for _ in range(300):
+            drawn = random.multivariate_normal(np.zeros(12), truth, 31)
+            inverse = np.linalg.inv(covariance_of(drawn[1:]))
+            off.append(slope @ inverse @ (drawn[0] - drawn[1:].mean(axis=0)) / np.sqrt(slope @ inverse @ slope))
+        self.assertLess(np.mean(np.abs(off) > 1.96), 0.05 + 3.0 * np.sqrt(0.05 * 0.95 / 300))
+
+    def test_scatter_of_runs_is_what_no_polynomial_of_their_places_has(self):
+        random = np.random.default_rng(6)
+        places = profiles.sobol(2, 64, 1)
+        smooth = (1.0 + places[:, :1] - places[:, :1] * places[:, 1:]) * EXTENSION
+        np.testing.assert_allclose(left_over(places, smooth), 0.0, atol=1e-12)
+        rest = left_over(places, smooth + 0.1 * random.standard_normal((64, 12)))
+        self.assertAlmostEqual(np.sqrt(np.mean(rest**2)), 0.1, delta=0.1 * 4.0 / np.sqrt(2.0 * 64 * 12))
+        self.assertEqual(len(left_over(places[:8], smooth[:8])), 0)
+
 
 class Pulls(unittest.TestCase):
     def table(self, **changes):
-        rows = {"time": [0, 1, 2, 3, 4], "extension": [0.0, 0.1, 0.2, 0.15, 0.3], "load": [0.5, 1.0, 2.0, 1.5, 3.0], "end_to_end": [1.0, 1.1, 1.2, 1.15, 1.3],
-                "phase": ["balance", "pull", "pull", "pull", "pull"]}
+        rows = {"time": [0, 1, 2, 3, 4], "extension": [0.0, 0.1, 0.2, 0.15, 0.3], "load": [0.5, 1.0, 2.0, 1.5, 3.0],
+                "end_to_end": [1.0, 1.1, 1.2, 1.15, 1.3], "phase": ["balance", "pull", "pull", "pull", "pull"]}
         return pd.DataFrame({**rows, **changes})
 
     def test_are_what_reaches_a_new_extension(self):
@@ -239,7 +264,8 @@ class Records(unittest.TestCase):
         measured = record(EXTENSION)
         measured.require_producible(self.model([0.0, 1.0], [0.0, 5.0], ended_by="extension"))
         measured.require_producible(self.model([0.0, 0.3], [0.0, 5.0], ended_by="break"))
-        for model, words in ((self.model([0.0, 1000.0], [0.0, 1.0]), "other units"), (self.model([0.0, 1.0], [0.0, 1e3]), "other units"),
+        for model, words in ((self.model([0.0, 1000.0], [0.0, 1.0]), "other units"),
+                             (self.model([0.0, 1.0], [0.0, 1e3]), "other units"),
                              (self.model([0.0, 0.5], [0.0, 1.0], ended_by="extension"), "let it go on"),
                              (Model(None, {"reason": "it gave up"}, {}), "it gave up")):
             with self.assertRaisesRegex(WrongInput, words):
@@ -250,7 +276,7 @@ class Records(unittest.TestCase):
         measured = record(s, s)
         self.assertEqual(measured.counts.sum(), len(s))
         np.testing.assert_allclose(measured.measured, measured.centres)
-        self.assertLess(len(measured.counts), 24, "no part without readings")
+        self.assertLess(len(measured.counts), MOST_BINS, "no part without readings")
 
 
 if __name__ == "__main__":

@@ -35,7 +35,8 @@ class Pull:
 
 
 def _end(extension, load):
-    """How many rows there are up to the break: a load that falls from its peak below half of it, at once, and does not rise again."""
+    """How many rows there are up to the break: the load falls from its peak below half of it, at once, and does not rise
+    again."""
     peak = int(np.argmax(load)) if len(load) else 0
     at_once = len(load) and extension[-1] - extension[peak] < AT_ONCE * (extension[-1] - extension[0])
     return peak + 1 if at_once and load[-1] < 0.5 * load[peak] else len(load)
@@ -66,7 +67,8 @@ def read_measured(file, curve_file):
             names = lines.readline().strip().split(",")
     except OSError as error:
         raise WrongInput(f"{file}: {error.strerror.lower()}") from error
-    pull = pull_of_table(_own(file)) if {"time", "phase", "extension", "load", "end_to_end"} <= set(names) else _other(file, curve_file)
+    own = {"time", "phase", "extension", "load", "end_to_end"} <= set(names)
+    pull = pull_of_table(_own(file)) if own else _other(file, curve_file)
     if pull is None:
         raise WrongInput(f"{file}: nothing is pulled in it, or it has fewer than two readings of a pull")
     return pull
@@ -87,12 +89,12 @@ def _other(file, curve_file):
         raise WrongInput(f"{compare} is not there, which reads such files as {file}: scripts/build compare makes it")
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "beside")
-        done = subprocess.run([compare, file, curve_file, "--balance", "--report", out], check=False, text=True, errors="replace",
-                              stdin=subprocess.DEVNULL, capture_output=True)
+        done = subprocess.run([compare, file, curve_file, "--balance", "--report", out], check=False, text=True,
+                              errors="replace", stdin=subprocess.DEVNULL, capture_output=True)
         table = os.path.join(out, "a.csv")
         if not os.path.exists(table):
-            raise WrongInput(done.stderr.strip().splitlines()[-1].removeprefix("compare: ") if done.stderr.strip()
-                             else f"{file}: compare cannot read it")
+            said = tool.said_by(done.stderr).removeprefix("compare: ")
+            raise WrongInput(said or f"{file}: compare cannot read it")
         read = pd.read_csv(table, skiprows=[1])
     return Pull(read["extension"].to_numpy(float), read["load"].to_numpy(float)) if len(read) > 1 else None
 

@@ -1,12 +1,12 @@
 """Curves over parameters, learnt from runs: Gaussian processes of their principal components.
 
-Each curve is a mean and a sum of components. The weight t of a component is a smooth function of the parameters u, known at those of the
-runs but for a noise tau^2, which is the scatter of specimens and stick-slip:
+Each curve is a mean and a sum of components. The weight t of a component is a smooth function of the parameters u, known at
+those of the runs but for a noise tau^2, which is the scatter of specimens and stick-slip:
 
     cov(t(u), t(v)) = T (1 + u v) + a^2 exp(-sum_d (u_d - v_d)^2/(2 l_d^2)) + tau^2 [u = v],   T = 100
 
-a, l and tau are those of the largest marginal likelihood. Reference: Rasmussen and Williams, Gaussian Processes for Machine Learning
-(2006), chapters 2 and 5."""
+a, l and tau are those of the largest marginal likelihood. Reference: Rasmussen and Williams, Gaussian Processes for Machine
+Learning (2006), chapters 2 and 5."""
 import numpy as np
 from scipy import linalg, optimize
 
@@ -18,8 +18,8 @@ LENGTHS = (0.15, 8.0)  # of l, over the range
 
 
 class Emulator:
-    """Learnt of curves, one a row, at places, one a row. `scale`: what is small, point by point; `noise`: covariance of what differs from
-    run to run at one place."""
+    """Learnt of curves, one a row, at places, one a row. `scale`: what is small, point by point; `noise`: covariance of what
+    differs from run to run at one place."""
 
     def __init__(self, places, curves, scale, noise=None):
         self.low = places.min(axis=0)
@@ -58,7 +58,8 @@ class Process:
         bounds = [(-10.0, 6.0), (least, max(least, 0.0) + 1e-9), *lengths]
         self.squares = (places[:, None, :] - places[None, :, :])**2
         starts = [[0.0, max(least, -14.0), *[0.0] * places.shape[1]], [-1.0, max(least, -2.0), *[-0.7] * places.shape[1]]]
-        found = [optimize.minimize(self._unlikely, start, jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": 60}) for start in starts]
+        found = [optimize.minimize(self._unlikely, start, jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": 60})
+                 for start in starts]
         self.parameters = min(found, key=lambda one: one.fun).x
         covariance = self._covariance(self.parameters)[0]
         self.factor = linalg.cholesky(covariance, lower=True)
@@ -90,5 +91,6 @@ class Process:
         alpha = inverse @ self.values
         left = inverse - np.outer(alpha, alpha)
         slopes = [0.5 * np.sum(left * smooth), 0.5 * noise * np.trace(left)]
-        slopes += [0.5 * np.sum(left * smooth * self.squares[:, :, d]) / np.exp(2.0 * parameters[2 + d]) for d in range(self.squares.shape[2])]
+        slopes += [0.5 * np.sum(left * smooth * self.squares[:, :, d]) / np.exp(2.0 * parameters[2 + d])
+                   for d in range(self.squares.shape[2])]
         return 0.5 * self.values @ alpha + np.sum(np.log(np.diag(factor))), np.array(slopes)

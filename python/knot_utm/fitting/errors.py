@@ -2,10 +2,10 @@
 
     C = diag(noise^2/n + resolution^2/12 + rounding^2) + sum over modes of d d^T + S
 
-Noise is of each reading, n of which make a mean. A reading is rounded by up to half of the resolution. The modes d [N] move all means
-together: the class of the cell, which is a bound on its gain error (over sqrt(3) it is a standard deviation), and the numerical errors
-of result.yaml, which are meant to hold 19 of 20 readings (half of each is one standard deviation). S is the scatter from specimen to
-specimen (scatter.py)."""
+Noise is of each reading, n of which make a mean. A reading is rounded by up to half of the resolution. The modes d [N] move
+all means together: the class of the cell, which is a bound on its gain error (over sqrt(3) it is a standard deviation), and the
+numerical errors of result.yaml, which are meant to hold 19 of 20 readings (half of each is one standard deviation). S is the
+scatter from specimen to specimen (scatter.py)."""
 import numpy as np
 
 from knot_utm.errors import WrongInput
@@ -26,15 +26,14 @@ def covariance(record, cell, means, result, scatter):
 def require_known(record, cell, scatter):
     """Raises WrongInput where nothing is known of how far the readings may be off."""
     if not any(_number(cell, key) for key in ("noise", "resolution", "accuracy")) and not np.any(np.diag(scatter) > 0):
-        raise WrongInput(f"{record.name}: nothing says how far a reading may be off: the load cell of the method has no errors; give its "
-                         "class, as by --set machine.load_cell.accuracy=0.005, or resolution or noise")
+        raise WrongInput(f"{record.name}: nothing says how far a reading may be off: the load cell of the method has no errors; "
+                         "give its class, as by --set machine.load_cell.accuracy=0.005, or resolution or noise")
 
 
 def _numerical(s, means, result):
     """Modes of the plateau, of the lock and of the locked stiffness, as far as a result has them."""
     value = {key: result.get(key) if is_number(result.get(key)) else None
-             for key in ("plateau_force", "plateau_force_error", "lock_extension", "lock_extension_error", "locked_stiffness",
-                         "locked_stiffness_error")}
+             for reading in ("plateau_force", "lock_extension", "locked_stiffness") for key in (reading, reading + "_error")}
     lock = value["lock_extension"]
     before = s < lock if lock is not None else np.ones(len(s), bool)
     if value["plateau_force"] and value["plateau_force_error"]:

@@ -13,12 +13,14 @@ PYTHON = "/usr/bin/python3"  # Debian's, which has Debian's packages
 
 
 def write_fit(folder, fitted, methods):
-    """fit.yaml, curves.csv, profiles.csv, and method.yaml, of further records method_2.yaml and so on. `methods`: their texts."""
+    """fit.yaml, curves.csv, profiles.csv, and method.yaml, of further records method_2.yaml and so on. `methods`: their
+    texts."""
     os.makedirs(folder, exist_ok=True)
     _replace(folder, "fit.yaml", yaml.safe_dump(summary(fitted), sort_keys=False, allow_unicode=True, width=1000))
     curves = [(number, *row) for number, (record, simulated, error) in enumerate(fitted.curves, start=1)
               for row in zip(record.centres, record.measured, simulated, error)]
-    _replace(folder, "curves.csv", _table(("record", "extension", "measured", "simulated", "error"), ("-", "m", "N", "N", "N"), curves))
+    _replace(folder, "curves.csv",
+             _table(("record", "extension", "measured", "simulated", "error"), ("-", "m", "N", "N", "N"), curves))
     profiles = [(key, *row) for key, (values, rises) in fitted.profiles.items() for row in zip(values, rises)]
     _replace(folder, "profiles.csv", _table(("key", "value", "rise"), ("-", "as the method", "-"), profiles))
     for number, text in enumerate(methods, start=1):
@@ -27,8 +29,9 @@ def write_fit(folder, fitted, methods):
 
 def write_report(folder, command):
     """report.html and report.pdf, of the other files. Raises RuntimeError with a line where they cannot be made."""
-    done = subprocess.run([PYTHON, "-EsB", os.path.join(tool.ROOT, "report/make_report.py"), "--command", command, "--version", tool.version(),
-                           "--", folder], check=False, text=True, errors="replace", stdin=subprocess.DEVNULL, capture_output=True)
+    words = [PYTHON, "-EsB", os.path.join(tool.ROOT, "report/make_report.py"), "--command", command, "--version", tool.version()]
+    done = subprocess.run([*words, "--", folder], check=False, text=True, errors="replace", stdin=subprocess.DEVNULL,
+                          capture_output=True)
     if done.returncode != 0:
         raise RuntimeError(tool.said_by(done.stderr) or "the report was not written")
 
@@ -37,8 +40,8 @@ def summary(fitted):
     """The map of fit.yaml."""
     found = {key: {"value": one.value, "low": one.low, "high": one.high, "identifiable": one.identifiable}
              for key, one in fitted.found.items()}
-    return {**found, "rms": short(fitted.rms),
-            "correlation": {key: {other: round(value, 4) for other, value in row.items()} for key, row in fitted.correlation.items()},
+    correlation = {key: {other: round(value, 4) for other, value in row.items()} for key, row in fitted.correlation.items()}
+    return {**found, "rms": short(fitted.rms), "correlation": correlation,
             "fits": fitted.fits, "chi_square": short(fitted.chi_square), "degrees_of_freedom": fitted.degrees_of_freedom,
             "records": [record.name for record, _, _ in fitted.curves], "notes": fitted.notes}
 

@@ -50,7 +50,8 @@ def parse_free(word):
     except ValueError:
         low = high = math.nan
     if not (math.isfinite(low) and math.isfinite(high) and low < high):
-        raise WrongInput(f"--free: the range of {name} is {limits}, but must be low:high, two numbers of which the second is larger")
+        raise WrongInput(f"--free: the range of {name} is {limits}, but must be low:high, two numbers of which the second is "
+                         "larger")
     return name, (low, high)
 
 
@@ -68,7 +69,8 @@ def free_key(name, limits, method, records):
     value = value_at(method, name)
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value < math.inf:
         said = "nothing" if value is None else text_of(value)
-        raise WrongInput(f"--free: the method has {said} at {name}, around which no range can be laid: give --free {name}=low:high")
+        raise WrongInput(f"--free: the method has {said} at {name}, around which no range can be laid: give --free "
+                         f"{name}=low:high")
     return FreeKey(name, value / AROUND, value * AROUND)
 
 

@@ -1,7 +1,9 @@
-"""How likely measured curves are, over the free keys: -2 log L = sum over the records of r^T (C + V)^-1 r + log det(C + V) - log det C.
+"""How likely measured curves are, over the free keys:
 
-r: measured less simulated means [N], with the offsets of the record. C: errors.py. V: what the emulator does not know of the simulated
-curve, so that a place where nothing was run is not believed to be unlikely."""
+    -2 log L = sum over the records of r^T (C + V)^-1 r + log det(C + V) - log det C
+
+r: measured less simulated means [N], with the offsets of the record. C: errors.py. V: what the emulator does not know of the
+simulated curve, so that a place where nothing was run is not believed to be unlikely."""
 import numpy as np
 from scipy import linalg
 
@@ -51,9 +53,9 @@ class RecordLikelihood:
         at = places[:, self.shift[0]] * (SHIFTS - 1)
         left = np.clip(at.astype(int), 0, SHIFTS - 2)
         share = at - left
-        mixed = [(1.0 - share.reshape(-1, *[1] * (of.ndim - 1))) * of[left] + share.reshape(-1, *[1] * (of.ndim - 1)) * of[left + 1]
-                 for of in (self.constant, self.slopes)]
-        return mixed[0], mixed[1]
+        one, two = share[:, None], share[:, None, None]
+        return ((1.0 - one) * self.constant[left] + one * self.constant[left + 1],
+                (1.0 - two) * self.slopes[left] + two * self.slopes[left + 1])
 
     def at(self, places):
         """(chi^2, log det(C + V) - log det C), one place a row."""
@@ -78,8 +80,8 @@ class RecordLikelihood:
 
 
 class Likelihood:
-    """Of all records, over places in the ranges of the free keys, 0 to 1 each. `is_lost(places)`: whether runs leave no whole curve
-    there."""
+    """Of all records, over places in the ranges of the free keys, 0 to 1 each. `is_lost(places)`: whether runs leave no whole
+    curve there."""
 
     def __init__(self, records, is_lost):
         self.records, self.is_lost = records, is_lost

@@ -14,8 +14,8 @@ KNOWN_TOGETHER = 0.99     # correlation from which on two keys are known as a co
 
 @dataclass(frozen=True)
 class Profile:
-    """-2 log L over one key, the others such that it is smallest, less the smallest of all. `low`, `high`: where it rises by RISE; None
-    where it does not within the range of the key."""
+    """-2 log L over one key, the others such that it is smallest, less the smallest of all. `low`, `high`: where it rises by
+    RISE; None where it does not within the range of the key."""
 
     places: np.ndarray
     rises: np.ndarray
@@ -83,8 +83,8 @@ def profile(likelihood, key, low, high, best, value, seed):
     for way in (range(mine + 1, len(places)), range(mine - 1, -1, -1)):
         beside = best
         for i in way:
-            near = np.argsort(np.where(np.abs(tried[:, key] - places[i]) < (high[key] - low[key]) / POINTS, values, np.inf), kind="stable")[0]
-            starts = np.stack([beside, tried[near]])
+            is_near = np.abs(tried[:, key] - places[i]) < (high[key] - low[key]) / POINTS
+            starts = np.stack([beside, tried[np.argmin(np.where(is_near, values, np.inf))]])
             starts[:, key] = places[i]
             beside, found = smallest(likelihood, low, high, starts, key)
             rises[i] = max(found - value, 0.0)
@@ -102,7 +102,8 @@ def _crossing(places, rises):
 
 
 def correlations(likelihood, best, low, high):
-    """Of the keys, from the curvature at the best place. That the ranges are not endless counts as a flat prior's variance, 1/12."""
+    """Of the keys, from the curvature at the best place. That the ranges are not endless counts as a flat prior's variance,
+    1/12."""
     count = len(best)
     step = 0.02 * (high - low)
     at = np.clip(best, low + step, high - step)

@@ -3,7 +3,7 @@ import numpy as np
 
 from knot_utm.errors import WrongInput
 
-MOST_BINS = 24
+MOST_BINS = 12  # so many that some dozens of specimens tell how they scatter together
 FAR = 300.0      # loads or extensions so many times as large as the method's are in other units
 WHOLE = 0.9      # of the measured extension, which a run must reach to be compared
 BROKEN = 0.02    # the same of one whose rod parted: beyond it the curve goes on with its slope
@@ -46,16 +46,18 @@ class Record:
     def require_producible(self, model):
         """Raises WrongInput where the method, as it stands, pulls otherwise than the record."""
         if model.pull is None:
-            raise WrongInput(f"{self.name}: the method as it stands leaves no curve: {model.result.get('reason') or 'its run failed'}")
+            raise WrongInput(f"{self.name}: the method as it stands leaves no curve: "
+                             f"{model.result.get('reason') or 'its run failed'}")
         end, most = float(model.pull.extension[-1]), float(np.max(np.abs(model.pull.load)))
-        for ratio, words in ((self.range / end if end > 0 else 0.0, f"goes to an extension of {self.range:.4g} m, and the method's pull to {end:.4g} m"),
-                             (self.largest_load / most if most > 0 else 0.0,
-                              f"goes to a load of {self.largest_load:.4g} N, and the method's to {most:.4g} N")):
-            if not 1.0 / FAR < ratio < FAR:
-                raise WrongInput(f"{self.name}: the measured curve {words}: one of them is in other units, or of another test")
+        for measured, simulated, words in ((self.range, end, "an extension of {:.4g} m, and the method's pull to {:.4g} m"),
+                                           (self.largest_load, most, "a load of {:.4g} N, and the method's to {:.4g} N")):
+            if not simulated / FAR < measured < simulated * FAR:
+                raise WrongInput(f"{self.name}: the measured curve goes to {words.format(measured, simulated)}: one of them is in "
+                                 "other units, or of another test")
         if not self.is_reached(model):
-            raise WrongInput(f"{self.name}: the measured curve goes to an extension of {self.range:.4g} m, but the method's pull ends at "
-                             f"{end:.4g} m ({model.result.get('ended_by')}): let it go on, as by --set program.pull.until.extension={self.range:.4g}")
+            raise WrongInput(f"{self.name}: the measured curve goes to an extension of {self.range:.4g} m, but the method's pull "
+                             f"ends at {end:.4g} m ({model.result.get('ended_by')}): let it go on, as by "
+                             f"--set program.pull.until.extension={self.range:.4g}")
 
 
 def _wanted(model):

@@ -85,9 +85,9 @@ class Runs:
         if self._stopped:
             raise Interrupted("it was interrupted")
         # It dies with the fit.
-        command = ["setpriv", "--pdeathsig", "KILL", *tool.command(method, settings, out, "--quiet", "--overwrite", "--checkpoint", "0", *more)]
-        process = subprocess.Popen(command, cwd=os.path.dirname(method), text=True, errors="replace", stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        command = tool.command(method, settings, out, "--quiet", "--overwrite", "--checkpoint", "0", *more)
+        process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *command], cwd=os.path.dirname(method), text=True,
+                                   errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         self._live.add(process)
         if self._stopped:
             process.kill()

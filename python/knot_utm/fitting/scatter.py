@@ -9,7 +9,6 @@ from knot_utm.fitting.runs import read_model
 from knot_utm.yaml_text import load
 
 SPECIMENS = 12
-FACTORS = 2  # of the curves of a kind: what moves all of a curve together
 
 
 class Batch:
@@ -29,19 +28,33 @@ class Batch:
         return {**settings, **{key: factor * settings.get(key, value_at(self.method, key)) for key, factor in draw.items()}}
 
 
-def covariance_of(curves):
-    """Of curves that scatter, one a row: the largest common modes of their correlation, and the variance of each mean.
+def left_over(places, curves):
+    """What is left of curves, one a row, beyond a second-order polynomial of the places: their scatter, with the size that it
+    has where nothing was fitted to it. None of them where there are too few."""
+    u = places - places.mean(axis=0)
+    pairs = [(i, j) for i in range(u.shape[1]) for j in range(i, u.shape[1])]
+    terms = np.column_stack([np.ones(len(u)), u, *[u[:, i] * u[:, j] for i, j in pairs]])
+    count, lost = terms.shape
+    if count < 2 * lost:
+        return np.zeros((0, curves.shape[1]))
+    return (curves - terms @ np.linalg.lstsq(terms, curves, rcond=None)[0]) * np.sqrt(count / (count - lost))
 
-    The sample's own covariance of a few specimens is singular, and would call some differences impossible. The factor over the
-    variance allows for how little a few specimens tell of it: it is the variance of Student's t, and that of one more specimen."""
-    count = len(curves)
-    sd = np.std(curves, axis=0, ddof=1) if count > 1 else np.zeros(np.shape(curves)[1])
-    if count < 5 or not np.any(sd > 0):
+
+def covariance_of(curves):
+    """Of curves that scatter, one a row: R = (1 - l) R_n + l 1 is their correlation, with that of the sample, R_n.
+
+    The sample's own of a few specimens would call some differences impossible. l is that of oracle approximating shrinkage (Chen,
+    Wiesel, Eldar and Hero 2010). The factor over the variance allows for how little a few specimens tell of it: the variance of
+    Student's t, and that of one more specimen."""
+    count, size = np.shape(curves)
+    sd = np.std(curves, axis=0, ddof=1) if count > 3 else np.zeros(size)
+    if size < 2 or not np.any(sd > 0):
         return np.diag(sd**2)
     scale = np.where(sd > 0, sd, 1.0)
-    correlation = np.cov(curves / scale, rowvar=False)
-    values, vectors = np.linalg.eigh(correlation)
-    common = (vectors[:, -FACTORS:] * values[-FACTORS:]) @ vectors[:, -FACTORS:].T
-    own = np.maximum(np.diag(correlation) - np.diag(common), 0.0)
+    sample = np.cov(curves / scale, rowvar=False)
+    square, trace = np.sum(sample**2), np.trace(sample)
+    apart = (count + 1.0 - 2.0 / size) * (square - trace**2 / size)
+    shrinkage = min(1.0, ((1.0 - 2.0 / size) * square + trace**2) / apart) if apart > 0 else 1.0
+    correlation = (1.0 - shrinkage) * sample + shrinkage * np.diag(np.diag(sample))
     student = (count + 1) / count * (count - 1) / (count - 3)
-    return student * np.outer(scale, scale) * (common + np.diag(own))
+    return student * np.outer(scale, scale) * correlation

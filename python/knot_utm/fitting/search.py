@@ -1,13 +1,13 @@
 """The search of a fit, in waves: runs over the box in which the best values may lie, an emulator of them, a smaller box.
 
-So it is neither led astray by stick-slip, which makes single runs rough, nor does it need a start that is near (Craig and others 1997,
-history matching)."""
+So it is neither led astray by stick-slip, which makes single runs rough, nor does it need a start that is near (history matching:
+Craig and others 1997)."""
 import numpy as np
 
 from knot_utm.fitting import errors, profiles
 from knot_utm.fitting.emulator import Emulator
 from knot_utm.fitting.likelihood import Likelihood, RecordLikelihood
-from knot_utm.fitting.scatter import covariance_of
+from knot_utm.fitting.scatter import covariance_of, left_over
 
 GRID = 384          # points of a simulated curve
 MOST_WAVES = 8
@@ -24,25 +24,42 @@ class Case:
 
     def __init__(self, record, number, keys, cell, batch):
         self.record, self.number, self.keys, self.cell, self.batch = record, number, keys, cell, batch
+        self.inputs = np.array([i for i, key in enumerate(keys) if key.offset is None], int)  # what its runs depend on
         most = max((max(abs(key.low), abs(key.high)) for key in keys if key.offset == (number, "extension")), default=0.0)
         self.grid = np.linspace(record.extension[0] - most, record.extension[-1] + most, GRID)
         self.places, self.curves, self.models = [], [], []
         self.tried, self.lost = [], []  # all places, and whether the run there left no whole curve
-        self.scatter, self.grid_scatter = self._scatter()
+        self._gather()
 
-    def _scatter(self):
+    def _gather(self):
+        """How the specimens of the batch differ from their mean, in the means of the record and at the grid."""
         pulls = [model.pull for model in self.batch.models if self.record.is_reached(model)] if self.batch else []
-        if len(pulls) < 2:
+        self.apart = None
+        if len(pulls) > 1:
+            means, curves = (np.array(rows) for rows in zip(*((self._means(pull), pull.at(self.grid)) for pull in pulls)))
+            larger = np.sqrt(len(pulls) / (len(pulls) - 1))
+            self.apart = larger * (means - means.mean(axis=0)), larger * (curves - curves.mean(axis=0))
+
+    def _means(self, pull):
+        return self.record.means(pull.at(self.record.extension))
+
+    def scatter(self, used=()):
+        """Covariances of the means and at the grid, of the batch and of runs in the box, which are specimens too."""
+        if self.apart is None:
             return (np.zeros((n, n)) for n in (len(self.record.centres), GRID))
-        return (covariance_of(np.array([self.record.means(pull.at(self.record.extension)) for pull in pulls])),
-                np.cov(np.array([pull.at(self.grid) for pull in pulls]), rowvar=False))
+        rows = self.apart
+        if len(used):
+            places = np.array([self.places[i] for i in used])[:, self.inputs]
+            also = np.array([self._means(self.models[i].pull) for i in used]), np.array([self.curves[i] for i in used])
+            rows = [np.concatenate([of_batch, left_over(places, of_runs)]) for of_batch, of_runs in zip(rows, also)]
+        return covariance_of(rows[0]), rows[1].T @ rows[1] / len(rows[1])
 
     def renew(self, batch):
         """Another batch, of specimens nearer to the best values; one that fails there tells nothing."""
         if 2 * sum(self.record.is_reached(model) for model in batch.models) < len(batch.models):
             return
         self.batch = batch
-        self.scatter, self.grid_scatter = self._scatter()
+        self._gather()
 
     def settings(self, place, number):
         """Of a run: the record's, the free keys, and what is drawn for a specimen."""
@@ -58,20 +75,20 @@ class Case:
             self.curves.append(model.pull.at(self.grid))
             self.models.append(model)
 
-    def likelihood(self, inputs, low, high, best):
+    def likelihood(self, low, high, best):
         """Learnt of the runs in a box and a margin around it. `best`: a place at which the errors are taken."""
-        places = np.array(self.places)
+        places, inputs = np.array(self.places), self.inputs
         width = high - low
         away = np.max(np.maximum(low - places, places - high)[:, inputs] / width[inputs], axis=1)
         least = 3 * (len(inputs) + 1)
         used = np.flatnonzero(away <= max(MARGIN, np.sort(away)[min(least, len(away)) - 1]))
         curves = np.array([self.curves[i] for i in used])
         nearest = used[np.argmin(np.sum((places[used] - best)[:, inputs]**2, axis=1))]
-        means = self.record.means(self.models[nearest].pull.at(self.record.extension))
-        covariance = errors.covariance(self.record, self.cell, means, self.models[nearest].result, self.scatter)
+        scatter, grid_scatter = self.scatter(used)
+        means = self._means(self.models[nearest].pull)
+        covariance = errors.covariance(self.record, self.cell, means, self.models[nearest].result, scatter)
         scale = np.interp(self.grid, self.record.centres, np.sqrt(np.diag(covariance)))
-        noise = self.grid_scatter if np.any(self.grid_scatter) else None
-        emulator = Emulator(places[used][:, inputs], curves, scale, noise)
+        emulator = Emulator(places[used][:, inputs], curves, scale, grid_scatter if np.any(grid_scatter) else None)
         return RecordLikelihood(self.record, self.number, self.keys, inputs, emulator, self.grid, covariance)
 
 
@@ -114,7 +131,7 @@ class Search:
 
     def _learn(self, wave):
         for _ in range(2):  # the errors are those at the best place, which is known afterwards
-            self.likelihood = Likelihood([case.likelihood(self.inputs, self.low, self.high, self.best) for case in self.cases], self._is_lost)
+            self.likelihood = Likelihood([case.likelihood(self.low, self.high, self.best) for case in self.cases], self._is_lost)
             self.best, self.value = profiles.best_of(self.likelihood, self.low, self.high, wave)
 
     def _is_lost(self, places):

@@ -64,17 +64,20 @@ def judge(search):
     curves = [(record.record, record.simulated(best), np.sqrt((record.factor**2).sum(axis=1))) for record in likelihood.records]
     rms = float(np.sqrt(sum(((record.measured - simulated)**2).sum() for record, simulated, _ in curves) / means))
     probability = float(stats.chi2.sf(chi_square, degrees))
-    return Fitted(found, rms, correlation, chi_square, degrees, probability, _notes(keys, best, found, matrix, probability, degrees, chi_square),
-                  drawn, curves)
-
-
-def _notes(keys, best, found, matrix, probability, degrees, chi_square):
-    notes = []
+    notes = _notes(keys, best, found, matrix)
     if probability < LEAST_PROBABILITY:
-        notes.append(f"nothing fits within the errors: the sum of squares over them is {chi_square:.4g} with {degrees} degrees of freedom")
+        notes.insert(0, f"nothing fits within the errors: the sum of squares over them is {chi_square:.4g} with {degrees} degrees "
+                        "of freedom")
+    return Fitted(found, rms, correlation, chi_square, degrees, probability, notes, drawn, curves)
+
+
+def _notes(keys, best, found, matrix):
+    """What the data do not tell, in words."""
+    notes = []
     for i, (key, one) in enumerate(zip(keys, found.values())):
         if one.low is None and one.high is None:
-            notes.append(f"{key.name} is not identifiable: no value from {key.low:.6g} to {key.high:.6g} fits worse than the errors allow")
+            notes.append(f"{key.name} is not identifiable: no value from {key.low:.6g} to {key.high:.6g} fits worse than the "
+                         "errors allow")
         elif not one.identifiable:
             end, limit = ("above", one.low) if one.high is None else ("below", one.high)
             notes.append(f"{key.name} is not identifiable: the data only tell that it is {end} {limit:.4g}")
