@@ -80,19 +80,18 @@ class Matrix {
     const Points& position = state.position;
     std::vector<Lanes> force(at(static_cast<int>(rod_.nodes())));
     centreline_.add_forces(position, force);
-    contact_.refresh(position);
-    contact_.begin_step();
+    contact_.begin(position);
     contact_.evaluate(position, position, dt_);
     matrix_.locate(contact_.contacts());
     matrix_.set_zero_beyond_band();
     centreline_.set_stiffness(diagonal_, matrix_);
     if constexpr (D == 4) {
-      frames_.begin_step(state, {}, dt_);
+      frames_.begin(state, {}, dt_);
       frames_.add_forces(position, force);
       frames_.add_stiffness(matrix_);
       matrix_.values().set_identity_row(static_cast<int>(rod_.nodes()) - 1, Lanes{1.0, 1.0, 1.0, 0.0});
     }
-    contact_.linearise(dt_, models_);
+    contact_.linearise({}, dt_, models_);
     std::size_t n = 0;
     for (const ContactPoint& contact : contact_.contacts())
       if (contact.active()) {

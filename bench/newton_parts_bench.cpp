@@ -74,8 +74,7 @@ void residual_elastic(benchmark::State& state) {
 void residual_contact(benchmark::State& state) {
   const Specimen specimen(static_cast<int>(state.range(0)));
   SmoothContact contact = specimen.contact();
-  contact.refresh(specimen.position);
-  contact.begin_step();
+  contact.begin(specimen.position);
   for (auto _ : state) {
     contact.evaluate(specimen.position, specimen.start, kDt);
     benchmark::DoNotOptimize(contact.contacts().data());
@@ -93,8 +92,7 @@ struct Evaluated {
   std::vector<double> diagonal = std::vector<double>(at(specimen.nodes()), 1e3);
 
   explicit Evaluated(const benchmark::State& state) : specimen(static_cast<int>(state.range(0))) {
-    contact.refresh(specimen.position);
-    contact.begin_step();
+    contact.begin(specimen.position);
     contact.evaluate(specimen.position, specimen.start, kDt);
     std::vector<Lanes> force(at(specimen.nodes()));
     centreline.add_forces(specimen.position, force);
@@ -120,7 +118,7 @@ void assembly_contact(benchmark::State& state) {
   std::vector<ContactModel> models;
   for (auto _ : state) {
     scene.matrix.locate(scene.contact.contacts());
-    scene.contact.linearise(kDt, models);
+    scene.contact.linearise({}, kDt, models);
     active = 0;
     for (const ContactPoint& point : scene.contact.contacts()) {
       if (!point.active()) continue;

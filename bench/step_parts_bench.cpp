@@ -70,8 +70,7 @@ void run(int nodes) {
   const Points& x = bare.stepper->state().position;
   const int evaluations = static_cast<int>(std::lround(iterations)) + 1;
   const double search = time_of([&] {
-    contact.refresh(x);
-    contact.begin_step();
+    contact.begin(x);
     for (int i = 0; i < evaluations; ++i) contact.evaluate(x, x, kDt);
     contact.commit(x);
   });

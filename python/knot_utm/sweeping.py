@@ -87,7 +87,8 @@ class Sweep:
 
     def _written(self, work):
         study = self.study
-        units = {key: tool.key_unit(study.method, key, study.points[0]) for key in study.keys}
+        known = tool.key_units(study.method, study.points[0])
+        units = {key: known.get(key, "-") for key in study.keys}
         table = Table({**units, SPECIMEN: "-"} if study.repeat > 1 else units)
         for run, point in zip(self.names, study.points):
             record = self.folder.record(run)

@@ -2,7 +2,6 @@
 import csv
 import functools
 import os
-import re
 import shutil
 import subprocess
 
@@ -50,34 +49,37 @@ def find_method(name, folder):
 
 def command(method, settings, out, *more):
     """The command line of one run; `settings`: {dotted key: value}."""
-    sets = [word for key, value in settings.items() for word in ("--set", f"{key}={text_of(value)}")]
-    return [tensile_test(), method, *sets, "--out", out, *more]
+    return [tensile_test(), method, *_set(settings), "--out", out, *more]
 
 
 def refusal(method, settings):
-    """Why tensile_test would refuse to run that, in a line; None where it would not.
-
-    It refuses a method before it makes the folder. None can be made within a file, so that nothing runs."""
-    nowhere = os.path.join(method, "checked")
-    done = subprocess.run(command(method, settings, nowhere, "--quiet"), check=False, text=True, errors="replace",
-                          cwd=os.path.dirname(method), stdin=subprocess.DEVNULL, capture_output=True)
-    if done.returncode != REFUSED:
+    """Why tensile_test would refuse to run that, in a line; None where it would not."""
+    done = _asked(method, settings, "--check")
+    if done.returncode not in (0, REFUSED):
         raise RuntimeError(f"tensile_test could not check {method}: {said_by(done.stderr) or f'exit code {done.returncode}'}")
-    why = said_by(done.stderr)
-    return None if why.startswith(f'cannot make the folder "{nowhere}"') else why
+    return said_by(done.stderr) if done.returncode == REFUSED else None
 
 
-def key_unit(method, key, settings):
-    """The unit of a method's key, "-" of what has none: tensile_test names it where it asks for another value."""
-    said = refusal(method, {**settings, key: "?"}) or ""
-    unit = re.search(r"\((?:in (.+)|(of .+))\)", said.partition(' is "?", but must be ')[2])
-    return unit[1] or unit[2] if unit else "-"
+def key_units(method, settings):
+    """{key: unit} of all numbers of a method, "-" where a number has none."""
+    done = _asked(method, settings, "--list-keys")
+    return {row["key"]: row["unit"] for row in csv.DictReader(done.stdout.splitlines())}
 
 
 def said_by(stderr):
     """The last line that tensile_test said, without its name."""
     lines = stderr.strip().splitlines()
     return lines[-1].removeprefix("tensile_test: ") if lines else ""
+
+
+def _set(settings):
+    return [word for key, value in settings.items() for word in ("--set", f"{key}={text_of(value)}")]
+
+
+def _asked(method, settings, option):
+    """What tensile_test says of a method without running it."""
+    return subprocess.run([tensile_test(), method, *_set(settings), option], check=False, text=True, errors="replace",
+                          cwd=os.path.dirname(method), stdin=subprocess.DEVNULL, capture_output=True)
 
 
 def _said(option):

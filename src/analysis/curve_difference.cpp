@@ -15,8 +15,8 @@ class Walk {
   double force_at(double extension) {
     while (next_ + 1 < pull_.size() && pull_[next_].extension < extension) ++next_;
     const PullPoint &a = pull_[next_ - 1], &b = pull_[next_];
-    const double share = (extension - a.extension) / (b.extension - a.extension);
-    return a.force + std::clamp(share, 0.0, 1.0) * (b.force - a.force);
+    const double fraction = (extension - a.extension) / (b.extension - a.extension);
+    return a.force + std::clamp(fraction, 0.0, 1.0) * (b.force - a.force);
   }
 
  private:

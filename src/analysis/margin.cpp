@@ -9,7 +9,7 @@ constexpr int kBisections = 3;
 
 }  // namespace
 
-double share_until_it_opens(const std::function<bool(double)>& opens) {
+double fraction_until_it_opens(const std::function<bool(double)>& opens) {
   double open = 1.0 - Margin::kMost, holds = 1.0;
   if (!opens(open)) return Margin::kMost;
   for (int i = 0; i < kBisections; ++i) {

@@ -21,7 +21,7 @@ Integrals integrate(const Pull& pull, const Range& range) {
     out.width += piece.width;
     out.force += piece.width * (piece.from + piece.to) / 2.0;
     out.square += piece.width * (piece.from * piece.from + piece.from * piece.to + piece.to * piece.to) / 3.0;
-    out.distance_change += piece.share * (b.knot_distance - a.knot_distance);
+    out.distance_change += piece.fraction * (b.knot_distance - a.knot_distance);
   }
   return out;
 }

@@ -18,7 +18,7 @@ inline double moment_of(double arm, double width, double from, double to) {
 struct Piece {
   double width;     // of s; none where it is not positive
   double from, to;  // F at its ends
-  double share;     // of the piece
+  double fraction;  // of the piece
 
   Piece(const PullPoint& a, const PullPoint& b, const Range& range) {
     const double begin = std::max(a.extension, range.low), length = b.extension - a.extension;
@@ -26,7 +26,7 @@ struct Piece {
     const double slope = (b.force - a.force) / length;
     from = a.force + slope * (begin - a.extension);
     to = from + slope * width;
-    share = width / length;
+    fraction = width / length;
   }
 };
 

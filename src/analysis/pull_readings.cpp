@@ -6,6 +6,7 @@ namespace knot_utm {
 namespace {
 
 constexpr double kChordBegin = 0.1, kChordEnd = 0.5;  // of the peak
+constexpr double kSteady = 0.02;                      // by which the last two quarters of a pull that slides may differ
 constexpr double kTangentWindow = 0.1;                // of the way to the peak
 
 }  // namespace
@@ -16,11 +17,15 @@ double energy(const Pull& pull) {
 
 double energy_to_peak(const Pull& pull) { return pull.empty() ? 0.0 : WayToPeak(pull).work(); }
 
-std::optional<double> late_force(const Pull& pull) {
+std::optional<double> steady_force(const Pull& pull) {
   if (pull.empty()) return std::nullopt;
   const double begin = pull.front().extension, end = pull.back().extension;
-  const Integrals half = integrate(pull, {0.5 * (begin + end), end});
-  return half.width > 0.0 ? std::optional<double>(half.force / half.width) : std::nullopt;
+  const double middle = 0.5 * (begin + end), three_quarters = 0.5 * (middle + end);
+  const Integrals third = integrate(pull, {middle, three_quarters}), fourth = integrate(pull, {three_quarters, end});
+  if (!(third.width > 0.0 && fourth.width > 0.0)) return std::nullopt;
+  const double before = third.force / third.width, after = fourth.force / fourth.width;
+  if (!(std::abs(after - before) <= kSteady * std::abs(before))) return std::nullopt;
+  return 0.5 * (before + after);
 }
 
 std::optional<double> chord_stiffness(const Pull& pull) {

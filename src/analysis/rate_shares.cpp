@@ -7,7 +7,7 @@
 namespace knot_utm {
 namespace {
 
-double drag_loss(const Sample& sample) { return sample.dissipation - sample.friction_loss; }
+double drag_loss(const Sample& sample) { return sample.dissipation - sample.friction_loss - sample.plastic_loss; }
 double motion(const Sample& sample) { return sample.kinetic_energy; }
 double numerical_loss(const Sample& sample) { return sample.numerical_dissipation; }
 

@@ -57,7 +57,7 @@ Pull with_ends(const Pull& pull, const std::optional<Sample>& origin, const std:
 }
 
 void read_pull(const Pull& pull, Results& results) {
-  results.late_force = late_force(pull);
+  if (!results.break_extension) results.steady_force = steady_force(pull);
   results.energy_to_peak = energy_to_peak(pull);
   if (results.break_extension) results.energy_to_break = energy(pull);
   results.chord_stiffness = chord_stiffness(pull);
@@ -209,7 +209,8 @@ EnergyParts energy_between(const Sample& from, const Sample& to) {
   parts.stored = stored_energy(to) - stored_energy(from);
   parts.kinetic = to.kinetic_energy - from.kinetic_energy;
   parts.friction = to.friction_loss - from.friction_loss;
-  parts.drag = to.dissipation - from.dissipation - parts.friction;
+  parts.plastic = to.plastic_loss - from.plastic_loss;
+  parts.drag = to.dissipation - from.dissipation - parts.friction - parts.plastic;
   parts.numerical = to.numerical_dissipation - from.numerical_dissipation;
   parts.reweighting = to.reweighting_loss - from.reweighting_loss;
   return parts;
@@ -217,7 +218,7 @@ EnergyParts energy_between(const Sample& from, const Sample& to) {
 
 namespace {
 
-constexpr double kBears = 0.5;  // share of the median force of a pull: what bears less is next to no load
+constexpr double kBears = 0.5;  // fraction of the median force of a pull: what bears less is next to no load
 
 /// One way through all samples, in order.
 class Course {

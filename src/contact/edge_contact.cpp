@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kReachMargin = 0.3;  // contacts are kept, forceless, up to this gap [fraction of radius]
 // r over the product of the edges' lengths: acts where edges turn through parallel within about 0.1 rad. Elsewhere it
-// draws the feet towards the middles by up to half of this share, which tilts the normal by 0.2 % at most.
+// draws the feet towards the middles by up to half of this fraction, which tilts the normal by 0.2 % at most.
 constexpr double kRegularisation = 0.01;
 
 constexpr double kLeastEstimate = 1e-6;  // of the pressure, in K delta
@@ -19,24 +19,22 @@ using Row9 = Eigen::Matrix<double, 1, 9>;
 
 }  // namespace
 
-EdgeContact::EdgeContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin)
-    : normal_{normal.stiffness, normal.tolerance},
+EdgeContact::EdgeContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction, double margin)
+    : normal_(std::visit(
+          [](const auto& law) {
+            return EdgeLaw{law.stiffness, law.tolerance};
+          },
+          normal)),
       friction_(friction),
       diameter_(2.0 * rod.material.radius),
       window_(1.5 * rod.material.radius),
       reach_((2.0 + kReachMargin) * rod.material.radius),
-      least_prediction_(kLeastEstimate * normal.stiffness * normal.tolerance),
+      least_prediction_(kLeastEstimate * normal_.stiffness * normal_.tolerance),
       rest_length_(rod.rest_length),
       length_(rod.rest_length),
       // Candidates are segments around nodes; an edge is found by the node it ends at, and is the whole of its extent.
       candidates_(rod, reach_, margin, least_loop(rod.material.radius), 1.0) {
   arclength_ = rod.arclength();
-}
-
-bool EdgeContact::refresh(const Points& position) {
-  if (!candidates_.refresh(position)) return false;
-  find_pairs();
-  return true;
 }
 
 void EdgeContact::find_pairs() {
@@ -53,7 +51,8 @@ void EdgeContact::find_pairs() {
       }
 }
 
-void EdgeContact::begin_step() {
+void EdgeContact::begin(const Points& start) {
+  if (candidates_.refresh(start)) find_pairs();
   contacts_.clear();
   feet_.clear();
   first_evaluation_ = true;
@@ -187,20 +186,20 @@ const EdgeContact::Memory* EdgeContact::recall(std::pair<int, int> edges, double
   return found;
 }
 
-void EdgeContact::linearise(double dt, std::vector<EdgeContactModel>& models) const {
+void EdgeContact::linearise(const ContactLinearisation& how, double dt, std::vector<EdgeContactModel>& models) const {
   models.clear();
   friction_.visit([&](const auto& law) {
     for (const ContactPoint& contact : contacts_)
-      if (contact.active()) linearise_contact(contact, law, dt, models.emplace_back());
+      if (contact.active()) linearise_contact(contact, law, how, dt, models.emplace_back());
   });
 }
 
 template <typename Law>
-void EdgeContact::linearise_contact(const ContactPoint& contact, const Law& law, double dt,
-                                    EdgeContactModel& model) const {
+void EdgeContact::linearise_contact(const ContactPoint& contact, const Law& law, const ContactLinearisation& how,
+                                    double dt, EdgeContactModel& model) const {
   const Feet& feet = feet_[static_cast<std::size_t>(&contact - contacts_.data())];
   const EdgeFeet& moving = moving_[static_cast<std::size_t>(&contact - contacts_.data())];
-  const EdgePressure of_law = pressure_of(normal_, how_, contact);
+  const EdgePressure of_law = pressure_of(normal_, how, contact);
   model.slope = of_law.slope;
   model.pressure = of_law.pressure;
 
@@ -223,7 +222,7 @@ void EdgeContact::linearise_contact(const ContactPoint& contact, const Law& law,
   if (law.coefficient > 0.0) {
     const Vec3& r = contact.slip;
     const double along = n.dot(r);
-    const FrictionTangent<Vec3> friction = law.tangent(friction_input(contact, dt), how_.friction);
+    const FrictionTangent<Vec3> friction = law.tangent(friction_input(contact, dt), how.friction);
     direction -= friction.coefficient * friction.z;
     pressing -= friction.by_pressure;
     // d(P r) = -(n.r) dn - n (r.dn) + P dr

@@ -58,17 +58,19 @@ FrictionInput<FourVectors> friction_input(const std::array<Contact*, 4>& contact
           dt};
 }
 
-/// The normal law as Newton's method takes it (ContactModel), of four contacts.
+/// The pressure law as Newton's method takes it (ContactModel), of four contacts.
 struct FourPressures {
   Lanes slope;     // p'(D^) [N/m^2]
   Lanes pressure;  // of the tangent at the present overlap [N/m]
   Lanes turning;   // what turns with n and z [N/m]
 
   FourPressures() = default;
-  FourPressures(const NormalLaw& normal, const ContactLinearisation& how, const Four<const ContactPoint>& four) {
+  template <typename Pressure>
+  FourPressures(const Pressure& normal, const ContactLinearisation& how, const Four<const ContactPoint>& four) {
     const Lanes overlap = four(&ContactPoint::overlap), prediction = four(&ContactPoint::prediction);
     // A contact that is new and deep: the depth where the rod stiffens is a better guess than a wall.
-    const Lanes without = select(overlap < normal.stiffening, overlap, constant<Lanes>(normal.stiffening));
+    const double stiffens = normal.stiffens_at();
+    const Lanes without = select(overlap < stiffens, overlap, constant<Lanes>(stiffens));
     const Lanes tangent_at = select(prediction > 0.0, normal.overlap_at(prediction), without);
     slope = normal.slope(tangent_at);
     pressure = normal.pressure(tangent_at) + slope * (overlap - tangent_at);

@@ -7,27 +7,6 @@
 
 namespace knot_utm {
 
-namespace {
-
-template <std::size_t... I>
-FrictionLaws law_of(std::size_t number, const FrictionOptions& options, const FrictionScales& scales,
-                    std::index_sequence<I...>) {
-  FrictionLaws out;
-  ((number == I ? void(out = std::variant_alternative_t<I, FrictionLaws>::of(options, scales)) : void()), ...);
-  return out;
-}
-
-template <std::size_t... I>
-FrictionLaws plain_law(std::size_t number, std::index_sequence<I...>) {
-  FrictionLaws out;
-  ((number == I ? void(out.emplace<I>()) : void()), ...);
-  return out;
-}
-
-constexpr auto kNumbers = std::make_index_sequence<std::variant_size_v<FrictionLaws>>();
-
-}  // namespace
-
 bool FrictionLawEntry::has(const std::string& key) const {
   return std::any_of(keys, keys + key_count, [&](const FrictionKey& own) { return key == own.name; });
 }
@@ -62,16 +41,13 @@ std::string laws_with(const std::string& key) {
 
 Friction Friction::of(const FrictionOptions& options, const FrictionScales& scales) {
   Friction out;
-  out.law_ = law_of(static_cast<std::size_t>(options.law), options, scales, kNumbers);
+  out.law_ = LawRegistry<FrictionLaws>::of(static_cast<std::size_t>(options.law), options, scales);
   out.on_ = out.coefficient() > 0.0;
   return out;
 }
 
 void Friction::state(Archive& archive) {
-  int number = static_cast<int>(law_.index());
-  archive.number("friction law", number, 0, static_cast<int>(std::variant_size_v<FrictionLaws>) - 1);
-  if (archive.loads()) law_ = plain_law(static_cast<std::size_t>(number), kNumbers);
-  std::visit([&](auto& law) { law.state(archive); }, law_);
+  LawRegistry<FrictionLaws>::archive(archive, "friction law", law_);
   on_ = coefficient() > 0.0;
 }
 

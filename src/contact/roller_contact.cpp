@@ -17,9 +17,10 @@ std::size_t memory_index(Eigen::Index nodes, std::size_t roller, int segment, in
 
 }  // namespace
 
-RollerContact::RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction,
+RollerContact::RollerContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction,
                              double farthest)
     : normal_(normal),
+      begins_(begin_of(normal)),
       friction_(friction),
       radius_(rod.material.radius),
       farthest_(farthest),
@@ -29,12 +30,22 @@ std::size_t RollerContact::index_of(const ContactPoint& contact) const {
   return memory_index(voronoi_.size(), static_cast<std::size_t>(contact.roller), contact.a0 + 1, contact.point);
 }
 
-void RollerContact::begin_step() {
+void RollerContact::begin(const std::vector<Roller>& rollers, const Points& start, double dt) {
   contacts_.clear();
-  first_evaluation_ = true;
   prediction_ = committed_prediction_;
   // Before the first accepted step there is nowhere to come from: what a rejected one took for that does not count.
   if (committed_prediction_.empty()) start_.clear();
+  if (start_.size() != rollers.size()) {
+    start_ = rollers;
+    prediction_.assign(2 * rollers.size() * static_cast<std::size_t>(start.cols()), -1.0);
+    memory_.assign(2 * rollers.size() * static_cast<std::size_t>(start.cols()), FrictionMemory());
+    turn_.assign(rollers.size(), RollerTurn());
+    for (std::size_t r = 0; r < rollers.size(); ++r) turn_[r].angle = rollers[r].turn;
+  }
+  find_near_segments(rollers, start);
+  turned_.resize(rollers.size());
+  for (std::size_t r = 0; r < rollers.size(); ++r)
+    turned_[r] = rollers[r].free() ? dt * turn_[r].rate : rollers[r].turn - turn_[r].angle;
 }
 
 void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& position, const Points& start,
@@ -42,21 +53,7 @@ void RollerContact::evaluate(const std::vector<Roller>& rollers, const Points& p
   for (const ContactPoint& contact : contacts_) prediction_[index_of(contact)] = contact.prediction;
   contacts_.clear();
   surfaces_.clear();
-  if (start_.size() != rollers.size()) {
-    start_ = rollers;
-    prediction_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), -1.0);
-    memory_.assign(2 * rollers.size() * static_cast<std::size_t>(position.cols()), FrictionMemory());
-    turn_.assign(rollers.size(), RollerTurn());
-    for (std::size_t r = 0; r < rollers.size(); ++r) turn_[r].angle = rollers[r].turn;
-  }
   dt_ = dt;
-  if (first_evaluation_) {
-    find_near_segments(rollers, start);
-    turned_.resize(rollers.size());
-    for (std::size_t r = 0; r < rollers.size(); ++r)
-      turned_[r] = rollers[r].free() ? dt * turn_[r].rate : rollers[r].turn - turn_[r].angle;
-  }
-  first_evaluation_ = false;
   for (const auto& [roller, segment] : near_)
     if (distance(rollers[roller], position.col(segment)) <= limit(rollers[roller], segment))
       add_contacts(rollers, roller, segment, position, start);
@@ -89,14 +86,14 @@ void RollerContact::add_contacts(const std::vector<Roller>& rollers, std::size_t
                                  const Points& position, const Points& start) {
   const Roller& roller = rollers[number];
   for (int point = 0; point < 2; ++point) {
-    const PointWeights w(kIntegrationPoints[point], PointWeights::kWholeShare);
+    const PointWeights w(kIntegrationPoints[point], PointWeights::kWhole);
     const std::size_t memory = memory_index(position.cols(), number, segment, point);
     ContactPoint contact;
     contact.x = combine(w.value, position, segment) - roller.centre;
     contact.x -= roller.axis * roller.axis.dot(contact.x);
     contact.d = contact.x.norm();
     contact.overlap = roller.radius + radius_ - contact.d;
-    contact.begins = normal_.begin();
+    contact.begins = begins_;
     contact.prediction = prediction_[memory];
     if (!contact.active()) continue;
     contact.a0 = segment - 1;

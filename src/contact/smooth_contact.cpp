@@ -25,7 +25,7 @@ double arclength_at(const Eigen::VectorXd& arclength, int segment, double u) {
 
 /// max(0, g) of x against the curve at parameter u of a segment: g = 1 - x.c''/|c'|^2 of the segment itself at its
 /// middle, the smaller of the two that meet at its ends, linear between.
-double least_curvature_share(const Points& nodes, int segment, double u, const Vec3& x, double length2) {
+double least_curvature_factor(const Points& nodes, int segment, double u, const Vec3& x, double length2) {
   const int last = static_cast<int>(nodes.cols()) - 2;
   const double own = 1.0 - x.dot(second_difference(nodes, segment)) / length2;
   const int other = u < 0.5 ? std::max(segment - 1, 1) : std::min(segment + 1, last);
@@ -36,9 +36,10 @@ double least_curvature_share(const Points& nodes, int segment, double u, const V
 
 }  // namespace
 
-SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,
-                             double catch_up)
+SmoothContact::SmoothContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction,
+                             double margin, double catch_up)
     : normal_(normal),
+      begins_(begin_of(normal)),
       friction_(friction),
       diameter_(2.0 * rod.material.radius),
       window_(1.0 * rod.material.radius),
@@ -54,7 +55,8 @@ SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, 
   moved_.resize(static_cast<std::size_t>(nodes));
 }
 
-void SmoothContact::begin_step() {
+void SmoothContact::begin(const Points& start) {
+  candidates_.refresh(start);
   iterate_ = accepted_;
   for (Memory& memory : iterate_.entries) memory.pressed = memory.pressure > 0.0;
   first_evaluation_ = true;
@@ -158,7 +160,7 @@ bool SmoothContact::began_inside(const Tracked& tracked) const {
 
 bool SmoothContact::takes_part(const Tracked& foot) const {
   if (foot.memory.inside) return false;
-  return foot.memory.pressed || foot.memory.pressure > 0.0 || overlap(foot) > 2.0 * normal_.begin();
+  return foot.memory.pressed || foot.memory.pressure > 0.0 || overlap(foot) > 2.0 * begins_;
 }
 
 void SmoothContact::add_contact(Tracked& tracked) {
@@ -183,7 +185,7 @@ void SmoothContact::add_contact(Tracked& tracked) {
   contact.x = to_vec3(foot.x);
   contact.n = to_vec3((1.0 / contact.d) * foot.x);
   contact.overlap = overlap(tracked);
-  contact.begins = normal_.begin();
+  contact.begins = begins_;
   contact.weighting = tracked.memory.weighting;
   contact.weight = 0.5 * voronoi_[segment] * contact.weighting;
   contact.prediction = tracked.memory.pressure;
@@ -268,8 +270,8 @@ double SmoothContact::weighting(const FootSearch::Foot& foot, const Points& posi
   const Vec3 x = to_vec3(foot.x);
   const Vec3 da = combine(SegmentWeights(ua).derivative, position, segment);
   const Vec3 db = combine(SegmentWeights(foot.u).derivative, position, foot.segment);
-  const double g_b = least_curvature_share(position, foot.segment, foot.u, x, db.squaredNorm());
-  const double g_a = least_curvature_share(position, segment, ua, -x, da.squaredNorm());
+  const double g_b = least_curvature_factor(position, foot.segment, foot.u, x, db.squaredNorm());
+  const double g_a = least_curvature_factor(position, segment, ua, -x, da.squaredNorm());
   const double a4 = g_a * g_a * g_a * g_a, b4 = g_b * g_b * g_b * g_b;
   // Where each strand stands in the other's centre of curvature neither side has a foot that means anything.
   constexpr double kBlind = 1e-4;
@@ -319,7 +321,7 @@ void SmoothContact::put_outwards(const Points& position) {
   for (int i = 1; i + 1 < static_cast<int>(position.cols()); ++i) {
     const double turn2 = second_difference(position, i).squaredNorm() / (voronoi_[i] * voronoi_[i]);
     const double left = std::max(0.0, 1.0 - turn2 / (kSharpest * kSharpest));
-    outwards_[i] = PointWeights::kWholeShare * left * left;
+    outwards_[i] = PointWeights::kWhole * left * left;
   }
 }
 
@@ -345,7 +347,7 @@ void SmoothContact::state(Archive& archive) {
   archive.section("SMTJ");  // "SMTI" had no number that a friction law keeps
   archive.list(outwards_);
   const bool of_this_rod = outwards_.size() == 0 || outwards_.size() == arclength_.size();
-  archive.require(of_this_rod, "shares of points outwards", "of " + std::to_string(outwards_.size()) + " nodes");
+  archive.require(of_this_rod, "fractions of points outwards", "of " + std::to_string(outwards_.size()) + " nodes");
   archive(candidates_, accepted_, first_step_);
 }
 

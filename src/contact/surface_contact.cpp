@@ -16,7 +16,7 @@ Vec3 rotation(const Vec3& along, const Vec3& turn, double spin) {
   return (along.cross(turn) + spin * along) / length2;
 }
 
-/// Share of the rotation by which friction's memory turns about n: both sections carry it, or the one on a roller.
+/// Fraction of the rotation by which friction's memory turns about n: both sections carry it, or the one on a roller.
 double carried(const ContactPoint& contact) { return contact.on_roller() ? 1.0 : 0.5; }
 
 using Points4 = std::array<const SurfacePoint*, 4>;
@@ -367,14 +367,16 @@ void add_couples(const ContactPoint& contact, const SurfacePoint& surface, const
   if (!contact.on_roller()) add(contact.b0, contact.beta + 3, surface.s_b, on_b);
 }
 
-std::size_t linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+std::size_t linearise(const PressureLaws& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                       const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
                       std::size_t from, SurfaceModels& models) {
   return linearise_next(
       friction, contacts, surfaces, from, models, [&](const auto& law, const Contacts4& four, const Points4& points) {
         const Four<const ContactPoint> of(four);
         const OneFoot foot{of(&ContactPoint::inverse_g)};
-        FourSurfaces(FourPressures(normal, how, of), law, dt, how, four, points, foot).model(models.model);
+        const FourPressures pressures =
+            std::visit([&](const auto& pressure) { return FourPressures(pressure, how, of); }, normal);
+        FourSurfaces(pressures, law, dt, how, four, points, foot).model(models.model);
       });
 }
 

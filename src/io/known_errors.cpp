@@ -7,7 +7,7 @@ namespace knot_utm {
 namespace {
 
 /// By how much a stiffness changes where the part that it is read from lies a little further along the curve: by twice
-/// as much as the lock may be off, or where there is none by a share of the part [-].
+/// as much as the lock may be off, or where there is none by a fraction of the part [-].
 double change_along_the_curve(const Results& results, const ReadingErrors& errors) {
   constexpr double kOfLock = 2.0, kFurther = 0.3;  // chosen with the constants of reading_errors (machine/measured.hpp)
   const std::optional<LockedPart>& part = results.curve.locked;

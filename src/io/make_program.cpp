@@ -7,7 +7,7 @@
 namespace knot_utm {
 namespace {
 
-/// From which load on a fall may be a break, unless the method says so: testing machines have such a share.
+/// From which load on a fall may be a break, unless the method says so: testing machines have such a fraction.
 constexpr double kArmingShare = 0.02;  // of the cell's capacity
 
 /// Half the windows within which a drop of the load counts as a break, so that they are resolved [s].

@@ -136,11 +136,11 @@ void check_bending(const Method& m) {
     throw InvalidInput::sentence("material.bending_set", format_number(m.material.bending_set),
                                  "material.bending_set makes the rod keep a share of its bends at once, and "
                                  "material.bending_law: plastic makes it keep what yields: give one of the two only");
-  if (remembers && m.physics.twist == TwistMode::kOff)
+  if (bends_on_frames(m.material) && m.physics.twist == TwistMode::kOff)
     throw InvalidInput::sentence(
         "physics.twist", "off",
-        "physics.twist is off, but bends that yield curve the rod at rest, which takes part in "
-        "its twist: set material.bending_law: elastic to go without");
+        "physics.twist is off, but a rod of this material.bending_law bends on frames, which take part in its twist: "
+        "set material.bending_law: elastic to go without");
 }
 
 void check_machine(const Method& m) {

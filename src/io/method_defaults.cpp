@@ -15,7 +15,7 @@ constexpr double kLeastTravel = 1.0, kLargestTravel = 100.0;  // [m]
 constexpr double kTravelOverWay = 2.0;                        // slack and balance take some of the crosshead's way, too
 
 constexpr double kDropExtension = 1e-3;  // for the paper's radius [m]
-constexpr double kCreep = 1.0 / 3.3;     // friction that creeps is Coulomb's well above this share of the slowest pull
+constexpr double kCreep = 1.0 / 3.3;  // friction that creeps is Coulomb's well above this fraction of the slowest pull
 
 constexpr double kMarginOfCell = 2.5;                            // over the strength of one strand: a loop has two
 constexpr double kLeastCapacity = 1e-3, kLargestCapacity = 1e8;  // [N]

@@ -7,6 +7,7 @@
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
+#include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 /// Every key of a method with its range, said once: reading and writing both walk these lists.
@@ -67,6 +68,7 @@ void material(Fields& f, Material& o) {
   f.required_number("twisting_stiffness", o.twisting_stiffness, Range{1e-18, 1e6, "N m2"});
   f.required_number("friction_coefficient", o.friction_coefficient, Range{0.0, 5.0, "-"});
   f.optional_number("friction_couple", o.friction_couple, Range{0.0, 1.0, "-"}, "auto");
+  f.choice("stretching_law", o.stretching_law, kStretchingLawNames);
   f.choice("bending_law", o.bending_law, kBendingLawNames);
   f.number("hardening", o.hardening, Range{0.01, 1.0, "-"});
   f.number("bending_set", o.bending_set, Range{0.0, 1.0, "-"});
@@ -91,6 +93,7 @@ void load_cell(Fields& f, LoadCellOptions& o) {
   f.number("drift", o.drift, Range{-1e3, 1e3, "N/s"});
   f.number("overload", o.overload, Range{1.0, kInfinity, "of capacity"});
   f.integer("seed", o.seed, 0u, std::numeric_limits<unsigned>::max());
+  f.integer("noise_run", o.noise_run, 0u, std::numeric_limits<unsigned>::max());
   f.text("notes", o.notes);
 }
 

@@ -51,15 +51,17 @@ std::vector<double> of_knots(const Source& of) {
   return {values.begin(), values.end()};
 }
 
-Number share_of(const Number& reading, const Number& share) {
-  return reading && share ? Number(std::abs(*reading) * *share) : std::nullopt;
+Number fraction_of(const Number& reading, const Number& fraction) {
+  return reading && fraction ? Number(std::abs(*reading) * *fraction) : std::nullopt;
 }
 Number plateau_force_error(const Source& of) {
-  return share_of(of.results.true_plateau_force, of.errors.plateau_force);
+  return fraction_of(of.results.true_plateau_force, of.errors.plateau_force);
 }
-Number lock_extension_error(const Source& of) { return share_of(of.results.lock_extension, of.errors.lock_extension); }
+Number lock_extension_error(const Source& of) {
+  return fraction_of(of.results.lock_extension, of.errors.lock_extension);
+}
 Number locked_stiffness_error(const Source& of) {
-  return share_of(of.results.curve.locked_stiffness, of.errors.locked_stiffness);
+  return fraction_of(of.results.curve.locked_stiffness, of.errors.locked_stiffness);
 }
 
 /// Of the load cell, at a true force.
@@ -74,12 +76,22 @@ Number moment_balance_error(const Source& of) {
   return arm ? Number(*arm / of.facts.material.radius) : std::nullopt;
 }
 
+// Without friction the ratio is 1, but for what the solver leaves.
+constexpr double kBearsItsLoad = 0.99;
+
+/// Of a strand that slides all along its posts: what pulls it bears more than the load at its other end.
 Number force_ratio(const Source& of) {
-  const Number& late = of.results.late_force;
-  return late && of.facts.dead_load > 0.0 ? Number(*late / of.facts.dead_load) : std::nullopt;
+  const Number& force = of.results.steady_force;
+  const double load = of.facts.dead_load;
+  if (!of.results.true_peak_force || !force || !(load > 0.0) || *force < kBearsItsLoad * load) return std::nullopt;
+  return *force / load;
 }
 std::string why_no_force_ratio(const Source& of) {
-  return of.facts.dead_load > 0.0 ? why_not_pulled(of) : "no dead load pulls the specimen's other end";
+  if (!(of.facts.dead_load > 0.0)) return "no dead load pulls the specimen's other end";
+  if (!of.results.true_peak_force) return why_not_pulled(of);
+  if (of.results.break_extension) return "the rod broke";
+  return of.results.steady_force ? "the strand does not slide: it bears less than its tail load"
+                                 : "the force is not steady: the strand does not slide all along the post yet";
 }
 
 template <auto Force>
@@ -174,8 +186,8 @@ constexpr ResultKey kKeys[] = {
      margin<&Margin::friction>, why_no_margin},
     {"margin_preload", "-", kCurve, "Share of the pre-load that may be missing before the knots open",
      margin<&Margin::preload>, why_no_margin},
-    {"force_ratio", "-", kCurve, "Mean true force over the second half of the pull, over the tail load", force_ratio,
-     why_no_force_ratio},
+    {"force_ratio", "-", kCurve, "Mean true force over the second half of a pull that slides, over the tail load",
+     force_ratio, why_no_force_ratio},
     {"no_plateau_because", "-", kCurve, "Why there is no plateau", no_plateau_because, "there is a plateau"},
     {"largest_drop", "N", kCurve, "Largest sudden fall of the force before the lock", curve<&C::largest_drop>,
      why_no_drop},
@@ -242,6 +254,7 @@ constexpr ResultKey kKeys[] = {
     {"stored_energy", "J", kEnergy, "Energy stored in rod and contacts", energy<&E::stored>, why_not_pulled},
     {"kinetic_energy", "J", kEnergy, "Kinetic energy", energy<&E::kinetic>, why_not_pulled},
     {"friction_loss", "J", kEnergy, "Energy lost to friction", energy<&E::friction>, why_not_pulled},
+    {"plastic_loss", "J", kEnergy, "Energy lost as bends yield", energy<&E::plastic>, why_not_pulled},
     {"drag_loss", "J", kEnergy, "Energy lost to drag", energy<&E::drag>, why_not_pulled},
     {"numerical_dissipation", "J", kEnergy, "Energy lost in the time steps (numerical dissipation)",
      energy<&E::numerical>, why_not_pulled},

@@ -14,7 +14,7 @@ namespace {
 /// A contact deeper than this is no longer that of the rod it stands for [fraction of radius].
 constexpr double kDeep = 0.05;
 /// Where energies miss the work by more, what Newton's method leaves unbalanced has a part in the forces too: seen
-/// where a loose loop pulls with far less than k_b/h^2, of which `physics.residual` is a share.
+/// where a loose loop pulls with far less than k_b/h^2, of which `physics.residual` is a fraction.
 constexpr double kUnbalanced = 0.01;
 
 std::vector<std::string> warnings(const Results& results) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -95,12 +96,19 @@ std::vector<Scatter> default_scatter(const Method& method) {
 }
 
 void check_scatter(const Method& method) {
-  for (const Scatter& scatter : method.specimens.scatter)
-    if (!number_at(method, scatter.key))
+  for (const Scatter& scatter : method.specimens.scatter) {
+    const std::optional<double> value = number_at(method, scatter.key);
+    const std::string begin = "specimens.scatter: " + shown(scatter.key);
+    if (!value)
       throw InvalidInput::sentence("specimens.scatter", scatter.key,
-                                   "specimens.scatter: " + shown(scatter.key) +
+                                   begin +
                                        " is no key of this method that has a number, such as material.radius or "
                                        "program.pull.speed");
+    if (!std::isfinite(*value) || *value == 0.0)
+      throw InvalidInput::sentence("specimens.scatter", scatter.key,
+                                   begin + " is " + format_number(*value) +
+                                       " in this method, which does not scatter: what is drawn is a fraction of it");
+  }
 }
 
 YAML::Node specimens_map(const SpecimensOptions& specimens) {

@@ -30,8 +30,8 @@ double bending_force(const Material& material) {
 /// Pre-load below which the coils stay as they are drawn, but no more than closes them without friction: strands that
 /// hold each other by friction alone may be pulled tight later.
 double least_preload(const SpecimenOptions& specimen, const Material& material) {
-  const double closed = closing_preload(material), share = kClosed / drawn_coil(specimen);
-  return std::min(closed * share * share, bending_force(material) / (2.0 * kClosed * kClosed));
+  const double closed = closing_preload(material), fraction = kClosed / drawn_coil(specimen);
+  return std::min(closed * fraction * fraction, bending_force(material) / (2.0 * kClosed * kClosed));
 }
 
 std::string digits(double value) {

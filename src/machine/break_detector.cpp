@@ -58,10 +58,10 @@ std::string BreakDetector::judge(const Sample& sample) {
   const Fall from_peak(peak_, sample);
   peak_ = std::max(peak_, highest);
   std::string found;
-  const auto falls_within = [&](Window& window, double now, double width, double share, const char* how) {
+  const auto falls_within = [&](Window& window, double now, double width, double fraction, const char* how) {
     const Fall fall(window.largest(now, width), sample);
     window.add(now, width, highest);
-    if (found.empty() && fall.size() >= share * peak_) found = fall.text() + how;
+    if (found.empty() && fall.size() >= fraction * peak_) found = fall.text() + how;
   };
   if (detection_.sharp_drop)
     falls_within(in_time_, time, detection_.sharp_drop_time, *detection_.sharp_drop, " at once");

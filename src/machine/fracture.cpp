@@ -30,19 +30,19 @@ Exposure most_exposed(const RodProperties& rod, const RodState& state) {
   Exposure out;
   double bend_before = 0.0;
   for (Eigen::Index j = 0; j < rod.edges(); ++j) {
-    const double tension = stretching_tension(material.stretching_stiffness, rod.rest_length[j],
-                                              state.position.col(j + 1) - state.position.col(j));
+    const StretchedEdge stretched = stretched_edge(rod, state.position, j);
+    const double tension = respond(rod, stretched).tension;
     Exposure edge;
     if (material.breaking_force)
       edge = {tension / *material.breaking_force, static_cast<int>(j), BreakLimit::kForce, tension};
     if (material.breaking_strain) {
       const double bend = curvature(rod, state.position, j + 1);
-      const double strain = tension / material.stretching_stiffness + material.radius * std::max(bend, bend_before);
-      const double share = strain / *material.breaking_strain;
-      if (share > edge.share) edge = {share, static_cast<int>(j), BreakLimit::kStrain, strain};
+      const double strain = stretched.stretch - 1.0 + material.radius * std::max(bend, bend_before);
+      const double fraction = strain / *material.breaking_strain;
+      if (fraction > edge.fraction) edge = {fraction, static_cast<int>(j), BreakLimit::kStrain, strain};
       bend_before = bend;
     }
-    if (edge.share > out.share) out = edge;
+    if (edge.fraction > out.fraction) out = edge;
   }
   return out;
 }

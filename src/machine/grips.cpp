@@ -112,7 +112,7 @@ void Grips::hold_far_side(const Points& position, double displacement) {
   holds_far_side_ = true;
 }
 
-/// To pins in the loop as it was drawn, by a share of what they widen: its near side is where it will be, its half
+/// To pins in the loop as it was drawn, by a fraction of what they widen: its near side is where it will be, its half
 /// circles are narrower and further out by as much as keeps its length.
 void Grips::narrow(double left, std::vector<Roller>& rollers) const {
   for (Roller& roller : rollers) {

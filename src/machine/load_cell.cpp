@@ -20,10 +20,15 @@ double gain_error(const LoadCellOptions& options) {
   return options.accuracy * (2.0 * uniform(random) - 1.0);
 }
 
+std::mt19937_64 noise_of(const LoadCellOptions& options) {
+  if (options.noise_run == 0) return std::mt19937_64(options.seed);
+  return sequence_of(options.seed, options.noise_run, "noise");
+}
+
 }  // namespace
 
 LoadCell::LoadCell(const LoadCellOptions& options)
-    : options_(options), gain_(1.0 + gain_error(options)), random_(options.seed) {
+    : options_(options), gain_(1.0 + gain_error(options)), random_(noise_of(options)) {
   const auto check = [](const char* key, double value, bool allowed, const char* text) {
     if (!allowed) throw InvalidInput(std::string("machine.load_cell.") + key, std::to_string(value), text);
   };

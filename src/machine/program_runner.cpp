@@ -383,8 +383,8 @@ double ProgramRunner::recorded_way(double time) const {
   if (after == recorded.begin()) return 0.0;
   if (after == recorded.end()) return recorded.back().displacement - recorded.front().displacement;
   const RecordedPlace &from = *(after - 1), &to = *after;
-  const double share = (time - from.time) / (to.time - from.time);
-  return from.displacement + share * (to.displacement - from.displacement) - recorded.front().displacement;
+  const double fraction = (time - from.time) / (to.time - from.time);
+  return from.displacement + fraction * (to.displacement - from.displacement) - recorded.front().displacement;
 }
 
 Command ProgramRunner::command(std::uint64_t sequence) const {

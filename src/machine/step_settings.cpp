@@ -30,7 +30,7 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
   const double h = material.radius;
   StepSettings out;
   out.contact_law = physics.contact_law;
-  out.normal = {default_contact_stiffness(material), tolerance.contact_tolerance * h, kStiffeningDepth * h};
+  out.normal = NormalLaw{default_contact_stiffness(material), tolerance.contact_tolerance * h, kStiffeningDepth * h};
   out.friction = Friction::of(physics.friction, {material.friction_coefficient, h, tolerance.presliding});
   out.roller_friction = Friction::of(physics.friction, {machine.roller_friction, h, tolerance.presliding});
   out.bending = bending_law_of(material);

@@ -33,9 +33,9 @@ void TakeUp::follow(double load, double displacement, double knot_distance) {
   if (moved_ && sense != sense_) finest_ *= kSlow;
   moved_ = true;
   sense_ = sense;
-  share_ = std::min(finest_, sense > 0.0 && load > kMuch * taut_ ? kSlow : 1.0);
+  fraction_ = std::min(finest_, sense > 0.0 && load > kMuch * taut_ ? kSlow : 1.0);
 }
 
-void TakeUp::state(Archive& archive) { archive(sense_, share_, finest_, begin_, knot_distance_, moved_, done_); }
+void TakeUp::state(Archive& archive) { archive(sense_, fraction_, finest_, begin_, knot_distance_, moved_, done_); }
 
 }  // namespace knot_utm

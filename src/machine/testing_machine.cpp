@@ -58,7 +58,7 @@ struct TestingMachine::Impl {
   double grip = 0.0;          // of the upper grip, the same on a rigid frame [m]
   double grip_tried = 0.0;    // in the step that is being made
   double extension_zero = 0.0, raw_extension_zero = 0.0;
-  double exposure = 0.0;    // share of the way to a break
+  double exposure = 0.0;    // fraction of the way to a break
   double recoil_end = 0.0;  // of a rod that has just parted [s]
   BreakPlace break_place = BreakPlace::kNone;
   double travel_tried = 0.0;  // of the crosshead, in the step that is being made [m]
@@ -93,7 +93,7 @@ struct TestingMachine::Impl {
     state.velocity = Points::Zero(3, nodes);
     const RodProperties rod = make_rod(material, rest);
     const bool takes_set = specimen.to_be_tied && material.bending_set > 0.0;
-    if (takes_set || remembers_bends(material)) state.natural_curvature.setZero(2, nodes - 2);
+    if (takes_set || bends_on_frames(material)) state.natural_curvature.setZero(2, nodes - 2);
     if (solves_for_twist(rod, state)) initialise_frames(&state);
     const StepSettings settings = step_settings(specimen, material_, machine, physics);
     gravity = settings.gravity;
@@ -139,9 +139,9 @@ struct TestingMachine::Impl {
                               double start_displacement) {
     const double whole = command.time - start_time;
     // A recoil may go on behind the command; the crosshead does not.
-    const double share = whole > 0.0 ? std::min(1.0, (to - start_time) / whole) : 1.0;
+    const double fraction = whole > 0.0 ? std::min(1.0, (to - start_time) / whole) : 1.0;
     const double travel = mounts() ? displacement + loop->mounting_velocity(command.speed) * (to - from)
-                                   : start_displacement + share * (command.displacement - start_displacement);
+                                   : start_displacement + fraction * (command.displacement - start_displacement);
     travel_tried = travel;
     // Of what was last accepted alone: a step that is tried again at another length begins from the same.
     grip_tried = frame.rigid()
@@ -199,13 +199,13 @@ struct TestingMachine::Impl {
   void watch_for_break(double dt) {
     if (!can_part(material) || parted()) return;
     const Exposure now = most_exposed(stepper->rod(), stepper->state());
-    if (now.share >= 1.0) {
+    if (now.fraction >= 1.0) {
       part(now);
-    } else if (now.share > exposure) {
-      const double left = (1.0 - now.share) / (now.share - exposure) * dt;
+    } else if (now.fraction > exposure) {
+      const double left = (1.0 - now.fraction) / (now.fraction - exposure) * dt;
       control.at_most(std::max(left, kNearBreak * tolerances(physics, specimen, material).longest_step));
     }
-    exposure = now.share;
+    exposure = now.fraction;
   }
 
   void part(const Exposure& reached) {
@@ -280,6 +280,7 @@ struct TestingMachine::Impl {
     s.grip_work = work.boundary;
     s.dissipation = work.friction + work.drag + work.plastic;
     s.friction_loss = work.friction;
+    s.plastic_loss = work.plastic;
     s.numerical_dissipation = work.numerical;
     s.reweighting_loss = work.reweighting;
     s.moment_imbalance = stepper->loads().moment.norm();

@@ -169,7 +169,7 @@ StencilLocal bending(const BendingInput& input, const Vec3& e, const Vec3& f, co
   return on_nodes(elastic(input, bend.value), bend);
 }
 
-void take_bending_set(double share, RodState* state) {
+void take_bending_set(double fraction, RodState* state) {
   if (!state->curved_at_rest())
     throw InvalidInput("rod", "straight at rest", "made with natural curvatures, be they zero, to take a set");
   const Points& x = state->position;
@@ -179,7 +179,7 @@ void take_bending_set(double share, RodState* state) {
   };
   for (Eigen::Index i = 1; i <= state->natural_curvature.cols(); ++i)
     state->natural_curvature.col(i - 1) =
-        share * material_curvature(edge(i - 1), edge(i), directors(i - 1), directors(i));
+        fraction * material_curvature(edge(i - 1), edge(i), directors(i - 1), directors(i));
 }
 
 }  // namespace knot_utm

@@ -36,9 +36,7 @@ void check(const RodProperties& rod, const RodState& state) {
 
 double stretching_energy(const RodProperties& rod, const Points& x) {
   double sum = 0.0;
-  for (Eigen::Index j = 0; j < rod.edges(); ++j) {
-    sum += stretching_gradient(rod.material.stretching_stiffness, rod.rest_length[j], x.col(j + 1) - x.col(j)).energy;
-  }
+  for (Eigen::Index j = 0; j < rod.edges(); ++j) sum += respond(rod, stretched_edge(rod, x, j)).energy;
   return sum;
 }
 
@@ -87,10 +85,7 @@ ElasticEnergy elastic_energy(const RodProperties& rod, const RodState& state) {
 
 Eigen::VectorXd edge_tension(const RodProperties& rod, const Points& position) {
   Eigen::VectorXd tension(rod.edges());
-  for (Eigen::Index j = 0; j < rod.edges(); ++j) {
-    tension[j] = stretching_tension(rod.material.stretching_stiffness, rod.rest_length[j],
-                                    position.col(j + 1) - position.col(j));
-  }
+  for (Eigen::Index j = 0; j < rod.edges(); ++j) tension[j] = respond(rod, stretched_edge(rod, position, j)).tension;
   return tension;
 }
 

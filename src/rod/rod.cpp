@@ -8,6 +8,7 @@ namespace knot_utm {
 RodProperties make_rod(const Material& material, const Eigen::VectorXd& rest_length) {
   RodProperties rod;
   rod.material = material;
+  rod.stretching = stretching_law_of(material);
   rod.rest_length = rest_length;
   const Eigen::Index edges = rest_length.size();
   rod.voronoi_length = Eigen::VectorXd::Zero(edges + 1);
@@ -35,7 +36,7 @@ void Material::state(Archive& archive) {
 }
 
 void RodProperties::state(Archive& archive) {
-  archive.section("PROP");
+  archive.section("PRO2");  // "PROP" had no stretching law
   archive(material);
   for (Eigen::VectorXd* each : {&rest_length, &voronoi_length, &mass, &natural_twist}) archive.list(*each);
   const Eigen::Index inner = nodes() - 2, twisted = natural_twist.size();
@@ -45,6 +46,7 @@ void RodProperties::state(Archive& archive) {
   const bool solid = positive(rest_length) && positive(voronoi_length) && positive(mass) && std::isfinite(length()) &&
                      material.radius > 0.0 && std::isfinite(material.radius);
   archive.require(solid, "rod", "one without a length, a radius or a mass");
+  LawRegistry<StretchingLaws>::archive(archive, "stretching law", stretching);
 }
 
 void RodState::state(Archive& archive) {

@@ -46,30 +46,30 @@ StencilMatrix second_derivatives(const Corner& at) {
   return on_nodes(h);
 }
 
-}  // namespace
-
-double twisting_energy(const TwistingInput& input, double twist) {
-  const double off = twist - input.natural_twist;
-  return 0.5 * input.k_t / input.voronoi_length * off * off;
+TwistingResponse<double> respond(const TwistingInput& input, double twist) {
+  return TwistingLaw().respond(TwistedNode<double>{input.k_t / input.voronoi_length, twist - input.natural_twist});
 }
 
+}  // namespace
+
+double twisting_energy(const TwistingInput& input, double twist) { return respond(input, twist).energy; }
+
 StencilGradient twisting_gradient(const TwistingInput& input, const Vec3& e, const Vec3& f, double twist) {
-  const double moment = input.k_t / input.voronoi_length * (twist - input.natural_twist);
+  const TwistingResponse<double> law = respond(input, twist);
   StencilGradient local;
-  local.energy = twisting_energy(input, twist);
-  local.gradient = moment * first_derivatives(Corner(e, f));
+  local.energy = law.energy;
+  local.gradient = law.moment * first_derivatives(Corner(e, f));
   return local;
 }
 
 StencilLocal twisting(const TwistingInput& input, const Vec3& e, const Vec3& f, double twist) {
   const Corner at(e, f);
-  const double stiffness = input.k_t / input.voronoi_length;
-  const double moment = stiffness * (twist - input.natural_twist);
+  const TwistingResponse<double> law = respond(input, twist);
   const StencilVector slope = first_derivatives(at);
   StencilLocal local;
-  local.energy = twisting_energy(input, twist);
-  local.gradient = moment * slope;
-  local.hessian = stiffness * slope * slope.transpose() + moment * second_derivatives(at);
+  local.energy = law.energy;
+  local.gradient = law.moment * slope;
+  local.hessian = law.tangent * slope * slope.transpose() + law.moment * second_derivatives(at);
   return local;
 }
 

@@ -33,9 +33,9 @@ ColorScale ColorScale::of_tension(const Material& material, const LoadCellOption
 ColorScale ColorScale::of_curvature() { return {ColorBy::kCurvature, kSharpestBend}; }
 
 double ColorScale::place(double value) const {
-  const double share = std::clamp(value / full_, -1.0, 1.0);
-  if (what_ == ColorBy::kCurvature) return share;
-  return std::copysign(std::log1p(kDecades * std::abs(share)) / std::log1p(kDecades), share);
+  const double fraction = std::clamp(value / full_, -1.0, 1.0);
+  if (what_ == ColorBy::kCurvature) return fraction;
+  return std::copysign(std::log1p(kDecades * std::abs(fraction)) / std::log1p(kDecades), fraction);
 }
 
 double ColorScale::lowest() const { return what_ == ColorBy::kTension ? place(-kCompression * full_) : 0.0; }

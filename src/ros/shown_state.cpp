@@ -26,13 +26,13 @@ void ShownState::add(Moment moment, Clock::time_point now) {
   arrived_ = now;
 }
 
-double ShownState::share(Clock::time_point now) const {
+double ShownState::fraction(Clock::time_point now) const {
   if (states_ < 2 || !(interval_ > 0.0)) return 1.0;
   return std::clamp(seconds(now - arrived_) / interval_, 0.0, 1.0);
 }
 
 Moment ShownState::at(Clock::time_point now) const {
-  const double x = share(now);
+  const double x = fraction(now);
   if (x >= 1.0) return latest_;
   Moment shown = before_;
   shown.stamp += (latest_.stamp - before_.stamp) * x;

@@ -7,7 +7,7 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kFollow = 0.25;  // share of the way to the knots that a look at them goes with each picture
+constexpr double kFollow = 0.25;  // fraction of the way to the knots that a look at them goes with each picture
 constexpr double kClose = 9.0;    // half of the width of one knot seen alone [radius]
 
 Look look_at(const Box& box) { return {box.middle(), Camera::eye_for(box)}; }

@@ -22,7 +22,9 @@ CentrelineTerms::CentrelineTerms(const RodProperties& rod, bool bends)
       bending_stiffness_(static_cast<std::size_t>(rod.nodes())),
       tangent_(static_cast<std::size_t>(rod.edges())),
       inverse_length_(tangent_.size()),
+      stretch_(tangent_.size()),
       tension_(tangent_.size()),
+      slope_(tangent_.size()),
       predicted_tension_(tangent_.size()),
       cosine_(static_cast<std::size_t>(rod.nodes() + 3) / 4, constant<Lanes>(1.0)),
       bending_slope_(cosine_.size()),
@@ -40,21 +42,26 @@ void CentrelineTerms::begin(const Points& start, bool predicts) {
   predicts_ = predicts;
   if (!predicts) return;
   for (std::size_t j = 0; j < predicted_tension_.size(); ++j) {
-    const auto edge = static_cast<Eigen::Index>(j);
-    predicted_tension_[j] =
-        stretching_tension(stretching_stiffness_[j], rod_.rest_length[edge], start.col(edge + 1) - start.col(edge));
+    StretchedEdge edge = stretched_edge(rod_, start, static_cast<Eigen::Index>(j));
+    edge.stiffness = stretching_stiffness_[j];
+    predicted_tension_[j] = respond(rod_, edge).tension;
   }
 }
 
 void CentrelineTerms::predict_tensions(const std::vector<Lanes>& change, double factor) {
   if (!predicts_) return;
   for (std::size_t j = 0; j < predicted_tension_.size(); ++j)
-    predicted_tension_[j] = tension_[j] + factor * stretching_stiffness_[j] /
-                                              rod_.rest_length[static_cast<Eigen::Index>(j)] *
+    predicted_tension_[j] = tension_[j] + factor * slope_[j] / rod_.rest_length[static_cast<Eigen::Index>(j)] *
                                               dot(tangent_[j], change[j + 1] - change[j]);
 }
 
 void CentrelineTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
+  std::visit([&](const auto& law) { add_stretching_forces(law, position, force); }, rod_.stretching);
+  if (bends_) add_bending_forces(force);
+}
+
+template <typename Law>
+void CentrelineTerms::add_stretching_forces(const Law& law, const Points& position, std::vector<Lanes>& force) {
   const std::size_t edges = tangent_.size();
   largest_tension_ = 0.0;
   for (std::size_t j = 0; j < edges; ++j) {
@@ -63,13 +70,15 @@ void CentrelineTerms::add_forces(const Points& position, std::vector<Lanes>& for
     const double length = std::sqrt(dot(e, e));
     inverse_length_[j] = 1.0 / length;
     tangent_[j] = inverse_length_[j] * e;
-    tension_[j] = stretching_stiffness_[j] * (length / rod_.rest_length[static_cast<Eigen::Index>(j)] - 1.0);
+    stretch_[j] = length / rod_.rest_length[static_cast<Eigen::Index>(j)];
+    const StretchingResponse response = law.respond(stretched(j));
+    tension_[j] = response.tension;
+    slope_[j] = response.slope;
     largest_tension_ = std::max(largest_tension_, std::abs(tension_[j]));
     const Lanes pull = tension_[j] * tangent_[j];
     force[j] += pull;
     force[j + 1] -= pull;
   }
-  if (bends_) add_bending_forces(force);
 }
 
 void CentrelineTerms::add_bending_forces(std::vector<Lanes>& force) {
@@ -91,14 +100,13 @@ void CentrelineTerms::add_bending_forces(std::vector<Lanes>& force) {
   }
 }
 
-CentrelineTerms::Energy CentrelineTerms::energy(const Points& way) const {
-  const double k_s = rod_.material.stretching_stiffness;
+CentrelineTerms::Energy CentrelineTerms::energy(const Points& increment) const {
   Energy out;
   Lanes before = kZero;  // of the edge before: its change over its length
   for (std::size_t j = 0; j < tangent_.size(); ++j) {
-    const double* w = way.data() + 3 * j;
+    const double* w = increment.data() + 3 * j;
     const Lanes change = {w[3] - w[0], w[4] - w[1], w[5] - w[2], 0.0};
-    out.stretching += 0.5 * tension_[j] * tension_[j] * rod_.rest_length[static_cast<Eigen::Index>(j)] / k_s;
+    if (stretching_stiffness_[j] > 0.0) out.stretching += respond(rod_, stretched(j)).energy;
     out.along += tension_[j] * dot(tangent_[j], change);
     const Lanes turned = inverse_length_[j] * change;
     if (bends_ && j > 0) {
@@ -152,7 +160,7 @@ void CentrelineTerms::set_stiffness(const std::vector<double>& diagonal, StepMat
     if (bends_ && i + 1 < edges) after = bending_hessian(i + 1);
     if (!last) {
       const double across = turning[i] * inverse_length_[i];
-      const double along = stretching_stiffness_[i] / rod_.rest_length[static_cast<Eigen::Index>(i)] - across;
+      const double along = slope_[i] / rod_.rest_length[static_cast<Eigen::Index>(i)] - across;
       const Lanes t = along * tangent_[i];
       for (int k = 0; k < 3; ++k) edge[k] = t * tangent_[i][k] + across * kAxis[k] + here.ff[k] + after.ee[k];
     } else {

@@ -34,8 +34,10 @@ class ContactTerm {
   const std::vector<ContactPoint>& points() const { return contacts_.contacts(); }
 
   void begin(const StepStart& start) {
-    if constexpr (!kOnRollers) contacts_.refresh(start.state.position);
-    contacts_.begin_step();
+    if constexpr (kOnRollers)
+      contacts_.begin(start.boundary.rollers, start.state.position, start.dt);
+    else
+      contacts_.begin(start.state.position);
   }
 
   void add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force) {
@@ -61,10 +63,9 @@ class ContactTerm {
   void add_stiffness(const StepStart& start, const ContactLinearisation& how, const SectionTurns* spins,
                      StepMatrix<D>& matrix, RollerTurns& turns, std::vector<Lanes>& right) {
     pressures_.clear();
-    contacts_.linearise_by(how);
     if constexpr (D == 4)
-      if (contacts_.at_surface()) return add_surface_stiffness(start, *spins, matrix, turns, right);
-    contacts_.linearise(start.dt, models_);
+      if (contacts_.at_surface()) return add_surface_stiffness(start, how, *spins, matrix, turns, right);
+    contacts_.linearise(how, start.dt, models_);
     for (const ContactPoint& contact : points()) {
       if (!contact.active()) continue;
       const Model& model = models_[pressures_.size()];
@@ -94,8 +95,8 @@ class ContactTerm {
   void account(const SolvedStep& step, StepAccount& account) const {
     for (const ContactPoint& contact : points()) {
       const ContactMotion motion = contacts_.motion(contact, step.end, step.state.position);
-      const double now = contact.weight * contacts_.normal().energy(contact.overlap);
-      const double before = contact.weight * contacts_.normal().energy(motion.overlap_before);
+      const double now = contact.weight * contacts_.energy(contact.overlap);
+      const double before = contact.weight * contacts_.energy(motion.overlap_before);
       account.energies.contact += now;
       account.work.reweighting -= before;
       account.work.numerical += before - now;
@@ -135,9 +136,9 @@ class ContactTerm {
       for (int k = 0; k < 3; ++k) to[at(contact.b0 + k)] += contact.c[3 + k] * g;
   }
 
-  void add_surface_stiffness(const StepStart& start, const SectionTurns& spins, StepMatrix<D>& matrix,
-                             RollerTurns& turns, std::vector<Lanes>& right) {
-    contacts_.linearise_surfaces(start.dt, [&](std::size_t i, const SurfaceModel& model) {
+  void add_surface_stiffness(const StepStart& start, const ContactLinearisation& how, const SectionTurns& spins,
+                             StepMatrix<D>& matrix, RollerTurns& turns, std::vector<Lanes>& right) {
+    linearise_surfaces(contacts_, how, start.dt, [&](std::size_t i, const SurfaceModel& model) {
       const ContactPoint& contact = points()[i];
       const SurfacePoint& surface = contacts_.surfaces()[i];
       add_force(contact, model.force - to_lanes(contact.force), right);

@@ -20,8 +20,8 @@ Vec3 slip(const ContactPoint& contact, const Points& increment) {
 }
 
 std::string reason(const RodProperties& rod, const Tunnelling& tunnelling) {
-  auto arclength = [&](int edge, double share) {
-    return rod.rest_length.head(edge).sum() + share * rod.rest_length[edge];
+  auto arclength = [&](int edge, double fraction) {
+    return rod.rest_length.head(edge).sum() + fraction * rod.rest_length[edge];
   };
   std::ostringstream out;
   out << "strands would pass through each other at " << arclength(tunnelling.edge_a, tunnelling.on_a) << " m and "

@@ -96,7 +96,9 @@ FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
       stiffness_(start_tangent_.size(), 0.0),
       binormal_(start_tangent_.size()),
       over_chi_(start_tangent_.size(), 0.0),
+      twist_(start_tangent_.size(), 0.0),
       moment_(start_tangent_.size(), 0.0),
+      tangent_stiffness_(start_tangent_.size(), 0.0),
       director_(3, rod.edges()),
       angle_(start_tangent_.size(), 0.0),
       start_twist_(start_tangent_.size(), 0.0),
@@ -116,7 +118,7 @@ void FrameTerms::part(int edge) {
   stiffness_[at(edge)] = stiffness_[at(edge + 1)] = 0.0;
 }
 
-void FrameTerms::begin_step(const RodState& start, const std::vector<FixedTwist>& held, double dt) {
+void FrameTerms::begin(const RodState& start, const std::vector<FixedTwist>& held, double dt) {
   start_ = &start;
   curved_ = start.curved_at_rest();
   dt_ = dt;
@@ -163,9 +165,12 @@ void FrameTerms::set_twist() {
     const Turns around = transport(e_n, f_n) * transport(e, e_n) * Turns{e_to_f.w, -1.0 * e_to_f.v} * transport(f_n, f);
     const Lanes turned = angle_about(f_n, around), over_chi = 1.0 / e_to_f.w;
     const Lanes twist = four(angle_, i) - four(angle_, i - 1) + four(start_twist_, i) + turned;
+    const TwistingResponse<Lanes> law = TwistingLaw().respond(TwistedNode<Lanes>{four(stiffness_, i), twist});
     put(2.0 * over_chi * e_to_f.v, binormal_, i);
     put(over_chi, over_chi_, i);
-    put(four(stiffness_, i) * twist, moment_, i);
+    put(twist, twist_, i);
+    put(law.moment, moment_, i);
+    put(law.tangent, tangent_stiffness_, i);
     put(turned, reference_twist_, i);
   }
   for (std::size_t i = 1; i < edges; ++i)
@@ -270,7 +275,7 @@ FrameTerms::EdgeStiffness FrameTerms::edge_stiffness(int j) const {
 
 /// With t = mean and s_e = u + t, the Hessian of twisting.hpp by its right factors b and s.
 FrameTerms::TwistStiffness FrameTerms::twist_stiffness(std::size_t node) const {
-  const double k = stiffness_[node], moment = moment_[node], over_chi = over_chi_[node];
+  const double k = tangent_stiffness_[node], moment = moment_[node], over_chi = over_chi_[node];
   const double over_e = inverse_length_[node - 1], over_f = inverse_length_[node];
   const Lanes &b = binormal_[node], &u = tangent_[node - 1], &v = tangent_[node];
   const Lanes mean = over_chi * (u + v), s_e = u + mean, s_f = v + mean;
@@ -313,7 +318,7 @@ void FrameTerms::add_bending_stiffness(const Law& law, StepMatrix<4>& matrix) co
 void FrameTerms::add_stiffness(StepMatrix<4>& matrix) const {
   const std::size_t nodes = held_.size(), edges = nodes - 1;
   // As CentrelineTerms::set_stiffness: by A_j of every edge, here with its sweep, and B_i of the two edges of a node.
-  // With g = k_t/lbar (-m_e, m_e - m_f, m_f) of nodes i-1 to i+1, the spins before and behind node i add -g and g.
+  // With g = d2E/dm2 (-m_e, m_e - m_f, m_f) of nodes i-1 to i+1, the spins before and behind node i add -g and g.
   TwistStiffness here{}, after{};
   Lanes edge_before[3] = {}, edge[3] = {};
   for (std::size_t i = 0; i < nodes; ++i, here = after) {
@@ -367,8 +372,8 @@ double FrameTerms::largest_factor(const std::vector<Lanes>& change) const {
   return longest > kLongestTurn ? kLongestTurn / longest : 1.0;
 }
 
-void FrameTerms::move(const std::vector<Lanes>& change, double share) {
-  for (int j = 0; j < static_cast<int>(rod_.edges()); ++j) angle_[at(j)] += share * angle_change(change, j);
+void FrameTerms::move(const std::vector<Lanes>& change, double factor) {
+  for (int j = 0; j < static_cast<int>(rod_.edges()); ++j) angle_[at(j)] += factor * angle_change(change, j);
 }
 
 template <typename Law>
@@ -392,16 +397,17 @@ void FrameTerms::commit(RodState& state) {
   if (curved_ && remembers(law_)) std::visit([&](const auto& law) { remember_bends(law, state); }, law_);
 }
 
-FrameTerms::Energy FrameTerms::energy(const Points& way, const std::vector<Lanes>& force) const {
+FrameTerms::Energy FrameTerms::energy(const Points& increment, const std::vector<Lanes>& force) const {
   Energy out;
   const int edges = static_cast<int>(rod_.edges());
   const auto turn = [&](int j) { return angle_[at(j)] - start_->twist[j]; };
-  const auto edge_change = [&](int j) { return to_lanes(Vec3(way.col(j + 1) - way.col(j))); };
+  const auto edge_change = [&](int j) { return to_lanes(Vec3(increment.col(j + 1) - increment.col(j))); };
   const auto add_elastic = [&](const auto& law) {
     for (int i = 1; i < edges; ++i) {
       const double moment = moment_[at(i)], by_e = 0.5 * inverse_length_[at(i - 1)],
                    by_f = 0.5 * inverse_length_[at(i)];
-      if (moment != 0.0) out.twisting += 0.5 * moment * moment / stiffness_[at(i)];
+      if (stiffness_[at(i)] > 0.0)
+        out.twisting += TwistingLaw().respond(TwistedNode<double>{stiffness_[at(i)], twist_[at(i)]}).energy;
       out.along +=
           moment * (dot(binormal_[at(i)], by_e * edge_change(i - 1) + by_f * edge_change(i)) + turn(i) - turn(i - 1));
       if (!curved_) continue;
@@ -412,7 +418,7 @@ FrameTerms::Energy FrameTerms::energy(const Points& way, const std::vector<Lanes
       out.bending += bend.energy - dissipated;
       out.plastic += dissipated;
       StencilVector moved;
-      moved << way.col(i - 1), turn(i - 1), way.col(i), turn(i), way.col(i + 1);
+      moved << increment.col(i - 1), turn(i - 1), increment.col(i), turn(i), increment.col(i + 1);
       out.along += bend.gradient.dot(moved);
     }
   };

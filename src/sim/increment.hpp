@@ -98,8 +98,8 @@ class Increment {
     eq_.centreline.begin(start.state.position, predicts);
     eq_.strands.begin(start);
     eq_.rollers.begin(start);
-    if constexpr (D == 4) eq_.frames.begin_step(start.state, start.boundary.fixed_twists, start.dt);
-    eq_.matrix.begin_step();
+    if constexpr (D == 4) eq_.frames.begin(start.state, start.boundary.fixed_twists, start.dt);
+    eq_.matrix.begin();
     eq_.x = start.state.position + start.dt * start.state.velocity;
     eq_.held.begin(start, eq_.x);
   }

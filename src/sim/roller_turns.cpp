@@ -132,8 +132,8 @@ double RollerTurns::largest_motion() const {
   return largest;
 }
 
-void RollerTurns::move(RollerContact& contact, double share) const {
-  for (std::size_t n = 0; n < free_.size(); ++n) contact.turn_on(borders_[n].roller, share * borders_[n].change);
+void RollerTurns::move(RollerContact& contact, double factor) const {
+  for (std::size_t n = 0; n < free_.size(); ++n) contact.turn_on(borders_[n].roller, factor * borders_[n].change);
 }
 
 }  // namespace knot_utm

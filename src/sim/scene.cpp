@@ -31,16 +31,18 @@ void Boundary::state(Archive& archive, int nodes) {
 }
 
 void StepSettings::state(Archive& archive) {
-  archive.section("SET3");  // "SETT" had friction on centrelines only, "SET2" no bending law
+  archive.section("SET4");  // "SETT" had friction on centrelines only, "SET2" no bending law, "SET3" one pressure law
   archive.choice("contact law", contact_law, ContactLaw::kEdge);
-  archive(normal, friction, roller_friction, friction_couple, weighting_time, gravity, drag, spin_inertia, residual,
+  LawRegistry<PressureLaws>::archive(archive, "pressure law", normal);
+  archive(friction, roller_friction, friction_couple, weighting_time, gravity, drag, spin_inertia, residual,
           residual_from_step, residual_of_tension, residual_at_little_tension, newton_cap, motion_limit, overlap_limit,
           candidate_margin);
-  archive_law(archive, bending);
+  LawRegistry<BendingLaws>::archive(archive, "bending law", bending);
   archive.number("iterations", max_iterations, 1, kMostIterations);
-  const bool finite = std::isfinite(normal.tolerance) && std::isfinite(candidate_margin) && normal.tolerance >= 0.0 &&
-                      candidate_margin >= 0.0;
-  archive.require(finite, "reach of contacts", std::to_string(normal.tolerance + candidate_margin) + " m");
+  const double reach = -2.0 * begin_of(normal);
+  const bool finite =
+      std::isfinite(reach) && std::isfinite(candidate_margin) && reach >= 0.0 && candidate_margin >= 0.0;
+  archive.require(finite, "reach of contacts", std::to_string(reach + candidate_margin) + " m");
 }
 
 }  // namespace knot_utm

@@ -113,7 +113,7 @@ void StepMatrix<D>::find_neighbours() {
 }
 
 template <int D>
-void StepMatrix<D>::begin_step() {
+void StepMatrix<D>::begin() {
   if (!rebuilt_) return;
   rebuilt_ = false;
   std::swap(present_, accepted_);
@@ -123,7 +123,7 @@ void StepMatrix<D>::begin_step() {
 template <int D>
 void StepMatrix<D>::state(Archive& archive) {
   archive.section("ROOM");
-  begin_step();  // what has been tried since then does not count
+  begin();  // what has been tried since then does not count
   archive.list(present_.rooms);
   if (!archive.loads()) return;
   for (const Room& room : present_.rooms) {
@@ -238,10 +238,10 @@ void StepMatrix<D>::add(const ContactPoint& contact, const SurfacePoint& surface
 }
 
 template <int D>
-void StepMatrix<D>::add_lengthening(int first, const double* shares, double torque, const SectionTurns& turns) {
+void StepMatrix<D>::add_lengthening(int first, const double* weights, double torque, const SectionTurns& turns) {
   for (int j = 0; j < 2; ++j) {
     const auto edge = at(first + j);
-    const Lanes pull = (-torque * shares[j] / turns.length[edge]) * turns.tangent[edge];
+    const Lanes pull = (-torque * weights[j] / turns.length[edge]) * turns.tangent[edge];
     Block<D>&own = band(first, j, j), &next = band(first, j, j + 1);
     for (int i = 0; i < 3; ++i) {
       own.column[i][3] -= pull[i];

@@ -35,16 +35,16 @@ struct SurfaceColumn : SurfaceModel::Response {
   }
 };
 
-/// The four columns of a node: c and d are its weights in S and in its section's V; `spin_share` its own spin's.
+/// The four columns of a node: c and d are its weights in S and in its section's V; `spin_weight` its own spin's.
 inline std::array<SurfaceColumn, 4> columns_of(const SurfaceModel& model, int turn, int spin, double c, double d,
-                                               const Lanes& spin_of_node, double spin_share) {
+                                               const Lanes& spin_of_node, double spin_weight) {
   std::array<SurfaceColumn, 4> out;
   for (std::size_t i = 0; i < 3; ++i) {
     out[i] = SurfaceColumn(c, model.by[SurfaceModel::kShift + static_cast<int>(i)]);
     out[i].add(d, model.by[turn + static_cast<int>(i)]);
     out[i].add(spin_of_node[static_cast<int>(i)], model.by[spin]);
   }
-  out[3] = SurfaceColumn(spin_share, model.by[spin]);
+  out[3] = SurfaceColumn(spin_weight, model.by[spin]);
   return out;
 }
 

@@ -7,7 +7,6 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/energy.hpp"
-#include "knot_utm/rod/stretching.hpp"
 #include "solution.hpp"
 #include "watch_increment.hpp"
 
@@ -137,22 +136,19 @@ class ImplicitStep final : public TimeStep {
 }  // namespace
 
 Eigen::VectorXd TimeStep::tension() const {
-  Eigen::VectorXd out = Eigen::VectorXd::Zero(rod_.edges());
-  for (Eigen::Index i = 0; i < rod_.edges(); ++i)
-    if (i != parted_edge_)
-      out[i] = stretching_tension(rod_.material.stretching_stiffness, rod_.rest_length[i],
-                                  state_.position.col(i + 1) - state_.position.col(i));
+  Eigen::VectorXd out = edge_tension(rod_, state_.position);
+  if (parted_edge_ >= 0) out[parted_edge_] = 0.0;
   return out;
 }
 
-void TimeStep::take_set(double share) { take_bending_set(share, &state_); }
+void TimeStep::take_set(double fraction) { take_bending_set(fraction, &state_); }
 
 void TimeStep::state(Archive& archive) { archive(state_); }
 
 std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodState& state,
                                          const StepSettings& settings) {
   elastic_energy(rod, state);  // throws where rod and state do not fit together
-  if (remembers(settings.bending) && !state.curved_at_rest())
+  if (bends_on_frames(settings.bending) && !state.curved_at_rest())
     throw InvalidInput("rod", "one without a memory of bends", "made with natural curvatures, be they zero");
   const bool edges = settings.contact_law == ContactLaw::kEdge;
   if (state.twist.size() == 0) {

@@ -41,9 +41,9 @@ void check_no_overlap(const Centreline& centreline, double radius, const char* k
   }
   if (const std::optional<Tunnelling> passage = TunnellingSearch(points.cols()).find(points, points)) {
     const std::vector<double> at = arclengths(points);
-    auto place = [&](int edge, double share) {
+    auto place = [&](int edge, double fraction) {
       const auto i = static_cast<std::size_t>(edge);
-      return text(at[i] + share * (at[i + 1] - at[i]));
+      return text(at[i] + fraction * (at[i + 1] - at[i]));
     };
     throw InvalidInput::sentence(key, value,
                                  std::string(key) + " " + shown(value) + ": the rod runs through itself at " +

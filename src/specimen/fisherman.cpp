@@ -285,8 +285,8 @@ namespace {
 
 // Of the shipped method, for the paper's radius [m].
 constexpr double kKnotDistance = 0.15, kEndToEnd = 0.25, kTail = 0.03, kRollerDiameter = 0.0381, kWay = 0.12;
-constexpr double kWayOfDistance = 0.7;  // knots far apart lock after about this share of their distance, or less
-constexpr double kShareOfLoop = 0.6;    // e over L, as the paper has it
+constexpr double kWayOfDistance = 0.7;   // knots far apart lock after about this fraction of their distance, or less
+constexpr double kFractionOfLoop = 0.6;  // e over L, as the paper has it
 
 constexpr double kCoarsening = 1.5;  // of edges on the far side of a loop, which touches nothing but rollers
 
@@ -338,7 +338,7 @@ SpecimenOptions FishermanKnot::defaults(double h) const {
 
 void FishermanKnot::suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const {
   const double r = h / kPaperRadius, e = known.knot_distance;
-  out.knot_distance = std::min(kKnotDistance * r, kShareOfLoop * known.end_to_end);
+  out.knot_distance = std::min(kKnotDistance * r, kFractionOfLoop * known.end_to_end);
   // What further windings take up: of the strands outside of both coils, and of the tails.
   const double longer = 2.0 * runs_out(windings(known), FishermanShape().looseness, h);
   const bool roomy = kEndToEnd * r >= e + 12.0 * h + longer && roller_diameter <= kRollerDiameter * r;

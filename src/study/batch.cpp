@@ -84,7 +84,6 @@ class SideBySide {
     out.resume = holds_unfinished_run(out.folder);
     out.overwrite = !out.resume;  // what stands there is an earlier batch's, which the whole one writes over
     out.checkpoint_period = options_.checkpoint_period;
-    out.further = options_.further;
     out.interrupted = [this] { return stops(); };
     const int number = specimen.number;
     out.notice = [this, number](const std::string& line) {

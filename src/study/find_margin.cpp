@@ -83,8 +83,8 @@ Margin find_margin(const MarginTest& test, const std::function<bool()>& interrup
     if (outcome == Outcome::kFailed || outcome == Outcome::kInterrupted) worst = outcome;
     return outcome != Outcome::kHeld;
   };
-  const double friction = share_until_it_opens([&](double factor) { return opens(factor, 1.0); });
-  const double preload = share_until_it_opens([&](double factor) { return opens(1.0, factor); });
+  const double friction = fraction_until_it_opens([&](double factor) { return opens(factor, 1.0); });
+  const double preload = fraction_until_it_opens([&](double factor) { return opens(1.0, factor); });
   if (worst == Outcome::kInterrupted) {
     out.reason = "the runs for the margin were interrupted";
   } else if (worst == Outcome::kFailed) {

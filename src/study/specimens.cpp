@@ -12,12 +12,18 @@ namespace knot_utm {
 namespace {
 
 constexpr double kFurthest = 3.0;  // standard deviations
+constexpr const char* kNoise = "machine.load_cell.noise_run";
 
 double drawn(double x0, const Scatter& scatter, std::mt19937_64 random) {
   if (scatter.law == ScatterLaw::kUniform) return x0 * (1.0 + scatter.spread * (2.0 * uniform(random) - 1.0));
   double z = standard_normal(random);
   while (std::abs(z) > kFurthest) z = standard_normal(random);
   return scatter.law == ScatterLaw::kNormal ? x0 * (1.0 + scatter.spread * z) : x0 * std::exp(scatter.spread * z);
+}
+
+/// From 1 on: 0 is the run of a method that says none.
+std::uint32_t noise_run(unsigned seed, int number) {
+  return static_cast<std::uint32_t>(sequence_of(seed, static_cast<std::uint64_t>(number), kNoise)() >> 33) + 1;
 }
 
 /// Refused now, and not once others have been tested.
@@ -47,8 +53,7 @@ std::vector<DrawnSpecimen> draw_specimens(const Method& method) {
       specimen.drawn.emplace_back(scatter.key, value);
       overrides.push_back(scatter.key + "=" + format_yaml_number(value));
     }
-    const unsigned noise = method.machine.load_cell.seed + static_cast<unsigned>(number) - 1u;
-    overrides.push_back("machine.load_cell.seed=" + std::to_string(noise));
+    overrides.push_back(kNoise + ("=" + std::to_string(noise_run(specimens.seed, number))));
     try {
       specimen.method = parse_method(text, method.name + ".yaml", overrides);
       check_fits(specimen.method);

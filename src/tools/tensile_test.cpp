@@ -10,13 +10,16 @@
 #include <thread>
 #include <vector>
 
+#include "knot_utm/io/key_units.hpp"
 #include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/report.hpp"
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/shipped.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/study/batch.hpp"
 #include "knot_utm/study/headless_run.hpp"
+#include "knot_utm/study/specimens.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/run_bag.hpp"
 #endif
@@ -56,7 +59,9 @@ struct Arguments {
   bool overwrite = false;
   bool quiet = false;
   bool report = false;
-  std::string command;  // the whole line
+  bool check = false;      // no test
+  bool list_keys = false;  // no test
+  std::string command;     // the whole line
 };
 
 #ifdef KNOT_UTM_HAS_ROS
@@ -161,9 +166,6 @@ int run_all_specimens(const Arguments& arguments, const Method& method) {
   options.resume = !arguments.resume.empty();
   options.overwrite = arguments.overwrite;
   options.checkpoint_period = arguments.checkpoint;
-#ifdef KNOT_UTM_HAS_ROS
-  options.further = bag_in;
-#endif
   ProgressLine progress(arguments.quiet);
   options.interrupted = [] { return stop_asked != 0; };
   options.notice = [&](const std::string& line) {
@@ -179,8 +181,27 @@ int run_all_specimens(const Arguments& arguments, const Method& method) {
   return outcome.interrupted || none_counts ? kFailed : kDone;
 }
 
+/// All that a test is refused for, and the method with every value.
+int check(const Method& method) {
+  for (const DrawnSpecimen& specimen : draw_specimens(method)) {
+    const TestingMachine bench(specimen.method.specimen, specimen.method.material, specimen.method.machine,
+                               specimen.method.physics);
+    make_program(specimen.method, bench.longest_step());
+  }
+  std::fputs(method_yaml(method).c_str(), stdout);
+  return kDone;
+}
+
+int list_keys(const Method& method) {
+  std::puts("key,unit");
+  for (const KeyUnit& one : key_units(method)) std::printf("%s,%s\n", one.key.c_str(), one.unit.c_str());
+  return kDone;
+}
+
 int run(const Arguments& arguments) {
   const Method method = load_method(arguments.method, arguments.overrides);
+  if (arguments.check) return check(method);
+  if (arguments.list_keys) return list_keys(method);
   if (method.specimens.count > 1) return run_all_specimens(arguments, method);
   if (!arguments.resume.empty()) require_resumable(arguments.resume);
   const HeadlessOutcome outcome = run_and_tell(arguments, method);
@@ -232,6 +253,11 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
       ->capture_default_str();
   app.add_flag("--quiet", arguments.quiet, "say only what went wrong");
   app.add_flag("--report", arguments.report, "also write report.html and report.pdf");
+  CLI::Option* check = app.add_flag("--check", arguments.check,
+                                    "only say whether the test could be made: writes the method with every value");
+  CLI::Option* list_keys = app.add_flag("--list-keys", arguments.list_keys,
+                                        "only say which keys of the method are numbers, with their units");
+  for (CLI::Option* one : {check, list_keys}) one->excludes(resume);
   app.add_flag_callback(
       "--list-results",
       [] {

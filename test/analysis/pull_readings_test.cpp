@@ -26,10 +26,18 @@ TEST(PullReadings, OfASpringAllStiffnessesAreItsOwn) {
   EXPECT_NEAR(*tangent_stiffness(spring), 160.0, 1e-9);
 }
 
-TEST(PullReadings, LateForceIsTheMeanOfTheSecondHalf) {
-  EXPECT_NEAR(*late_force(pull([](double s) { return 160.0 * s; })), 160.0 * 0.075, 1e-9);
-  EXPECT_FALSE(late_force({}));
-  EXPECT_FALSE(late_force({{0.0, 0.1}}));
+/// The pull goes to s = 0.1. A force that rises by a from its middle on to its end differs by a/2 from quarter to
+/// quarter.
+TEST(PullReadings, SteadyForceIsTheMeanOfASecondHalfThatIsLevel) {
+  const auto rising = [](double rise) {
+    return pull([rise](double s) { return s < 0.05 ? 200.0 * s : 10.0 + rise * (s - 0.05) / 0.05; });
+  };
+  EXPECT_NEAR(*steady_force(rising(0.0)), 10.0, 1e-9);
+  EXPECT_NEAR(*steady_force(rising(0.3)), 10.15, 1e-9);
+  EXPECT_FALSE(steady_force(rising(0.6)));
+  EXPECT_FALSE(steady_force(pull([](double s) { return 160.0 * s; })));
+  EXPECT_FALSE(steady_force({}));
+  EXPECT_FALSE(steady_force({{0.0, 0.1}}));
 }
 
 /// F = a s^2: s at a share of the peak is the root of it, and a tenth's least-squares slope is that in its middle.

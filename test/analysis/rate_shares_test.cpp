@@ -23,7 +23,8 @@ std::vector<Sample> pulled(double gained) {
     sample.grip_work = kForce * kSpeed * sample.time;
     const double drag = since > 0.0 ? kDrag : 40.0 * kDrag;
     sample.friction_loss = 3.0 * sample.time;
-    sample.dissipation = sample.friction_loss + drag * kSpeed * since;
+    sample.plastic_loss = 2.0 * sample.time;  // is no drag
+    sample.dissipation = sample.friction_loss + sample.plastic_loss + drag * kSpeed * since;
     out.push_back(sample);
   }
   return out;

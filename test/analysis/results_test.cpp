@@ -264,11 +264,12 @@ TEST(Results, EnergyPartsAreThoseOfThePullAndWhatFollows) {
   samples.front().phase = Phase::kHold;
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double x = static_cast<double>(i);
-    samples[i].grip_work = 5.0 + 1.0 * x;
+    samples[i].grip_work = 5.0 + 1.1 * x;
     samples[i].stretching_energy = 0.3 * x;
     samples[i].contact_energy = 0.1 * x;
     samples[i].kinetic_energy = 0.05 * x;
-    samples[i].dissipation = 0.4 * x;
+    samples[i].dissipation = 0.5 * x;
+    samples[i].plastic_loss = 0.1 * x;
     samples[i].friction_loss = 0.3 * x;
     samples[i].numerical_dissipation = 0.2 * x;
     samples[i].reweighting_loss = -0.05 * x;
@@ -276,10 +277,11 @@ TEST(Results, EnergyPartsAreThoseOfThePullAndWhatFollows) {
   const Results results = analyse(samples, EndedBy::kExtension);
   const double last = static_cast<double>(samples.size() - 1);
   ASSERT_TRUE(results.energy);
-  EXPECT_NEAR(results.energy->work, 1.0 * last, 1e-9);
+  EXPECT_NEAR(results.energy->work, 1.1 * last, 1e-9);
   EXPECT_NEAR(results.energy->stored, 0.4 * last, 1e-9);
   EXPECT_NEAR(results.energy->kinetic, 0.05 * last, 1e-9);
   EXPECT_NEAR(results.energy->friction, 0.3 * last, 1e-9);
+  EXPECT_NEAR(results.energy->plastic, 0.1 * last, 1e-9);
   EXPECT_NEAR(results.energy->drag, 0.1 * last, 1e-9);
   EXPECT_NEAR(results.energy->numerical, 0.2 * last, 1e-9);
   EXPECT_NEAR(results.energy->reweighting, -0.05 * last, 1e-9);

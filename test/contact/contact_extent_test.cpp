@@ -41,8 +41,7 @@ std::vector<double> pressing_loops(const Points& x) {
   const Eigen::Index edges = x.cols() - 1;
   Contact contact(make_rod(material, (x.rightCols(edges) - x.leftCols(edges)).colwise().norm()), kNormal, Friction(),
                   kMargin);
-  contact.refresh(x);
-  contact.begin_step();
+  contact.begin(x);
   contact.evaluate(x, x, 1.0);
   std::vector<double> out;
   for (const ContactPoint& point : contact.contacts())
@@ -79,8 +78,7 @@ class SlidingOver {
     Points position = strands_.position;
     position.leftCols(strands_.second - 1).row(2).array() += end - left;
     for (int step = 0; step < 2; ++step) {  // the second one begins with what the first one leaves
-      contact_.refresh(position);
-      contact_.begin_step();
+      contact_.begin(position);
       contact_.evaluate(position, position, 1e3);
       contact_.commit(position);
     }

@@ -16,11 +16,10 @@ namespace {
 
 constexpr double kStep = 0.01, kCatchUp = 0.05;
 
-SmoothContact contact_of(const RodProperties& rod) { return {rod, {1.0, 0.01}, Friction(), 0.5, kCatchUp}; }
+SmoothContact contact_of(const RodProperties& rod) { return {rod, NormalLaw{1.0, 0.01}, Friction(), 0.5, kCatchUp}; }
 
 void evaluate(SmoothContact& contact, const Points& position, const Points& start) {
-  contact.refresh(start);
-  contact.begin_step();
+  contact.begin(start);
   contact.evaluate(position, start, kStep);
 }
 

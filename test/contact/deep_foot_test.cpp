@@ -24,7 +24,7 @@ class Beside {
   explicit Beside(std::size_t edges = 30)
       : strands_(straight_strand(Vec3::Zero(), Vec3::UnitZ(), std::vector(edges, 0.6)),
                  straight_strand(Vec3(2.0, 0.0, 0.0), Vec3::UnitZ(), std::vector(edges, 0.6))),
-        contact_(strands_.rod, {1.0, 0.01}, Friction(), 0.5),
+        contact_(strands_.rod, NormalLaw{1.0, 0.01}, Friction(), 0.5),
         accepted_(at(kFar)) {}
 
   /// One iterate of a step: how many points in the middle of the strands press, of all that they have there.
@@ -40,17 +40,14 @@ class Beside {
   }
   /// As if a bend closed around the points: the strands overlap, and no foot has been followed yet.
   void close(double overlap) { accepted_ = at(overlap); }
-  void begin_step() {
-    contact_.refresh(accepted_);
-    contact_.begin_step();
-  }
+  void begin() { contact_.begin(accepted_); }
   void commit(double overlap) {
     accepted_ = at(overlap);
     contact_.commit(accepted_);
   }
   /// A whole step, which ends there.
   double step_to(double overlap) {
-    begin_step();
+    begin();
     const double out = pressing(overlap);
     commit(overlap);
     return out;
@@ -129,7 +126,7 @@ TEST(DeepFoot, IsTheSameAfterAStepThatWasNotAccepted) {
   Beside strands;
   EXPECT_EQ(strands.step_to(kFar), 0.0);
   strands.close(0.9);
-  strands.begin_step();
+  strands.begin();
   EXPECT_EQ(strands.pressing(1.0), 0.0);
   EXPECT_EQ(strands.step_to(0.2), 1.0) << "the step begins anew: it has not been deep inside";
 }

@@ -145,18 +145,18 @@ struct TwoEdges {
   }
 
   Eigen::VectorXd forces(EdgeContact& contact, const Points& x, double dt) const {
-    contact.begin_step();
+    contact.begin(start);
     contact.evaluate(x, start, dt);
     return nodal_forces(contact.contacts(), x.cols());
   }
 
   Eigen::MatrixXd stiffness(EdgeContact& contact, const Points& x, double dt) const {
-    contact.begin_step();
+    contact.begin(start);
     contact.evaluate(x, start, dt);
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x.size(), x.size());
     for (ContactPoint& point : contact.contacts()) point.prediction = -1.0;  // tangents at the present overlap
     std::vector<EdgeContactModel> models;
-    contact.linearise(dt, models);
+    contact.linearise({}, dt, models);
     std::size_t n = 0;
     for (const ContactPoint& point : contact.contacts()) {
       if (!point.active()) continue;
@@ -183,9 +183,9 @@ class EdgeContactJacobian : public testing::TestWithParam<std::tuple<Law, Place>
 TEST_P(EdgeContactJacobian, IsTheDerivativeOfTheForces) {
   const auto& [law, place] = GetParam();
   TwoEdges scene(place.angle, place.where_a, place.where_b, place.gap * kRadius);
-  EdgeContact contact(scene.rod, {1e6, 0.05 * kRadius}, law.friction, 0.5 * kRadius);
+  EdgeContact contact(scene.rod, NormalLaw{1e6, 0.05 * kRadius}, law.friction, 0.5 * kRadius);
   const double dt = 0.01;
-  contact.refresh(scene.start);
+  contact.begin(scene.start);
   contact.evaluate(scene.start, scene.start, dt);
   contact.commit(scene.start);
 
@@ -229,8 +229,8 @@ TEST(EdgeContact, PlacesOfTheJacobianCoverEveryCase) {
 
 TEST(EdgeContact, ForcesBalanceAndEdgesApartFeelNothing) {
   TwoEdges scene(1.2, 0.4, 0.7, 1.9 * kRadius);
-  EdgeContact contact(scene.rod, {1e6, 0.05 * kRadius}, MemoryFriction{0.4, 1e-4 * kRadius}, 0.5 * kRadius);
-  contact.refresh(scene.start);
+  EdgeContact contact(scene.rod, NormalLaw{1e6, 0.05 * kRadius}, MemoryFriction{0.4, 1e-4 * kRadius}, 0.5 * kRadius);
+  contact.begin(scene.start);
   const Points force = unflat(scene.forces(contact, scene.position, 0.01));
   ASSERT_GT(force.norm(), 1e-3);
   EXPECT_LT(force.rowwise().sum().norm(), 1e-12 * force.norm());
@@ -267,8 +267,7 @@ struct Crossing {
   double drive(EdgeContact& contact, double stride, double dt) {
     const Points start = position;
     position.leftCols(kStrand).row(0).array() += stride;
-    contact.refresh(position);
-    contact.begin_step();
+    contact.begin(position);
     contact.evaluate(position, start, dt);
     double normal = 0.0, tangential = 0.0;
     for (const ContactPoint& point : contact.contacts()) {
@@ -284,7 +283,7 @@ struct Crossing {
 TEST(EdgeContact, FrictionKeepsItsMemoryAsStrandsSlideOnFromEdgeToEdge) {
   Crossing scene;
   const double mu = 0.4, presliding = 1e-2 * kRadius;
-  EdgeContact contact(scene.rod, {1e6, 0.05 * kRadius}, MemoryFriction{mu, presliding}, 0.5 * kRadius);
+  EdgeContact contact(scene.rod, NormalLaw{1e6, 0.05 * kRadius}, MemoryFriction{mu, presliding}, 0.5 * kRadius);
   const double stride = 0.25 * presliding;
   for (int i = 1; i <= 4; ++i) EXPECT_NEAR(scene.drive(contact, stride, 0.01), 0.25 * i * mu, 0.01 * mu);
   const int steps = static_cast<int>(3.0 * Crossing::kEdge / stride);
@@ -301,7 +300,7 @@ TEST(R11Creep, SmoothedFrictionBetweenEdgesFollowsTheSpeed) {
   const double mu = 0.4, tolerance = 1e-3, dt = 0.01;
   for (const double ratio : {0.5, 0.9, 0.99}) {
     Crossing scene;
-    EdgeContact contact(scene.rod, {1e6, 0.05 * kRadius}, SmoothedFriction{mu, tolerance}, 0.5 * kRadius);
+    EdgeContact contact(scene.rod, NormalLaw{1e6, 0.05 * kRadius}, SmoothedFriction{mu, tolerance}, 0.5 * kRadius);
     const double creep = tolerance * std::log((1.0 + ratio) / (1.0 - ratio)) / 15.0;
     const double driven = scene.drive(contact, creep * dt, dt);
     EXPECT_NEAR(driven, ratio * mu, 1e-3 * mu);
@@ -319,12 +318,12 @@ TEST(EdgeContact, PairsHoldEveryPairThatBruteForceFinds) {
   const int nodes = 80;
   const double l = 2e-3;
   const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(nodes - 1, l));
-  EdgeContact contact(rod, {1e6, 0.05 * kRadius}, {}, 0.5 * kRadius);
+  EdgeContact contact(rod, NormalLaw{1e6, 0.05 * kRadius}, {}, 0.5 * kRadius);
   Points x(3, nodes);
   x.col(0).setConstant(0.02);
   for (int i = 1; i < nodes; ++i)
     x.col(i) = Vec3(x.col(i - 1)) + l * Vec3(turn(random), turn(random), turn(random)).normalized();
-  ASSERT_TRUE(contact.refresh(x));
+  contact.begin(x);
   std::vector<std::pair<int, int>> missing;
   int near = 0;
   for (int a = 0; a + 1 < nodes; ++a)

@@ -30,7 +30,7 @@ struct Wound {
   }
   RollerContact touch(const Friction& friction, const Points& end) const {
     RollerContact contact(rod, normal, friction, rod.material.radius);
-    contact.begin_step();
+    contact.begin({roller}, position, 0.01);
     contact.evaluate({roller}, end, position, 0.01);
     return contact;
   }
@@ -40,7 +40,7 @@ struct Wound {
     contact.commit({roller});
     Roller turned = roller;
     turned.turn = turn;
-    contact.begin_step();
+    contact.begin({turned}, position, 0.01);
     contact.evaluate({turned}, end, position, 0.01);
     return contact;
   }
@@ -111,7 +111,7 @@ TEST_P(RollerContactJacobian, IsTheDerivativeOfTheForces) {
   for (ContactPoint& point : contact.contacts()) point.prediction = point.pressure;  // tangents at the present overlap
   Eigen::MatrixXd analytic = Eigen::MatrixXd::Zero(end.size(), end.size());
   std::vector<RollerModel> models;
-  contact.linearise(0.01, models);
+  contact.linearise({}, 0.01, models);
   std::size_t n = 0;
   for (const ContactPoint& point : contact.contacts()) {
     const Mat3 still = still_of(models[n++]);
@@ -141,7 +141,7 @@ TEST_P(RollerContactJacobian, OfATurningRollerIsTheDerivativeOfForcesAndTorque) 
   RollerTurns turns;
   turns.begin({free}, contact, static_cast<int>(end.cols()), 0.01);
   std::vector<RollerModel> models;
-  contact.linearise(0.01, models);
+  contact.linearise({}, 0.01, models);
   std::size_t n = 0;
   for (const ContactPoint& point : contact.contacts()) turns.add(point, models[n++]);
   const RollerTurns::Border& border = turns.border(0);
@@ -190,7 +190,8 @@ TEST(RollerContact, ARodPressedOnARollerRestsOnItWithItsWholeWeight) {
   settings.gravity = Vec3(0.0, 0.0, -9.81);
   settings.drag = 1.0;
   RodState state = straight_state(rod);
-  state.position.row(2).setConstant(-settings.normal.overlap_at(rod.mass.sum() / rod.length() * 9.81));
+  state.position.row(2).setConstant(
+      -std::get<NormalLaw>(settings.normal).overlap_at(rod.mass.sum() / rod.length() * 9.81));
   const std::unique_ptr<TimeStep> stepper = TimeStep::make(rod, state, settings);
   Boundary boundary;
   boundary.rollers = {plane_below(material.radius)};

@@ -46,19 +46,19 @@ struct TwoStrands {
   }
 
   Eigen::VectorXd forces(SmoothContact& contact, const Points& x, double dt) const {
-    contact.begin_step();
+    contact.begin(start);
     contact.evaluate(x, start, dt);
     return nodal_forces(contact.contacts(), x.cols());
   }
 
   Eigen::MatrixXd stiffness(SmoothContact& contact, const Points& x, double dt) const {
-    contact.begin_step();
+    contact.begin(start);
     contact.evaluate(x, start, dt);
     for (ContactPoint& point : contact.contacts())
       point.prediction = point.pressure;  // tangents at the present overlap
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(x.size(), x.size());
     std::vector<ContactModel> models;
-    contact.linearise(dt, models);
+    contact.linearise({}, dt, models);
     std::size_t n = 0;
     for (const ContactPoint& point : contact.contacts()) {
       if (!point.active()) continue;
@@ -86,9 +86,9 @@ class SmoothContactJacobian : public testing::TestWithParam<Law> {};
 TEST_P(SmoothContactJacobian, IsTheDerivativeOfTheForces) {
   TwoStrands scene(1.93 * kRadius);
   const Law law = GetParam();
-  SmoothContact contact(scene.rod, {1e6, 0.05 * kRadius}, law.friction, 0.5 * kRadius);
+  SmoothContact contact(scene.rod, NormalLaw{1e6, 0.05 * kRadius}, law.friction, 0.5 * kRadius);
   const double dt = 0.01;
-  contact.refresh(scene.start);
+  contact.begin(scene.start);
   contact.evaluate(scene.start, scene.start, dt);
   contact.commit(scene.start);
 
@@ -109,8 +109,7 @@ INSTANTIATE_TEST_SUITE_P(Laws, SmoothContactJacobian,
 
 TEST(SmoothContact, ForcesAndMomentsBalance) {
   TwoStrands scene(1.93 * kRadius);
-  SmoothContact contact(scene.rod, {1e6, 0.05 * kRadius}, MemoryFriction{0.4, 1e-3 * kRadius}, 0.5 * kRadius);
-  contact.refresh(scene.start);
+  SmoothContact contact(scene.rod, NormalLaw{1e6, 0.05 * kRadius}, MemoryFriction{0.4, 1e-3 * kRadius}, 0.5 * kRadius);
   const Points force = unflat(scene.forces(contact, scene.position, 0.01));
   Vec3 moment = Vec3::Zero();
   for (Eigen::Index i = 0; i < force.cols(); ++i) moment += Vec3(scene.position.col(i)).cross(Vec3(force.col(i)));
@@ -124,8 +123,7 @@ TEST(SmoothContact, ForcesAndMomentsBalance) {
 
 TEST(SmoothContact, StrandsApartFeelNothing) {
   TwoStrands scene(2.1 * kRadius);
-  SmoothContact contact(scene.rod, {1e6, 0.05 * kRadius}, MemoryFriction{0.4, 1e-3 * kRadius}, 0.5 * kRadius);
-  contact.refresh(scene.start);
+  SmoothContact contact(scene.rod, NormalLaw{1e6, 0.05 * kRadius}, MemoryFriction{0.4, 1e-3 * kRadius}, 0.5 * kRadius);
   EXPECT_EQ(scene.forces(contact, scene.start, 0.01).norm(), 0.0);
 }
 

@@ -89,18 +89,21 @@ struct Wound {
 
 constexpr double kStiffness = 1e6, kTolerance = 0.05 * kRadius;
 
-/// Each kind of contact in the scene, as it is evaluated.
+/// Each kind of contact in the scene, as it is evaluated first in a step.
 template <typename Contact>
 struct BetweenStrands {
   Wound& scene;
   Contact contact;
   BetweenStrands(Wound& wound, const Friction& friction)
-      : scene(wound), contact(wound.rod, {kStiffness, kTolerance}, friction, 0.5 * kRadius) {
-    contact.refresh(wound.start);
+      : scene(wound), contact(wound.rod, NormalLaw{kStiffness, kTolerance}, friction, 0.5 * kRadius) {
+    contact.begin(wound.start);
     contact.evaluate(wound.start, wound.start, kStep);
     contact.commit(wound.start);
   }
-  void evaluate() { contact.evaluate(scene.position, scene.start, kStep); }
+  void evaluate() {
+    contact.begin(scene.start);
+    contact.evaluate(scene.position, scene.start, kStep);
+  }
 };
 using Smooth = BetweenStrands<SmoothContact>;
 using Edges = BetweenStrands<EdgeContact>;
@@ -108,14 +111,18 @@ struct OnARoller {
   Wound& scene;
   RollerContact contact;
   OnARoller(Wound& wound, const Friction& friction)
-      : scene(wound), contact(wound.rod, {kStiffness, kTolerance}, friction, kRadius) {
+      : scene(wound), contact(wound.rod, NormalLaw{kStiffness, kTolerance}, friction, kRadius) {
     scene.roller.first_node = kHalf + kDetour + 1;
+    contact.begin({scene.roller}, scene.start, kStep);
     contact.evaluate({scene.roller}, scene.start, scene.start, kStep);
     contact.commit({scene.roller});
     scene.roller.centre = Vec3(1e-2, -2e-2, 1e-2) * kRadius;
     scene.roller.turn = 0.02;
   }
-  void evaluate() { contact.evaluate({scene.roller}, scene.position, scene.start, kStep); }
+  void evaluate() {
+    contact.begin({scene.roller}, scene.start, kStep);
+    contact.evaluate({scene.roller}, scene.position, scene.start, kStep);
+  }
 };
 
 template <typename Kind>
@@ -124,7 +131,6 @@ class Surface : public testing::Test {
   Wound scene;
 
   static Eigen::VectorXd forces(Kind& kind) {
-    kind.contact.begin_step();
     kind.evaluate();
     std::vector<Lanes> force(static_cast<std::size_t>(kind.scene.nodes()));
     for (std::size_t i = 0; i < kind.contact.contacts().size(); ++i) {
@@ -142,7 +148,6 @@ class Surface : public testing::Test {
   }
 
   static Eigen::MatrixXd stiffness(Kind& kind) {
-    kind.contact.begin_step();
     kind.evaluate();
     for (ContactPoint& point : kind.contact.contacts()) point.prediction = point.pressure;  // tangents where it is
     StepMatrix<4> matrix(static_cast<int>(kind.scene.nodes()));
@@ -153,7 +158,7 @@ class Surface : public testing::Test {
     const BlockPattern& pattern = matrix.values().pattern();
     for (int block = 0; block < pattern.blocks(); ++block) matrix.block(block).set_zero();
     std::size_t n = 0;
-    kind.contact.linearise_surfaces(kStep, [&](std::size_t i, const SurfaceModel& model) {
+    linearise_surfaces(kind.contact, {}, kStep, [&](std::size_t i, const SurfaceModel& model) {
       matrix.add(kind.contact.contacts()[i], kind.contact.surfaces()[i], model, kind.scene.turns, n++);
     });
     Eigen::MatrixXd out = Eigen::MatrixXd::Zero(4 * kind.scene.nodes(), 4 * kind.scene.nodes());
@@ -234,7 +239,6 @@ TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
   const auto evaluated = [&](const Eigen::VectorXd& unknowns) {
     scene.set(unknowns.head(4 * scene.nodes()));
     scene.roller.turn = unknowns[4 * scene.nodes()];
-    kind.contact.begin_step();
     kind.evaluate();
     std::vector<Lanes> force(static_cast<std::size_t>(scene.nodes()));
     for (std::size_t i = 0; i < kind.contact.contacts().size(); ++i) {
@@ -257,7 +261,7 @@ TEST(SurfaceOfARoller, BorderIsTheDerivativeOfForcesAndTorque) {
   free.inertia = 1e-300;
   RollerTurns border_of;
   border_of.begin({free}, kind.contact, static_cast<int>(scene.nodes()), kStep);
-  kind.contact.linearise_surfaces(kStep, [&](std::size_t i, const SurfaceModel& model) {
+  linearise_surfaces(kind.contact, {}, kStep, [&](std::size_t i, const SurfaceModel& model) {
     border_of.add(kind.contact.contacts()[i], kind.contact.surfaces()[i], model, scene.turns);
   });
   const RollerTurns::Border& border = border_of.border(0);

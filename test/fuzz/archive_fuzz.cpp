@@ -132,7 +132,7 @@ std::string good_step() {
   state.position.row(2) = rod.arclength().transpose();
   state.velocity = Points::Zero(3, rod.nodes());
   StepSettings settings;
-  settings.normal = {1e5, 1e-5, 1e-5};
+  settings.normal = NormalLaw{1e5, 1e-5, 1e-5};
   settings.residual = 1e-6;
   settings.newton_cap = settings.motion_limit = settings.overlap_limit = settings.candidate_margin = 1e-3;
   Boundary boundary;

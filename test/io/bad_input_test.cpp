@@ -49,6 +49,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"specimen.turns=[1", "--set specimen.turns=[1", "", "a list begins with"},
       {"specimen={turns: 1, turns: 2}", "specimen.turns", "", "stands twice"},
       // Types
+      {"material.stretching_law=hooke", "material.stretching_law", "hooke", "linear or neo_hookean"},
       {"specimen=3", "specimen", "3", "a map"},
       {"specimen.turns=one", "specimen.turns", "one", "a whole number from 1 to 4"},
       {"specimen.turns=1.5", "specimen.turns", "1.5", "a whole number from 1 to 4"},

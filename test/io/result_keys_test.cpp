@@ -44,11 +44,18 @@ TEST(ResultKeys, SayByHowMuchAKnotOpenedAsItWasMounted) {
 TEST(ResultKeys, SayTheForceOverTheDeadLoadAtTheOtherEnd) {
   Results results;
   RunFacts facts;
-  results.late_force = 12.0;
+  results.true_peak_force = 13.0;
+  results.steady_force = 12.0;
   EXPECT_THAT(result_yaml(results, facts), testing::HasSubstr("force_ratio: null  # no dead load"));
   facts.dead_load = 8.0;
   EXPECT_THAT(result_yaml(results, facts), testing::HasSubstr("force_ratio: 1.5\n"));
-  results.late_force.reset();
+  facts.dead_load = 16.0;
+  EXPECT_THAT(result_yaml(results, facts), testing::HasSubstr("force_ratio: null  # the strand does not slide"));
+  results.steady_force.reset();
+  EXPECT_THAT(result_yaml(results, facts), testing::HasSubstr("force_ratio: null  # the force is not steady"));
+  results.break_extension = 0.1;
+  EXPECT_THAT(result_yaml(results, facts), testing::HasSubstr("force_ratio: null  # the rod broke"));
+  results.true_peak_force.reset();
   EXPECT_THAT(result_yaml(results, facts), testing::HasSubstr("force_ratio: null  # "));
 }
 

@@ -96,6 +96,7 @@ TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
                           "stored_energy",
                           "kinetic_energy",
                           "friction_loss",
+                          "plastic_loss",
                           "drag_loss",
                           "numerical_dissipation",
                           "reweighting_loss",

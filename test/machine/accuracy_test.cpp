@@ -149,7 +149,7 @@ TEST(Tolerances, EdgesAreShorterInRopesThatAreTiedHard) {
 }
 
 TEST(ReadingErrors, AreNotGivenWhereNoStudySays) {
-  Loop edge, smoothed, untied, overhand, rolling, set, rough;
+  Loop edge, smoothed, untied, overhand, rolling, set, rough, rubber, straight;
   edge.physics.contact_law = ContactLaw::kEdge;
   smoothed.physics.friction.law = law_named("smoothed");
   untied.specimen.to_be_tied = false;
@@ -157,7 +157,10 @@ TEST(ReadingErrors, AreNotGivenWhereNoStudySays) {
   rolling.material.friction_couple = 0.1;
   set.material.bending_set = 0.5;
   rough.machine.roller_friction = 0.2;
-  for (const Loop& loop : {edge, smoothed, untied, overhand, rolling, set, rough}) {
+  straight.specimen.knot = knot_named("straight");
+  EXPECT_TRUE(straight.errors().locked_stiffness);
+  rubber.material.stretching_law = straight.material.stretching_law = static_cast<StretchingLaw>(1);
+  for (const Loop& loop : {edge, smoothed, untied, overhand, rolling, set, rough, rubber, straight}) {
     EXPECT_FALSE(loop.errors().plateau_force);
     EXPECT_FALSE(loop.errors().lock_extension);
     EXPECT_FALSE(loop.errors().locked_stiffness);

@@ -164,7 +164,7 @@ TEST(Fracture, StrainOfTheOutermostFibreIsThatOfTensionAndOfBending) {
   for (int i = 0; i < 20; ++i)
     state.position.col(i + 1) = state.position.col(i) + edge * Vec3(std::cos(kTurn * i), std::sin(kTurn * i), 0.0);
   const double strain = (kStretch - 1.0) + material.radius * kStretch / kRadius;  // kappa is over the length at rest
-  EXPECT_NEAR(most_exposed(rod, state).share, strain / 0.2, 1e-12);
+  EXPECT_NEAR(most_exposed(rod, state).fraction, strain / 0.2, 1e-12);
   EXPECT_TRUE(can_part(material));
   EXPECT_FALSE(can_part(nylon()));
 }
@@ -179,12 +179,12 @@ TEST(Fracture, OfTwoLimitsTheNearerOneCounts) {
   const double tension = material.stretching_stiffness * 1e-3;
   const Exposure by_force = most_exposed(rod, state);
   EXPECT_EQ(by_force.edge, 2);
-  EXPECT_NEAR(by_force.share, tension / 100.0, 1e-9);
+  EXPECT_NEAR(by_force.fraction, tension / 100.0, 1e-9);
   EXPECT_EQ(by_force.limit, BreakLimit::kForce);
   EXPECT_NEAR(by_force.value, tension, 1e-7);
   RodProperties strained = rod;
   strained.material.breaking_strain = 1e-4;
-  EXPECT_NEAR(most_exposed(strained, state).share, 10.0, 1e-9);
+  EXPECT_NEAR(most_exposed(strained, state).fraction, 10.0, 1e-9);
   EXPECT_EQ(most_exposed(strained, state).limit, BreakLimit::kStrain);
   EXPECT_NEAR(most_exposed(strained, state).value, 1e-3, 1e-12);
   state.position.row(2) *= 0.9;  // nothing is under tension

@@ -57,6 +57,7 @@ std::vector<Bits> numbers(const Sample& s) {
           {s.grip_work},
           {s.dissipation},
           {s.friction_loss},
+          {s.plastic_loss},
           {s.numerical_dissipation},
           {s.reweighting_loss},
           {s.moment_imbalance},

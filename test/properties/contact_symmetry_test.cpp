@@ -66,8 +66,7 @@ struct Touching {
     position = scene.state.position + scene.dt * scene.state.velocity;
     const StepSettings& s = scene.settings;
     Contact contact(scene.rod, s.normal, s.friction, s.candidate_margin);
-    contact.refresh(position);
-    contact.begin_step();
+    contact.begin(position);
     contact.evaluate(position, scene.state.position, scene.dt);
     contacts = contact.contacts();
   }

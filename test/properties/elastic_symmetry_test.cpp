@@ -26,7 +26,7 @@ struct Rod {
     StepSettings settings;
     settings.spin_inertia = false;
     FrameTerms frames(rod, settings);
-    frames.begin_step(state, {}, 1.0);
+    frames.begin(state, {}, 1.0);
     frames.add_forces(state.position, sum);
     Eigen::Matrix4Xd out(4, rod.nodes());
     for (Eigen::Index i = 0; i < rod.nodes(); ++i)

@@ -96,7 +96,7 @@ class RandomScene {
     s.dt = bending_time * between(0.1, 0.5);
     s.settings.weighting_time = between(1.0, 10.0) * s.dt;
     s.settings.contact_law = law;
-    s.settings.normal = {300.0 * material.bending_stiffness / std::pow(h_, 4), 0.02 * h_, 0.05 * h_};
+    s.settings.normal = NormalLaw{300.0 * material.bending_stiffness / std::pow(h_, 4), 0.02 * h_, 0.05 * h_};
     s.settings.friction = MemoryFriction{between(0.0, 0.4), 0.02 * h_};
     s.settings.roller_friction = SmoothedFriction{between(0.0, 0.6), 0.02 * h_ / s.dt};
     s.settings.gravity = random_vector() * 0.005 * h_ / (s.dt * s.dt);

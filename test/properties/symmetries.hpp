@@ -79,9 +79,10 @@ inline Scene scaled(Scene scene, const Units& units) {
   scene.state.velocity *= units.speed();
   scene.dt *= units.time;
   StepSettings& settings = scene.settings;
-  settings.normal.stiffness *= units.stress();
-  settings.normal.tolerance *= units.length;
-  settings.normal.stiffening *= units.length;
+  auto& normal = std::get<NormalLaw>(settings.normal);
+  normal.stiffness *= units.stress();
+  normal.tolerance *= units.length;
+  normal.stiffening *= units.length;
   settings.friction = scaled(settings.friction, units);
   settings.roller_friction = scaled(settings.roller_friction, units);
   settings.weighting_time *= units.time;

@@ -56,7 +56,7 @@ class StaticRod {
   double energy() const {
     double sum = 0.0;
     for (Eigen::Index j = 0; j < rod_.edges(); ++j) {
-      sum += stretching_gradient(rod_.material.stretching_stiffness, rod_.rest_length[j], edge(j)).energy;
+      sum += local_stretching(j).energy;
     }
     for (Eigen::Index i = 1; i + 1 < rod_.nodes(); ++i) {
       const InnerNode node = inner_node(rod_, state_, i);
@@ -195,6 +195,10 @@ class StaticRod {
     return factor.solve(-r);
   }
 
+  StretchingLocal local_stretching(Eigen::Index j) const {
+    return stretching(LinearStretching(), rod_.material.stretching_stiffness, rod_.rest_length[j], edge(j));
+  }
+
   void assemble(Eigen::VectorXd* g, std::vector<Eigen::Triplet<double>>* h) const {
     const auto add = [&](Eigen::Index first, const auto& gradient, const auto& hessian) {
       g->segment(first, gradient.size()) += gradient;
@@ -206,7 +210,7 @@ class StaticRod {
       }
     };
     for (Eigen::Index j = 0; j < rod_.edges(); ++j) {
-      const StretchingLocal local = stretching(rod_.material.stretching_stiffness, rod_.rest_length[j], edge(j));
+      const StretchingLocal local = local_stretching(j);
       StencilVector slope = StencilVector::Zero();
       StencilMatrix curve = StencilMatrix::Zero();
       slope.segment<3>(0) = -local.gradient;

@@ -62,7 +62,7 @@ struct Incline {
     settings.motion_limit = settings.newton_cap = 10.0;
     normal_force = rod.mass.sum() * kGravity * std::cos(angle);
     RodState state = straight_state(rod);
-    state.position.row(2).setConstant(-settings.normal.overlap_at(normal_force / rod.length()));
+    state.position.row(2).setConstant(-std::get<NormalLaw>(settings.normal).overlap_at(normal_force / rod.length()));
     boundary.rollers = {plane_below(material.radius)};
     balance = std::make_unique<Balance>(TimeStep::make(rod, state, settings), settings, 0.01);
   }
@@ -138,7 +138,8 @@ struct Running {
     settings.gravity = Vec3(0.5, 0.0, -kGravity);
     settings.drag = 1.0;
     settings.friction = settings.roller_friction = MemoryFriction{scene.friction, 1e-3 * material.radius};
-    settings.normal = {300.0 * material.bending_stiffness / std::pow(material.radius, 4.0), 0.05 * material.radius};
+    settings.normal =
+        NormalLaw{300.0 * material.bending_stiffness / std::pow(material.radius, 4.0), 0.05 * material.radius};
     settings.friction_couple = scene.couple;
     // A spin without inertia is in equilibrium, and so is the sum of all moments.
     settings.spin_inertia = scene.kind == Kind::kCurved;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <random>
 
+#include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/stretching.hpp"
 #include "rod/isotropic_bending_local.hpp"
 #include "sim/scenes.hpp"
@@ -22,7 +23,7 @@ struct Crumpled {
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3, kNodes);
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(3 * kNodes, 3 * kNodes);
 
-  explicit Crumpled(bool bends) {
+  explicit Crumpled(bool bends, const StretchingLaws& law = LinearStretching()) {
     std::mt19937 random(11);
     std::normal_distribution<double> noise(0.0, 1.0);
     const Material material = braided_rope();
@@ -34,8 +35,10 @@ struct Crumpled {
       position.col(j + 1) = position.col(j) + (1.0 + 0.05 * std::tanh(noise(random))) * rest[j] * direction;
     }
     rod = make_rod(material, rest);
+    rod.stretching = law;
     for (int j = 0; j + 1 < kNodes; ++j) {
-      const StretchingLocal local = stretching(material.stretching_stiffness, rest[j], edge(j));
+      const StretchingLocal local = std::visit(
+          [&](const auto& own) { return stretching(own, material.stretching_stiffness, rest[j], edge(j)); }, law);
       add(j, j, local.hessian, local.gradient);
     }
     for (int i = 1; bends && i + 1 < kNodes; ++i) {
@@ -59,11 +62,16 @@ struct Crumpled {
   }
 };
 
-class CentrelineTermsOf : public testing::TestWithParam<bool> {};
+using Case = std::tuple<bool, StretchingLaws>;
+class CentrelineTermsOf : public testing::TestWithParam<Case> {
+ protected:
+  bool bends_ = std::get<0>(GetParam());
+  StretchingLaws law_ = std::get<1>(GetParam());
+};
 
 TEST_P(CentrelineTermsOf, ForcesAreThoseOfEveryTerm) {
-  const Crumpled scene(GetParam());
-  CentrelineTerms terms(scene.rod, GetParam());
+  const Crumpled scene(bends_, law_);
+  CentrelineTerms terms(scene.rod, bends_);
   std::vector<Lanes> force(kNodes, Lanes{0.0, 0.0, 0.0, 0.0});
   terms.add_forces(scene.position, force);
   Eigen::MatrixXd ours(3, kNodes);
@@ -72,14 +80,13 @@ TEST_P(CentrelineTermsOf, ForcesAreThoseOfEveryTerm) {
   EXPECT_LT((ours - scene.force).norm(), 1e-13 * kNodes * scene.force.norm());  // rounding
   double largest = 0.0;
   for (int j = 0; j + 1 < kNodes; ++j)
-    largest = std::max(largest, std::abs(stretching_tension(scene.rod.material.stretching_stiffness,
-                                                            scene.rod.rest_length[j], scene.edge(j))));
+    largest = std::max(largest, std::abs(respond(scene.rod, stretched_edge(scene.rod, scene.position, j)).tension));
   EXPECT_NEAR(terms.largest_tension(), largest, 1e-13 * scene.rod.material.stretching_stiffness);
 }
 
 template <int D>
-void expect_stiffness_of_every_term(bool bends) {
-  const Crumpled scene(bends);
+void expect_stiffness_of_every_term(bool bends, const StretchingLaws& law) {
+  const Crumpled scene(bends, law);
   CentrelineTerms terms(scene.rod, bends);
   std::vector<Lanes> force(kNodes);
   terms.add_forces(scene.position, force);
@@ -105,16 +112,40 @@ void expect_stiffness_of_every_term(bool bends) {
 }
 
 TEST_P(CentrelineTermsOf, StiffnessIsThatOfEveryTerm) {
-  expect_stiffness_of_every_term<3>(GetParam());
-  expect_stiffness_of_every_term<4>(GetParam());
+  expect_stiffness_of_every_term<3>(bends_, law_);
+  expect_stiffness_of_every_term<4>(bends_, law_);
 }
 
-INSTANTIATE_TEST_SUITE_P(Rods, CentrelineTermsOf, testing::Bool(),
-                         [](const auto& bends) { return bends.param ? "bending" : "stretchingOnly"; });
+/// The energy, and how it changes with an increment: by differences of rod/energy.hpp.
+TEST_P(CentrelineTermsOf, EnergyIsThatOfEveryTermAndItsSlopeThatOfTheForces) {
+  const Crumpled scene(bends_, law_);
+  CentrelineTerms terms(scene.rod, bends_);
+  std::vector<Lanes> force(kNodes, Lanes{0.0, 0.0, 0.0, 0.0});
+  terms.add_forces(scene.position, force);
+  const Points increment = 0.1 * scene.rod.material.radius * Points::Random(3, kNodes);
+  const CentrelineTerms::Energy energy = terms.energy(increment);
+  RodState state;
+  state.position = scene.position;
+  const ElasticEnergy expected = elastic_energy(scene.rod, state);
+  EXPECT_NEAR(energy.stretching, expected.stretching, 1e-13 * expected.stretching);
+  EXPECT_NEAR(energy.bending, bends_ ? expected.bending : 0.0, 1e-13 * expected.bending);
+  const double along = -(scene.force.array() * increment.array()).sum();
+  EXPECT_NEAR(energy.along, along, 1e-13 * kNodes * scene.force.norm() * increment.norm());
+}
+
+INSTANTIATE_TEST_SUITE_P(Rods, CentrelineTermsOf,
+                         testing::Combine(testing::Bool(), testing::Values(StretchingLaws(LinearStretching()),
+                                                                           StretchingLaws(NeoHookeanStretching()))),
+                         [](const testing::TestParamInfo<Case>& of) {
+                           return std::string(kStretchingLawNames[std::get<1>(of.param).index()]) +
+                                  (std::get<0>(of.param) ? "_bending" : "_stretchingOnly");
+                         });
+
+class PredictedTension : public testing::TestWithParam<StretchingLaws> {};
 
 /// Two edges that a change turns: the predicted tensions follow its linear model, not their new lengths.
-TEST(CentrelineTerms, PredictsTheTensionOfTheLinearModelOfAChange) {
-  const Crumpled scene(false);
+TEST_P(PredictedTension, IsThatOfTheLinearModelOfAChange) {
+  const Crumpled scene(false, GetParam());
   CentrelineTerms terms(scene.rod, false);
   std::vector<Lanes> force(kNodes);
   terms.begin(scene.position, true);
@@ -137,15 +168,20 @@ TEST(CentrelineTerms, PredictsTheTensionOfTheLinearModelOfAChange) {
   for (int j = 0; j + 1 < kNodes; ++j) {
     const double l0 = scene.rod.rest_length[j];
     const Vec3 before = scene.edge(j), after = moved.col(j + 1) - moved.col(j);
-    const double tension = stretching_tension(k_s, l0, before) + k_s / l0 * before.normalized().dot(after - before);
+    const StretchingResponse response = respond(scene.rod, stretched_edge(scene.rod, scene.position, j));
+    const double tension = response.tension + response.slope / l0 * before.normalized().dot(after - before);
+    const double slope = respond(scene.rod, stretched_edge(scene.rod, moved, j)).slope;
     const Vec3 t = after.normalized();
     const Mat3 expected =
-        k_s / l0 * t * t.transpose() + tension / after.norm() * (Mat3::Identity() - t * t.transpose());
+        slope / l0 * t * t.transpose() + tension / after.norm() * (Mat3::Identity() - t * t.transpose());
     const Block<3>& block = matrix.block(matrix.values().pattern().index(j, j + 1));
     for (int r = 0; r < 3; ++r)
       for (int c = 0; c < 3; ++c) EXPECT_NEAR(block(r, c), -expected(r, c), 1e-12 * k_s / l0) << "edge " << j;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Laws, PredictedTension,
+                         testing::Values(StretchingLaws(LinearStretching()), StretchingLaws(NeoHookeanStretching())));
 
 /// Iterations that one long step takes in which a taut string is plucked, its stretching stiffness so many times a
 /// rope's.

@@ -70,7 +70,7 @@ class FrameTermsOf : public testing::TestWithParam<bool> {
   /// Stands at y: the angles are moved there as Newton's method moves them.
   void evaluate(FrameTerms& terms, const Eigen::VectorXd& y, std::vector<Lanes>& force) const {
     force.assign(kNodes, Lanes{0.0, 0.0, 0.0, 0.0});
-    terms.begin_step(start, {}, kDt);
+    terms.begin(start, {}, kDt);
     terms.add_forces(positions(y), force);
     std::vector<Lanes> turn(kNodes, Lanes{0.0, 0.0, 0.0, 0.0});
     for (int j = 0; j + 1 < kNodes; ++j)
@@ -193,7 +193,7 @@ TEST_P(FrameTermsOf, ForcesAreTheEnergysSlopeAtFixedSpin) {
 
 TEST_P(FrameTermsOf, AHeldAngleStandsWhereItMust) {
   FrameTerms terms(rod, settings);
-  terms.begin_step(start, {{2, 0.4}}, kDt);
+  terms.begin(start, {{2, 0.4}}, kDt);
   EXPECT_TRUE(terms.held(2));
   EXPECT_FALSE(terms.held(3));
   EXPECT_TRUE(terms.held(kNodes - 1)) << "there is no edge behind the last node";

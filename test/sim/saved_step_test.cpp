@@ -96,7 +96,7 @@ TEST(WatchedTimeStep, IsToldOfEveryIterate) {
   EXPECT_EQ(seen.back().tolerance, summary.newton.tolerance);
   EXPECT_GT(seen.back().touching, 0);
   EXPECT_EQ(seen.back().roller, 0);
-  EXPECT_GT(seen.back().overlap, scene.stepper->settings().normal.begin());
+  EXPECT_GT(seen.back().overlap, begin_of(scene.stepper->settings().normal));
   EXPECT_LE(std::abs(seen.back().arclengths[0] - scene.stepper->rod().arclength()[7]), 2 * braided_rope().radius);
 }
 

@@ -16,7 +16,7 @@ inline Material braided_rope() {
 inline StepSettings closed_form_settings(const Material& material) {
   const double h = material.radius;
   StepSettings out;
-  out.normal = {2.0 * material.stretching_stiffness / (h * h), 0.05 * h};
+  out.normal = NormalLaw{2.0 * material.stretching_stiffness / (h * h), 0.05 * h};
   out.friction = MemoryFriction{0.0, 1e-3 * h};
   out.roller_friction = out.friction;
   out.residual = 1e-8;

@@ -54,7 +54,7 @@ TEST(StepMatrix, ForgetsWhatARejectedStepMadeOfThePattern) {
   matrix.commit();
   const int blocks = matrix.values().pattern().blocks();
   for (const int b0 : {12, 24}) {
-    matrix.begin_step();
+    matrix.begin();
     const std::vector<ContactPoint> tried = {pressed(2, 20), pressed(5, b0), pressed(5, b0)};
     matrix.locate(tried);
     expect_blocks_of(tried, matrix);
@@ -62,7 +62,7 @@ TEST(StepMatrix, ForgetsWhatARejectedStepMadeOfThePattern) {
     matrix.locate({pressed(2, 21), pressed(9, 26)});  // and once more in the same step
     expect_blocks_of({pressed(2, 21), pressed(9, 26)}, matrix);
   }
-  matrix.begin_step();
+  matrix.begin();
   EXPECT_EQ(matrix.values().pattern().blocks(), blocks);
   EXPECT_EQ(matrix.values().pattern().index(5, 12), -1);
   EXPECT_EQ(matrix.values().pattern().index(9, 26), -1);

@@ -175,7 +175,7 @@ struct StopperKnot {
 
   StepSettings settings() const {
     StepSettings out;
-    out.normal = {300.0, options.contact_tolerance, 0.015};
+    out.normal = NormalLaw{300.0, options.contact_tolerance, 0.015};
     out.friction = MemoryFriction{options.friction, options.presliding};
     out.roller_friction = out.friction;
     out.friction_couple = options.couple;

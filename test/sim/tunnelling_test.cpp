@@ -61,7 +61,7 @@ struct Thrown {
     settings.contact_law = law;
     settings.candidate_margin = radius;
     settings.newton_cap = settings.motion_limit = settings.overlap_limit = std::numeric_limits<double>::infinity();
-    settings.residual = 1e-6 * settings.normal.stiffness * radius * radius;
+    settings.residual = 1e-6 * std::get<NormalLaw>(settings.normal).stiffness * radius * radius;
     RodState state;
     state.position = shape();
     state.velocity = Points::Zero(3, nodes());
@@ -152,7 +152,7 @@ TEST(StrandsThrownAtEachOther, PressWhereOneStepBringsThemIntoEachOther) {
   // followed to where a foot is deep inside. Both together do.
   const Thrown scene{ContactLaw::kSmooth, 3e-3, 0.78};
   StepSettings settings = closed_form_settings(scene.material());
-  settings.residual = 1e-6 * settings.normal.stiffness * scene.radius * scene.radius;
+  settings.residual = 1e-6 * std::get<NormalLaw>(settings.normal).stiffness * scene.radius * scene.radius;
   RodState state;
   state.position = scene.shape();
   state.velocity = Points::Zero(3, Thrown::nodes());

@@ -42,7 +42,7 @@ struct Bare {
     for (int i = 0; i <= kEdges; ++i) state.position(0, i) = kEdge * i;
     state.velocity = Points::Zero(3, kEdges + 1);
     initialise_frames(&state);
-    settings.normal = {1.0, 1e-3};
+    settings.normal = NormalLaw{1.0, 1e-3};
     settings.drag = 100.0;
     settings.residual = 1e-9;
     settings.newton_cap = 0.1;

@@ -31,7 +31,7 @@ struct TwistedRod {
     material.stretching_stiffness = 1e5;
     rod = make_rod(material, Eigen::VectorXd::Constant(edges, edge_length));
     settings.spin_inertia = false;
-    settings.normal = {1.0, 0.05 * radius};
+    settings.normal = NormalLaw{1.0, 0.05 * radius};
     settings.max_iterations = 40;
   }
 

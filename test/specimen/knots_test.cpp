@@ -10,7 +10,8 @@ namespace {
 TEST(Knots, AllButAStraightRodAndAStrandOnPostsMayHoldAKnot) {
   for (const char* name : {"fisherman", "overhand", "file"})
     EXPECT_TRUE(knot_of(knot_named(name)).about().may_hold_a_knot()) << name;
-  for (const char* name : {"straight", "capstan"}) EXPECT_FALSE(knot_of(knot_named(name)).about().may_hold_a_knot()) << name;
+  for (const char* name : {"straight", "capstan"})
+    EXPECT_FALSE(knot_of(knot_named(name)).about().may_hold_a_knot()) << name;
 }
 
 }  // namespace

@@ -68,9 +68,13 @@ TEST(Specimens, StayTheSameHoweverManyThereAreAndWhateverElseScatters) {
   EXPECT_NE(few[0].method.specimen.length, other[0].method.specimen.length);
 }
 
-TEST(Specimens, EachHasNoiseOfItsOwn) {
-  const auto drawn = draw_specimens(straight("{count: 2}"));
-  EXPECT_NE(drawn[0].method.machine.load_cell.seed, drawn[1].method.machine.load_cell.seed);
+/// No number of specimens averages the cell's systematic error out, as in a laboratory.
+TEST(Specimens, AreReadByOneCellWithNoiseOfItsOwnForEach) {
+  const auto drawn = draw_specimens(straight("{count: 2}")), others = draw_specimens(straight("{count: 2, seed: 2}"));
+  const auto cell = [](const DrawnSpecimen& specimen) { return specimen.method.machine.load_cell; };
+  EXPECT_EQ(cell(drawn[0]).seed, cell(drawn[1]).seed);
+  EXPECT_NE(cell(drawn[0]).noise_run, cell(drawn[1]).noise_run);
+  EXPECT_NE(cell(drawn[0]).noise_run, cell(others[0]).noise_run);
 }
 
 /// What a resumed batch reads is its own method.yaml.
@@ -105,6 +109,7 @@ TEST(KeyUnits, AreThoseOfTheMethodsKeys) {
   EXPECT_EQ(unit_of_key(method, "specimen.knot_distance"), "m");
   EXPECT_EQ(unit_of_key(method, "material.bending_stiffness"), "N m2");
   EXPECT_EQ(unit_of_key(method, "program.pull.speed"), "m/s");
+  EXPECT_EQ(unit_of_key(method, "program.0.tie.speed"), "m/s");
   EXPECT_EQ(unit_of_key(method, "machine.load_cell.sampling_rate"), "Hz");
   EXPECT_EQ(unit_of_key(method, "specimen.handedness"), "");
   EXPECT_EQ(unit_of_key(method, "specimen.no_key"), "");

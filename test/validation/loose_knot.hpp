@@ -90,8 +90,7 @@ class LooseKnot {
   std::vector<ContactPoint> contacts() const {
     const Points& x = stepper_->state().position;
     SmoothContact contact(rod_, settings_.normal, settings_.friction, settings_.candidate_margin);
-    contact.refresh(x);
-    contact.begin_step();
+    contact.begin(x);
     contact.evaluate(x, x, 1.0);
     return contact.contacts();
   }
@@ -210,7 +209,7 @@ class LooseKnot {
 
   void start(const RodState& state, const Friction& friction) {
     // Overlaps of about a quarter of the tolerance.
-    settings_.normal = {48.0 * force_ / options_.tolerance, options_.tolerance};
+    settings_.normal = NormalLaw{48.0 * force_ / options_.tolerance, options_.tolerance};
     settings_.friction = friction;
     settings_.friction_couple = options_.couple;
     settings_.spin_inertia = false;

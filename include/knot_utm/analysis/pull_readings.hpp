@@ -12,8 +12,9 @@ namespace knot_utm {
 double energy(const Pull& pull);          ///< integral of F over s from the origin to the end
 double energy_to_peak(const Pull& pull);  ///< to s_p
 
-/// Mean of F over the second half of the way. Empty where there is no way.
-std::optional<double> late_force(const Pull& pull);
+/// Mean of F over the second half of the way, where F is steady there: its means over the third and the last quarter
+/// differ by no more than 2 %. Empty where it is not, or where there is no way.
+std::optional<double> steady_force(const Pull& pull);
 
 /// (F_2 - F_1)/(s_2 - s_1), F_1 and F_2 being 10 % and 50 % of F_p and s_1, s_2 where F last rises through them before
 /// s_p: of a knot that slides and locks, the lock. Empty where F is never as low as F_1.

@@ -20,11 +20,12 @@ struct EnergyParts {
   double stored = 0.0;  ///< change of stretching, bending, twisting and contact energy
   double kinetic = 0.0;
   double friction = 0.0;
+  double plastic = 0.0;  ///< of bends that yield (bending_law: plastic)
   double drag = 0.0;
   double numerical = 0.0;
   double reweighting = 0.0;
 
-  double losses() const { return friction + drag + numerical + reweighting; }
+  double losses() const { return friction + plastic + drag + numerical + reweighting; }
   double gap() const { return work - stored - kinetic - losses(); }
 };
 
@@ -36,7 +37,7 @@ struct Relaxation {
   double from;  ///< F where the hold begins, which is positive [N]
   double to;    ///< and where it ends [N]
 
-  double lost() const { return (from - to) / from; }  ///< share of F [-]
+  double lost() const { return (from - to) / from; }  ///< fraction of F [-]
 };
 
 /// What a test says: every measured key of result.yaml. A value that the test does not have is empty.
@@ -73,7 +74,7 @@ struct Results {
   std::string failure_mode;  ///< sliding then fracture, stretching then fracture, fracture, untangling; empty: none
 
   // Of the pull, with the state that it began from as its origin (pull_readings.hpp).
-  std::optional<double> late_force;         ///< mean over the second half of the way [N]
+  std::optional<double> steady_force;       ///< mean over the second half of the way, where it is level [N]
   std::optional<double> energy_to_peak;     ///< [J]
   std::optional<double> energy_to_break;    ///< where the rod broke [J]
   std::optional<double> chord_stiffness;    ///< from 10 % to 50 % of the peak [N/m]

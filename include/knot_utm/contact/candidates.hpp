@@ -18,8 +18,8 @@ inline double least_loop(double radius) {
 
 /// Which segments of the rod may touch which. Segment i, 1 <= i <= N-2, is the piece of centreline around node i, out
 /// to the middles of the edges that meet there, as long as they now are. The list holds every pair closer than `reach`
-/// with a margin, and stays valid until a node has moved half of it. A step may take nodes further: that no strand then
-/// slips through unseen is TunnellingSearch's to say.
+/// plus a margin. It stays valid until a node has moved by half of the margin. A step may move nodes further;
+/// TunnellingSearch then excludes that a strand passes through another one unseen.
 class Candidates {
  public:
   struct Run {
@@ -28,8 +28,8 @@ class Candidates {
   };
 
   /// `reach` is the distance of centrelines that must be found [m]; pairs closer than `exclusion` along the rod
-  /// never count [m]. `extent` is how far a segment reaches out along the edges at its node: a half as a rule, 1 where
-  /// it stands for the whole of them [-].
+  /// never count [m]. `extent` is the fraction of the two edges at its node that a segment covers: a half as a rule, 1
+  /// where it stands for whole edges [-].
   Candidates(const RodProperties& rod, double reach, double margin, double exclusion, double extent = 0.5);
 
   /// Rebuilds the list where something moved far enough; true if it did.
@@ -47,7 +47,7 @@ class Candidates {
   /// From now on the rod has parted at an edge, and the two segments that reach into it touch nothing.
   void part(int edge);
 
-  /// Where the list was built: the list follows from it.
+  /// Saves or loads the positions for which the list was built; the list follows from them.
   void state(Archive& archive);
 
  private:
@@ -62,9 +62,9 @@ class Candidates {
 
     void set(std::size_t lane, const Ball& ball);
     Ball get(std::size_t lane) const;
-    /// One that all of them are in.
+    /// A ball around all four.
     Ball around() const;
-    /// Which of them come nearer to a place than `limit`, all bits of a lane set; none that is infinitely far away.
+    /// Which of them come nearer to a place than `limit`, as a mask. Balls that are infinitely far away never do.
     auto within(double limit, const Vec3& from) const {
       const Lanes x = centre[0] - from[0], y = centre[1] - from[1], z = centre[2] - from[2], far = limit + radius;
       return x * x + y * y + z * z < far * far;
@@ -77,7 +77,7 @@ class Candidates {
   void build(const Points& position);
   void measure(const Points& position);
   void set_balls(const Points& position);
-  /// Finds which fours of segments are near to one of them, down from the ball around all.
+  /// Finds which fours of segments are near to that four, from the ball around all of them downwards.
   void find_around(int four);
   /// Whether the rod is drawn out so far that it cannot come back to itself.
   bool is_taut(const Points& position) const;
@@ -91,11 +91,11 @@ class Candidates {
   std::vector<Run> runs_;
   std::vector<int> segments_;
   // Segments lie in balls about their nodes, four in a row of these in a larger ball, and so on up to one around all.
-  // What touches nothing is infinitely far away.
+  // Segments that touch nothing are infinitely far away.
   std::vector<std::vector<Balls>> levels_;  // [level][i]: the four that ball i of the next level is around
   std::vector<Lanes> four_arclengths_;      // of the nodes
-  std::vector<Run> around_;                 // fours of segments near to the four at hand; kept for its memory, as is
-  std::vector<Run> larger_around_;          // that of the level above
+  std::vector<Run> around_;  // fours of segments near to the present four; a member so that its memory is reused, as is
+  std::vector<Run> larger_around_;  // that of the level above
 };
 
 }  // namespace knot_utm

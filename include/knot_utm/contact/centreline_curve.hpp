@@ -23,7 +23,7 @@ struct SegmentWeights {
 struct SegmentParabola {
   Lanes m, t, k;  ///< [m]
   Lanes chord;    ///< c(1) - c(0) [m]
-  double bulge;   ///< |k|/8: no further from its chord is the segment [m]
+  double bulge;   ///< |k|/8, the largest distance of the segment from its chord [m]
 
   void set(const Lanes& before, const Lanes& node, const Lanes& after) {
     m = 0.5 * (before + node);
@@ -37,19 +37,19 @@ struct SegmentParabola {
 /// Contact is integrated along a segment by the midpoint rule on its halves.
 constexpr double kIntegrationPoints[2] = {0.25, 0.75};
 
-/// Weights of a point of integration. The spline of a rod of edges l that is bent by kappa runs l^2 kappa/12 inside of
-/// the arc that has the rod's own length. The point is put back outwards by a share of x_{i-1} - 2 x_i + x_{i+1}: with
-/// the whole share, 1/12, a strand that is wound around something presses on it by just the force that its tension asks
-/// for, to fourth order in l, and stands at just its own distance.
+/// Weights of an integration point. Where a rod with edges of length l is bent by kappa, its spline runs l^2 kappa/12
+/// inside the arc that has the rod's own length. The point is therefore moved outwards by a fraction of x_{i-1} - 2 x_i
+/// + x_{i+1}. With the whole fraction, 1/12, the force of a strand that is wound around something, and its distance,
+/// are right to fourth order in l.
 struct PointWeights {
   double value[3];
 
-  PointWeights(double u, double share) : value{0.0, 0.0, 0.0} {
+  PointWeights(double u, double fraction) : value{0.0, 0.0, 0.0} {
     const SegmentWeights w(u);
-    for (int k = 0; k < 3; ++k) value[k] = w.value[k] - share * kSecondDifference[k];
+    for (int k = 0; k < 3; ++k) value[k] = w.value[k] - fraction * kSecondDifference[k];
   }
 
-  static constexpr double kWholeShare = 1.0 / 12.0;
+  static constexpr double kWhole = 1.0 / 12.0;
   static constexpr double kSecondDifference[3] = {1.0, -2.0, 1.0};
 };
 

@@ -9,7 +9,7 @@ namespace knot_utm {
 /// Nearest points p + t a and q + u b of two edges, 0 <= t, u <= 1.
 struct ClosestPoints {
   double t = 0.0, u = 0.0;
-  bool t_free = false, u_free = false;  ///< inside the edge: moves as the edges move
+  bool t_free = false, u_free = false;  ///< strictly inside the edge, where it moves as the edges do
 };
 
 /// Minimises, with x = p + t a - q - u b,

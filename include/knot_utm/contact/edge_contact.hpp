@@ -17,7 +17,7 @@ namespace knot_utm {
 ///     dx = S + a' dt - b' du,     H (dt, du) = (-a'.S - x.A,  b'.S + x.R),
 ///     H = [ |a'|^2 + r   -a'.b' ;  -a'.b'   |b'|^2 + r ],
 ///
-/// a foot at the end of its edge staying there. Pressure as in ContactModel.
+/// and a foot at the end of its edge stays there. The pressure is that of ContactModel.
 struct EdgeContactModel {
   Lanes force = {};       ///< g with that pressure [N]
   double pressure = 0.0;  ///< of the tangent at the present overlap [N/m]
@@ -32,18 +32,18 @@ struct EdgeContactModel {
   }
 };
 
-/// The pressure of a contact between edges as ContactModel has it.
+/// The pressures of a contact between edges, as in ContactModel.
 struct EdgePressure {
   double slope;     ///< p'(D^) [N/m^2]
   double pressure;  ///< of the tangent at the present overlap [N/m]
-  double turning;   ///< what turns with n and z [N/m]
+  double turning;   ///< of the terms in which n and z turn [N/m]
 };
 EdgePressure pressure_of(const EdgeLaw& normal, const ContactLinearisation& how, const ContactPoint& contact);
 
-/// Self-contact of the rod between its edges, as in the source paper: each pair of edges presses on one another at
-/// its closest points (Lumelsky, regularised, see closest_points.hpp) with EdgeLaw, a pair standing for its mean rest
-/// length. Near the ends of edges two pairs see the same contact and both count, as in the paper: the force ripples
-/// as strands slide over nodes, and strands side by side are up to three times stiffer than K.
+/// Self-contact of the rod between its edges, as in the source paper: the edges of each pair press on each other at
+/// their closest points (Lumelsky, regularised, see closest_points.hpp) by EdgeLaw, over their mean rest length. Near
+/// the ends of edges two pairs see the same contact and both count, as in the paper. The force therefore ripples as
+/// strands slide over nodes, and strands side by side are up to three times stiffer than K.
 ///
 /// ContactPoint's stencils take three nodes a strand; an edge fills two of them. Its `beta` holds dc_k/dt on a.
 /// Friction's memory belongs to the last accepted step and is found again by the arclengths of both feet, so that it
@@ -52,7 +52,7 @@ class EdgeContact {
  public:
   using Model = EdgeContactModel;
 
-  EdgeContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin);
+  EdgeContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction, double margin);
 
   /// As SmoothContact's.
   void act_at_surface(double couple, const SectionTurns& turns) {
@@ -61,15 +61,13 @@ class EdgeContact {
   }
   bool at_surface() const { return turns_ != nullptr; }
 
-  /// Rebuilds the candidates where something moved far enough; true if it did.
-  bool refresh(const Points& position);
   /// From now on the rod has parted at an edge.
   void part(int edge) { candidates_.part(edge); }
   /// Pairs of edges that may touch.
   const std::vector<std::pair<int, int>>& pairs() const { return pairs_; }
 
-  /// Before the first evaluation of a step: predictions of the pressures are those of the last accepted step.
-  void begin_step();
+  /// As SmoothContact's.
+  void begin(const Points& start);
 
   /// All contacts at `position` in a step of length dt from `start`.
   void evaluate(const Points& position, const Points& start, double dt);
@@ -79,14 +77,10 @@ class EdgeContact {
   const std::vector<SurfacePoint>& surfaces() const { return surfaces_; }
 
   /// The consistent linearisation of the active contacts, in order.
-  void linearise(double dt, std::vector<EdgeContactModel>& models) const;
-  /// Where friction acts at the surface: visit(number of the contact, its model) for each active one, in order.
-  template <typename Visit>
-  void linearise_surfaces(double dt, Visit visit) const {
-    const auto next = [&](std::size_t from, SurfaceModels& models) {
-      return knot_utm::linearise(normal_, friction_, dt, how_, contacts_, surfaces_, moving_, from, models);
-    };
-    visit_models(next, visit);
+  void linearise(const ContactLinearisation& how, double dt, std::vector<EdgeContactModel>& models) const;
+  /// Where friction acts at the surface, of the next few from number `from` on (linearise_surfaces).
+  std::size_t linearise(const ContactLinearisation& how, double dt, std::size_t from, SurfaceModels& models) const {
+    return knot_utm::linearise(normal_, friction_, dt, how, contacts_, surfaces_, moving_, from, models);
   }
 
   /// Of one of `contacts()`.
@@ -95,16 +89,16 @@ class EdgeContact {
   /// The evaluated state becomes the one that the next step remembers.
   void commit(const Points& position);
 
-  const EdgeLaw& normal() const { return normal_; }
-  /// From now on.
-  void linearise_by(const ContactLinearisation& how) { how_ = how; }
+  /// Energy of the pressure law per length of rod [N]
+  double energy(double overlap) const { return normal_.energy(overlap); }
 
   /// Of the last accepted step.
   void state(Archive& archive);
 
  private:
   template <typename Law>
-  void linearise_contact(const ContactPoint& contact, const Law& law, double dt, EdgeContactModel& model) const;
+  void linearise_contact(const ContactPoint& contact, const Law& law, const ContactLinearisation& how, double dt,
+                         EdgeContactModel& model) const;
 
   /// What a contact between edges knows beside its ContactPoint.
   struct Feet {
@@ -122,7 +116,7 @@ class EdgeContact {
   };
 
   void find_pairs();
-  /// Between two edges, drawn a trifle to their middles.
+  /// Closest points of two edges, drawn slightly towards the middles of the edges.
   ClosestPoints closest(int a, int b, const Points& position) const;
   void add_contact(int pair, const Points& position, const Points& start);
   void add_surface(const ContactPoint& contact, const Feet& feet, int a, int b);
@@ -131,12 +125,11 @@ class EdgeContact {
 
   EdgeLaw normal_;
   Friction friction_;
-  ContactLinearisation how_;
   double dt_ = 0.0;  // of this step [s]
   double diameter_;
   double window_;            // of arclengths within which a contact is the same one [m]
   double reach_;             // of centrelines within which contacts are kept [m]
-  double least_prediction_;  // pressures below are no guide to the next [N/m]
+  double least_prediction_;  // smallest pressure that serves as a prediction [N/m]
   Eigen::VectorXd rest_length_;
   Eigen::VectorXd length_;     // of the edges at the evaluated position [m]
   Eigen::VectorXd arclength_;  // of the nodes

@@ -11,8 +11,8 @@ namespace knot_utm {
 ///     f = [ log(1 + exp(K1 D)) / K1 ]^2       -delta < D < delta,  K1 = 15 / delta
 ///     f = 0                                   beyond,
 ///
-/// and the line pressure p = dE/dD [N/m]. At D = 0 the force is log(2) delta/15 times the factor K/2 of f.
-/// K [N/m^2] is the same as in NormalLaw: pressure per overlap once pressed in.
+/// and the line pressure p = dE/dD [N/m]. At D = 0 the pressure is log(2) K delta/30. K [N/m^2] is the same as in
+/// NormalLaw: pressure per overlap once pressed in.
 struct EdgeLaw {
   double stiffness = 0.0;  ///< K [N/m^2]
   double tolerance = 0.0;  ///< delta [m]
@@ -23,13 +23,13 @@ struct EdgeLaw {
   double pressure(double overlap) const {
     if (overlap <= begin()) return 0.0;
     if (overlap >= tolerance) return stiffness * overlap;
-    return stiffness * soft_overlap(overlap) * share(overlap);
+    return stiffness * soft_overlap(overlap) * fraction(overlap);
   }
   /// dp/dD [N/m^2]
   double slope(double overlap) const {
     if (overlap <= begin()) return 0.0;
     if (overlap >= tolerance) return stiffness;
-    const double s = share(overlap);
+    const double s = fraction(overlap);
     return stiffness * (s * s + sharpness() * soft_overlap(overlap) * s * (1.0 - s));
   }
   /// Energy per length [N]
@@ -56,7 +56,7 @@ struct EdgeLaw {
  private:
   double sharpness() const { return 15.0 / tolerance; }  // K1 [1/m]
   double soft_overlap(double overlap) const { return std::log1p(std::exp(sharpness() * overlap)) / sharpness(); }
-  double share(double overlap) const { return 1.0 / (1.0 + std::exp(-sharpness() * overlap)); }
+  double fraction(double overlap) const { return 1.0 / (1.0 + std::exp(-sharpness() * overlap)); }
 };
 
 }  // namespace knot_utm

@@ -7,8 +7,9 @@
 
 namespace knot_utm {
 
-/// The feet of points on the smooth centreline: where their distance from a segment is least within it, by
-/// F'(u) = -(a - c(u)).c'(u) = 0 rising, a cubic in u. Segments that FootSieve leaves are looked at four at a time.
+/// The feet (closest-point projections) of points a on the smooth centreline: places of a segment at which the distance
+/// from a has a minimum, F'(u) = -(a - c(u)).c'(u) = 0 with F' increasing. F' is a cubic in u. The segments that
+/// FootSieve leaves are examined four at a time.
 class FootSearch {
  public:
   struct Foot {
@@ -21,11 +22,11 @@ class FootSearch {
   /// Feet further away than `reach` are of no interest [m].
   FootSearch(Eigen::Index nodes, double reach);
 
-  /// Forgets all points. The centreline as it stands now; feet will be looked for on these segments only.
+  /// Begins a search without points on the present centreline; feet are searched on these segments only.
   void begin(const Points& position, const std::vector<int>& segments);
-  /// Two points that have the segments of these runs as candidates.
+  /// Adds two points, whose candidates are the segments of these runs.
   void look(const Lanes& first, const Lanes& second, const Candidates::Run* begin, const Candidates::Run* end);
-  /// Of all points, ascending in their number, then along the rod.
+  /// Finds the feet of all points, in the order of the points' numbers, then along the rod.
   void find();
   const std::vector<Foot>& feet() const { return feet_; }
 
@@ -39,7 +40,7 @@ class FootSearch {
   struct Four;
 
   Four four(const Pair* pairs, std::size_t count) const;
-  /// Of the pairs, those that may be within reach.
+  /// Keeps only the pairs that may be within reach.
   void leave_near_ones();
   void find_feet(const Pair* pairs, std::size_t count);
 

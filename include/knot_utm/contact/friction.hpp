@@ -10,6 +10,7 @@
 #include "knot_utm/contact/power_friction.hpp"
 #include "knot_utm/contact/smoothed_friction.hpp"
 #include "knot_utm/contact/stribeck_friction.hpp"
+#include "knot_utm/numeric/law_registry.hpp"
 
 namespace knot_utm {
 
@@ -38,14 +39,9 @@ constexpr std::array<FrictionLawEntry, sizeof...(I)> entries(std::index_sequence
 
 inline constexpr auto kEntries = entries(std::make_index_sequence<std::variant_size_v<FrictionLaws>>());
 
-template <std::size_t... I>
-constexpr std::array<const char*, sizeof...(I)> names(std::index_sequence<I...>) {
-  return {kEntries[I].name...};
-}
-
 }  // namespace friction
 
-inline constexpr auto kFrictionLawNames = friction::names(std::make_index_sequence<friction::kEntries.size()>());
+inline constexpr auto kFrictionLawNames = LawRegistry<FrictionLaws>::kNames;
 
 inline constexpr const FrictionLawEntry& entry_of(FrictionLaw law) {
   return friction::kEntries[static_cast<std::size_t>(law)];
@@ -64,7 +60,7 @@ class Friction {
   Friction(const Law& law) : law_(law), on_(law.coefficient > 0.0) {}  // NOLINT(google-explicit-constructor)
   static Friction of(const FrictionOptions& options, const FrictionScales& scales);
 
-  /// Calls use(law) with the law itself: once for all contacts, so that no contact pays for the choice.
+  /// Calls use(law) with the law itself, once for all contacts, so that the law is not chosen at every contact.
   template <typename Use>
   auto visit(Use&& use) const {
     return std::visit(std::forward<Use>(use), law_);

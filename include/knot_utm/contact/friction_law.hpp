@@ -6,30 +6,30 @@
 
 namespace knot_utm {
 
-/// The face of a friction law. At every contact a law says which traction t [N/m] one strand exerts on the other along
-/// their surfaces, by a direction vector z and a friction coefficient mu,
+/// The interface of a friction law. At every contact a law gives the traction t [N/m] that acts along the surface on
+/// the strand of point a, by a direction vector z and a friction coefficient mu,
 ///
 ///     t = -mu p z,   |z| <= 1,
 ///
-/// as a function of the pressure p, of the slip r that it remembers and that comes with this increment, of a number of
-/// its own, and of the length dt of the increment. Both z and mu may depend on all of these.
+/// as a function of the pressure p, of the slip r (the elastic slip that it keeps plus the slip of this step), of an
+/// internal variable of its own, and of the length dt of the step. Both z and mu may depend on all of these.
 ///
 /// A law is a pair of files and one line in `FrictionLaws` (friction.hpp). It is a plain struct, which
 ///
 ///     static constexpr const char* kName              is what a method calls it
 ///     static constexpr std::array kKeys               its keys in physics.friction (FrictionKey)
 ///     static Law of(options, scales)                  from a method
-///     double coefficient                              mu of the method [-], the largest but for a law whose mu falls
-///                                                     with the load, which has it at a load of its own; 0: no friction
+///     double coefficient mu of the method [-]: the largest mu, or that at a reference load where mu falls with the
+///     load; 0: no friction
 ///     traction(FrictionInput<Vector>)                 -> FrictionTraction<Vector>
 ///     tangent(FrictionInput<Vector>, Linearisation)   -> FrictionTangent<Vector>
 ///     remember(FrictionInput<Vec3>, z)                -> FrictionMemory, once the step is accepted with this z
 ///     state(Archive&)                                 its parameters
 ///
 /// Traction and tangent are templates: `Vector` is Vec3 for one contact, or FourVectors for four side by side; Real is
-/// the number that belongs to it. They call nothing virtual and take no memory.
+/// the number type that belongs to it. They make no virtual calls and allocate nothing.
 ///
-/// What a law inherits, and may say otherwise:
+/// Defaults that a law inherits and may replace:
 struct FrictionLawDefaults {
   /// Speed with which contacts at rest creep under any load; 0: they hold [m/s].
   double creep_speed() const { return 0.0; }
@@ -40,20 +40,20 @@ struct FrictionLawDefaults {
 /// What a contact keeps from step to step. A new contact begins with zeros.
 struct FrictionMemory {
   Vec3 slip = Vec3::Zero();  ///< xi [m]
-  double own = 0.0;          ///< a law's own number
+  double own = 0.0;          ///< internal variable of the law
 
   void state(Archive& archive) { archive(slip, own); }
 };
 
-/// What a law is told of one contact, or of four.
+/// What a law knows of one contact, or of four.
 template <typename Vector>
 struct FrictionInput {
   using Real = decltype(dot(Vector(), Vector()));
   Real pressure;      ///< p [N/m]
-  Vector slip;        ///< r: the remembered slip and that of this increment, in the tangent plane [m]
-  Vector remembered;  ///< xi_n, as it was remembered: not in the plane, which has turned since [m]
+  Vector slip;        ///< r: xi_n plus the slip of this step, in the tangent plane [m]
+  Vector remembered;  ///< xi_n of the last accepted step, not in the present tangent plane, which has turned since [m]
   Vector along;       ///< of the strand that is slid on, not of unit length, for laws with directions; 0 on a roller
-  Real own;           ///< the law's own number, as remembered
+  Real own;           ///< internal variable of the law, of the last accepted step
   double dt;          ///< [s]
 };
 
@@ -83,16 +83,16 @@ struct FrictionTangent {
   Vector slope_times(const Vector& v) const { return across * v + (along * dot(right, v)) * left; }
 };
 
-/// Newton's method solves with the tangent, or with the secant |z|/|r| in every direction in its place. Where a slip is
-/// beyond saturation the tangent along it vanishes, and Newton's method may leap from one saturated side to the other
-/// for ever; the secant bounds the law from above (Kacanov's method): it converges slowly, but from any start.
+/// Newton's method solves with the tangent, or instead with the secant |z|/|r| in every direction. Beyond saturation
+/// the tangent along the slip vanishes, and Newton's method may jump for ever from one saturated side to the other. The
+/// secant bounds the law from above (Kacanov's method) and converges slowly, but from any start.
 enum class Linearisation { kTangent, kSecant };
 
-/// Where a key takes its value from that a method does not give.
+/// Where the value of a key comes from that a method does not give.
 enum class FrictionDefault {
   kNone,        ///< a method must give it
   kPresliding,  ///< from physics.accuracy
-  kCreep,       ///< from the slowest pull, which creeping friction must not feel
+  kCreep,       ///< from the slowest pull, beside which the creep must be small
 };
 
 /// A key of physics.friction.
@@ -101,10 +101,11 @@ struct FrictionKey {
   double min, max;  ///< both allowed
   const char* unit;
   FrictionDefault otherwise;
-  double plain;  ///< may stand in a method whose law does not have the key: it was written there once; NaN: none
+  double plain;  ///< value that older methods give although their law does not have the key; it is allowed there; NaN:
+                 ///< none
 };
 
-/// What a law's parameters follow from beside its keys.
+/// What a law's parameters depend on besides its keys.
 struct FrictionScales {
   double coefficient = 0.0;  ///< mu of the two that touch [-]
   double radius = 0.0;       ///< h [m]

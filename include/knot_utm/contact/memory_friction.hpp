@@ -7,7 +7,7 @@
 
 namespace knot_utm {
 
-/// Coulomb friction that remembers: a tangential spring with a return mapping to Coulomb's cone,
+/// Coulomb friction with presliding: a tangential spring with return mapping to Coulomb's cone,
 ///
 ///     z = y for |y| < 1, else y/|y|,      y = r / xi_s,     xi = xi_s z is remembered,
 ///
@@ -30,7 +30,7 @@ struct MemoryFriction : FrictionLawDefaults {
   FrictionTraction<Vector> traction(const FrictionInput<Vector>& in) const {
     const Vector y = (1.0 / presliding) * in.slip;
     const auto size = square_root(dot(y, y));
-    return {share(size) * y, constant<decltype(dot(y, y))>(coefficient)};
+    return {ratio(size) * y, constant<decltype(dot(y, y))>(coefficient)};
   }
 
   template <typename Vector>
@@ -38,7 +38,7 @@ struct MemoryFriction : FrictionLawDefaults {
     using Real = typename FrictionInput<Vector>::Real;
     const double over_scale = 1.0 / presliding;
     const Vector y = over_scale * in.slip;
-    const Real size = square_root(dot(y, y)), across = share(size);
+    const Real size = square_root(dot(y, y)), across = ratio(size);
     Real along = Real{};  // d|z|/d|y| - |z|/|y|
     if (linearisation == Linearisation::kTangent) along = select(size < 1.0, along, -across);
     const Vector unit = select(size > 1e-12, 1.0 / size, Real{}) * y;
@@ -54,7 +54,7 @@ struct MemoryFriction : FrictionLawDefaults {
  private:
   /// |z|/|y|
   template <typename Real>
-  static Real share(const Real& size) {
+  static Real ratio(const Real& size) {
     return select(size < 1.0, constant<Real>(1.0), 1.0 / size);
   }
 };

@@ -11,7 +11,7 @@ struct EdgePair {
   Vec3 a0, a1, b0, b1;
 };
 
-/// Where two edges meet: shares of the way along each, 0 to 1.
+/// Where two edges meet: fractions of the way along each, 0 to 1.
 struct EdgeMeeting {
   double on_a = 0.0, on_b = 0.0;
 };
@@ -22,11 +22,11 @@ struct EdgeMeeting {
 ///
 ///     n.g = (1 - tau)^2 n_0.g(0) + tau (1 - tau) (n_0.g(1) + n_1.g(0)) + tau^2 n_1.g(1),
 ///
-/// so they stay apart if these three are positive. n_0 and n_1 are the directions of the shortest gap at both ends of
-/// the time; where that does not tell, each half of the time is asked for itself.
+/// so the edges stay apart if these three terms are positive. n_0 and n_1 are the directions of the shortest gap at
+/// both ends of the time interval. Where the test fails, each half of the interval is tested by itself.
 ///
 /// No passage is missed. Edges that come nearer than a millionth of their extent (gap, lengths and motion together)
-/// count as meeting, that bounds the number of halvings; so do such as are not numbers.
+/// count as meeting, which bounds the number of halvings. So do edges whose coordinates are not numbers.
 std::optional<EdgeMeeting> meeting(const EdgePair& start, const EdgePair& end);
 
 }  // namespace knot_utm

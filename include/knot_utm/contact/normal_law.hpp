@@ -3,28 +3,32 @@
 #include <cmath>
 #include <limits>
 
+#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/lanes.hpp"
 
 namespace knot_utm {
 
-/// Normal contact between two strands of radius h, per length of rod: the line pressure p [N/m] as a function of
-/// the overlap D = 2h - d [m] of two centrelines at distance d,
+/// A pressure law (pressure_laws.hpp) of two strands of radius h: the line pressure p [N/m] as a function of the
+/// overlap D = 2h - d [m] of two centrelines at distance d,
 ///
 ///     p = K s (1 + (s/c)^4),      s = (D + delta/2)^2 / (2 delta)  for |D| < delta/2,   s = D beyond, 0 before,
 ///
 /// once continuously differentiable. K [N/m^2] and the depth c [m] from which the rod stiffens as it is squeezed belong
 /// to the material and do not change with the mesh, the step or the run. The contact tolerance delta only rounds the
-/// corner where strands just touch: it stands symmetrically about D = 0, so that a contact pressed by more than
-/// K delta/2 does not know of it.
+/// corner where strands just touch, symmetrically about D = 0. A contact with a pressure above K delta/2 does not
+/// depend on it.
 struct NormalLaw {
+  static constexpr const char* kName = "normal";
+
   double stiffness = 0.0;                                       ///< K [N/m^2]
   double tolerance = 0.0;                                       ///< delta [m]
   double stiffening = std::numeric_limits<double>::infinity();  ///< c [m]
 
   void state(Archive& archive) { archive(stiffness, tolerance, stiffening); }
 
-  /// Overlap at which strands begin to feel each other, below zero [m].
+  /// Overlap at which the pressure begins, below zero [m].
   double begin() const { return -0.5 * tolerance; }
+  double stiffens_at() const { return stiffening; }
 
   /// `Real`: double, or Lanes for four contacts at once.
   template <typename Real>
@@ -42,7 +46,7 @@ struct NormalLaw {
   /// The overlap at which the law gives this pressure, p >= 0 [m]
   template <typename Real>
   Real overlap_at(const Real& line_pressure) const {
-    // Newton's method on s (1 + (s/c)^4) = p/K, which is convex: from above it falls to the root.
+    // Newton's method on s (1 + (s/c)^4) = p/K, which is convex, so that a start above the root descends to it.
     const Real q = line_pressure / stiffness;
     Real s = select(q < stiffening, q, stiffening * square_root(square_root(q / stiffening)));
     for (int i = 0; i < 6; ++i) {

@@ -13,9 +13,9 @@ namespace knot_utm {
 ///
 ///     mu(p) = mu ((p + p_0)/(p_r + p_0))^(n - 1),      p_0 = p_r/1000,
 ///
-/// so that t = -mu(p) p z is a p^n but for a pressure that is as small as p_0, and has a slope where strands just
-/// touch. z and what is remembered are those of `memory`: a spring up to the presliding displacement xi_s, a return
-/// mapping beyond. n = 1 is `memory`. Source: Howell 1953 (the law, and its capstan); Bowden and Tabor 1950 (the
+/// so that mu(p) p is proportional to p^n, except at pressures as small as p_0, and has a finite slope where strands
+/// just touch. z and the elastic slip are those of `memory`: a spring up to the presliding displacement xi_s, and
+/// return mapping beyond. n = 1 is `memory`. Source: Howell 1953 (the law, and its capstan); Bowden and Tabor 1950 (the
 /// areas).
 struct PowerFriction : FrictionLawDefaults {
   static constexpr const char* kName = "power";

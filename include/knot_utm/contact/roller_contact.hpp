@@ -8,16 +8,16 @@
 
 namespace knot_utm {
 
-/// A cylinder the rod may lie on, of unlimited length.
+/// A cylinder of unlimited length, on which the rod may lie.
 struct Roller {
   Vec3 centre = Vec3::Zero();  ///< a point of its axis [m]
   Vec3 axis = Vec3::UnitY();   ///< unit
   double radius = 0.0;         ///< [m]
-  /// Nodes between which the rod touches it; what lies beyond is laid beside it.
+  /// Nodes between which the rod may touch it; the rod beyond them lies beside it.
   int first_node = 0, last_node = std::numeric_limits<int>::max();
-  double turn = 0.0;  ///< about its axis, right-handed, at the end of the step, where it is not free [rad]
+  double turn = 0.0;  ///< rotation about its axis, right-handed, at the end of the step, where it is not free [rad]
   double inertia =
-      0.0;  ///< polar moment of one that is free to turn, which nothing but the rod drives; 0: not free [kg m2]
+      0.0;  ///< polar moment of inertia of one that is free to turn, so that only the rod turns it; 0: not free [kg m2]
 
   bool free() const { return inertia > 0.0; }
   void state(Archive& archive) { archive(centre, axis, radius, first_node, last_node, turn, inertia); }
@@ -29,19 +29,19 @@ struct RollerTurn {
   void state(Archive& archive) { archive(angle, rate); }
 };
 
-/// s of a contact, by which a roller moves its surface there as it turns by one radian [m]; `lever`: lambda.
+/// s of a contact: the motion of the roller's surface there for one radian of its rotation [m]; `lever`: lambda.
 inline Vec3 surface_way(const ContactPoint& contact, double lever) {
   return (1.0 - lever) * contact.axis.cross(contact.x);
 }
-/// psi s, by which it has moved it in this step [m].
+/// psi s, the motion of the roller's surface in this step [m].
 inline Vec3 carried_along(const ContactPoint& contact) { return contact.turned * contact.axis.cross(contact.x); }
 
 /// Contact of the rod's smooth centreline with rollers that move and turn: the normal law of the rod with
 /// D = r + h - d, d the distance from the axis, and a friction of their own.
 ///
-/// A roller that turns by psi in a step takes its surface along. With a its axis, x the gap from the axis to the
-/// centreline, and lambda as SurfacePoint has it (0 where friction acts on the centreline), friction acts at
-/// (1 - lambda) x, and slip is less by psi times
+/// The surface of a roller that turns by psi in a step moves with it. With a its axis, x the gap from the axis to the
+/// centreline, and lambda as SurfacePoint has it (0 where friction acts on the centreline), friction acts at (1 -
+/// lambda) x, and the slip is less by psi times
 ///
 ///     s = a x (1 - lambda) x [m].
 ///
@@ -54,9 +54,9 @@ class RollerContact {
  public:
   using Model = RollerModel;
 
-  /// `farthest`: no node moves further in a step that is accepted [m]. What is further from all rollers when a step
-  /// begins is not looked at in it.
-  RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double farthest);
+  /// `farthest`: the largest motion of a node in an accepted step [m]. Segments that are further from all rollers when
+  /// a step begins are left out of that step.
+  RollerContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction, double farthest);
 
   /// As SmoothContact's.
   void act_at_surface(double couple, const SectionTurns& turns) {
@@ -65,41 +65,36 @@ class RollerContact {
   }
   bool at_surface() const { return turns_ != nullptr; }
 
-  /// How far a roller has turned in this step: as far as it must, or, of a free one, as far as Newton's method has it.
+  /// Rotation of a roller in this step [rad]: the prescribed one, or that of the present iterate where it is free.
   double turned(int roller) const { return turned_[static_cast<std::size_t>(roller)]; }
   void turn_on(int roller, double by) { turned_[static_cast<std::size_t>(roller)] += by; }
-  /// As the last accepted step left it.
+  /// Of the last accepted step.
   RollerTurn turn(int roller) const {
     const auto number = static_cast<std::size_t>(roller);
     return number < turn_.size() ? turn_[number] : RollerTurn();
   }
 
-  /// Before the first evaluation of a step: predictions of the pressures are those of the last accepted step.
-  void begin_step();
+  /// Begins a step of length dt from `start`, at whose end the rollers stand as `rollers` says: free rollers first keep
+  /// their rate, and the predicted pressures are those of the last accepted step.
+  void begin(const std::vector<Roller>& rollers, const Points& start, double dt);
 
-  /// All contacts at `position` in a step of length dt from `start`, in which the rollers move from where the last
-  /// commit left them to `rollers`.
+  /// All contacts at `position` in that step, in which the rollers move from where the last commit left them.
   void evaluate(const std::vector<Roller>& rollers, const Points& position, const Points& start, double dt);
   const std::vector<ContactPoint>& contacts() const { return contacts_; }
   std::vector<ContactPoint>& contacts() { return contacts_; }
   /// Where friction acts at the surface: one for each contact.
   const std::vector<SurfacePoint>& surfaces() const { return surfaces_; }
 
-  /// The consistent linearisation of the active contacts, in order; some more may follow that mean nothing.
-  void linearise(double dt, std::vector<RollerModel>& models) const {
-    knot_utm::linearise(normal_, friction_, dt, how_, contacts_, models);
+  /// The consistent linearisation of the active contacts, in order; unused models may follow.
+  void linearise(const ContactLinearisation& how, double dt, std::vector<RollerModel>& models) const {
+    knot_utm::linearise(normal_, friction_, dt, how, contacts_, models);
+  }
+  /// The same where friction acts at the surface, for the next few contacts from number `from` on (linearise_surfaces).
+  std::size_t linearise(const ContactLinearisation& how, double dt, std::size_t from, SurfaceModels& models) const {
+    return knot_utm::linearise(normal_, friction_, dt, how, contacts_, surfaces_, from, models);
   }
 
-  /// Where friction acts at the surface: visit(number of the contact, its model) for each active one, in order.
-  template <typename Visit>
-  void linearise_surfaces(double dt, Visit visit) const {
-    const auto next = [&](std::size_t from, SurfaceModels& models) {
-      return knot_utm::linearise(normal_, friction_, dt, how_, contacts_, surfaces_, from, models);
-    };
-    visit_models(next, visit);
-  }
-
-  /// From now on the rod has parted at an edge, and what reaches into it touches nothing.
+  /// From now on the rod has parted at an edge, and segments that reach into it touch nothing.
   void part(int edge) { parted_ = edge; }
 
   /// Of one of `contacts()`.
@@ -113,9 +108,8 @@ class RollerContact {
 
   void commit(const std::vector<Roller>& rollers);
 
-  const NormalLaw& normal() const { return normal_; }
-  /// From now on.
-  void linearise_by(const ContactLinearisation& how) { how_ = how; }
+  /// e(D) of the pressure law [N]
+  double energy(double overlap) const { return energy_of(normal_, overlap); }
 
   /// Of the last accepted step.
   void state(Archive& archive);
@@ -128,7 +122,7 @@ class RollerContact {
 
   /// Of a place from a roller's axis [m].
   static double distance(const Roller& roller, const Vec3& x);
-  /// Distance of a segment's node beyond which none of it touches [m].
+  /// Distance of a segment's node from the axis beyond which no part of the segment touches [m].
   double limit(const Roller& roller, int segment) const;
   void find_near_segments(const std::vector<Roller>& rollers, const Points& start);
   void add_contacts(const std::vector<Roller>& rollers, std::size_t number, int segment, const Points& position,
@@ -137,13 +131,12 @@ class RollerContact {
   std::size_t index_of(const ContactPoint& contact) const;
   double lever_of(const ContactPoint& contact) const;
 
-  NormalLaw normal_;
+  PressureLaws normal_;
+  double begins_;  // overlap at which its pressure begins [m]
   Friction friction_;
-  ContactLinearisation how_;
   double dt_ = 0.0;  // of this step [s]
   double radius_;
   double farthest_;
-  bool first_evaluation_ = true;
   std::vector<Near> near_;  // of this step
   int parted_ = -2;         // edge; no segment reaches into this one
   Eigen::VectorXd voronoi_;
@@ -151,7 +144,7 @@ class RollerContact {
   std::vector<double> turned_;    // of every roller in this step [rad]
   std::vector<RollerTurn> turn_;  // of every roller, as start_
   std::vector<ContactPoint> contacts_;
-  double couple_ = 0.0;                  // that a section passes on
+  double couple_ = 0.0;                  // eta: fraction of friction's couple that a section transmits
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
   std::vector<SurfacePoint> surfaces_;
   std::vector<double> prediction_, committed_prediction_;  // of the pressure, < 0: none; indexed as memory_

@@ -12,76 +12,70 @@ namespace knot_utm {
 
 /// Self-contact of the rod along its smooth centreline: each strand is integrated by the midpoint rule, with two points
 /// on a segment. Each point presses on its feet, its closest-point projections
-/// on the other strands. Points and feet stand outwards of the spline, where the arc of the rod's own length runs: the
-/// points by their weights (PointWeights), the feet, which are searched on the spline, by what their overlap gains. A
-/// pair of points is seen from both sides; the two sides share it by
+/// on the other strands. Points and feet lie outwards of the spline, where the arc of the rod's own length runs: points
+/// by their weights (PointWeights), and feet, which are searched on the spline, by an addition o to the overlap. Each
+/// contact is seen from both strands, which share it by the weighting factor
 ///
 ///     omega = g_b^4 / (g_a^4 + g_b^4 + 1e-4),   g_b = 1 - x.b''/|b'|^2,   g_a = 1 + x.a''/|a'|^2,
 ///
-/// so that the curved strand is integrated and the straighter one projected on: where a strand coils around another
-/// at the distance of contact, the other one stands in its centre of curvature and has no foot on it.
-/// g is linear between the middle of a segment, where it is its own, and its ends, where it is the smaller one of the
-/// two segments that meet: a foot that is about to vanish has a weighting factor of zero by then.
-/// omega, and how far the foot stands outwards, follow the shape within a set time: were they to follow at once, two
-/// places of a tight knot could throw a contact to and fro in steps however short, a flutter that no step resolves.
-/// They and the friction's memory belong to the last accepted step and are constant within a step: they are carried by
-/// the point of integration and found again by the nearest arclength of the foot, iterate by iterate, each by one foot
-/// only: a foot that is new starts without memory, with what its place gives it for both.
+/// so that the integration runs along the curved strand and the projection goes onto the straighter one. Where a strand
+/// coils around another at the distance of contact, the inner one lies in the centre of curvature of the outer one and
+/// has no foot on it. g is interpolated linearly from the middle of a segment, where it is that of the segment, to its
+/// ends, where it is the smaller one of the two segments that meet. A foot that is about to vanish thus has a weighting
+/// factor of zero by then. omega and o relax towards the shape within a set time. If they followed at once, a contact
+/// of a tight knot could alternate between two places from step to step, however short the steps are. omega, o and the
+/// friction's memory belong to the last accepted step and are constant within a step. The integration point carries
+/// them from iterate to iterate, and each is assigned to one foot, that of the nearest arclength. A new foot has no
+/// memory; its omega and o are those of its place.
 class SmoothContact {
  public:
   using Model = ContactModel;
 
-  /// `catch_up`: time within which omega, and how far feet stand outwards, follow the shape [s].
-  SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,
+  /// `catch_up`: relaxation time with which omega and o follow the shape [s].
+  SmoothContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction, double margin,
                 double catch_up = 0.05);
 
-  /// Friction acts at the surfaces of the strands, whose sections pass on that share of its couple (SurfacePoint);
-  /// `turns` are those of the positions that are evaluated, and must outlive this. At first it acts on the centrelines.
+  /// From now on friction acts at the surfaces of the strands, whose sections transmit the fraction `couple` of its
+  /// couple (SurfacePoint). Otherwise it acts on the centrelines. `turns` belong to the positions that are evaluated
+  /// and must outlive this object.
   void act_at_surface(double couple, const SectionTurns& turns) {
     lever_ = 0.5 * couple;
     turns_ = &turns;
   }
   bool at_surface() const { return turns_ != nullptr; }
 
-  /// Rebuilds the candidates where something moved far enough; true if it did.
-  bool refresh(const Points& position) { return candidates_.refresh(position); }
   /// From now on the rod has parted at an edge.
   void part(int edge) { candidates_.part(edge); }
 
-  /// Before the first evaluation of a step: predictions of the pressures are those of the last accepted step.
-  void begin_step();
+  /// Begins a step from `start`: the search for candidates is repeated where a node has moved far enough, and the
+  /// predicted pressures are those of the last accepted step.
+  void begin(const Points& start);
 
   /// All contacts at `position` in a step of length dt from `start`.
   void evaluate(const Points& position, const Points& start, double dt);
-  /// Of all feet within reach those that press, are expected to, did when the step began, or are about to.
+  /// Those of the feet within reach that press, are predicted to, did so when the step began, or nearly touch.
   const std::vector<ContactPoint>& contacts() const { return contacts_; }
   std::vector<ContactPoint>& contacts() { return contacts_; }
   /// Where friction acts at the surface: one for each contact.
   const std::vector<SurfacePoint>& surfaces() const { return surfaces_; }
 
-  /// The consistent linearisation of the active contacts, in order; some more may follow that mean nothing.
-  void linearise(double dt, std::vector<ContactModel>& models) const {
-    knot_utm::linearise(normal_, friction_, dt, how_, contacts_, models);
+  /// The consistent linearisation of the active contacts, in order; unused models may follow.
+  void linearise(const ContactLinearisation& how, double dt, std::vector<ContactModel>& models) const {
+    knot_utm::linearise(normal_, friction_, dt, how, contacts_, models);
+  }
+  /// The same where friction acts at the surface, for the next few contacts from number `from` on (linearise_surfaces).
+  std::size_t linearise(const ContactLinearisation& how, double dt, std::size_t from, SurfaceModels& models) const {
+    return knot_utm::linearise(normal_, friction_, dt, how, contacts_, surfaces_, from, models);
   }
 
-  /// Where friction acts at the surface: visit(number of the contact, its model) for each active one, in order.
-  template <typename Visit>
-  void linearise_surfaces(double dt, Visit visit) const {
-    const auto next = [&](std::size_t from, SurfaceModels& models) {
-      return knot_utm::linearise(normal_, friction_, dt, how_, contacts_, surfaces_, from, models);
-    };
-    visit_models(next, visit);
-  }
-
-  /// Of one of `contacts()`; the overlap but for the third order of the way of its foot.
+  /// Of one of `contacts()`. The overlap at the beginning neglects the third order in the motion of the foot.
   ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;
 
   /// The evaluated state becomes the one that the next step remembers. `position` is what was last evaluated.
   void commit(const Points& position);
 
-  const NormalLaw& normal() const { return normal_; }
-  /// From now on.
-  void linearise_by(const ContactLinearisation& how) { how_ = how; }
+  /// e(D) of the pressure law [N]
+  double energy(double overlap) const { return energy_of(normal_, overlap); }
 
   /// Of the last accepted step.
   void state(Archive& archive);
@@ -91,11 +85,11 @@ class SmoothContact {
   struct Memory {
     double arclength_b;
     double weighting;  // omega
-    double outwards;   // of the spline stands the foot, towards its point [m]
-    double pressure;   // prediction of it; < 0: none
+    double outwards;   // o: the strand of the foot lies this far outwards of its spline, towards the point [m]
+    double pressure;   // predicted; < 0: none
     FrictionMemory friction;
     bool pressed = false;  // at the beginning of the step
-    bool inside = false;   // was deep inside when it appeared, and has not come out yet
+    bool inside = false;   // appeared deep inside and has not come out yet
 
     void state(Archive& archive);
   };
@@ -111,50 +105,51 @@ class SmoothContact {
   struct Tracked {
     Memory memory;
     std::size_t foot;     // number of it in search_
-    std::size_t contact;  // number of it; kNone where it takes no part
+    std::size_t contact;  // number of it; kNone where it is left out
   };
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  /// Of a point of integration as search_ numbers them.
+  /// Of an integration point, by its number in search_.
   int segment_of(int point) const { return candidates_.segments()[static_cast<std::size_t>(point / 2)]; }
   std::size_t row_of(int point) const { return static_cast<std::size_t>(2 * segment_of(point) + point % 2); }
 
-  /// Tracks this foot and the other ones of its point, but those too near along the rod; the first foot of the next.
+  /// Tracks this foot and the others of its point, except those too near along the rod. Returns the first foot of the
+  /// next point.
   std::size_t follow(std::size_t foot);
-  /// Gives the feet of a point, those tracked from `first` on, what the last iterate remembers of them.
+  /// Gives the feet of a point, which are tracked from `first` on, their memories from the last iterate.
   void recall(std::size_t row, std::size_t first);
   /// Of a foot and its point [m]
   double overlap(const Tracked& foot) const;
-  /// Whether the foot and its point overlapped as the step began, and so did not come into each other in it.
+  /// Whether the foot and its point already overlapped when the step began.
   bool began_inside(const Tracked& foot) const;
-  /// A foot takes part where it presses, is expected to or did when the step began, or is about to. Not so one that
-  /// appears deep inside between places that overlapped as the step began: a bend as sharp as the strand is thick has
-  /// closed around the point, as around the end of a tail, and would throw it out with what force the depth gives.
+  /// A foot takes part where it presses, is predicted to, did so when the step began, or nearly touches. A foot that
+  /// appears deep inside is left out if the two places already overlapped when the step began: a bend as sharp as the
+  /// strand is thick has closed around the point, such as the end of a tail, and the force of that depth would throw it
+  /// out.
   bool takes_part(const Tracked& foot) const;
   void add_contact(Tracked& tracked);
   void set_slip(ContactPoint& contact) const;
   void add_surface(const ContactPoint& contact, const SegmentParabola& a, const SegmentParabola& b, double u_b);
   void remember(const Points* position, MemoryList& list) const;
-  /// Of the accepted position, at first that of the start; where the rod is bent more sharply than its edges resolve,
-  /// less and less.
+  /// Sets outwards_ for an accepted position, before the first step for its start. It falls to zero where the rod is
+  /// bent more sharply than its edges resolve.
   void put_outwards(const Points& position);
   double weighting(const FootSearch::Foot& foot, const Points& position) const;
-  /// What the weighting factor of a foot cannot exceed: it falls to zero on the last radius before the spline ends,
-  /// where a strand slips off. A force that vanished there all at once would leave steps, however short, without a
-  /// solution.
+  /// Upper bound of a foot's weighting factor. It falls to zero towards the end of the spline, where a strand slips
+  /// off, because a force that vanished there suddenly would leave steps, however short, without a solution.
   double largest_weighting(const Memory& memory) const;
   double outwards(const FootSearch::Foot& foot, const Points& position) const;
 
-  NormalLaw normal_;
+  PressureLaws normal_;
+  double begins_;  // overlap at which its pressure begins [m]
   Friction friction_;
-  ContactLinearisation how_;
   double dt_ = 0.0;  // of this step [s]
   double diameter_;
   double window_;              // of arclength within which a foot is the same one [m]
   double reach_;               // of centrelines within which feet are followed [m]
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd voronoi_;
-  Eigen::VectorXd outwards_;  // share of the second difference by which a segment stands outwards; at first empty
+  Eigen::VectorXd outwards_;  // fraction of the second difference by which a segment stands outwards; at first empty
   Candidates candidates_;
   FootSearch search_;
   std::vector<Tracked> tracked_;
@@ -163,11 +158,11 @@ class SmoothContact {
   const SectionTurns* turns_ = nullptr;  // where friction acts at the surface
   std::vector<SurfacePoint> surfaces_;
   MemoryList accepted_;         // of the last accepted step
-  std::vector<char> recalled_;  // of iterate_: given to a contact
+  std::vector<char> recalled_;  // of each entry of iterate_: assigned to a foot
   MemoryList iterate_;          // of the last evaluation; before the first of a step, the accepted ones
-  std::vector<Lanes> moved_;    // by which the nodes moved in this step [m]
+  std::vector<Lanes> moved_;    // increments of the nodes in this step [m]
   double catch_up_time_;
-  double catch_up_ = 1.0;  // by which weighting factors and feet follow in this step
+  double catch_up_ = 1.0;  // fraction by which omega and o relax in this step
   bool first_evaluation_ = true;
   bool first_step_ = true;  // none was accepted yet
 };

@@ -20,21 +20,21 @@ struct SmoothedFriction : FrictionLawDefaults {
 
   double coefficient = 0.0;     ///< mu [-]
   double slip_tolerance = 0.0;  ///< v_s [m/s]
-  double least_slip = 0.0;      ///< in the shortest steps dt v_s would be steeper than any solver follows [m]
+  double least_slip = 0.0;      ///< least slip, without which short steps would be too steep to solve [m]
 
   SmoothedFriction() = default;
   SmoothedFriction(double mu, double v_s, double least = 0.0)
       : coefficient(mu), slip_tolerance(v_s), least_slip(least) {}
   static SmoothedFriction of(const FrictionOptions& options, const FrictionScales& scales);
 
-  /// What the slip is divided by [m]: dt v_s, but not less than `least_slip`. A still shorter step would not be easier.
+  /// What the slip is divided by [m]: dt v_s, but at least `least_slip`.
   double scale(double dt) const { return std::max(dt * slip_tolerance, least_slip); }
 
   template <typename Vector>
   FrictionTraction<Vector> traction(const FrictionInput<Vector>& in) const {
     const Vector y = (1.0 / scale(in.dt)) * in.slip;
     const auto size = square_root(dot(y, y));
-    return {share(size) * y, constant<decltype(dot(y, y))>(coefficient)};
+    return {ratio(size) * y, constant<decltype(dot(y, y))>(coefficient)};
   }
 
   template <typename Vector>
@@ -42,7 +42,7 @@ struct SmoothedFriction : FrictionLawDefaults {
     using Real = typename FrictionInput<Vector>::Real;
     const double over_scale = 1.0 / scale(in.dt);
     const Vector y = over_scale * in.slip;
-    const Real size = square_root(dot(y, y)), across = share(size);
+    const Real size = square_root(dot(y, y)), across = ratio(size);
     Real along = Real{};  // d|z|/d|y| - |z|/|y|
     if (linearisation == Linearisation::kTangent) {
       const Real value = across * size;
@@ -62,7 +62,7 @@ struct SmoothedFriction : FrictionLawDefaults {
  private:
   /// |z|/|y|
   template <typename Real>
-  static Real share(const Real& size) {
+  static Real ratio(const Real& size) {
     return select(size > 1e-12, tanh(7.5 * size) / size, constant<Real>(7.5));
   }
 };

@@ -7,15 +7,16 @@
 
 namespace knot_utm {
 
-/// Friction that falls as a contact slides, from a static to a kinetic coefficient within a slip length. With sigma
-/// the way that the contact has slid since it last stuck, mu_s the static coefficient and k the kinetic one over it,
+/// Friction that falls as a contact slides, from a static to a kinetic coefficient within a slip length. With sigma the
+/// distance that the contact has slid since it last stuck, mu_s the static coefficient and k the ratio of the kinetic
+/// one to it,
 ///
 ///     mu(sigma) = mu_s (k + (1 - k) exp(-sigma/l)),      sigma = sigma_n + max(0, |r| - xi_s mu(sigma_n)/mu_s),
 ///     t = -p mu_s y while |y| < mu(sigma)/mu_s, else -p mu(sigma) y/|y|,      y = r/xi_s.
 ///
-/// Below its cone it is the spring of `memory`. A contact that sticks at the end of a step is bound anew: sigma = 0. So
-/// is one that is new. k = 1 is `memory`. Where l is shorter than (1 - k) xi_s, friction falls faster than the spring
-/// lets go, and a step may have no solution. Source: Rabinowicz 1951 for the slip length; a return mapping with
+/// Below its cone it is the spring of `memory`. A contact that sticks at the end of a step starts anew with sigma = 0,
+/// as does a new contact. k = 1 is `memory`. Where l is shorter than (1 - k) xi_s, friction falls faster than the
+/// spring unloads, and a step may have no solution. Source: Rabinowicz 1951 for the slip length; a return mapping with
 /// softening, as in Simo and Laursen 1992.
 struct StribeckFriction : FrictionLawDefaults {
   static constexpr const char* kName = "stribeck";
@@ -50,7 +51,7 @@ struct StribeckFriction : FrictionLawDefaults {
     const Cone cone(*this, square_root(dot(y, y)), in.own);
     const Real& size = cone.size;
     const auto sticks = size < cone.bears;
-    // Of |t|/(p mu_s) = min(|y|, bears) the secant and, less that, the slope.
+    // The secant of |t|/(p mu_s) = min(|y|, bears), and its slope less the secant.
     const Real across = select(sticks, constant<Real>(1.0), cone.bears / size);
     Real along = Real{};
     if (linearisation == Linearisation::kTangent) along = select(sticks, along, cone.slope - across);
@@ -65,7 +66,7 @@ struct StribeckFriction : FrictionLawDefaults {
   void state(Archive& archive) { archive(coefficient, presliding, kinetic_share, slip_length); }
 
  private:
-  /// What the contact bears at most after it has slid, over mu_s p, and how that changes with |y|.
+  /// The largest traction after the slip of this step, divided by mu_s p, and its derivative in |y|.
   template <typename Real>
   struct Cone {
     Real size;   // |y|

@@ -8,8 +8,8 @@
 
 namespace knot_utm {
 
-/// By how much the edges turned about their tangents in this step. With e_j the edge, s_j the spin that Newton's method
-/// solves for and lean_j as frame_terms.hpp has it, |e_j| psi_j changes by |e_j| (ds_j - pull_j . de_j).
+/// Rotations of the edges about their own tangents (spins) in this step. With e_j the edge, s_j the spin that Newton's
+/// method solves for and lean_j of frame_terms.hpp, |e_j| psi_j changes by |e_j| (ds_j - pull_j . de_j).
 struct SectionTurns {
   std::vector<double> turn;    ///< psi of every edge since the step's beginning [rad]
   std::vector<double> length;  ///< |e| of every edge [m]
@@ -17,33 +17,34 @@ struct SectionTurns {
   std::vector<Lanes> pull;     ///< lean - psi t/|e| of every edge [1/m]
 };
 
-/// What a contact knows beside its ContactPoint where friction acts at the surfaces of the strands.
+/// The part of a contact beyond its ContactPoint where friction acts at the surfaces of the strands.
 ///
 /// The section of a strand that passes through a contact turns by
 ///
 ///     phi = c^ x V + Psi c^,    c^ = c'/|c'|^2,    Psi = sum_j sigma_j |e_j| psi_j,
 ///
-/// c' being the derivative of the centreline there, V how c' changed in this step, psi_j how far the two edges about it
-/// spun, and sigma_j their shares in c' = sum_j sigma_j e_j: a rod that turns as a whole turns its sections with it,
-/// however it is bent. The strands' surfaces meet half way between the centrelines, at
-/// lambda x from either, lambda = 1/2, x the gap; a soft section (material.friction_couple = eta) passes on a share of
-/// the couple only, and its surface moves as if it stood at lambda = eta/2. On a roller of radius R, whose own turn
-/// RollerContact adds, lambda = eta h/(R + h). Material points of the two surfaces slid against each other in this step
-/// by
+/// c' being the derivative of the centreline there, V how c' changed in this step, psi_j the spins of the two edges
+/// next to it, and sigma_j their weights in c' = sum_j sigma_j e_j. A rod that turns as a whole therefore turns its
+/// sections with it, however it is bent. The strands' surfaces meet half way between the centrelines, at lambda x from
+/// either, lambda = 1/2, x the gap. A soft section transmits only the fraction eta of the couple
+/// (material.friction_couple), and its surface moves as if it lay at lambda = eta/2. On a roller of radius R, whose own
+/// turn RollerContact adds, lambda = eta h/(R + h). Material points of the two surfaces slid against each other in this
+/// step by
 ///
 ///     u = Dx_a - Dx_b - (phi_a + phi_b) x lambda x,
 ///
-/// in which friction's memory xi, carried by both sections, has turned with them: the law is told of
-/// r = xi + alpha n x xi + u, alpha = n.(phi_a + phi_b)/2 (on a roller phi_a alone, whole).
+/// The elastic slip xi has turned with both sections, so that the friction law gets r = xi + alpha n x xi + u, alpha =
+/// n.(phi_a + phi_b)/2 (on a roller phi_a alone, whole).
 ///
-/// u is linear in what nodes and spins did in this step, u = sum J_k Dq_k, with J at the end of the step; the force g
-/// on a's surface acts on nodes and spins by J^T. So the work of all of them is g.u, exactly, for steps of any length:
+/// u is linear in the increments of nodes and spins in this step, u = sum J_k Dq_k, with J at the end of the step. The
+/// force g on the surface of a acts on nodes and spins by J^T, so that their work is exactly g.u for steps of any
+/// length:
 ///
 ///     on node k of a   c_k g + d_k a^ x m,     on its spins  -s_j a^.m,      m = lambda x x g,   s_j = sigma_j |e_j|,
 ///     on node k of b   c_k g + beta_k b^ x m,                -s_j b^.m,
 ///
-/// the couple -m acting on both sections: its part across the strand as forces on the nodes that turn it, that along it
-/// on the spins. With eta = 1 force and couples balance about every point.
+/// The couple -m acts on both sections. Its part across the strand becomes forces on the nodes, its part along the
+/// strand torques on the spins. With eta = 1 forces and couples balance about every point.
 /// Source: our own; kinematics of rigid sections along the spline of the centreline.
 struct SurfacePoint {
   Vec3 along_a = Vec3::Zero();      ///< a' [m]; b' is ContactPoint::db
@@ -66,7 +67,7 @@ struct EdgeFeet {
   double inverse_tt = 0.0, inverse_tu = 0.0, inverse_uu = 0.0;
 };
 
-/// What the turn of its sections adds to the slip of a contact, r - (xi + Dx_a - Dx_b) [m].
+/// What the rotation of its sections adds to the slip of a contact, r - (xi + Dx_a - Dx_b) [m].
 Vec3 surface_shift(const ContactPoint& contact, const SurfacePoint& surface);
 /// Adds it to the slip r of every active contact.
 void add_shifts(std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces);
@@ -81,17 +82,17 @@ void set_couples(const std::vector<ContactPoint>& contacts, std::vector<SurfaceP
 void add_couples(const ContactPoint& contact, const SurfacePoint& surface, const Lanes& on_a, const Lanes& on_b,
                  std::vector<Lanes>& force);
 
-/// The linear model of a contact with friction at the surfaces, by the changes xi that all its forces depend on:
-/// S = sum_k c_k dq_k, V_a = sum_k d_k dq_k, V_b = sum_k beta_k dq_k, Psi_a and Psi_b, and the turn of a roller.
+/// The linear model of a contact with friction at the surfaces, by the changes xi on which all its forces depend: S =
+/// sum_k c_k dq_k, V_a = sum_k d_k dq_k, V_b = sum_k beta_k dq_k, Psi_a and Psi_b, and the turn of a roller.
 struct SurfaceModel {
   static constexpr int kShift = 0, kTurnA = 3, kTurnB = 6, kSpinA = 9, kSpinB = 10, kTurned = 11, kChanges = 12;
 
-  /// Of one change, with the foot's way that goes with it.
+  /// Derivatives with respect to one change, and the motion of the feet that goes with it.
   struct Response {
     Lanes force = {};     ///< -dg/dxi
     Lanes on_a = {};      ///< -d(a^ x m)/dxi, lane 3: d(a^.m)/dxi
     Lanes on_b = {};      ///< the same of b
-    double foot_a = 0.0;  ///< dt/dxi, the way of a's foot, between edges only
+    double foot_a = 0.0;  ///< dt/dxi, motion of the foot on a, between edges only
     double foot_b = 0.0;  ///< du/dxi
   };
 
@@ -104,8 +105,8 @@ struct SurfaceModel {
   Response by[kChanges];
 };
 
-/// Models of up to four contacts. They are large, and used as they come about: those of all contacts at once would not
-/// stay in the caches.
+/// Models of up to four contacts. They are large and used at once, because those of all contacts would not fit into the
+/// caches.
 struct SurfaceModels {
   int count = 0;
   std::size_t contact[4] = {};  ///< its number
@@ -114,8 +115,8 @@ struct SurfaceModels {
 
 /// The consistent linearisation of `evaluate_forces` and add_couples, as `linearise` of contact_point.hpp, of the next
 /// four active contacts from number `from` on, or as many as are left. `surfaces`: one for each of `contacts`. Returns
-/// where to go on.
-std::size_t linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+/// the number from which to go on.
+std::size_t linearise(const PressureLaws& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                       const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
                       std::size_t from, SurfaceModels& models);
 
@@ -124,11 +125,13 @@ std::size_t linearise(const EdgeLaw& normal, const Friction& friction, double dt
                       const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
                       const std::vector<EdgeFeet>& feet, std::size_t from, SurfaceModels& models);
 
-/// Calls visit(number of the contact, its SurfaceModel) for all that `next(from, models)` linearises.
-template <typename Next, typename Visit>
-void visit_models(Next next, Visit visit) {
+/// Of contacts with friction at the surface: calls visit(number of the contact, its SurfaceModel) for each active one,
+/// in order.
+template <typename Contacts, typename Visit>
+void linearise_surfaces(const Contacts& contacts, const ContactLinearisation& how, double dt, Visit visit) {
   SurfaceModels models;
-  for (std::size_t from = next(std::size_t{0}, models); models.count > 0; from = next(from, models))
+  for (std::size_t from = contacts.linearise(how, dt, 0, models); models.count > 0;
+       from = contacts.linearise(how, dt, from, models))
     for (int i = 0; i < models.count; ++i) visit(models.contact[i], models.model[i]);
 }
 

@@ -8,36 +8,36 @@
 
 namespace knot_utm {
 
-/// Two places of the rod that meet: edges a < b, and the share of the way along each, 0 to 1.
+/// Two places of the rod that meet: edges a < b, and the fraction of the way along each, 0 to 1.
 struct Tunnelling {
   int edge_a = 0, edge_b = 0;
   double on_a = 0.0, on_b = 0.0;
 };
 
-/// Whether a rod passes through itself (tunnelling) while every node goes straight, at constant speed, from its start
-/// to its end: continuous collision detection of the polygon of nodes, every two edges that share no node. It assumes
-/// nothing about the rod's shape and motion, the stretch of its edges or the known contacts. No passage is missed.
+/// Whether a rod passes through itself (tunnelling) while every node moves straight and at constant speed from its
+/// start to its end: continuous collision detection between all edges of the polygon of nodes that share no node. It
+/// assumes nothing about the rod's shape and motion, the stretch of its edges or the known contacts. No passage is
+/// missed.
 ///
 /// Nearly every pair is settled by one of two bounds on pieces of 1, 2, 4, ... edges:
 ///
 /// - Boxes around two pieces, at their start and end and so at all times between, that do not meet.
-/// - A piece all of whose edges have a positive part along one direction, e.d > 0, at its start and end: as each edge
-///   is linear in time, it has so at all times between. The piece advances along d and cannot come back to itself. It
-///   settles edges that are near only because they are neighbours along the rod. Of the edges a box is kept as well,
-///   and d is its middle.
+/// - A piece all of whose edges advance along one direction, e.d > 0, at its start and end. Each edge is linear in
+/// time, so it advances at all times between, and the piece cannot come back to itself. This settles edges that are
+/// near only because they are neighbours along the rod. d is the middle of a box around the edges as vectors.
 ///
-/// The few pairs of edges that are left are asked one by one (moving_edges.hpp).
+/// The few pairs of edges that are left are tested one by one (moving_edges.hpp).
 class TunnellingSearch {
  public:
-  /// `bare_ends`: a contact law that begins half an edge from the rod's ends (SmoothContact) lets strands slip over
-  /// them. What meets an outer half of an end edge then does not count.
+  /// `bare_ends`: the contact law begins half an edge from the rod's ends (SmoothContact), so that strands may slip
+  /// over these. Meetings with the outer half of an end edge then do not count.
   explicit TunnellingSearch(Eigen::Index nodes, bool bare_ends = false);
 
   /// From now on the rod has parted at an edge, which anything may pass.
   void part(int edge) { parted_ = edge; }
 
-  /// Columns are nodes, all of them finite. A first and a last one that lie on each other, at the start and at the end,
-  /// are one node.
+  /// Columns are nodes, all of them finite. A first and a last node that coincide at the start and at the end count as
+  /// one.
   std::optional<Tunnelling> find(const Points& start, const Points& end);
 
  private:

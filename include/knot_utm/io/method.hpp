@@ -55,7 +55,8 @@ Method parse_method(const std::string& text, const std::string& file, const std:
 /// but `specimen.file`, `report.logo` and records.
 std::string method_yaml(const Method& method);
 
-/// The number that `method_yaml` of a single specimen has at a dotted key, as overrides name it ("program.pull.speed"); nothing where no
+/// The number that `method_yaml` of a single specimen has at a dotted key, as overrides name it
+/// ("program.pull.speed"); nothing where no
 /// number stands there.
 std::optional<double> number_at(const Method& method, const std::string& key);
 

@@ -9,7 +9,7 @@
 
 namespace knot_utm {
 
-/// What an accuracy stands for, with every tolerance that the method sets beside it.
+/// The tolerances of an accuracy, or those that the method sets instead.
 struct Tolerances {
   double longest_step;       ///< [s]
   double residual;           ///< [k_b/h^2]
@@ -18,27 +18,29 @@ struct Tolerances {
   double refinement;         ///< edges of both strands between and within the knots are shorter by this factor [-]
 };
 
-/// A rod with k_s h^2/k_b < 10 (a solid one has 4) that is tied to a fisherman's loop stretches where a rope slides.
-/// Its readings are those of the stretching, which looser contacts and coarser knots move by less than a per cent. A
-/// rope that is tied with F_p > 6 k_b/h^2 has edges shorter by (F_p h^2/(6 k_b))^(1/4), up to 4/3, but for `draft`.
+/// A fisherman's loop of a rod with k_s h^2/k_b < 10 (a solid one has 4) stretches where one of rope slides. Its
+/// readings are those of the stretching, which wider tolerances and longer edges change by less than a per cent. A rope
+/// that is tied with F_p > 6 k_b/h^2 has edges shorter by (F_p h^2/(6 k_b))^(1/4), up to 4/3, except at `draft`.
 Tolerances tolerances(const PhysicsOptions& physics, const SpecimenOptions& specimen, const Material& material);
 
-/// The estimated numerical errors of readings, as fractions of them. Empty where no convergence study covers the case.
+/// Estimated numerical errors of readings, as fractions of the readings [-]. Empty where no convergence study covers
+/// the case.
 struct ReadingErrors {
   std::optional<double> plateau_force;
   std::optional<double> lock_extension;
   std::optional<double> locked_stiffness;
 };
 
-/// Each is meant to hold 95 % of the differences to a run at `fine` with edges half as long as at `normal`. Its size at
-/// `normal` is that found over loops drawn at random (`scripts/bench readings`); it depends on the hands of the knots,
-/// on friction, and of rods that stretch on the length of the loop. Other edges and tolerances raise or lower it: edges
-/// by their square, contact tolerance, presliding, longest step and residual each by its share.
+/// Each error is meant to contain 95 % of the differences from a run at `fine` with edges half as long as at `normal`.
+/// Its size at `normal` was found over loops drawn at random (`scripts/bench readings`). It depends on the handedness
+/// of the knots, on friction and, for rods that stretch, on the length of the loop. Other edges and tolerances raise or
+/// lower it: edges by their square, and contact tolerance, presliding, longest step and residual each by a share of its
+/// own.
 ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                              const PhysicsOptions& physics);
 
-/// By how much the error of a plateau is larger since the knots slide under so little force [N] that they are hardly
-/// closed [-]: 1 where they are.
+/// Factor on the error of a plateau whose force [N] is so small that the knots are hardly closed [-]; 1 where they are
+/// closed.
 double hardly_closed(double plateau_force, const Material& material);
 
 }  // namespace knot_utm

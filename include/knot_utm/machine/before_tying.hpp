@@ -9,25 +9,25 @@
 
 namespace knot_utm {
 
-/// What can be told of the knots that a pre-load ties before anything is stepped.
+/// What is known about the knots that a pre-load ties before any time step.
 ///
 /// Symbols: h radius of the rod, k_b and k_s its bending and stretching stiffness, mu friction coefficient, F_p
 /// pre-load, R radius of the coil's centreline.
 ///
-/// Closing the coil. A coil under the tension T of its strand bears the bending moment k_b/R. In equilibrium the pull
-/// balances it over half the radius, T R/2 = k_b/(4 R), so that R = sqrt(k_b/(2 T)), which is exact for the loop of an
-/// overhand knot that is loose and free of friction. The tail's pull reaches the coil behind half a turn around the
+/// Closing the coil. A coil under the tension T of its strand bears the bending moment k_b/R. In equilibrium the
+/// tension balances this moment over half the radius, T R/2 = k_b/(4 R), so that R = sqrt(k_b/(2 T)). This is exact for
+/// the loop of a loose overhand knot without friction. The tail's pull reaches the coil behind half a turn around the
 /// strands in it, which leaves T = F_p exp(-pi mu) by the capstan law. The coil is closed at R = 2 h, where it lies on
 /// the strands in it:
 ///
 ///   R = sqrt(k_b exp(pi mu)/(2 F_p)),     F_p(closed) = exp(pi mu) k_b/(8 h^2).
 ///
-/// Measured over mu = 0.1 to 0.8 and F_p h^2/k_b = 0.02 to 20 (bench/before_tying.py --study coils): at that pre-load a
-/// coil is left wider than one tied by 20 k_b/h^2 by 0.2 to 0.7 h. A pull of exp(pi mu) k_b/(2 R_0^2) does not move the
-/// coil that is drawn with R_0 = 4.7 h.
+/// Measured over mu = 0.1 to 0.8 and F_p h^2/k_b = 0.02 to 20 (bench/before_tying.py --study coils): a coil that is
+/// tied with F_p(closed) stays wider by 0.2 to 0.7 h than one that is tied with 20 k_b/h^2. A pull below exp(pi mu)
+/// k_b/(2 R_0^2) does not move the drawn coil, R_0 = 4.7 h.
 ///
-/// Strain. The outermost fibre of a bend of radius R bears h/R beside the tension's F_p/k_s: 1/4.7 in the coil as it is
-/// drawn, up to 1/2 in one that lies on the strands in it.
+/// Strain. The outermost fibre of a bend of radius R is strained by h/R in addition to the F_p/k_s of the tension: h/R
+/// is 1/4.7 in the drawn coil and up to 1/2 in one that lies on the strands in it.
 
 /// Least F_p that closes the coils [N].
 double closing_preload(const Material& material);
@@ -35,10 +35,10 @@ double closing_preload(const Material& material);
 /// R that a pre-load [N] bends a free coil to [m].
 double coil_radius(const Material& material, double preload);
 
-/// Throws InvalidInput where the pre-load cannot even move the coils as they are drawn, or where these part the rod.
+/// Throws InvalidInput where the pre-load cannot move the drawn coils, or where their bend would part the rod.
 void check_tying(const SpecimenOptions& specimen, const Material& material);
 
-/// One line for each thing that makes tying doubtful but not hopeless, with its number; none where nothing does.
+/// Warnings of what makes tying doubtful but not impossible, one line each with its number.
 std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const Material& material,
                                         const PhysicsOptions& physics);
 

@@ -8,10 +8,10 @@
 
 namespace knot_utm {
 
-/// What a testing machine takes for a break: the `ends` section of a method. It judges loads only; that a rod of the
-/// simulation parts is known for itself.
+/// What a testing machine takes for a break: the `ends` section of a method. It judges loads only. A rod that parts in
+/// the simulation (fracture.hpp) ends the test without it.
 struct BreakDetection {
-  double arming_load = 0.0;                ///< nothing counts before the load was this [N]
+  double arming_load = 0.0;                ///< falls count only after the load has reached this [N]
   std::optional<double> fraction_of_peak;  ///< the load fell to this fraction of the peak [-]
   std::optional<double> sharp_drop;        ///< it fell by this fraction of the peak ...
   double sharp_drop_time = 0.1;            ///< ... within this time [s]
@@ -21,22 +21,23 @@ struct BreakDetection {
   bool on() const { return fraction_of_peak || sharp_drop || drop; }
 };
 
-/// Watches the loads of one way outwards. It takes the largest and the least load of every time step of the physics
-/// (Sample::highest_load, lowest_load), not the cell's readings: a drop between two readings is seen. Within a command
-/// nobody knows when; commands are no longer than the windows of a drop (make_program).
+/// Watches the load while the crosshead moves outwards. It uses the largest and the smallest load over all time steps
+/// of a command (Sample::highest_load, lowest_load) and not the cell's readings, so that it sees a drop between two
+/// readings. Times within a command are not known; commands are therefore no longer than the windows of a drop
+/// (make_program).
 class BreakDetector {
  public:
   explicit BreakDetector(const BreakDetection& detection) : detection_(detection) {}
 
-  void begin();  ///< a way outwards: nothing was seen yet
+  void begin();  ///< begins a motion outwards
 
-  /// Empty, or what in this sample, the next one, is a break.
+  /// Takes the next sample. Returns the break that it shows, as a message; empty: none.
   std::string judge(const Sample& sample);
 
   void state(Archive& archive);
 
  private:
-  /// Largest load over the last so much of time, or of extension: of what was seen, all that may still become it.
+  /// Largest load over the last `width` of time or of extension. It keeps only loads that may still become the largest.
   class Window {
    public:
     void clear() { seen_.clear(); }

@@ -7,20 +7,21 @@ namespace knot_utm {
 
 enum class BreakLimit { kForce, kStrain };  ///< breaking force, breaking strain
 
-/// How near a rod is to parting, and at which edge: at a share of 1 it parts there.
+/// How near a rod is to parting, and at which edge. It parts there when the fraction reaches 1.
 ///
-/// Symbols: T tension [N], F_b breaking force [N], k_s stretching stiffness [N], h radius [m], kappa curvature at the
-/// edge's more bent end, the angle it turns by over lbar [1/m], eps_b breaking strain [-]. Of edge j
+/// Symbols: T tension [N], F_b breaking force [N], lambda stretch of the edge [-], h radius [m], kappa curvature at its
+/// more bent end, the angle it turns by over lbar [1/m], eps_b breaking strain [-]. The exposure of edge j is
 ///
-///   share_j = max(T_j/F_b, (T_j/k_s + h kappa_j)/eps_b),
+///   fraction_j = max(T_j/F_b, (lambda_j - 1 + h kappa_j)/eps_b),
 ///
-/// each where the material gives its limit: the rod's tension, and the strain of its outermost fibre, which a solid rod
-/// feels. In a rope fibres slip past each other as it bends; it is given a breaking force only.
+/// with those of the two terms whose limit the material gives: tension, and strain of the outermost fibre. The strain
+/// of bending counts in a solid rod. In a rope fibres slip past each other as it bends, so it has a breaking force
+/// only.
 struct Exposure {
-  double share = 0.0;  ///< largest of all edges [-]
-  int edge = -1;       ///< whose it is; -1: no share is positive, as where no edge is under tension or bent
-  BreakLimit limit = BreakLimit::kForce;  ///< of which it is the share
-  double value = 0.0;                     ///< what is held against it: tension [N], strain of the outermost fibre [-]
+  double fraction = 0.0;  ///< largest of all edges [-]
+  int edge = -1;          ///< that edge; -1: no fraction is positive, because no edge is under tension or bent
+  BreakLimit limit = BreakLimit::kForce;  ///< the limit that is nearest
+  double value = 0.0;  ///< the quantity that is limited: tension [N] or strain of the outermost fibre [-]
 };
 
 bool can_part(const Material& material);  ///< it has a limit

@@ -13,28 +13,28 @@ namespace knot_utm {
 ///
 ///     K (D' - g') = F + (k + c/dt + m/dt^2) (g' - g)        F at the beginning of the step
 ///
-/// Strands resist a motion of their grip by no more than k + Z/dt: k, their stiffness once taut, between the grip and
-/// what else holds them, and the wave that the grip sends along each, Z = sqrt(k_s rho A). The right-hand side is thus
-/// no less than F at the end of the step, and the grip comes to its place from one side, whatever K and dt are.
-/// c = Z + K tau; tau stands for the inertia of crosshead and grip, without which a rod that snaps would whip them
-/// about.
+/// n strands resist a motion of their grip by at most k + n Z/dt. k = n k_s/l is their stiffness once taut, over the
+/// length l from the grip to what else holds them. Z = sqrt(k_s rho A) is the impedance of the wave that the grip sends
+/// along each. The right-hand side is thus no less than F at the end of the step, and the grip approaches its place
+/// from one side, whatever K and dt are. c = n Z + K tau; tau stands for the inertia of crosshead and grip, without
+/// which they would whip to and fro when a rod snaps.
 ///
-/// On a roller the rod around it moves along, and F has the inertia of its mass m_a = rho A pi (r + h): as much as the
-/// last step sped it up, which in that sense is no measure of the next one. A motion to and fro from step to step dies
-/// away, however small K and dt are, where m > 2 m_a (the root -1 of (m + Z dt) x^2 + (m_a + Z dt) x - m_a); m = 3 m_a.
+/// The rod around a roller moves with it, so that F contains the inertia force of its mass m_a = rho A pi (r + h) in
+/// the last step. A motion that alternates from step to step decays, however small K and dt are, if m > 2 m_a: at m = 2
+/// m_a, (m + n Z dt) x^2 + (m_a + n Z dt) x - m_a has the root -1. Here m = 3 m_a.
 ///
-/// At rest F = K (D - g) exactly. In motion the spring bears more than F, (k - dF/dg + c/dt + m/dt^2) (g' - g) of it:
-/// the grip lags like one on a damper. The curve of F over g does not know of it.
+/// At rest F = K (D - g) exactly. In motion the spring bears more than F, by (k - dF/dg + c/dt + m/dt^2) (g' - g), so
+/// that the grip lags as if on a damper. The curve of F over g does not contain this lag.
 class Frame {
  public:
-  /// `strands` of the material side by side, which goes around the grip by `around` [m]: 0 where the grip holds it.
-  /// Throws InvalidInput for a stiffness that is not positive.
+  /// `strands`: their number n. `around`: length of rod around the grip [m]; 0 where the grip holds nodes. Throws
+  /// InvalidInput for a stiffness that is not positive.
   Frame(double stiffness, const Material& material, int strands, double around);
 
   bool rigid() const;
 
-  /// g' [m] for a displacement D' of the crosshead at the end of a step of length dt [s]. `length` [m] of the strands:
-  /// from the grip to what else holds them.
+  /// g' [m] for a displacement D' of the crosshead at the end of a step of length dt [s]. `length` l of the strands
+  /// [m].
   double grip_after(double grip, double displacement, double force, double length, double dt) const;
 
  private:

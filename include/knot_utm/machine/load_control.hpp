@@ -4,33 +4,34 @@
 
 namespace knot_utm {
 
-/// The force on the upper grip beyond that which reads zero [N]: what ends, turns and leads by a load. The cell's own
-/// errors are in its readings only, so that how often it is read moves no test.
+/// The force on the upper grip less that which the cell reads as zero [N]. Steps that end, turn or are controlled by a
+/// load use it instead of readings, so that the cell's errors and sampling rate do not change a test.
 inline double balanced_load(const Sample& sample) { return sample.force_upper - sample.balance_offset; }
 
-/// Moves the crosshead by the load. It knows no more than a testing machine does: loads and displacements so far.
+/// Moves the crosshead by the load. It uses only what a testing machine knows: the loads and displacements so far.
 ///
 /// Following a course of the load:
 ///
 ///   v = (F_wanted - F)/(k T), |v| <= v_max,    k <- max(dF/dx, k/2)
 ///
-/// with F the load now, F_wanted that of the next command, T a command's period, and k the specimen's stiffness by the
-/// last command that moved. It rises with the specimen's at once and falls by halves, so that what turns stiff is not
-/// run past and what turns soft is caught up with. Before anything has moved it creeps at a hundredth of v_max.
+/// with F the present load, F_wanted that of the next command, T the period of commands, and k [N/m] the specimen's
+/// stiffness from the last command that moved, dF/dx. k rises at once and falls at most by half, so that the load does
+/// not overshoot where the specimen becomes stiff, and catches up where it becomes soft. Before anything has moved the
+/// speed is a hundredth of v_max.
 ///
-/// Meeting a load: v_max, but no further than the slope of the last command says that the load is.
+/// Meeting a load: v_max, but no further than to where the load lies by the slope of the last command.
 class LoadControl {
  public:
-  /// Nothing is known of the stiffness.
+  /// Begins without knowledge of the stiffness.
   void begin() { *this = LoadControl(); }
 
   /// Speed of the crosshead until the next command, outwards positive [m/s].
   double following(const Sample& now, double wanted_load, double period, double fastest);
 
-  /// Speed, as a size, towards a load [m/s]. `creeps`: as long as no slope is known.
+  /// Magnitude of the speed towards a load [m/s]. `creeps`: slowly as long as no slope is known.
   double meeting(const Sample& now, double wanted_load, double period, double fastest, bool creeps);
 
-  /// In a new zero of the load [N].
+  /// Takes account of a new zero of the load [N].
   void shift(double load) { last_load_ -= load; }
 
   void state(Archive& archive) {

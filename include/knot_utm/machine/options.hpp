@@ -7,25 +7,25 @@ namespace knot_utm {
 
 enum class GripKind { kRollers, kNodes, kClamps };
 
-/// Whether the middle of the loop's far side stays half-way between the rollers, or the loop is free to go round on
-/// them.
+/// Whether the middle of the loop's far side is held half-way between the rollers, or the loop is free to turn on them.
 enum class FarSide { kHeld, kFree };
 
-/// Rollers stand still, turn as the rod drives them, or are driven themselves, from the first pull on.
+/// Rollers stand still, turn freely with the rod, or are driven from the first pull on.
 enum class RollerRotation { kFixed, kFree, kTurned };
 
-/// What the load cell makes of the force on the upper grip (load_cell.hpp).
+/// Properties of the load cell (load_cell.hpp).
 struct LoadCellOptions {
   std::string name;
-  double capacity = 50e3;                                     ///< [N]
-  double sampling_rate = 3.0;                                 ///< [Hz]
-  double accuracy = 0.0;                                      ///< bound on its systematic error [share of the reading]
-  double floor = 0.0;                                         ///< below it accuracy is not promised [of capacity]
-  double resolution = 0.0;                                    ///< [N]; 0: none
-  double noise = 0.0;                                         ///< standard deviation of a reading [N]; 0: none
-  double drift = 0.0;                                         ///< of its zero since balance [N/s]
-  double overload = std::numeric_limits<double>::infinity();  ///< where its stop takes over [of capacity]
-  unsigned seed = 1;                                          ///< of the systematic error and the noise
+  double capacity = 50e3;      ///< [N]
+  double sampling_rate = 3.0;  ///< [Hz]
+  double accuracy = 0.0;       ///< bound on its systematic error [fraction of the reading]
+  double floor = 0.0;          ///< below it the accuracy does not hold [of capacity]
+  double resolution = 0.0;     ///< [N]; 0: none
+  double noise = 0.0;          ///< standard deviation of a reading [N]; 0: none
+  double drift = 0.0;          ///< of its zero since balance [N/s]
+  double overload = std::numeric_limits<double>::infinity();  ///< load of its stop [of capacity]
+  unsigned seed = 1;                                          ///< of the cell: its systematic error, and its noise
+  unsigned noise_run = 0;                                     ///< the same cell has other noise in each run
   std::string notes;
 };
 

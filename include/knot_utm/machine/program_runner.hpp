@@ -14,7 +14,7 @@
 
 namespace knot_utm {
 
-/// The test program as a state machine: sees samples, gives commands, knows nothing else.
+/// The test program as a state machine: it gets samples and gives commands, and depends on nothing else.
 ///
 /// Commands come at a fixed period, 1/(k f) with f the cell's sampling rate and k the smallest whole number for
 /// which the period is no longer than `longest_period`; every k-th command is a sampling instant of the cell. Command
@@ -22,7 +22,7 @@ namespace knot_utm {
 /// reading before anything moves. The first step begins with command 1.
 ///
 /// What the crosshead does in each step, and what ends it:
-///   tie, release  stands still, until the bench answers kPhaseDone, or kNotEquilibrated: the results say so
+///   tie, release  stands still, until the bench answers kPhaseDone or kNotEquilibrated
 ///   mount         moves outwards at `speed` until the bench answers kPhaseDone
 ///   preload       moves outwards at `speed`, or so that the load grows at `load_rate`, until the load is `load`; then
 ///                 balances, standing still for one command, if `balance` says so
@@ -33,19 +33,18 @@ namespace knot_utm {
 ///   cycle         out to the upper turning point, in to the lower one, and so on at `speed`; ends with the last of
 ///                 `cycles`, or by `until.time`
 ///   return        moves inwards at `speed` until the extension is `return_extension`, or the load `until.load`
-///   follow        goes as the record says from where it stands, until that ends
-/// Loads are true balanced forces (balanced_load), not readings. They are kept, followed and met by LoadControl, the
-/// crosshead never being faster than `speed`: a load is met within 0.1 % of it (of the range of a cycle), unless the
-/// specimen turns stiffer faster than it can know. A rate of load goes on from where the crosshead could not keep up.
-/// Extensions at which a cycle turns or a return ends are met exactly, on a compliant frame within a thousandth of what
-/// one period moves.
+///   follow        repeats the motion of a record from its present place, until the record ends
+/// Loads are true balanced forces (balanced_load), not readings. LoadControl keeps, follows and meets them with a
+/// crosshead that is never faster than `speed`. A load is met within 0.1 % of it (of the range of a cycle), unless the
+/// specimen stiffens within one command. Where the crosshead could not keep up with a rate of load, the rate goes on
+/// from there. Extensions at which a cycle turns or a return ends are met exactly; on a compliant frame, within a
+/// thousandth of the motion in one period.
 ///
-/// The whole test ends when the last step has ended, or at once, whichever comes first: by a rod that parted, a load
-/// that falls as Limits::breaks says (judged in preload, pull, hold and on the ways out of a cycle), a bench that
-/// failed, a true force or a reading beyond Limits::load, the end of the crosshead's way, grips that meet, the time
-/// limit, or the operator; and by a knot that comes undone before the first step that pulls it, once three answers in a
-/// row say so. A program that neither mounts nor pulls, so that one may watch the knot, goes on to its end all the
-/// same.
+/// The test ends when the last step has ended. It ends earlier if the rod parts, the load falls as Limits::breaks says
+/// (judged in preload, pull, hold and on the outward half of a cycle), the bench fails, a true force or a reading
+/// exceeds Limits::load, the crosshead reaches the end of its travel, the grips meet, or by the time limit or the
+/// operator. It also ends if the knot comes undone before the first step that pulls it, once three answers in a row say
+/// so. A program that neither mounts nor pulls is not ended by that, so that the knot can be watched.
 class ProgramRunner {
  public:
   struct Limits {
@@ -60,7 +59,7 @@ class ProgramRunner {
   /// that is not positive.
   ProgramRunner(Program program, double sampling_rate, double longest_period, Limits limits);
 
-  Command last() const { return last_; }  ///< the command that waits for its answer; to begin with command 0
+  Command last() const { return last_; }  ///< the command that waits for its answer; at first command 0
 
   /// The next command after `sample`, the answer to the last command. Once the test has ended, the last command again
   /// with phase done. Throws std::invalid_argument for the answer to another command.
@@ -68,25 +67,25 @@ class ProgramRunner {
 
   void stop();     ///< operator: the test ends now
   void balance();  ///< operator: the next command balances
-  /// The bench is lost: the test has ended by the solver, whatever was asked for before.
+  /// The bench is lost: the test has ended by the solver, whatever command came before.
   void fail(std::string why);
 
   bool ended() const { return ended_by_ != EndedBy::kNotYet; }
   EndedBy ended_by() const { return ended_by_; }
-  /// It ended before it could do what it is for: the physics gave up, or the knot that it would pull came undone.
+  /// Whether the test failed: the simulation gave up, or the knot came undone before it was pulled.
   bool failed() const;
-  const std::string& reason() const { return reason_; }  ///< one line, when it ended otherwise than as programmed
+  const std::string& reason() const { return reason_; }  ///< one line where the test did not end as programmed
 
   Phase phase() const;       ///< of the last command; done once the test has ended
   double period() const;     ///< of commands [s]
-  double progress() const;   ///< 0..1, share of the programmed time that has passed, estimated
+  double progress() const;   ///< 0..1, fraction of the programmed time that has passed, estimated
   double time_left() const;  ///< programmed time that is left [s], estimated
 
   void state(Archive& archive);
 
  private:
   const ProgramStep& step() const { return program_[step_]; }
-  double seconds(std::uint64_t commands) const;  ///< that so many commands take [s]
+  double seconds(std::uint64_t commands) const;  ///< duration of that many commands [s]
   double estimated_duration(const ProgramStep& step) const;
   void end(EndedBy by, std::string reason);
   bool end_by_alarm(const Sample& sample);
@@ -116,11 +115,12 @@ class ProgramRunner {
   std::size_t step_ = 0;
   std::uint64_t step_begin_ = 0;  ///< the last command before the step
   double step_begin_load_ = 0.0;  ///< [N]
-  double wanted_load_ = 0.0;      ///< kept, or followed at a rate [N]
+  double wanted_load_ = 0.0;      ///< load to be kept, or followed at a rate [N]
   bool balancing_ = false;        ///< preload: reached, and now balanced
   double balance_offset_ = 0.0;   ///< of the last sample [N]
-  int undone_answers_ = 0;        ///< in a row that say so, before the pull
-  /// Growth of the extension over that of the displacement in the last command that moved: 1 on a rigid frame.
+  int undone_answers_ = 0;        ///< answers in a row that say the knot is undone, before the pull
+  /// Ratio of the growth of the extension to that of the displacement in the last command that moved; 1 on a rigid
+  /// frame.
   struct {
     double extension = 0.0, displacement = 0.0;  ///< of the last sample [m]
     double value = 1.0;

@@ -5,10 +5,10 @@
 
 namespace knot_utm {
 
-/// A whole test, or what is left of it: the program's commands to the bench and its samples back, until it has ended.
-/// `observe(command, sample)` sees each answer before the program does; it may call `program.stop()`. Between commands,
-/// where bench and program can be saved and go on, `interrupted()` may end it before the test has ended.
-/// A Bench has `Sample respond(const Command&)`.
+/// Runs a whole test, or the rest of one: the program's commands go to the bench and its samples back until the test
+/// has ended. `observe(command, sample)` sees each answer before the program does and may call `program.stop()`.
+/// `interrupted()` may end the run between commands, where bench and program can be saved and continued later. A Bench
+/// has `Sample respond(const Command&)`.
 template <class Bench, class Observer, class Interrupted>
 void run_test(Bench& bench, ProgramRunner& program, Observer observe, Interrupted interrupted) {
   Command command = program.last();

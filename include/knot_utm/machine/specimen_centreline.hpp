@@ -8,8 +8,8 @@
 
 namespace knot_utm {
 
-/// The rod's centreline as it stands in the machine before anything moves, lower grip at the origin, pulled along +z,
-/// with edges as fine as the accuracy asks for. Throws InvalidInput where the specimen does not fit the machine.
+/// The rod's centreline in the machine before anything moves, with the lower grip at the origin, pulled along +z, and
+/// with the edges of the chosen accuracy. Throws InvalidInput where the specimen does not fit the machine.
 Centreline specimen_centreline(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                                const PhysicsOptions& physics);
 

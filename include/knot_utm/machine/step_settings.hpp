@@ -8,16 +8,16 @@
 
 namespace knot_utm {
 
-/// How the steps of a test are solved: what its method says, in units of its rod. Without drag, which changes during a
+/// The settings of the time steps from the method, in SI units. The drag is not among them, because it changes during a
 /// test (TimeStep::set_drag).
 StepSettings step_settings(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                            const PhysicsOptions& physics);
 
-/// eta, the share of friction's couple that the rod's sections take: the material's, or 0 where a method puts friction
-/// on the centreline [-].
+/// eta, the fraction of friction's couple that the rod's sections transmit [-]: that of the material, or 0 where a
+/// method puts friction on the centreline.
 double friction_couple(const Material& material, const PhysicsOptions& physics);
 
-/// Whether friction turns the rod about itself, so that a scene must solve for twist.
+/// Whether friction turns the rod about itself, so that the scene must solve for twist.
 bool friction_rolls(const Material& material, const MachineOptions& machine, const PhysicsOptions& physics);
 
 }  // namespace knot_utm

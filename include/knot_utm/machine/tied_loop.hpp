@@ -11,49 +11,48 @@
 
 namespace knot_utm {
 
-/// A loop on the machine, and its two knots: the rig ties them and lets them go, the loop is put on the grips and its
-/// slack is taken up, and what is said of two knots is read. A loop whose program ties nothing has an idle rig, and its
-/// knots are read all the same.
+/// A loop on the machine with its two knots. The rig ties and releases them, the loop is put on the grips, its slack is
+/// taken up, and the knots are read. Where the program ties nothing, the rig is idle, and the knots are read as well.
 class TiedLoop {
  public:
-  /// `creep_speed`: at which nodes of a rod at rest may still move, by its friction [m/s]. What it is made with must
-  /// outlive it. The centreline has two knots.
+  /// `creep_speed`: speed with which nodes of a rod at rest may creep under its friction [m/s]. `stepper` and `grips`
+  /// must outlive this object. The centreline has two knots.
   TiedLoop(const SpecimenOptions& specimen, const Material& material, const Centreline& centreline, double creep_speed,
            TimeStep& stepper, Grips& grips);
 
-  /// Where the crosshead and the upper grip are, and when.
+  /// Places of the crosshead and the upper grip at a time.
   struct Place {
     double time;          ///< [s]
     double displacement;  ///< of the crosshead [m]
     double grip;          ///< of the upper grip [m]
   };
 
-  /// Before the first command of a step of the program.
+  /// To be called before the first command of a step of the program.
   void enter(const Command& command, const Place& now);
-  /// After an accepted step, which took `dt` [s].
+  /// To be called after an accepted time step of length `dt` [s].
   void follow(Phase phase, const Place& now, double dt);
-  /// After a command: what the program no longer holds is let go.
+  /// To be called after a command: releases what the program no longer holds.
   void leave(Phase phase, const Place& now);
 
-  /// Holds and bears the rod as the rig does at `to` instead of what the grips have put into the boundary.
+  /// Replaces the holders that the grips have put into the boundary by those of the rig at time `to` [s].
   void hold(Boundary& boundary, double from, double to) const;
   double left_to_put_on(double time) const { return rig_.left_to_put_on(time); }
 
-  /// Of the strands below the upper grip, as far as the lower one or the rig's clamps, as mounted [m].
+  /// Length of the strands from the upper grip to the lower one, or to the rig's clamps, as mounted [m].
   double held_length(double from, double to) const;
 
-  /// While it is mounted the crosshead takes up the slack by itself, no faster than at `speed`: its velocity [m/s].
+  /// Velocity of the crosshead while it takes up the slack of mounting, at most `speed` [m/s].
   double mounting_velocity(double speed) const;
 
-  /// Whether a step that ends by itself has come to its end: the loop is tied, released or mounted.
+  /// Whether a phase that ends by itself has ended: the loop is tied, released or mounted.
   bool done(Phase phase) const;
   const std::string& not_tied() const { return rig_.not_tied(); }
   const std::string& not_equilibrated() const { return rig_.not_equilibrated(); }
 
-  /// As KnotWatch takes them.
+  /// For KnotWatch.
   std::vector<int> standing_nodes() const { return rig_.standing_nodes(); }
 
-  /// What a sample has of knots: that of each, and that of the two.
+  /// Fills the fields of a sample that concern the knots.
   void read(Sample& sample) const;
 
   void state(Archive& archive);

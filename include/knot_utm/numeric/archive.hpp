@@ -14,31 +14,33 @@
 
 namespace knot_utm {
 
-/// The state of a run as bytes. One visitor a class both saves and loads, so that the two cannot disagree:
+/// The state of a run as bytes. One visitor of a class both saves and loads it, so that the two cannot disagree:
 ///
 ///     void Pendulum::state(Archive& archive) {
 ///       archive.section("PEND");
 ///       archive(angle_, rate_);
 ///     }
 ///
-/// A visitor names what the future depends on and what cannot be worked out anew, to the last bit. It is loaded into an
-/// object made as the saved one was made: what has a size has the same one there, but for lists.
+/// A visitor names everything that the future of the run depends on and that cannot be computed again to the last bit.
+/// It loads into an object that was constructed like the saved one. Vectors and matrices must therefore have the saved
+/// sizes already; only a `list` may have another length.
 ///
-/// As a file: one line of text with the kind of state and the version of this package, the length of what follows [8
-/// bytes], the state, and a CRC-32 of all of it [4 bytes]. Numbers are binary and little-endian. Bare, it is the state
-/// alone: for what has a frame and a checksum of its own, as the journal has.
+/// A file is one line of text with the kind of state and the version of this package, the length of what follows [8
+/// bytes], the state, and a CRC-32 of all of it [4 bytes]. Numbers are binary and little-endian. A bare archive is the
+/// state alone, for files that have a format and a checksum of their own, as the journal has.
 ///
-/// Loading throws InvalidInput, one line, where the file is damaged, of another kind or version, or the state of
-/// another object; what was loaded into is of no use then. It takes no more memory than a small multiple of the bytes,
-/// whatever lengths they tell. A value has one form: what is accepted is saved to the same bytes.
+/// Loading throws InvalidInput where the file is damaged, of another kind or version, or the state of another object.
+/// The object that it was loaded into is then unusable. Loading takes no more memory than a small multiple of the
+/// file's size, whatever lengths the file claims. Every value has one form only, so a state that was accepted is saved
+/// to the same bytes again.
 class Archive {
  public:
   /// Saves; `kind` is a word or two.
   explicit Archive(const std::string& kind) : kind_(kind), to_(&own_) {}
-  /// Loads what an archive of the same kind has saved. `file`: its name, for complaints.
+  /// Loads what an archive of the same kind has saved. `file`: its name, for messages.
   Archive(const std::string& kind, std::string bytes, const std::string& file);
 
-  /// Saves bare, behind what `bytes` holds.
+  /// Saves bare, appended to `bytes`.
   static Archive to(std::string& bytes) { return Archive(&bytes); }
   /// Loads what was saved bare. The bytes must stay where they are.
   static Archive from(std::string_view bytes, const std::string& kind, const std::string& file) {
@@ -50,7 +52,7 @@ class Archive {
 
   bool loads() const { return to_ == nullptr; }
 
-  /// A mark of four letters: what was saved must be loaded in the same order.
+  /// A mark of four letters, by which loading notices an order that differs from that of saving.
   void section(const char* tag);
 
   template <typename... Values>
@@ -58,7 +60,7 @@ class Archive {
     (visit(values), ...);
   }
 
-  /// Saves what must not change: what is saved is only read.
+  /// Saves a constant object. The cast is safe, because saving only reads.
   template <typename T>
   void save(const T& value) {
     visit(const_cast<T&>(value));
@@ -67,9 +69,10 @@ class Archive {
   /// A list may be of any length.
   template <typename T>
   void list(std::vector<T>& values) {
-    // An entry takes a byte at least.
+    // An entry takes at least one byte.
     const auto length = static_cast<std::size_t>(length_of_list(values.size(), 1));
-    // An entry is made once those before were there: the length alone is not believed.
+    // A damaged file may claim any length: entries beyond what its bytes can fill are made one by one, as they are
+    // read.
     if (loads()) values.resize(std::min(length, left() / sizeof(T)));
     for (std::size_t i = 0; i < length; ++i) {
       if (i == values.size()) values.emplace_back();
@@ -77,7 +80,7 @@ class Archive {
     }
   }
 
-  /// So may a matrix have any number of columns, or a vector of rows.
+  /// A matrix may likewise have any number of columns, and a vector any number of rows.
   template <int Rows, int Columns>
   void list(Eigen::Matrix<double, Rows, Columns>& matrix) {
     constexpr bool kOfColumns = Columns == Eigen::Dynamic;
@@ -88,7 +91,7 @@ class Archive {
     numbers(matrix.data(), static_cast<std::size_t>(matrix.size()));
   }
 
-  /// A number within bounds, such as that of a node.
+  /// An integer from low to high, such as the number of a node.
   void number(const char* what, int& value, int low, int high);
 
   /// One of an enumeration, whose last value is `last`.
@@ -99,15 +102,15 @@ class Archive {
     if (loads()) value = static_cast<Choice>(index);
   }
 
-  /// What must be the same in both objects.
+  /// A number that must be the same in the saved object and in the one that is loaded into.
   void same(const char* what, std::int64_t value);
 
-  /// Complains of what was loaded unless `right`.
+  /// Throws InvalidInput about what was loaded unless `right`.
   void require(bool right, const char* what, const std::string& value) const;
 
-  /// The file, once all is saved.
+  /// The whole file, once everything is saved.
   std::string bytes() const;
-  /// Once all is loaded: complains where there is more.
+  /// To be called once everything is loaded; throws InvalidInput where bytes are left.
   void end() const;
 
  private:
@@ -118,7 +121,7 @@ class Archive {
   Archive(Bare, std::string_view bytes, const std::string& kind, const std::string& file)
       : kind_(kind), file_(file), from_(bytes) {}
 
-  // Journals are written and read by the thousand records a second: what visits numbers stands here.
+  // Visitors of numbers are inline, because journals are written and read at thousands of records a second.
   void visit(std::uint64_t& value) {
     if (loads())
       value = take();
@@ -170,7 +173,7 @@ class Archive {
     std::memcpy(&value, take(kWord), kWord);
     return le64toh(value);
   }
-  /// The next so many bytes to be loaded.
+  /// The next `bytes` bytes to be loaded.
   const char* take(std::size_t bytes) {
     if (bytes > left()) refuse("length", std::to_string(from_.size()) + " bytes");
     next_ += bytes;
@@ -197,7 +200,8 @@ class Archive {
     }
   }
 
-  /// That to be saved, or that loaded: no more entries, of so many bytes each at least, than are left.
+  /// Saves or loads the length of a list. A loaded length is refused where the bytes that are left cannot hold so many
+  /// entries of at least `entry_bytes` each.
   std::uint64_t length_of_list(std::uint64_t length, std::size_t entry_bytes) {
     visit(length);
     if (loads() && length > left() / entry_bytes) refuse("length of a list", std::to_string(length));
@@ -209,9 +213,9 @@ class Archive {
 
   std::string kind_, file_;
   std::string own_;            // what is saved, or the file
-  std::string* to_ = nullptr;  // what is saved is appended to
+  std::string* to_ = nullptr;  // receives what is saved; null while loading
   std::string_view from_;      // all that is to be loaded
-  std::size_t next_ = 0;       // of it
+  std::size_t next_ = 0;       // first byte of it that is not loaded yet
 };
 
 }  // namespace knot_utm

@@ -6,8 +6,8 @@
 
 namespace knot_utm {
 
-/// Foreign text as a message shows it: on one line, without control characters, its end left out where it is longer
-/// than a line can say.
+/// Text from outside as a message shows it: on one line, without control characters, shortened where it is too long for
+/// a line.
 std::string shown(const std::string& text);
 
 /// The operating system's reason for an error, as errno has it, in lower case: "permission denied".

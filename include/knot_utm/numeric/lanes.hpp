@@ -10,9 +10,9 @@
 
 namespace knot_utm {
 
-/// Four doubles in one vector register, or in two where registers are shorter: a vector of three and nothing, or one
-/// number of four things that are worked out side by side. Formulas for both, one thing and four, take `double` or
-/// `Lanes` for Real, and Eigen's vectors or FourVectors.
+/// Four doubles in one vector register, or in two where registers are shorter. They hold either a vector of three
+/// components and an unused lane, or one quantity of four things that are computed side by side. Formulas that serve
+/// one thing as well as four take `double` or `Lanes` for Real, and Eigen's vectors or FourVectors.
 #ifdef __AVX__
 using Lanes = LanesInOne;
 using LanesMask = LanesInOneMask;
@@ -25,7 +25,7 @@ inline Lanes to_lanes(const Eigen::Vector3d& v) { return Lanes{v[0], v[1], v[2],
 inline Lanes to_lanes(const double* v) { return Lanes{v[0], v[1], v[2], 0.0}; }
 inline Eigen::Vector3d to_vec3(const Lanes& v) { return {v[0], v[1], v[2]}; }
 
-/// Of the first three.
+/// Of the first three lanes.
 inline double dot(const Lanes& a, const Lanes& b) {
   const Lanes products = a * b;
   return products[0] + products[1] + products[2];

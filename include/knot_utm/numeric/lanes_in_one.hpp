@@ -23,7 +23,7 @@ inline void transpose(LanesInOne& a, LanesInOne& b, LanesInOne& c, LanesInOne& d
   d = __builtin_shufflevector(ab_odd, cd_odd, 2, 3, 6, 7);
 }
 
-/// The last of `before` and the first three of `now`.
+/// The last lane of `before`, then the first three lanes of `now`.
 inline LanesInOne one_later(const LanesInOne& before, const LanesInOne& now) {
   return __builtin_shufflevector(before, now, 3, 4, 5, 6);
 }

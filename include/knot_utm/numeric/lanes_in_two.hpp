@@ -2,9 +2,9 @@
 
 namespace knot_utm {
 
-/// Four numbers in two registers of two each, where registers are no wider (SSE2, NEON): left to itself, the compiler
-/// sends a vector of four through memory, number by number. Every lane gets the same operations in the same order as
-/// it does in one register of four. A half is a pair of doubles, or of masks.
+/// Four numbers in two registers of two each, for processors whose registers are no wider (SSE2, NEON). Left to itself,
+/// the compiler would send a vector of four through memory, number by number. Every lane gets the same operations in
+/// the same order as it does in one register of four. A half is a pair of doubles, or of masks.
 template <typename Half, typename Number>
 class InTwo {
  public:
@@ -14,7 +14,7 @@ class InTwo {
   InTwo() = default;
   constexpr InTwo(Number a, Number b, Number c, Number d) : low_{a, b}, high_{c, d} {}
   constexpr InTwo(const Half& low, const Half& high) : low_(low), high_(high) {}
-  // A number beside four is four times the same, as it is for the compiler's own vectors.
+  // A single number stands for four equal ones, as it does for the compiler's own vectors.
   constexpr InTwo(Number all) : low_{all, all}, high_{all, all} {}  // NOLINT(google-explicit-constructor)
 
   const Half& low() const { return low_; }
@@ -59,7 +59,7 @@ using LanesInTwoMask = LanesInTwo::Mask;
 
 inline LanesInTwo select(const LanesInTwoMask& where, const LanesInTwo& a, const LanesInTwo& b) {
   using Bits = LanesInTwo::Bits;
-  // By bits: SSE2 has no instruction that selects.
+  // By bits, because SSE2 has no instruction that selects.
   const auto half = [](const Bits& mask, const TwoDoubles& yes, const TwoDoubles& no) {
     return reinterpret_cast<TwoDoubles>((mask & reinterpret_cast<Bits>(yes)) | (~mask & reinterpret_cast<Bits>(no)));
   };
@@ -82,7 +82,7 @@ inline void transpose(LanesInTwo& a, LanesInTwo& b, LanesInTwo& c, LanesInTwo& d
   d = {second(a0.high(), b0.high()), second(c0.high(), d0.high())};
 }
 
-/// The last of `before` and the first three of `now`.
+/// The last lane of `before`, then the first three lanes of `now`.
 inline LanesInTwo one_later(const LanesInTwo& before, const LanesInTwo& now) {
   return {__builtin_shufflevector(before.high(), now.low(), 1, 2),
           __builtin_shufflevector(now.low(), now.high(), 1, 2)};

@@ -10,7 +10,8 @@ namespace knot_utm {
 /// Not-a-number is "nan", infinities are "inf" and "-inf".
 std::string format_number(double value);
 
-/// The same as every YAML reader takes it for a number: ".nan", ".inf", "-.inf", and a point before an exponent.
+/// The same in a form that every YAML reader takes for a number: ".nan", ".inf", "-.inf", and a point before an
+/// exponent.
 std::string format_yaml_number(double value);
 
 /// To three digits, for sentences.

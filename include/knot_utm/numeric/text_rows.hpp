@@ -6,8 +6,8 @@
 
 namespace knot_utm {
 
-/// Rows of a table that somebody else wrote, one after the other. A row has at most 4096 characters and a table at
-/// most two million rows: whatever the file, reading it ends, and takes no more memory than that many rows do.
+/// Reads a table that somebody else wrote, row by row. A row may have at most 4096 characters and a table at most two
+/// million rows, so that reading any file ends and takes bounded memory.
 class TextRows {
  public:
   explicit TextRows(std::istream& in) : in_(in) {}
@@ -17,7 +17,7 @@ class TextRows {
 
   const std::string& text() const { return text_; }  ///< of the row, without the end of the line
   std::size_t number() const { return number_; }     ///< of the row, from 1
-  /// Empty, or which bound was passed: a sentence.
+  /// A sentence about the bound that was passed; empty where none was.
   const std::string& fault() const { return fault_; }
 
  private:

@@ -8,7 +8,8 @@
 
 namespace knot_utm {
 
-/// The values of an enumeration and how each is called in files and messages; the first stands for what is none.
+/// The values of an enumeration, and the name of each in files and messages. The first name stands for values that are
+/// none of them.
 template <typename Choice, std::size_t N>
 using ChoiceNames = std::array<std::pair<Choice, const char*>, N>;
 
@@ -20,7 +21,7 @@ const char* name_of(const ChoiceNames<Choice, N>& names, Choice choice) {
   return names.front().second;
 }
 
-/// The other way; nothing for a name that is none.
+/// The value with this name; nothing where no value has it.
 template <typename Choice, std::size_t N>
 std::optional<Choice> choice_named(const ChoiceNames<Choice, N>& names, const std::string& name) {
   for (const auto& [value, text] : names) {

@@ -11,9 +11,9 @@ enum class EndedBy {
   kBreak,      ///< the rod parted, or the load fell as it does in a break
   kExtension,  ///< the last step, a pull or a return, reached its extension
   kLoad,       ///< the last step reached its load, or the load its limit
-  kTravel,     ///< the crosshead reached the end of its way
+  kTravel,     ///< the crosshead reached the end of its travel
   kOperator,   ///< stopped
-  kSolver,     ///< the physics gave up, or did not come to rest where it had to
+  kSolver,     ///< the simulation gave up, or did not come to rest where it had to
   kProgram,    ///< the last step's time, cycles or record were over
   kTime,       ///< the time limit of the test
   kUntangled   ///< the knot came undone before it was pulled

@@ -10,8 +10,8 @@
 
 namespace knot_utm {
 
-/// A number for each knot of a specimen, the first knot from the rod's first node first; none where nothing is knotted.
-/// The numbers stand in place: a sample is made after every time step, and must not allocate for them.
+/// A number for each knot of a specimen, in the order of the knots from the rod's first node; none where nothing is
+/// knotted. The numbers are stored in place, because a sample is made after every time step and must not allocate.
 class PerKnot {
  public:
   static constexpr std::size_t kMost = 4;  ///< knots of a specimen
@@ -21,7 +21,7 @@ class PerKnot {
   /// Throws std::length_error where there are more than kMost.
   PerKnot(std::initializer_list<double> values);
 
-  /// So many numbers, each kUnknown. Throws as above.
+  /// As many numbers as there are `knots`, each kUnknown. Throws as above.
   static PerKnot unknown(std::size_t knots);
   /// A copy of any list of doubles. Throws as above.
   template <typename List>

@@ -12,11 +12,11 @@ enum class Phase { kIdle, kTie, kRelease, kMount, kPreload, kBalance, kPull, kHo
 const char* phase_name(Phase phase);  ///< "idle", "tie", "release", ... as in methods and curve files
 std::optional<Phase> phase_named(const std::string& name);  ///< the other way; nothing for a name that is none
 
-/// What a step of a program may be called: every phase but those before the first step and after the last.
+/// The names that a step of a program may have: all phases except those before the first step and after the last.
 std::vector<std::string> step_names();
 
-/// Phases in which the specimen is pulled further than before: what reaches a new largest extension in them is the
-/// force-extension curve.
+/// Phases in which the specimen may be pulled further than before. Their samples that reach a new largest extension
+/// make the force-extension curve.
 inline bool pulls(Phase phase) { return phase == Phase::kPull || phase == Phase::kCycle || phase == Phase::kFollow; }
 
 /// When a step ends: at the first condition that holds.
@@ -24,7 +24,7 @@ struct Until {
   std::optional<double> extension;  ///< s reaches it [m]
   std::optional<double> load;       ///< the balanced force reaches it [N]
   std::optional<double> time;       ///< time since the step began reaches it [s]
-  bool broken = false;              ///< `break: true`: by a break, which ends the whole test whatever stands here
+  bool broken = false;  ///< `break: true`: a break occurs; a break ends the whole test even where this is false
 };
 
 /// Two turning points of a cycle, the lower one first.
@@ -32,7 +32,7 @@ struct TurningPoints {
   double low = 0.0, high = 0.0;
 };
 
-/// Where the crosshead stood when, in the record of another test.
+/// Place of the crosshead at a time, from the record of another test.
 struct RecordedPlace {
   double time = 0.0, displacement = 0.0;  ///< since the record began [s], [m]
 };
@@ -59,7 +59,7 @@ struct ProgramStep {
 
 using Program = std::vector<ProgramStep>;
 
-/// The step that a number from 0 means, or the name of a step that stands there once ("pull"); nothing where none does.
+/// Index of the step that is meant by a number from 0, or by a name that only one step has ("pull"); else nothing.
 std::optional<int> step_called(const Program& program, const std::string& name);
 
 }  // namespace knot_utm

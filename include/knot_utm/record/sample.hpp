@@ -10,7 +10,7 @@
 
 namespace knot_utm {
 
-/// What the crosshead does until `time`. The physics answers each command with the sample of the same time.
+/// A command: the motion of the crosshead until `time`. The simulation answers it with a sample of the same time.
 struct Command {
   std::uint64_t sequence = 0;  ///< counts commands from 0; the answering sample carries the same number
   double time = 0.0;           ///< [s]
@@ -26,13 +26,13 @@ struct Command {
   void state(Archive& archive);
 };
 
-/// How the physics stands after a command.
+/// State of the simulation after a command.
 enum class BenchStatus {
   kRunning,          ///< the phase goes on
   kPhaseDone,        ///< tie, release, mount: its end condition is met
-  kNotEquilibrated,  ///< tie, release: goes on as if at rest, which did not come in time; `message` says what moves
+  kNotEquilibrated,  ///< tie, release: rest did not come in time and the test goes on; `message` says what moves
   kBroken,           ///< the rod parted; `message` says where
-  kFailed            ///< the physics gave up; `message` says why
+  kFailed            ///< the simulation gave up; `message` says why
 };
 
 /// Whether the specimen is the knot that it began as.
@@ -52,10 +52,10 @@ enum class BreakPlace {
 
 const char* break_place_name(BreakPlace place);  ///< "none", "strand", "knot", "grip"
 
-/// One reading of the whole bench, at the physics' own accuracy but for `load`. What each field means, its unit and
-/// what it may be stand in record/sample_fields.hpp.
+/// One reading of the whole bench. Only `load` has the errors of the load cell. The meaning, the unit and the allowed
+/// values of each field stand in record/sample_fields.hpp.
 struct Sample {
-  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  ///< for what is not there
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();  ///< for a value that does not exist
   std::uint64_t sequence = 0;
   double time = 0.0;
   Phase phase = Phase::kIdle;
@@ -81,6 +81,7 @@ struct Sample {
   double grip_work = 0.0;
   double dissipation = 0.0;
   double friction_loss = 0.0;
+  double plastic_loss = 0.0;
   double numerical_dissipation = 0.0;
   double reweighting_loss = 0.0;
   double moment_imbalance = 0.0;

@@ -10,13 +10,13 @@
 
 namespace knot_utm {
 
-/// Which numbers stand in a field: what else comes from outside, as in a message, is refused.
+/// Which numbers a field may have. Any other number that comes from outside, as in a message, is refused.
 enum class Allowed {
-  kAny,                ///< counts, texts and enumerations, of which their type says enough
+  kAny,                ///< counts, texts and enumerations, which their type restricts enough
   kFinite,             ///< negative or not
   kNotNegative,        ///< and finite
-  kFiniteOrNone,       ///< or NaN for what is not there
-  kNotNegativeOrNone,  ///< or NaN for what is not there
+  kFiniteOrNone,       ///< or NaN where the value does not exist
+  kNotNegativeOrNone,  ///< or NaN where the value does not exist
 };
 
 constexpr bool may_be_none(Allowed allowed) {
@@ -79,6 +79,7 @@ inline constexpr auto kSampleFields = std::make_tuple(
     KNOT_UTM_FIELD(grip_work, "J", kFinite, "done by grips and fixtures since the start"),
     KNOT_UTM_FIELD(dissipation, "J", kFinite, "by friction, drag and yielding since the start"),
     KNOT_UTM_FIELD(friction_loss, "J", kFinite, "part of the dissipation that is by friction"),
+    KNOT_UTM_FIELD(plastic_loss, "J", kFinite, "part of the dissipation that is by bends that yield"),
     KNOT_UTM_FIELD(numerical_dissipation, "J", kFinite,
                    "by the time steps since the start, beside friction and drag; may be negative"),
     KNOT_UTM_FIELD(reweighting_loss, "J", kFinite,

@@ -30,14 +30,14 @@ namespace knot_utm {
 ///   kappa_a = s N_a + s' N c_a,   c_u = v, c_v = u, c_uv = 1
 ///   kappa_ab = s N_ab + s' (N_a c_b^T + c_a N_b^T + N c_ab) + s'' N c_a c_b^T
 ///
-/// and u = e/|e| brings in the projections and the curvature of the sphere. In theta, p' = dp/dtheta (m1' = m2,
-/// m2' = -m1) stands for p: kappa_theta_e = s v . p', kappa_theta_f = -s u . q'.
-/// The Hessian is that of E as a function of positions and angles, the reference frame being transported from the
-/// present one; it is symmetric.
+/// and the derivatives of u = e/|e| add projections and the curvature of the unit sphere. Derivatives in theta have p'
+/// = dp/dtheta (m1' = m2, m2' = -m1) in place of p: kappa_theta_e = s v . p', kappa_theta_f = -s u . q'. The Hessian is
+/// that of E as a function of positions and angles, the reference frame being transported from the present one; it is
+/// symmetric.
 ///
 /// Where the two edges are twisted by m against each other, the averaged directors see the curvature times cos(m/2):
-/// an error of second order in the edge length that couples bending and twisting. A rod that is straight at rest has
-/// no need of it; its bending is that of isotropic_bending.hpp, with or without twist.
+/// an error of second order in the edge length that couples bending and twisting. A rod that stays straight at rest
+/// avoids it, because it bends by isotropic_bending.hpp, with or without twist.
 /// Source: Bergou et al. 2010, section 4.2; Jawed, Novelia, O'Reilly 2018, chapters 4 and 7, with the turning angle
 /// in place of 2 tan(phi/2); derivatives our own.
 struct BendingInput {
@@ -60,11 +60,11 @@ struct CurvatureLocal : CurvatureSlopes {
 CurvatureSlopes curvature_slopes(const Vec3& e, const Vec3& f, const Directors& on_e, const Directors& on_f);
 CurvatureLocal curvature_local(const Vec3& e, const Vec3& f, const Directors& on_e, const Directors& on_f);
 
-/// What a law says of one node, as derivatives in its unknowns.
+/// A law's response at one node as energy, gradient and Hessian in the unknowns of the node's stencil.
 StencilGradient on_nodes(const BendingResponse& law, const CurvatureSlopes& bend);
 StencilLocal on_nodes(const BendingResponse& law, const CurvatureLocal& bend);
 
-/// By the elastic law (elastic_bending.hpp).
+/// Energy, gradient and Hessian of the elastic law (elastic_bending.hpp) at one node.
 double bending_energy(const BendingInput& input, const Vec3& e, const Vec3& f, const Directors& on_e,
                       const Directors& on_f);
 
@@ -74,8 +74,8 @@ StencilGradient bending_gradient(const BendingInput& input, const Vec3& e, const
 StencilLocal bending(const BendingInput& input, const Vec3& e, const Vec3& f, const Directors& on_e,
                      const Directors& on_f);
 
-/// Bends take a set: the state's natural curvatures become `share` of its present material curvatures. Only of a state
-/// that has natural curvatures, be they zero; else it throws InvalidInput.
-void take_bending_set(double share, RodState* state);
+/// The rod takes a set: its natural curvatures become `fraction` of its present material curvatures. Throws
+/// InvalidInput where the state has no natural curvatures; zeros suffice.
+void take_bending_set(double fraction, RodState* state);
 
 }  // namespace knot_utm

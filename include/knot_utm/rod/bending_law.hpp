@@ -4,25 +4,24 @@
 
 namespace knot_utm {
 
-/// The face of a bending law. At every inner node a law says which moment the rod's bend needs, as a function of the
-/// bend and of what the law remembers of the steps before,
+/// The interface of a bending law. At every inner node a law gives the bending moment as a function of the bend and of
+/// an internal variable, the natural curvature kappabar_n of the last accepted step,
 ///
 ///     M = dW/dkappa,   W(kappa; kappabar_n) = E(kappa, kappabar) + (energy dissipated in this step),
 ///
-/// kappabar being what it will remember once the step is accepted. W is that of the incremental variational form: where
-/// nothing is dissipated, it is the elastic energy E.
+/// kappabar being the natural curvature that is kept once this step is accepted. W is the incremental energy of the
+/// variational form; where nothing is dissipated, it is the elastic energy E.
 ///
 /// A law is a pair of files, or a header, and one line in `BendingLaws` (bending_laws.hpp). It is a plain struct, which
 ///
 ///     static constexpr const char* kName          is what a method calls it (material.bending_law)
 ///     static Law of(Material)                     from a method; throws InvalidInput where a value is missing
-///     static constexpr bool kRemembers            whether what it remembers changes in a step; the rod then needs
-///                                                 frames and RodState::natural_curvature, be it zero
+///     static constexpr bool kRemembers            whether what it remembers changes in a step
 ///     respond(BendingNode) -> BendingResponse
 ///     remember(BendingNode) -> BendingMemory      once the step is accepted
 ///     state(Archive&)                             its parameters
 ///
-/// A whole rod is visited once per evaluation (std::visit), so that no node pays for the choice.
+/// An evaluation of the rod chooses the law once (std::visit), not at every node.
 /// Source: Simo, Hughes 1998, chapter 1 (return mapping); Ortiz, Stainier 1999 (its variational form).
 
 /// What a law is told of one inner node. Curvatures are integrated over the Voronoi length, on (m1, m2).
@@ -30,7 +29,7 @@ struct BendingNode {
   double stiffness;         ///< k_b [N m^2]
   double voronoi_length;    ///< lbar [m]
   Eigen::Vector2d bend;     ///< kappa [-]
-  Eigen::Vector2d natural;  ///< kappabar_n, as it was remembered [-]
+  Eigen::Vector2d natural;  ///< kappabar_n, of the last accepted step [-]
 };
 
 struct BendingResponse {

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <array>
-#include <utility>
 #include <variant>
 
+#include "knot_utm/numeric/law_registry.hpp"
 #include "knot_utm/rod/elastic_bending.hpp"
 #include "knot_utm/rod/plastic_bending.hpp"
 
@@ -12,27 +11,18 @@ namespace knot_utm {
 /// All bending laws there are, in the order in which messages name them; the first is the default.
 using BendingLaws = std::variant<ElasticBending, PlasticBending>;
 
-namespace bending_laws {
-
-template <std::size_t... I>
-constexpr std::array<const char*, sizeof...(I)> names(std::index_sequence<I...> /*all*/) {
-  return {std::variant_alternative_t<I, BendingLaws>::kName...};
-}
-
-}  // namespace bending_laws
-
-inline constexpr auto kBendingLawNames =
-    bending_laws::names(std::make_index_sequence<std::variant_size_v<BendingLaws>>());
+inline constexpr auto kBendingLawNames = LawRegistry<BendingLaws>::kNames;
 
 /// The law that a material names, with its parameters. Throws InvalidInput where one is missing.
 BendingLaws bending_law_of(const Material& material);
 
-/// Whether what the law remembers changes from step to step. The rod then needs frames and a memory of its bends
-/// (RodState::natural_curvature), be it zero.
+/// Whether the rod bends by this law and not by the elastic one, which a rod without natural curvature has in a form of
+/// its own (isotropic_bending.hpp). The rod then needs frames and RodState::natural_curvature, be it zero.
+bool bends_on_frames(const BendingLaws& law);
+bool bends_on_frames(const Material& material);
+
+/// Whether the law has an internal variable that changes from step to step.
 bool remembers(const BendingLaws& law);
 bool remembers_bends(const Material& material);
-
-/// Which law it is, and its parameters.
-void archive_law(Archive& archive, BendingLaws& law);
 
 }  // namespace knot_utm

@@ -6,8 +6,8 @@
 
 namespace knot_utm {
 
-/// E = k_b/(2 lbar) |kappa - kappabar|^2: bends spring back to what they remember. A rod that remembers none bends by
-/// the same law without frames (isotropic_bending.hpp).
+/// E = k_b/(2 lbar) |kappa - kappabar|^2: the rod springs back to its natural curvature. A rod without natural
+/// curvature bends by the same law without frames (isotropic_bending.hpp).
 struct ElasticBending {
   static constexpr const char* kName = "elastic";
   static constexpr bool kRemembers = false;

@@ -25,8 +25,8 @@ ElasticEnergy elastic_energy(const RodProperties& rod, const RodState& state);
 /// Tension of every edge [N], N-1 values, positive where the edge is longer than at rest.
 Eigen::VectorXd edge_tension(const RodProperties& rod, const Points& position);
 
-/// What inner node i, 1 <= i <= N-2, brings to the bending and the twisting energy of a rod whose state has a frame.
-/// The reference frame of `state` must belong to its positions (transport_frames).
+/// What inner node i, 1 <= i <= N-2, contributes to the bending and the twisting energy of a rod whose state has a
+/// frame. The reference frame of `state` must belong to its positions (transport_frames).
 struct InnerNode {
   Vec3 e;          ///< x_i - x_{i-1} [m]
   Vec3 f;          ///< x_{i+1} - x_i [m]

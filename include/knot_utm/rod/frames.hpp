@@ -4,7 +4,7 @@
 
 namespace knot_utm {
 
-/// Frames along a discrete rod, one orthonormal right-handed triad an edge.
+/// Frames along a discrete rod, one orthonormal right-handed triad on each edge.
 ///
 ///   reference frame  (d1, d2, t),  d2 = t x d1: carried along in time without spinning about t
 ///   material frame   (m1, m2, t),  m1 = cos(theta) d1 + sin(theta) d2,  m2 = -sin(theta) d1 + cos(theta) d2
@@ -48,15 +48,15 @@ Directors material_directors(const Vec3& t, const Vec3& d1, double theta);
 /// theta rate = 0 and m_ref = 0.
 void initialise_frames(RodState* state);
 
-/// Director d1 of tangent `from` transported to tangent `to`, made normal to it and unit again: keeps rounding from
-/// piling up over many transports.
+/// Director d1 of tangent `from` transported to tangent `to`, then made exactly normal to it and of unit length, so
+/// that rounding does not add up over many transports.
 Vec3 transported_director(const Vec3& d1, const Vec3& from, const Vec3& to);
 
 /// The angle that differs from `angle` by whole turns and lies nearest to `last` [rad].
 double nearest_turn(double angle, double last);
 
-/// Carries the reference frame of a state whose positions have moved from `position_before`: d1 by parallel transport
-/// in time, edge by edge, then m_ref. To be called once on a committed step, or on a copy for a trial one.
+/// Carries the reference frame along with positions that have moved from `position_before`: d1 by parallel transport in
+/// time, edge by edge, then m_ref. To be called once for an accepted step, or on a copy for a trial step.
 void transport_frames(const Points& position_before, RodState* state);
 
 }  // namespace knot_utm

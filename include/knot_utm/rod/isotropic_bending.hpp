@@ -34,7 +34,7 @@ struct IsotropicBendingGradient {
   Vec3 gradient_f;  ///< dE/df [N]
 };
 
-/// W' and W'' over k_b/lbar.
+/// W' and W'' divided by k_b/lbar [-].
 template <typename Real>
 struct BendingSlopes {
   Real first, second;
@@ -46,7 +46,8 @@ struct BendingSlopes {
   }
 };
 
-/// phi^2 in E, of tangents rather than of c: 1 - c = |t_f - t_e|^2/2 keeps its digits where the rod is nearly straight.
+/// phi^2 of the energy, from |t_f - t_e|^2 and not from c, because 1 - c loses its digits where the rod is nearly
+/// straight.
 inline double bending_angle_squared(double tangents_apart_squared) {
   const double w = 0.25 * tangents_apart_squared;
   return w * squared_angle_over(w).value;

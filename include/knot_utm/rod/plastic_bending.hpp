@@ -6,19 +6,19 @@
 
 namespace knot_utm {
 
-/// Elastic and plastic with linear hardening: two springs side by side, of which the stronger one yields. One carries
-/// the share r of the bending stiffness and stays elastic, the other one carries 1 - r up to its yield moment and no
-/// further, in whatever direction the rod bends. With the latter's elastic bend xi = kappa - kappabar_n, its direction
-/// n = xi/|xi|, k = k_b/lbar, and the bend at yield y = kappa_y lbar,
+/// Elastic-plastic bending with linear kinematic hardening: two springs in parallel. One has the fraction r of the
+/// bending stiffness and stays elastic. The other has the fraction 1 - r and bears at most its yield moment, in
+/// whatever direction the rod bends. With the latter's elastic bend xi = kappa - kappabar_n, its direction n = xi/|xi|,
+/// k = k_b/lbar, and the bend at yield y = kappa_y lbar,
 ///
-///   |xi| <= y   M = r k kappa + (1 - r) k xi     kappabar = kappabar_n                  dissipated 0
-///   |xi| >  y   M = r k kappa + (1 - r) k y n    kappabar = kappabar_n + (|xi| - y) n   dissipated (1 - r) k y (|xi| -
-///   y)
+///   |xi| <= y   M = r k kappa + (1 - r) k xi     kappabar = kappabar_n
+///   |xi| >  y   M = r k kappa + (1 - r) k y n    kappabar = kappabar_n + (|xi| - y) n
 ///
-/// so that a rod that is bent for the first time yields at the curvature kappa_y, under the moment k_b kappa_y. Beyond,
-/// its tangent is r k + (1 - r) k y/|xi| (1 - n n^T): without hardening a bend would gather at a single node, and
-/// depend on the edges' length. A rod that is bent to a curvature kappa and released keeps kappa - M/k_b. Source:
-/// Prager 1956 (kinematic hardening); Simo, Hughes 1998, section 1.6.
+/// and in the latter case the step dissipates (1 - r) k y (|xi| - y) [J]. A rod that is bent for the first time thus
+/// yields at the curvature kappa_y, under the moment k_b kappa_y. Beyond, its tangent is r k + (1 - r) k y/|xi| (1 - n
+/// n^T). Without hardening a bend would gather at a single node and depend on the length of the edges. A rod that is
+/// bent to a curvature kappa and released keeps kappa - M/k_b. Source: Prager 1956 (kinematic hardening); Simo, Hughes
+/// 1998, section 1.6.
 struct PlasticBending {
   static constexpr const char* kName = "plastic";
   static constexpr bool kRemembers = true;

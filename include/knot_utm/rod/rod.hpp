@@ -4,6 +4,7 @@
 
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/rod/material.hpp"
+#include "knot_utm/rod/stretching_laws.hpp"
 
 namespace knot_utm {
 
@@ -18,6 +19,7 @@ bool are_places(const Points& points);
 /// Symbols: l_j rest length of edge j, lbar_i = (l_{i-1}+l_i)/2 Voronoi length of node i.
 struct RodProperties {
   Material material;
+  StretchingLaws stretching;       ///< law of its edges
   Eigen::VectorXd rest_length;     ///< l_j [m], N-1
   Eigen::VectorXd voronoi_length;  ///< lbar_i [m], N (half an edge at the ends)
   Eigen::VectorXd mass;            ///< m_i [kg], N
@@ -29,11 +31,11 @@ struct RodProperties {
   /// Arclength at rest of every node from the first [m], N
   Eigen::VectorXd arclength() const;
 
-  /// All of it: loaded, it is another rod.
+  /// Saves or loads all of it; loading replaces the whole rod.
   void state(Archive& archive);
 };
 
-/// Straight, untwisted rod of the given rest lengths: masses rho pi h^2 lbar_i.
+/// Straight, untwisted rod of the given rest lengths, by the laws of its material: masses rho pi h^2 lbar_i.
 RodProperties make_rod(const Material& material, const Eigen::VectorXd& rest_length);
 
 /// What moves, and what the laws of the rod remember. Twist members are empty where the scene does not solve for twist.

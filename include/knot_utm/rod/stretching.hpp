@@ -4,55 +4,49 @@
 
 namespace knot_utm {
 
-/// Stretching of one edge.
+/// Stretching of one edge by a stretching law (stretching_law.hpp).
 ///
-///   E = 1/2 k_s l0 (|e|/l0 - 1)^2
+///   E = l0 W(lambda),   lambda = |e|/l0
 ///
 ///   e    edge vector x_{i+1} - x_i                 [m]
 ///   l0   length of the edge at rest                [m]
-///   k_s  stretching stiffness (Young's modulus
-///        times area for a solid rod)               [N]
-///   T    tension k_s (|e|/l0 - 1), positive pulls  [N]
+///   T    tension W', positive pulls                [N]
 ///   t    unit tangent e/|e|                        [-]
 ///
 ///   dE/de     = T t                                (force on x_i is +T t, on x_{i+1} is -T t)
-///   d2E/de2   = k_s/l0 t t^T + T/|e| (1 - t t^T)   (indefinite where the edge is compressed)
+///   d2E/de2   = T'/l0 t t^T + T/|e| (1 - t t^T)    (indefinite where the edge is compressed)
 ///
 /// An edge of length zero has no tangent; the caller keeps |e| > 0.
-/// Source: Bergou, Audoly, Vouga, Wardetzky, Grinspun 2010, section 4.2.
-struct StretchingGradient {
-  double energy;  ///< [J]
-  Vec3 gradient;  ///< dE/de [N]: +gradient on x_{i+1}, -gradient on x_i
-};
-
-/// As StretchingGradient, and the Hessian: +hessian on (i,i) and (i+1,i+1), -hessian on (i,i+1).
+/// Source: Bergou, Audoly, Vouga, Wardetzky, Grinspun 2010, section 4.2, there with the linear law.
 struct StretchingLocal {
   double energy;  ///< [J]
-  Vec3 gradient;  ///< dE/de [N]
-  Mat3 hessian;   ///< d2E/de2 [N/m]
+  Vec3 gradient;  ///< dE/de [N]: +gradient on x_{i+1}, -gradient on x_i
+  Mat3 hessian;   ///< d2E/de2 [N/m]: +hessian on (i,i) and (i+1,i+1), -hessian on (i,i+1)
 };
 
-/// Tension T [N] of an edge; positive pulls its ends together.
-inline double stretching_tension(double k_s, double l0, const Vec3& edge) { return k_s * (edge.norm() / l0 - 1.0); }
-
-inline StretchingGradient stretching_gradient(double k_s, double l0, const Vec3& edge) {
+template <typename Law>
+StretchingLocal stretching(const Law& law, double k_s, double l0, const Vec3& edge) {
   const double length = edge.norm();
-  const double strain = length / l0 - 1.0;
-  return {0.5 * k_s * l0 * strain * strain, (k_s * strain / length) * edge};
-}
-
-inline StretchingLocal stretching(double k_s, double l0, const Vec3& edge) {
-  const double length = edge.norm();
-  const double strain = length / l0 - 1.0;
+  const StretchingResponse response = law.respond(StretchedEdge{k_s, l0, length / l0});
   const Vec3 tangent = edge / length;
-  const double tension = k_s * strain;
-  const double across = tension / length;
+  const double across = response.tension / length;
   StretchingLocal local;
-  local.energy = 0.5 * tension * strain * l0;
-  local.gradient = tension * tangent;
-  local.hessian.noalias() = (k_s / l0 - across) * tangent * tangent.transpose();
+  local.energy = response.energy;
+  local.gradient = response.tension * tangent;
+  local.hessian.noalias() = (response.slope / l0 - across) * tangent * tangent.transpose();
   local.hessian.diagonal().array() += across;
   return local;
+}
+
+/// Edge j of a rod.
+inline StretchedEdge stretched_edge(const RodProperties& rod, const Points& position, Eigen::Index j) {
+  const Vec3 edge = position.col(j + 1) - position.col(j);
+  return {rod.material.stretching_stiffness, rod.rest_length[j], edge.norm() / rod.rest_length[j]};
+}
+
+/// Response of the rod's own law to it.
+inline StretchingResponse respond(const RodProperties& rod, const StretchedEdge& edge) {
+  return std::visit([&](const auto& law) { return law.respond(edge); }, rod.stretching);
 }
 
 }  // namespace knot_utm

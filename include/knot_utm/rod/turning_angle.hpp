@@ -7,22 +7,22 @@
 
 namespace knot_utm {
 
-/// The angle phi by which a rod turns at a node is its measure of bending: phi over the Voronoi length is the curvature
-/// of an arc whose length is the rod's own, whatever the edges' length. 2 tan(phi/2), which is common, makes a bend of
-/// radius R too stiff by (edge/R)^2/6.
+/// Bending is measured by the angle phi by which the rod turns at a node: phi over the Voronoi length is the curvature
+/// of an arc that has the rod's own length, whatever the length of the edges. The common measure 2 tan(phi/2) makes a
+/// bend of radius R too stiff by (edge/R)^2/6.
 ///
 ///   w = |t_f - t_e|^2/4 = (1 - c)/2 = sin^2(phi/2),   t_e, t_f unit tangents of the two edges, c = t_e . t_f
 ///   phi^2 = 4 asin^2(sqrt(w)) = sum_{n>=1} a_n w^n,   a_1 = 4,   a_{n+1}/a_n = 2 n^2/((n + 1) (2 n + 1))
 ///
-/// From term N on, all coefficients are taken as large as a_N, so that the rest of the series is a_N w^N/(1 - w). This
-/// squared angle g needs neither root nor arc function and is smooth everywhere. It is phi^2 to 8e-10 of it at
-/// 0.5 rad, to 3e-6 at 1 rad and to 5e-4 at a right angle. Beyond that no edge resolves a bend, and g grows without
-/// bound towards phi = pi, where phi^2 itself would let a rod under tension fold back on itself. With more terms g
-/// follows phi^2 further and then rises so steeply that Newton's method no longer comes out of a fold.
-/// Source: y = asin(x)^2 solves (1 - x^2) y'' - x y' = 2, which gives the series; its end our own.
+/// From term N on, all coefficients are taken as large as a_N, so that the rest of the series is a_N w^N/(1 - w). The
+/// resulting squared angle g needs neither root nor arc function and is smooth everywhere. It is phi^2 to 8e-10 of it
+/// at 0.5 rad, to 3e-6 at 1 rad and to 5e-4 at a right angle. Beyond that the edges do not resolve a bend, and g grows
+/// without bound towards phi = pi, where phi^2 itself would let a rod under tension fold back on itself. With more
+/// terms g follows phi^2 further and then rises so steeply that Newton's method no longer comes out of a fold.
+/// Source: y = asin(x)^2 solves (1 - x^2) y'' - x y' = 2, which gives the series; the replaced remainder is our own.
 ///
-/// Given here is G = g/w, of a number or of four (lanes.hpp), with which g = w G keeps its digits where the rod is
-/// nearly straight, and G' and G'' in w.
+/// G = g/w and its derivatives G' and G'' in w, for one number or for four (lanes.hpp). g = w G keeps its digits where
+/// the rod is nearly straight.
 template <typename Real>
 struct SquaredAngleOverW {
   Real value, first, second;  ///< G, dG/dw, d2G/dw2 [-]

@@ -2,12 +2,13 @@
 
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/stencil.hpp"
+#include "knot_utm/rod/twisting_law.hpp"
 
 namespace knot_utm {
 
-/// Twisting at one inner node.
+/// Twisting at one inner node by a law E(m - mbar) (twisting_law.hpp).
 ///
-///   E = k_t/(2 lbar) (m - mbar)^2,   m = theta_f - theta_e + m_ref
+///   m = theta_f - theta_e + m_ref
 ///
 ///   theta_e, theta_f  angle of the material against the reference frame on the two edges  [rad]
 ///   m_ref             reference twist (frames.hpp)        [rad]
@@ -21,8 +22,9 @@ namespace knot_utm {
 ///   m_ef = ((2/chi) [u]x - b t^T)/(2 |e| |f|)
 ///
 /// The Hessian is that of E as a function of positions and angles, the reference frame being transported from the
-/// present one; it is symmetric. Differentiating m_e as it stands gives m_ee plus an antisymmetric part, the area
-/// that the tangent sweeps on its way; it stands against dE/dtheta, and balances where the edge is free to turn.
+/// present one; it is symmetric. Differentiating m_e as it stands gives m_ee plus an antisymmetric part, from the area
+/// that the tangent sweeps. Summed over both nodes of an edge, this part is proportional to dE/dtheta, which vanishes
+/// in equilibrium where the edge is free to turn.
 /// Source: Bergou et al. 2010, section 4.2; Jawed, Novelia, O'Reilly 2018, chapters 4 and 7.
 struct TwistingInput {
   double k_t = 0.0;             ///< [N m^2]

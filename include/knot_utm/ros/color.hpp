@@ -14,9 +14,9 @@ inline std_msgs::ColorRGBA color(double red, double green, double blue) {
 }
 
 /// On the straight way from one colour to another.
-inline std_msgs::ColorRGBA mixed(const std_msgs::ColorRGBA& from, const std_msgs::ColorRGBA& to, double share) {
-  const auto mix = [share](float a, float b) {
-    return (1.0 - share) * static_cast<double>(a) + share * static_cast<double>(b);
+inline std_msgs::ColorRGBA mixed(const std_msgs::ColorRGBA& from, const std_msgs::ColorRGBA& to, double fraction) {
+  const auto mix = [fraction](float a, float b) {
+    return (1.0 - fraction) * static_cast<double>(a) + fraction * static_cast<double>(b);
   };
   return color(mix(from.r, to.r), mix(from.g, to.g), mix(from.b, to.b));
 }

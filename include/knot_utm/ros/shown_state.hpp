@@ -32,7 +32,7 @@ class ShownState {
   void settle() { interval_ = 0.0; }  ///< shows the last state from now on
 
   bool empty() const { return states_ == 0; }
-  bool settled(Clock::time_point now) const { return share(now) >= 1.0; }
+  bool settled(Clock::time_point now) const { return fraction(now) >= 1.0; }
   const Moment& latest() const { return latest_; }
 
   /// Numbers of the sample are those of the state that was last passed, but for the displacement, which goes with the
@@ -40,7 +40,7 @@ class ShownState {
   Moment at(Clock::time_point now) const;
 
  private:
-  double share(Clock::time_point now) const;  ///< of the way from the one to the other
+  double fraction(Clock::time_point now) const;  ///< of the way from the one to the other
 
   int states_ = 0;  ///< that are known: 0, 1 or 2
   Moment before_, latest_;

@@ -15,7 +15,7 @@ struct Camera {
   static constexpr double kPitch = 0.12;          ///< a little downwards [rad]
   static constexpr double kFieldOfView = 0.7854;  ///< vertical, as rviz has it [rad]
   static constexpr double kNarrowest = 0.7;       ///< width over height of a picture that still shows all
-  static constexpr double kFilled = 0.9;          ///< share of the picture that is filled, at most
+  static constexpr double kFilled = 0.9;          ///< fraction of the picture that is filled, at most
 
   static Vec3 forwards();
   static Vec3 right();

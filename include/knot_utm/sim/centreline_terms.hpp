@@ -7,8 +7,8 @@
 
 namespace knot_utm {
 
-/// Stretching (stretching.hpp) of every edge and isotropic bending (isotropic_bending.hpp) of every inner node: forces
-/// and stiffness of a whole centreline, which share its tangents.
+/// Forces and stiffness of a whole centreline: stretching (stretching.hpp) of every edge by the rod's law, and
+/// isotropic bending (isotropic_bending.hpp) of every inner node. The two share the tangents.
 class CentrelineTerms {
  public:
   /// Without `bends`, stretching only: bending about a curved rest shape needs frames. `rod` must outlive this.
@@ -17,13 +17,13 @@ class CentrelineTerms {
   /// From now on the rod has parted at an edge: it has no tension, and does not bend at its ends.
   void part(int edge);
 
-  /// Begins a step. `predicts`: the stiffness is that of the predicted tensions, at first of those at `start`; else
-  /// that of the present ones.
+  /// Begins a step. `predicts`: the geometric stiffness uses the predicted tensions, at first those at `start`; else
+  /// the present ones.
   void begin(const Points& start, bool predicts);
-  /// What the stiffness, as it was set, says of the tensions after `factor` times a change of the nodes [m].
+  /// Predicts the tensions after `factor` times a change of the nodes [m], with the stiffness as it was set.
   void predict_tensions(const std::vector<Lanes>& change, double factor);
 
-  /// Adds the forces on every node [N]. The stiffness that is set later belongs to this position.
+  /// Adds the forces on every node [N]. A stiffness that is set afterwards belongs to this position.
   void add_forces(const Points& position, std::vector<Lanes>& force);
 
   /// Largest |tension| of an edge at that position [N].
@@ -36,20 +36,20 @@ class CentrelineTerms {
     return j > 0 ? std::max(std::abs(tension_[j - 1]), ahead) : ahead;
   }
 
-  /// Both energies at that position, and how they would change along `way` [m] by their gradient there.
+  /// Both energies at that position, and the change that their gradient there gives for an `increment` [m].
   struct Energy {
     double stretching = 0.0, bending = 0.0;  ///< [J]
-    double along = 0.0;                      ///< dE/dx . way [J]
+    double along = 0.0;                      ///< dE/dx . increment [J]
   };
-  Energy energy(const Points& way) const;
+  Energy energy(const Points& increment) const;
 
-  /// Writes blocks (i, i) to (i, i+2) and their mirrors: the Hessian of both energies, and `diagonal` [N/m] of each
-  /// node on the diagonal of its three positions. What stood there before is gone.
-  /// Where tensions are predicted, it is these that turn with an edge, T/|e| (1 - t t^T): an edge that a change has
-  /// turned by theta is longer by theta^2/2 of its length, and in a rope the present tension, k_s theta^2/2 too large,
-  /// would stiffen it against the next change. Newton's method with tensions as unknowns beside the positions comes to
-  /// the same. Fast where strands pull; a rod that buckles takes the present tensions. Source: Magisano, Leonetti,
-  /// Garcea 2017 (mixed integration points).
+  /// Overwrites blocks (i, i) to (i, i+2) and their mirrors with the Hessian of both energies, and with `diagonal`
+  /// [N/m] of each node on the diagonal of its three positions. Where tensions are predicted, the geometric stiffness
+  /// T/|e| (1 - t t^T) uses the predicted ones. An edge that a change has turned by theta is longer by theta^2/2 of its
+  /// length. In a rope the present tension is then too large by k_s theta^2/2 and would stiffen the edge against the
+  /// next change. This is Newton's method with tensions as unknowns in addition to the positions. It is fast where
+  /// strands are pulled; a rod that buckles needs the present tensions. Source: Magisano, Leonetti, Garcea 2017 (mixed
+  /// integration points).
   template <int D>
   void set_stiffness(const std::vector<double>& diagonal, StepMatrix<D>& matrix) const;
 
@@ -59,7 +59,13 @@ class CentrelineTerms {
     Lanes ee[3], ef[3], fe[3], ff[3];
   };
   NodeHessian bending_hessian(std::size_t node) const;
+  template <typename Law>
+  void add_stretching_forces(const Law& law, const Points& position, std::vector<Lanes>& force);
   void add_bending_forces(std::vector<Lanes>& force);
+  /// Of the position that was evaluated last.
+  StretchedEdge stretched(std::size_t edge) const {
+    return {stretching_stiffness_[edge], rod_.rest_length[static_cast<Eigen::Index>(edge)], stretch_[edge]};
+  }
 
   const RodProperties& rod_;
   bool bends_;
@@ -67,8 +73,10 @@ class CentrelineTerms {
   std::vector<double> stretching_stiffness_;  // k_s of every edge [N]; 0: parted
   std::vector<double> bending_stiffness_;     // k_b/lbar of every node [N m]; 0: at a parted edge
   // As isotropic_bending.hpp names them.
-  std::vector<Lanes> tangent_;                    // t of every edge
-  std::vector<double> inverse_length_, tension_;  // 1/|e| [1/m], T [N]
+  std::vector<Lanes> tangent_;           // t of every edge
+  std::vector<double> inverse_length_;   // 1/|e| [1/m]
+  std::vector<double> stretch_;          // lambda
+  std::vector<double> tension_, slope_;  // T, dT/dlambda [N]
   bool predicts_ = false;
   std::vector<double> predicted_tension_;  // [N]
   // c of every node, 1 of the ends; W' and W'' over k_b/lbar, four nodes side by side.

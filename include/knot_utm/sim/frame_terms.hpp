@@ -14,8 +14,8 @@
 
 namespace knot_utm {
 
-/// What material frames bring to one implicit step: the angle theta_j of every edge as an unknown beside the nodes'
-/// positions, twisting, bending where the rod has a natural curvature, and inertia and drag of the rod's spin.
+/// The terms of material frames in one implicit step: the angle theta_j of every edge as an unknown in addition to the
+/// nodes' positions, twisting, bending where the rod has a natural curvature, and inertia and drag of spin.
 ///
 ///   I_j (theta_j - theta_j^n - dt omega_j^n)/dt^2 + (c h^2 l_j/dt + r_j) (theta_j - theta_j^n) = -dE/dtheta_j + T_j
 ///
@@ -24,33 +24,33 @@ namespace knot_utm {
 ///   I_j      rho pi h^4/2 l_j, polar moment of inertia      [kg m^2]
 ///   c        viscous drag per length, as for the positions: it acts on the rod's surface, whose speed is h omega and
 ///            whose lever is h [N s/m^2]
-///   r_j      0, or where spin has neither inertia nor drag a regularisation, a small share of k_t/l_j, so that a rod
+///   r_j      0, or where spin has neither inertia nor drag a regularisation, a small fraction of k_t/l_j, so that a
+///   rod
 ///            that is free to turn stays where it is [N m]
-///   E        k_t/(2 lbar) (m - mbar)^2 at every inner node (twisting.hpp) and, where the rod has a natural curvature,
+///   E        of twist at every inner node (twisting.hpp) and, where the rod has a natural curvature,
 ///            bending.hpp [J]; a rod that is straight at rest bends as without frames (isotropic_bending.hpp)
 ///   T_j      torque of the holder of a held frame about the tangent [N m]
 ///
-/// StepSettings::spin_inertia says whether I and c count. Without them every trial is in equilibrium of twist: a rod
-/// that is straight at rest and whose ends are free to turn then has no twist at any time, and moves exactly as one
-/// without frames. With them it has some while it moves, until the waves of twist have run out.
+/// StepSettings::spin_inertia says whether I and c count. Without them twist is in equilibrium at the end of every
+/// step. A rod that is straight at rest and whose ends are free to turn then has no twist at any time, and moves
+/// exactly as one without frames. With them it has some twist while it moves, until the waves of twist have decayed.
 ///
 /// The reference frame of a trial position is that of the step's beginning, transported from tangent t^n to tangent t
-/// edge by edge; so it does not depend on the way of the iterations, and theta - theta^n is how far the rod really
-/// turned about itself. Forces are -dE/dx at fixed spin of the material frames. As transport depends on the way that
-/// a tangent goes, these have no potential beyond one step; with g the gradient, H the symmetric Hessian of
-/// stencil.hpp's energies and s_j the spin of edge j their exact derivative is
+/// edge by edge. It therefore does not depend on the path of the iterations, and theta - theta^n is the rotation of the
+/// rod about itself. Forces are -dE/dx at fixed spin of the material frames. Because transport depends on the path of a
+/// tangent, these forces have no potential beyond one step. With g the gradient, H the symmetric Hessian of the
+/// energies on the stencils and s_j the spin of edge j, their exact derivative is
 ///
 ///   dg = H (dx, ds) + 1/2 dE/dtheta_j t_j x de_j/|e_j|^2 on (x_{j+1}; minus that on x_j)
 ///   ds_j = dtheta_j + lean_j . de_j,    lean_j = -(t_j^n x t_j)/((1 + t_j^n . t_j) |e_j|)
 ///
-/// lean being the area that the transport from t^n sweeps over as t moves. Newton's method therefore solves for spins
-/// s in place of angles. What it solves with is not symmetric, but exact.
-/// The reference twist of a trial is that of the step's beginning and the angle by which a frame turns that is carried
-/// from t_f^n once around the tangents t_f, t_e, t_e^n of the two edges of a node, a product of four quaternions
-/// (1 + a.b, a x b). No frame is carried for it, and no arctangent is needed while that angle is small; d1 is carried
-/// once a step.
-/// Where friction acts at the rod's surface, its couples are torques on the spins (surface_contact.hpp); on the
-/// centreline it does not turn the rod about itself.
+/// where lean comes from the area that the transport from t^n sweeps as t moves. Newton's method therefore solves for
+/// spins s in place of angles. Its matrix is not symmetric, but exact. The reference twist of a trial position is that
+/// of the step's beginning plus an angle. It is the angle by which a frame turns when it is transported from t_f^n once
+/// around the tangents t_f, t_e, t_e^n of the two edges of a node. It follows from a product of four quaternions (1 +
+/// a.b, a x b), without transporting a frame, and without an arctangent while it is small. d1 is transported once in
+/// each step. Where friction acts at the rod's surface, its couples exert torques on the spins (surface_contact.hpp).
+/// Friction on the centreline does not turn the rod about itself.
 /// Source: Bergou et al. 2010, sections 3 and 4; Jawed, Novelia, O'Reilly 2018, chapters 4 to 7; the derivative along
 /// the moving frame our own.
 class FrameTerms {
@@ -60,7 +60,7 @@ class FrameTerms {
 
   /// Terms of one edge beyond those of its nodes.
   struct EdgeStiffness {
-    Mat3 sweep;   ///< d(dE/de)/de that comes from the tangent's way alone, antisymmetric [N/m]
+    Mat3 sweep;   ///< the part of d(dE/de)/de that comes from the path of the tangent, antisymmetric [N/m]
     double spin;  ///< of inertia, drag and r: d(torque)/dtheta [N m]
     Vec3 lean;    ///< dtheta = ds - lean . de [1/m]
   };
@@ -71,40 +71,41 @@ class FrameTerms {
   /// From now on the rod has parted at an edge: at its ends nothing twists or bends.
   void part(int edge);
 
-  /// Begins a step of length dt [s] from `start`, a state with frames, which must stay unchanged until it ends. Held
-  /// angles stand where they must, all others turn on as they did.
-  void begin_step(const RodState& start, const std::vector<FixedTwist>& held, double dt);
+  /// Begins a step of length dt [s] from `start`, a state with frames, which must stay unchanged until the step ends.
+  /// Held angles begin at their prescribed values, all others at a prediction from their rates.
+  void begin(const RodState& start, const std::vector<FixedTwist>& held, double dt);
 
   /// Adds forces [N] (lanes 0 to 2 of every node) and torques [N m] (lane 3: of the edge behind the node) at trial
-  /// positions. The stiffness that is read later belongs to them.
+  /// positions. A stiffness that is read afterwards belongs to these positions.
   void add_forces(const Points& position, std::vector<Lanes>& force);
 
-  /// Adds -d(force, torque)/d(x, s) to what the matrix has.
+  /// Adds -d(force, torque)/d(x, s) to the matrix.
   void add_stiffness(StepMatrix<4>& matrix) const;
 
   /// The same node by node and edge by edge, from the formulas of twisting.hpp and bending.hpp: of the elastic terms at
-  /// inner node i, 1 <= i <= N-2, and of edge j. Slow; what the former is held against.
+  /// inner node i, 1 <= i <= N-2, and of edge j. Slow: the oracle that tests compare add_stiffness with.
   NodeStiffness node_stiffness(int i) const;
   EdgeStiffness edge_stiffness(int j) const;
 
   /// Of edge j, as FrameTerms says [1/m].
   Vec3 lean(int j) const { return to_vec3(lean_[static_cast<std::size_t>(j)]); }
 
-  /// How far the edges have spun in this step, at the trial positions; only where friction acts at the surface.
+  /// Spins of the edges in this step, at the trial positions; only where friction acts at the surface.
   const SectionTurns& turns() const { return turns_; }
 
-  /// The angle is prescribed; so is that of the last node, which has no edge behind it.
+  /// Whether the angle is prescribed. That of the last node, which has no edge behind it, always is.
   bool held(int edge) const { return held_[static_cast<std::size_t>(edge)] != 0; }
 
-  /// A share of at most 1 of the change (dx, ds) that no angle takes further than it may go in one iteration.
+  /// The largest factor of at most 1 with which the change (dx, ds) turns no angle further than allowed in one
+  /// iteration.
   double largest_factor(const std::vector<Lanes>& change) const;
-  void move(const std::vector<Lanes>& change, double share);
+  void move(const std::vector<Lanes>& change, double factor);
 
-  /// Of the trial evaluated last, `way` [m] being that of its nodes since the step's beginning.
+  /// Energies of the trial evaluated last; `increment` [m]: displacement of its nodes in the step.
   struct Energy {
     double twisting = 0.0, bending = 0.0;  ///< bending where the rod has a natural curvature [J]
     double plastic = 0.0;                  ///< dissipated by bending [J]
-    double along = 0.0;                    ///< dE/d(x, s) . (way, turn) [J]
+    double along = 0.0;                    ///< dE/d(x, s) . (increment, turn) [J]
     double residual = 0.0;                 ///< torques on free edges times their turn [J]
     double drag = 0.0;                     ///< c h^2 l_j omega_j^2 dt [J]
     double rest = 0.0;                     ///< r_j turn^2 [J]
@@ -112,20 +113,20 @@ class FrameTerms {
     double kinetic = 0.0;                  ///< [J]
     Vec3 moment = Vec3::Zero();            ///< of inertia, drag and r_j, about the edges' tangents [N m]
   };
-  Energy energy(const Points& way, const std::vector<Lanes>& force) const;
-  /// Of spinning at these rates [rad/s]; [J].
+  Energy energy(const Points& increment, const std::vector<Lanes>& force) const;
+  /// Kinetic energy of spin at these rates [rad/s]; [J].
   double kinetic_energy(const Eigen::VectorXd& rate) const { return 0.5 * inertia_.dot(rate.cwiseAbs2()); }
 
   /// Writes angles, rates and frames into the state whose positions were evaluated last.
   void commit(RodState& state);
 
  private:
-  /// What twisting at one inner node adds, by edge vectors e and f before and behind it: columns of d2E/(de df), with
-  /// fe = ef^T, and m_e, m_f times k_t/lbar.
+  /// The twisting stiffness of one inner node in its edge vectors e and f: columns of d2E/(de df), with fe = ef^T, and
+  /// m_e, m_f times d2E/dm2.
   struct TwistStiffness {
     Lanes ee[3], ef[3], fe[3], ff[3];
     Lanes by_e, by_f;
-    double stiffness;  // k_t/lbar [N m]
+    double stiffness;  // d2E/dm2 [N m]
   };
   TwistStiffness twist_stiffness(std::size_t node) const;
   template <typename Law>
@@ -150,7 +151,7 @@ class FrameTerms {
   double angle_change(const std::vector<Lanes>& change, int edge) const;
 
   const RodProperties& rod_;
-  BendingLaws law_;          // of bends that are remembered
+  BendingLaws law_;          // of a rod with natural curvature
   Eigen::VectorXd inertia_;  // I_j
   Eigen::VectorXd drag_;     // c h^2 l_j [N m s]
   Eigen::VectorXd rest_;     // r_j
@@ -160,21 +161,23 @@ class FrameTerms {
   const RodState* start_ = nullptr;
   double dt_ = 0.0;
   std::vector<char> held_;  // N
-  // Of edges and nodes; what is worked out for four at once has room for three more behind the last.
-  std::vector<Lanes> start_tangent_;     // t^n
-  std::vector<Lanes> edge_, tangent_;    // e_j, t_j of the trial positions
-  std::vector<double> inverse_length_;   // 1/|e_j|
-  std::vector<Lanes> lean_;              // lean_j
-  SectionTurns turns_;                   // in this step
-  std::vector<double> stiffness_;        // k_t/lbar of every node, 0 at a parted edge [N m]
-  std::vector<Lanes> binormal_;          // b of every node, as twisting.hpp has it
-  std::vector<double> over_chi_;         // 1/chi
-  std::vector<double> moment_;           // k_t/lbar (m - mbar) [N m]
-  Points director_;                      // d1_j; of a rod that is straight at rest once a step
-  std::vector<double> angle_;            // theta_j
-  std::vector<double> start_twist_;      // m_ref - mbar of every node as the step began
-  std::vector<double> reference_twist_;  // m_ref of every node
-  std::vector<double> torque_;           // dE/dtheta_j [N m]
+  // Of edges and nodes. Lists that are computed four at a time have room for three more behind the last entry.
+  std::vector<Lanes> start_tangent_;       // t^n
+  std::vector<Lanes> edge_, tangent_;      // e_j, t_j of the trial positions
+  std::vector<double> inverse_length_;     // 1/|e_j|
+  std::vector<Lanes> lean_;                // lean_j
+  SectionTurns turns_;                     // in this step
+  std::vector<double> stiffness_;          // k_t/lbar of every node, 0 at a parted edge [N m]
+  std::vector<Lanes> binormal_;            // b of every node, as twisting.hpp has it
+  std::vector<double> over_chi_;           // 1/chi
+  std::vector<double> twist_;              // m - mbar of every node
+  std::vector<double> moment_;             // dE/dm [N m]
+  std::vector<double> tangent_stiffness_;  // d2E/dm2 [N m]
+  Points director_;                        // d1_j; of a rod that is straight at rest once a step
+  std::vector<double> angle_;              // theta_j
+  std::vector<double> start_twist_;        // m_ref - mbar of every node as the step began
+  std::vector<double> reference_twist_;    // m_ref of every node
+  std::vector<double> torque_;             // dE/dtheta_j [N m]
 };
 
 }  // namespace knot_utm

@@ -15,7 +15,7 @@ enum class Accuracy { kDraft, kNormal, kFine };
 /// The `physics` section of a method. Values left unset follow from `accuracy`.
 struct PhysicsOptions {
   Eigen::Vector3d gravity = Eigen::Vector3d::Zero();  ///< g [m/s^2]
-  FrictionOptions friction;                           ///< friction.law, and what keys that law has
+  FrictionOptions friction;                           ///< friction.law and the keys of that law
   FrictionAt friction_at = FrictionAt::kSurface;      ///< friction.at: surface | centreline
   ContactLaw contact_law = ContactLaw::kSmooth;       ///< contact.law: smooth | edge
   TwistMode twist = TwistMode::kAuto;                 ///< twist: auto (where the scene can twist) | on | off

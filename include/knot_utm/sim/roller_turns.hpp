@@ -8,25 +8,25 @@
 
 namespace knot_utm {
 
-/// The turns of free rollers as unknowns beside those of the rod. With K the rod's own matrix and psi the turns,
+/// The rotations psi of free rollers as unknowns in addition to those of the rod. With K the rod's own matrix,
 ///
 ///     | K  C | |dq  |   |f  |       C = -df/dpsi       [N/rad], [N m/rad] on spins
 ///     | R  D | |dpsi| = |tau|,      R = -dtau/dq       [N], [N m/rad] of spins
 ///                                   D = -dtau/dpsi + I/dt^2  [N m/rad]
 ///
-/// K^-1 C takes one more pair of substitutions a roller, and what is left is a system of as many rows as rollers are
-/// free (bordering). A scene without free rollers pays nothing.
+/// K^-1 C takes one more pair of substitutions for each roller. What is left is a system with one row for each free
+/// roller (bordering). A scene without free rollers pays nothing. Source: Nocedal, Wright 2006 (block elimination).
 ///
-/// Of a contact with gap x, force g and s = a x (1 - lambda) x (roller_contact.hpp),
+/// A contact with gap x, force g and s = a x (1 - lambda) x (roller_contact.hpp) contributes
 ///
 ///     -dtau/dq = s.dg/dq + (1 - lambda) (g x a).dx/dq,      -dtau/dpsi = s.dg/dpsi.
 class RollerTurns {
  public:
-  /// Before the contacts of a linear system are added; `nodes`: of the rod.
+  /// To be called before the contacts of a linear system are added; `nodes`: number of the rod's nodes.
   void begin(const std::vector<Roller>& rollers, const RollerContact& contact, int nodes, double dt);
   bool empty() const { return free_.empty(); }
 
-  /// The torque that is left unbalanced on a roller, its inertia counted [N m].
+  /// The unbalanced torque on a roller, including its inertia [N m].
   static double unbalanced(const std::vector<Roller>& rollers, const RollerContact& contact, int roller, double dt);
   /// The largest of these over the radius of its roller [N].
   static double largest_unbalanced(const std::vector<Roller>& rollers, const RollerContact& contact, double dt);
@@ -34,17 +34,17 @@ class RollerTurns {
   void add(const ContactPoint& contact, const RollerModel& model);
   void add(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
            const SectionTurns& turns);
-  /// Rows of the rod's matrix that prescribe an unknown: those of `keep` 0.
+  /// Marks the rows of the rod's matrix that prescribe an unknown: those whose lane of `keep` is 0.
   void hold(int node, const Lanes& keep);
 
   /// Solves; `change`: right-hand side, then dq. False where the matrix is singular.
   template <int D>
   bool solve(BlockMatrix<D>& matrix, std::vector<Lanes>& change);
 
-  /// What the largest turn of the last solution moves a roller's surface by [m].
+  /// Largest motion of a roller's surface by the last solution [m].
   double largest_motion() const;
-  /// Takes that share of the turns.
-  void move(RollerContact& contact, double share) const;
+  /// Turns the rollers by `factor` times the last solution.
+  void move(RollerContact& contact, double factor) const;
 
   /// Of one free roller.
   struct Border {
@@ -60,9 +60,9 @@ class RollerTurns {
  private:
   Border* border_of(const ContactPoint& contact);
 
-  std::vector<Border> borders_;  // room for as many as ever were free
+  std::vector<Border> borders_;  // as many as were ever free, for their memory
   std::vector<std::size_t> free_;
-  // What is left of the system; kept, so that no solve takes memory.
+  // The reduced system; members, so that a solve allocates nothing.
   Eigen::MatrixXd left_;
   Eigen::VectorXd right_, turns_;
   Eigen::PartialPivLU<Eigen::MatrixXd> factors_;

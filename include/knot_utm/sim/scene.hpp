@@ -32,9 +32,9 @@ struct NodeForce {
   void state(Archive& archive) { archive(node, force); }
 };
 
-/// A grip that pulls a node along a fixed direction by a spring, only ever pulls, and slips at a set force:
+/// A grip that pulls a node along a fixed direction by a spring, bears tension only, and slips at a set force:
 ///   f = min(max(k (X - x.d), 0), F_p) d.
-/// It leaves the node free across d.
+/// Across d the node is free.
 struct SlippingGrip {
   int node = 0;
   Vec3 direction = Vec3::UnitZ();  ///< d, unit
@@ -53,12 +53,12 @@ struct SlippingGrip {
   }
 };
 
-/// A spring that holds a node at a place, not with the same stiffness in all directions:
+/// A spring that holds a node at a place, with a stiffness that may depend on the direction:
 ///   f = -K (x - X).
 struct SpringHold {
   int node = 0;
   Vec3 place = Vec3::Zero();      ///< X at the end of the step [m]
-  Mat3 stiffness = Mat3::Zero();  ///< K, symmetric, not negative [N/m]
+  Mat3 stiffness = Mat3::Zero();  ///< K, symmetric, positive semidefinite [N/m]
 
   Vec3 force(const Vec3& node_position) const { return stiffness * (place - node_position); }
   void state(Archive& archive) { archive(node, place, stiffness); }
@@ -72,7 +72,7 @@ struct Boundary {
   std::vector<NodeForce> forces;
   std::vector<SlippingGrip> grips;
   std::vector<SpringHold> holds;
-  double extra_drag = 0.0;  ///< beside the scene's own [N s/m^2]
+  double extra_drag = 0.0;  ///< in addition to StepSettings::drag [N s/m^2]
 
   /// For a rod of that many nodes.
   void state(Archive& archive, int nodes);
@@ -81,20 +81,21 @@ struct Boundary {
 /// What a time step needs to know besides rod and boundary; constant during a run.
 struct StepSettings {
   ContactLaw contact_law = ContactLaw::kSmooth;  ///< between strands; rollers always touch the smooth centreline
-  NormalLaw normal;                              ///< between strands, and on rollers
+  PressureLaws normal;                           ///< between strands, and on rollers
   Friction friction;                             ///< between strands
   Friction roller_friction;
-  BendingLaws bending;  ///< of a rod that remembers its bends; all others bend elastically (isotropic_bending.hpp)
+  BendingLaws bending;  ///< of a rod with natural curvature; others bend elastically (isotropic_bending.hpp);
+                        ///< `bends_on_frames` tells
   double friction_couple =
-      0.0;  ///< eta, with which friction acts at the surfaces (surface_contact.hpp); 0: on centrelines
-  double weighting_time = 0.05;             ///< time for a contact's share to follow the shape (smooth_contact.hpp) [s]
+      0.0;  ///< eta: friction acts at the surfaces (surface_contact.hpp); 0: on the centrelines [-]
+  double weighting_time = 0.05;             ///< relaxation time of weighting factors (smooth_contact.hpp) [s]
   Vec3 gravity = Vec3::Zero();              ///< g [m/s^2]
   double drag = 0.0;                        ///< c, force -c v per length [N s/m^2]
-  bool spin_inertia = true;                 ///< turning of the rod about itself has inertia and drag (frame_terms.hpp)
+  bool spin_inertia = true;                 ///< spin has inertia and drag (frame_terms.hpp)
   double residual = 0.0;                    ///< tolerance of a node's residual [N]
-  double residual_from_step = 0.0;          ///< in shorter steps it shrinks with their square, to a thousandth [s]
-  double residual_of_tension = 0.0;         ///< tolerance scaling: more by this share of the node's tension [-]
-  double residual_at_little_tension = 0.0;  ///< it shrinks to this share of the largest tension; 0: no [-]
+  double residual_from_step = 0.0;          ///< in shorter steps it falls with their square, down to a thousandth [s]
+  double residual_of_tension = 0.0;         ///< tolerance scaling: more by this fraction of the node's tension [-]
+  double residual_at_little_tension = 0.0;  ///< small tension: tolerance at most this times the largest; 0: any [-]
   double newton_cap = 0.0;                  ///< longest movement of a node in one Newton iteration [m]
   double motion_limit = 0.0;                ///< longest movement of a node in one step [m]
   double overlap_limit = 0.0;               ///< deepest overlap of a step that may be accepted [m]

@@ -7,7 +7,7 @@
 
 namespace knot_utm {
 
-/// Of the last accepted step. Contact has an energy from the first one on.
+/// Energies after the last accepted step. That of contact is known from the first step on.
 struct Energies {
   double stretching = 0.0, bending = 0.0, twisting = 0.0, contact = 0.0, kinetic = 0.0;  ///< [J]
   double elastic() const { return stretching + bending + twisting; }
@@ -17,19 +17,19 @@ struct Energies {
 };
 
 struct ContactReading {
-  int touching = 0;              ///< points of integration that carry force
+  int touching = 0;              ///< integration points that carry force
   double normal_force = 0.0;     ///< sum of their normal forces [N]
   double largest_overlap = 0.0;  ///< between strands [m]
-  /// Sum of (1 - eta) x x g, the couple of friction that the sections do not take (surface_contact.hpp): all of it
-  /// where it acts on the centrelines, which are apart by x. Where the strands' surfaces meet there would be none; the
-  /// grips feel it. [N m]
+  /// Sum of (1 - eta) x x g [N m]: the part of friction's couple that the sections do not transmit
+  /// (surface_contact.hpp). It is the whole couple where friction acts on the centrelines, which are apart by x. If
+  /// friction acted where the surfaces meet, there would be none; here the grips bear it.
   Vec3 couple = Vec3::Zero();
 
   void state(Archive& archive) { archive(touching, normal_force, largest_overlap, couple); }
 };
 
-/// Where the work of the last accepted step went [J]; an identity of the step's equations, to rounding, in which each
-/// term has a formula of its own:
+/// Where the work of the last accepted step went [J]. The sum follows from the step's equations and closes to rounding;
+/// each term has a formula of its own:
 ///
 ///   boundary = change of Energies::total() + friction + drag + plastic + numerical + reweighting + residual
 ///
@@ -37,20 +37,20 @@ struct ContactReading {
 /// every contact its weight w, pressure p, slip s in the step, overlap D and energy e(D) per length:
 ///
 ///   boundary     sum 1/2 (F_n + F) . dx, and what slipping grips, forces and gravity do at the end of the step
-///   friction     sum w mu p z . s, all that is done against friction: what the presliding spring of a contact at rest
-///                could give back, less than mu p w xi_s/2 each, counts as lost until it does
+///   friction     sum w mu p z . s, all work against friction. The energy of a presliding spring, less than
+///                mu p w xi_s/2 each, counts as lost until it is given back
 ///   drag         sum c lbar |dx|^2/dt
 ///   plastic      what bending dissipates by its law (bending_law.hpp)
 ///   numerical    that of the implicit Euler step, which takes all forces at its end:
 ///                  sum 1/2 m |v - v_n|^2 + E_n - E + dE/dx . dx + sum w [e(D_n) - e(D) - p n . s]
-///                less 1/2 (F - F_n) . dx, by which it takes the work of the boundary for too much
-///   reweighting  contact energy at the last step's end less sum w e(D_n): weights follow the shape between two steps,
-///                feet come and go, and what is stored in them changes without a force; negative where it grows
-///   residual     what Newton's method left unbalanced on free nodes, times their increments
+///                less 1/2 (F - F_n) . dx, by which forces at the end overestimate the work of the boundary
+///   reweighting  contact energy at the last step's end less sum w e(D_n). Between two steps weights follow the shape
+///                and feet come and go, which changes the stored energy without work; negative where it grows
+///   residual the imbalance that Newton's method left on free nodes, times their increments
 ///
-/// A roller that is turned is part of the boundary, by its moment; one that is free has inertia as nodes have.
-/// An edge's spin counts as the nodes' motion does, with its own inertia, drag, torques and the regularisation r_j
-/// (frame_terms.hpp), whose part is numerical.
+/// A driven roller is part of the boundary by its moment; a free one has inertia as nodes have. The spin of an edge
+/// counts as the motion of a node does, with its own inertia, drag and torques. The work of the regularisation r_j
+/// (frame_terms.hpp) is numerical.
 struct StepWork {
   double boundary = 0.0;
   double friction = 0.0;
@@ -74,10 +74,9 @@ struct StepWork {
   void state(Archive& archive) { archive(boundary, friction, drag, plastic, numerical, reweighting, residual); }
 };
 
-/// Sum of all that acted on the rod in the last accepted step: holders, grips, springs, rollers, forces and weight,
-/// and, with the opposite sign, what its inertia and its drag take, those of spin among them. The force is what
-/// Newton's method left unbalanced, and so is the moment, but for the couple of friction that sections do not take
-/// (ContactReading::couple), which then is what is missing.
+/// Sum of all loads on the rod in the last accepted step: holders, grips, springs, rollers, forces, weight, inertia and
+/// drag, including those of spin. The force is the imbalance that Newton's method left. So is the moment, except for
+/// the part of friction's couple that sections do not transmit (ContactReading::couple).
 struct LoadSum {
   Vec3 force = Vec3::Zero();   ///< [N]
   Vec3 moment = Vec3::Zero();  ///< about the origin [N m]
@@ -89,7 +88,7 @@ struct LoadSum {
   void state(Archive& archive) { archive(force, moment); }
 };
 
-/// What the terms of a step enter their shares of an accepted step into.
+/// The account into which the terms of an accepted step enter their parts.
 struct StepAccount {
   Energies energies;
   Energies before;  ///< those of the step before

@@ -11,10 +11,10 @@
 namespace knot_utm {
 
 /// Step-size control: time steps become longer where Newton's method converges in few iterations, nodes move little and
-/// strands slip even less against each other, and shorter otherwise. A step that was not accepted is tried again with
-/// half its length. After some of these failures Newton's method is allowed more iterations, and is tried once more
-/// with secants before the step is halved again (Solution). A run that makes no headway over very many iterations is
-/// given up.
+/// strands slip little against each other, and shorter otherwise. A step that was not accepted is tried again with half
+/// its length. After some failures in a row Newton's method is no longer abandoned early, and is tried once more with
+/// secants before the step is halved again (Solution). A run that hardly advances over very many iterations is given
+/// up. Source: Hairer, Wanner 1996 (step-size control).
 class StepControl {
  public:
   struct Options {
@@ -32,12 +32,13 @@ class StepControl {
 
   explicit StepControl(const Options& options) : options_(options), next_(options.first) {}
 
-  /// Boundary as it stands at the end of a step from the first time to the second.
+  /// Boundary at the end of a step from time `from` to time `to` [s].
   using BoundaryAt = std::function<const Boundary&(double from, double to)>;
   /// Called after every accepted step.
   using Accepted = std::function<void(double time, double dt, const StepSummary&)>;
 
-  /// Steps from `time` to exactly `end`. Returns an empty string, or why it gave up; `time` is where it stands.
+  /// Steps from `time` to exactly `end` [s]. Returns an empty string, or why it gave up; `time` is then the time
+  /// reached.
   std::string advance(TimeStep& stepper, double& time, double end, const BoundaryAt& boundary,
                       const Accepted& accepted);
 
@@ -66,7 +67,7 @@ class StepControl {
   struct {
     double time = 0.0;
     std::uint64_t iterations = 0;
-  } watched_from_;  ///< since when headway is measured
+  } watched_from_;  ///< since when progress is measured
 };
 
 }  // namespace knot_utm

@@ -11,7 +11,7 @@ struct StepDiagnosis {
   double arclength = 0.0;             ///< of the node, at rest [m]
   double residual = 0.0;              ///< of the node, divided by its tolerance scaling (scene.hpp) [N]
   double motion = 0.0;                ///< of the node in this step [m]
-  bool in_contact = false;            ///< what follows means something
+  bool in_contact = false;            ///< the members below are valid
   int roller = -1;                    ///< that it touches; -1: a strand
   double contact_arclengths[2] = {};  ///< of the two strands; on a roller the first only [m]
   double overlap = 0.0;               ///< [m]

@@ -19,11 +19,11 @@ inline void add(Block<D>& block, const Mat3& m, double times) {
 }
 
 /// The matrix of a time step's linear system, and where its blocks are stored: those of the rod, (i, i) to (i, i+2),
-/// and those between the strands in contact. Its pattern has room for contacts about to come, those of strands at most
-/// twice as far apart as where the normal law begins, and for every foot to slide on by a segment; it is rebuilt where
-/// a contact leaves it. More room would be rebuilt less often, but filled at every factorisation.
-/// The order of elimination, and so the rounding, follows from the pattern: what a step that was not accepted made of
-/// it does not count.
+/// and those between strands in contact. Its pattern has room for contacts that are about to come, between strands at
+/// most twice as far apart as where the normal law begins, and for every foot to slide on by a segment. It is rebuilt
+/// when a contact leaves it. With more room it would be rebuilt less often, but every factorisation would take longer.
+/// The order of elimination, and so the rounding, follows from the pattern. A step that was not accepted therefore
+/// leaves the pattern as it was.
 template <int D>
 class StepMatrix {
  public:
@@ -34,16 +34,16 @@ class StepMatrix {
 
   explicit StepMatrix(int nodes) : nodes_(nodes) { build(); }
 
-  /// Before a step: the pattern is that of the last accepted one.
-  void begin_step();
+  /// Begins a step: the pattern is that of the last accepted one.
+  void begin();
   /// The step was accepted.
   void commit() { rebuilt_ = false; }
 
-  /// Of the last accepted step: what the pattern has room for.
+  /// Saves or loads the room of the pattern, as the last accepted step left it.
   void state(Archive& archive);
 
-  /// Finds the blocks of every active contact; `contacts` as ContactPoint says, ascending in a0. `values()` has them,
-  /// with whatever was in it before.
+  /// Finds the blocks of every active contact; `contacts` as ContactPoint says, ascending in a0. `values()` then has
+  /// these blocks, with undefined values.
   void locate(const std::vector<ContactPoint>& contacts) {
     if (find(contacts)) return;
     find_rooms(contacts);
@@ -51,7 +51,7 @@ class StepMatrix {
     find(contacts);
   }
 
-  /// All blocks but those of the stencils, which CentrelineTerms::set_stiffness overwrites.
+  /// Zeros all blocks except those of the stencils, which CentrelineTerms::set_stiffness overwrites.
   void set_zero_beyond_band();
 
   BlockMatrix<D>& values() { return matrix_; }
@@ -74,12 +74,12 @@ class StepMatrix {
     int a0, b0;
     ContactBlocks blocks;
   };
-  /// For a contact of nodes a to a + 2 with any of `first` to `last`.
+  /// Room for a contact of nodes a to a + 2 with any of the nodes `first` to `last`.
   struct Room {
     int a, first, last;
     void state(Archive& archive) { archive(a, first, last); }
   };
-  /// What there is room for, and all that follows from it.
+  /// The room of a pattern, and all that follows from it.
   struct Pattern {
     std::vector<Room> rooms;
     BlockPattern blocks;
@@ -87,7 +87,7 @@ class StepMatrix {
     std::vector<int> beyond_band;  // stored indices of blocks that are in no stencil
     std::vector<Located> located;  // active contacts, ascending in a0
   };
-  /// Rooms in the order of one of their nodes, the key.
+  /// Rooms sorted by one of their nodes, the key.
   struct SortedRooms {
     std::vector<Room> rooms;
     std::vector<int> begin, filled;  // key -> first of rooms
@@ -102,11 +102,11 @@ class StepMatrix {
     }
   };
 
-  /// That slide as a contact moves: on a roller none, on a smooth strand that of b, between edges both.
+  /// The feet that slide as a contact moves: on a roller none, on a smooth strand that of b, between edges both.
   enum class Feet { kNone, kOne, kTwo };
 
-  /// What lengthens an edge lengthens the lever of its spin.
-  void add_lengthening(int first, const double* shares, double torque, const SectionTurns& turns);
+  /// Adds the change of a spin's lever with the length of its edge.
+  void add_lengthening(int first, const double* weights, double torque, const SectionTurns& turns);
   template <Feet kFeet>
   void add_columns(const ContactPoint& contact, const SurfacePoint& surface, const SurfaceModel& model,
                    const SectionTurns& turns, std::size_t n);

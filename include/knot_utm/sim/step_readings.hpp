@@ -11,20 +11,20 @@
 
 namespace knot_utm {
 
-/// What can be read off the last accepted step: forces on what holds the rod, energies, contact, and where the work of
-/// the step went. The terms of the step (time_step.cpp) enter what is theirs into the account that `begin` opens.
+/// Readings of the last accepted step: forces on the rod's holders, energies, contact, and where the work of the step
+/// went. The terms of the step (time_step.cpp) enter their parts into the account that `begin` opens.
 class StepReadings {
  public:
   /// Of a rod before its first step; `spin`: kinetic energy of its edges' spin [J].
   StepReadings(const RodProperties& rod, const RodState& state, double spin);
 
-  /// Opens the account of a step, with what holds the rod: fixed nodes and frames, and rollers.
+  /// Opens the account of a step and enters the holders of the rod: fixed nodes and frames, and rollers.
   StepAccount& begin(const SolvedStep& step, const RollerContact& rollers);
   /// Kinetic energy and numerical loss of free rollers.
   void add_free_turns(const SolvedStep& step, const RollerContact& rollers);
   void add_elastic(const CentrelineTerms::Energy& centreline, const FrameTerms::Energy& frames);
 
-  /// What holds a node exerts on it [N]; on an edge's material frame [N m].
+  /// Force of a node's holder on it [N]; torque of the holder of an edge's material frame [N m].
   Vec3 reaction(int node) const;
   double reaction_torque(int edge) const { return -force_[static_cast<std::size_t>(edge)][3]; }
   /// Force of the rod on a roller [N], and its moment about the roller's centre [N m]; zero where there is none.

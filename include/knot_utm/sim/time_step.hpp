@@ -13,17 +13,17 @@
 
 namespace knot_utm {
 
-/// How the increment of a time step is solved: by Newton's method with tangents; the same with predicted
-/// tensions and pressures, abandoned early where a shorter step costs less; or, where the iterates run in a cycle, with
-/// friction linearised by secants and then, from there, by tangents. If that fails, too, secants are tried again with
-/// each change halved, up to three times. The equations and their tolerance are the same in all of them.
+/// How the increment of a time step is solved. kTangents is Newton's method with tangents. kTangentsAbandonedEarly uses
+/// predicted tensions and pressures, and is abandoned early where a shorter step costs less. kSecants, for iterates
+/// that run in a cycle, linearises friction by secants and, from there, by tangents; if that fails, secants are tried
+/// again with each change halved, up to three times. The equations and their tolerance are the same in all of them.
 enum class Solution { kTangents, kTangentsAbandonedEarly, kSecants };
 
 /// How one time step went.
 struct StepSummary {
   NewtonSummary newton;
   double largest_motion = 0.0;   ///< of a node [m]
-  double largest_slip = 0.0;     ///< of the two points of a contact, touching or about to, against each other [m]
+  double largest_slip = 0.0;     ///< of the two points of a contact, touching or nearly, against each other [m]
   double largest_overlap = 0.0;  ///< of two strands, or of strand and roller [m]
   std::string reason;            ///< why it was not accepted; empty: it was
   StepDiagnosis diagnosis;       ///< of one that was not
@@ -31,17 +31,17 @@ struct StepSummary {
   bool accepted() const { return reason.empty(); }
 };
 
-/// Where the solution of a step stands, for those who watch it.
+/// State of the solution of a step after an iteration, for watchers.
 struct Iterate {
   double residual = 0.0;      ///< the largest, each node's divided by its tolerance scaling (scene.hpp) [N]
   double tolerance = 0.0;     ///< what it must not exceed [N]
   int node = -1;              ///< with the largest residual; -1: none, all are held
   bool spin = false;          ///< the residual is the torque on the edge behind the node, over the radius
-  double factor = 0.0;        ///< by which the change was taken to get here; 0: the prediction [-]
-  double motion = 0.0;        ///< of the node that this moved the furthest [m]
+  double factor = 0.0;        ///< damping factor of the last change; 0: this is the prediction [-]
+  double motion = 0.0;        ///< of the node that this change moved furthest [m]
   int active = 0;             ///< contacts in the next linear system
   int touching = 0;           ///< contacts that carry force
-  bool in_contact = false;    ///< what follows means something: the deepest contact
+  bool in_contact = false;    ///< the members below are valid: the deepest contact
   double overlap = 0.0;       ///< [m]
   double arclengths[2] = {};  ///< of its two strands at rest; on a roller the first only [m]
   int roller = -1;            ///< that it is on; -1: between strands
@@ -51,9 +51,10 @@ struct Iterate {
 ///
 ///   M (x - x_n - dt v_n)/dt^2 = -dE/dx + F_contact + F_friction + F_grips + M g - c lbar (x - x_n)/dt,
 ///
-/// all of the right-hand side taken at t + dt. Where the scene solves for twist, the angles of the material frames are
-/// unknowns beside x, with equations of their own (frame_terms.hpp); where it does not, they cost nothing. So are the
-/// turns of rollers that are free to turn (roller_turns.hpp). A step that is not accepted changes nothing.
+/// with the whole right-hand side taken at t + dt (backward Euler). Where the scene solves for twist, the angles of the
+/// material frames are further unknowns with equations of their own (frame_terms.hpp). So are the rotations of rollers
+/// that are free to turn (roller_turns.hpp). A step that is not accepted changes nothing. Source: Hairer, Wanner 1996
+/// (backward Euler method).
 class TimeStep {
  public:
   virtual ~TimeStep() = default;
@@ -65,27 +66,27 @@ class TimeStep {
   StepSummary step(const Boundary& boundary, double dt) { return step(boundary, dt, Solution::kTangents); }
   virtual StepSummary step(const Boundary& boundary, double dt, Solution solution) = 0;
 
-  /// The rod parts at an edge, between two steps: from the next one on nothing holds its two ends together, and what
-  /// was stored there is lost as `StepWork::numerical`. Once only; not kept by `state`.
+  /// The rod parts at an edge between two steps. From the next one on nothing holds its two ends together, and the
+  /// energy that was stored there is lost as `StepWork::numerical`. To be called once at most; not saved by `state`.
   virtual void part(int edge) = 0;
   int parted_edge() const { return parted_edge_; }  ///< -1: none has
 
-  /// Bends take a set between two steps, as take_bending_set (rod/bending.hpp) says. What bending energy that takes is
-  /// lost in the next one as `StepWork::numerical`.
-  void take_set(double share);
+  /// The rod takes a set between two steps (take_bending_set of rod/bending.hpp). The bending energy that this removes
+  /// is lost in the next step as `StepWork::numerical`.
+  void take_set(double fraction);
 
   const RodProperties& rod() const { return rod_; }
   const RodState& state() const { return state_; }
   const StepSettings& settings() const { return settings_; }
 
-  // From the next step on; the same in `settings`, not kept by `state`.
+  // They take effect in the next step and change `settings`, and are not saved by `state`.
   void set_gravity(const Vec3& gravity) { settings_.gravity = gravity; }  ///< g [m/s^2]
   void set_drag(double per_length) { settings_.drag = per_length; }       ///< c [N s/m^2]
 
-  /// From now on `watcher` is told of every iterate; none: nobody is.
+  /// From now on `watcher` is called with every iterate; an empty one ends that.
   void watch(std::function<void(const Iterate&)> watcher) { watcher_ = std::move(watcher); }
 
-  /// Force that the step's own equations need at a fixed node: what its holder exerts on the rod [N].
+  /// Force of a fixed node's holder on the rod, from the residual of the step's equations there [N].
   virtual Vec3 reaction(int node) const = 0;
   /// Torque about an edge's tangent that the holder of its material frame exerts on the rod [N m].
   virtual double reaction_torque(int edge) const = 0;
@@ -99,14 +100,14 @@ class TimeStep {
   virtual ContactReading contact_reading() const = 0;
   virtual StepWork work() const = 0;
   virtual LoadSum loads() const = 0;
-  /// Of the last step that was tried: what is read off an accepted one, before the next is tried.
+  /// Of the last step that was tried: to be read after an accepted step, before the next one is tried.
   virtual std::vector<ContactForce> contact_forces() const = 0;
   virtual double normal_force_between(const NodeRange& a, const NodeRange& b) const = 0;
   virtual double roller_normal_force(const NodeRange& piece) const = 0;
   /// Tension of each edge [N]; of a parted one none.
   Eigen::VectorXd tension() const;
 
-  /// That of the last accepted step, on which the next one depends.
+  /// Saves or loads the state after the last accepted step, on which the next one depends.
   virtual void state(Archive& archive);
 
  protected:

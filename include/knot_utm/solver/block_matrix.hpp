@@ -10,9 +10,9 @@
 
 namespace knot_utm {
 
-/// The fill pattern of an LU factorisation without pivoting, for a matrix of blocks of symmetric structure:
-/// fill-reducing order (AMD, within EliminationSets), and for each pivot the later rows it touches. Numbers of blocks
-/// only, no values. Built again, it keeps its memory.
+/// The fill pattern of an LU factorisation without pivoting, for a matrix of blocks whose structure is symmetric. It
+/// holds a fill-reducing order of elimination (AMD within each of the EliminationSets) and, for each pivot, the later
+/// rows in which it has blocks. It knows the places of blocks and no values. Building it again reuses its memory.
 class BlockPattern {
  public:
   void build(const Neighbours& neighbours);
@@ -27,7 +27,7 @@ class BlockPattern {
   /// Where (row, column) and its mirror (column, row) are stored; -1 where the pattern has none.
   std::pair<int, int> indices(int row, int column) const;
 
-  /// For pivot k: how many later rows it touches, and where its blocks stand.
+  /// For pivot k: in how many later rows it has blocks, which rows these are, and where its diagonal block is stored.
   int below(int k) const {
     return row_begin_[static_cast<std::size_t>(k) + 1] - row_begin_[static_cast<std::size_t>(k)];
   }
@@ -50,12 +50,12 @@ class BlockPattern {
 
   void order_nodes(const Neighbours& neighbours);
   void order_set(const Neighbours& neighbours, int set);
-  /// A pivot touches the later ones of its neighbours and all that its children in the elimination tree touch beyond it
+  /// The rows of a pivot are its later neighbours and the rows of its children in the elimination tree, but for itself
   /// (Liu 1990).
   void find_rows(const Neighbours& neighbours);
   void find_lower();
   void find_targets();
-  /// In the elimination tree, of a pivot that touches any row: the first of them.
+  /// Parent of pivot k in the elimination tree: the first of its rows, where it has any.
   int parent(int k) const { return rows(k)[0]; }
 
   Workspace work_;
@@ -72,15 +72,15 @@ class BlockPattern {
   std::vector<int> targets_;  // pivot, row a, column b -> stored index of the block that L_a U_b updates
 };
 
-/// Square matrix of D x D blocks on a fixed pattern, solved in place by A = L U, blocks of L with unit diagonal.
-/// Unsymmetric in value. No pivoting: the caller's matrix is an implicit step's Jacobian, whose diagonal dominates
-/// where the step is short enough; a pivot that vanishes is reported.
+/// Square matrix of D x D blocks on a fixed pattern, solved in place by A = L U, L having unit blocks on its diagonal.
+/// The values may be unsymmetric. There is no pivoting, because the matrix is the Jacobian of an implicit step, whose
+/// diagonal dominates where the step is short enough. A singular pivot block is reported.
 template <int D>
 class BlockMatrix {
  public:
   using Vector = std::vector<Lanes>;  ///< one entry a node, in the caller's order; lanes beyond D are zero
 
-  /// Takes the pattern; the values are whatever they were. Keeps its memory from pattern to pattern.
+  /// Sets the pattern; the values are then undefined. Memory is reused from pattern to pattern.
   void set_pattern(const BlockPattern& pattern);
 
   Block<D>& block(int stored_index) { return values_[static_cast<std::size_t>(stored_index)]; }
@@ -89,16 +89,16 @@ class BlockMatrix {
 
   /// Row `node` becomes that of the identity: its unknown is prescribed by the right-hand side.
   void set_identity_row(int node);
-  /// As set_identity_row, in those rows of the block whose lane of `keep` is 0; the others, of lane 1, stay.
+  /// The same for those rows of the block whose lane of `keep` is 0. Rows whose lane is 1 stay.
   void set_identity_row(int node, const Lanes& keep);
 
   /// y = A x, before solving.
   void multiply(const Vector& x, Vector& y) const;
 
-  /// Solves A x = b; b becomes x. False where a pivot block is singular. The matrix is used up: of its factors U and
-  /// the inverse pivots are left, while L b is taken along as L comes about and L itself is not kept.
+  /// Solves A x = b; b becomes x. False where a pivot block is singular. U and the inverse pivots overwrite the matrix.
+  /// L is applied to b as it is computed and is not kept.
   bool solve(Vector& b);
-  /// The same where other right-hand sides are to follow: L is kept, too.
+  /// The same, but L is kept as well, for other right-hand sides to follow.
   bool solve_and_keep(Vector& b);
   /// Another right-hand side, after solve_and_keep.
   void solve_another(Vector& b);

@@ -6,12 +6,12 @@
 
 namespace knot_utm {
 
-/// Which nodes of a chain are best eliminated before which others. Where nothing touches the rod, a node is coupled to
-/// the two before and the two after it only: two or more such nodes in a row are a straight. A straight that is
-/// eliminated from one end passes on what two nodes couple, one that is eliminated from within, as the order of least
-/// degree has it between two knots, what four do, at four times the cost. So a knot that hangs on the rest by one
-/// straight alone comes first, then what follows along that straight up to the next knot, and so on; what hangs
-/// together in rings is left to the order of least degree, as one last set. Built again, it keeps its memory.
+/// The nodes of a chain in sets that are best eliminated one after the other. Where nothing touches the rod, a node is
+/// coupled only to the two nodes before it and the two after it; two or more such nodes in a row are a straight. A
+/// straight that is eliminated from one end couples two nodes at a time. One that is eliminated from within, as
+/// minimum-degree ordering does between two knots, couples four, at four times the cost. So a knot that only one
+/// straight connects to the rest comes first, then that straight up to the next knot, and so on. Knots that are
+/// connected in rings are left to minimum-degree ordering, as one last set. Building the sets again reuses the memory.
 class EliminationSets {
  public:
   void build(const Neighbours& neighbours);
@@ -29,10 +29,10 @@ class EliminationSets {
     int first;
     bool straight;
   };
-  /// Pieces that contacts hold together, by their lowest one.
+  /// Pieces that contacts couple with each other, named by the lowest of them.
   struct Knot {
-    int straights;  ///< to other knots, that are not eliminated yet
-    int others;     ///< the exclusive or of the knots that those lead to: the only one's number where there is one
+    int straights;  ///< that lead to knots which are not eliminated yet
+    int others;     ///< exclusive or of the numbers of those knots: where one is left, its number
     int set;        ///< -1 until it is known
   };
 

@@ -7,8 +7,8 @@ namespace knot_utm {
 
 struct NewtonOptions {
   int max_iterations = 20;
-  double largest_factor = 1.0;  ///< of a change that is taken
-  bool abandons_early = false;  ///< where the residual does not fall, instead of taking smaller factors
+  double largest_factor = 1.0;  ///< largest damping factor of a change
+  bool abandons_early = false;  ///< ends where the residual hardly falls
 };
 
 /// How a Newton solve went. Starts as a failure; only a residual within tolerance makes it a success.
@@ -40,19 +40,20 @@ struct NewtonSummary {
 };
 
 /// Newton's method for a system that offers
-///   double residual()     evaluates at the current unknowns, returns the residual's size
-///   double tolerance()    what that may be
+///   double residual() evaluates at the present unknowns, returns the residual's size
+///   double tolerance() the residual's size that is small enough
 ///   bool solve()          assembles and factors the Jacobian, solves for the change; false where singular
 ///   void move(factor)      takes `factor` times the change, capped as the system sees fit
-///   bool stands_still()   the whole of the last change was taken and is nothing: there is no better place next to here
-/// A prediction that happens to lie within the tolerance is solved once all the same: what the tolerance leaves would
-/// otherwise drift on, step after step, and never come to rest. Only far below it is nothing left to do.
-/// There is no line search: along stiff, nearly inextensible rods the energy is no guide. Whoever calls guards the
-/// step by its size and halves it where this does not converge. Where the residual has not halved over two iterations
-/// after the first few, the iterates run in a cycle between two sides of a kink (a foot that jumps, a contact that
-/// sticks and slips): half the change breaks it. That takes iterations: where a shorter step is the cheaper way out,
-/// the solve is given up instead, once a residual well above its tolerance has hardly fallen over one iteration nor
-/// over two.
+///   bool stands_still() the last change was taken whole and is negligible: no better place lies next to this one Even
+///   a prediction within the tolerance is solved once, because the imbalance that the tolerance allows would let the
+///   rod drift on from step to step. Only a prediction far below the tolerance is accepted as it is. There is no line
+///   search, because the energy is no guide along stiff, nearly inextensible rods. The caller limits the size of a step
+///   and halves the step where this method does not converge. If, after the first few iterations, the residual has not
+///   halved over two iterations, the iterates cycle between two sides of a kink (a foot that jumps, a contact that
+///   sticks and slips). A halved damping factor ends the cycle, but takes iterations. With `abandons_early` the solve
+///   is ended instead once a residual well above its tolerance has hardly fallen over one and over two iterations,
+///   because a shorter step costs less. Source: Nocedal, Wright 2006 (damping); Deuflhard 2004 (monitor of
+///   convergence).
 template <typename System>
 NewtonSummary newton(System& system, const NewtonOptions& options) {
   constexpr int kUndamped = 5;

@@ -8,8 +8,8 @@
 
 namespace knot_utm {
 
-/// A set of numbers, put in in any order and as often as one likes, that come out in ascending order. One bit each:
-/// rows of a sparse matrix are short, and what they are put together from overlaps.
+/// A set of numbers that are inserted in any order, also repeatedly, and taken out in ascending order. Each number is
+/// one bit, because the rows of a sparse matrix are short and are merged from overlapping lists.
 class SortingSet {
  public:
   /// It may hold 0 to numbers - 1.
@@ -18,7 +18,7 @@ class SortingSet {
     forget_range();
   }
 
-  /// Inserts number(each) for each from `begin` on.
+  /// Inserts number(each) for each entry from `begin` up to `end`.
   template <typename Number>
   void insert(const int* begin, const int* end, Number number) {
     int lowest = lowest_, highest = highest_;
@@ -31,7 +31,7 @@ class SortingSet {
     lowest_ = lowest;
     highest_ = highest;
   }
-  /// Inserts `first` to `last`.
+  /// Inserts `first` to `last`, both included.
   void insert_run(int first, int last) {
     for (int place = place_of(first); place <= place_of(last); ++place) {
       const int from = std::max(first - kBits * place, 0), to = std::min(last - kBits * place, kBits - 1);
@@ -42,7 +42,7 @@ class SortingSet {
   }
   void erase(int number) { word(place_of(number)) &= ~bit(number); }
 
-  /// Appends them to `list`, ascending, and holds none any more.
+  /// Appends the numbers to `list` in ascending order and empties the set.
   void take(std::vector<int>& list) {
     const int first = place_of(lowest_), last = highest_ < 0 ? -1 : place_of(highest_);
     int count = 0;
@@ -58,7 +58,7 @@ class SortingSet {
  private:
   static constexpr int kBits = 64;
 
-  /// Numbers are not negative, and unsigned ones are divided by a shift.
+  /// Unsigned, because their division is a shift; numbers are never negative.
   static int place_of(int number) { return static_cast<int>(static_cast<unsigned>(number) / kBits); }
   static std::uint64_t bit(int number) { return std::uint64_t{1} << (static_cast<unsigned>(number) % kBits); }
   std::uint64_t& word(int place) { return words_[static_cast<std::size_t>(place)]; }
@@ -68,7 +68,7 @@ class SortingSet {
   }
 
   std::vector<std::uint64_t> words_;
-  int lowest_ = 0, highest_ = -1;  // it holds nothing beyond them
+  int lowest_ = 0, highest_ = -1;  // bounds of what it holds
 };
 
 }  // namespace knot_utm

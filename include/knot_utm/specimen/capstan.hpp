@@ -6,7 +6,8 @@ namespace knot_utm {
 
 /// knot: capstan. A rod lies around a fixed post by the angle `wrap` [rad]. A dead load T1, `tail_load` [N], pulls at
 /// its first node along the `tail` [m], as a weight does over a pulley that turns freely. The upper grip pulls its last
-/// node along +z with T2. Limp rods that slide have T2/T1 = exp(mu wrap), mu being `machine.roller_friction`.
+/// node along +z with T2. A rod without bending stiffness that slides has T2/T1 = exp(mu wrap), mu being
+/// `machine.roller_friction`.
 ///
 /// The rod's centreline lies on a circle of radius rho = post_diameter/2 + h around the post's axis, which goes through
 /// the origin along y. Beyond half a turn the tails would cross. The rod then lies on a helix of pitch 4 h, whose
@@ -23,7 +24,7 @@ class CapstanSpecimen final : public Knot {
   Supports supports(const SpecimenOptions& specimen, const Material& material) const override;
 };
 
-/// T1 that `specimen.tail_load: auto` stands for: k_b/h^2, but no more than k_s/100 [N].
+/// T1 [N]; `specimen.tail_load: auto` is k_b/h^2, but at most k_s/100.
 double tail_load(const SpecimenOptions& specimen, const Material& material);
 
 }  // namespace knot_utm

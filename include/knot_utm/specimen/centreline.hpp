@@ -10,18 +10,17 @@ namespace knot_utm {
 /// Where the parts of one overhand knot lie, as arclengths along the rod from its first node [m].
 struct KnotLandmarks {
   double tail_end;        ///< the free end: 0 or the rod's length
-  double tail_exit;       ///< where the tail leaves the knot, the outermost point of the coil being level with it
+  double tail_exit;       ///< where the tail leaves the knot, level with the outermost point of the coil
   double coil_middle;     ///< middle of the coil, on the knot's own strand
   double standing_begin;  ///< own strand, before the coil (5 h before the middle of a single winding)
   double threaded;        ///< the other strand, where it passes the middle of the coil
   int windings = 1;       ///< of its coil
-  double longer = 0.0;  ///< the coil is longer by this, to either side of its middle, than that of a single winding [m]
-  double runs_out = 0.0;  ///< as it tightens it may run outwards by so much more than a single winding does [m]
+  double longer = 0.0;  ///< length by which the coil exceeds that of a single winding, to either side of its middle [m]
+  double runs_out = 0.0;  ///< distance that it may run outwards, as it tightens, beyond that of a single winding [m]
 };
 
-/// The loop as it is drawn and tied: two straight sides and two half circles, all of it as long as on the rollers.
-/// Where the knots need longer straight strands than rollers at their places would leave, the half circles are
-/// narrower.
+/// The loop as it is drawn and tied: two straight sides and two half circles, with the same length of rod as on the
+/// rollers. Where the knots need longer straight strands than the rollers would leave, the half circles are narrower.
 struct DrawnLoop {
   double end_to_end = 0.0;  ///< distance of the half circles' centres [m]
   double radius = 0.0;      ///< of the half circles [m]
@@ -29,12 +28,13 @@ struct DrawnLoop {
   double far_end = 0.0;
 };
 
-/// A specimen's centreline at rest: an open polyline, and where its parts lie. Edges may be shorter in its knots.
-/// Frame: z up and along the load axis. Arclengths are those of the polyline.
+/// A specimen's centreline before the test: an open polyline, and the places of its parts. Edges may be shorter in its
+/// knots. Frame: z up and along the load axis. Arclengths are those of the polyline.
 struct Centreline {
   Points points;        ///< nodes in order along the rod [m]
   bool closed = false;  ///< the last node lies on the first
-  /// Of a loop, for the rig that ties them: [0] the lower knot at the rod's first end, [1] the upper one at its last.
+  /// Of a loop, for the rig that ties the knots: [0] the lower knot at the rod's first end, [1] the upper one at its
+  /// last.
   std::vector<KnotLandmarks> knots;
   double upper_apex = 0.0;  ///< of a loop: arclength of the top of the loop, on the upper roller [m]
   double lower_apex = 0.0;  ///< of a loop: arclength of the bottom of the loop [m]
@@ -48,15 +48,15 @@ struct Centreline {
 /// A straight rod along z from the origin.
 Centreline straight(double length, double radius, double edge_length);
 
-/// Any polyline [m], resampled. Closed: the last point joins the first, and the last node lies on the first. A shape
-/// that overlaps is called by `name` in the message.
-/// Throws InvalidInput (specimen.file, specimen.edge_length).
+/// Any polyline [m], resampled. Closed: the last point joins the first, and the last node lies on the first. `name`:
+/// what messages call the shape. Throws InvalidInput (specimen.file, specimen.edge_length).
 Centreline from_points(const Points& points, bool closed, double radius, double edge_length,
                        const std::string& name = "the centreline");
 
-/// Throws InvalidInput for `key` where strands of a rod of the given radius overlap: two places further apart along
-/// the rod than 3 pi/2 radii (any nearer ones cannot touch unless the rod is bent more sharply than its own radius)
-/// nearer to each other than a diameter; or where it runs through itself anywhere. The message names both places.
+/// Throws InvalidInput for `key` where strands of a rod of the given radius overlap, or where it runs through itself.
+/// Strands overlap where two places that are further apart along the rod than 3 pi/2 radii are nearer to each other
+/// than a diameter. Places nearer along the rod cannot touch unless the rod is bent more sharply than its own radius.
+/// The message names both places.
 void check_no_overlap(const Centreline& centreline, double radius, const char* key, const std::string& value);
 
 }  // namespace knot_utm

@@ -4,8 +4,8 @@
 
 namespace knot_utm {
 
-/// knot: file. A rod whose centreline a CSV holds (centreline_file.hpp). The grips hold its ends, the last of them in
-/// the upper grip, which moves along +z. Whether it is knotted nobody is told.
+/// knot: file. A rod whose centreline is in a CSV file (centreline_file.hpp). The grips hold its ends, the upper grip,
+/// which moves along +z, the last one. The program does not know whether it is knotted.
 class DrawnRod final : public Knot {
  public:
   DrawnRod();

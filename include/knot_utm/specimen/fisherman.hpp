@@ -13,7 +13,7 @@ namespace knot_utm {
 /// turns by a half circle to radius R, coils by 450 degrees over an axial length 4 h back over itself (and by another
 /// turn over 3.2 h for each further winding), turns in to radius b and leaves as a tail inside its own coil, outwards.
 /// The threaded strand runs through the coil at radius a opposite the standing part. With a = (2 - sqrt 3) R and b = R
-/// - 2 a the standing part, the threaded strand, the tail and the coil are equally far apart, 2 a. The whole is
+/// - 2 a the standing part, the threaded strand, the tail and the coil are equally far apart, 2 a. The shape is
 /// smoothed along arclength by a Gaussian of standard deviation h.
 ///
 /// Same-handed: the two knots are images of each other under a half turn about an axis normal to the load axis.
@@ -21,27 +21,28 @@ namespace knot_utm {
 struct FishermanShape {
   double radius = 3.175e-3;        ///< h, of the rod [m]
   double knot_distance = 0.1;      ///< e, distance of the middles of the two coils, once tied [m]
-  double outward_shift = 0.0;      ///< by how much tying will move the coils apart: they are drawn closer by that [m]
+  double outward_shift = 0.0;      ///< distance by which tying moves the coils apart [m]
   double end_to_end = 0.25;        ///< L, distance of the rollers' centres [m]
   double roller_radius = 0.01905;  ///< [m]
   double tail = 0.03;              ///< free tail beyond the outermost point of the coil [m]
   Handedness handedness = Handedness::kSame;
   int windings = 1;             ///< of each tail: 2 of the double fisherman's knot
   double looseness = 4.7;       ///< R/h, radius of the coil over that of the rod (3.9 to 8)
-  double edge_length = 0.0032;  ///< wanted where strands may slide along each other [m]
+  double edge_length = 0.0032;  ///< target where strands may slide along each other [m]
   double refinement = 1.0;      ///< edges of both strands between and within the knots are shorter by this factor [-]
-  double straight = 0.0;  ///< its strands run straight for so long beyond the middles of the drawn coils, at least [m]
-  double coarsening = 1.0;  ///< those of the far side are longer by this one, up to the rod's diameter [-]
+  double straight = 0.0;        ///< least straight length of its strands beyond the middles of the drawn coils [m]
+  double coarsening = 1.0;      ///< edges of the far side are longer by this factor, up to the rod's diameter [-]
 };
 
-/// By how much further than a single winding a knot of several may run outwards as it tightens [m], drawn with coils of
-/// radius R = looseness h. Three strands run through a coil that is tight: standing part, threaded strand and tail,
-/// each against the other two, so that its centreline has the radius (2 + 2/sqrt 3) h. A winding then gives up
+/// Distance that a knot of several windings may run outwards, as it tightens, beyond that of a single winding [m]. Its
+/// coils are drawn with the radius R = looseness h. Three strands run through a tight coil, each against the other two:
+/// standing part, threaded strand and tail. Its centreline therefore has the radius (2 + 2/sqrt 3) h, and each winding
+/// gives up
 ///
 ///     2 pi (R - (2 + 2/sqrt 3) h)
 ///
-/// of the rod, half of it to the standing part and half to the tail, as friction is the same on both ways out. Where
-/// the standing part is held, the knot runs outwards by its half.
+/// of the rod, half of it to the standing part and half to the tail, as friction is the same towards both. Where the
+/// standing part is held, the knot runs outwards by its half.
 double runs_out(int windings, double looseness, double h);
 
 /// Throws InvalidInput (specimen.*, machine.roller_diameter) where the shape does not fit on the machine or overlaps.

@@ -12,7 +12,7 @@
 
 namespace knot_utm {
 
-/// What of the machine and the accuracy a centreline is laid for.
+/// The properties of the machine and of the accuracy on which a centreline depends.
 struct Mounting {
   bool rollers = false;          ///< two of them hold a loop; else nodes are held
   bool clamps = false;           ///< hold two nodes each, and the material frame of the edge between them
@@ -20,42 +20,42 @@ struct Mounting {
   double refinement = 1.0;       ///< edges in and between its knots are shorter by this factor [-]
 };
 
-/// What a grip other than a roller holds: the node from which the specimen's length counts, and the node next to it,
+/// What a grip other than a roller holds: the node at which the specimen's length begins or ends, and its neighbour,
 /// which a clamp holds as well.
 struct HeldNode {
   int node = 0, next = 0;
   int edge() const { return node < next ? node : next; }  ///< between the two
 };
 
-/// What bears a specimen beside its grips, and stays as it is throughout a test.
+/// What bears a specimen besides its grips, unchanged throughout a test.
 struct Supports {
   std::vector<Roller> posts;     ///< fixed to the machine's base; the first one stands for the lower grip
   std::vector<NodeForce> loads;  ///< dead loads
 };
 
-/// Which study tells the errors of a knot's readings (machine/accuracy.hpp).
+/// The study from which the errors of a knot's readings are known (machine/accuracy.hpp).
 enum class ErrorStudy { kNone, kStraight, kFisherman };
 
-/// What a knot is, whatever its keys say.
+/// Properties of a knot that do not depend on its keys.
 struct KnotDescription {
   const char* name = "";          ///< what a method calls it
-  std::vector<std::string> keys;  ///< of `specimen`, that it has beside `knot` and `edge_length`
-  /// How many knots are in it, and numbers in each list of a sample (PerKnot). Where there is one, strands touch: its
-  /// edges must not be longer than the rod is thick, and its type is followed (KnotWatch).
+  std::vector<std::string> keys;  ///< its keys in `specimen` besides `knot` and `edge_length`
+  /// Number of knots, and of the values in each list of a sample (PerKnot). With one or more, strands touch: edges must
+  /// then not be longer than the rod's diameter, and the type of the knot is followed (KnotWatch).
   int knots = 0;
-  /// Two strands bear the load, and rollers can hold it. It has two knots, each of which is tied into an end of the rod
-  /// around the other strand: what is read between two knots is read of it.
+  /// Two strands bear the load, and rollers can hold it. It has two knots, each tied into an end of the rod around the
+  /// other strand, so that it has the readings between two knots.
   bool loop = false;
   double drawn_coil = 0.0;  ///< of a loop: radius of its coils' centreline before they are tied [h]
-  bool any_shape = false;   ///< its shape is the user's own: any knot may be in it, and is followed
-  bool straight = false;    ///< it never bends, so that nothing of it settles, twists or touches
+  bool any_shape = false;   ///< the user gives its shape, which may contain any knot; the type is followed
+  bool straight = false;    ///< it never bends, so that it does not settle, twist or touch itself
   ErrorStudy error_study = ErrorStudy::kNone;
 
   bool may_hold_a_knot() const { return knots > 0 || any_shape; }
 };
 
-/// The face of a knot: what a specimen of this kind is made of, and everything that the program asks of one. A knot is
-/// a pair of files in specimen/ and one line in knots.cpp. Nobody else asks which knot a specimen has.
+/// The interface of a knot: how a specimen of this kind is made, and all that the program needs to know of it. A knot
+/// is a pair of files in specimen/ and one line in knots.cpp. No other code distinguishes knots.
 class Knot {
  public:
   virtual ~Knot() = default;
@@ -63,12 +63,12 @@ class Knot {
   const KnotDescription& about() const { return about_; }
   bool has(const std::string& key) const;
 
-  /// What `auto` stands for with a rod of radius h [m]. Keys that it does not have keep their plain value, so that they
-  /// may stand in a method with it.
+  /// The values of `auto` for a rod of radius h [m]. Keys that the knot does not have keep their plain values, so that
+  /// they may stand in its method.
   virtual SpecimenOptions defaults(double h) const = 0;
-  /// The same where some keys are `known`: where two must go together and one is set, the other makes room for it.
+  /// The same where some keys are `known`: where two keys must agree and one of them is set, the other one is adapted.
   virtual void suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const;
-  /// Of rollers that hold it [m].
+  /// Default diameter of rollers that hold it [m].
   virtual std::optional<double> roller_diameter(double h) const;
   /// Extension of a pull whose `until.extension` is `auto` [m].
   virtual double pull(const SpecimenOptions& specimen, double h) const = 0;
@@ -76,17 +76,17 @@ class Knot {
   /// Throws InvalidInput where its keys do not go together.
   virtual void check(const SpecimenOptions& specimen, double h) const = 0;
 
-  /// As it stands in the machine before anything moves, the lower grip at the origin, pulled along +z. Throws
+  /// The centreline in the machine before anything moves, with the lower grip at the origin, pulled along +z. Throws
   /// InvalidInput where it does not fit.
   virtual Centreline centreline(const SpecimenOptions& specimen, const Material& material,
                                 const Mounting& mounting) const = 0;
-  /// Nothing where the grips hold both its ends. Where fixed posts bear its lower end, the upper grip alone holds it.
+  /// Empty where the grips hold both its ends. Where fixed posts bear its lower end, only the upper grip holds it.
   virtual Supports supports(const SpecimenOptions& specimen, const Material& material) const;
-  /// What the lower and the upper grip hold of it where there are no rollers.
+  /// The nodes that the lower and the upper grip hold where there are no rollers.
   virtual HeldNode held_below(const Centreline& centreline, bool clamped) const;
   virtual HeldNode held_above(const Centreline& centreline, bool clamped) const;
 
-  /// Of its keys the change that keeps a knot which came undone, "a larger specimen.end_to_end"; empty: none.
+  /// The change of its keys that would keep a knot which came undone, "a larger specimen.end_to_end"; empty: none.
   virtual std::string what_keeps_it() const { return ""; }
 
  protected:
@@ -107,7 +107,7 @@ std::vector<const char*> knot_names();
 std::string knots_with(const std::string& key);
 std::string loops();
 
-/// F_p on each overhand of a loop [N]: what the specimen says, else what is usual for its material.
+/// F_p on each overhand of a loop [N]: that of the specimen, else default_preload of its material.
 double tying_load(const SpecimenOptions& specimen, const Material& material);
 
 }  // namespace knot_utm

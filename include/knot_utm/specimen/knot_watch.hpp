@@ -8,31 +8,30 @@
 
 namespace knot_utm {
 
-/// Follows whether a specimen still is the knot that it began as.
+/// Follows whether a specimen is still the knot that it began as.
 ///
-/// Two strands cannot pass through each other, nor an end out of a coil, before some node has moved by the order of the
-/// rod's radius h. So the topology is read where a node has moved by h since the reading before, and in between stays
-/// what it was: a test at rest costs nothing, one that jumps is read at every answer. What is said of a loop is what
-/// its last reading says, as one of knots that lie on a roller may be wrong: whoever asks holds it against the load
-/// (MotionPatternTracker). Of any other rod a knot once lost stays lost, and so does one of which the rod ran through
-/// itself.
+/// No strand can pass another one, and no end can slip out of a coil, before some node has moved by about the rod's
+/// radius h. So the topology is read again only once a node has moved by h since the last reading: a test at rest costs
+/// nothing, and one that jumps is read at every answer. The type of a loop is that of its last reading. Near a roller a
+/// reading may be wrong, and so it is judged together with the load (MotionPatternTracker). Any other rod that has lost
+/// its knot once, or has run through itself, keeps that result.
 ///
-/// What is read: of a fisherman's loop all that LoopTopology says; of any other rod the Alexander polynomial, the rod
-/// closed far away beyond its ends, or by joining them where they lie on each other.
+/// For a fisherman's loop the reading is that of LoopTopology. For any other rod it is the Alexander polynomial of the
+/// rod closed far beyond its ends, or by joining its ends where they coincide.
 class KnotWatch {
  public:
-  /// `standing_nodes`: of a fisherman's loop the lower knot's and the upper knot's, see LoopTopology; else empty.
+  /// `standing_nodes`: those of the lower and the upper knot of a fisherman's loop (LoopTopology); else empty.
   /// `closed`: the last node lies on the first. `radius`: h [m]. `windings`: of each tail of a fisherman's loop. The
   /// rod must not run through itself at the start: throws std::runtime_error.
   KnotWatch(const std::vector<int>& standing_nodes, bool closed, double radius, const Points& start, int windings = 1);
 
-  /// The rod as it is now. What cannot be read, as the rod runs through itself, is a knot lost.
+  /// Follows the rod to its present shape. A rod that runs through itself cannot be read; its knot counts as lost.
   KnotType follow(const Points& points);
 
   KnotType type() const { return type_; }
   int readings() const { return readings_; }
 
-  /// All but the knot that it began as.
+  /// Saves or loads everything except the knot that it began as.
   void state(Archive& archive);
 
  private:

@@ -4,8 +4,8 @@
 
 namespace knot_utm {
 
-/// knot: multiple_fisherman. The double fisherman's knot (grapevine) and its longer kin: the loop of the fisherman's
-/// knot, whose tails are each wound `turns` times around the other strand and themselves before they go through.
+/// knot: multiple_fisherman. The double fisherman's knot (grapevine) and those with more windings: the loop of the
+/// fisherman's knot, with each tail wound `turns` times around the other strand and itself before it goes through.
 class MultipleFishermanKnot final : public FishermanKnot {
  public:
   MultipleFishermanKnot();

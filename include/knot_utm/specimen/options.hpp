@@ -28,7 +28,7 @@ struct SpecimenOptions {
   double edge_length = 0.0032;                ///< discretisation [m]
   std::optional<double> refinement;           ///< edges between and within knots are shorter by this; unset: auto
   bool to_be_tied =
-      false;  ///< the program ties it (not a key): e is that of the tied knots, the drawn ones start closer
+      false;  ///< the program ties it (not a key): e is that of the tied knots, and the knots are drawn closer
 };
 
 }  // namespace knot_utm

@@ -9,11 +9,11 @@ namespace knot_utm {
 /// Arclength of every point along the polyline [m].
 std::vector<double> arclengths(const Points& points);
 
-/// Resamples a polyline into the whole number of equal chords nearest to `edge_length`; first and last point stay.
+/// Resamples a polyline into equal chords whose length is nearest to `edge_length`; first and last point stay.
 /// `position` (optional) gets the arclength on `points` of every node.
 Points resample_evenly(const Points& points, double edge_length, std::vector<double>* position = nullptr);
 
-/// Lengths that edges should have along a line: `coarse` at most, and shorter in and near zones.
+/// Target lengths of edges along a line: at most `coarse`, and shorter in and near zones.
 struct EdgeGrading {
   struct Zone {
     double begin, end;   ///< arclength [m]
@@ -22,12 +22,12 @@ struct EdgeGrading {
   double coarse = 0.0;  ///< far from every zone [m]
   std::vector<Zone> zones;
 
-  /// Wanted length of an edge at arclength s: it grows by a quarter of the distance to a zone [m].
+  /// Target length of an edge at arclength s [m]. It grows by a quarter of the distance from a zone.
   double operator()(double s) const;
 };
 
-/// Resamples a polyline so that its edges have the lengths wanted, all scaled by the one factor that makes their
-/// number whole; first and last point stay. `position` (optional) gets the arclength on `points` of every node.
+/// Resamples a polyline to edges of the target lengths, all scaled by the one factor that makes their number whole;
+/// first and last point stay. `position` (optional) gets the arclength on `points` of every node.
 Points resample_graded(const Points& points, const EdgeGrading& wanted, std::vector<double>* position = nullptr);
 
 /// Two places of a polyline, and how far apart they are [m].
@@ -36,8 +36,9 @@ struct NearestPlaces {
   double first = 0.0, second = 0.0;  ///< arclengths [m]
 };
 
-/// Of all places of a polyline that lie at least `exclusion` [m] apart along it the two that are nearest to each other;
-/// at infinity where there are none. Closed: its last point lies on its first, and "along it" is the shorter way round.
+/// The two places of a polyline that are nearest to each other among those at least `exclusion` [m] apart along it;
+/// their distance is infinite where there are none. Closed: its last point lies on its first, and the distance along it
+/// is that of the shorter way round.
 NearestPlaces nearest_places(const Points& points, double exclusion, bool closed = false);
 
 }  // namespace knot_utm

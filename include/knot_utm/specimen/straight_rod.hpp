@@ -4,8 +4,8 @@
 
 namespace knot_utm {
 
-/// knot: straight. A straight rod along the load axis. Its `length` is what stretches between the grips: the load grows
-/// by k_s/length.
+/// knot: straight. A straight rod along the load axis. Its `length` is that between the grips, so that the load grows
+/// by k_s/length per extension (`stretching_law: linear`).
 class StraightRod final : public Knot {
  public:
   StraightRod();

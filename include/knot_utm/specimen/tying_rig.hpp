@@ -10,26 +10,26 @@
 namespace knot_utm {
 
 /// Ties the overhands of a loop: holds the standing part and the threaded strand of each, and pulls its tail outwards
-/// by a grip that moves at a set speed and slips at the pre-load. As the end is reached by displacement against a
-/// slipping grip, and counts only once everything rests, the tied state does not depend on drag, step or speed.
+/// by a grip that moves at a set speed and slips at the pre-load. The end is reached by displacement against a slipping
+/// grip, and only once everything is at rest, so the tied state does not depend on drag, step or speed.
 ///
-/// Before it pulls, the drawn shape settles under a strong drag that fades: its stored energy is an artefact of the
-/// drawing, and would otherwise throw the strands about.
+/// Before it pulls, the drawn shape settles under a strong drag that fades. The energy of the drawn shape is an
+/// artefact of the drawing and would otherwise throw the strands about.
 ///
 /// All this happens off the rollers. The loop is held by the straight part of its far side; its half circles and the
 /// side with the knots are free. The clamps stand at set distances from the knots, on straight strands.
 ///
-/// Release: the tails' pull goes to zero linearly, everything comes to rest; then each clamp is replaced by its
+/// Release: the tails' pull goes to zero linearly and everything comes to rest. Then each clamp is replaced by its
 /// reaction, which goes to zero linearly, and everything comes to rest again. Guides stay on the strands beyond the
-/// knots: these can move along themselves only. What does not come to rest in time, as a knot that creeps open does, is
-/// not kept from going on; `not_equilibrated` says so.
+/// knots and let them move along themselves only. If rest does not come in time, as where a knot creeps open, the test
+/// goes on and `not_equilibrated` says so.
 ///
-/// Letting go, for a knot that is pulled as it was tied: the tails' pull and the clamps' reactions go to zero linearly,
-/// together and within a third of a second, and nothing is waited for.
+/// Letting go, where a knot is pulled without a release: the tails' pull and the clamps' reactions go to zero linearly,
+/// together and within a third of a second, without waiting for rest.
 ///
-/// Putting on: within a third of a second the far side is let go while the rollers take the loop. The tails are laid
-/// beside the rollers. The guides stay until the slack is taken up; a slack strand that bends around a roller would
-/// else work on a knot that is near to it.
+/// Putting on: within a third of a second the far side is let go while the rollers take the loop. The tails lie beside
+/// the rollers. The guides stay until the slack is taken up, because otherwise a slack strand that bends around a
+/// roller would move a knot near it.
 class TyingRig {
  public:
   struct Options {
@@ -37,8 +37,8 @@ class TyingRig {
     double grip_stiffness = 2e4;  ///< [N/m]
     double rest_speed = 0.0;      ///< every node slower than this ... [m/s]
     double rest_time = 0.3;       ///< ... for this long: at rest [s]
-    double patience = 60.0;       ///< without rest for so long: goes on all the same, not equilibrated [s]
-    double pull_patience = 90.0;  ///< grips that have not reached the pre-load by then: not to be tied [s] ...
+    double patience = 60.0;       ///< without rest for this long the test goes on, not equilibrated [s]
+    double pull_patience = 90.0;  ///< not tied if the pre-load is not reached by then [s] ...
     double pull_way = 300.0;      ///< ... and have gone this far [h]
   };
   enum class Stage {
@@ -66,10 +66,11 @@ class TyingRig {
   void put_on(const TimeStep& stepper, double time);
   void take_guides_off(const TimeStep& stepper, double time);
 
-  /// Beyond the middle of a drawn coil, that its clamps stand clear of all bends [m]; `runs_out` as in KnotLandmarks.
+  /// Distance from the middle of a drawn coil at which clamps are clear of all bends [m]; `runs_out` as in
+  /// KnotLandmarks.
   static double straight_strand(double radius, double runs_out = 0.0);
 
-  /// Adds its clamps and grips, as they stand at `to`, to the boundary of a step.
+  /// Adds its clamps and grips at time `to` to the boundary of a step from time `from` [s].
   void hold(Boundary& boundary, double from, double to) const;
 
   /// Follows an accepted step: lets grips slip, judges rest, goes on to the next stage.
@@ -80,14 +81,14 @@ class TyingRig {
   bool released() const { return stage_ == Stage::kReleased; }
   bool puts_on() const { return stage_ == Stage::kPuttingOn; }
   bool guides() const { return stage_ == Stage::kGuided; }
-  /// The loop hangs free of the rollers.
+  /// Whether the loop is still off the rollers.
   bool off_rollers() const { return stage_ != Stage::kIdle && stage_ < Stage::kPuttingOn; }
-  /// Empty, or what had not come to rest when it went on.
+  /// What had not come to rest when the test went on; empty: nothing.
   const std::string& not_equilibrated() const { return not_equilibrated_; }
-  /// Empty, or why the knots cannot be tied.
+  /// Why the knots cannot be tied; empty: they can.
   const std::string& not_tied() const { return not_tied_; }
 
-  /// Share of the time of putting the loop on that is left.
+  /// Fraction of the time of putting the loop on that is left.
   double left_to_put_on(double time) const;
 
   /// Nodes between the tails, once the loop is put on.
@@ -99,8 +100,8 @@ class TyingRig {
 
   double tail_force(int knot) const { return tail_force_[static_cast<std::size_t>(knot)]; }  ///< [N]
 
-  /// Rod length hidden in a knot: that between the clamp of its standing part and its tail's end, less their
-  /// distance [m].
+  /// Rod length hidden in a knot [m]: that from the clamp of its standing part to the end of its tail, less the
+  /// distance of these.
   double excess_length(int knot, const RodState& state) const;
   /// Middle of a knot: the centroid of the bending energy of its own strand, from standing part to tail.
   Vec3 knot_middle(int knot, const RodProperties& rod, const RodState& state) const;
@@ -118,7 +119,7 @@ class TyingRig {
     Vec3 outwards;
     int tail_node;
     int standing_node;
-    double reach;  ///< outwards from its middle, once it is tight, at most [m]
+    double reach;  ///< largest reach outwards from its middle once it is tight [m]
   };
   void attach_grips();
   /// The outermost node of a knot from which its tail runs on.
@@ -126,9 +127,9 @@ class TyingRig {
   SpringHold guide(const Clamp& clamp) const;
   void hold_knots(Boundary& boundary, double ramp) const;
   void enter(Stage stage, double time);
-  /// Moves the grips on, and lets them slip at the pre-load. Whether all of them do.
+  /// Moves the grips on and lets them slip at the pre-load. Returns whether all of them slip.
   bool let_grips_slip(const Points& x, double dt);
-  /// At rest, or no longer waited for since `begin`.
+  /// Whether everything is at rest, or rest has been waited for long enough since `begin`.
   bool waited_for_rest(const TimeStep& stepper, double time, double begin, const char* since);
   void judge_pull(double time);
 

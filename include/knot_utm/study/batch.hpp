@@ -13,12 +13,11 @@ namespace knot_utm {
 /// How a batch, all specimens of a method, is run. A function that is empty is not called, except `interrupted`.
 struct BatchOptions {
   std::string folder;
-  int jobs = 1;            ///< specimens that are tested side by side
-  bool resume = false;     ///< goes on with the batch that was cut off in `folder`
-  bool overwrite = false;  ///< writes over what `folder` holds, instead of to the next free one
-  double checkpoint_period = 5.0;
+  int jobs = 1;                    ///< specimens that are tested side by side
+  bool resume = false;             ///< goes on with the batch that was cut off in `folder`
+  bool overwrite = false;          ///< writes over what `folder` holds, instead of to the next free one
+  double checkpoint_period = 5.0;  ///< wall time between two checkpoints of a specimen [s]; 0: none
 
-  std::function<FurtherWriter(const std::string& folder, const Method& method)> further;
   std::function<bool()> interrupted;                    ///< asked by several threads
   std::function<void(const std::string& line)> notice;  ///< warnings, once all tests have ended
   /// After each test that has ended: how many of how many.

@@ -16,8 +16,8 @@ struct DrawnSpecimen {
 };
 
 /// Draws all specimens of a method, as `Method::specimens` says. What is drawn for one depends on the seed, its number
-/// and the key only: a larger count, or another key, leaves it as it is. Each has noise of its own in the load cell,
-/// whose seed is counted on. Throws InvalidInput where a method that is drawn would be refused.
+/// and the key only: a larger count, or another key, leaves it as it is. All are tested with
+/// one load cell, which has other noise for each. Throws InvalidInput where a method that is drawn would be refused.
 std::vector<DrawnSpecimen> draw_specimens(const Method& method);
 
 }  // namespace knot_utm

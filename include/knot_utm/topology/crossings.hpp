@@ -15,7 +15,7 @@ struct Crossing {
 };
 
 /// Crossings of a closed polygon with itself and of two with each other, in any order. The third row of `rotation` is
-/// the viewing direction. Found by boxes around ever longer pieces, so that only pieces that meet are looked at.
+/// the viewing direction. Boxes around ever longer pieces leave out pieces that cannot meet.
 std::vector<Crossing> crossings_of(const Points& polygon, const Mat3& rotation);
 std::vector<Crossing> crossings_between(const Points& first, const Points& second, const Mat3& rotation);
 

@@ -19,7 +19,7 @@ using KnotPolynomial = std::vector<std::int64_t>;
 ///   a_out = (1 - t) a_over + t a_in,  or with a_out and a_in exchanged where the crossing is negative;
 /// the determinant of a first minor is evaluated modulo the prime 2^61 - 1 at as many t as it has coefficients, and
 /// interpolated. Right as long as the coefficients are below 2^60. Throws std::runtime_error where no projection is
-/// that of a knot: the polygon runs through itself.
+/// that of a knot, because the polygon runs through itself.
 KnotPolynomial alexander_polynomial(const Points& polygon);
 
 /// |Delta(-1)|.
@@ -56,7 +56,7 @@ class LoopTopology {
 
     /// Whether this is the same knot, made of the same two overhands.
     bool same_knot(const Reading& other) const;
-    /// Whether at least these are the same.
+    /// Whether at least the two overhands are the same.
     bool same_overhands(const Reading& other) const;
   };
 
@@ -67,13 +67,13 @@ class LoopTopology {
   /// Reads the rod as it is now. `load_axis`: from the lower grip to the upper one, of any length.
   Reading read(const Points& points, const Vec3& load_axis);
 
-  /// The same of a rod that was the knot `known`. Where the overhands still are the same and the whole is not, a tail
-  /// may have gone around further than could be followed, as when a knot springs open: a free end may, and nothing
-  /// comes undone by it. Then up to two more turns of each tail, either way, are tried, and kept where they give
-  /// `known`. So are the rises of a coil of several windings which lie aslant (OverhandStrand).
+  /// The same for a rod that was the knot `known`. Where the overhands are still the same and the whole is not, a tail
+  /// may have gone around further than could be followed, as when a knot springs open; a free end can do so without
+  /// undoing the knot. Then up to two more turns of each tail, either way, are tried, and kept where they give `known`.
+  /// So are rises of a coil whose windings lie aslant (OverhandStrand).
   Reading read_as(const Reading& known, const Points& points, const Vec3& load_axis);
 
-  /// How often the tails have gone around.
+  /// Saves or loads the angles theta of both tails.
   void state(Archive& archive) { archive(angle_[0], angle_[1]); }
 
  private:
@@ -81,7 +81,7 @@ class LoopTopology {
   using PassedOver = std::array<int, 2>;
   OverhandStrand follow(const Points& points, const Vec3& axis, std::size_t k, int passed_over) const;
   Reading read(const Points& points, const Vec3& load_axis, const PassedOver& passed_over);
-  /// Those with which each overhand is the known one, or none.
+  /// The numbers of rises with which each overhand is the known one; 0 where no number makes it that.
   PassedOver passed_over(const Reading& known, const Reading& found, const Points& points, const Vec3& axis) const;
 
   std::array<Eigen::Index, 2> standing_;

@@ -6,7 +6,7 @@
 
 namespace knot_utm {
 
-/// How far a loop goes around its rollers and along their axes (y), shape by shape.
+/// How far a loop has moved around its rollers, and along their axes (y), from shape to shape.
 ///
 /// The rod runs from one knot over the upper roller, down the far side and around the lower roller to the other knot.
 /// Half-way between its highest and its lowest node, its outer fifths aside, lies the middle of the far side. Pulling
@@ -14,13 +14,13 @@ namespace knot_utm {
 /// another one there.
 class LoopTurn {
  public:
-  /// A shape, its nodes in the order of the rod. The first one counts as not turned.
+  /// Adds a shape, its nodes in the order of the rod. The first shape counts as not turned.
   void add(const Points& shape);
 
-  /// Largest way since then [m]. Known to the length of an edge.
+  /// Largest motion around the rollers since the first shape [m], within the length of an edge.
   double largest() const { return largest_; }
 
-  /// Largest way along the rollers' axes, of the loop's middle half [m].
+  /// Largest motion of the loop's middle half along the rollers' axes [m].
   double along() const { return along_; }
 
  private:

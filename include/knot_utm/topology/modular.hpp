@@ -20,7 +20,8 @@ struct Entry {
 };
 using Row = std::vector<Entry>;  ///< columns ascend; no value is zero
 
-/// Determinant of a square matrix given by sparse rows. Quick where they stand near a diagonal, in whatever order.
+/// Determinant of a square matrix given by sparse rows. Fast where the entries lie near a diagonal; the order of the
+/// rows does not matter.
 std::uint64_t determinant(std::vector<Row> rows);
 
 /// Coefficients of the polynomial of degree below values.size() with value values[i] at t = i + 1.

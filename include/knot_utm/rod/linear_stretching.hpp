@@ -1,0 +1,24 @@
+#pragma once
+
+#include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/rod/material.hpp"
+#include "knot_utm/rod/stretching_law.hpp"
+
+namespace knot_utm {
+
+/// T = k_s (lambda - 1),   W = T^2/(2 k_s).
+struct LinearStretching {
+  static constexpr const char* kName = "linear";
+  static constexpr bool kStudied = true;
+
+  static LinearStretching of(const Material& /*material*/) { return {}; }
+
+  StretchingResponse respond(const StretchedEdge& edge) const {
+    const double tension = edge.stiffness * (edge.stretch - 1.0);
+    return {0.5 * tension * tension * edge.rest_length / edge.stiffness, tension, edge.stiffness};
+  }
+
+  void state(Archive& /*archive*/) {}
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,36 @@
+#pragma once
+
+#include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/rod/material.hpp"
+#include "knot_utm/rod/stretching_law.hpp"
+
+namespace knot_utm {
+
+/// A bar of rubber that keeps its volume: an incompressible neo-Hookean solid of shear modulus k_s/(3 A), A being the
+/// section at rest, under uniaxial tension,
+///
+///     W = k_s/6 (lambda^2 + 2/lambda - 3)
+///     T = k_s/3 (lambda - lambda^-2)           nominal, a force
+///     dT/dlambda = k_s/3 (1 + 2 lambda^-3)
+///
+/// Pulled, it softens to a third of k_s; compressed, it stiffens. Rubber follows it up to a strain of about 50 %. The
+/// bar grows thinner in its tension alone: contacts keep the radius at rest, and bending and twisting their
+/// stiffnesses. Source: Treloar 1975, chapter 4; Ogden 1997, chapter 4.
+struct NeoHookeanStretching {
+  static constexpr const char* kName = "neo_hookean";
+  static constexpr bool kStudied = false;
+
+  static NeoHookeanStretching of(const Material& /*material*/) { return {}; }
+
+  StretchingResponse respond(const StretchedEdge& edge) const {
+    const double lambda = edge.stretch, inverse = 1.0 / lambda, third = edge.stiffness / 3.0;
+    // lambda^2 + 2/lambda - 3 with its double root at 1 factored out, which keeps its digits at small strains.
+    const double strain = lambda - 1.0, energy = strain * strain * (1.0 + 2.0 * inverse);
+    return {0.5 * third * energy * edge.rest_length, third * (lambda - inverse * inverse),
+            third * (1.0 + 2.0 * inverse * inverse * inverse)};
+  }
+
+  void state(Archive& /*archive*/) {}
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <variant>
+
+#include "knot_utm/numeric/law_registry.hpp"
+#include "knot_utm/rod/linear_stretching.hpp"
+#include "knot_utm/rod/neo_hookean_stretching.hpp"
+
+namespace knot_utm {
+
+/// All stretching laws there are, in the order in which messages name them; the first is the default.
+using StretchingLaws = std::variant<LinearStretching, NeoHookeanStretching>;
+
+inline constexpr auto kStretchingLawNames = LawRegistry<StretchingLaws>::kNames;
+
+/// The law that a material names, with its parameters.
+inline StretchingLaws stretching_law_of(const Material& material) {
+  return LawRegistry<StretchingLaws>::of(static_cast<std::size_t>(material.stretching_law), material);
+}
+
+/// Whether the errors beside readings were studied with the law that a material names.
+inline bool stretching_is_studied(const Material& material) {
+  return std::visit([](const auto& law) { return law.kStudied; }, stretching_law_of(material));
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,71 @@
+// Stretching laws: tension and slope are derivatives of the energy, and at rest all laws have the same stiffness.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "knot_utm/rod/stretching_laws.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr double kStiffness = 7.0, kRest = 0.3;
+
+StretchedEdge edge(double stretch) { return {kStiffness, kRest, stretch}; }
+
+template <typename Law>
+struct StretchingLaw : testing::Test {
+  Law law;
+};
+using Laws = testing::Types<LinearStretching, NeoHookeanStretching>;
+TYPED_TEST_SUITE(StretchingLaw, Laws);
+
+TYPED_TEST(StretchingLaw, TensionAndSlopeAreDerivatives) {
+  constexpr double kStep = 1e-5;
+  for (const double stretch : {0.4, 0.9, 0.999, 1.0, 1.001, 1.1, 1.5, 3.0}) {
+    const StretchingResponse here = this->law.respond(edge(stretch));
+    const StretchingResponse on = this->law.respond(edge(stretch + kStep)),
+                             back = this->law.respond(edge(stretch - kStep));
+    // The third derivative of the energy is at most k_s 2/0.4^4, and that of the tension k_s 8/0.4^5.
+    EXPECT_NEAR((on.energy - back.energy) / (2.0 * kStep) / kRest, here.tension, 1e-8 * kStiffness);
+    EXPECT_NEAR((on.tension - back.tension) / (2.0 * kStep), here.slope, 2e-7 * kStiffness);
+  }
+}
+
+TYPED_TEST(StretchingLaw, IsAtRestWithItsStiffness) {
+  const StretchingResponse rest = this->law.respond(edge(1.0));
+  EXPECT_EQ(rest.energy, 0.0);
+  EXPECT_EQ(rest.tension, 0.0);
+  EXPECT_NEAR(rest.slope, kStiffness, 1e-15 * kStiffness);
+  constexpr double kStrain = 1e-6;
+  for (const double strain : {-kStrain, kStrain}) {
+    const StretchingResponse near = this->law.respond(edge(1.0 + strain));
+    EXPECT_NEAR(near.tension, kStiffness * strain, 2.0 * kStiffness * strain * strain);
+    EXPECT_NEAR(near.energy, 0.5 * kStiffness * strain * strain * kRest, kStiffness * kRest * std::pow(kStrain, 3));
+  }
+}
+
+TYPED_TEST(StretchingLaw, HasNoTensionWherePartedFromItsStiffness) {
+  const StretchingResponse parted = this->law.respond({0.0, kRest, 1.7});
+  EXPECT_EQ(parted.tension, 0.0);
+  EXPECT_EQ(parted.slope, 0.0);
+}
+
+/// At twice its length: T = k_s/3 (2 - 1/4), W = k_s/6 (4 + 1 - 3).
+TEST(NeoHookeanStretching, OfABarAtTwiceItsLength) {
+  const StretchingResponse twice = NeoHookeanStretching().respond(edge(2.0));
+  EXPECT_NEAR(twice.tension, kStiffness / 3.0 * 1.75, 1e-14);
+  EXPECT_NEAR(twice.energy, kRest * kStiffness / 6.0 * 2.0, 1e-14);
+  EXPECT_NEAR(twice.slope, kStiffness / 3.0 * 1.25, 1e-14);
+}
+
+TEST(StretchingLaws, AreMadeByTheirNumberInAMaterial) {
+  Material material;
+  EXPECT_TRUE(std::holds_alternative<LinearStretching>(stretching_law_of(material)));
+  material.stretching_law = static_cast<knot_utm::StretchingLaw>(1);
+  EXPECT_STREQ(kStretchingLawNames[1], "neo_hookean");
+  EXPECT_TRUE(std::holds_alternative<NeoHookeanStretching>(stretching_law_of(material)));
+}
+
+}  // namespace
+}  // namespace knot_utm
