@@ -1,19 +1,22 @@
 """A fit: the values of a method's keys with which it produces a measured curve (doc/fits.md)."""
+import itertools
 import os
 import shutil
 
 from knot_utm import tool
 from knot_utm.errors import WrongInput
-from knot_utm.fitting.curves import read_measured
+from knot_utm.fitting.curves import is_own, read_other, read_own
 from knot_utm.fitting.errors import require_known
 from knot_utm.fitting.files import write_fit, write_report
-from knot_utm.fitting.keys import free_key, parse_free
+from knot_utm.fitting.keys import method_key, offset_key, parse_free
 from knot_utm.fitting.records import Record
 from knot_utm.fitting.runs import EXACT_CELL, Runs, read_model
 from knot_utm.fitting.scatter import SPECIMENS, Batch
 from knot_utm.fitting.search import MOST_WAVES, Case, Search
 from knot_utm.fitting.verdict import judge
-from knot_utm.yaml_text import load
+from knot_utm.yaml_text import described, value_of
+
+WITHIN = 0.4321  # a place within a range, where a whole number is unlikely
 
 
 def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, command=None, report=True):
@@ -31,8 +34,7 @@ def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, com
     asked += [(os.fspath(file), {**(settings or {}), **more}) for file, more in also]
     with Runs(jobs or len(os.sched_getaffinity(0))) as runs:
         fitted = _Fit(runs, method, asked, [parse_free(word) for word in free]).go()
-        methods = [fitted_method(runs, method, given, fitted) for _, given in asked]
-        write_fit(out, fitted, methods)
+    write_fit(out, fitted, [fitted_method(method, given, fitted) for _, given in asked])
     if report:
         write_report(out, command or "knot_utm.fit in Python")
     return fitted
@@ -50,40 +52,51 @@ class _Fit:
                 raise WrongInput(f"--free has {name} twice")
         if all(name.startswith("record.") for name in names):
             raise WrongInput("--free has nothing but offsets of the record: a fit needs a key of the method")
-        starts = [self._start(given) for _, given in asked]
-        self.records = []
-        for (file, given), (folder, _) in zip(asked, starts):
-            record = Record(file, read_measured(file, os.path.join(folder, "curve.csv")), method, given)
-            self.records.append(record)
-        resolved = load(os.path.join(starts[0][0], "method.yaml"))
-        self.keys = [free_key(name, limits, resolved, self.records) for name, limits in free]
-        self._require_allowed()
-        for record, (folder, _) in zip(self.records, starts):
-            record.require_producible(read_model(folder, {}))
-        self.cells = [load(os.path.join(folder, "method.yaml"))["machine"]["load_cell"] for folder, _ in starts]
-        for folder, _ in starts:
+        for file, given in asked[1:]:
+            for name in names:
+                if name in given and given[name] != asked[0][1].get(name):
+                    raise WrongInput(f"--also {file}: {name} is set, but it is free, and free keys are the same for all records")
+        self.methods = [value_of(tool.resolved(method, given)) for _, given in asked]
+        keys = {name: self._method_key(name, limits, asked[0][1]) for name, limits in free if not name.startswith("record.")}
+        self._require_allowed(list(keys.values()), [given for _, given in asked])
+        self.records = self._read(asked)
+        keys |= {name: offset_key(name, limits, self.records) for name, limits in free if name not in keys}
+        self.keys = [keys[name] for name in names]
+
+    def _method_key(self, name, limits, given):
+        if name in EXACT_CELL:
+            raise WrongInput(f"--free: {name} is an error of the cell, which is one of the errors that a fit goes by")
+        return method_key(name, limits, self.methods[0], tool.key_units(self.method, given))
+
+    def _require_allowed(self, keys, settings):
+        """All corners of the ranges, and a place within them, for all records: before the first run."""
+        places = [*itertools.product((0.0, 1.0), repeat=len(keys)), [WITHIN] * len(keys)]
+        for given in settings:
+            for place in places:
+                free = {key.name: float(key.value(at)) for key, at in zip(keys, place)}
+                if refused := tool.refusal(self.method, {**given, **free}):
+                    raise WrongInput(f"--free: a run with {described(free)} would be refused: {refused}")
+
+    def _read(self, asked):
+        """The records, each beside a run of the method as it stands."""
+        pulls = [read_own(file) if is_own(file) else None for file, _ in asked]
+        records = []
+        for (file, given), pull in zip(asked, pulls):
+            folder = self.runs.whole(self.method, given, "--specimens", "1")
+            record = Record(file, pull or read_other(file, os.path.join(folder, "curve.csv")), given)
+            record.require_producible(read_model(folder))
+            records.append(record)
             shutil.rmtree(folder)
-
-    def _start(self, given):
-        if refused := tool.refusal(self.method, given):
-            raise WrongInput(refused)
-        return self.runs.whole(self.method, given, "--specimens", "1")
-
-    def _require_allowed(self):
-        """All ends of all ranges, for all records."""
-        for record in self.records:
-            for key in self.keys:
-                for value in (key.low, key.high) if key.offset is None else ():
-                    if refused := tool.refusal(self.method, {**record.settings, key.name: value}):
-                        raise WrongInput(f"--free {key.name}={key.low:.6g}:{key.high:.6g}: {refused}")
+        return records
 
     def go(self):
         inputs = sum(key.offset is None for key in self.keys)
         first, more = Search.runs_of(inputs)
         self.runs.expect(len(self.records) * (first + MOST_WAVES * more))
         batches = [self._batch(record.settings) for record in self.records]
+        cells = [method["machine"]["load_cell"] for method in self.methods]
         self.cases = [Case(record, number, self.keys, cell, batch)
-                      for number, (record, cell, batch) in enumerate(zip(self.records, self.cells, batches), start=1)]
+                      for number, (record, cell, batch) in enumerate(zip(self.records, cells, batches), start=1)]
         for case in self.cases:
             scatter, _ = case.scatter()
             require_known(case.record, case.cell, scatter)
@@ -93,8 +106,8 @@ class _Fit:
 
     def _batch(self, given):
         """Specimens, where they scatter."""
-        folder, _ = self.runs.whole(self.method, {**given, **EXACT_CELL}, "--specimens", str(SPECIMENS), "--jobs",
-                                    str(self.runs.jobs))
+        folder = self.runs.whole(self.method, {**given, **EXACT_CELL}, "--specimens", str(SPECIMENS), "--jobs",
+                                 str(self.runs.jobs))
         batch = Batch(folder)
         shutil.rmtree(folder)
         return batch if batch.draws[0] else None
@@ -117,12 +130,10 @@ class _Fit:
         return made
 
 
-def fitted_method(runs, method, given, fitted):
-    """The text of a resolved method with the values that were found."""
+def fitted_method(method, given, fitted):
+    """The text of the method with the values that were found."""
     values = {key: one.value for key, one in fitted.found.items() if not key.startswith("record.")}
-    folder, _ = runs.whole(method, {**given, **values}, "--specimens", "1")
-    with open(os.path.join(folder, "method.yaml"), encoding="utf-8") as file:
-        return file.read()
+    return tool.resolved(method, {**given, **values})
 
 
 def _require_room(out):

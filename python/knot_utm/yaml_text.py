@@ -47,6 +47,11 @@ def text_of(value):
     return text.removesuffix("\n").removesuffix("...").rstrip("\n")
 
 
+def described(settings):
+    """{key: value} in words."""
+    return ", ".join(f"{key}={text_of(value)}" for key, value in settings.items())
+
+
 def value_of(text):
     """What a text in YAML says. Raises yaml.YAMLError or WrongInput."""
     return yaml.load(text, _Loader)

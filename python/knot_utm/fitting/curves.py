@@ -10,6 +10,7 @@ import pandas as pd
 from knot_utm import tool
 from knot_utm.errors import WrongInput
 
+OWN = ("time", "phase", "extension", "load", "end_to_end")  # columns of a curve.csv
 PULLS = ("pull", "cycle", "follow")  # the phases of curve.csv in which the specimen is pulled
 SAME_ZERO = 1e-9                     # [m]
 AT_ONCE = 0.03                       # of the extension, within which a rod that parts lets go of its load
@@ -60,30 +61,28 @@ def pull_of_table(table):
     return pull if len(pull.extension) > 1 else None
 
 
-def read_measured(file, curve_file):
-    """Of a curve.csv, or of whatever else `compare` reads, set to zero beside the curve of a run. Raises WrongInput."""
+def is_own(file):
+    """Whether a file is a curve.csv, by its first line. Raises WrongInput where it cannot be read."""
     try:
         with open(file, encoding="utf-8", errors="replace") as lines:
-            names = lines.readline().strip().split(",")
+            return set(OWN) <= set(lines.readline().strip().split(","))
     except OSError as error:
         raise WrongInput(f"{file}: {error.strerror.lower()}") from error
-    own = {"time", "phase", "extension", "load", "end_to_end"} <= set(names)
-    pull = pull_of_table(_own(file)) if own else _other(file, curve_file)
-    if pull is None:
-        raise WrongInput(f"{file}: nothing is pulled in it, or it has fewer than two readings of a pull")
-    return pull
 
 
-def _own(file):
+def read_own(file):
+    """Of a curve.csv. Raises WrongInput."""
     try:
         table = pd.read_csv(file, skiprows=[1])
-        return table.astype({name: float for name in ("extension", "load", "end_to_end")})
+        table = table.astype({name: float for name in ("extension", "load", "end_to_end")})
     except (ValueError, KeyError) as error:
         raise WrongInput(f"{file}: {' '.join(str(error).split())}") from error
+    return _known(file, pull_of_table(table))
 
 
-def _other(file, curve_file):
-    """`compare` reads raw data and bags, sets them to zero and leaves the pull beside its page."""
+def read_other(file, curve_file):
+    """Of what else `compare` reads, raw data and bags. It sets them to zero beside the curve of a run, and leaves the pull beside
+    its page. Raises WrongInput."""
     compare = os.path.join(os.path.dirname(tool.tensile_test()), "compare")
     if not os.access(compare, os.X_OK):
         raise WrongInput(f"{compare} is not there, which reads such files as {file}: scripts/build compare makes it")
@@ -96,7 +95,13 @@ def _other(file, curve_file):
             said = tool.said_by(done.stderr).removeprefix("compare: ")
             raise WrongInput(said or f"{file}: compare cannot read it")
         read = pd.read_csv(table, skiprows=[1])
-    return Pull(read["extension"].to_numpy(float), read["load"].to_numpy(float)) if len(read) > 1 else None
+    return _known(file, Pull(read["extension"].to_numpy(float), read["load"].to_numpy(float)) if len(read) > 1 else None)
+
+
+def _known(file, pull):
+    if pull is None:
+        raise WrongInput(f"{file}: nothing is pulled in it, or it has fewer than two readings of a pull")
+    return pull
 
 
 def is_number(value):

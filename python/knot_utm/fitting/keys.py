@@ -55,20 +55,25 @@ def parse_free(word):
     return name, (low, high)
 
 
-def free_key(name, limits, method, records):
-    """With its range. `method`: as resolved; `records`: those measured. Raises WrongInput."""
-    key = FreeKey(name, *(limits or (0.0, 0.0)))
-    if key.offset is not None:
-        number, kind = key.offset
-        if number > len(records):
-            raise WrongInput(f"--free: {name} is of record {number}, but there are {len(records)}")
-        most = OFFSET_SHARE * (records[number - 1].largest_load if kind == "force" else records[number - 1].range)
-        return FreeKey(name, *(limits or (-most, most)))
-    if limits:
-        return key
+def offset_key(name, limits, records):
+    """Of an offset of one of the records, with its range. Raises WrongInput."""
+    number, kind = FreeKey(name, 0.0, 0.0).offset
+    if number > len(records):
+        raise WrongInput(f"--free: {name} is of record {number}, but there are {len(records)}")
+    most = OFFSET_SHARE * (records[number - 1].largest_load if kind == "force" else records[number - 1].range)
+    return FreeKey(name, *(limits or (-most, most)))
+
+
+def method_key(name, limits, method, numbers):
+    """Of a key of the method, with its range. `method`: as resolved; `numbers`: the keys of it that are numbers. Raises
+    WrongInput."""
     value = value_at(method, name)
+    said = "nothing" if value is None else text_of(value)
+    if name not in numbers and value is not None:
+        raise WrongInput(f"--free: {name} is {said}, but only a number may be free")
+    if limits:
+        return FreeKey(name, *limits)
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value < math.inf:
-        said = "nothing" if value is None else text_of(value)
         raise WrongInput(f"--free: the method has {said} at {name}, around which no range can be laid: give --free "
                          f"{name}=low:high")
     return FreeKey(name, value / AROUND, value * AROUND)

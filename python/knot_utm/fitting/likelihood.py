@@ -1,9 +1,16 @@
 """How likely measured curves are, over the free keys:
 
-    -2 log L = sum over the records of r^T (C + V)^-1 r + log det(C + V) - log det C
+    -2 log L = r^T (A + g g^T)^-1 r + log det(A + g g^T) - log det C,   A = C + V
 
 r: measured less simulated means [N], with the offsets of the record. C: errors.py. V: what the emulator does not know of the
-simulated curve, so that a place where nothing was run is not believed to be unlikely."""
+simulated curve, so that a place where nothing was run is not believed to be unlikely. g: the systematic error of the cell. C and
+V are blocks, one a record. g is one vector over all records of one cell, so that (Sherman and Morrison)
+
+    r^T (A + g g^T)^-1 r = a - b^2/(1 + c),   log det(A + g g^T) = log det A + log(1 + c)
+
+with a = r^T A^-1 r, b = g^T A^-1 r and c = g^T A^-1 g, which are sums over the records."""
+from collections import defaultdict
+
 import numpy as np
 from scipy import linalg
 
@@ -12,11 +19,13 @@ LOST = 1e6   # -2 log L of no curve at all, over that of the emulator
 
 
 class RecordLikelihood:
-    """Of one record. `inputs`: which of the free keys its runs depend on."""
+    """Of one record. `inputs`: which of the free keys its runs depend on; `of_the_cell`: g, of the cell of that name."""
 
-    def __init__(self, record, number, keys, inputs, emulator, grid, covariance):
-        self.record, self.emulator, self.inputs = record, emulator, inputs
+    def __init__(self, record, number, keys, inputs, emulator, grid, covariance, of_the_cell, cell):
+        self.record, self.emulator, self.inputs, self.cell = record, emulator, inputs, cell
         self.factor = linalg.cholesky(covariance, lower=True)
+        self.of_the_cell = self._whitened(of_the_cell)
+        self.errors = np.sqrt(np.diag(covariance) + of_the_cell**2)
         self.force = _offset(keys, number, "force")
         self.shift = _offset(keys, number, "extension")
         self.shifts = self.shift[1].value(np.linspace(0.0, 1.0, SHIFTS)) if self.shift else np.zeros(1)
@@ -58,15 +67,17 @@ class RecordLikelihood:
                 (1.0 - two) * self.slopes[left] + two * self.slopes[left + 1])
 
     def at(self, places):
-        """(chi^2, log det(C + V) - log det C), one place a row."""
+        """(a, b, c, log det A - log det C), one place a row."""
         left, slopes, variances = self.parts(places)
         unknown = np.einsum("nkq,nkp->nqp", slopes, slopes)
         diagonal = np.arange(unknown.shape[1])
         unknown[:, diagonal, diagonal] += 1.0 / variances
-        projected = np.einsum("nkq,nk->nq", slopes, left)
-        taken = np.einsum("nq,nq->n", projected, np.linalg.solve(unknown, projected[..., None])[..., 0])
+        both = np.stack([left, np.broadcast_to(self.of_the_cell, left.shape)], axis=2)
+        projected = np.einsum("nkq,nks->nqs", slopes, both)
+        taken = np.einsum("nqs,nqt->nst", projected, np.linalg.solve(unknown, projected))
+        products = np.einsum("nks,nkt->nst", both, both) - taken
         logarithm = np.linalg.slogdet(unknown)[1] + np.log(variances).sum(axis=1)
-        return (left**2).sum(axis=1) - taken, logarithm
+        return products[:, 0, 0], products[:, 0, 1], products[:, 1, 1], logarithm
 
     def unknown(self, place):
         """How much of the errors is of the emulator: the trace of V over C."""
@@ -87,10 +98,22 @@ class Likelihood:
         self.records, self.is_lost = records, is_lost
 
     def at(self, places):
-        return sum(sum(record.at(places)) for record in self.records) + LOST * self.is_lost(places)
+        return sum(self._parts(places)) + LOST * self.is_lost(places)
 
     def chi_square(self, place):
-        return float(sum(record.at(place[None])[0][0] for record in self.records))
+        return float(self._parts(place[None])[0][0])
+
+    def _parts(self, places):
+        """(chi^2, log det(A + g g^T) - log det C), one place a row."""
+        of_cell = defaultdict(list)
+        for record in self.records:
+            of_cell[record.cell].append(record.at(places))
+        chi_square = logarithm = 0.0
+        for parts in of_cell.values():
+            a, b, c, own = map(sum, zip(*parts))
+            chi_square = chi_square + a - b**2 / (1.0 + c)
+            logarithm = logarithm + own + np.log(1.0 + c)
+        return chi_square, logarithm
 
     def unknown(self, place):
         return sum(record.unknown(place) for record in self.records)

@@ -22,10 +22,6 @@ class Profile:
     low: object
     high: object
 
-    @property
-    def is_identifiable(self):
-        return self.low is not None and self.high is not None
-
 
 def sobol(keys, count, seed):
     """Places from 0 to 1 that lie evenly, one a row."""
@@ -44,21 +40,18 @@ def smallest(likelihood, low, high, starts, fixed=None):
         values = likelihood.at(starts)
         return starts[np.argmin(values)], float(values.min())
     best = None
-    step = STEP * (high - low)
+    width = (high - low)[free]  # the search goes in shares of the box, in which all keys count alike
     for start in starts:
-        def fall(moved, place=start):
+        def value_and_slopes(inside, place=start):
             about = np.tile(place, (2 * len(free) + 1, 1))
-            about[:, free] = moved
+            about[:, free] = low[free] + inside * width
             for i, d in enumerate(free):
-                about[2 * i + 1, d] += step[d]
-                about[2 * i + 2, d] -= step[d]
+                about[2 * i + 1, d] += STEP * width[i]
+                about[2 * i + 2, d] -= STEP * width[i]
             values = likelihood.at(about)
-            return values[0], (values[1::2] - values[2::2]) / (2.0 * step[free])
-        # In shares of the box, in which all keys count alike.
-        width = (high - low)[free]
-        found = optimize.minimize(lambda x: (lambda value, slope: (value, slope * width))(*fall(low[free] + x * width)),
-                                  np.clip((start[free] - low[free]) / width, 0.0, 1.0), jac=True, method="L-BFGS-B",
-                                  bounds=[(0.0, 1.0)] * len(free))
+            return values[0], (values[1::2] - values[2::2]) / (2.0 * STEP)
+        found = optimize.minimize(value_and_slopes, np.clip((start[free] - low[free]) / width, 0.0, 1.0), jac=True,
+                                  method="L-BFGS-B", bounds=[(0.0, 1.0)] * len(free))
         if best is None or found.fun < best[1]:
             place = start.copy()
             place[free] = low[free] + found.x * width

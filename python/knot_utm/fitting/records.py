@@ -10,10 +10,10 @@ BROKEN = 0.02    # the same of one whose rod parted: beyond it the curve goes on
 
 
 class Record:
-    """One measured curve, and the method that is to produce it: `settings` over the file `method`."""
+    """One measured curve, and what is set over the method that is to produce it."""
 
-    def __init__(self, name, pull, method, settings):
-        self.name, self.pull, self.method, self.settings = name, pull, method, settings
+    def __init__(self, name, pull, settings):
+        self.name, self.settings = name, settings
         self.extension, self.load = pull.extension, pull.load
         self._bin()
 

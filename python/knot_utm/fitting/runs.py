@@ -2,7 +2,6 @@
 import contextlib
 import os
 import shutil
-import subprocess
 import tempfile
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
@@ -25,7 +24,6 @@ class Model:
 
     pull: object
     result: dict
-    settings: dict
 
 
 class Runs:
@@ -66,34 +64,34 @@ class Runs:
             return [future.result() for future in futures]
 
     def whole(self, method, settings, *more):
-        """The folder of a run that is not thrown away before the end, and its exit code. Raises WrongInput where refused."""
+        """The folder of a run that is not thrown away before the end. Raises WrongInput where refused."""
         out = tempfile.mkdtemp(dir=self.folder)
         code, said = self._wait(method, settings, out, more)
         if code == tool.REFUSED:
             raise WrongInput(said)
-        return out, code
+        return out
 
     def _run(self, method, settings):
         out = tempfile.mkdtemp(dir=self.folder)
         try:
             code, _ = self._wait(method, {**settings, **EXACT_CELL}, out, ("--specimens", "1"))
-            return read_model(out, settings) if code in (0, 1) else Model(None, {}, settings)
+            return read_model(out) if code in (0, 1) else Model(None, {})
         finally:
             shutil.rmtree(out, ignore_errors=True)
 
     def _wait(self, method, settings, out, more):
         if self._stopped:
             raise Interrupted("it was interrupted")
-        # It dies with the fit.
-        command = tool.command(method, settings, out, "--quiet", "--overwrite", "--checkpoint", "0", *more)
-        process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *command], cwd=os.path.dirname(method), text=True,
-                                   errors="replace", stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        process = tool.start(method, settings, out, "--overwrite", "--checkpoint", "0", *more)
         self._live.add(process)
         if self._stopped:
             process.kill()
         _, stderr = process.communicate()
         self._live.discard(process)
-        return process.returncode, tool.said_by(stderr)
+        said = tool.said_by(stderr)
+        if process.returncode > 0 and tool.is_of_a_full_disk(said):
+            raise RuntimeError(said)
+        return process.returncode, said
 
     def _stop(self):
         self._stopped = True
@@ -102,11 +100,11 @@ class Runs:
                 process.kill()
 
 
-def read_model(folder, settings):
+def read_model(folder):
     """What a run left, as a Model."""
     try:
         result = load(os.path.join(folder, "result.yaml"))
         pull = pull_of_table(pd.read_csv(os.path.join(folder, "curve_full.csv"), skiprows=[1]))
     except (WrongInput, OSError, ValueError):
-        return Model(None, {}, settings)
-    return Model(pull, result, settings)
+        return Model(None, {})
+    return Model(pull, result)

@@ -20,7 +20,7 @@ class Batch:
             rows = list(csv.DictReader(file))[1:]  # behind the units
         keys = [name for name in rows[0] if "." in name]
         self.draws = [{key: float(row[key]) / value_at(self.method, key) for key in keys} for row in rows]
-        self.models = [read_model(os.path.join(folder, f"specimen_{number:03d}"), {}) for number in range(1, len(rows) + 1)]
+        self.models = [read_model(os.path.join(folder, f"specimen_{number:03d}")) for number in range(1, len(rows) + 1)]
 
     def drawn(self, number, settings):
         """Settings of one specimen: what is drawn goes with what is set."""

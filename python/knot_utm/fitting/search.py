@@ -8,6 +8,7 @@ from knot_utm.fitting import errors, profiles
 from knot_utm.fitting.emulator import Emulator
 from knot_utm.fitting.likelihood import Likelihood, RecordLikelihood
 from knot_utm.fitting.scatter import covariance_of, left_over
+from knot_utm.yaml_text import text_of
 
 GRID = 384          # points of a simulated curve
 MOST_WAVES = 8
@@ -17,6 +18,9 @@ SHRUNK = 0.8        # a side of the box that shrinks by less has settled
 LEARNT = 0.1        # errors of the emulator over all others, at the best place, which are small enough
 MARGIN = 0.3        # of the box, beyond which runs are forgotten
 GROWN = 0.05        # of the box, by which it is larger than what is kept
+ALIKE, UNLIKE = 0.5, 0.8  # misfit of runs that come near to the record, and of those that are of another kind
+LEAST = 1e-300      # [N]
+CLEARLY = 2.0       # times as far as the nearest run of another kind the nearest one of the record's kind must be
 
 
 class Case:
@@ -24,10 +28,11 @@ class Case:
 
     def __init__(self, record, number, keys, cell, batch):
         self.record, self.number, self.keys, self.cell, self.batch = record, number, keys, cell, batch
+        self.cell_name = text_of({key: value for key, value in cell.items() if key != "noise_run"})
         self.inputs = np.array([i for i, key in enumerate(keys) if key.offset is None], int)  # what its runs depend on
         most = max((max(abs(key.low), abs(key.high)) for key in keys if key.offset == (number, "extension")), default=0.0)
         self.grid = np.linspace(record.extension[0] - most, record.extension[-1] + most, GRID)
-        self.places, self.curves, self.models = [], [], []
+        self.places, self.curves, self.models, self.misfits = [], [], [], []
         self.tried, self.lost = [], []  # all places, and whether the run there left no whole curve
         self._gather()
 
@@ -74,22 +79,50 @@ class Case:
             self.places.append(place)
             self.curves.append(model.pull.at(self.grid))
             self.models.append(model)
+            self.misfits.append(self._misfit(self._means(model.pull)))
+
+    def _misfit(self, means):
+        """From 0 to 1: 0.8 where the loads of a run are nine times as large as the measured ones, or a ninth of them."""
+        measured, error = self.record.measured, errors.of_single_means(self.record, self.cell, means)
+        return float(np.mean(np.abs(means - measured) / np.maximum(np.abs(means) + np.abs(measured) + error, LEAST)))
+
+    def unlike(self):
+        """Whether a run is of another kind than the record, as where knots opened. Nothing is, where no run comes near."""
+        misfits = np.array(self.misfits)
+        return (misfits > UNLIKE) & (misfits.min(initial=1.0) < ALIKE)
+
+    def is_not(self, places, width):
+        """Where runs of the record leave no whole curve, or one of another kind. The benefit of the doubt is for the record: the
+        emulator knows little there, and the next runs tell."""
+        inputs = self.inputs
+        unlike = self.unlike()
+        right = [place for place, is_unlike in zip(self.places, unlike) if not is_unlike]
+        wrong = [place for place, is_lost in zip(self.tried, self.lost) if is_lost]
+        wrong += [place for place, is_unlike in zip(self.places, unlike) if is_unlike]
+        if not wrong:
+            return np.zeros(len(places), bool)
+        to_right, to_wrong = (distances((places / width)[:, inputs], (np.array(of) / width)[:, inputs]) for of in (right, wrong))
+        return to_right > CLEARLY * to_wrong
 
     def likelihood(self, low, high, best):
-        """Learnt of the runs in a box and a margin around it. `best`: a place at which the errors are taken."""
+        """Learnt of the runs in a box and a margin around it that are of the record's kind: others would smear a jump from one
+        kind to the other over both sides. `best`: a place at which the errors are taken."""
         places, inputs = np.array(self.places), self.inputs
         width = high - low
         away = np.max(np.maximum(low - places, places - high)[:, inputs] / width[inputs], axis=1)
-        least = 3 * (len(inputs) + 1)
-        used = np.flatnonzero(away <= max(MARGIN, np.sort(away)[min(least, len(away)) - 1]))
+        away[self.unlike()] = np.inf
+        least = min(3 * (len(inputs) + 1), np.isfinite(away).sum())
+        used = np.flatnonzero(away <= max(MARGIN, np.sort(away)[least - 1]))
         curves = np.array([self.curves[i] for i in used])
         nearest = used[np.argmin(np.sum((places[used] - best)[:, inputs]**2, axis=1))]
         scatter, grid_scatter = self.scatter(used)
         means = self._means(self.models[nearest].pull)
-        covariance = errors.covariance(self.record, self.cell, means, self.models[nearest].result, scatter)
+        result = self.models[nearest].result
+        covariance = errors.covariance(self.record, self.cell, means, result, scatter)
         scale = np.interp(self.grid, self.record.centres, np.sqrt(np.diag(covariance)))
         emulator = Emulator(places[used][:, inputs], curves, scale, grid_scatter if np.any(grid_scatter) else None)
-        return RecordLikelihood(self.record, self.number, self.keys, inputs, emulator, self.grid, covariance)
+        return RecordLikelihood(self.record, self.number, self.keys, inputs, emulator, self.grid, covariance,
+                                errors.of_the_cell(self.cell, means, result), self.cell_name)
 
 
 class Search:
@@ -135,15 +168,7 @@ class Search:
             self.best, self.value = profiles.best_of(self.likelihood, self.low, self.high, wave)
 
     def _is_lost(self, places):
-        """Where the nearest run of a record was lost."""
-        lost = np.zeros(len(places), bool)
-        width = (self.high - self.low)[self.inputs]
-        for case in self.cases:
-            if any(case.lost):
-                tried = np.array(case.tried)[:, self.inputs] / width
-                away = ((places[:, None, self.inputs] / width - tried[None])**2).sum(axis=2)
-                lost |= np.array(case.lost)[np.argmin(away, axis=1)]
-        return lost
+        return np.any([case.is_not(places, self.high - self.low) for case in self.cases], axis=0)
 
     def _means(self):
         return sum(len(case.record.centres) for case in self.cases)
@@ -166,3 +191,8 @@ class Search:
             chosen.append(int(np.argmax(away)))
             away = np.minimum(away, np.sum((inside - inside[chosen[-1]])**2, axis=1))
         return low, high, kept[chosen]
+
+
+def distances(places, others):
+    """How far the nearest of the others is, for each place."""
+    return np.sqrt(((places[:, None] - others[None])**2).sum(axis=2).min(axis=1))

@@ -61,10 +61,16 @@ def judge(search):
     correlation = {a.name: {b.name: float(matrix[i, j]) for j, b in enumerate(keys) if j != i} for i, a in enumerate(keys)}
     chi_square, means = likelihood.chi_square(best), sum(len(record.record.centres) for record in likelihood.records)
     degrees = max(means - len(keys), 1)
-    curves = [(record.record, record.simulated(best), np.sqrt((record.factor**2).sum(axis=1))) for record in likelihood.records]
+    curves = [(record.record, record.simulated(best), record.errors) for record in likelihood.records]
     rms = float(np.sqrt(sum(((record.measured - simulated)**2).sum() for record, simulated, _ in curves) / means))
     probability = float(stats.chi2.sf(chi_square, degrees))
     notes = _notes(keys, best, found, matrix)
+    for case in search.cases:
+        for count, words in ((sum(case.lost), "left no whole curve"),
+                             (int(case.unlike().sum()), "left a curve of another kind, as where knots open")):
+            if count:
+                notes.append(f"{case.record.name}: {count} of {len(case.tried)} runs {words}; values near theirs count as values "
+                             "that do not fit")
     if probability < LEAST_PROBABILITY:
         notes.insert(0, f"nothing fits within the errors: the sum of squares over them is {chi_square:.4g} with {degrees} degrees "
                         "of freedom")
