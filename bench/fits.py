@@ -4,6 +4,7 @@ import random
 import sys
 import time
 
+import plots
 from runs import words_of
 from table import Report, Table, at_least
 
@@ -53,7 +54,8 @@ class Case:
         ended = os.times()
         self.cpu_time = time.process_time() - begun[0] + ended.children_user + ended.children_system \
             - begun[1].children_user - begun[1].children_system
-        print(f"{self.title}: {self.cpu_time:.0f} s of CPU time", file=sys.stderr, flush=True)
+        said = [f"{key} {truth:.5g}: {one.value:.5g} from {one.low} to {one.high}" for key, truth, one in self.rows()]
+        print(f"{self.title}: {'; '.join(said)}; {self.cpu_time:.0f} s of CPU time", file=sys.stderr, flush=True)
         return self
 
     def rows(self):
@@ -72,15 +74,14 @@ def report(runner, _materials):
                   f"Curves of specimens whose values are drawn at random (seed {SEED}), read by a cell of class {100 * CLASS:g} "
                   "with noise, and what scripts/fit finds of them when it knows the method but for these values. The specimens are "
                   "others than those of the fit. An interval of 95 % should hold 19 of 20 values.",
-                  [summary(cases), *tables(cases)])
+                  [summary(cases), *tables(cases)], lambda file: plots.intervals(file, relative_to_the_truth(cases)))
 
 
 def summary(cases):
-    rows = [(one.low, truth, one.high) for case in cases for _, truth, one in case.rows()]
-    inside = sum(low is not None and high is not None and low <= truth <= high for low, truth, high in rows)
+    inside = [is_inside(one, truth) for case in cases for _, truth, one in case.rows()]
     table = Table("All", ["fits"])
-    table.add("hidden values", "-", [len(rows)])
-    table.add("of them within their interval", "-", [inside], at_least(INSIDE * len(rows)))
+    table.add("hidden values", "-", [len(inside)])
+    table.add("of them within their interval", "-", [sum(inside)], at_least(INSIDE * len(inside)))
     table.add("records that fit within the errors", "-", [sum(case.fitted.fits for case in cases)])
     table.add("CPU time of all", "s", [sum(case.cpu_time for case in cases)], None, ".0f")
     return table
@@ -92,9 +93,19 @@ def tables(cases):
                                           "CPU time [s]"])
         for case in cases:
             for key, truth, one in case.rows() if case.kind == kind else ():
-                known = one.low is not None and one.high is not None
                 table.add(f"{case.title}: {key}", "-",
-                          [truth, one.value, one.low, one.high, 0.5 * (one.high - one.low) / truth if known else None,
-                           known and one.low <= truth <= one.high,
+                          [truth, one.value, one.low, one.high,
+                           0.5 * (one.high - one.low) / truth if one.identifiable else None, is_inside(one, truth),
                            f"{case.fitted.chi_square:.3g} of {case.fitted.degrees_of_freedom}", case.cpu_time])
         yield table
+
+
+def is_inside(one, truth):
+    """An interval that is open at one end does not count."""
+    return one.identifiable and one.low <= truth <= one.high
+
+
+def relative_to_the_truth(cases):
+    """[(name, value, low, high)] of what was bounded, each over the truth."""
+    return [(f"{case.title}: {key.rpartition('.')[2].replace('_', ' ')}", *(part / truth for part in (one.value, one.low, one.high)))
+            for case in cases for key, truth, one in case.rows() if one.identifiable]
