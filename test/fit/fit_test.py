@@ -187,6 +187,17 @@ class Refused(Fits):
         self.refused(record, "straight", "--free", STRETCH, settings={}, says="machine.load_cell.accuracy")
         self.refused(record, "straight", "--free", STRETCH, says="specimen.lenght is no key",
                      settings={**PULLED, "specimen.lenght": 1})
+        self.refused(record, "straight", "--free", "specimen.knot=0:1", says="specimen.knot is straight, but only a number may be free")
+        self.refused(record, "straight", "--free", "machine.load_cell.noise=0:1", says="machine.load_cell.noise is an error of the cell")
+        self.refused(record, "straight", "--free", STRETCH, "--also", record, STRETCH + "=5e4", says=STRETCH + " is set, but it is free")
+        self.refused(record, "overhand", "--free", "specimen.turns=1:3", says="specimen.turns is 1.8642, but must be a whole number",
+                     settings=CELL)
+
+    def test_where_a_corner_of_the_ranges_is_refused_before_the_first_run(self):
+        """Each end of each range alone is allowed: the strength is what the pre-load must not reach."""
+        settings = {**CELL, "physics.accuracy": "draft"}
+        self.refused(self.straight(), "tighten", "--free", "specimen.preload=50:1000", "material.breaking_force=900:4000",
+                     says="a run with specimen.preload=1000.0, material.breaking_force=900.0 would be refused", settings=settings)
 
     def test_where_the_method_cannot_produce_the_curve(self):
         record = self.straight()
@@ -195,6 +206,10 @@ class Refused(Fits):
             self.refused(milli, "straight", "--free", STRETCH, says="other units")
         self.refused(record, "straight", "--free", STRETCH, says="let it go on",
                      settings={**CELL, "program.pull.until.extension": 0.004})
+        for name, text in (("empty.csv", ""), ("words.csv", "a,b\nc,d\n"), ("short.csv", content(record).decode()[:120])):
+            with open(self.path(name), "w", encoding="utf-8") as file:
+                file.write(text)
+            self.refused(self.path(name), "straight", "--free", STRETCH, says=name)
         nothing = self.altered("nothing.csv", record, phase=lambda table: "hold")
         self.refused(nothing, "straight", "--free", STRETCH, says="nothing is pulled")
 

@@ -22,6 +22,8 @@ try:
     from knot_utm.fitting.records import MOST_BINS, Record
     from knot_utm.fitting.runs import Model
     from knot_utm.fitting.scatter import covariance_of, left_over
+    from knot_utm.fitting.search import Case, Search
+    from knot_utm.fitting.verdict import judge
 except ModuleNotFoundError as missing:
     if missing.name not in ("numpy", "pandas", "scipy", "tqdm", "yaml"):
         raise
@@ -229,6 +231,50 @@ class Errors(unittest.TestCase):
         rest = left_over(places, smooth + 0.1 * random.standard_normal((64, 12)))
         self.assertAlmostEqual(np.sqrt(np.mean(rest**2)), 0.1, delta=0.1 * 4.0 / np.sqrt(2.0 * 64 * 12))
         self.assertEqual(len(left_over(places[:8], smooth[:8])), 0)
+
+
+class Jumps(unittest.TestCase):
+    """A load that all but vanishes below a critical value, as of knots that open."""
+    keys = [FreeKey("friction", 0.0, 1.0)]
+    cell = {"accuracy": 0.005, "noise": 0.01}
+    critical, truth = 0.5, 0.53
+
+    @classmethod
+    def load(cls, friction):
+        return (1.0 + friction) * EXTENSION if friction > cls.critical else 1e-3 * EXTENSION
+
+    def model(self, friction):
+        return Model(Pull(EXTENSION, self.load(friction)), {})
+
+    def case(self):
+        return Case(record(self.load(self.truth)), 1, self.keys, self.cell, None)
+
+    def test_tell_runs_of_another_kind(self):
+        case = self.case()
+        for friction in (0.1, 0.4, 0.6, 0.9):
+            case.add(np.array([friction]), self.model(friction))
+        self.assertEqual(case.unlike().tolist(), [True, True, False, False])
+        asked = np.array([[0.05], [0.4], [0.45], [0.5], [0.55], [0.8]])
+        self.assertEqual(case.is_not(asked, np.ones(1)).tolist(), [True, True, True, False, False, False])
+
+    def test_are_nothing_where_no_run_comes_near(self):
+        case = self.case()
+        for friction in (0.1, 0.4):
+            case.add(np.array([friction]), self.model(friction))
+        self.assertFalse(case.unlike().any())
+
+    def test_beside_the_true_value_do_not_move_its_interval(self):
+        case = self.case()
+        search = Search([case], self.keys, lambda places, _: [[self.model(place[0]) for place in places]],
+                        lambda best: None)
+        search.go()
+        fitted = judge(search)
+        found = fitted.found["friction"]
+        self.assertTrue(fitted.fits and found.identifiable)
+        self.assertLess(found.low, self.truth)
+        self.assertGreater(found.high, self.truth)
+        self.assertLess(found.high - found.low, 0.05)
+        self.assertIn("left a curve of another kind", " ".join(fitted.notes))
 
 
 class Pulls(unittest.TestCase):
