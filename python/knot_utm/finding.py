@@ -13,7 +13,7 @@ from knot_utm.fitting.records import Record
 from knot_utm.fitting.runs import EXACT_CELL, Runs, read_model
 from knot_utm.fitting.scatter import SPECIMENS, Batch
 from knot_utm.fitting.search import MOST_WAVES, Case, Search
-from knot_utm.fitting.verdict import judge
+from knot_utm.fitting.verdict import judge, short
 from knot_utm.yaml_text import described, value_of
 
 WITHIN = 0.4321  # a place within a range, where a whole number is unlikely
@@ -73,7 +73,7 @@ class _Fit:
         places = [*itertools.product((0.0, 1.0), repeat=len(keys)), [WITHIN] * len(keys)]
         for given in settings:
             for place in places:
-                free = {key.name: float(key.value(at)) for key, at in zip(keys, place)}
+                free = {key.name: short(key.value(at)) for key, at in zip(keys, place)}
                 if refused := tool.refusal(self.method, {**given, **free}):
                     raise WrongInput(f"--free: a run with {described(free)} would be refused: {refused}")
 

@@ -274,7 +274,7 @@ class Jumps(unittest.TestCase):
         self.assertLess(found.low, self.truth)
         self.assertGreater(found.high, self.truth)
         self.assertLess(found.high - found.low, 0.05)
-        self.assertIn("left a curve of another kind", " ".join(fitted.notes))
+        self.assertIn("left loads of quite another size", " ".join(fitted.notes))
 
 
 class Pulls(unittest.TestCase):

@@ -66,8 +66,8 @@ def judge(search):
     probability = float(stats.chi2.sf(chi_square, degrees))
     notes = _notes(keys, best, found, matrix)
     for case in search.cases:
-        for count, words in ((sum(case.lost), "left no whole curve"),
-                             (int(case.unlike().sum()), "left a curve of another kind, as where knots open")):
+        unlike = int(case.unlike().sum())
+        for count, words in ((sum(case.lost), "left no whole curve"), (unlike, "left loads of quite another size, as where knots open")):
             if count:
                 notes.append(f"{case.record.name}: {count} of {len(case.tried)} runs {words}; values near theirs count as values "
                              "that do not fit")
