@@ -88,6 +88,12 @@ foreach(name design_test sweep_test workflow_test)
   set_tests_properties(${name} PROPERTIES TIMEOUT 600 SKIP_RETURN_CODE 77
                        ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
 endforeach()
+# Fits: their parts against closed forms, and what scripts/fit finds of hidden values.
+foreach(name interval_test fit_test)
+  add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/fit/${name}.py)
+  set_tests_properties(${name} PROPERTIES TIMEOUT 600 SKIP_RETURN_CODE 77
+                       ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
+endforeach()
 add_test(NAME doc_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/doc_test.py)
 
 # The recipe for a friction law in CONTRIBUTING.md, by following it.

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Writes report.html and report.pdf into the folder of a test, of a batch of specimens, or of a comparison.
+"""Writes report.html and report.pdf into the folder of a test, of a batch of specimens, of a comparison, or of a fit.
 
     make_report.py FOLDER [--command TEXT] [--version VERSION]
 
@@ -28,8 +28,8 @@ def refuse(message):
 
 def main():
     parser = OneLineParser(prog="report", description="Writes report.html and report.pdf into the folder of "
-                                     "a test, of a batch of specimens, or of a comparison.")
-    parser.add_argument("folder", help="that tensile_test, a recorder or compare --report wrote")
+                                     "a test, of a batch of specimens, of a comparison, or of a fit.")
+    parser.add_argument("folder", help="that tensile_test, a recorder, compare --report or scripts/fit wrote")
     parser.add_argument("--command", help="that the page names as the one that made it")
     parser.add_argument("--version", help="of knot_utm, that made it", default="")
     arguments = parser.parse_args()
@@ -53,14 +53,16 @@ def make(folder, command, version):
 
     # The first is the newest where a folder holds two: `compare` takes no folder of a run, and tests take away what
     # older tests and comparisons left.
-    kinds = {"result.yaml": "run", "comparison.yaml": "comparison", "statistics.yaml": "batch"}
+    kinds = {"result.yaml": "run", "comparison.yaml": "comparison", "statistics.yaml": "batch", "fit.yaml": "fit"}
     kind = next((kinds[name] for name in kinds if os.path.exists(os.path.join(folder, name))), None)
     if kind is None:
         raise CannotReport(f"{folder}: none of {', '.join(kinds)} is there")
     import batch_page
+    import fit_page
     import page
 
-    makers = {"run": page.report_on_run, "comparison": page.report_on_comparison, "batch": batch_page.report_on_batch}
+    makers = {"run": page.report_on_run, "comparison": page.report_on_comparison, "batch": batch_page.report_on_batch,
+              "fit": fit_page.report_on_fit}
     page.write(folder, makers[kind](folder, command, version))
 
 

@@ -41,6 +41,10 @@ FILES = [
     ("comparison.yaml", "the comparison in full precision"),
     ("a.csv", "curve A as compared"),
     ("b.csv", "curve B as compared"),
+    ("fit.yaml", "the fit in full precision"),
+    ("method_2.yaml", "the method of the second record; of further ones method_3.yaml and so on"),
+    ("curves.csv", "the means of the measured and the fitted curves, and their errors"),
+    ("profiles.csv", "the profiles of the keys"),
     ("report.html", "this page"),
     ("report.pdf", "this page for paper"),
 ]

@@ -1,5 +1,6 @@
 """tensile_test, as this package calls it."""
 import csv
+import errno
 import functools
 import os
 import shutil
@@ -11,6 +12,7 @@ from knot_utm.yaml_text import text_of
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
 CONFIG = os.path.join(ROOT, "config")
 REFUSED = 2  # its exit code for wrong input
+DISK_IS_FULL = [os.strerror(code).lower() for code in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)]
 
 
 @functools.cache
@@ -52,12 +54,27 @@ def command(method, settings, out, *more):
     return [tensile_test(), method, *_set(settings), "--out", out, *more]
 
 
+def start(method, settings, out, *more):
+    """A run under way, as a process. It is not in the terminal's group, whose Ctrl-C is for the caller, and dies with the caller."""
+    words = command(method, settings, out, "--quiet", *more)
+    return subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *words], cwd=os.path.dirname(method), text=True, errors="replace",
+                            process_group=0, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+
+
 def refusal(method, settings):
     """Why tensile_test would refuse to run that, in a line; None where it would not."""
     done = _asked(method, settings, "--check")
     if done.returncode not in (0, REFUSED):
         raise RuntimeError(f"tensile_test could not check {method}: {said_by(done.stderr) or f'exit code {done.returncode}'}")
     return said_by(done.stderr) if done.returncode == REFUSED else None
+
+
+def resolved(method, settings):
+    """The text of the method with every value. Raises WrongInput where tensile_test would refuse to run it."""
+    done = _asked(method, settings, "--check")
+    if done.returncode != 0:
+        raise WrongInput(said_by(done.stderr))
+    return done.stdout
 
 
 def key_units(method, settings):
@@ -70,6 +87,10 @@ def said_by(stderr):
     """The last line that tensile_test said, without its name."""
     lines = stderr.strip().splitlines()
     return lines[-1].removeprefix("tensile_test: ") if lines else ""
+
+
+def is_of_a_full_disk(said):
+    return any(text in said.lower() for text in DISK_IS_FULL)
 
 
 def _set(settings):

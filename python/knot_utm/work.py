@@ -1,9 +1,7 @@
 """The work on a study's runs: some at a time, until it is done or stopped."""
 import contextlib
-import errno
 import os
 import signal
-import subprocess
 import threading
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -13,9 +11,8 @@ from tqdm import tqdm
 from knot_utm import tool
 from knot_utm.errors import Interrupted, WrongInput
 from knot_utm.sweep_folder import RESULT, STATISTICS
-from knot_utm.yaml_text import load, text_of
+from knot_utm.yaml_text import described, load
 
-DISK_IS_FULL = [os.strerror(code).lower() for code in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)]
 INTERRUPTED = "interrupted"  # the reason of a run that may go on
 
 
@@ -99,7 +96,7 @@ class Work:
             return
         with self.stopping(), self.folder.making(place) as part:
             code, said = self._wait(self._start(beginning.point, part, "--stop-before", str(beginning.step)))
-            if code > 0 and is_of_a_full_disk(said):
+            if code > 0 and tool.is_of_a_full_disk(said):
                 self.stop(said.partition(";")[0].replace(part, place))
             elif code == 0 and not self.stopped and os.path.exists(os.path.join(part, "checkpoint")):
                 self.folder.put(part, place)
@@ -126,11 +123,7 @@ class Work:
 
     def _start(self, point, part, *more):
         more += ("--jobs", "1") if self.study.repeat > 1 else ()
-        command = tool.command(self.study.method, point, part, "--quiet", *more)
-        # Not in the terminal's group, whose Ctrl-C is for the sweep; and it dies with the sweep.
-        process = subprocess.Popen(["setpriv", "--pdeathsig", "KILL", *command], cwd=os.path.dirname(self.study.method),
-                                   text=True, errors="replace", process_group=0, stdin=subprocess.DEVNULL,
-                                   stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+        process = tool.start(self.study.method, point, part, *more)
         self._live.add(process)
         if self.stopped:  # between the question and the start
             process.kill()
@@ -144,7 +137,7 @@ class Work:
     def _keep(self, part, run, point, code, said):
         """What became of a run that ended by itself, or was ended by another than the sweep."""
         result = result_of(part)
-        if code > 0 and result is None and is_of_a_full_disk(said):
+        if code > 0 and result is None and tool.is_of_a_full_disk(said):
             self.stop(said.partition(";")[0])
             return
         if result is None or result.get("reason") == INTERRUPTED:
@@ -153,10 +146,6 @@ class Work:
         error = None if code == 0 else f"killed by {signal.Signals(-code).name}" if code < 0 else why or said
         record = {"exit_code": code if code >= 0 else 128 - code, "error": error, "set": point, "version": tool.version()}
         self.folder.finish(part, run, record)
-
-
-def is_of_a_full_disk(said):
-    return any(text in said.lower() for text in DISK_IS_FULL)
 
 
 def result_of(folder):
@@ -168,7 +157,3 @@ def result_of(folder):
         if isinstance(result, dict) and "specification_failed" in result:
             return result
     return None
-
-
-def described(point):
-    return ", ".join(f"{key}={text_of(value)}" for key, value in point.items())

@@ -45,3 +45,13 @@ def text_of(value):
     """A value in one line, which reads back as the same value."""
     text = yaml.dump(value, Dumper=_Dumper, default_flow_style=True, width=float("inf"), allow_unicode=True)
     return text.removesuffix("\n").removesuffix("...").rstrip("\n")
+
+
+def described(settings):
+    """{key: value} in words."""
+    return ", ".join(f"{key}={text_of(value)}" for key, value in settings.items())
+
+
+def value_of(text):
+    """What a text in YAML says. Raises yaml.YAMLError or WrongInput."""
+    return yaml.load(text, _Loader)

@@ -7,6 +7,7 @@
 
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
@@ -41,8 +42,9 @@ TEST(MethodKeys, AreThoseOfEveryKnotLawAndStep) {
     EXPECT_STRNE(knot->about().title, "") << knot->about().name;
     for (const std::string& key : knot->about().keys) EXPECT_NE(unit_of("specimen." + key), "no such key") << key;
   }
-  for (const FrictionKey& key : friction_keys())
+  for (const LawKey& key : FrictionRegistry::keys())
     EXPECT_EQ(unit_of(std::string("physics.friction.") + key.name), key.unit);
+  for (const LawKey& key : BendingRegistry::keys()) EXPECT_EQ(unit_of(std::string("material.") + key.name), key.unit);
   for (const char* step : {"tie", "mount", "preload", "pull", "hold", "cycle", "return"})
     EXPECT_EQ(unit_of(std::string("program.") + step + ".speed"), "m/s") << step;
   EXPECT_EQ(unit_of("program.pull.until.load"), "N");

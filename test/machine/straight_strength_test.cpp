@@ -22,8 +22,8 @@ TEST(StraightStrength, IsTheFirstLimitThatAStraightRodReaches) {
 TEST(StraightStrength, OfARubberIsItsTensionAtTheBreakingStrain) {
   Material material;
   material.stretching_stiffness = 30.0;
-  material.stretching_law = StretchingLaw{1};
-  ASSERT_STREQ(kStretchingLawNames[1], "neo_hookean");
+  material.stretching.law = StretchingLaw{1};
+  ASSERT_STREQ(StretchingRegistry::kNames[1], "neo_hookean");
   material.breaking_strain = 1.0;
   // T = k_s (lambda - 1/lambda^2)/3
   EXPECT_NEAR(*straight_strength(material), 30.0 * (2.0 - 0.25) / 3.0, 1e-12);

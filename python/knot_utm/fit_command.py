@@ -1,0 +1,74 @@
+"""The command line of a fit; scripts/fit has its words."""
+import argparse
+import os
+import shlex
+import signal
+import sys
+
+import yaml
+
+from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.finding import fit
+from knot_utm.yaml_text import value_of
+
+PROGRAM = "scripts/fit"
+
+
+def main(words):
+    asked = _arguments(words)
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # as Ctrl-C
+    try:
+        also = [(file, _settings(more, "--also")) for file, *more in asked.also]
+        fitted = fit(asked.measured, asked.method, asked.free, asked.out, _settings(asked.set, "--set"), also, asked.jobs,
+                     shlex.join([PROGRAM, *words]), not asked.no_report)
+    except WrongInput as wrong:
+        return _say(wrong, 2)
+    except KeyboardInterrupt:
+        return _say("it was interrupted", 1)
+    except (Interrupted, OSError, RuntimeError) as error:
+        return _say(error, 1)
+    for key, one in fitted.found.items():
+        low, high = ("?" if end is None else f"{end:.5g}" for end in (one.low, one.high))
+        print(f"{key}: {one.value:.5g}, from {low} to {high}" + ("" if one.identifiable else " (not identifiable)"))
+    print(f"rms: {fitted.rms:.4g} N")
+    for note in fitted.notes:
+        print(f"fit: {note}", file=sys.stderr)
+    return 0 if fitted.fits else 1
+
+
+def _settings(words, option):
+    found = {}
+    for word in words:
+        key, equals, text = word.partition("=")
+        if not key or not equals:
+            raise WrongInput(f"{option}: {word} is no KEY=VALUE")
+        try:
+            found[key] = value_of(text)
+        except yaml.YAMLError as error:
+            raise WrongInput(f"{option}: {word} is no YAML: {' '.join(str(error).split())}") from error
+    return found
+
+
+def _arguments(words):
+    parser = argparse.ArgumentParser(prog=PROGRAM, add_help=False, allow_abbrev=False)
+    parser.add_argument("measured")
+    parser.add_argument("method")
+    parser.add_argument("--free", action="extend", nargs="+", default=[])
+    parser.add_argument("--also", action="append", nargs="+", default=[])
+    parser.add_argument("--set", action="append", default=[])
+    parser.add_argument("--out")
+    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
+    parser.add_argument("--no-report", action="store_true")
+    asked = parser.parse_args(words)
+    if asked.jobs < 1:
+        parser.error(f"--jobs is {asked.jobs}, but must be at least 1")
+    return asked
+
+
+def _say(why, code):
+    print(f"fit: {why}", file=sys.stderr)
+    return code
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

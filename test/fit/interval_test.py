@@ -1,0 +1,358 @@
+#!/usr/bin/python3
+"""The parts of a fit against closed forms: the emulator, the covariance, the profiles."""
+import os
+import sys
+import unittest
+
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
+sys.dont_write_bytecode = True
+sys.path.insert(0, os.path.join(ROOT, "python"))
+
+try:
+    import numpy as np
+    import pandas as pd
+    from scipy import linalg, stats
+
+    from knot_utm.errors import WrongInput
+    from knot_utm.fitting import errors, profiles
+    from knot_utm.fitting.curves import Pull, pull_of_table
+    from knot_utm.fitting.emulator import Emulator
+    from knot_utm.fitting.keys import FreeKey, method_key, offset_key, parse_free, value_at
+    from knot_utm.fitting.likelihood import Likelihood, RecordLikelihood
+    from knot_utm.fitting.records import MOST_BINS, Record
+    from knot_utm.fitting.runs import Model
+    from knot_utm.fitting.scatter import covariance_of, left_over
+    from knot_utm.fitting.search import Case, Search
+    from knot_utm.fitting.verdict import judge
+except ModuleNotFoundError as missing:
+    if missing.name not in ("numpy", "pandas", "scipy", "tqdm", "yaml"):
+        raise
+    print(f"skipped: {missing}")
+    sys.exit(77)
+
+EXTENSION = np.linspace(0.0, 1.0, 12)
+LOW, HIGH = np.zeros(2), np.ones(2)
+
+
+def nothing_is_lost(places):
+    return np.zeros(len(places))
+
+
+def record(load, extension=EXTENSION):
+    return Record("made.csv", Pull(extension, np.asarray(load, float)), {})
+
+
+class Quadratic:
+    """-2 log L of a normal distribution about a place."""
+
+    def __init__(self, middle, covariance):
+        self.middle, self.inverse = np.array(middle), np.linalg.inv(covariance)
+
+    def at(self, places):
+        return np.einsum("ni,ij,nj->n", places - self.middle, self.inverse, places - self.middle)
+
+
+class Profiles(unittest.TestCase):
+    sd, correlation = np.array([0.03, 0.05]), 0.6
+
+    def setUp(self):
+        covariance = np.outer(self.sd, self.sd) * np.array([[1.0, self.correlation], [self.correlation, 1.0]])
+        self.likelihood = Quadratic([0.4, 0.6], covariance)
+        self.best, self.value = profiles.best_of(self.likelihood, LOW, HIGH, 1)
+
+    def test_of_a_normal_distribution_have_its_intervals(self):
+        np.testing.assert_allclose(self.best, [0.4, 0.6], atol=1e-5)
+        for key in (0, 1):
+            found = profiles.profile(self.likelihood, key, LOW, HIGH, self.best, self.value, 2)
+            half = stats.norm.ppf(0.975) * self.sd[key]
+            np.testing.assert_allclose([found.low, found.high], self.best[key] + np.array([-half, half]), atol=1e-3)
+
+    def test_correlation_is_that_of_the_distribution(self):
+        found = profiles.correlations(self.likelihood, self.best, LOW, HIGH)
+        self.assertAlmostEqual(found[0, 1], self.correlation, places=1)
+        np.testing.assert_allclose(np.diag(found), 1.0)
+
+    def test_that_do_not_rise_tell_no_interval(self):
+        flat = Quadratic([0.4, 0.6], np.diag([0.03**2, 10.0**2]))
+        best, value = profiles.best_of(flat, LOW, HIGH, 1)
+        found = [profiles.profile(flat, key, LOW, HIGH, best, value, 2) for key in (0, 1)]
+        self.assertNotIn(None, (found[0].low, found[0].high))
+        self.assertEqual((found[1].low, found[1].high), (None, None))
+
+    def test_of_a_ridge_are_known_together_only(self):
+        ridge = Quadratic([0.5, 0.5], np.array([[1.0, 1.0], [1.0, 1.0 + 1e-5]]))
+        best, value = profiles.best_of(ridge, LOW, HIGH, 1)
+        self.assertGreater(profiles.correlations(ridge, best, LOW, HIGH)[0, 1], profiles.KNOWN_TOGETHER)
+        for key in (0, 1):
+            found = profiles.profile(ridge, key, LOW, HIGH, best, value, 2)
+            self.assertIn(None, (found.low, found.high))
+
+
+class Emulators(unittest.TestCase):
+    grid = np.linspace(0.0, 1.0, 50)
+
+    def curves(self, places):
+        return np.exp(places[:, :1]) * self.grid + np.sin(3.0 * places[:, 1:]) * self.grid**2
+
+    def test_learn_smooth_curves(self):
+        places, unseen = profiles.sobol(2, 32, 1), profiles.sobol(2, 16, 2)
+        emulator = Emulator(places, self.curves(places), np.full(50, 1e-3))
+        told = np.array([emulator.curve(place) for place in unseen])
+        np.testing.assert_allclose(told, self.curves(unseen), atol=2e-2)
+
+    def test_know_what_they_do_not_know(self):
+        places = 0.3 * profiles.sobol(2, 24, 1)
+        emulator = Emulator(places, self.curves(places), np.full(50, 1e-3))
+        _, variances = emulator.weights(np.array([[0.15, 0.15], [1.0, 1.0]]))
+        self.assertGreater(variances[1].sum(), 100.0 * variances[0].sum())
+
+    def test_average_over_scatter(self):
+        """Of n runs that scatter by sigma about a line, the line is known to about sigma sqrt(2/n)."""
+        random = np.random.default_rng(5)
+        sigma, count = 0.05, 64
+        places = profiles.sobol(1, count, 1)
+        scatter = sigma * random.standard_normal((count, 1)) * np.ones(50)
+        emulator = Emulator(places, 1.0 + places * self.grid + scatter, np.full(50, sigma), sigma**2 * np.ones((50, 50)))
+        weights, variances = emulator.weights(np.array([[0.5]]))
+        error = emulator.curve(np.array([0.5])) - (1.0 + 0.5 * self.grid)
+        self.assertLess(np.max(np.abs(error)), 3.0 * sigma * np.sqrt(2.0 / count))
+        self.assertLess((variances[0] * (emulator.components**2).mean(axis=1)).sum(), sigma**2 * 4.0 / count)
+
+    def test_slopes_of_the_marginal_likelihood_are_its_differences(self):
+        places = profiles.sobol(2, 12, 1)
+        process = Emulator(places, self.curves(places), np.full(50, 1e-2)).processes[0]
+        at = np.array([-0.3, -6.0, -0.4, 0.2])
+        _, slopes = process._unlikely(at)
+        for k, step in enumerate(1e-5 * np.eye(4)):
+            difference = (process._unlikely(at + step)[0] - process._unlikely(at - step)[0]) / 2e-5
+            self.assertAlmostEqual(slopes[k], difference, delta=1e-4 * max(1.0, abs(difference)))
+
+
+class Likelihoods(unittest.TestCase):
+    """Of a line through zero, F = k s, over k and the offsets of the record."""
+    keys = [FreeKey("k", 1.0, 3.0), FreeKey("record.force_offset", -1.0, 1.0), FreeKey("record.extension_offset", -0.1, 0.1)]
+
+    def test_is_the_sum_of_squares_over_the_errors(self):
+        measured = record(2.0 * EXTENSION + 0.3)
+        grid = np.linspace(-0.1, 1.1, 100)
+        places = profiles.sobol(1, 8, 1)
+        curves = self.keys[0].value(places) * grid
+        sigma = 0.1
+        covariance = np.diag(np.full(12, sigma**2))
+        emulator = Emulator(places, curves, np.full(100, sigma))
+        one = RecordLikelihood(measured, 1, self.keys, np.array([0]), emulator, grid, covariance, np.zeros(12), "cell")
+        all_ = Likelihood([one], nothing_is_lost)
+        for k, force, shift in ((2.0, 0.3, 0.0), (2.3, -0.2, 0.05), (1.5, 0.0, -0.1), (2.9, 0.9, 0.013)):
+            place = np.array([[(k - 1.0) / 2.0, (force + 1.0) / 2.0, (shift + 0.1) / 0.2]])
+            residual = measured.measured - (k * (measured.centres - shift) + force)
+            expected = float((residual**2).sum()) / sigma**2
+            self.assertAlmostEqual(all_.chi_square(place[0]), expected, delta=1e-2 * (1.0 + expected))
+            np.testing.assert_allclose(one.simulated(place[0]), measured.measured - residual, atol=1e-3)
+
+    def test_has_the_error_of_a_cell_in_all_records_of_that_cell(self):
+        """Beside the whole matrix, written out."""
+        places, sigma, gain = profiles.sobol(1, 8, 1), 0.1, 0.2
+        grid = np.linspace(0.0, 1.0, 100)
+        emulator = Emulator(places, self.keys[0].value(places) * grid, np.full(100, sigma))
+        covariance = np.diag(np.full(12, sigma**2))
+        measured = [record(slope * EXTENSION) for slope in (2.2, 2.1)]
+        place = np.array([[0.6]])
+        told = {}
+        for cells in (("a", "a"), ("a", "b")):
+            records = [RecordLikelihood(of, 1, self.keys[:1], np.array([0]), emulator, grid, covariance, gain * of.measured, cell)
+                       for of, cell in zip(measured, cells)]
+            residual = np.concatenate([of.measured - one.simulated(place[0]) for of, one in zip(measured, records)])
+            common = np.concatenate([gain * of.measured for of in measured])
+            parts = [common] if cells[0] == cells[1] else [np.where(np.arange(24) < 12, common, 0.0),
+                                                           np.where(np.arange(24) < 12, 0.0, common)]
+            whole = sigma**2 * np.eye(24) + sum(np.outer(part, part) for part in parts)
+            likelihood = Likelihood(records, nothing_is_lost)
+            told[cells] = likelihood.chi_square(place[0])
+            self.assertAlmostEqual(told[cells], residual @ np.linalg.solve(whole, residual), delta=1e-3 * told[cells])
+            logarithm = np.linalg.slogdet(whole)[1] - 24 * np.log(sigma**2)
+            self.assertAlmostEqual(likelihood.at(place)[0] - told[cells], logarithm, delta=1e-2)
+        self.assertNotAlmostEqual(told["a", "a"], told["a", "b"], places=2)
+
+
+class Errors(unittest.TestCase):
+    def test_have_the_class_of_the_cell(self):
+        means = 100.0 * EXTENSION
+        np.testing.assert_allclose(errors.of_the_cell({"accuracy": 0.01}, means, {}), 0.01 * means / np.sqrt(3.0))
+        # Below the floor, which is of the true load, the accuracy does not hold.
+        floored = errors.of_the_cell({"accuracy": 0.01, "floor": 0.1, "capacity": 500.0}, means, {"balance_offset": 20.0})
+        np.testing.assert_allclose(floored * np.sqrt(3.0), np.where(means + 20.0 < 50.0, 50.0, 0.01 * means))
+
+    def test_have_noise_of_each_reading(self):
+        many = np.linspace(0.0, 1.0, 240)
+        measured = record(many, many)
+        none = np.zeros((len(measured.centres), len(measured.centres)))
+        found = errors.covariance(measured, {"noise": 0.2, "resolution": 0.0}, measured.measured, {}, none)
+        np.testing.assert_allclose(np.diag(found), 0.2**2 / measured.counts, rtol=1e-4)
+
+    def test_have_the_numerical_errors_of_the_result(self):
+        means = np.ones(12)
+        result = {"plateau_force": 10.0, "plateau_force_error": 1.0, "lock_extension": 0.5}
+        found = errors.covariance(record(means), {}, means, result, np.zeros((12, 12)))
+        before = np.flatnonzero(EXTENSION < 0.5)
+        self.assertAlmostEqual(found[before[0], before[1]], 0.05**2)
+        self.assertAlmostEqual(found[before[0], 11], 0.0)
+
+    def test_must_be_known(self):
+        with self.assertRaisesRegex(WrongInput, "machine.load_cell.accuracy"):
+            errors.require_known(record(EXTENSION), {"accuracy": 0, "noise": 0, "resolution": 0}, np.zeros((12, 12)))
+
+    def test_scatter_has_the_variances_and_can_be_inverted(self):
+        random = np.random.default_rng(3)
+        truth = 4.0 * np.ones((20, 20)) + np.eye(20)
+        drawn = random.multivariate_normal(np.zeros(20), truth, 400)
+        found = covariance_of(drawn)
+        np.testing.assert_allclose(np.diag(found), np.diag(truth), rtol=4.0 * np.sqrt(2.0 / 400))  # four standard deviations
+        linalg.cholesky(covariance_of(drawn[:8]))
+        np.testing.assert_array_equal(covariance_of(np.ones((8, 3))), np.zeros((3, 3)))
+
+    def test_scatter_of_a_few_specimens_does_not_promise_too_much(self):
+        """Means weighted by it are as far off as they are said to be, where they move together and where they do not."""
+        random = np.random.default_rng(4)
+        s = np.linspace(0.0, 1.0, 12)
+        truth = 0.8 + 0.2 * np.exp(-np.abs(s[:, None] - s[None, :]) / 0.1)
+        slope = 1.0 + s
+        off = []
+        for _ in range(300):
+            drawn = random.multivariate_normal(np.zeros(12), truth, 31)
+            inverse = np.linalg.inv(covariance_of(drawn[1:]))
+            off.append(slope @ inverse @ (drawn[0] - drawn[1:].mean(axis=0)) / np.sqrt(slope @ inverse @ slope))
+        self.assertLess(np.mean(np.abs(off) > 1.96), 0.05 + 3.0 * np.sqrt(0.05 * 0.95 / 300))
+
+    def test_scatter_of_runs_is_what_no_polynomial_of_their_places_has(self):
+        random = np.random.default_rng(6)
+        places = profiles.sobol(2, 64, 1)
+        smooth = (1.0 + places[:, :1] - places[:, :1] * places[:, 1:]) * EXTENSION
+        np.testing.assert_allclose(left_over(places, smooth), 0.0, atol=1e-12)
+        rest = left_over(places, smooth + 0.1 * random.standard_normal((64, 12)))
+        self.assertAlmostEqual(np.sqrt(np.mean(rest**2)), 0.1, delta=0.1 * 4.0 / np.sqrt(2.0 * 64 * 12))
+        self.assertEqual(len(left_over(places[:8], smooth[:8])), 0)
+
+
+class Jumps(unittest.TestCase):
+    """A load that all but vanishes below a critical value, as of knots that open."""
+    keys = [FreeKey("friction", 0.0, 1.0)]
+    cell = {"accuracy": 0.005, "noise": 0.01}
+    critical, truth = 0.5, 0.53
+
+    @classmethod
+    def load(cls, friction):
+        return (1.0 + friction) * EXTENSION if friction > cls.critical else 1e-3 * EXTENSION
+
+    def model(self, friction):
+        return Model(Pull(EXTENSION, self.load(friction)), {})
+
+    def case(self):
+        return Case(record(self.load(self.truth)), 1, self.keys, self.cell, None)
+
+    def test_tell_runs_of_another_kind(self):
+        case = self.case()
+        for friction in (0.1, 0.4, 0.6, 0.9):
+            case.add(np.array([friction]), self.model(friction))
+        self.assertEqual(case.unlike().tolist(), [True, True, False, False])
+        asked = np.array([[0.05], [0.4], [0.45], [0.5], [0.55], [0.8]])
+        self.assertEqual(case.is_not(asked, np.ones(1)).tolist(), [True, True, True, False, False, False])
+
+    def test_are_nothing_where_no_run_comes_near(self):
+        case = self.case()
+        for friction in (0.1, 0.4):
+            case.add(np.array([friction]), self.model(friction))
+        self.assertFalse(case.unlike().any())
+
+    def test_beside_the_true_value_do_not_move_its_interval(self):
+        case = self.case()
+        search = Search([case], self.keys, lambda places, _: [[self.model(place[0]) for place in places]],
+                        lambda best: None)
+        search.go()
+        fitted = judge(search)
+        found = fitted.found["friction"]
+        self.assertTrue(fitted.fits and found.identifiable)
+        self.assertLess(found.low, self.truth)
+        self.assertGreater(found.high, self.truth)
+        self.assertLess(found.high - found.low, 0.05)
+        self.assertIn("left loads of quite another size", " ".join(fitted.notes))
+
+
+class Pulls(unittest.TestCase):
+    def table(self, **changes):
+        rows = {"time": [0, 1, 2, 3, 4], "extension": [0.0, 0.1, 0.2, 0.15, 0.3], "load": [0.5, 1.0, 2.0, 1.5, 3.0],
+                "end_to_end": [1.0, 1.1, 1.2, 1.15, 1.3], "phase": ["balance", "pull", "pull", "pull", "pull"]}
+        return pd.DataFrame({**rows, **changes})
+
+    def test_are_what_reaches_a_new_extension(self):
+        pull = pull_of_table(self.table())
+        np.testing.assert_array_equal(pull.extension, [0.0, 0.1, 0.2, 0.3])
+        np.testing.assert_array_equal(pull.load, [0.5, 1.0, 2.0, 3.0])
+
+    def test_begin_where_the_balance_made_zero(self):
+        pull = pull_of_table(self.table(end_to_end=[0.9, 1.1, 1.2, 1.15, 1.3]))
+        self.assertEqual((pull.extension[0], pull.load[0]), (0.0, 0.0))
+
+    def test_end_where_the_rod_parts(self):
+        s = np.linspace(0.0, 1.0, 101)
+        load = np.where(s > 0.99, 0.0, s)
+        self.assertEqual(Pull(s, load).extension[-1], 0.99)
+        np.testing.assert_allclose(Pull(s, load).at(np.array([0.5, 1.1])), [0.5, 1.1])
+        self.assertEqual(Pull(s, np.where(s > 0.5, 0.0, s)).extension[-1], 1.0, "a knot that jumped open is pulled on")
+
+    def test_of_a_table_without_one_are_none(self):
+        self.assertIsNone(pull_of_table(self.table(phase=["hold"] * 5)))
+
+
+class Keys(unittest.TestCase):
+    def test_have_ranges(self):
+        self.assertEqual(parse_free("a.b=1:2e3"), ("a.b", (1.0, 2000.0)))
+        self.assertEqual(parse_free("a.b"), ("a.b", None))
+        method = {"a": {"b": 6.0, "none": 0, "word": "auto"}, "program": [{"tie": {"speed": 3.0}}]}
+        numbers = {"a.b", "a.none"}
+        self.assertEqual(method_key("a.b", None, method, numbers), FreeKey("a.b", 2.0, 18.0))
+        self.assertEqual(value_at(method, "program.tie.speed"), 3.0)
+        self.assertEqual(value_at(method, "program.0.tie.speed"), 3.0)
+        self.assertAlmostEqual(FreeKey("a", 1.0, 100.0).value(0.5), 10.0)
+        self.assertAlmostEqual(FreeKey("a", 1.0, 3.0).value(0.5), 2.0)
+        offset = offset_key("record.2.force_offset", None, [record(EXTENSION), record(4.0 * EXTENSION)])
+        self.assertAlmostEqual(offset.high, 0.2)
+        for name in ("a.none", "a.absent"):
+            with self.assertRaisesRegex(WrongInput, f"give --free {name}=low:high"):
+                method_key(name, None, method, numbers)
+        for limits in (None, (0.0, 1.0)):
+            with self.assertRaisesRegex(WrongInput, "a.word is auto, but only a number may be free"):
+                method_key("a.word", limits, method, numbers)
+        with self.assertRaisesRegex(WrongInput, "there are 1"):
+            offset_key("record.2.force_offset", None, [record(EXTENSION)])
+
+    def test_are_refused(self):
+        for word in ("", "=1:2", "a=1", "a=2:1", "a=x:y", "a=1:inf", "record.offset", "record.0.force_offset"):
+            with self.assertRaises(WrongInput, msg=word):
+                parse_free(word)
+
+
+class Records(unittest.TestCase):
+    def model(self, extension, load, **result):
+        return Model(Pull(np.asarray(extension, float), np.asarray(load, float)), result)
+
+    def test_of_other_units_or_another_range_are_refused(self):
+        measured = record(EXTENSION)
+        measured.require_producible(self.model([0.0, 1.0], [0.0, 5.0], ended_by="extension"))
+        measured.require_producible(self.model([0.0, 0.3], [0.0, 5.0], ended_by="break"))
+        for model, words in ((self.model([0.0, 1000.0], [0.0, 1.0]), "other units"),
+                             (self.model([0.0, 1.0], [0.0, 1e3]), "other units"),
+                             (self.model([0.0, 0.5], [0.0, 1.0], ended_by="extension"), "let it go on"),
+                             (Model(None, {"reason": "it gave up"}), "it gave up")):
+            with self.assertRaisesRegex(WrongInput, words):
+                measured.require_producible(model)
+
+    def test_have_means_of_equal_parts(self):
+        s = np.concatenate([np.linspace(0.0, 0.5, 90), [1.0]])
+        measured = record(s, s)
+        self.assertEqual(measured.counts.sum(), len(s))
+        np.testing.assert_allclose(measured.measured, measured.centres)
+        self.assertLess(len(measured.counts), MOST_BINS, "no part without readings")
+
+
+if __name__ == "__main__":
+    unittest.main()
