@@ -89,7 +89,7 @@ class Method(unittest.TestCase):
     def test_names_and_keys_of_laws_and_knots_are_explained_and_fuzzed(self):
         words = re.findall(r'^"([^"]+)"$', text("test/fuzz/method.dict"), re.MULTILINE)
         found = [name for file in [*files("include/knot_utm/contact", "_friction.hpp"), *files("include/knot_utm/rod", ".hpp")]
-                 for name in re.findall(r'kName = "(\w+)"|FrictionKey\{"(\w+)"', text(file))]
+                 for name in re.findall(r'kName = "(\w+)"|LawKey(?: \w+)?\{"(\w+)"', text(file))]
         names = [law or key for law, key in found]
         names += [name for file in files("src/specimen", ".cpp") for name in re.findall(r'out\.name = "(\w+)"', text(file))]
         self.assertGreater(len(names), 20)

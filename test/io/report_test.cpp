@@ -40,7 +40,7 @@ TEST_F(ReportIn, AFolderWithoutResultsIsRefusedInOneLine) {
     FAIL() << "a report of nothing";
   } catch (const std::runtime_error& error) {
     EXPECT_THAT(error.what(),
-                HasSubstr("report: " + folder() + ": none of result.yaml, comparison.yaml, statistics.yaml is there"));
+                HasSubstr("report: " + folder() + ": none of result.yaml, comparison.yaml, statistics.yaml, fit.yaml is there"));
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
   }
   EXPECT_FALSE(fs::exists(file("report.html")));
