@@ -77,6 +77,7 @@ void RunWriter::add(const Record& record) {
                   .colwise()
                   .norm()
                   .sum();
+  shapes_.add(record);
   const Sample* reading = cell_reading(record);
   if (reading && (readings_.empty() || reading->time > readings_.back().time)) {
     curve_.write(*reading);
@@ -108,6 +109,10 @@ RunFacts RunWriter::facts() const {
 
 void RunWriter::finish(const Results& results, const RunFacts& facts, const Points& final_shape) {
   if (final_shape.cols() > 0) write_centreline((fs::path(folder_) / "final_shape.csv").string(), final_shape);
+  if (!shapes_.empty()) {
+    if (samples_.back().status == BenchStatus::kBroken) shapes_.add_parted(samples_.back().time, final_shape);
+    write_whole((fs::path(folder_) / "shapes.csv").string(), shapes_.csv());
+  }
   write_whole((fs::path(folder_) / "result.yaml").string(), result_yaml(results, facts));
 }
 

@@ -2,6 +2,17 @@
 
 namespace knot_utm {
 
+void add_normal_forces(const std::vector<ContactPoint>& contacts, Eigen::VectorXd& force) {
+  for (const ContactPoint& contact : contacts) {
+    if (!contact.touches()) continue;
+    const double normal = contact.weight * contact.pressure;
+    for (int k = 0; k < 3; ++k) {
+      if (contact.c[k] != 0.0) force[contact.a0 + k] += contact.c[k] * normal;
+      if (!contact.on_roller() && contact.c[k + 3] != 0.0) force[contact.b0 + k] -= contact.c[k + 3] * normal;
+    }
+  }
+}
+
 std::vector<ContactForce> contact_forces(const std::vector<ContactPoint>& contacts, const Points& position) {
   std::vector<ContactForce> out;
   for (const ContactPoint& contact : contacts) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "knot_utm/numeric/archive.hpp"
@@ -8,14 +9,24 @@
 
 namespace knot_utm {
 
+/// What a picture colours the rod by, beside its tension.
+struct RodReadings {
+  Eigen::VectorXd twist_rate;  ///< of each inner node (twist_rates) [rad/m]; empty: not solved for
+  Eigen::VectorXd
+      contact_load;  ///< of each node, normal forces of strands and rollers per length [N/m]; empty: unknown
+
+  void state(Archive& archive);
+};
+
 /// All that is kept of one command: enough to write everything that a run leaves.
 struct Record {
   Command command;
   Sample answer;
-  std::vector<Sample> steps;  ///< one a time step accepted for this command, in order
-  Points shape;               ///< nodes after the command [m]; without columns where none was due
-  Eigen::VectorXd tension;    ///< of each edge, tension positive [N]; empty where no shape is
-  double wall_time = 0.0;     ///< since the test began [s]
+  std::vector<Sample> steps;            ///< one a time step accepted for this command, in order
+  Points shape;                         ///< nodes after the command [m]; without columns where none was due
+  Eigen::VectorXd tension;              ///< of each edge, tension positive [N]; empty where no shape is
+  std::optional<RodReadings> readings;  ///< where they were asked for, and a shape is
+  double wall_time = 0.0;               ///< since the test began [s]
 
   void state(Archive& archive);
 };

@@ -9,6 +9,7 @@
 #include "knot_utm/io/record.hpp"
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/run_facts.hpp"
+#include "knot_utm/io/shape_series.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/topology/loop_turn.hpp"
@@ -20,6 +21,7 @@ namespace knot_utm {
 ///   curve.csv        one row a reading of the load cell (cell_reading)
 ///   curve_full.csv   one row an accepted time step
 ///   result.yaml, final_shape.csv   at the end; until then the folder has none, not even those of an earlier run
+///   shapes.csv       with those two, where records have readings of the rod (ShapeSeries)
 ///
 /// Make it once all input is known to be right and a JournalWriter holds the folder.
 /// Everything throws std::runtime_error where a file cannot be written.
@@ -31,8 +33,8 @@ class RunWriter {
   /// One answer of the bench. That of a bench that failed adds the steps that it still made only.
   void add(const Record& record);
 
-  /// Writes result.yaml and, unless there are no points, final_shape.csv. `facts` as `facts()` with what only the
-  /// caller knows.
+  /// Writes result.yaml and, unless there are no points, final_shape.csv, and shapes.csv. `facts` as `facts()` with
+  /// what only the caller knows.
   void finish(const Results& results, const RunFacts& facts, const Points& final_shape);
 
   RunFacts facts() const;                   ///< what the method, the shapes and this process say
@@ -53,6 +55,7 @@ class RunWriter {
   bool far_side_held_ = false;
   CurveWriter curve_;
   CurveWriter full_curve_;
+  ShapeSeries shapes_;
 };
 
 }  // namespace knot_utm

@@ -16,6 +16,7 @@ struct BatchOptions {
   int jobs = 1;                    ///< specimens that are tested side by side
   bool resume = false;             ///< goes on with the batch that was cut off in `folder`
   bool overwrite = false;          ///< writes over what `folder` holds, instead of to the next free one
+  bool shapes = false;             ///< also writes shapes.csv of each specimen
   double checkpoint_period = 5.0;  ///< wall time between two checkpoints of a specimen [s]; 0: none
 
   std::function<bool()> interrupted;                    ///< asked by several threads

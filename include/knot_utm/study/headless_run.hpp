@@ -24,6 +24,7 @@ struct HeadlessOptions {
   bool overwrite = false;          ///< writes over what `folder` holds, instead of to the next free one
   std::string begin_with;          ///< the folder of a run that stopped where this one begins; empty: from the start
   std::optional<int> stop_before;  ///< stops before this step of the program, as if it were interrupted there
+  bool shapes = false;             ///< also writes shapes.csv, as a run that is resumed does where it began so
   double checkpoint_period = 5.0;  ///< wall time between two checkpoints [s]; 0: none
 
   /// Makes the further writer of this folder.
