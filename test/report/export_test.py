@@ -5,7 +5,7 @@ import subprocess
 import unittest
 import xml.etree.ElementTree as xml
 
-from runs import ROOT, Folders, put_into, read, tool
+from runs import ROOT, Folders, put_into
 
 import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
