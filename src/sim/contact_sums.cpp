@@ -1,15 +1,29 @@
 #include "knot_utm/sim/contact_sums.hpp"
 
+#include <algorithm>
+
 namespace knot_utm {
+
+namespace {
+
+/// Weights on three nodes of the sum 1, of which those below zero count as zero.
+void share(const double* weights, double sign, int first, double normal, Eigen::VectorXd& force) {
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) sum += std::max(0.0, sign * weights[k]);
+  for (int k = 0; k < 3; ++k) {
+    const double weight = std::max(0.0, sign * weights[k]);
+    if (weight > 0.0) force[first + k] += weight / sum * normal;
+  }
+}
+
+}  // namespace
 
 void add_normal_forces(const std::vector<ContactPoint>& contacts, Eigen::VectorXd& force) {
   for (const ContactPoint& contact : contacts) {
     if (!contact.touches()) continue;
     const double normal = contact.weight * contact.pressure;
-    for (int k = 0; k < 3; ++k) {
-      if (contact.c[k] != 0.0) force[contact.a0 + k] += contact.c[k] * normal;
-      if (!contact.on_roller() && contact.c[k + 3] != 0.0) force[contact.b0 + k] -= contact.c[k + 3] * normal;
-    }
+    share(contact.c, 1.0, contact.a0, normal, force);
+    if (!contact.on_roller()) share(contact.c + 3, -1.0, contact.b0, normal, force);
   }
 }
 

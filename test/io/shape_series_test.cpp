@@ -18,8 +18,11 @@ Record reading(int number) {
   Record record;
   record.answer.time = kPeriod * number;
   record.shape = Points::Constant(3, 3, number);
-  record.tension = Eigen::Vector2d(1.5, -2.5);
-  record.readings = RodReadings{Eigen::VectorXd::Constant(1, 0.125), Eigen::Vector3d(0.0, 7e4, 0.5)};
+  record.tension.resize(2);
+  record.tension << 1.5, -2.5;
+  RodReadings readings{Eigen::VectorXd::Constant(1, 0.125), Eigen::VectorXd(3)};
+  readings.contact_load << 0.0, 7e4, 0.5;
+  record.readings = readings;
   return record;
 }
 
