@@ -12,7 +12,8 @@ list(APPEND core_test_sources test/rooms_test.cpp)
 add_executable(core_tests ${core_test_sources})
 target_include_directories(core_tests PRIVATE test)
 target_link_libraries(core_tests PRIVATE knot_utm_core yaml-cpp ZLIB::ZLIB GTest::gtest_main GTest::gmock)
-if(KNOT_UTM_SANITIZE)
+# Halves what the tests take to compile. A compiler cache cannot look behind precompiled headers.
+if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
   target_precompile_headers(core_tests PRIVATE <gmock/gmock.h> <gtest/gtest.h> <Eigen/Core> <Eigen/Geometry>
                             <functional> <string> <vector>)
 endif()
@@ -29,7 +30,7 @@ gtest_discover_tests(core_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES
 
 # What stands on lanes, for processors without AVX2: it compiles there too. What it costs there is measured by
 # `scripts/bench registers`.
-if(KNOT_UTM_X86_64_V3)
+if(KNOT_UTM_X86_64_V3 AND NOT KNOT_UTM_SANITIZE)
   file(GLOB lane_sources CONFIGURE_DEPENDS src/numeric/*.cpp src/solver/*.cpp src/contact/*.cpp src/sim/*.cpp)
   add_library(narrow_lanes OBJECT ${lane_sources})
   target_compile_options(narrow_lanes PRIVATE -O0 -mno-avx)
@@ -57,7 +58,12 @@ target_link_libraries(property_tests PRIVATE knot_utm_core rapidcheck GTest::gte
 gtest_discover_tests(property_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
                      PROPERTIES TIMEOUT 1800 ENVIRONMENT "RC_PARAMS=seed=1 max_success=25")
 
-# Physics that takes long. Label `long`: not under sanitizers.
+# What follows runs long, or runs tools and scripts, in which sanitizers find nothing that the tests above do not reach.
+if(KNOT_UTM_SANITIZE)
+  return()
+endif()
+
+# Physics that takes long.
 file(GLOB validation_sources CONFIGURE_DEPENDS test/validation/*_test.cpp)
 if(validation_sources)
   add_executable(validation_tests ${validation_sources})
@@ -65,7 +71,7 @@ if(validation_sources)
                               PROPERTIES COMPILE_DEFINITIONS "KNOT_UTM_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\"")
   target_include_directories(validation_tests PRIVATE test)
   target_link_libraries(validation_tests PRIVATE knot_utm_core GTest::gtest_main)
-  gtest_discover_tests(validation_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800 LABELS long)
+  gtest_discover_tests(validation_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800)
 endif()
 
 # What scripts/bench and scripts/stress make of their runs; the scripts themselves; README and doc/ against the code.
@@ -81,7 +87,6 @@ foreach(name design_test sweep_test workflow_test)
   set_tests_properties(${name} PROPERTIES TIMEOUT 600 SKIP_RETURN_CODE 77
                        ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
 endforeach()
-set_tests_properties(workflow_test PROPERTIES LABELS long)
 add_test(NAME doc_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/doc_test.py)
 
 # The recipe for a friction law in CONTRIBUTING.md, by following it.
@@ -96,20 +101,20 @@ set_tests_properties(site_test PROPERTIES SKIP_RETURN_CODE 77)
 # The panel beside the picture in rviz.
 add_test(NAME panel_test COMMAND ${PYTHON_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/test/panel/panel_test.py)
 
-# The report: what is made of a run, and what a browser and a printer make of that. Label `long`: they run whole tests.
+# The report: what is made of a run, and what a browser and a printer make of that.
 foreach(name report_test certificate_test figures_test comparison_test batch_test browser_test export_test movie_test)
   add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/report/${name}.py)
-  set_tests_properties(${name} PROPERTIES TIMEOUT 1800 LABELS long ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
+  set_tests_properties(${name} PROPERTIES TIMEOUT 1800 ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
 endforeach()
 
 # README's numbers, method and lines, by running them.
 add_test(NAME readme_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/readme_test.py)
-set_tests_properties(readme_test PROPERTIES TIMEOUT 600 LABELS long ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
+set_tests_properties(readme_test PROPERTIES TIMEOUT 600 ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
 
 # The tutorial, from a clone on, which gets what stands in build/.
 if(KNOT_UTM_EXECUTABLE_DIR STREQUAL "${PROJECT_SOURCE_DIR}/build/devel/lib/knot_utm")
   add_test(NAME tutorial_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/tutorial_test.py)
-  set_tests_properties(tutorial_test PROPERTIES TIMEOUT 1800 LABELS long)
+  set_tests_properties(tutorial_test PROPERTIES TIMEOUT 1800)
 endif()
 
 # In a workspace, installing is the workspace's own business.
@@ -127,6 +132,9 @@ if(catkin_FOUND)
   target_include_directories(ros_tests PRIVATE test)
   target_link_libraries(ros_tests PRIVATE knot_utm_ros yaml-cpp GTest::gtest_main GTest::gmock)
   target_compile_definitions(ros_tests PRIVATE KNOT_UTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
+    target_precompile_headers(ros_tests PRIVATE <gmock/gmock.h> <gtest/gtest.h> <Eigen/Core> <ros/ros.h>)
+  endif()
   gtest_discover_tests(ros_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800)
 
   # The whole system, launched as a user does it: with the scripts, which take what stands in build/.

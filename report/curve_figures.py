@@ -6,6 +6,7 @@ from matplotlib.ticker import MaxNLocator
 from error_band import error_band
 from few_points import few_points
 from quantities import shown, with_unit
+from run import FORMING
 from style import BLUE, GOLD, GREEN, GREY, INK, ORANGE, PHASES, RED, SMALL, USUAL, VIOLET, as_svg, stacked
 
 MANY = 8.0  # a peak above this many plateaus hides the plateau: it gets axes of its own
@@ -46,7 +47,7 @@ def course(run, look):
     for name, a, b in phases_of(curve):
         axes.axvspan(time[a], time[b], color=PHASES.get(name, "#eeeeee"), lw=0, zorder=0)
     name_phases(axes, curve, look)
-    tested = ~np.isin(curve.phase, ("tie", "release"))
+    tested = ~np.isin(curve.phase, FORMING)
     rows = few_points(curve["load"], curve["extension"])
     axes.plot(time[rows], force.scale * np.where(tested, curve["load"], np.nan)[rows], color=BLUE, lw=1.3)
     axes.set_xlabel("time [s]")

@@ -9,10 +9,18 @@ from failure import CannotReport
 from is_number import is_number
 from units import units_of
 
-# Phases in which the specimen is pulled further than before.
-PULLING = ("pull", "cycle", "follow")
-# What comes before the test proper: the specimen is made, mounted and zeroed.
-PREPARATION = ("idle", "tie", "release", "mount", "preload", "balance", "done")
+
+
+def phases(trait):
+    """Names of the phases that have a trait of phases.csv."""
+    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "phases.csv")
+    with open(path, encoding="utf-8", newline="") as file:
+        return tuple(row["name"] for row in csv.DictReader(file) if row[trait] == "1")
+
+
+PULLING = phases("pulls")  # the specimen is pulled further than before
+PREPARATION = phases("prepares")  # it is made, mounted and zeroed, before the test proper
+FORMING = phases("forms")  # it is tied, or let go once it is tied
 
 
 class Curve:

@@ -83,7 +83,7 @@ void MotionPatternTracker::add(const Sample& sample) {
   if (sample.phase == Phase::kPull || sample.phase == Phase::kHold) borne_ = sample.force_upper;
   if (pulls(sample.phase))
     add_pulled(sample);
-  else if (pull_.empty() && (sample.phase == Phase::kTie || sample.phase == Phase::kRelease))
+  else if (pull_.empty() && forms(sample.phase))
     add_tied(sample);
 }
 

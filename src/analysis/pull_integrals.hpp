@@ -8,17 +8,17 @@
 
 namespace knot_utm {
 
-/// Integral of F (s - place) ds over a piece of `width` that begins `arm` behind the place, F going from `from` to
-/// `to`.
+/// First moment of F about a place, the integral of F (s - place) ds over an interval of length `width` that begins at
+/// place + `arm`. F varies linearly from `from` to `to`.
 inline double moment_of(double arm, double width, double from, double to) {
   return width * (from * (arm + width / 2.0) + (to - from) * (arm / 2.0 + width / 3.0));
 }
 
-/// What stands of the piece of a curve from a to b, straight between them, in a range of s.
+/// The part of a curve between the points a and b that lies in a range of s. F varies linearly from a to b.
 struct Piece {
-  double width;     // of s; none where it is not positive
-  double from, to;  // F at its ends
-  double fraction;  // of the piece
+  double width;     // extension of the part; not positive: nothing of it lies in the range
+  double from, to;  // F at the ends of the part
+  double fraction;  // the part over the distance from a to b
 
   Piece(const PullPoint& a, const PullPoint& b, const Range& range) {
     const double begin = std::max(a.extension, range.low), length = b.extension - a.extension;
@@ -30,19 +30,21 @@ struct Piece {
   }
 };
 
-/// Integrals over a range of s, F being straight from point to point.
+/// Integrals over a range of s: its width, that of F, that of F squared, and the change of e. F is interpolated
+/// linearly between the points.
 struct Integrals {
   double width = 0.0, force = 0.0, square = 0.0, distance_change = 0.0;
 };
 Integrals integrate(const Pull& pull, const Range& range);
 
-/// Least-squares slope of F over a range of s, F being straight from point to point.
+/// Least-squares slope of F over a range of s. F is interpolated linearly between the points.
 double slope_over(const Pull& pull, const Range& range);
 
-/// The first point of the largest force.
+/// Index of the first point at which F is largest.
 std::size_t peak_of(const Pull& pull);
 
-/// The way of a pull to its peak, for questions that are asked many times. The pull has a point, and outlives this.
+/// The part of a pull up to its peak, prepared for many queries. The pull must have a point, and must outlive this
+/// object.
 class WayToPeak {
  public:
   explicit WayToPeak(const Pull& pull);
@@ -54,18 +56,20 @@ class WayToPeak {
     return (work_to(range.high) - work_to(range.low)) / (range.high - range.low);
   }
 
-  /// Least-squares slope of F over a range, as slope_over, for the rounding of sums from the start.
+  /// Least-squares slope of F over a range. It equals that of slope_over up to rounding, because it is made from sums
+  /// that begin at the first point.
   double slope(const Range& range) const;
 
-  bool is_below(double force) const { return least_.front() <= force; }  ///< somewhere
+  bool is_below(double force) const { return least_.front() <= force; }  ///< whether F is anywhere as low as this
 
-  /// Where F last rises through `force`; the end where it never does, the start where it is never below.
+  /// The extension at which F last rises through `force`. The end where F never exceeds it, the start where F is never
+  /// below it.
   double last_rise_through(double force) const;
 
  private:
-  /// Integrals from the start.
+  /// Integrals from the start of the pull.
   struct Sums {
-    double work, moment;  // of F [J], of F (s - start) [J m]
+    double work, moment;  // integrals of F [J] and of F (s - start) [J m]
   };
   Sums sums_to(double extension) const;
   double work_to(double extension) const { return sums_to(extension).work; }
@@ -73,7 +77,7 @@ class WayToPeak {
   const Pull& pull_;
   std::size_t peak_;
   std::vector<Sums> sums_;     // from the first point to each
-  std::vector<double> least_;  // F from each point to the peak [N]
+  std::vector<double> least_;  // least F from each point to the peak [N]
 };
 
 }  // namespace knot_utm

@@ -265,7 +265,7 @@ class Course {
     if (!recoils) results_.max_penetration = std::max(results_.max_penetration, sample.max_penetration);
     if (sample.status == BenchStatus::kNotEquilibrated) results_.not_equilibrated = sample.message;
     add_energies(sample);
-    if (sample.phase == Phase::kTie || sample.phase == Phase::kRelease) tied_ = &sample;
+    if (forms(sample.phase)) tied_ = &sample;
     if (pulls(sample.phase))
       add_pull(sample, recoils);
     else if (!pull_begin_)

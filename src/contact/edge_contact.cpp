@@ -7,11 +7,11 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kReachMargin = 0.3;  // contacts are kept, forceless, up to this gap [fraction of radius]
 // r over the product of the edges' lengths: acts where edges turn through parallel within about 0.1 rad. Elsewhere it
 // draws the feet towards the middles by up to half of this fraction, which tilts the normal by 0.2 % at most.
 constexpr double kRegularisation = 0.01;
 
+constexpr double kSameContact = 1.5;     // arclength within which a contact is that of the last step [h]
 constexpr double kLeastEstimate = 1e-6;  // of the pressure, in K delta
 
 using Mat39 = Eigen::Matrix<double, 3, 9>;
@@ -27,7 +27,7 @@ EdgeContact::EdgeContact(const RodProperties& rod, const PressureLaws& normal, c
           normal)),
       friction_(friction),
       diameter_(2.0 * rod.material.radius),
-      window_(1.5 * rod.material.radius),
+      window_(kSameContact * rod.material.radius),
       reach_((2.0 + kReachMargin) * rod.material.radius),
       least_prediction_(kLeastEstimate * normal_.stiffness * normal_.tolerance),
       rest_length_(rod.rest_length),

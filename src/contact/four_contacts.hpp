@@ -9,7 +9,7 @@
 
 namespace knot_utm {
 
-/// Four contacts side by side.
+/// Four contacts that are evaluated at the same time, one in each lane.
 template <typename Contact>
 class Four {
  public:
@@ -27,7 +27,8 @@ class Four {
   std::array<Contact*, 4> contacts_;
 };
 
-/// What becomes of four vectors, and of four numbers beside them: each is one again, its number in the last lane.
+/// The reverse of FourVectors: separates four vectors, and a number of each, into one Lanes per contact, with the
+/// number in the last lane.
 class Parted {
  public:
   explicit Parted(const FourVectors& v, const Lanes& numbers = Lanes{}) : vectors_{v.x, v.y, v.z, numbers} {
@@ -39,14 +40,14 @@ class Parted {
   Lanes vectors_[4];
 };
 
-/// xi of four contacts.
+/// The elastic slip xi of four contacts.
 template <typename Contact>
 FourVectors remembered_by(const std::array<Contact*, 4>& contacts) {
   return FourVectors::of(to_lanes(contacts[0]->memory.slip), to_lanes(contacts[1]->memory.slip),
                          to_lanes(contacts[2]->memory.slip), to_lanes(contacts[3]->memory.slip));
 }
 
-/// Of contacts side by side; `slip`: their part in the tangent plane.
+/// The input of the friction law for four contacts. `slip`: the part of the slip in the tangent plane.
 template <typename Contact>
 FrictionInput<FourVectors> friction_input(const std::array<Contact*, 4>& contacts, const Lanes& pressure,
                                           const FourVectors& slip, double dt) {
@@ -58,17 +59,18 @@ FrictionInput<FourVectors> friction_input(const std::array<Contact*, 4>& contact
           dt};
 }
 
-/// The pressure law as Newton's method takes it (ContactModel), of four contacts.
+/// The linearised pressure law of four contacts (ContactModel).
 struct FourPressures {
   Lanes slope;     // p'(D^) [N/m^2]
   Lanes pressure;  // of the tangent at the present overlap [N/m]
-  Lanes turning;   // what turns with n and z [N/m]
+  Lanes turning;   // pressure in the terms in which n and z turn [N/m]
 
   FourPressures() = default;
   template <typename Pressure>
   FourPressures(const Pressure& normal, const ContactLinearisation& how, const Four<const ContactPoint>& four) {
     const Lanes overlap = four(&ContactPoint::overlap), prediction = four(&ContactPoint::prediction);
-    // A contact that is new and deep: the depth where the rod stiffens is a better guess than a wall.
+    // For a new contact with a large overlap, the depth where the rod stiffens gives a better tangent than the steep
+    // slope at the overlap itself.
     const double stiffens = normal.stiffens_at();
     const Lanes without = select(overlap < stiffens, overlap, constant<Lanes>(stiffens));
     const Lanes tangent_at = select(prediction > 0.0, normal.overlap_at(prediction), without);
@@ -78,8 +80,8 @@ struct FourPressures {
   }
 };
 
-/// Calls visit(four, first) for the active contacts in order, four at a time, `first` being the number of the first of
-/// them; the last one fills up what is left.
+/// Calls visit(four, first) for groups of four active contacts, in order. `first` is the number of the first one among
+/// the active contacts. An incomplete group is filled up with its last contact.
 template <typename Contacts, typename Visit>
 void visit_active(Contacts& contacts, Visit visit) {
   std::array<decltype(contacts.data()), 4> four;

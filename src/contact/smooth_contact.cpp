@@ -10,11 +10,11 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kUnknown = -1.0;     // weighting factor of a foot that recalls none yet
-constexpr double kSharpest = 2.0;     // turn of the centreline at a node that is no longer resolved [rad]
-constexpr double kReachMargin = 0.3;  // feet are followed up to this gap [fraction of radius]
-constexpr double kDeepest = 0.5;      // overlap of a contact that may begin [fraction of radius]
-constexpr double kFading = 0.25;      // way to the end of the spline on which a foot loses its weighting factor [radii]
+constexpr double kUnknown = -1.0;  // weighting factor of a foot that recalls none yet
+constexpr double kSharpest = 2.0;  // turn of the centreline at a node that is no longer resolved [rad]
+constexpr double kSameFoot = 1.0;  // arclength within which a foot is that of the last step [h]
+constexpr double kDeepest = 0.5;   // overlap of a contact that may begin [fraction of radius]
+constexpr double kFading = 0.25;   // way to the end of the spline on which a foot loses its weighting factor [radii]
 
 /// Arclength at rest of parameter u on a segment: from the middle of one edge to the middle of the next.
 double arclength_at(const Eigen::VectorXd& arclength, int segment, double u) {
@@ -42,7 +42,7 @@ SmoothContact::SmoothContact(const RodProperties& rod, const PressureLaws& norma
       begins_(begin_of(normal)),
       friction_(friction),
       diameter_(2.0 * rod.material.radius),
-      window_(1.0 * rod.material.radius),
+      window_(kSameFoot * rod.material.radius),
       reach_((2.0 + kReachMargin) * rod.material.radius),
       arclength_(rod.arclength()),
       voronoi_(rod.voronoi_length),

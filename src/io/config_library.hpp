@@ -9,19 +9,19 @@
 
 namespace knot_utm {
 
-/// Materials and load cells as files: where they are looked for, in order. A kind is a folder, "materials" or
-/// "load_cells".
+/// The folders in which files of materials and load cells are looked for, in order. A kind is the name of a subfolder,
+/// "materials" or "load_cells".
 class ConfigLibrary {
  public:
   explicit ConfigLibrary(const std::filesystem::path& method_folder);
 
-  /// The names of the files of this kind, each once and in alphabetical order.
+  /// The names of all files of a kind, each once and in alphabetical order.
   std::vector<std::string> names(const std::string& kind) const;
 
-  /// "a name (20N, 50kN) or a map".
+  /// What is allowed, for a message: "a name (20N, 50kN) or a map".
   std::string allowed(const std::string& kind) const;
 
-  /// The file of this name. `key` is what named it, for the message. Throws InvalidInput where there is none.
+  /// The file with this name. `key`: the key that named it, for the message. Throws InvalidInput where there is none.
   std::filesystem::path find(const std::string& kind, const std::string& name, const std::string& key) const;
 
  private:
@@ -30,13 +30,14 @@ class ConfigLibrary {
   std::vector<std::filesystem::path> folders_;
 };
 
-/// A map read from a file with the file's name in it, so that it can stand in the method.
+/// The map in a file, with the file's name added, so that it can be put into the method.
 YAML::Node named_map(const std::filesystem::path& file);
 
-/// The material's name; empty where the method gives none or a map.
+/// The name of the method's material; empty where the method gives none, or a map.
 std::string material_name(const YAML::Node& method);
 
-/// The cell's name behind `auto`, or behind no entry at all; none where the material names no cell.
+/// The name of the load cell that `auto`, or a missing entry, stands for: that of the material. Empty where the
+/// material names no load cell.
 std::optional<std::string> load_cell_name(const YAML::Node& node, const std::string& of_material);
 
 }  // namespace knot_utm

@@ -159,18 +159,16 @@ void check_load(const std::string& key, double load, double highest, const char*
     reject(key, load, std::string("at most the load cell's ") + what + ", " + format_number(highest) + " N");
 }
 
-/// Faster than any testing machine: a record in other units than it says, or not one.
-constexpr double kFastest = 0.5;  // [m/s]
-
+/// A record that is faster than any testing machine is in other units than it says, or is none.
 void check_record(const ProgramStep& step, const std::string& key) {
   for (std::size_t i = 1; i < step.recorded.size(); ++i) {
     const RecordedPlace &from = step.recorded[i - 1], &to = step.recorded[i];
     const double speed = std::abs(to.displacement - from.displacement) / (to.time - from.time);
-    if (speed > kFastest)
+    if (speed > kFastestCrosshead)
       throw InvalidInput::sentence(key, step.record,
                                    key + ": the crosshead of " + shown(step.record) + " moves at " +
                                        format_number(speed) + " m/s at " + format_number(from.time) +
-                                       " s, but must be no faster than " + format_number(kFastest) + " m/s");
+                                       " s, but must be no faster than " + format_number(kFastestCrosshead) + " m/s");
   }
 }
 
@@ -213,6 +211,14 @@ void check_ends(const Method& m) {
   has_effect(breaks.drop.has_value(), "ends.drop_extension", breaks.drop_extension, unset.drop_extension, "with drop");
 }
 
+void check_pull(const Method& m, const ProgramStep& step, const std::string& key) {
+  const std::optional<double> longest = knot_of(m.specimen).longest_pull(m.specimen, m.material.radius);
+  if (!longest || step.phase != Phase::kPull || !step.until.extension || *step.until.extension <= *longest) return;
+  reject(key + ".pull.until.extension", *step.until.extension,
+         "at most " + format_number(*longest) + " m, where the rod's lower end comes to the post: a longer " +
+             "specimen.tail allows more");
+}
+
 void check_program(const Method& m) {
   const bool loop = knot_of(m.specimen).about().loop;
   const std::string loop_only = "needs specimen.knot: " + loops() + "; begin the program with another step";
@@ -234,14 +240,8 @@ void check_program(const Method& m) {
         if (pulled) misplaced(key, name, "can only stand before the first step that moves the crosshead");
         pulled = true;
         break;
-      case Phase::kPreload:
-      case Phase::kPull:
-      case Phase::kCycle:
-      case Phase::kReturn:
-      case Phase::kFollow:
-        pulled = true;
-        break;
       default:
+        pulled |= moves(step.phase);
         break;
     }
     if (step.phase == Phase::kPull && !step.until.extension && !step.until.load && !step.until.time &&
@@ -249,6 +249,7 @@ void check_program(const Method& m) {
       throw InvalidInput::missing(key + ".pull.until", "one or more of extension, load, time and break");
     }
     check_step(step, key + "." + name, m.machine.load_cell.capacity);
+    check_pull(m, step, key);
   }
 }
 

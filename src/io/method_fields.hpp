@@ -10,7 +10,7 @@
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
-/// Every key of a method with its range, said once: reading and writing both walk these lists.
+/// All keys of a method with their ranges. Reading and writing walk the same lists.
 ///
 /// A `Fields` has
 ///   number(key, double&, Range)                 optional_number(key, optional<double>&, Range, word[, automatic])
@@ -20,11 +20,12 @@
 ///   choice(key, Enum&, names in enum order)     vector(key, Vector3d&, Range)
 ///   turns(key, optional<TurningPoints>&, Range)
 ///   section(key, [](Fields&) {...})
-/// where `word` is what may stand in a file for "not set", and a scaled number may be `auto`, which leaves what it is
-/// by default (method_defaults.hpp); so may an optional one that has an `automatic` value.
+/// `word` is what a file has for a value that is not set. A scaled number may be `auto`, which stands for its default
+/// (method_defaults.hpp). An optional number may be `auto` if it has an `automatic` value.
 namespace knot_utm::fields {
 
-/// Both ends are allowed. Narrow enough that a number in millimetres or gigapascals is noticed.
+/// The range of a number, both ends included. It is so narrow that a value given in millimetres or gigapascals is
+/// noticed.
 struct Range {
   double min;
   double max;
@@ -57,7 +58,7 @@ void specimen(Fields& f, SpecimenOptions& o) {
   f.optional_number("refinement", o.refinement, Range{1.0, 8.0, "-"}, "auto");
 }
 
-/// `name` comes from the file's name unless it is given.
+/// `name` is that of the file unless it is given.
 template <class Fields>
 void material(Fields& f, Material& o) {
   f.text("name", o.name);
@@ -81,6 +82,8 @@ void material(Fields& f, Material& o) {
   f.text("notes", o.notes);
 }
 
+constexpr Range kSpeeds{1e-7, kFastestCrosshead, "m/s"};  // of the crosshead and of tail grips
+
 template <class Fields>
 void load_cell(Fields& f, LoadCellOptions& o) {
   f.text("name", o.name);
@@ -97,10 +100,10 @@ void load_cell(Fields& f, LoadCellOptions& o) {
   f.text("notes", o.notes);
 }
 
-/// Of rollers, in the order of RollerRotation.
+/// The names of RollerRotation, in its order.
 inline constexpr std::array kRotations{"fixed", "free", "turned"};
 
-/// All of `machine` but the load cell, which may be a name.
+/// All keys of `machine` except the load cell, which may also be a name.
 template <class Fields>
 void machine(Fields& f, MachineOptions& o) {
   f.choice("grips", o.grips, std::array{"rollers", "nodes", "clamps"});
@@ -113,13 +116,13 @@ void machine(Fields& f, MachineOptions& o) {
   f.scaled_number("travel", o.travel, Range{1e-3, 100.0, "m"});
 }
 
-/// The keys that a step of `o.phase` has. `way`: of a pull to an extension that is auto [m].
+/// The keys of a program step with the phase `o.phase`. `way`: extension of a pull whose `until.extension` is auto [m].
 template <class Fields>
 void step(Fields& f, ProgramStep& o, double way = 0.0) {
   switch (o.phase) {
     case Phase::kTie:
     case Phase::kMount:
-      f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
+      f.scaled_number("speed", o.speed, kSpeeds);
       break;
     case Phase::kRelease:
       f.number("duration", o.duration, Range{1e-3, 1e4, "s"});
@@ -128,23 +131,23 @@ void step(Fields& f, ProgramStep& o, double way = 0.0) {
       f.required_number("duration", o.duration, Range{1e-3, 1e6, "s"});
       f.choice("control", o.hold_load, std::array{"extension", "load"});
       f.optional_number("load", o.held_load, Range{-1e8, 1e8, "N"}, "auto");
-      if (o.hold_load) f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
+      if (o.hold_load) f.scaled_number("speed", o.speed, kSpeeds);
       break;
     case Phase::kPreload:
       f.required_number("load", o.load, Range{1e-6, 1e8, "N"});
-      f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
+      f.scaled_number("speed", o.speed, kSpeeds);
       f.optional_number("load_rate", o.load_rate, Range{1e-6, 1e8, "N/s"}, "none");
       f.flag("balance", o.balance);
       break;
     case Phase::kCycle:
       f.turns("extension", o.extension_turns, Range{-100.0, 100.0, "m"});
       f.turns("load", o.load_turns, Range{-1e8, 1e8, "N"});
-      f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
+      f.scaled_number("speed", o.speed, kSpeeds);
       f.integer("count", o.cycles, 0, 1000000);
       f.optional_number("time", o.until.time, Range{1e-3, 1e6, "s"}, "none");
       break;
     case Phase::kReturn:
-      f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
+      f.scaled_number("speed", o.speed, kSpeeds);
       f.number("extension", o.return_extension, Range{-100.0, 100.0, "m"});
       f.optional_number("load", o.until.load, Range{-1e8, 1e8, "N"}, "none");
       break;
@@ -153,7 +156,7 @@ void step(Fields& f, ProgramStep& o, double way = 0.0) {
       f.text("columns", o.columns);
       break;
     case Phase::kPull:
-      f.scaled_number("speed", o.speed, Range{1e-7, 0.5, "m/s"});
+      f.scaled_number("speed", o.speed, kSpeeds);
       f.optional_number("load_rate", o.load_rate, Range{1e-6, 1e8, "N/s"}, "none");
       f.section("until", [&o, way](auto& until) {
         until.optional_number("extension", o.until.extension, Range{1e-6, 100.0, "m"}, "none", way);
@@ -215,7 +218,7 @@ void analysis(Fields& f, AnalysisOptions& o) {
   f.flag("margin", o.margin);
 }
 
-/// What stands in the head and the foot of a report.
+/// The texts in the head and the foot of a report.
 template <class Fields>
 void report(Fields& f, ReportOptions& o) {
   f.short_text("specimen_id", o.specimen_id, 80);

@@ -19,7 +19,8 @@
 
 namespace knot_utm::fields {
 
-/// Adds a YAML value to a line. Aliases may make it endless: as much of it as a message shows is enough.
+/// Appends a YAML value to a line. Only as much is appended as a message shows, because aliases can make a value
+/// endless.
 inline void add_one_line(const YAML::Node& node, std::string& line) {
   constexpr std::size_t kEnough = 600;
   if (line.size() > kEnough) return;
@@ -51,14 +52,14 @@ inline std::string one_line(const YAML::Node& node) {
   return line;
 }
 
-/// The same where it is said what a key is: a text in quotes, so that it is seen where it begins and ends.
+/// The same for a message about the value of a key. A text is put in quotes, so that its beginning and end can be seen.
 inline std::string as_given(const YAML::Node& node) {
   if (!node.IsDefined() || node.IsNull()) return "empty";
   const bool text = node.IsScalar() && !node.Scalar().empty() && !parse_number(node.Scalar());
   return text ? "\"" + shown(node.Scalar()) + "\"" : one_line(node);
 }
 
-/// A bound of a range as one writes it: 100000 and 1e8, not 1e+05 and 1e+08.
+/// A bound of a range in its usual form: 100000 and 1e8, not 1e+05 and 1e+08.
 inline std::string plain_number(double value) {
   std::ostringstream out;
   out.imbue(std::locale::classic());
@@ -87,10 +88,11 @@ inline std::string number_text(const Range& range) {
   return "a number from " + plain_number(range.min) + " to " + plain_number(range.max) + unit;
 }
 
-/// Reads one map of a method; what the map does not have keeps its value. `finish` complains of keys nobody asked for.
+/// Reads one map of a method. A key that the map does not have keeps its value. `finish` throws InvalidInput for keys
+/// of the map that nobody has asked for.
 class Reader {
  public:
-  /// `path`: dotted path of the map, empty for a file's top. `of`: what the file describes, for the message.
+  /// `path`: dotted path of the map, empty for the top of a file. `of`: what the file describes, for messages.
   Reader(const YAML::Node& map, std::string file, std::string path, std::string of = "a method")
       : map_(map), file_(std::move(file)), path_(std::move(path)), of_(std::move(of)) {
     if (map_.IsDefined() && !map_.IsNull() && !map_.IsMap()) fail_here(map_, "a map of keys and values");
@@ -101,7 +103,7 @@ class Reader {
     if (node.IsDefined()) value = checked(key, node, range, "");
   }
 
-  /// `auto` stands for what the value is already.
+  /// `auto` leaves the value as it is.
   void scaled_number(const char* key, double& value, const Range& range) {
     const YAML::Node node = take(key);
     if (node.IsDefined() && !node.IsNull() && !is_auto(node)) value = checked(key, node, range, "auto");
@@ -151,7 +153,7 @@ class Reader {
     value = node.IsNull() ? "" : node.Scalar();
   }
 
-  /// Characters are counted, not bytes.
+  /// The limit counts characters, not bytes.
   void short_text(const char* key, std::string& value, std::size_t most) {
     text(key, value);
     const auto begins = [](char c) { return (static_cast<unsigned char>(c) & 0xC0u) != 0x80u; };
@@ -215,7 +217,8 @@ class Reader {
     inner.finish();
   }
 
-  /// The value of a key as it stands, for what is more than a value; undefined where the map does not have it.
+  /// The YAML value of a key, for keys that need more than the functions above. Undefined where the map does not have
+  /// it.
   YAML::Node take(const char* key) {
     if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.emplace_back(key);
     YAML::Node found(YAML::NodeType::Undefined);
@@ -243,7 +246,7 @@ class Reader {
     throw InvalidInput(file_, path_of(key), as_given(value), allowed);
   }
 
-  /// The same for a name that is none of the known ones.
+  /// The same for a name that is not among the known ones.
   [[noreturn]] void fail_name(const std::string& key, const YAML::Node& value,
                               const std::vector<std::string>& names) const {
     if (!value.IsScalar()) fail(key, value, listed(names));
@@ -279,7 +282,7 @@ class Reader {
   std::vector<std::string> known_;
 };
 
-/// Writes the same fields, in the same order, into a map. Values that are not set are left out.
+/// Writes the same keys, in the same order, into a map. Values that are not set are left out.
 class Writer {
  public:
   void number(const char* key, const double& value, const Range&) { map_[key] = format_yaml_number(value); }

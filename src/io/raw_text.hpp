@@ -3,20 +3,20 @@
 #include <string>
 #include <vector>
 
-/// The characters of files that do not say what theirs are. Inside, texts are UTF-8.
+/// Decodes files whose character encoding is not known. Decoded texts are UTF-8.
 namespace knot_utm {
 
-/// What the bytes may mean, the likeliest first: as their byte order mark says; else as UTF-8, where they are; else as
-/// a code page of one byte a letter, as Shift-JIS and as GB 18030. Of a code page every letter beyond ASCII is one that
-/// may be any: which code page it is, nobody needs to know. Blanks that do not break a line are blanks, and wide
-/// brackets are brackets.
+/// The possible decodings of the bytes, the most likely first. With a byte order mark there is one. Otherwise it is
+/// UTF-8 if the bytes are valid UTF-8; if not, the candidates are a code page of one byte per letter, Shift-JIS and GB
+/// 18030. The code page itself need not be known: every letter beyond ASCII is decoded as a placeholder that matches
+/// any letter. Non-breaking blanks become blanks, and full-width brackets become brackets.
 std::vector<std::string> meanings_of(const std::string& bytes);
 
-/// Whether a name is the known one, which is in lower case: letters count the same in upper case, without their
-/// accents, and where a code page leaves them open.
+/// Whether `given` is the name `known`, which is in lower case. Upper case and accents are ignored, and a placeholder
+/// matches any letter.
 bool is_name(const std::string& given, const std::string& known);
 
-/// As a message shows it: letters that are left open as question marks.
+/// The text for a message, with question marks in place of placeholders.
 std::string visible(const std::string& text);
 
 }  // namespace knot_utm

@@ -11,8 +11,6 @@
 namespace knot_utm {
 namespace {
 
-/// A contact deeper than this is no longer that of the rod it stands for [fraction of radius].
-constexpr double kDeep = 0.05;
 /// Where energies miss the work by more, what Newton's method leaves unbalanced has a part in the forces too: seen
 /// where a loose loop pulls with far less than k_b/h^2, of which `physics.residual` is a fraction.
 constexpr double kUnbalanced = 0.01;
@@ -31,12 +29,12 @@ std::vector<std::string> warnings(const Results& results) {
         "with its two ends joined, the rod is another knot than at the start; as it still bears the load, nothing came "
         "undone");
   }
-  if (results.max_penetration > kDeep) {
+  if (results.max_penetration > kDeepContact) {
     all.push_back("strands are pressed into each other by up to " + format_number(results.max_penetration) + " radii");
   }
   if (results.energy_balance_error > kUnbalanced) {
     all.push_back("the energies and the work differ by " + format_number(*results.energy_balance_error) +
-                  " of the work: choose a smaller physics.residual");
+                  " of the largest of them: choose a smaller physics.residual");
   }
   return all;
 }

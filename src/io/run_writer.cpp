@@ -70,7 +70,7 @@ void RunWriter::add(const Record& record) {
     samples_.push_back(step);
   }
   if (sample.status == BenchStatus::kFailed) return;
-  const bool mounted = sample.phase != Phase::kIdle && sample.phase != Phase::kTie && sample.phase != Phase::kRelease;
+  const bool mounted = sample.phase != Phase::kIdle && !forms(sample.phase);
   if (mounted && record.shape.cols() > 0 && sample.status != BenchStatus::kBroken) turn_.add(record.shape);
   if (record.shape.cols() > 1)
     length_ = (record.shape.rightCols(record.shape.cols() - 1) - record.shape.leftCols(record.shape.cols() - 1))

@@ -10,13 +10,15 @@
 /// The `specimens` section of a method.
 namespace knot_utm {
 
-/// `scatter: auto` leaves `automatic` true: `default_scatter` then says how specimens differ.
+/// Reads the section. `automatic` is true where it says `scatter: auto`; default_scatter then gives the values that
+/// scatter.
 SpecimensOptions read_specimens(const YAML::Node& node, const std::string& file, bool& automatic);
 
-/// What a person cannot repeat from one specimen of this method to the next.
+/// The default scatter: of the values that a person cannot reproduce exactly from one specimen of this method to the
+/// next.
 std::vector<Scatter> default_scatter(const Method& method);
 
-/// Every key that scatters must be a number of the method. Throws InvalidInput.
+/// Checks that every key that scatters is a number of the method. Throws InvalidInput.
 void check_scatter(const Method& method);
 
 YAML::Node specimens_map(const SpecimensOptions& specimens);

@@ -8,6 +8,7 @@
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
+#include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
@@ -18,7 +19,7 @@ constexpr double kClosed = 2.0;        // radius of a coil that lies on the stra
 constexpr double kSharpestBend = 0.5;  // of a tied knot, 1/kClosed [1/h]
 constexpr double kCoarsestEdge =
     0.9;  // of a rope whose knots slide as with finer ones [h]: bench/before_tying.py --study meshes
-constexpr double kMostStretch = 2.0;  // by a pre-load, in which the linear law of tension still says something [-]
+constexpr double kMostStretch = 2.0;  // strain by a pre-load up to which a law of tension was ever measured [-]
 constexpr double kMetal = 20e9;       // modulus that no polymer reaches, but metals, glass and carbon do [Pa]
 
 double drawn_coil(const SpecimenOptions& specimen) { return knot_of(specimen).about().drawn_coil; }  // R_0 [h]
@@ -87,7 +88,7 @@ void check_tying(const SpecimenOptions& specimen, const Material& material) {
     throw InvalidInput("specimen.preload", digits(preload),
                        "at least " + digits(least) + " N: a smaller one does not move the coils, which close only at " +
                            digits(closing_preload(material)) + " N");
-  const double strain = preload / material.stretching_stiffness + 1.0 / drawn_coil(specimen);
+  const double strain = strain_under(material, preload) + 1.0 / drawn_coil(specimen);
   if (material.breaking_strain && *material.breaking_strain <= strain)
     throw InvalidInput("material.breaking_strain", digits(*material.breaking_strain),
                        "more than " + digits(strain) +
@@ -103,7 +104,7 @@ std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const M
     all.push_back("a pre-load of " + digits(preload) + " N leaves the coils open, at a radius of about " +
                   digits(std::min(coil_radius(material, preload) / h, drawn_coil(specimen))) +
                   " radii of the rod: they close at " + digits(closing) + " N");
-  const double stretch = preload / material.stretching_stiffness;
+  const double stretch = strain_under(material, preload);
   if (stretch > kMostStretch)
     all.push_back("a pre-load of " + digits(preload) + " N stretches the rod to " + digits(1.0 + stretch) +
                   " times its length");

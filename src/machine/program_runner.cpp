@@ -181,10 +181,7 @@ bool ProgramRunner::end_by_alarm(const Sample& sample) {
 }
 
 bool ProgramRunner::only_ties() const {
-  return std::all_of(program_.begin(), program_.end(), [](const ProgramStep& step) {
-    return step.phase == Phase::kTie || step.phase == Phase::kRelease || step.phase == Phase::kHold ||
-           step.phase == Phase::kBalance;
-  });
+  return std::all_of(program_.begin(), program_.end(), [](const ProgramStep& step) { return !moves(step.phase); });
 }
 
 /// Before anything has pulled at it.
@@ -195,8 +192,7 @@ bool ProgramRunner::is_undone(const Sample& sample) const {
 }
 
 std::string ProgramRunner::break_seen(const Sample& sample) {
-  const Phase phase = last_.phase;
-  if (phase != Phase::kPreload && phase != Phase::kPull && phase != Phase::kHold && phase != Phase::kCycle) return {};
+  if (!traits_of(last_.phase).can_break) return {};
   // On a way inwards loads fall as they should.
   if (leg_.velocity < 0.0) {
     break_detector_.begin();

@@ -11,6 +11,11 @@ namespace {
 constexpr double kStiffeningDepth = 0.015;   // c of the normal law: at the kN of a locked knot a rod gives 5 % [h]
 constexpr double kFullResidual = 0.1;        // of the longest step, below which the residual shrinks with the step
 constexpr double kResidualOfTension = 2e-6;  // of the largest tension, so that kN loads do not ask for more than digits
+constexpr double kNewtonCap = 0.2;           // farthest that an iteration moves a node [h]
+constexpr double kMotionLimit = 0.8;         // farthest that a step may move one: then no strand passes another [h]
+constexpr double kOverlapLimit = 0.5;        // deepest contact that a step may begin or end with [h]
+constexpr double kCandidateMargin = 1.0;     // gap up to which pairs of segments are watched between searches [h]
+constexpr int kMostIterations = 12;          // of Newton's method in a step
 constexpr double kResidualAtLittleTension = 1e-3;  // loose knots bear much less than k_b/h^2, and are read too
 
 }  // namespace
@@ -43,11 +48,11 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
   out.residual_from_step = kFullResidual * tolerance.longest_step;
   out.residual_of_tension = kResidualOfTension;
   out.residual_at_little_tension = kResidualAtLittleTension;
-  out.newton_cap = 0.2 * h;
-  out.motion_limit = 0.8 * h;
-  out.overlap_limit = 0.5 * h;
-  out.candidate_margin = 1.0 * h;
-  out.max_iterations = 12;
+  out.newton_cap = kNewtonCap * h;
+  out.motion_limit = kMotionLimit * h;
+  out.overlap_limit = kOverlapLimit * h;
+  out.candidate_margin = kCandidateMargin * h;
+  out.max_iterations = kMostIterations;
   return out;
 }
 

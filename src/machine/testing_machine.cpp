@@ -30,6 +30,8 @@ namespace {
 constexpr double kShortestStep = 0.01;  // below it the run gives up, where that is less than usual [bending time]
 
 // A shape that is pulled as it was drawn settles first, under a drag that fades as that of the tying rig does.
+constexpr double kAimedMotion = 0.6;    // of the fastest node, in a step [h]
+constexpr double kAimedSlip = 0.4;      // of strands on each other, in a step [h]
 constexpr double kSettlingTime = 1.0;   // [s]
 constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
 
@@ -103,8 +105,8 @@ struct TestingMachine::Impl {
     options.longest = options.first = tolerances(physics, specimen, material).longest_step;
     // A drawn shape springs apart at once.
     if (!knot_of(specimen).about().straight) options.first = std::min(bending_time, options.longest);
-    options.motion = 0.6 * material.radius;
-    options.slip = 0.4 * material.radius;
+    options.motion = kAimedMotion * material.radius;
+    options.slip = kAimedSlip * material.radius;
     options.shortest = std::min(options.shortest, kShortestStep * bending_time);
     control = StepControl(options);
     const KnotDescription& knot = knot_of(specimen).about();
@@ -180,10 +182,10 @@ struct TestingMachine::Impl {
   void enter_step(const Command& command) {
     step_index = command.step;
     phase = command.phase;
-    pulled |= pulls(phase) || phase == Phase::kPreload || phase == Phase::kReturn;
+    pulled |= moves(phase) && phase != Phase::kMount;
     if (pulled) grips.turn_rollers_from(time);
     status = BenchStatus::kRunning;
-    has_weight |= phase != Phase::kTie && phase != Phase::kRelease && phase != Phase::kHold;
+    has_weight |= !forms(phase) && phase != Phase::kHold;
     apply_gravity();
     if (loop) loop->enter(command, place());
   }
@@ -245,8 +247,7 @@ struct TestingMachine::Impl {
       message = loop->not_tied();
       return;
     }
-    const bool ends_by_itself = phase == Phase::kTie || phase == Phase::kRelease || phase == Phase::kMount;
-    if (!ends_by_itself || (loop && !loop->done(phase))) return;
+    if (!traits_of(phase).ends_by_itself || (loop && !loop->done(phase))) return;
     status = BenchStatus::kPhaseDone;
     if (phase == Phase::kMount || !loop || loop->not_equilibrated().empty()) return;
     status = BenchStatus::kNotEquilibrated;

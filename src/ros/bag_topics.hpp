@@ -9,17 +9,18 @@
 
 namespace knot_utm {
 
-/// What the bag calls a topic of ours, under whatever namespace; empty: it does not have it. Throws InvalidInput where
-/// it has two of them.
+/// The name in a bag of one of the package's topics, in whatever namespace. Empty where the bag does not have it.
+/// Throws InvalidInput where it has two of them.
 std::string topic_named(const rosbag::Bag& bag, const std::string& file, const std::string& name);
 
-/// The same of one that must be there.
+/// The same for a topic that must be present. Throws InvalidInput where it is missing.
 std::string required_topic(const rosbag::Bag& bag, const std::string& file, const std::string& name);
 
-/// What is wrong with a bag that rosbag cannot open.
+/// The error for a file that rosbag cannot open.
 InvalidInput no_bag(const std::string& file, const std::string& why);
 
-/// A message of a bag. Throws InvalidInput where it is not of this type, or of another version of it.
+/// Deserialises a message of a bag. Throws InvalidInput where it is of another type, or of another version of this
+/// type.
 template <class Message>
 boost::shared_ptr<Message> message_of(const rosbag::MessageInstance& instance, const std::string& file) {
   boost::shared_ptr<Message> message = instance.instantiate<Message>();

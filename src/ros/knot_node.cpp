@@ -14,9 +14,7 @@ namespace knot_utm {
 namespace {
 
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
-// More than the contacts of any shipped material at its largest load, bench/results/tighten.md [radius].
-constexpr double kDeep = 0.05;
-constexpr double kManyRejected = 0.5;  // of the time steps that were tried
+constexpr double kManyRejected = 0.5;       // of the time steps that were tried
 constexpr std::uint32_t kQueue = 2 * KnotNode::kKeptAnswers;
 constexpr std::uint32_t kLargest = 16 * 1024;  // message to this node [bytes]
 
@@ -233,7 +231,7 @@ void KnotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.summary(DiagnosticStatus::WARN, "did not come to rest in time");
   } else if (sample_.knot_type == KnotType::kCrossed) {
     status.summary(DiagnosticStatus::ERROR, "the rod ran through itself");
-  } else if (sample_.max_penetration > kDeep) {
+  } else if (sample_.max_penetration > kDeepContact) {
     status.summaryf(DiagnosticStatus::WARN, "strands are pressed into each other by %.3g of the radius",
                     sample_.max_penetration);
   } else if (rejected > kManyRejected * tried) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "bag_topics.hpp"
+#include "clock_pace.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/validate.hpp"
@@ -21,10 +22,7 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kClockPeriod = 0.002;    // shortest wall time between two messages on /clock [s]
-constexpr double kIdleClockPeriod = 0.1;  // longest wall time between them [s]
-constexpr double kGoodbye = 0.3;          // wall time for the last messages to leave before the node ends [s]
-constexpr std::size_t kAtOnce = 100;      // messages between two looks at what others want
+constexpr std::size_t kAtOnce = 100;  // messages between two looks at what others want
 constexpr std::uint32_t kQueue = 1000;
 
 double seconds_since(std::chrono::steady_clock::time_point then) {

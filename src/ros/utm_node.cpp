@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "clock_pace.hpp"
 #include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/conversions.hpp"
@@ -20,13 +21,10 @@ namespace {
 using Seconds = std::chrono::duration<double>;
 using std::chrono::steady_clock;
 
-constexpr double kClockPeriod = 0.002;      // shortest wall time between two messages on /clock [s]
-constexpr double kIdleClockPeriod = 0.1;    // longest wall time between them [s]
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
 constexpr double kCatchUp = 0.1;            // wall time that is made up for after a slow step [s]
 constexpr double kLongestPause = 86400.0;   // between two commands, however slow the pace asked for [s]
 constexpr double kGapBetweenTests = 1.0;    // on /clock [s]
-constexpr double kGoodbye = 0.3;            // wall time for the last messages to leave before the node ends [s]
 constexpr std::uint32_t kQueue = 1000;
 constexpr std::uint32_t kLargest = 64 * 1024;  // message to this node [bytes]
 

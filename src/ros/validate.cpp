@@ -15,7 +15,6 @@ namespace knot_utm {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kFastest = 0.5;          // crosshead or tail grip of any method [m/s]
 constexpr double kLongestStep = 0.5;      // of any physics [s]
 constexpr double kLongestDuration = 1e6;  // of any step of a program [s]
 constexpr double kSlack = 1e-9;           // relative, for what was rounded
@@ -140,7 +139,7 @@ std::string fault_of_shape(const KnotShape& m) {
 }
 
 std::string fault_of_command(const Crosshead& m, const CrossheadLimits& limits, const std::string& prefix) {
-  const double reach = limits.travel + kFastest * limits.longest_step;
+  const double reach = limits.travel + kFastestCrosshead * limits.longest_step;
   return Check(prefix)
       .text("header.frame_id", m.header.frame_id)
       .count("run", m.run, 1, std::numeric_limits<std::uint32_t>::max())
@@ -151,11 +150,11 @@ std::string fault_of_command(const Crosshead& m, const CrossheadLimits& limits, 
       // No test begins before the clock does.
       .number("header.stamp", m.header.stamp.toSec(), m.time * (1.0 - kSlack) - 1e-6)
       .number("displacement", m.displacement, -reach, reach)
-      .number("velocity", m.velocity, -kFastest, kFastest)
+      .number("velocity", m.velocity, -kFastestCrosshead, kFastestCrosshead)
       .that(
           m.step >= -1, "step", [&] { return std::to_string(m.step); }, [] { return "-1 or more"; })
       .phase(m.phase)
-      .number("speed", m.speed, 0.0, kFastest)
+      .number("speed", m.speed, 0.0, kFastestCrosshead)
       .number("duration", m.duration, 0.0, kLongestDuration)
       .fault();
 }
@@ -169,7 +168,7 @@ std::string fault_of(const Crosshead& message, const CrossheadLimits& limits) {
 std::string fault_after(const Crosshead& last, const Crosshead& message, const CrossheadLimits& limits) {
   const double passed = message.time - last.time;
   const double way = message.displacement - last.displacement;
-  const double farthest = kFastest * passed + kSlack;
+  const double farthest = kFastestCrosshead * passed + kSlack;
   return Check()
       .that(
           passed > 0.0 && passed <= limits.longest_step * (1.0 + kSlack) + kSlack, "time",

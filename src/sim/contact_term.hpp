@@ -14,14 +14,14 @@
 
 namespace knot_utm {
 
-/// Pressure and friction of one kind of contacts, between strands or on rollers, a force term (force_term.hpp) of a
-/// step with D unknowns a node. What a contact is, where it acts and by which laws is the business of `Contacts`
-/// (SmoothContact, EdgeContact, RollerContact). In the terms of ContactPoint:
+/// Pressure and friction of one kind of contacts, either between strands or on rollers: a force term (force_term.hpp)
+/// of a step with D unknowns per node. `Contacts` (SmoothContact, EdgeContact or RollerContact) decides what a contact
+/// is, where it acts and by which laws. With the symbols of ContactPoint, the forces on the nodes are
 ///
 ///   f_k = c_k g        on nodes a0..a0+2 and, between strands, b0..b0+2       [N]
 ///
-/// and where friction acts at the surface the couples of surface_contact.hpp on nodes and spins. The next increment is
-/// solved with the linear model of every contact: its force replaces g in the right-hand side.
+/// Where friction acts at the surfaces, the couples of surface_contact.hpp on nodes and spins are added. The next
+/// increment is solved with the linear model of every contact, whose force replaces g in the right-hand side.
 template <int D, typename Contacts>
 class ContactTerm {
  public:
@@ -57,9 +57,10 @@ class ContactTerm {
     }
   }
 
-  /// Adds the contacts' stiffness, and to `right` what the forces of their linear models are more than g. `matrix` has
-  /// located the contacts between strands. `turns`: the unknown turns of free rollers, which contacts on rollers enter,
-  /// too; `spins`: how far the sections have spun, where friction acts at the surface.
+  /// Adds the stiffness of the contacts to `matrix`. Adds to `right` the difference between the forces of the linear
+  /// models and g. `matrix` must have located the contacts between strands. `turns`: the unknown rotations of free
+  /// rollers, to which contacts on rollers contribute. `spins`: the spins of the sections, where friction acts at the
+  /// surfaces.
   void add_stiffness(const StepStart& start, const ContactLinearisation& how, const SectionTurns* spins,
                      StepMatrix<D>& matrix, RollerTurns& turns, std::vector<Lanes>& right) {
     pressures_.clear();
@@ -76,8 +77,8 @@ class ContactTerm {
     }
   }
 
-  /// Keeps what the linear models say of each contact's pressure after `factor` times the change of the unknowns, by
-  /// which the next linear system is better (ContactModel).
+  /// Stores for each contact the pressure that its linear model predicts after `factor` times the change of the
+  /// unknowns. The next linear system uses this prediction (ContactModel).
   void predict_pressures(const std::vector<Lanes>& change, double factor) {
     std::size_t n = 0;
     for (ContactPoint& contact : contacts_.contacts()) {
@@ -122,14 +123,14 @@ class ContactTerm {
  private:
   using Model = typename Contacts::Model;
 
-  /// Of the linear model of a contact.
+  /// The pressure of the linear model of a contact, and its slope.
   struct LinearPressure {
-    double pressure, slope;  // at the present overlap [N/m], and by it [N/m^2]
+    double pressure, slope;  // at the present overlap [N/m], and per overlap [N/m^2]
   };
 
   static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
-  /// What the force g on a's side of a contact does to the nodes.
+  /// Adds the nodal forces of the force g that acts on side a of a contact.
   static void add_force(const ContactPoint& contact, const Lanes& g, std::vector<Lanes>& to) {
     for (int k = 0; k < 3; ++k) to[at(contact.a0 + k)] += contact.c[k] * g;
     if (!contact.on_roller())

@@ -10,10 +10,10 @@
 
 namespace knot_utm {
 
-/// Contacts between strands, and on rollers.
+/// The lists of contacts between strands and on rollers.
 using ContactLists = std::array<std::reference_wrapper<const std::vector<ContactPoint>>, 2>;
 
-/// A node of a step as Newton's method left it; `residual`: its own [N].
+/// Diagnoses one node of a step in the state in which Newton's method ended. `residual`: that of the node [N].
 StepDiagnosis diagnose(const RodProperties& rod, const SolvedStep& step, int node, double residual,
                        const ContactLists& contacts);
 

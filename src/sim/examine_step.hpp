@@ -6,8 +6,9 @@
 
 namespace knot_utm {
 
-/// What a step that Newton's method solved would do to the rod, and why it may not, where it goes too far. `out`: its
-/// largest motion, slip and overlap, and the reason.
+/// Checks whether a step that Newton's method solved may be accepted. Writes to `out` its largest motion, slip and
+/// overlap, and the reason where it may not be accepted: a node moves too far, strands overlap too much, or strands
+/// would pass through each other.
 void examine(const RodProperties& rod, const StepSettings& settings, const SolvedStep& step,
              const ContactLists& contacts, TunnellingSearch& tunnelling, StepSummary& out);
 

@@ -9,8 +9,8 @@
 
 namespace knot_utm {
 
-/// What pulls at single nodes, a force term (force_term.hpp): slipping grips, spring holds and given forces
-/// (scene.hpp). It keeps nothing from step to step.
+/// Slipping grips, spring holds and given forces, which act on single nodes (scene.hpp): a force term (force_term.hpp).
+/// It keeps no state from step to step.
 struct GripTerm {
   void add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force) const {
     for (const SlippingGrip& grip : start.boundary.grips)
@@ -29,7 +29,7 @@ struct GripTerm {
     for (const SpringHold& hold : start.boundary.holds) add(matrix.band(hold.node, 0, 0), hold.stiffness, 1.0);
   }
 
-  /// All of its work is the boundary's, by the forces at the end of the step.
+  /// All of its work is work of the boundary, by the forces at the end of the step.
   void account(const SolvedStep& step, StepAccount& account) const {
     const auto enter = [&](int node, const Vec3& force, double work) {
       account.work.boundary += work;

@@ -9,13 +9,13 @@
 
 namespace knot_utm {
 
-/// Unknowns that the boundary prescribes: positions of fixed nodes, and angles of fixed material frames (FrameTerms
-/// knows which). Their rows of the linear system say that they do not change.
+/// The unknowns that the boundary prescribes: positions of fixed nodes, and angles of fixed material frames (known to
+/// FrameTerms). Their rows in the linear system state that they do not change.
 class HeldUnknowns {
  public:
   explicit HeldUnknowns(std::size_t nodes) : held_(nodes, 0) {}
 
-  /// Puts the held nodes of a prediction to where they must be.
+  /// Moves the held nodes of a prediction to their prescribed positions.
   void begin(const StepStart& start, Points& x) {
     std::fill(held_.begin(), held_.end(), 0);
     for (const FixedNode& fixed : start.boundary.fixed_nodes) {
@@ -44,7 +44,7 @@ class HeldUnknowns {
       matrix.values().set_identity_row(node, keep);
       right[static_cast<std::size_t>(node)] *= keep;
       turns.hold(node, keep);
-      // A held angle is one of no change: the spin is what transport alone makes.
+      // A held angle does not change, so the spin equals the rotation by parallel transport alone.
       if (spins == 0.0 && node + 1 < count())
         add_to_row(3, frames.lean(node), matrix.band(node, 0, 0), matrix.band(node, 0, 1));
     }
@@ -53,7 +53,7 @@ class HeldUnknowns {
  private:
   int count() const { return static_cast<int>(held_.size()); }
 
-  /// Adds the row `times` . (x_i - x_{i+1}) to blocks (i, i) and (i, i+1).
+  /// Adds the row `times` . (x_i - x_{i+1}) to the blocks (i, i) and (i, i+1).
   static void add_to_row(int row, const Vec3& times, Block<4>& own, Block<4>& next) {
     for (int j = 0; j < 3; ++j) {
       own.at(row, j) += times[j];

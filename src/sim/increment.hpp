@@ -17,13 +17,14 @@
 
 namespace knot_utm {
 
-/// Stands for FrameTerms where the scene does not solve for twist.
+/// Takes the place of FrameTerms where the scene does not solve for twist.
 struct NoFrames {
   NoFrames(const RodProperties&, const StepSettings&) {}
 };
 
-/// All force terms of the equation, its linear system, and room for its unknowns. D = 3: the unknowns of node i are
-/// x_i. D = 4: they are x_i and the spin of edge i (FrameTerms); that of the last node stands for nothing and is held.
+/// All force terms of the equation, its linear system, and storage for its unknowns. D = 3: the unknowns of node i are
+/// x_i. D = 4: they are x_i and the spin of edge i (FrameTerms). The last node has no edge after it, so its spin is
+/// held.
 template <int D, typename StrandContact>
 struct Equation {
   static constexpr bool kTwists = D == 4;
@@ -48,7 +49,7 @@ struct Equation {
       }
   }
 
-  /// From the next step on the rod has parted at an edge.
+  /// From the next step on, the rod is parted at this edge.
   void part(int edge) {
     centreline.part(edge);
     if constexpr (kTwists) frames.part(edge);
@@ -69,7 +70,7 @@ struct Equation {
   ResidualNorm norm;
   StepMatrix<D> matrix;
   Points x;                          // trial positions [m]
-  std::vector<Lanes> force, change;  // on the unknowns, and of them
+  std::vector<Lanes> force, change;  // forces on the unknowns, and changes of the unknowns
 
  private:
   static StrandContact strand_contact(const RodProperties& rod, const StepSettings& settings) {
@@ -80,19 +81,19 @@ struct Equation {
   }
 };
 
-/// The equation of one time step while it is being solved: find x, and with D = 4 the spins of the edges, so that on
-/// all that is free
+/// The equation of one time step while it is being solved: find x, and with D = 4 the spins of the edges, such that for
+/// all unknowns that are not held
 ///
 ///   0 = f(x) = f_motion + f_elastic + f_twist + f_strands + f_rollers + f_grips        (time_step.hpp)
 ///
-/// Making one begins the step at its prediction: everything moves on as it did, held nodes stand where they must.
-/// Newton's method (newton.hpp) asks it for the residual, for a linear solve and for a move.
+/// The constructor sets the unknowns to their prediction: all nodes continue with their velocities, and held nodes are
+/// at their prescribed positions. Newton's method (newton.hpp) then calls `residual`, `solve` and `move`.
 template <int D, typename StrandContact>
 class Increment {
  public:
-  /// `predicts`: the stiffness is that of the tensions and pressures that the last linear solve predicts, at first of
-  /// those at the step's beginning. With them few iterations lead to the solution, or, in a step that is too long, away
-  /// from it. Else the stiffness is that of the trial's own tensions.
+  /// `predicts`: whether the stiffness uses the tensions and pressures that the last linear solve predicted, and at
+  /// first those at the beginning of the step. The solution is then reached in few iterations or, if the step is too
+  /// long, is soon seen to be out of reach. Otherwise the stiffness uses the tensions of the trial positions.
   Increment(Equation<D, StrandContact>& equation, const StepStart& start, bool predicts)
       : eq_(equation), start_(start), predicts_(predicts) {
     eq_.centreline.begin(start.state.position, predicts);
@@ -104,7 +105,7 @@ class Increment {
     eq_.held.begin(start, eq_.x);
   }
 
-  /// f(x), and its size.
+  /// Computes f(x), and returns its norm [N].
   double residual() {
     std::fill(eq_.force.begin(), eq_.force.end(), Lanes{0.0, 0.0, 0.0, 0.0});
     eq_.motion.add_forces(start_, eq_.x, eq_.force);
@@ -122,7 +123,7 @@ class Increment {
     return eq_.norm.tolerance(eq_.centreline.largest_tension(), start_.dt, held_back);
   }
 
-  /// The change of the unknowns by -(df/dx) dx = f. False where the matrix is singular.
+  /// Computes the change of the unknowns from -(df/dx) dx = f. False where the matrix is singular.
   bool solve(Linearisation of_friction) {
     const ContactLinearisation how = {of_friction, predicts_};
     eq_.roller_turns.begin(start_.boundary.rollers, eq_.rollers.contacts(), nodes(), start_.dt);
@@ -142,7 +143,8 @@ class Increment {
     return eq_.roller_turns.empty() ? matrix.solve(eq_.change) : eq_.roller_turns.solve(matrix, eq_.change);
   }
 
-  /// Takes `wanted` times the change, or less: no node, roller or angle moves further than is allowed at once.
+  /// Moves the unknowns by `wanted` times the change, or by less: no node, roller or angle moves further than the limit
+  /// for one iteration.
   void move(double wanted) {
     double longest2 = 0.0;
     for (const Lanes& change : eq_.change) {
@@ -164,16 +166,18 @@ class Increment {
     eq_.rollers.predict_pressures(eq_.change, factor_);
   }
 
-  /// In the shortest steps the residual shrinks to a thousandth, and the residuals on the two sides of a very small
-  /// jump (a foot between two places) may differ by as much as that: a change of 1e-7 h between them moves nothing.
+  /// Whether the solution has settled although the residual is above the tolerance of a short step. In the shortest
+  /// steps the tolerance falls to a thousandth. Where a contact's closest-point projection jumps between two places,
+  /// the residuals on both sides may differ by as much as that. The solution counts as settled if a whole change moved
+  /// nothing by more than 1e-7 h and the residual is within the tolerance of long steps.
   bool stands_still() const {
     constexpr double kStill = 1e-7;
     return factor_ == 1.0 && motion_ <= kStill * eq_.rod.material.radius && worst_.residual <= eq_.settings.residual;
   }
 
   const WorstResidual& worst_residual() const { return worst_; }
-  double factor() const { return factor_; }  ///< of the last change that was taken; 0: the prediction
-  double motion() const { return motion_; }  ///< of the node that it moved the furthest [m]
+  double factor() const { return factor_; }  ///< damping factor of the last change; 0: this is the prediction
+  double motion() const { return motion_; }  ///< largest motion of a node by the last change [m]
 
  private:
   int nodes() const { return static_cast<int>(eq_.force.size()); }
@@ -192,7 +196,7 @@ class Increment {
       out = ResidualNorm::worst_of_spins(eq_.force, eq_.frames, eq_.rod.material.radius, out);
       if (!std::isfinite(out.residual)) return out;
     }
-    // A free roller may be worse; the node then stays that of the rod.
+    // A free roller may have a larger residual; the reported node then stays that of the rod.
     const double of_rollers =
         RollerTurns::largest_unbalanced(start_.boundary.rollers, eq_.rollers.contacts(), start_.dt);
     out.residual = std::max(out.residual, of_rollers);

@@ -8,15 +8,16 @@
 
 namespace knot_utm {
 
-/// Inertia, gravity and viscous drag of the nodes, a force term (force_term.hpp):
+/// Inertia, gravity and viscous drag of the nodes: a force term (force_term.hpp).
 ///
 ///   f_i = m_i (g - (x_i - x_n - dt v_n)/dt^2) - c lbar_i (x_i - x_n)/dt      [N]
 ///   -df_i/dx_i = m_i/dt^2 + c lbar_i/dt                                      [N/m]
 ///
-/// with m_i mass, g gravity, c drag per length (the scene's and the boundary's), lbar_i Voronoi length.
+/// Here m_i is the mass, g the gravity, lbar_i the Voronoi length, and c the drag coefficient per length, the sum of
+/// that of the scene and that of the boundary.
 class MotionTerm {
  public:
-  /// Both must outlive this; what `settings` says of gravity and drag may change between two steps.
+  /// Both arguments must outlive this object. Gravity and drag in `settings` may change between two steps.
   MotionTerm(const RodProperties& rod, const StepSettings& settings);
 
   void add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force) const;

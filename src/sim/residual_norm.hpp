@@ -9,25 +9,27 @@
 
 namespace knot_utm {
 
-/// The largest residual of a trial, and whose it is.
+/// The largest residual of a trial, and the node or edge that has it.
 struct WorstResidual {
   double residual = 0.0;  ///< divided by the node's tolerance scaling [N]
-  int node = -1;          ///< -1: none, all are held
-  bool spin = false;      ///< it is the torque on the edge behind the node, over the radius
+  int node = -1;          ///< -1: none, because all nodes are held
+  bool spin = false;      ///< the residual is the torque on the edge after the node, divided by the radius
 };
 
-/// How Newton's method measures a residual: its tolerance, and the scaling of it by a node's tension.
+/// The norm in which Newton's method measures a residual: its tolerance, and the scaling of the tolerance by the
+/// tension at a node.
 ///
 ///   tolerance  max(s clamp(l T, r/100, r), r/1000), s = min(1, (dt/t_r)^2 (1 + c dt/m))
-///   scaling    of a node's tolerance: 1 + a T_i / tolerance, the factor by which its residual may be larger
+///   scaling    1 + a T_i / tolerance: factor by which the residual of node i may exceed the tolerance
 ///
-/// Symbols: r residual [N], l residual_at_little_tension (0: r instead of the clamp), a residual_of_tension, t_r
-/// residual_from_step [s]; T largest tension of the rod, T_i of the edges of node i [N].
+/// Symbols: r residual [N], l residual_at_little_tension (0: r replaces the clamp), a residual_of_tension, t_r
+/// residual_from_step [s]; T largest tension of the rod and T_i that of the edges of node i [N]; c drag and m mass per
+/// length [kg/m].
 ///
-/// What is left unbalanced shakes the rod, the more often the shorter the steps: it would keep them short. A node's own
-/// edges count: in a locked knot they bear kN, while next to it are tails that a very small force moves.
-/// While a shape settles, its drag holds what is left unbalanced back by 1 + c dt/m, c the drag and m the mass per
-/// length [kg/m], and s is as much larger.
+/// The imbalance that is left in each step excites vibrations of the rod, more so the shorter the steps are, and
+/// vibrations keep the steps short. The tolerance therefore falls with dt^2. The tension of a node's own edges is used
+/// for the scaling, because a locked knot carries kilonewtons beside tails that a very small force moves. While a shape
+/// settles, its drag reduces the effect of the imbalance by 1 + c dt/m, and s is larger by this factor.
 class ResidualNorm {
  public:
   explicit ResidualNorm(const StepSettings& settings)
@@ -46,7 +48,7 @@ class ResidualNorm {
     return 1.0 + of_tension_ * tension_at_node / tolerance;
   }
 
-  /// Of the nodes that nothing holds; the first that is no number, else the largest.
+  /// The largest scaled residual of the nodes that are not held. A residual that is not finite is returned at once.
   template <typename Held>
   WorstResidual worst_of_nodes(const std::vector<Lanes>& force, const CentrelineTerms& centreline, double tolerance,
                                const Held& held) const {
@@ -67,7 +69,8 @@ class ResidualNorm {
     return out;
   }
 
-  /// The same among the torques on edges whose frames are free, over `radius`, where they are worse than `worst`.
+  /// The same for the torques, divided by `radius`, on edges whose frames are not held. Returns `worst` where none is
+  /// larger.
   template <typename Frames>
   static WorstResidual worst_of_spins(const std::vector<Lanes>& force, const Frames& frames, double radius,
                                       WorstResidual worst) {
@@ -81,7 +84,7 @@ class ResidualNorm {
   }
 
  private:
-  static constexpr double kInShortSteps = 1e-3, kAtLittleTension = 1e-2;  // of r, at least
+  static constexpr double kInShortSteps = 1e-3, kAtLittleTension = 1e-2;  // lower bounds, as fractions of r
 
   double loose(double tension) const {
     if (at_little_tension_ <= 0.0) return residual_;

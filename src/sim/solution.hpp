@@ -5,10 +5,10 @@
 
 namespace knot_utm {
 
-/// How an increment is solved (Solution in time_step.hpp says when which way is taken).
+/// Solves the increment of a step in one of the ways of `Solution` (time_step.hpp).
 ///
-/// Each way makes its increments itself, so that all of them begin at the prediction. `watch(increment)` is called
-/// after every residual.
+/// Each way makes its own `Increment`, so that all of them begin at the prediction. `watch(increment)` is called after
+/// every evaluation of the residual.
 template <int D, typename StrandContact, typename Watch>
 class SolutionOf {
  public:
@@ -18,7 +18,7 @@ class SolutionOf {
   SolutionOf(TheEquation& equation, const StepStart& start, const Watch& watch)
       : equation_(equation), start_(start), watch_(watch) {}
 
-  /// Leaves the equation at the last trial, and `worst` at its worst residual.
+  /// Solves in the given way. The equation is left at the last trial, and `worst` is its largest residual.
   NewtonSummary by(Solution solution, WorstResidual& worst) {
     NewtonSummary out =
         solution == Solution::kSecants ? by_secants() : by_tangents(solution == Solution::kTangentsAbandonedEarly);
@@ -27,10 +27,10 @@ class SolutionOf {
   }
 
  private:
-  static constexpr int kTurns = 3;                 // of secants and tangents
-  static constexpr double kFactorOfSecants = 0.5;  // of a change
+  static constexpr int kTurns = 3;                 // largest number of rounds of secants and tangents
+  static constexpr double kFactorOfSecants = 0.5;  // damping factor of the secants after the first round has failed
 
-  /// What Newton's method solves: an increment whose friction is linearised in one way.
+  /// The system that Newton's method solves: an increment with one way of linearising friction.
   struct System {
     TheIncrement& increment;
     const Watch& watch;
@@ -59,8 +59,8 @@ class SolutionOf {
     return run(increment, Linearisation::kTangent, {equation_.settings.max_iterations, 1.0, abandons_early});
   }
 
-  /// Secants creep up to the solution from afar, on one side of every kink; tangents find it from there in few
-  /// iterations. Where whole changes leap to and fro, halves need not.
+  /// Secants approach the solution slowly from far away, but stay on one side of every kink of friction. From there
+  /// tangents find it in few iterations. Where full changes make the iterates oscillate, halved ones may converge.
   NewtonSummary by_secants() {
     NewtonSummary out = by_turns(1.0, 1);
     if (out.converged()) return out;
@@ -70,7 +70,7 @@ class SolutionOf {
     return out;
   }
 
-  /// Secants, of whose changes at most `factor` is taken, and tangents, so many times over.
+  /// Up to `turns` rounds, each of secants with the damping factor `factor` and then of tangents.
   NewtonSummary by_turns(double factor, int turns) {
     TheIncrement increment(equation_, start_, false);
     NewtonSummary out;

@@ -8,14 +8,15 @@
 
 namespace knot_utm {
 
-/// dPsi/dx of a section's three nodes.
+/// Derivatives of the spin Psi of a section with respect to the positions of its three nodes.
 inline std::array<Lanes, 3> spin_of_nodes(const std::vector<Lanes>& pull, int first, const double* s) {
   const auto edge = static_cast<std::size_t>(first);
   const Lanes before = s[0] * pull[edge], behind = s[1] * pull[edge + 1];
   return {before, behind - before, -1.0 * behind};
 }
 
-/// What one unknown of a node does to a contact's forces: SurfaceModel::Response of several changes at once.
+/// The derivative of a contact's forces with respect to one unknown of a node: a weighted sum of
+/// SurfaceModel::Response.
 struct SurfaceColumn : SurfaceModel::Response {
   SurfaceColumn() = default;
   SurfaceColumn(double times, const SurfaceModel::Response& r) : SurfaceModel::Response(r) {
@@ -35,7 +36,8 @@ struct SurfaceColumn : SurfaceModel::Response {
   }
 };
 
-/// The four columns of a node: c and d are its weights in S and in its section's V; `spin_weight` its own spin's.
+/// The four columns of a node: three for its position and one for its spin. c and d are the weights of the node in S
+/// and in V of its section, and `spin_weight` is that of its own spin.
 inline std::array<SurfaceColumn, 4> columns_of(const SurfaceModel& model, int turn, int spin, double c, double d,
                                                const Lanes& spin_of_node, double spin_weight) {
   std::array<SurfaceColumn, 4> out;

@@ -5,7 +5,7 @@
 
 namespace knot_utm {
 
-/// Enters the contacts of one kind into what a watcher is told.
+/// Enters the contacts of one kind into the report of an iterate.
 inline void report_contacts(const RodProperties& rod, const std::vector<ContactPoint>& contacts, Iterate& out) {
   for (const ContactPoint& contact : contacts) {
     out.active += contact.active() ? 1 : 0;
@@ -20,7 +20,7 @@ inline void report_contacts(const RodProperties& rod, const std::vector<ContactP
   }
 }
 
-/// Where the solution stands, for those who watch it.
+/// The report of the present iterate, for whoever watches the solution.
 template <typename Equation, typename Increment>
 Iterate iterate_of(const Equation& equation, const Increment& increment) {
   Iterate out;

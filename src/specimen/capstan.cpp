@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "shape_checks.hpp"
 
@@ -18,7 +19,9 @@ constexpr double kEdgesARadian = 4.0;   // at least: the tension ratio is then r
 constexpr double kFewestARadian = 2.0;  // edges that still follow the bend
 constexpr double kPull = 1.5;           // by then the rod slides everywhere on the post [rho]
 constexpr double kBeyondPull = 15.0;    // of the tail, so that its end keeps off the post [h]
+constexpr double kLeastTail = 3.0;      // of it at the end of a pull [h]
 constexpr double kTailStrain = 0.01;    // so that a strand that stretches slides within the pull
+constexpr double kMostStrain = 1.0;     // by the tail load, from a drawn shape that is not stretched [-]
 constexpr double kPitch = 4.0;          // of a helix, so that strands side by side do not touch [h]
 
 double bend_radius(const SpecimenOptions& specimen, double h) { return 0.5 * specimen.post_diameter + h; }
@@ -59,6 +62,19 @@ class Winding {
   Mat3 tilt_;
 };
 
+/// A load that the rod can bear, and a stretch that the drawn shape, which has none, can reach.
+void check_tail_load(const SpecimenOptions& specimen, const Material& material) {
+  const double load = tail_load(specimen, material);
+  if (material.breaking_force && load >= *material.breaking_force)
+    throw InvalidInput("specimen.tail_load", text(load),
+                       "less than material.breaking_force, " + text(*material.breaking_force) + " N");
+  const double strain = strain_under(material, load);
+  if (strain > kMostStrain)
+    throw InvalidInput(
+        "specimen.tail_load", text(load),
+        "one that stretches the rod to at most twice its length, and not to " + text(1.0 + strain) + " times that");
+}
+
 KnotDescription description() {
   KnotDescription out;
   out.name = "capstan";
@@ -88,6 +104,10 @@ void CapstanSpecimen::suit(const SpecimenOptions& known, double, double h, Speci
   out.tail = std::max(kStrand * h, pull(known, h) + kBeyondPull * h);
 }
 
+std::optional<double> CapstanSpecimen::longest_pull(const SpecimenOptions& specimen, double h) const {
+  return specimen.tail - kLeastTail * h;
+}
+
 double CapstanSpecimen::pull(const SpecimenOptions& specimen, double h) const {
   return kPull * bend_radius(specimen, h);
 }
@@ -101,6 +121,7 @@ void CapstanSpecimen::check(const SpecimenOptions& specimen, double h) const {
 
 Centreline CapstanSpecimen::centreline(const SpecimenOptions& specimen, const Material& material,
                                        const Mounting&) const {
+  check_tail_load(specimen, material);
   const Winding winding(specimen, material.radius);
   const double length = specimen.tail + winding.length() + specimen.end_to_end;
   const int edges = std::max(4, static_cast<int>(std::lround(length / specimen.edge_length)));

@@ -5,6 +5,7 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
 #include "path.hpp"
@@ -301,7 +302,7 @@ constexpr double kRecovered = 0.075;      // of what it stretched between them, 
 constexpr double kLargestTyingStrain = 1.0;  // beyond it nothing was measured, and the shift stays what it is [-]
 
 double outward_shift(const SpecimenOptions& specimen, const Material& material, int windings) {
-  const double strain = std::min(tying_load(specimen, material) / material.stretching_stiffness, kLargestTyingStrain);
+  const double strain = std::min(strain_under(material, tying_load(specimen, material)), kLargestTyingStrain);
   return (kGivenUp + kGivenUpByWinding * (windings - 1) + kGivenUpByStrain * strain) * material.radius -
          kRecovered * strain * specimen.knot_distance;
 }

@@ -9,15 +9,16 @@
 
 namespace knot_utm {
 
-/// Spacing at which curves are drawn before they are resampled.
+/// Spacing of the points of a curve before it is resampled [m].
 inline double drawing_spacing(double radius, double edge_length) { return std::min(radius, edge_length) / 16.0; }
 
-/// Radius to draw with so that a circle smoothed by a Gaussian ends up with the given one.
+/// Radius of a circle that has the given radius after it is smoothed by a Gaussian with the standard deviation
+/// `deviation` [m].
 inline double before_smoothing(double radius, double deviation) {
   return radius * std::exp(0.5 * std::pow(deviation / radius, 2));
 }
 
-/// A path drawn as points that are dense along curves; arclength as it grows.
+/// A path given by closely spaced points, with their arclengths.
 class Path {
  public:
   explicit Path(double spacing) : spacing_(spacing) {}
@@ -32,7 +33,7 @@ class Path {
     arclength_.push_back(length_);
   }
 
-  /// Adds curve(0) to curve(1), about `length` long.
+  /// Adds the points of curve(t) for t from 0 to 1. `length`: its approximate length [m].
   template <typename Curve>
   void add_curve(double length, Curve curve) {
     const int pieces = std::max(8, static_cast<int>(std::ceil(length / spacing_)));
@@ -58,17 +59,18 @@ class Path {
   std::vector<double> arclength_;
 };
 
-/// The path smoothed along its arclength by a Gaussian, sampled evenly: column i was at arclength i length/(columns-1).
-/// Beyond its ends the path goes on straight, so ends with a straight piece stay where they are.
+/// The path smoothed along its arclength by a Gaussian with the standard deviation `deviation`, sampled evenly. Column
+/// i was at the arclength i length/(columns - 1). Beyond its ends the path is continued straight, so straight ends stay
+/// where they are.
 Points smoothed(const Path& path, double deviation, double spacing);
 
-/// Resamples a smoothed path and carries arclengths of the path over to the resampled rod.
+/// Resamples a smoothed path, and converts arclengths of the path to those of the resampled rod.
 class Resampled {
  public:
-  /// `wanted` speaks of arclengths of the path.
+  /// `wanted`: edge lengths by arclength of the path.
   Resampled(const Path& path, const Points& smooth, const EdgeGrading& wanted);
 
-  /// Arclength on the rod, along its edges, of the place that was at arclength s of the path.
+  /// Arclength on the rod, along its edges, of the place at arclength s of the path [m].
   double operator()(double s) const;
 
   Points points;

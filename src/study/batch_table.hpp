@@ -9,16 +9,18 @@
 
 namespace knot_utm {
 
-/// What the folders of a batch's specimens say once all tests have ended.
+/// The results of a batch, read from the folders of its specimens once all tests have ended.
 class BatchTable {
  public:
   BatchTable(const std::string& folder, const std::vector<DrawnSpecimen>& specimens);
 
   const std::vector<Rejected>& rejected() const { return rejected_; }
 
-  /// specimens.csv: row 1 names, row 2 units; the values that were drawn, then the numbers of result.yaml.
+  /// The text of specimens.csv. Row 1 holds names and row 2 units; then follows one row for each specimen, with the
+  /// drawn values and the numbers of result.yaml.
   std::string csv() const;
-  /// statistics.yaml: of each number of result.yaml, over the specimens that are not rejected.
+  /// The text of statistics.yaml: the statistics of each number of result.yaml over the specimens that were not
+  /// rejected.
   std::string statistics() const;
 
  private:
@@ -26,7 +28,7 @@ class BatchTable {
     const DrawnSpecimen* specimen;
     bool counts;
     std::string ended_by, motion_pattern;
-    std::vector<std::optional<double>> numbers;  // by the keys of result.yaml that are numbers
+    std::vector<std::optional<double>> numbers;  // in the order of the keys of result.yaml that are numbers
   };
 
   std::vector<Row> rows_;

@@ -11,16 +11,17 @@
 
 namespace knot_utm {
 
-/// A run that stopped before a step of its program, from where runs of other methods begin. They must have the same
-/// specimen, material, machine and physics, and their programs must give the same commands up to that place. A run that
-/// begins here therefore leaves the same bytes as one from the beginning.
+/// A run that stopped before a step of its program, and from whose state runs of other methods begin. These must have
+/// the same specimen, material, machine and physics, and their programs must give the same commands up to that step. A
+/// run that begins here therefore has the same bytes as one from the beginning.
 class EarlierRun {
  public:
-  /// Puts bench and program, just made from `method`, to where the run in `folder` stopped. Throws InvalidInput
-  /// (key "--begin-with") where there is none, or where it does not suit the method.
+  /// Brings machine and program, which have just been made from `method`, to the state in which the run in `folder`
+  /// stopped. Throws InvalidInput (key "--begin-with") where there is no such run, or where it does not suit the
+  /// method.
   EarlierRun(const std::string& folder, const Method& method, TestingMachine& bench, ProgramRunner& program);
 
-  /// Hands every record to `add` and to the journal of the new run; the wall time that had passed [s].
+  /// Passes every record to `add` and to the journal of the new run. Returns the wall time of the earlier run [s].
   double replay(const std::function<void(const Record&)>& add, JournalWriter& journal) const;
 
  private:
@@ -29,7 +30,7 @@ class EarlierRun {
 
   std::string folder_;
   Method method_;
-  std::uint64_t bytes_ = 0;  ///< of its journal
+  std::uint64_t bytes_ = 0;  ///< length of its journal
 };
 
 }  // namespace knot_utm

@@ -10,15 +10,16 @@
 
 namespace knot_utm {
 
-/// The records of a run that is resumed, as far as its checkpoint goes.
+/// The records of a run that is resumed, up to its checkpoint.
 class PastRecords {
  public:
-  /// Loads bench and program as the checkpoint has them; without one they stay at the beginning. Throws InvalidInput
-  /// where journal, method and checkpoint do not go together.
+  /// Loads the state of machine and program from the checkpoint. Without a checkpoint they stay at the beginning.
+  /// Throws InvalidInput where journal, method and checkpoint do not belong together.
   PastRecords(const std::string& folder, const Method& method, const Checkpoint& checkpoint, TestingMachine& bench,
               ProgramRunner& program);
 
-  /// Hands every record to `add` once more and cuts the journal off behind the last; the wall time that had passed [s].
+  /// Passes every record to `add` again, and cuts off the journal after the last of them. Returns the wall time that
+  /// had passed [s].
   double replay(const std::function<void(const Record&)>& add, JournalWriter& journal) const;
 
  private:

@@ -9,7 +9,7 @@
 
 namespace knot_utm {
 
-/// "; did you mean --out?", or where to read on.
+/// The end of a message for an unknown option: "; did you mean --out?", or a reference to --help.
 inline std::string hint_at_option(const CLI::App& app, const std::string& tool, const std::string& given) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
@@ -18,7 +18,8 @@ inline std::string hint_at_option(const CLI::App& app, const std::string& tool, 
   return nearest.empty() ? "; see " + tool + " --help" : "; did you mean " + nearest + "?";
 }
 
-/// Where the name of an option stands in place of the value of the one before it: that, in a sentence. Else empty.
+/// A sentence for an option whose value is missing, because the name of another option follows it. Empty where there is
+/// none.
 inline std::string missing_value(const CLI::App& app) {
   for (const CLI::Option* option : app.get_options())
     for (const std::string& value : option->results())
@@ -27,7 +28,8 @@ inline std::string missing_value(const CLI::App& app) {
   return {};
 }
 
-/// What is wrong with a command line, in a sentence that names the argument. CLI11's own name its types and its limits.
+/// A sentence that says what is wrong with a command line and names the argument. The messages of CLI11 speak of types
+/// and limits of the program instead.
 inline std::string command_line_fault(const CLI::App& app, const std::string& tool, const CLI::ParseError& error) {
   const std::string missing = missing_value(app);
   if (!missing.empty()) return missing;

@@ -9,7 +9,7 @@
 
 namespace knot_utm {
 
-/// One line that is written over a few times a second, on a terminal only.
+/// A line that shows the progress of a test and is rewritten a few times a second. It appears on a terminal only.
 class ProgressLine {
  public:
   explicit ProgressLine(bool quiet) : on_(!quiet && isatty(STDERR_FILENO) != 0) {}
@@ -29,7 +29,7 @@ class ProgressLine {
     std::fflush(stderr);
   }
 
-  /// Of tests that run side by side.
+  /// The same for tests that run at the same time.
   void show(int ended, int count) {
     if (!on_) return;
     shown_ = true;
@@ -38,7 +38,7 @@ class ProgressLine {
     std::fflush(stderr);
   }
 
-  /// What is written next begins on a line of its own.
+  /// Ends the line, so that the next output begins on a new one.
   void end() {
     if (shown_) std::fputc('\n', stderr);
     shown_ = false;
@@ -47,7 +47,7 @@ class ProgressLine {
  private:
   bool on_;
   bool shown_ = false;
-  double next_ = 0.0;  ///< [s]
+  double next_ = 0.0;  ///< wall time of the next update [s]
   std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
 };
 

@@ -12,17 +12,17 @@
 
 namespace knot_utm {
 
-/// How every tool ends.
+/// The exit codes of all tools.
 enum ExitCode { kDone = 0, kFailed = 1, kWrongInput = 2 };
 
-/// Says in one line why a tool ends with this code.
+/// Prints in one line why a tool ends with this code, and returns the code.
 inline int complain(const char* tool, const std::string& why, ExitCode code) {
   std::fprintf(stderr, "%s: %s\n", tool, why.c_str());
   return code;
 }
 
-/// Reads the command line, --version among it; an exit code where that is all there is to do. `check` may throw a
-/// CLI::ParseError too.
+/// Reads the command line, including --version. Returns an exit code where the tool has nothing else to do. `check` may
+/// throw a CLI::ParseError, too.
 template <class Check>
 std::optional<int> parse(CLI::App& app, const char* tool, int argc, char** argv, Check check) {
   app.set_version_flag("--version", version());
@@ -40,7 +40,7 @@ inline std::optional<int> parse(CLI::App& app, const char* tool, int argc, char*
   return parse(app, tool, argc, argv, [] {});
 }
 
-/// Runs `body` and says in one line what went wrong. Returns the exit code, that of `body` or one of the above.
+/// Runs `body`, and prints one line where it throws. Returns the exit code of `body`, or one of the above.
 template <class Body>
 int run_tool(const char* tool, Body body) {
   try {

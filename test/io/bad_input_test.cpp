@@ -325,6 +325,15 @@ TEST(BadInput, WhatHasNoEffectOnAStraightRod) {
   }
 }
 
+/// A pull that would take the rod off its post. The shipped method's own is allowed.
+TEST(BadInput, APullThatIsLongerThanTheTailOfACapstan) {
+  const std::string capstan = std::string(KNOT_UTM_SOURCE_DIR) + "/config/capstan.yaml";
+  EXPECT_EQ(complaint(capstan), "nothing was wrong");
+  EXPECT_EQ(complaint(capstan, {"program.pull.until.extension=0.2", "specimen.tail=0.25"}), "nothing was wrong");
+  EXPECT_THAT(complaint(capstan, {"program.pull.until.extension=0.2"}),
+              AllOf(HasSubstr("program.1.pull.until.extension is 0.2"), HasSubstr("a longer specimen.tail")));
+}
+
 /// The command itself: exit code 2, one line, nothing written.
 TEST_F(BadFile, TheCommandSaysItInOneLineAndWritesNothing) {
   const fs::path out = folder_ / "out";

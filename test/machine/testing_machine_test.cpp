@@ -286,7 +286,7 @@ TEST(TestingMachine, ContactLoadAddsUpToTheForcesOfTheReading) {
   for (std::uint64_t k = 1; k <= 10; ++k) sample = machine.respond(pull(k, 0.2 * static_cast<double>(k), 0.0));
   ASSERT_GT(sample.normal_force, 0.0);
   const Eigen::VectorXd load = machine.contact_load();
-  EXPECT_GE(load.minCoeff(), 0.0);
+  EXPECT_GE(load.minCoeff(), 0.0) << "strands press, and do not pull";
   EXPECT_NEAR(load.dot(machine.rod().voronoi_length), 2.0 * sample.normal_force, 1e-12 * sample.normal_force);
   for (const ContactForce& contact : machine.contact_forces()) {
     Eigen::Index nearest = 0;

@@ -120,14 +120,5 @@ TEST(SampleFields, SayEveryPhaseByItsName) {
   });
 }
 
-TEST(ChoiceNames, LeadBackToTheirValues) {
-  for (int i = 0; i <= static_cast<int>(last_of(Phase())); ++i) {
-    const Phase phase = static_cast<Phase>(i);
-    EXPECT_EQ(phase_named(phase_name(phase)), phase);
-  }
-  EXPECT_EQ(phase_named("pulling"), std::nullopt);
-  EXPECT_STREQ(phase_name(static_cast<Phase>(99)), "idle");
-}
-
 }  // namespace
 }  // namespace knot_utm

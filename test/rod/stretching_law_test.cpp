@@ -45,6 +45,14 @@ TYPED_TEST(StretchingLaw, IsAtRestWithItsStiffness) {
   }
 }
 
+TYPED_TEST(StretchingLaw, StrainIsTheInverseOfTheTension) {
+  for (const double stretch : {1.0, 1.0 + 1e-9, 1.001, 1.1, 1.5, 3.0, 50.0}) {
+    const double tension = this->law.respond(edge(stretch)).tension;
+    // A rounding of the tension, which is as large as k_s times the strain or less.
+    EXPECT_NEAR(this->law.strain(kStiffness, tension), stretch - 1.0, 1e-14 * stretch);
+  }
+}
+
 TYPED_TEST(StretchingLaw, HasNoTensionWherePartedFromItsStiffness) {
   const StretchingResponse parted = this->law.respond({0.0, kRest, 1.7});
   EXPECT_EQ(parted.tension, 0.0);

@@ -74,6 +74,17 @@ TEST(CapstanSpecimen, RefusesEdgesThatDoNotFollowTheBend) {
   EXPECT_THROW(knot_of(specimen).check(specimen, nylon().radius), InvalidInput);
 }
 
+TEST(CapstanSpecimen, RefusesALoadThatTheRodCannotBear) {
+  Material material = nylon();
+  material.breaking_force = 20.0;
+  const auto draw = [&](double load) { knot_of(strand(M_PI, load)).centreline(strand(M_PI, load), material, {}); };
+  EXPECT_NO_THROW(draw(19.9));
+  EXPECT_THROW(draw(20.0), InvalidInput);
+  material.breaking_force.reset();
+  EXPECT_NO_THROW(draw(0.99 * material.stretching_stiffness));
+  EXPECT_THROW(draw(1.01 * material.stretching_stiffness), InvalidInput);
+}
+
 /// T2/T1 as the upper grip feels it, the mean over the last third of a pull by one and a half bend radii; and the force
 /// on post and load over that.
 struct Ratios {

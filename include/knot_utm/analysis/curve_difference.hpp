@@ -6,16 +6,17 @@
 
 namespace knot_utm {
 
-/// F_b - F_a over the extensions that two pulls have in common, both straight from point to point.
+/// The difference F_b - F_a of two pulls over the extensions that both of them cover. Between two points of a pull the
+/// force is interpolated linearly.
 struct CurveDifference {
-  Range common{0.0, 0.0};   ///< [m]
-  double rms = 0.0;         ///< root of the mean square over extension [N]
-  double largest = 0.0;     ///< in size, with its sign [N]
-  double largest_at = 0.0;  ///< [m]
-  double load = 0.0;        ///< largest |F_a| there, to measure the others by [N]
+  Range common{0.0, 0.0};   ///< extensions that both pulls cover [m]
+  double rms = 0.0;         ///< root mean square of the difference over these extensions [N]
+  double largest = 0.0;     ///< the difference of largest size, with its sign [N]
+  double largest_at = 0.0;  ///< extension at which it occurs [m]
+  double load = 0.0;        ///< largest |F_a| over these extensions, the reference for relative differences [N]
 };
 
-/// None where they have no extension in common.
+/// Empty where the pulls have no extension in common, or where one of them has fewer than two points.
 std::optional<CurveDifference> curve_difference(const Pull& a, const Pull& b);
 
 }  // namespace knot_utm

@@ -8,135 +8,159 @@
 
 namespace knot_utm {
 
-/// One reading of a pull. The samples of a pull that count are those that reach a new largest extension. Each fills a
-/// cache line, as sums go over all of a pull.
+/// One reading of a pull. A sample belongs to the pull if its extension is larger than that of every earlier sample, so
+/// the extension grows from point to point.
+///
+/// The alignment to a cache line is part of the results: it decides how the compiler vectorises the sums over a pull,
+/// and so in which order they are added. Another alignment would change the last bits of readings.
 struct alignas(64) PullPoint {
   double time;                           ///< [s]
   double extension;                      ///< s [m]
   double knot_distance = Sample::kNone;  ///< e [m]
-  double force = 0.0;                    ///< F on the upper grip [N]
-  double normal_force = Sample::kNone;   ///< sum over all contacts of strands [N]
-  double borne = Sample::kNone;  ///< by the rod, without the cell's zero and noise [N]; NaN: not known, F counts
+  double force = 0.0;                    ///< F, the force on the upper grip [N]
+  double normal_force = Sample::kNone;   ///< sum of the normal forces of all contacts between strands [N]
+  /// The force that the rod bears, without the zero, noise and other errors of the load cell [N]. NaN: not known, and
+  /// `force` is used instead.
+  double borne = Sample::kNone;
 };
 using Pull = std::vector<PullPoint>;
 
-/// Rod hidden in each knot at every point of a pull [m]; empty where that is not known.
+/// Excess length of each knot at every point of a pull, that is the length of rod hidden in the knot [m]. Empty where
+/// it is not known.
 using HiddenRod = std::vector<PerKnot>;
 
-double peak_force(const Pull& pull);  ///< largest F of a pull that has a point [N]
+double peak_force(const Pull& pull);  ///< largest F of a pull, which must have a point [N]
 
-/// From one extension to another [m].
+/// An interval of extension, from `low` to `high` [m].
 struct Range {
   double low, high;
 };
 
-/// Of a pull that slides up to s = `end`, from 0.3 to 0.8 of the way: the breakaway lies before, the onset of locking
-/// behind.
+/// The interval over which the sliding force is averaged: from 0.3 to 0.8 of the extension between the first point and
+/// s = `end`, up to which the knots slide. The breakaway lies before it, and the onset of locking after it.
 Range plateau_range(const Pull& pull, double end);
 
-/// Means over that range, by the trapezoidal rule.
+/// The force over that interval. Integrals are taken by the trapezoidal rule.
 struct Plateau {
-  double force = 0.0;        ///< F [N]
-  double force_sd = 0.0;     ///< its standard deviation [N]
+  double force = 0.0;        ///< mean of F [N]
+  double force_sd = 0.0;     ///< standard deviation of F [N]
   double low = 0.0;          ///< smallest F [N]
   double high = 0.0;         ///< largest F [N]
   double force_slope = 0.0;  ///< least-squares slope of F over s [N/m]
-  double slope = 0.0;        ///< de/ds [-]; NaN where e is not known
-  double rise = 0.0;         ///< of F over the range, by the means of its halves [N]
+  double slope = 0.0;        ///< mean of de/ds [-]; NaN where e is not known
+  double rise = 0.0;         ///< growth of F over the interval: twice the difference of the means of its two halves [N]
 };
 
-/// None where the range is empty.
+/// Empty where the pull has no point, or where the interval contains no part of it.
 std::optional<Plateau> plateau(const Pull& pull, double end);
 
-/// Largest F before the plateau of a pull that slides up to s = `end` [N]; at least 0.
+/// Breakaway force: the largest F before the plateau_range of a pull that slides up to s = `end` [N]. At least 0.
 double breakaway_force(const Pull& pull, double end);
 
-/// A fall of F within a twentieth of a way, from one point of a pull to a later one.
+/// A fall of F from one point of a pull to a later one that lies within a short extension of it.
 struct Drop {
-  std::size_t from, to;  ///< points
+  std::size_t from, to;  ///< indices of the points
 
   double force(const Pull& pull) const { return pull[from].force - pull[to].force; }  ///< [N]
 };
 
-/// Whether less than 20 points stand on the way to s = `end`: what lies between two of them need not have come at once.
+/// Whether fewer than 20 points lie at extensions up to s = `end`. Neighbouring points are then so far apart that a
+/// fall of F between them need not be sudden.
 bool has_few_for_drops(const Pull& pull, double end);
 
-/// The largest fall of F on the way to s = `end`; none where F only rises, and where too few points tell.
+/// The largest sudden fall of F before s = `end`: the fall between two points whose extensions differ by at most a
+/// twentieth of the extension up to `end`. Two neighbouring points always count. Empty where F only rises, and where
+/// has_few_for_drops().
 std::optional<Drop> largest_drop(const Pull& pull, double end);
 
-/// A knot that jumped open: its coils take in rod at once, within a twentieth of half the first e, which is about the
-/// way to the lock, and F does not grow by half, as in a lock. They take in an eighth or more of what the knot held
-/// when the pull began. In simulations those that jumped took in 28 to 46 %, and all others at most 8 %.
+/// A knot that jumped open, as the fall of F that goes with it. Empty where no knot jumped open, and where the pull
+/// does not have the readings by which this could be told.
 ///
-/// Where that is not known, F falls by half or more, and the knots come nearer to each other by more than twice what
-/// the grips moved apart, which is all that sliding can do, and more than that by a twentieth of the first e. Those
-/// that jumped came nearer by 6 to 65 % of e, and others by at most 4 % as their knots nested into each other; strands
-/// that stretch come nearer by up to 15 % as a knot slips, but F then falls little.
+/// A knot jumps open if it takes in rod at once. "At once" means within an extension of e_0/40, where e_0 is the first
+/// knot distance; that is a twentieth of e_0/2, the extension by which knots that slide have met. Two criteria are
+/// used:
 ///
-/// The fall is that from the largest F in there to the smallest from then on, within as long a way. None where no knot
-/// jumped, or nothing tells. It does not ask for a lock: a load that rises to its breakaway and then falls has a false
-/// one.
+/// - Where the excess lengths are known, a knot must take in, and keep over another e_0/40, at least an eighth of the
+///   excess length that it had when the pull began. F must not grow by half or more meanwhile, as it does at a lock. In
+///   simulations, the knots that jumped open took in 28 to 46 %, and all others at most 8 %.
+/// - Where they are not known, F must fall to a half or less, and the knots must come nearer to each other by more than
+///   sliding explains. Sliding alone brings them nearer by twice the growth of s; the rest must exceed e_0/20. In
+///   simulations this rest was 6 to 65 % of e_0 for knots that jumped open, and at most 4 % for others, whose knots
+///   nested into each other. Stretchy strands come nearer by up to 15 % as a knot slips, but F then falls little.
+///
+/// The result reaches from the largest F of the jump to the smallest F within another e_0/40 after it. No lock is
+/// required, because a load that rises to its breakaway and then falls shows a false lock.
 std::optional<Drop> jump(const Pull& pull, const HiddenRod& hidden = {});
 
-/// F(s) where the rod carries the load: over the points from s = `from` on, up to the peak, whose F lies between half
-/// the peak and the peak, at least the last three.
+/// The part of F(s) in which the locked knots carry the load. It consists of the peak and of the points before it, from
+/// s = `from` on, back to the first that is below half of the peak. It has at least three points, even if some of them
+/// are below that.
 struct LockedPart {
-  /// The middle one of the least-squares slopes in three parts of equal extension: strands that slip inside a locked
-  /// knot let F fall at one place [N/m].
+  /// Stiffness: the median of the least-squares slopes over three parts of equal extension [N/m]. The median is used
+  /// because strands that slip inside a locked knot make F fall in one of the parts.
   double stiffness = 0.0;
-  double change = 0.0;  ///< of the slope from one end to the other, by the outer two of the three [N/m]
-  double width = 0.0;   ///< of s [m]
-  int points = 0;       ///< from which it was read
+  /// Change of the slope from one end of the part to the other, from the first and the third of the three slopes [N/m].
+  double change = 0.0;
+  double width = 0.0;  ///< extension that it covers [m]
+  int points = 0;      ///< number of points in it
 };
 
+/// Empty where fewer than three points lie between s = `from` and the peak.
 std::optional<LockedPart> locked_part(const Pull& pull, double from);
 
-/// What a force-extension curve says by itself, be it measured or simulated. A test's own, those of its load cell, are
-/// in result.yaml by the same names and to the last digit.
+/// The readings that follow from a force-extension curve alone, measured or simulated. The readings of a test's own
+/// load cell stand in result.yaml under the same names, with the same digits.
 struct CurveReadings {
-  std::optional<double> rises_at;    ///< s where F rises for good, be there a plateau or not [m]
-  double slides_to = 0.0;            ///< there, else to the end of the pull: s up to which a mean counts [m]
-  std::optional<Drop> jumped;        ///< of the points of the pull, where a knot jumped open
-  std::optional<double> peak_force;  ///< [N]
-  std::optional<double>
-      plateau_force;  ///< mean F before the lock, or to the end of a pull without one, where it is a plateau [N]
-  std::optional<double> plateau_force_sd;        ///< [N]
+  /// s from which F stays above twice the mean of its plateau range, whether or not that range is a plateau [m]
+  std::optional<double> rises_at;
+  double slides_to = 0.0;      ///< s up to which the knots are taken to slide: `rises_at`, or the end of the pull [m]
+  std::optional<Drop> jumped;  ///< the fall of F where a knot jumped open, as indices of points of the pull
+  std::optional<double> peak_force;  ///< largest F [N]
+  /// Mean F of the plateau, before the lock or, in a pull without a lock, before its end [N].
+  std::optional<double> plateau_force;
+  std::optional<double> plateau_force_sd;        ///< standard deviation of F within the plateau [N]
   std::optional<double> plateau_force_low;       ///< smallest F within the plateau [N]
   std::optional<double> plateau_force_high;      ///< largest F within it [N]
   std::optional<double> plateau_force_slope;     ///< dF/ds within it [N/m]
   std::string no_plateau;                        ///< why there is no plateau; empty: there is one
-  std::optional<double> largest_drop;            ///< largest sudden fall of F before the lock; 0: it only rose [N]
-  std::optional<double> largest_drop_at;         ///< s where that began [m]
+  std::optional<double> largest_drop;            ///< largest sudden fall of F before the lock; 0: F only rose [N]
+  std::optional<double> largest_drop_at;         ///< s at which that fall begins [m]
   std::optional<double> jump_force;              ///< F at which a knot jumped open [N]
-  std::optional<double> jump_extension;          ///< s there [m]
-  std::optional<double> force_after_jump;        ///< F that was left [N]
-  std::optional<double> breakaway_force;         ///< largest F before the plateau, where there is one [N]
-  std::optional<double> lock_extension_by_load;  ///< s_l, where there is a plateau [m]
+  std::optional<double> jump_extension;          ///< s at which a knot jumped open [m]
+  std::optional<double> force_after_jump;        ///< smallest F just after the jump [N]
+  std::optional<double> breakaway_force;         ///< largest F before the plateau [N]
+  std::optional<double> lock_extension_by_load;  ///< s_l, lock extension by the load [m]
   std::string no_lock_by_load;                   ///< why there is no s_l; empty: there is one
-  std::optional<double> locked_stiffness;        ///< behind s_l; of the whole pull where there is no plateau [N/m]
-  std::optional<LockedPart> locked;              ///< of which that is the stiffness
+  std::optional<double> locked_stiffness;  ///< stiffness beyond s_l; of the whole pull where there is no plateau [N/m]
+  std::optional<LockedPart> locked;        ///< the part of the curve from which it was read
 };
 
-/// What the curve is, is judged by the force that the rod bears, `PullPoint::borne` where it is known, so that it is
-/// the same whether something was balanced or not, and however much noise the load cell has. So is the largest drop.
-/// The other readings are of F.
+/// Reads a curve. `hidden` may be empty.
 ///
-/// A mean of F is a plateau where the knots slide and F is level in between:
-///   - F was read at least three times within it;
-///   - nothing jumped open before the lock: what comes after a jump is another knot, which has no lock and no stiffness
-///     of its own here either;
-///   - where e is known, de/ds lies within a quarter of the -2 of rigid sliding: half-way to -1, where sliding ends;
-///   - F does not fall at once by more than half of its mean: that would be a mean of before and behind;
-///   - F changes over the range by less than it would if it grew in proportion to s from the beginning of the pull,
-///     10/11 of its mean: such a force has no level of its own. Where neither a lock nor e tells that anything slides,
-///     by less than half of its mean.
-/// Nylon's force grows while it slides, by 0.7 to 0.9 of its mean: the mean stands, and low, high and slope beside it.
+/// Whether there is a plateau, a lock or a jump is decided by the force that the rod bears (`PullPoint::borne`), where
+/// that is known. The decision is then independent of balancing and of the noise of the load cell. The largest drop is
+/// read from the same force. All other values are readings of F.
 ///
-/// The lock by the load alone is where F last rises through twice the mean of its plateau, which the lock itself
-/// bounds: s_l is the fixed point that is reached from the peak. A load in proportion to s has none, and none counts
-/// that lies in the first 15 % of the pull, that has no plateau before it, or that lies between two readings further
-/// apart than a twentieth of the way. In simulations of the shipped materials that lock, it lies 1 to 5 % of s_l
-/// behind the one that the knots tell (`Results::lock_extension`): F doubles after they have begun to hold.
+/// The mean of F is a plateau if the knots slide and F is level. All of the following must hold:
+/// - F was read at least three times within the plateau range.
+/// - No knot jumped open. A knot that jumped open is another knot from then on, so it has no lock and no stiffness here
+///   either.
+/// - Where e is known, the mean of de/ds differs from -2, the value of rigid sliding, by at most 0.5. That is half the
+///   difference to -1, at which sliding ends.
+/// - F does not fall suddenly by half of its mean or more. The mean would be one of two different levels.
+/// - F changes over the range by less than 10/11 of its mean, which is the change of a force proportional to s. Such a
+///   force has no level of its own. Where neither a lock nor e shows that anything slides, the limit is half of the
+///   mean.
+///
+/// The force of nylon grows while its knots slide, by 0.7 to 0.9 of its mean. The mean counts as a plateau all the
+/// same, and its low, high and slope are given beside it.
+///
+/// The lock extension by the load, s_l, is the extension at which F last rises through twice the mean of its plateau.
+/// That plateau range in turn ends at s_l. s_l is therefore a fixed point, and it is the one that an iteration from the
+/// peak reaches. A load proportional to s has none. A fixed point is no lock if it lies in the first 15 % of the pull,
+/// if there is no plateau, or if it lies between two readings that are further apart than a twentieth of the extension
+/// up to it. In simulations of the shipped materials that lock, s_l is larger by 1 to 5 % than the lock extension from
+/// the distance of the knots (`Results::lock_extension`), because F doubles only after the knots have begun to hold.
 CurveReadings curve_readings(const Pull& pull, const HiddenRod& hidden = {});
 
 }  // namespace knot_utm

@@ -10,32 +10,34 @@ namespace knot_utm {
 
 /// One row of curve.csv: what a testing machine records of a test.
 struct CurveRow {
-  double time = 0.0;                     ///< [s]
-  double extension = 0.0;                ///< as the crosshead travels since balance: s where the frame is rigid [m]
+  double time = 0.0;  ///< [s]
+  /// Travel of the crosshead since balance [m]. It equals s where the frame is rigid.
+  double extension = 0.0;
   double load = 0.0;                     ///< [N]
-  double knot_distance = Sample::kNone;  ///< e [m]; NaN: no two knots
-  double end_to_end = 0.0;               ///< L [m]; NaN: not known, of a measured curve
-  double load_lower = Sample::kNone;     ///< [N]; NaN: not known, of a measured curve
+  double knot_distance = Sample::kNone;  ///< e [m]; NaN: there are no two knots
+  double end_to_end = 0.0;               ///< L [m]; NaN: not known, as in a measured curve
+  double load_lower = Sample::kNone;     ///< force on the lower grip [N]; NaN: not known, as in a measured curve
   Phase phase = Phase::kIdle;
-  double corrected_extension = Sample::kNone;  ///< s where the frame is compliant [m]; NaN: it is rigid, or not known
-  PerKnot excess_length{};                     ///< in each knot [m]; curve.csv has none
+  /// s, on a compliant frame [m]; NaN: the frame is rigid, or s is not known
+  double corrected_extension = Sample::kNone;
+  PerKnot excess_length{};  ///< of each knot [m]; not a column of curve.csv
 };
 
 CurveRow curve_row(const Sample& sample);
 
-/// Whether load and extension were zeroed between two rows: L less s, which nothing else changes, differs. Raw data
-/// have no L, and one zero.
+/// Whether load and extension were zeroed between two rows. They were if L - s differs, since nothing else changes that
+/// difference. Raw data have no L; they count as having one zero throughout.
 bool balanced_between(const CurveRow& before, const CurveRow& after);
 
-/// On a compliant frame the crosshead's extension is not the specimen's.
+/// Which extension is meant: that of the specimen, s, or the travel of the crosshead. On a compliant frame they differ.
 enum class ExtensionOf { kSpecimen, kMachine };
 
-/// The rows in which the specimen is pulled (pulls(phase)) that reach a new largest extension. Before them, as their
-/// origin, stands the row before the first of them, as a rule that of the balance. Where a balance lies between the
-/// two, the origin is s = 0 and F = 0, as it makes them. The lower grip, which nothing balances, tells what the rod
-/// bears.
+/// The pull of a test: the rows of phases that pull (pulls(phase)) whose extension is larger than in all of them
+/// before. The row before the first of them is put in front as the origin, if its extension is smaller. If load and
+/// extension were balanced between the two, the origin is s = 0 and F = 0. The force that the rod bears is taken from
+/// the lower grip, whose reading is never balanced.
 Pull pull_of(const std::vector<CurveRow>& rows, ExtensionOf extension = ExtensionOf::kSpecimen);
-/// The rod hidden in the knots at the points of that pull.
+/// The excess lengths of the knots at the points of that pull.
 HiddenRod hidden_rod_of(const std::vector<CurveRow>& rows, ExtensionOf extension = ExtensionOf::kSpecimen);
 
 }  // namespace knot_utm

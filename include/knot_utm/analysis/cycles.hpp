@@ -5,26 +5,31 @@
 
 namespace knot_utm {
 
-/// One reading of a specimen that is moved to and fro.
+/// One reading of a specimen that is loaded and unloaded.
 struct PathPoint {
   double extension;  ///< s [m]
   double force;      ///< F [N]
 };
 using Path = std::vector<PathPoint>;
 
-/// Out and back, from one point of a path to another.
+/// A cycle: outwards and back, from one point of a path to another.
 struct Cycle {
+  /// Indices of its first and last point.
   std::size_t begin, end;
 
-  /// Area that loading and unloading enclose [J]: the integral of F over s around it, from its end straight back to its
-  /// beginning. Positive: more work was put in than came back.
+  /// Hysteresis loss: the area enclosed by loading and unloading [J]. It is the integral of F over s from the cycle's
+  /// beginning to its end, and straight back to its beginning. Positive: more work was put in than came back.
   double hysteresis = 0.0;
 };
 
-/// The cycles of a path, in order. It turns where s is largest or smallest before it goes back by a tenth of all its
-/// range of s, less is noise; beginning and end of the path are turning points too. A cycle goes from a point where it
-/// turns outwards to the next such. The first one may be the way to where cycles begin, the last one may be cut off:
-/// they count where s, or F, comes back to within a tenth of its range in the cycle.
+/// The closed cycles of a path, in order.
+///
+/// A turning point is a point at which s is largest or smallest before it goes back by at least a tenth of the path's
+/// whole range of s. Smaller reversals count as noise. The first and the last point of the path are turning points,
+/// too. A cycle goes from a turning point at which s begins to grow to the next such point.
+///
+/// Cycles that begin or end with the path may be incomplete: the first may be the approach to the first turning point,
+/// and the last may be cut off. They count only if s or F returns to within a tenth of its range in the cycle.
 std::vector<Cycle> closed_cycles(const Path& path);
 
 }  // namespace knot_utm

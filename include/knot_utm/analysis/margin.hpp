@@ -6,20 +6,21 @@
 
 namespace knot_utm {
 
-/// How far a knot that slides is from opening, as the fraction by which friction or the pre-load would have to be
-/// lower.
+/// Safety margin of a knot that slides: the fraction by which friction or the pre-load would have to be lower for the
+/// knot to open.
 struct Margin {
-  /// Largest fraction that is looked for: a knot that still holds there has a margin of at least this.
+  /// Largest fraction that is tried. A knot that still holds there has a margin of at least this.
   static constexpr double kMost = 0.75;
 
-  std::optional<double> friction;  ///< of mu [-]
-  std::optional<double> preload;   ///< of F_p [-]
-  std::string reason;              ///< why there is none; empty: there is one, or nobody asked
+  std::optional<double> friction;  ///< fraction of mu [-]
+  std::optional<double> preload;   ///< fraction of F_p [-]
+  std::string reason;              ///< why there is no margin; empty: there is one, or none was asked for
 };
 
-/// Bisects for the fraction by which something is to be lowered until the knot opens; `opens(factor)` runs a test with
-/// it multiplied by `factor`. The knot holds at 1. A geometric bisection of three runs behind the one at 1 - kMost, and
-/// the middle of what is left: the factor is known within a tenth. Takes the knot to open at every lower factor, too.
+/// Finds the fraction by which a quantity is to be lowered until the knot opens. `opens(factor)` runs a test in which
+/// the quantity is multiplied by `factor`, and says whether the knot opened. The knot is assumed to hold at a factor of
+/// 1, and to open at every factor below one at which it opens. After a run at 1 - kMost, three geometric bisections
+/// enclose the factor; the result is the geometric mean of what is left, within a tenth of the true factor.
 double fraction_until_it_opens(const std::function<bool(double)>& opens);
 
 }  // namespace knot_utm

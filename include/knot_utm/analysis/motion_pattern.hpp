@@ -8,71 +8,82 @@
 
 namespace knot_utm {
 
-/// How a fisherman's loop answers the pull.
+/// How a fisherman's loop responds to the pull.
 enum class MotionPattern {
-  kNone,        ///< no pull yet, or no two knots
+  kNone,        ///< nothing was pulled yet, or there are no two knots
   kSliding,     ///< the knots slide towards each other under a low, steady load; they may lock later
   kStretching,  ///< the knots hold from the start: e and the load grow
-  kUntangling   ///< a knot came undone, or opened after breakaway and carries no load any more
+  kUntangling   ///< a knot came undone, or opened after breakaway and no longer carries load
 };
 
 const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding", ... as in result.yaml
 
-/// Follows the motion pattern of a test, sample by sample; live displays and `analyse` use the same one.
+/// Follows the motion pattern of a test, sample by sample. Live displays and `analyse` use the same tracker.
 ///
-/// Symbols: s extension, e knot distance, F true force on the upper grip (what the load cell reads is shifted by its
-/// balance). Only samples of the pull count, and of these only those that reach a
-/// new largest s (pulling back says nothing), up to a break.
+/// Symbols: s extension, e knot distance, L end-to-end distance, F true force on the upper grip. F is used because the
+/// reading of the load cell is shifted by its balance. Only samples of the pull count, up to a break. Of these only the
+/// ones count that reach a new largest s, because moving back tells nothing.
 ///
-/// Kinematics: knots that slide rigidly along the two strands give de/ds = -2 exactly; strands that only stretch give
-/// de/ds = e/L > 0. de/ds is the least-squares slope over a window of s, 3 % of the first e wide; half-way, at -1, the
-/// one turns into the other. The specimen **slides** as long as de/ds < -1, and has **locked** where it last was.
+/// Kinematics: knots that slide rigidly along the two strands give de/ds = -2 exactly. Strands that only stretch give
+/// de/ds = e/L > 0. de/ds is the slope of a least-squares line over the last window of s, whose width is 3 % of the
+/// first e. The limit between the two is de/ds = -1. The specimen **slides** in a window in which de/ds < -1. It has
+/// **locked** at the extension at which de/ds last rises through -1.
 ///
-///   sliding     at least one window, and 15 % of all extension, was passed at de/ds < -1; and up to where it last was
-///               the knots came nearer to each other by more than s grew: either from the beginning of the pull, or,
-///               where they held first, from where they began to slide, under a load that there was less than twice its
-///               mean. Else something beside them gave way
-///   untangling  the knot type is another one, and nothing is borne: F is below 5 % of its largest value, or nothing
-///               has been pulled, or the excess length in a knot, where known, is below a quarter of that of the tied
-///               knot; or F fell for a window below 5 %, has not come back, and the excess length in a knot, where
-///               known, grew beyond 1.5 times that of the tied knot; or the rod ran through itself
+/// The pattern is decided in this order:
+///
+///   untangling  one of these holds:
+///               (a) the knot type has changed and, in addition, F was below 5 % of its largest value when last pulled
+///                   or held, or nothing has been pulled yet, or the excess length of a knot is below a quarter of its
+///                   tied value, or the rod has passed through itself;
+///               (b) F has been below 5 % of its largest value over a window and, where excess lengths are known,
+///                   one of them has grown beyond 1.5 times its tied value
+///   sliding     both of these hold:
+///               (a) de/ds < -1 over at least one window, and over 15 % of all extension;
+///               (b) until de/ds was last below -1, the knots came nearer to each other by more than s grew. This is
+///                   counted from the beginning of the pull or, where it does not hold there, from where sliding began;
+///                   then F at the end of sliding must be less than twice its mean since sliding began.
+///               If (b) fails, something other than the knots gave way
 ///   stretching  anything else
 ///
-/// A knot type alone says nothing while the load is borne: it is told by a closure of the open ends, which a knot on a
-/// roller can put in another place.
+/// A changed knot type alone does not mean untangling while the load is borne. The type is found by closing the open
+/// ends of the rod, and a knot that lies on a roller can lead to a wrong closure.
 ///
-/// Confidence, 0 to 1, is the mean of independent signs, each 0 to 1, where they can be read. Deviations are those
-/// from a line, means weighted by extension, both over the part that decides (sliding: 0.3 to 0.8 of the lock
-/// extension; stretching: all of it):
+/// The confidence, 0 to 1, is the mean of those of the following indicators that can be read, each limited to 0 to 1.
+/// Lines are least-squares lines whose points are weighted by extension. They are fitted over the part that decides:
+/// for sliding from 0.3 to 0.8 of the lock extension, for stretching over the whole pull.
+///
 ///   kinematics  sliding: 1 - |de/ds + 2|; stretching: 1 + de/ds
-///   load        sliding: 1 - (rise over the part + standard deviation) / mean; stretching: correlation with s
-///   contact     the same of the sum of normal forces between strands
-/// Untangling: 1 where the knot type says so, 0.75 where load and excess length show it, 0.5 where the load alone does.
+///   load        sliding: 1 - (growth over the part + standard deviation from the line)/mean; stretching: correlation
+///               of F with s
+///   contact     the same of the sum of the normal forces between strands
+///
+/// For untangling the confidence is 1 if the knot type shows it, 0.75 if load and excess length show it, and 0.5 if the
+/// load alone does.
 class MotionPatternTracker {
  public:
   void add(const Sample& sample);
 
-  MotionPattern pattern() const;  ///< of the whole test so far
-  MotionPattern current() const;  ///< of the last window alone: sliding or stretching; live displays
+  MotionPattern pattern() const;  ///< pattern of the whole test so far
+  MotionPattern current() const;  ///< pattern of the last window alone, for live displays
   double confidence() const;
 
-  /// Extension at which sliding turned into stretching, for good as far as seen [m]; none before it has gone on for a
-  /// window, and where nothing slid.
+  /// Lock extension: the extension at which sliding last turned into stretching [m]. Empty where nothing slid, and
+  /// until stretching has gone on for a whole window.
   std::optional<double> lock_extension() const;
 
-  /// Time at which the knot came undone [s]: since when the knot type is another one, or else since when the load is
-  /// gone.
+  /// Time at which the knot came undone [s]: the time at which its type changed or, where the load alone shows it, the
+  /// time at which F fell below 5 % of its largest value. Empty where the knot did not come undone.
   std::optional<double> untangled_at() const;
 
   /// The samples of the pull that count.
   const Pull& pull() const { return pull_; }
 
  private:
-  /// Rod length hidden in a knot [m]; NaN: not known, or there is no such knot.
+  /// Excess length of a knot [m]. NaN: not known, or there is no such knot.
   struct Excess {
     double tied = Sample::kNone;
-    double last = Sample::kNone;     ///< of the pull
-    double largest = Sample::kNone;  ///< of the pull
+    double last = Sample::kNone;     ///< last value of the pull
+    double largest = Sample::kNone;  ///< largest value of the pull
   };
 
   void add_tied(const Sample& sample);
@@ -87,20 +98,20 @@ class MotionPatternTracker {
   bool load_gone() const;
 
   Pull pull_;
-  std::size_t window_begin_ = 0;               ///< first sample of the current window
-  double window_ = 0.0;                        ///< its width [m]
-  double slope_ = 0.0;                         ///< de/ds in the current window, NaN before the first is full
-  double centre_ = 0.0;                        ///< mean extension of the current window [m]
-  double slid_ = 0.0;                          ///< extension passed while sliding [m]
-  double first_sliding_ = 0.0;                 ///< where de/ds was first below -1 [m]
-  double last_sliding_ = 0.0;                  ///< where de/ds last rose through -1 or was still below [m]
-  double peak_ = 0.0;                          ///< largest F [N]
+  std::size_t window_begin_ = 0;  ///< first sample of the current window
+  double window_ = 0.0;           ///< width of a window [m]
+  double slope_ = 0.0;            ///< de/ds in the current window, NaN before the first is full
+  double centre_ = 0.0;           ///< mean extension of the current window [m]
+  double slid_ = 0.0;             ///< extension passed while sliding [m]
+  double first_sliding_ = 0.0;    ///< extension at which de/ds was first below -1 [m]
+  double last_sliding_ = 0.0;  ///< extension at which de/ds last rose through -1, or at which it was last below -1 [m]
+  double peak_ = 0.0;          ///< largest F [N]
   std::array<Excess, PerKnot::kMost> excess_;  ///< of each knot
-  std::optional<double> gone_since_;           ///< time since which F is gone [s]
-  double gone_extension_ = 0.0;                ///< extension there [m]
-  std::optional<double> type_lost_;            ///< since when the knot type is another one [s]
-  double borne_ = 0.0;                         ///< F, as last pulled or held [N]
-  bool crossed_ = false;                       ///< the rod ran through itself
+  std::optional<double> gone_since_;           ///< time since which F has been below 5 % of its largest value [s]
+  double gone_extension_ = 0.0;                ///< extension at that time [m]
+  std::optional<double> type_lost_;            ///< time since which the knot type has been another one [s]
+  double borne_ = 0.0;                         ///< F of the last sample of a pull or a hold [N]
+  bool crossed_ = false;                       ///< the rod has passed through itself
   bool broken_ = false;
 };
 

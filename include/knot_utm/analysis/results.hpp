@@ -14,106 +14,111 @@
 
 namespace knot_utm {
 
-/// Where the work of the grips went [J] (StepWork).
+/// The work of the grips and what became of it [J]. Each part is computed by its own formula (StepWork).
 struct EnergyParts {
-  double work = 0.0;
-  double stored = 0.0;  ///< change of stretching, bending, twisting and contact energy
-  double kinetic = 0.0;
-  double friction = 0.0;
-  double plastic = 0.0;  ///< of bends that yield (bending_law: plastic)
-  double drag = 0.0;
-  double numerical = 0.0;
-  double reweighting = 0.0;
+  double work = 0.0;         ///< of the grips on the specimen
+  double stored = 0.0;       ///< change of the energies of stretching, bending, twisting and contact
+  double kinetic = 0.0;      ///< change of the kinetic energy
+  double friction = 0.0;     ///< loss by friction
+  double plastic = 0.0;      ///< loss in bends that yield (bending_law: plastic)
+  double drag = 0.0;         ///< loss by viscous drag
+  double numerical = 0.0;    ///< loss by the time integration; negative: it added energy
+  double reweighting = 0.0;  ///< loss by changes of the contacts' weights
 
   double losses() const { return friction + plastic + drag + numerical + reweighting; }
-  double gap() const { return work - stored - kinetic - losses(); }
+  double gap() const { return work - stored - kinetic - losses(); }  ///< 0 if the balance is exact
 };
 
-/// What happened between two samples.
+/// The parts of the energy balance between two samples.
 EnergyParts energy_between(const Sample& from, const Sample& to);
 
-/// What became of F while the crosshead stood still.
+/// The change of F while the crosshead stood still.
 struct Relaxation {
-  double from;  ///< F where the hold begins, which is positive [N]
-  double to;    ///< and where it ends [N]
+  double from;  ///< F at the beginning of the hold, positive [N]
+  double to;    ///< F at its end [N]
 
   double lost() const { return (from - to) / from; }  ///< fraction of F [-]
 };
 
-/// What a test says: every measured key of result.yaml. A value that the test does not have is empty.
+/// The results of a test: every measured key of result.yaml. A value that the test does not have is empty.
 ///
-/// Symbols: s extension, F true force on the upper grip, s_l lock extension. The load is what the cell reads: balancing
-/// it zeroes what the mounted specimen already carried, F = load + balance_offset but for the cell's own errors.
-/// "The pull" is the samples of phase `pull` that reach a new largest s, up to a break.
+/// Symbols: s extension, e knot distance, L end-to-end distance, F true force on the upper grip, s_l lock extension.
+/// The load is the reading of the load cell. Balancing sets it to zero at what the mounted specimen already carries, so
+/// F = load + balance_offset, apart from the errors of the cell. "The pull" means the samples of phases that pull which
+/// reach a new largest s, up to a break.
 struct Results {
   MotionPattern motion_pattern = MotionPattern::kNone;
-  double motion_pattern_confidence = 0.0;  ///< 0 to 1, see MotionPatternTracker
+  double motion_pattern_confidence = 0.0;  ///< 0 to 1; see MotionPatternTracker
   EndedBy ended_by = EndedBy::kNotYet;
 
-  /// Of the load, by the cell's readings alone, as they stand in curve.csv: what `compare` says of that file. The peak
-  /// is also that of a rod that parted where nothing pulled. A knot that came undone, or that still slides, has no
-  /// stiffness here.
+  /// Readings of the load, from the readings of the cell alone, as they stand in curve.csv. `compare` finds the same
+  /// from that file. The peak force also counts a rod that parted while nothing was pulled. A knot that came undone, or
+  /// that was still sliding at the end, has no stiffness here.
   CurveReadings curve;
 
-  // Of the true force, at the same readings and over the same extensions: these less balance_offset are those of the
-  // load, but for the cell's own errors. [N]
+  // The same of the true force, at the same readings and over the same extensions [N]. Less balance_offset they equal
+  // those of the load, apart from the errors of the cell.
   std::optional<double> true_plateau_force;
   std::optional<double> true_breakaway_force;
   std::optional<double> true_peak_force;
   std::optional<double> true_jump_force;
   std::optional<double> true_force_after_jump;
 
-  std::optional<double> plateau_slope;   ///< de/ds over the plateau [-]; -2: rigid sliding
-  std::optional<double> lock_extension;  ///< s_l, where the knots' distance tells that sliding became stretching [m]
-  std::optional<double> first_contact_extension;  ///< s where the coils of the two knots first touch each other [m]
-  std::optional<double> roller_touched_at;  ///< s where rollers first bear on a knot or its tail, 5 % of F or more [m]
-  std::optional<double> balance_offset;     ///< F that the cell reads as zero, once the pull begins [N]
-  std::optional<double> break_extension;    ///< s where the rod parted [m]
-  std::optional<double> break_arclength;    ///< of the place where it did, from its first node [m]
+  std::optional<double> plateau_slope;   ///< mean of de/ds over the plateau [-]; -2: rigid sliding
+  std::optional<double> lock_extension;  ///< s_l, found from the knot distance: sliding became stretching there [m]
+  std::optional<double> first_contact_extension;  ///< s at which the coils of the two knots first touch each other [m]
+  /// s at which a roller first presses on a knot or its tail with 5 % of F or more [m]
+  std::optional<double> roller_touched_at;
+  std::optional<double> balance_offset;   ///< F at which the cell reads zero, as the pull begins [N]
+  std::optional<double> break_extension;  ///< s at which the rod parted [m]
+  std::optional<double> break_arclength;  ///< arclength of the place where it parted, from the first node [m]
   BreakPlace break_place = BreakPlace::kNone;
-  std::string failure_mode;  ///< sliding then fracture, stretching then fracture, fracture, untangling; empty: none
+  /// "sliding then fracture", "stretching then fracture", "fracture" or "untangling"; empty: none
+  std::string failure_mode;
 
-  // Of the pull, with the state that it began from as its origin (pull_readings.hpp).
-  std::optional<double> steady_force;       ///< mean over the second half of the way, where it is level [N]
-  std::optional<double> energy_to_peak;     ///< [J]
-  std::optional<double> energy_to_break;    ///< where the rod broke [J]
+  // Readings of the pull. Its origin is the state from which it began (pull_readings.hpp).
+  std::optional<double> steady_force;       ///< mean of F over the second half of the extension, where F is steady [N]
+  std::optional<double> energy_to_peak;     ///< work up to the peak [J]
+  std::optional<double> energy_to_break;    ///< work up to the break, where the rod broke [J]
   std::optional<double> chord_stiffness;    ///< from 10 % to 50 % of the peak [N/m]
   std::optional<double> secant_stiffness;   ///< from the origin to the peak [N/m]
   std::optional<double> tangent_stiffness;  ///< where the pull is steepest [N/m]
 
-  std::optional<Relaxation> relaxation;  ///< of the last hold under a load
+  std::optional<Relaxation> relaxation;  ///< of the last hold under load in which the crosshead stood still
 
-  // Of the last step that cycles (cycles.hpp).
-  std::size_t cycles = 0;            ///< that were closed
-  std::optional<double> hysteresis;  ///< of the last of them [J]
+  // Readings of the last step that cycles (cycles.hpp).
+  std::size_t cycles = 0;            ///< number of closed cycles
+  std::optional<double> hysteresis;  ///< of the last closed cycle [J]
 
-  std::optional<double> untangled_at;    ///< time [s], see MotionPatternTracker
-  KnotType knot_type = KnotType::kKept;  ///< at the end, see KnotWatch
+  std::optional<double> untangled_at;    ///< time at which the knot came undone [s]; see MotionPatternTracker
+  KnotType knot_type = KnotType::kKept;  ///< at the end of the test; see KnotWatch
   std::string not_equilibrated;          ///< empty: tying and release ended at rest; else what still moved
 
-  double max_penetration = 0.0;               ///< [fraction of radius], over the whole test
-  std::optional<double> force_balance_error;  ///< largest |upper - lower| of the pull / peak force
+  double max_penetration = 0.0;  ///< largest overlap of the whole test [fraction of radius]
+  /// largest difference of the forces on the two grips in the pull, over the peak force [-]
+  std::optional<double> force_balance_error;
 
-  /// Largest size of the sum of all moments at the grips over the present force [m], of readings of the pull that bear
-  /// half of its median force: a slack loop that swings bears next to nothing. Inertia, drag and gravity leave some,
-  /// and so does friction whose couple the sections do not take (ContactReading::couple).
+  /// Largest ratio of the size of the sum of all moments at the grips to the force [m], over the readings of the pull
+  /// whose force is more than half of its median. A slack loop that swings bears nearly no force, so its readings are
+  /// left out. The ratio would be zero in equilibrium without inertia, drag and gravity. Friction also contributes
+  /// where the sections take only a part of its couple (ContactReading::couple).
   std::optional<double> moment_arm;
 
-  /// Largest |work of the grips - change of stored and kinetic energy - losses| since the first sample, over the
-  /// largest of these three. Losses are those by friction, drag, time steps and changed weights, each by its own
-  /// formula.
+  /// Largest |work of the grips - change of stored and kinetic energy - losses| since the first sample, divided by the
+  /// largest size that any of these three reaches [-]. The losses are those by friction, by bends that yield, by drag,
+  /// by the time integration and by changed contact weights, each computed by its own formula.
   std::optional<double> energy_balance_error;
-  std::optional<EnergyParts> energy;  ///< from the beginning of the pull to the end of the test
+  std::optional<EnergyParts> energy;  ///< energy balance from the beginning of the pull to the end of the test
 
-  // Once tied and released; where nothing is tied: when the pull begins.
+  // The knot once it is tied and released. Where nothing is tied, these are readings at the beginning of the pull.
   std::optional<double> tied_knot_distance;  ///< e [m]
-  PerKnot tied_excess_length;                ///< rod hidden in each knot [m]; NaN: not read
-  PerKnot final_excess_length;               ///< and at the end of the test [m]
-  /// By which the knots came nearer to each other between release and pull, where that is a twentieth of e or more: a
-  /// knot opened as the loop was mounted [m].
+  PerKnot tied_excess_length;                ///< of each knot [m]; NaN: not read
+  PerKnot final_excess_length;               ///< the same at the end of the test [m]
+  /// Decrease of e between release and pull [m], where it is more than a twentieth of e: a knot opened as the loop was
+  /// mounted.
   std::optional<double> opened_when_mounted;
-  RateShares rate;            ///< what speed has a share in
-  double fastest_node = 0.0;  ///< of the pull until the knots lock [m/s]
+  RateShares rate;            ///< how far the pull is from a quasi-static one
+  double fastest_node = 0.0;  ///< largest speed of a node in the pull, until the knots lock [m/s]
 
   std::uint64_t steps = 0;
   std::uint64_t rejected_steps = 0;
@@ -121,11 +126,11 @@ struct Results {
   double simulated_time = 0.0;  ///< [s]
 };
 
-/// Evaluates a whole test from every accepted time step, and from those of the samples that are readings of the load
-/// cell; a break ends them.
+/// Evaluates a whole test. `samples` are all accepted time steps, and `readings` those of them that the load cell read.
+/// Readings after a break do not count.
 Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by);
 
-/// Of a cell that reads at every one of the samples.
+/// The same for a load cell that reads in every time step.
 Results analyse(const std::vector<Sample>& samples, EndedBy ended_by);
 
 }  // namespace knot_utm

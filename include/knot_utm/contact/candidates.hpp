@@ -7,6 +7,9 @@
 
 namespace knot_utm {
 
+/// Contacts are followed, from zero force on, up to this gap [h].
+inline constexpr double kReachMargin = 0.3;
+
 /// Length of rod within which a strand does not touch itself [m]: half a turn around a circle of its own radius, pi h.
 /// While no bend is sharper than 1/h, two places that lie s < pi h apart along the rod are at least as far apart as the
 /// chord 2 h sin(s/(2h)) of that circle (Schur), and where two strands are nearest to each other, more than pi h of rod

@@ -14,13 +14,13 @@ namespace knot_utm {
 /// as a function of the pressure p, of the slip r (the elastic slip that it keeps plus the slip of this step), of an
 /// internal variable of its own, and of the length dt of the step. Both z and mu may depend on all of these.
 ///
-/// A law is a pair of files and one line in `FrictionLaws` (friction.hpp). It is a plain struct, which
+/// A law is a pair of files and one line in `FrictionLaws` (friction.hpp). It is a plain struct, which has
 ///
-///     static constexpr const char* kName              is what a method calls it
+///     static constexpr const char* kName              the name that methods use
 ///     static constexpr std::array kKeys               its keys in physics.friction (FrictionKey)
-///     static Law of(options, scales)                  from a method
-///     double coefficient mu of the method [-]: the largest mu, or that at a reference load where mu falls with the
-///     load; 0: no friction
+///     static Law of(options, scales)                  made from a method
+///     double coefficient                              mu of the method [-]: the largest mu or, where mu falls with the
+///                                                     load, that at a reference load; 0: no friction
 ///     traction(FrictionInput<Vector>)                 -> FrictionTraction<Vector>
 ///     tangent(FrictionInput<Vector>, Linearisation)   -> FrictionTangent<Vector>
 ///     remember(FrictionInput<Vec3>, z)                -> FrictionMemory, once the step is accepted with this z

@@ -2,9 +2,9 @@
 
 namespace knot_utm {
 
-/// The `analysis` section of a method: what is asked of the results beside what every test says.
+/// The `analysis` section of a method: which further evaluations are asked for, beyond those of every test.
 struct AnalysisOptions {
-  bool margin = false;  ///< how far a knot that slides is from opening (analysis/margin.hpp)
+  bool margin = false;  ///< safety margin of a knot that slides (analysis/margin.hpp)
 };
 
 }  // namespace knot_utm

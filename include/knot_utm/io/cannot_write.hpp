@@ -8,15 +8,17 @@
 
 namespace knot_utm {
 
-/// "cannot write FILE: no space left on device", the reason as the operating system gave it last.
+/// A file that cannot be written. The message has the form "cannot write FILE: no space left on device", with the
+/// reason that the operating system gave last (errno).
 struct CannotWrite : std::runtime_error {
   explicit CannotWrite(const std::string& file, int error_ = errno)
       : std::runtime_error("cannot write " + file + (error_ == 0 ? "" : ": " + reason_of(error_))), error(error_) {}
 
-  /// Not the fault of whoever chose the place.
+  /// Whether the file did not fit: the disk is full, the quota is used up or the file is too large. Otherwise the
+  /// folder was a wrong choice.
   bool out_of_room() const { return error == ENOSPC || error == EDQUOT || error == EFBIG; }
 
-  int error;  ///< as errno has it
+  int error;  ///< value of errno
 };
 
 }  // namespace knot_utm

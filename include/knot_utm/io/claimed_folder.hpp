@@ -6,17 +6,18 @@
 
 namespace knot_utm {
 
-/// The folder of a new run, which its journal holds against every other run.
+/// The folder of a new run. The journal in it is locked, so that no other run can use the folder.
 struct ClaimedFolder {
   std::string folder;
   JournalWriter journal;
 };
 
-/// Begins a run in `folder`, or in the first of `folder-2`, `folder-3` and so on where `folder` holds a run: one that
-/// has ended, was cut off or goes on. Nothing that was measured is written over. Throws as JournalWriter does.
+/// Begins a run in `folder`. Where that folder holds a run already (complete, cut off or still running), the first free
+/// one of `folder-2`, `folder-3` and so on is used, so that nothing measured is overwritten. Throws as JournalWriter
+/// does.
 ClaimedFolder claim_folder(const std::string& folder, const JournalHeader& header);
 
-/// What is said where a run was asked to go to one folder and goes to another.
+/// The notice for the user when a run goes to another folder than the one asked for.
 std::string moved_notice(const std::string& asked, const std::string& used);
 
 }  // namespace knot_utm

@@ -10,27 +10,28 @@
 
 namespace knot_utm {
 
-/// A curve and what its file is called, by which it is spoken of.
+/// A curve, and the name of its file as messages give it.
 struct CurveOfFile {
   std::string file;
   std::vector<CurveRow> rows;
 };
 
-/// What is to be done where raw data of a testing machine have no zero of load and extension.
+/// How to find the zero of raw data, in which load and extension were not zeroed.
 struct ZeroWanted {
-  bool balance = false;             ///< zero is where the crosshead begins to move (zero_at_rest)
-  std::optional<double> begins_at;  ///< and of data that were cut, here the extension of their first reading [m]
+  bool balance = false;             ///< the zero is the state in which the crosshead begins to move (zero_at_rest)
+  std::optional<double> begins_at;  ///< for a record whose beginning was cut off: extension of its first reading [m]
 };
 
-/// The pulls of two curves, and what they are beside each other.
+/// The pulls of two curves and their comparison.
 struct ComparedCurves {
   Pull a, b;
   Comparison comparison;
 };
 
-/// A machine knows the way of its crosshead alone: beside raw data that is what counts of a curve of ours, too.
-/// `tell` is told in a line each what is assumed that raw data do not say. Throws InvalidInput where a reading of a
-/// pull is not finite, a pull has less than two, a zero cannot be had, or the two have no extension in common.
+/// Compares two curves. Raw data of a testing machine contain only the travel of the crosshead; where one of the curves
+/// is of that kind, the travel of the crosshead is used for both. `tell` receives one line for each assumption that raw
+/// data make necessary. Throws InvalidInput where a reading of a pull is not finite, a pull has fewer than two
+/// readings, a zero cannot be found, or the two have no extension in common.
 ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, const ZeroWanted& zero,
                               const std::function<void(const std::string& line)>& tell);
 

@@ -8,19 +8,21 @@
 
 namespace knot_utm {
 
-/// Two pulls, and what each says by the same code (curve_readings.hpp).
+/// The readings of two pulls, both read by the same code (curve_readings.hpp), and the difference of their forces.
 struct Comparison {
   CurveReadings a, b;
-  std::optional<CurveDifference> difference;  ///< none where they have no extension in common
+  std::optional<CurveDifference> difference;  ///< empty where they have no extension in common
 };
 
 Comparison compare(const Pull& a, const Pull& b);
 
-/// As YAML: of each reading that of A, that of B, B - A and that over A; null where there is none.
+/// The comparison as YAML. For each reading it gives that of A, that of B, B - A, and (B - A)/A; null stands for what
+/// does not exist.
 std::string comparison_yaml(const Comparison& comparison, const std::string& file_a, const std::string& file_b);
 
-/// What is beyond a relative tolerance, a line each: the RMS difference over A's largest load where both are, and each
-/// reading's difference over A's. A reading that only one of them has is beyond any.
+/// One line for each value that exceeds a relative tolerance. The values are the RMS difference of the forces, over A's
+/// largest load in the common range, and the difference of each reading, over that of A. A reading that only one of the
+/// two has exceeds every tolerance.
 std::vector<std::string> beyond_tolerance(const Comparison& comparison, double tolerance);
 
 }  // namespace knot_utm

@@ -11,10 +11,11 @@
 
 namespace knot_utm {
 
-/// curve.csv and curve_full.csv: row 1 names, row 2 units, then one row a sample, comma between columns, every number
-/// in the shortest form that reads back to the same double, "nan" for what is not there. Each row is handed to the
-/// operating system before `write` returns, so a run that is killed keeps what it measured. The last column,
-/// corrected_extension, is there only for a compliant frame.
+/// Writes curve.csv and curve_full.csv. Row 1 holds the names of the columns and row 2 their units; one row for each
+/// sample follows. Columns are separated by commas. Every number has the shortest form that reads back to the same
+/// double, and "nan" stands for a value that does not exist. Each row is passed to the operating system before `write`
+/// returns, so a run that is killed keeps what it measured. The last column, corrected_extension, is written for a
+/// compliant frame only.
 class CurveWriter {
  public:
   /// Throws std::runtime_error where the file cannot be written.
@@ -23,7 +24,7 @@ class CurveWriter {
   void write(const CurveRow& row);  ///< throws std::runtime_error (disk full)
   void write(const Sample& sample) { write(curve_row(sample)); }
 
-  std::size_t rows() const { return rows_; }  ///< written, without the two of names and units
+  std::size_t rows() const { return rows_; }  ///< rows written, without those of names and units
 
  private:
   std::string file_;
@@ -32,15 +33,15 @@ class CurveWriter {
   std::size_t rows_ = 0;
 };
 
-/// Reads what CurveWriter wrote, with corrected_extension or without. Columns are found by name, in any order; others
-/// are passed over. Throws InvalidInput
-/// where the file cannot be read, a column is missing, a unit differs, a row is not as it should be, or there are more
-/// than TextRows allows.
+/// Reads a file of CurveWriter, with or without corrected_extension. Columns are found by name, in any order, and
+/// unknown ones are ignored. Throws InvalidInput where the file cannot be read, a column is missing, a unit differs, a
+/// row is malformed, or there are more rows than TextRows allows.
 std::vector<CurveRow> read_curve(const std::string& file);
 /// The same from a stream; `file` is its name in messages.
 std::vector<CurveRow> read_curve(std::istream& in, const std::string& file);
 
-/// final_shape.csv: x,y,z [m], one row a point. Throws std::runtime_error where the file cannot be written.
+/// Writes final_shape.csv: x,y,z [m], one row for each point. Throws std::runtime_error where the file cannot be
+/// written.
 void write_centreline(const std::string& file, const Points& points);
 
 }  // namespace knot_utm

@@ -8,13 +8,14 @@
 
 namespace knot_utm {
 
-/// A curve as a text file: curve.csv or curve_full.csv (csv.hpp), else raw data of a testing machine (raw_data.hpp).
-/// Throws InvalidInput.
+/// Reads a curve from a text file: curve.csv or curve_full.csv (csv.hpp), or else raw data of a testing machine
+/// (raw_data.hpp). Throws InvalidInput.
 std::vector<CurveRow> read_curve_file(const std::string& file, const RawColumns& columns = {});
 
-/// The readings of a test that another one follows: from the one before the first that pulls (pulls(phase)), where that
-/// begins, to the last that does, whatever their phases. Throws InvalidInput as read_curve_file, and, naming file and
-/// reading, where a number is not finite, a time goes back, or a balance between them leaves two zeros of extension.
+/// Reads the readings of a test whose crosshead motion another test follows. They begin with the reading before the
+/// first that pulls (pulls(phase)) and end with the last that pulls, with all phases in between. Throws InvalidInput as
+/// read_curve_file does. It also throws, naming file and reading, where a number is not finite, a time is smaller than
+/// the one before, or a balance in between makes two zeros of extension.
 std::vector<CurveRow> read_course(const std::string& file, const RawColumns& columns = {});
 
 }  // namespace knot_utm

@@ -8,8 +8,9 @@
 
 namespace knot_utm {
 
-/// What gravity did to a specimen that it acts on, a line each: along the rollers' axes nothing holds a loop, and the
-/// weight of strands and tails has a part in the sliding force, and in any other.
+/// Warnings about the effects of gravity on a specimen, one line each. A loop may slide along the axes of its rollers,
+/// where only friction holds it. The weight of strands and tails may change the sliding force, or the largest force
+/// where nothing slides.
 std::vector<std::string> gravity_warnings(const Results& results, const RunFacts& facts);
 
 }  // namespace knot_utm

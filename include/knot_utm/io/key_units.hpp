@@ -7,18 +7,18 @@
 
 namespace knot_utm {
 
-/// A number of a method: its dotted key, as overrides name it, and its unit.
+/// The dotted key of a number of a method, as overrides name it, and its unit.
 struct KeyUnit {
   std::string key;
-  std::string unit;  ///< "-": none
+  std::string unit;  ///< "-": dimensionless
 };
 
-/// All numbers that this method may have, set or not. A step of the program goes by its number and name, and by its
-/// name alone where that stands once.
+/// All numbers that this method may have, whether set or not. The keys of a program step are listed with the step's
+/// index and name, and with its name alone where that occurs once.
 std::vector<KeyUnit> key_units(const Method& method);
 
-/// The unit of the number at a dotted key of the method, as overrides name it: "m/s" for "program.pull.speed". Empty
-/// where the method has no number of that name.
+/// The unit of the number at a dotted key of the method: "m/s" for "program.pull.speed". Empty where the method has no
+/// such number.
 std::string unit_of_key(const Method& method, const std::string& key);
 
 }  // namespace knot_utm

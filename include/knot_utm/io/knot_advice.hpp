@@ -6,7 +6,8 @@
 
 namespace knot_utm {
 
-/// What of a method to change for a knot that came undone to stay tied: one line that names keys and their values.
+/// Advice for a knot that came undone: which values of the method to change so that it stays tied. One line that names
+/// the keys and their values.
 std::string what_keeps_a_knot(const Method& method);
 
 }  // namespace knot_utm

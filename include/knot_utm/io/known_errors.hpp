@@ -6,12 +6,14 @@
 
 namespace knot_utm {
 
-/// Sliding without a lock: where the load rose all the same, the knots were still on their way.
+/// Whether the knots slid until the end without locking. A load that rose all the same rose while they were still
+/// sliding.
 bool slid_to_the_end(const Results& results);
 
-/// How far the readings of this test may be off, as fractions of them: what mesh and tolerances move
-/// (`RunFacts::errors`), and of forces and their slopes what drag, inertia and the noise of the load cell add. Of
-/// readings whose specimen had not come to rest, or whose knots opened, no study says how far off they are.
+/// Bounds on the errors of the readings of this test, relative to the readings. They consist of the effects of mesh and
+/// tolerances (`RunFacts::errors`) and, for forces and their slopes, of those of drag, inertia and the noise of the
+/// load cell. They are empty where the specimen had not come to rest or a knot opened, since no convergence study
+/// covers these cases.
 ReadingErrors known_errors(const Results& results, const RunFacts& facts);
 
 }  // namespace knot_utm

@@ -18,9 +18,9 @@
 
 namespace knot_utm {
 
-/// A whole test, everything resolved: what a method file says.
+/// A test method with everything resolved: the content of a method file.
 struct Method {
-  std::string name;  ///< the method file's name without folder and ending
+  std::string name;  ///< name of the method file, without folder and extension
   SpecimenOptions specimen;
   Material material;
   MachineOptions machine;
@@ -33,37 +33,39 @@ struct Method {
   SpecimensOptions specimens;
 };
 
-/// Reads a method file. Materials and load cells are found by name in
-///   1. the method's own folder, its config/ and its ../config (materials/NAME.yaml, load_cells/NAME.yaml),
-///   2. share/knot_utm/config of the installation the running executable belongs to,
-///   3. the config/ of the sources it was built from,
-/// or stand in the method as maps. After reading, `specimen.preload` and the load cell are resolved and
-/// `specimen.file`, `report.logo` and the records that are followed are absolute paths.
+/// Reads a method file. Materials and load cells are given as maps in the method, or by name. A name is looked up as
+/// materials/NAME.yaml or load_cells/NAME.yaml in these places, in this order:
+///   1. the method's own folder, its config/ and its ../config,
+///   2. share/knot_utm/config of the installation to which the running executable belongs,
+///   3. the config/ of the sources from which it was built.
+/// After reading, `specimen.preload` and the load cell are resolved. `specimen.file`, `report.logo` and the records
+/// that are followed are absolute paths.
 ///
-/// Each override is "dotted.key=YAML", as `--set` takes them. The key of a list's entry is its number from 0 or the
-/// step's name ("program.pull.speed"). A key inside a material or load cell given by name changes a copy of it. Short
-/// paths are applied before long ones, else in the order given.
+/// Each override has the form "dotted.key=YAML", as `--set` takes it. An entry of a list is named by its index from 0
+/// or, in the program, by the name of the step ("program.pull.speed"). A key inside a material or load cell that is
+/// given by name changes a copy of it. Overrides whose keys have fewer parts are applied first; others keep the order
+/// given.
 ///
-/// Throws InvalidInput, one line that names file, key, value and what is allowed: file missing, longer than 64 KiB or
-/// not YAML, unknown or repeated key, wrong type, value out of range, or values that do not go together.
+/// Throws InvalidInput with one line that names file, key, value and what is allowed. Reasons are a file that is
+/// missing, longer than 64 KiB or not YAML, an unknown or repeated key, a value of the wrong type or out of range, and
+/// values that do not go together.
 Method load_method(const std::string& file, const std::vector<std::string>& overrides = {});
 
-/// The same of a method's text; `file` is where it stands, or would.
+/// The same for the text of a method. `file`: the path of the text, or the path that it would have.
 Method parse_method(const std::string& text, const std::string& file, const std::vector<std::string>& overrides = {});
 
-/// The method as YAML that `load_method` reads back to the same: every value stands in it, no other file is needed
-/// but `specimen.file`, `report.logo` and records.
+/// The method as YAML. `load_method` reads it back to the same method. It contains every value, so no other files are
+/// needed than `specimen.file`, `report.logo` and records that are followed.
 std::string method_yaml(const Method& method);
 
-/// The number that `method_yaml` of a single specimen has at a dotted key, as overrides name it
-/// ("program.pull.speed"); nothing where no
-/// number stands there.
+/// The number that `method_yaml` of a single specimen has at a dotted key, as overrides name it ("program.pull.speed").
+/// Empty where no number stands at the key.
 std::optional<double> number_at(const Method& method, const std::string& key);
 
-/// Its program, for a physics whose longest step is `longest_step` [s].
+/// The runner of the method's program. `longest_step`: longest time step of the simulation [s].
 ProgramRunner make_program(const Method& method, double longest_step);
 
-/// The checks of values that must go together, as `load_method` makes them. Throws InvalidInput.
+/// Checks values that must go together, as `load_method` does. Throws InvalidInput.
 void check_method(const Method& method);
 
 }  // namespace knot_utm

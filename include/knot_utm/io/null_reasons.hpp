@@ -6,10 +6,10 @@
 
 namespace knot_utm {
 
-// Why keys of result.yaml are null, where that depends on the test: reasons for the rows of result_keys(). They are
-// asked of keys that have no value.
+// Reasons why a key of result.yaml is null, where the reason depends on the test. The rows of result_keys() refer to
+// them. They are evaluated only for keys that have no value.
 
-std::string why_not_pulled(const ResultSource& source);  ///< empty where something was pulled
+std::string why_not_pulled(const ResultSource& source);  ///< empty: something was pulled
 std::string why_no_margin(const ResultSource& source);
 std::string why_no_plateau(const ResultSource& source);
 std::string why_no_plateau_error(const ResultSource& source);

@@ -7,31 +7,33 @@
 
 namespace knot_utm {
 
-/// A curve of ours is balanced and has its zero of extension: it knows L. Raw data of a testing machine do not, nor do
-/// bags of measured readings.
+/// Whether load and extension have been zeroed. A curve of knot_utm is balanced, which shows in its column of L. Raw
+/// data of a testing machine have no L, nor do bags of measured readings.
 bool has_its_zero(const std::vector<CurveRow>& rows);
 
-/// Where raw data are zero.
+/// The zero of raw data.
 struct RawZero {
-  double extension, load;    ///< as recorded [m], [N]
-  std::size_t first = 0;     ///< reading that the pull begins with
-  std::size_t readings = 1;  ///< at rest, of which these are the means
+  double extension, load;    ///< recorded values that become zero [m], [N]
+  std::size_t first = 0;     ///< index of the reading with which the pull begins
+  std::size_t readings = 1;  ///< number of readings at rest, of which the zero is the mean
 };
 
-/// Zero is where the crosshead begins to move: of the readings before the extension has grown by a hundredth of all its
-/// growth, the last one that lies no further out than the first one. Load and extension are the means of the readings
-/// in a row up to it that lie within a thousandth of the growth. A record that shows no rest has but its first reading:
-/// it counts as zero, though the record may have been cut. Only rows that pull count; there must be one.
+/// Finds the zero as the state in which the crosshead begins to move. Let g be the largest growth of the extension in
+/// the record. Among the readings before the extension has grown by g/100, the last one whose extension is not above
+/// that of the first reading is the last reading at rest. Load and extension of the zero are the means of the
+/// consecutive readings up to it whose extensions differ from it by at most g/1000. In a record that shows no rest, the
+/// first reading is the zero, although the record may have been cut. Only rows that pull are used; there must be one.
 ///
-/// A cell that was balanced does not read exactly 0 N when the pull begins. `other`: a pull that has its zero; there
-/// the raw data get the load that it has, so that both begin in the same point. Empty: 0 N.
+/// A balanced load cell does not read exactly 0 N when the pull begins. If `other`, a pull with a zero, is given, the
+/// raw data get its load at the zero, so that both curves begin in the same point. Otherwise they begin at 0 N.
 RawZero zero_at_rest(const std::vector<CurveRow>& rows, const Pull& other = {});
 
-/// Of a record that was cut where the extension was `begins_at` beyond zero: its load there is told by another pull
-/// that has its zero, so that both agree in that point. None where the other pull does not reach there.
+/// Finds the zero of a record whose beginning was cut off, up to an extension of `begins_at` [m]. The load there is
+/// taken from another pull, which has its zero, so that both agree in that point. Empty where the other pull does not
+/// contain that extension.
 std::optional<RawZero> zero_of_cut(const std::vector<CurveRow>& rows, double begins_at, const Pull& other);
 
-/// The rows that pull, from the reading of the zero on, less the zero.
+/// The rows that pull, from the reading `zero.first` on, with the zero subtracted.
 std::vector<CurveRow> balanced(const std::vector<CurveRow>& rows, const RawZero& zero);
 
 }  // namespace knot_utm

@@ -12,37 +12,41 @@
 
 namespace knot_utm {
 
-/// The method of a run's folder, which its journal must be of. Throws InvalidInput where it is not.
+/// Loads method.yaml of a run's folder. Throws InvalidInput where the journal belongs to another method.
 Method journalled_method(const std::string& folder, const JournalHeader& header);
 
-/// For whoever can write no further: what to do, as the end of a line; empty where the journal is gone too.
+/// The end of an error message for a run that cannot write any more: how to recover what was recorded. Empty where
+/// there is no journal.
 std::string how_to_recover(const std::string& folder);
 
-/// True where the folder's result is complete; a journal that it has outlived is removed then.
+/// Whether the result in the folder is complete. A journal that is left over from it is then removed.
 bool is_settled(const std::string& folder);
 
-/// What a run left that did not end, written anew from its method.yaml and journal by the code that writes it live.
-/// `next` has written a record to the curves; whoever has further files writes them to `place()`, and `finish` adds
-/// result.yaml (ended by `not yet`, a reason and a warning) and the last shape known.
+/// Recovers a run that did not end. All of its files are written again from method.yaml and the journal, by the same
+/// code that writes them during a run. `next` writes one record to the curves. Further files are to be written to the
+/// folder `place()`. `finish` adds result.yaml, with `ended_by: not yet`, a reason and a warning, and the last known
+/// shape.
 ///
-/// In the run's own folder everything is made in a folder within, and moved to where it belongs only once it is
-/// complete: what fails changes nothing. The journal stays, so that the same can be done again, or elsewhere.
+/// In the run's own folder all files are first written to a subfolder, and are moved to their places only once they are
+/// complete. A recovery that fails therefore changes nothing. The journal is kept, so that the recovery can be
+/// repeated, there or elsewhere.
 class Recovery {
  public:
-  /// From `folder` to `out`, which may be the same. Throws InvalidInput where there is no journal, it is that of
-  /// another method, or `out` holds another run; std::runtime_error where the run is still being written.
+  /// Recovers the run in `folder` and writes its files to `out`, which may be the same folder. Throws InvalidInput
+  /// where there is no journal, it belongs to another method, or `out` holds another run. Throws std::runtime_error
+  /// where the run is still being written.
   Recovery(const std::string& folder, const std::string& out);
 
   const Method& method() const { return method_; }
   const std::string& place() const { return place_.folder; }
 
-  bool next(Record& record);  ///< false: there are no more that are whole
-  void finish();              ///< once `next` is false
+  bool next(Record& record);  ///< false: no complete record is left
+  void finish();              ///< to be called once `next` has returned false
 
-  std::string summary() const;  ///< one line
+  std::string summary() const;  ///< one line that says what was recovered
 
  private:
-  /// Where the files are made.
+  /// The folder in which the files are made.
   struct Place {
     explicit Place(std::string folder_) : folder(std::move(folder_)) {}
     ~Place();
@@ -52,7 +56,7 @@ class Recovery {
     Place& operator=(Place&&) = delete;
 
     std::string folder;
-    bool is_scratch = false;  ///< gone in the end
+    bool is_scratch = false;  ///< whether it is temporary, and removed in the end
   };
 
   void make_place();
@@ -65,9 +69,9 @@ class Recovery {
   Method method_;
   Place place_;
   std::unique_ptr<RunWriter> writer_;
-  Points shape_;            ///< the latest
-  double wall_time_ = 0.0;  ///< of the last record [s]
-  std::uint64_t next_ = 0;  ///< sequence after the last record
+  Points shape_;            ///< shape of the latest record that has one
+  double wall_time_ = 0.0;  ///< wall time of the last record [s]
+  std::uint64_t next_ = 0;  ///< sequence number after that of the last record
 };
 
 }  // namespace knot_utm

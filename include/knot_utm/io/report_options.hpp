@@ -9,28 +9,29 @@ namespace knot_utm {
 enum class ForceUnit { kNewton, kKilonewton, kPoundForce };
 enum class LengthUnit { kMillimetre, kInch, kMetre };
 
-/// What a report says beside the test itself. Nothing of it changes a number of the test, whose files stay in SI.
+/// What a report says in addition to the results. None of it changes a number of the test. The test's files stay in SI
+/// units.
 struct ReportOptions {
   std::string specimen_id;
   std::string operator_name;
   std::string customer;
-  std::string date;  ///< as the user writes it: a page made again is the same to the last byte
+  std::string date;  ///< text of the user; no clock is read, so that a report that is made again has the same bytes
   std::string standard;
   std::string notes;
   std::string logo;       ///< a PNG or SVG file; empty: none
-  std::string signature;  ///< the name under a line to sign on; empty: no line
+  std::string signature;  ///< name below the line for a signature; empty: no line
   ForceUnit force = ForceUnit::kNewton;
   LengthUnit length = LengthUnit::kMillimetre;
 };
 
-/// What a user asks of one number of result.yaml, in the unit of that file. At least one limit is set.
+/// A requirement on one number of result.yaml, in the unit of that file. At least one of the limits is set.
 struct Requirement {
   std::string key;
   std::optional<double> min;
   std::optional<double> max;
 };
 
-/// In the order of the method; empty: nothing is asked for.
+/// The requirements in the order of the method. Empty: there are none.
 using Specification = std::vector<Requirement>;
 
 }  // namespace knot_utm

@@ -12,27 +12,29 @@
 
 namespace knot_utm {
 
-/// All that result.yaml is made from.
+/// Everything from which result.yaml is made.
 struct ResultSource {
   const Results& results;
   const RunFacts& facts;
-  ReadingErrors errors;  ///< known_errors of the two
-  Verdict verdict;       ///< on the specification
+  ReadingErrors errors;  ///< known_errors of these two
+  Verdict verdict;       ///< the verdict on the specification
 };
 
-/// How a key is read. What the function gives is the kind of the key, and empty is null.
+/// Functions that read the value of a key. The type of the value is the kind of the key, and an empty value is written
+/// as null.
 template <typename Value>
 using ReadAs = Value (*)(const ResultSource&);
 using ReadNumber = ReadAs<std::optional<double>>;
 using ReadCount = ReadAs<std::optional<std::uint64_t>>;
 using ReadFlag = ReadAs<std::optional<bool>>;
-using ReadWord = ReadAs<const char*>;  ///< one of a few words, without quotes; never empty
+using ReadWord = ReadAs<const char*>;  ///< one of a fixed set of words, written without quotes; never empty
 using ReadText = ReadAs<std::string>;
-using ReadNumbers = ReadAs<std::vector<double>>;  ///< one of each knot
+using ReadNumbers = ReadAs<std::vector<double>>;  ///< one number for each knot
 using ReadList = ReadAs<std::vector<std::string>>;
 using ReadResult = std::variant<ReadNumber, ReadCount, ReadFlag, ReadWord, ReadText, ReadNumbers, ReadList>;
 
-/// Why a key is null, in a few words: always the same, or by what became of the test. Empty: that goes without saying.
+/// The reason why a key is null, in a few words. It is either constant or depends on the test. Empty: no reason is
+/// needed.
 class NullReason {
  public:
   using Find = std::string (*)(const ResultSource&);
@@ -50,26 +52,26 @@ class NullReason {
 /// One key of result.yaml.
 struct ResultKey {
   const char* name;
-  const char* unit;     ///< "-": none
-  const char* group;    ///< where the report shows it: the title of a table, or a place of its own (ResultPlace)
-  const char* meaning;  ///< as the report calls it
+  const char* unit;     ///< "-": dimensionless
+  const char* group;    ///< where the report shows it: the title of a table, or one of result_place
+  const char* meaning;  ///< label in the report
   ReadResult read;
   NullReason why_null;
 
   const char* kind() const;  ///< "number", "count", "flag", "word", "text", "numbers" or "list"
-  bool is_number() const;    ///< a number or a count: what a specification may name
+  bool is_number() const;    ///< whether it is a number or a count; only these may have requirements
 };
 
-/// Places of the report that are no table of results.
+/// Places of the report other than its tables of results.
 namespace result_place {
-constexpr char kHead[] = "head";                ///< at the top of the page
-constexpr char kBeside[] = "beside";            ///< in the row of the reading that its name begins or ends with
-constexpr char kCertificate[] = "certificate";  ///< among the checks
+constexpr char kHead[] = "head";      ///< at the top of the page
+constexpr char kBeside[] = "beside";  ///< in the row of the reading whose name is the beginning or the end of its own
+constexpr char kCertificate[] = "certificate";  ///< among the checks of the certificate
 }  // namespace result_place
 
-/// Every key, in the order of the file. From these rows come result.yaml, the keys that a specification may name, and
-/// report/result_keys.csv with the report's labels and units; tests compare doc/results.md with them. A new key is a
-/// row of this table and one of doc/results.md.
+/// All keys of result.yaml, in the order of the file. result.yaml, the keys that a specification may name, and
+/// report/result_keys.csv with the labels and units of the report are made from this table. Tests compare
+/// doc/results.md with it. A new key is one row of this table and one row of doc/results.md.
 const std::vector<ResultKey>& result_keys();
 
 }  // namespace knot_utm

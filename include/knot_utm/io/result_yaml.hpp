@@ -8,13 +8,16 @@
 
 namespace knot_utm {
 
-/// result.yaml: the keys in a fixed order, SI units, null for what is not there; warnings of the results first.
+/// The text of result.yaml. The keys have a fixed order and SI units, and null stands for a value that does not exist.
+/// Among the warnings, those that follow from the results come first.
 std::string result_yaml(const Results& results, const RunFacts& facts);
 
-/// The keys of result.yaml that are numbers, whether a test has a value of them or not: what a specification may name.
+/// The keys of result.yaml that are numbers, whether or not a test has a value of them. A specification may name these
+/// keys.
 std::vector<std::string> result_numbers();
 
-/// The table of the keys as CSV: key, unit, kind, group, meaning. It is report/result_keys.csv.
+/// The table of the keys as CSV with the columns key, unit, kind, group and meaning: the content of
+/// report/result_keys.csv.
 std::string result_keys_csv();
 
 }  // namespace knot_utm

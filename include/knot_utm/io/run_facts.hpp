@@ -12,32 +12,33 @@
 
 namespace knot_utm {
 
-/// What a run knows of itself that its samples do not say; what they say is in `Results`.
+/// Facts about a run that do not follow from its samples. What follows from the samples is in `Results`.
 struct RunFacts {
-  std::string reason;                 ///< one line; empty: as programmed
-  std::vector<std::string> foreseen;  ///< warnings, one line each, that were known before anything was tied
-  std::vector<std::string> warnings;  ///< one line each, beside those that follow from the results
-  double preload = Sample::kNone;     ///< F_p [N]; NaN: nothing was tied
-  ReadingErrors errors;               ///< of the readings, as fractions of them
-  Margin margin;                      ///< where it was asked for
-  double wall_time = 0.0;             ///< [s]
-  std::uint64_t peak_memory = 0;      ///< of the process [bytes]; 0: not known
-  double inertia = 1.0;               ///< mass that is accelerated, over the rod's own [-]
-  double weight = 0.0;                ///< of the rod where gravity acts on it [N]
-  double slid_along = 0.0;            ///< of a loop on rollers along their axes, at most [m]
-  Material material;                  ///< of the rod
-  double dead_load = 0.0;             ///< that pulls the specimen's other end [N]; 0: none does
-  double knot_distance = 0.0;         ///< that the knots were to be tied at [m]; 0: none were tied
-  double pull_speed = 0.0;            ///< the largest that is programmed [m/s]; 0: none is
-  LoadCellOptions load_cell;          ///< that read the forces
-  Specification specification;        ///< what the user asks of the results
-  std::string version;                ///< of this package
+  std::string reason;                 ///< why the test ended, one line; empty: as programmed
+  std::vector<std::string> foreseen;  ///< warnings known before anything was tied, one line each
+  /// further warnings, other than those that follow from the results, one line each
+  std::vector<std::string> warnings;
+  double preload = Sample::kNone;  ///< F_p [N]; NaN: nothing was tied
+  ReadingErrors errors;            ///< relative errors of the readings from mesh and tolerances [-]
+  Margin margin;                   ///< safety margin of the knot, where it was asked for
+  double wall_time = 0.0;          ///< [s]
+  std::uint64_t peak_memory = 0;   ///< largest memory of the process [bytes]; 0: not known
+  double inertia = 1.0;            ///< accelerated mass over the rod's own mass [-]
+  double weight = 0.0;             ///< weight of the rod [N]; 0: no gravity acts
+  double slid_along = 0.0;         ///< largest motion of a loop on rollers along their axes [m]
+  Material material;               ///< material of the rod
+  double dead_load = 0.0;          ///< constant force on the specimen's other end [N]; 0: there is none
+  double knot_distance = 0.0;      ///< knot distance at which the knots were to be tied [m]; 0: none were tied
+  double pull_speed = 0.0;         ///< largest programmed speed of a pull [m/s]; 0: there is none
+  LoadCellOptions load_cell;       ///< load cell that read the forces
+  Specification specification;     ///< requirements on the results
+  std::string version;             ///< version of this package
 };
 
-/// The most memory that this process has held so far [bytes].
+/// The largest memory that this process has used so far [bytes].
 std::uint64_t peak_memory();
 
-/// Version of this package, "1.2.3".
+/// The version of this package, such as "1.2.3".
 std::string version();
 
 }  // namespace knot_utm

@@ -8,16 +8,21 @@
 
 namespace knot_utm {
 
-/// What befell the specimen while it was pulled, a line each: a knot that jumped open, a roller that was touched.
+/// Overlap beyond which a contact no longer represents the contact of the rod [fraction of radius]. It is larger than
+/// the overlaps of every shipped material at its largest load.
+inline constexpr double kDeepContact = 0.05;
+
+/// Events of the pull, one line each: a knot that jumped open, a roller that touched a knot.
 std::vector<std::string> events(const Results& results);
 
-/// One line where the specimen had not come to rest, or the plateau force may be off by more than a tenth; else empty.
+/// A warning, one line, where the specimen had not come to rest or the plateau force may be wrong by more than a tenth.
+/// Otherwise empty.
 std::string accuracy_warning(const Results& results, const ReadingErrors& errors);
 
-/// All that is said on the console, too, a line each.
+/// The warnings that are also printed on the console, one line each.
 std::vector<std::string> told(const Results& results, const RunFacts& facts);
 
-/// All that a reader should know before he believes a reading, a line each: `told` among it.
+/// All warnings that a reader of the results should know, one line each. Those of `told` are among them.
 std::vector<std::string> all_warnings(const Results& results, const RunFacts& facts);
 
 }  // namespace knot_utm

@@ -5,13 +5,14 @@
 
 namespace knot_utm {
 
-/// The folders that may hold what comes with the package, as config/ of the sources does: first that of the
-/// installation which the running executable belongs to, then that of the sources it was built from.
+/// The folders in which files that come with the package are looked for, with the layout of config/. The first belongs
+/// to the installation of the running executable, and the second to the sources from which it was built.
 std::vector<std::string> shipped_folders();
 
-/// The file that is meant by `method`: a path, seen from the folder `base`, or the name of a method of the `shipped`
-/// folders, with or without its ending. A path of no file is given back, for whoever reads it to complain of. Throws
-/// InvalidInput (key "method"), which names the shipped methods, where a name is none of theirs.
+/// The file to which `method` refers: a path, relative to the folder `base`, or the name of a method in one of the
+/// `shipped` folders, with or without its extension. A path to which no file belongs is returned as it is; reading it
+/// then reports the error. Throws InvalidInput (key "method"), which lists the shipped methods, where a name is not one
+/// of them.
 std::string find_method(const std::string& method, const std::string& base = "",
                         const std::vector<std::string>& shipped = shipped_folders());
 

@@ -9,13 +9,13 @@
 
 namespace knot_utm {
 
-/// How a test stands against its specification.
+/// Whether a test meets its specification.
 struct Verdict {
-  std::optional<bool> passed;       ///< none: nothing was asked for
+  std::optional<bool> passed;       ///< empty: there are no requirements
   std::vector<std::string> failed;  ///< one line for each requirement that was not met, with the reason
 };
 
-/// A number that the test does not have meets no requirement.
+/// Compares the results with the specification. A number that the test does not have meets no requirement.
 Verdict verdict(const Specification& specification, const YamlLines& results);
 
 }  // namespace knot_utm

@@ -34,8 +34,8 @@ struct ReadingErrors {
 /// Each error is meant to contain 95 % of the differences from a run at `fine` with edges half as long as at `normal`.
 /// Its size at `normal` was found over loops drawn at random (`scripts/bench readings`). It depends on the handedness
 /// of the knots, on friction and, for rods that stretch, on the length of the loop. Other edges and tolerances raise or
-/// lower it: edges by their square, and contact tolerance, presliding, longest step and residual each by a share of its
-/// own.
+/// lower it. The contribution of the edges is proportional to the square of their length. Those of contact tolerance,
+/// presliding displacement, longest step and residual are proportional to their values.
 ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                              const PhysicsOptions& physics);
 

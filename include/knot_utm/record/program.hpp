@@ -4,20 +4,12 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/record/phase.hpp"
+
 namespace knot_utm {
 
-/// The phases of a test. A program is a list of steps, one phase each.
-enum class Phase { kIdle, kTie, kRelease, kMount, kPreload, kBalance, kPull, kHold, kCycle, kReturn, kFollow, kDone };
-
-const char* phase_name(Phase phase);  ///< "idle", "tie", "release", ... as in methods and curve files
-std::optional<Phase> phase_named(const std::string& name);  ///< the other way; nothing for a name that is none
-
-/// The names that a step of a program may have: all phases except those before the first step and after the last.
-std::vector<std::string> step_names();
-
-/// Phases in which the specimen may be pulled further than before. Their samples that reach a new largest extension
-/// make the force-extension curve.
-inline bool pulls(Phase phase) { return phase == Phase::kPull || phase == Phase::kCycle || phase == Phase::kFollow; }
+/// No crosshead and no tail grip of a method moves faster, nor does any testing machine [m/s].
+inline constexpr double kFastestCrosshead = 0.5;
 
 /// When a step ends: at the first condition that holds.
 struct Until {

@@ -13,12 +13,13 @@ namespace knot_utm {
 /// variational form; where nothing is dissipated, it is the elastic energy E.
 ///
 /// A law is a pair of files, or a header, and one line in `BendingLaws` (bending_laws.hpp). It is a plain struct, which
+/// has
 ///
-///     static constexpr const char* kName          is what a method calls it (material.bending_law)
-///     static Law of(Material)                     from a method; throws InvalidInput where a value is missing
-///     static constexpr bool kRemembers            whether what it remembers changes in a step
-///     respond(BendingNode) -> BendingResponse
-///     remember(BendingNode) -> BendingMemory      once the step is accepted
+///     static constexpr const char* kName          the name that methods use (material.bending_law)
+///     static Law of(Material)                     made from a method; throws InvalidInput where a value is missing
+///     static constexpr bool kRemembers            whether its internal variable changes in a step
+///     respond(BendingNode)                        -> BendingResponse
+///     remember(BendingNode)                       -> BendingMemory, once the step is accepted
 ///     state(Archive&)                             its parameters
 ///
 /// An evaluation of the rod chooses the law once (std::visit), not at every node.

@@ -30,6 +30,18 @@ struct NeoHookeanStretching {
             third * (1.0 + 2.0 * inverse * inverse * inverse)};
   }
 
+  /// The positive root of lambda^3 - 3 T/k_s lambda^2 - 1, by Newton's method from the right, where the cubic is
+  /// convex.
+  double strain(double k_s, double tension) const {
+    const double three_t = 3.0 * tension / k_s;
+    double lambda = 1.0 + three_t;
+    for (double before = 2.0 * lambda; lambda < before;) {
+      before = lambda;
+      lambda -= (lambda * lambda * (lambda - three_t) - 1.0) / (lambda * (3.0 * lambda - 2.0 * three_t));
+    }
+    return lambda - 1.0;
+  }
+
   void state(Archive& /*archive*/) {}
 };
 

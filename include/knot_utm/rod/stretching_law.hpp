@@ -8,12 +8,15 @@ namespace knot_utm {
 ///     T = dW/dlambda,   l0 W the energy that the edge stores.
 ///
 /// A law is one header and one line in `StretchingLaws` (stretching_laws.hpp). It is a plain struct, which
+/// has
 ///
-///     static constexpr const char* kName          is what a method calls it (material.stretching_law)
+///     static constexpr const char* kName          the name that methods use (material.stretching_law)
 ///     static constexpr bool kStudied              whether the errors beside readings were studied with this law
 ///                                                 (machine/accuracy.hpp)
-///     static Law of(Material)                     from a method; throws InvalidInput where a value is missing
-///     respond(StretchedEdge) -> StretchingResponse
+///     static Law of(Material)                     made from a method; throws InvalidInput where a value is missing
+///     respond(StretchedEdge)                      -> StretchingResponse
+///     strain(k_s, T)                              -> lambda - 1 of an edge that bears T >= 0, the inverse of
+///                                                 `respond`
 ///     state(Archive&)                             its parameters
 ///
 /// With every law k_s is the stiffness dT/dlambda at rest, so that k_s can serve as the scale of the tension. An edge

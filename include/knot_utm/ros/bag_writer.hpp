@@ -12,8 +12,8 @@
 
 namespace knot_utm {
 
-/// A bag as it is written. All of it throws CannotWrite, and nothing of it ends the process, as rosbag's own destructor
-/// does where the disk is full.
+/// Writes a bag. All functions throw CannotWrite. None ends the process when the disk is full, as the destructor of
+/// rosbag::Bag does.
 class BagWriter {
  public:
   explicit BagWriter(const std::string& file);
@@ -23,7 +23,7 @@ class BagWriter {
   BagWriter(BagWriter&&) = delete;
   BagWriter& operator=(BagWriter&&) = delete;
 
-  /// `topic` without its leading slash.
+  /// Writes a message. `topic`: name without a leading slash.
   template <class Message>
   void write(const std::string& topic, const ros::Time& stamp, const Message& message) {
     try {
@@ -34,7 +34,7 @@ class BagWriter {
     ++messages_;
   }
 
-  /// The same of a topic that is latched: `rosbag play` keeps its last message for whoever comes later.
+  /// The same for a latched topic, whose last message `rosbag play` keeps for later subscribers.
   template <class Message>
   void write_latched(const std::string& topic, const ros::Time& stamp, const Message& message) {
     const auto header = boost::make_shared<ros::M_string>();
@@ -50,13 +50,13 @@ class BagWriter {
     ++messages_;
   }
 
-  void close();  ///< only then has the file an index, without which it cannot be read
+  void close();  ///< writes the index, without which the file cannot be read
 
-  std::uint64_t messages() const { return messages_; }  ///< written so far
+  std::uint64_t messages() const { return messages_; }  ///< number of messages written so far
 
  private:
   std::string file_;
-  std::unique_ptr<rosbag::Bag> bag_;  ///< none once closed
+  std::unique_ptr<rosbag::Bag> bag_;  ///< null once closed
   std::uint64_t messages_ = 0;
 };
 

@@ -18,26 +18,27 @@
 
 namespace knot_utm {
 
-/// Stamp of test time `time` [s] where the test began at `start` [s] on /clock. Never 0, which ROS takes for "no time".
+/// The stamp of test time `time` [s] in a test that began at `start` [s] on /clock. Never 0, which ROS takes for "no
+/// time".
 ros::Time test_stamp(double start, double time);
 
-/// Phase by the name that `phase_name` gives it; throws std::invalid_argument for any other.
+/// The phase with a name of `phase_name`. Throws std::invalid_argument for any other name.
 Phase phase_from_name(const std::string& name);
 
-/// To messages and back without the loss of a bit.
+/// Conversions to messages and back. They preserve every bit.
 Crosshead to_message(const Command& command, std::uint32_t run, const ros::Time& stamp);
 Command from_message(const Crosshead& message);
 KnotState to_message(const Sample& sample, std::uint32_t run, const ros::Time& stamp);
 Sample from_message(const KnotState& message);
 
-/// What an answer says of the motion pattern so far.
+/// Enters the motion pattern so far into a message.
 void put_motion(const MotionPatternTracker& motion, KnotState& message);
 
 KnotShape to_message(const Points& points, const Eigen::VectorXd& tension, double radius);
 Points points_from_message(const KnotShape& message);
 Record from_message(const KnotRecord& message);
 
-/// The load cell's reading as force along z of the cell's frame, tension positive.
+/// The reading of the load cell as a force along z of the frame of the cell, tension positive.
 geometry_msgs::WrenchStamped to_wrench(const Sample& sample, const ros::Time& stamp);
 
 /// The crosshead as a prismatic joint: displacement [m], velocity [m/s], load [N].

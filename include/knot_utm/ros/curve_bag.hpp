@@ -7,16 +7,15 @@
 
 namespace knot_utm {
 
-/// The readings of a bag that has utm/load_cell and utm/crosshead of the same stamps, under whatever namespace: those
-/// of a simulated test, and of a measured one that was brought into this form. Extension, knot distance and the lower
-/// force are those of knot/state where the bag has it; else the extension is the crosshead's displacement, what was not
-/// measured is NaN. Throws InvalidInput where the file is no bag, a topic is missing or stands there twice. A bag whose
-/// index is damaged may end the process: rosbag trusts it.
+/// Reads a curve from a bag with the topics utm/load_cell and utm/crosshead, in any namespace, whose stamps agree. Bags
+/// of simulated tests have this form, and measured ones can be brought into it. Extension, knot distance and the force
+/// on the lower grip are taken from knot/state where the bag has it. Otherwise the extension is the displacement of the
+/// crosshead, and what was not measured is NaN. Throws InvalidInput where the file is not a bag, or a topic is missing
+/// or occurs twice. A bag with a damaged index may end the process, because rosbag trusts the index.
 std::vector<CurveRow> read_curve_bag(const std::string& file);
 
-/// A bag of these two topics, one reading a command, stamps a nanosecond apart at least; the last digit of each number
-/// is kept. Throws std::runtime_error
-/// where it cannot be written.
+/// Writes a bag of these two topics, with one command for each reading. Stamps are at least a nanosecond apart, and
+/// numbers keep their last digit. Throws std::runtime_error where the file cannot be written.
 void write_curve_bag(const std::string& file, const std::vector<CurveRow>& rows);
 
 }  // namespace knot_utm

@@ -11,14 +11,14 @@
 
 namespace knot_utm {
 
-/// Tells an experiment's own record beside the test that follows it: load and extension as they were measured, each at
-/// the time of the test at which the crosshead is led past it.
+/// Publishes the record of an experiment beside the test that follows it: measured load and extension, each at the test
+/// time at which the crosshead passes the reading.
 class ExperimentNode {
  public:
   /// `file`: curve.csv, or raw data of a testing machine. Throws InvalidInput.
   ExperimentNode(const ros::NodeHandle& node, const std::string& file);
 
-  /// Runs until ROS is shut down. `autostart`: starts the test, once no command of it can be missed.
+  /// Runs until ROS is shut down. With `autostart` it starts the test as soon as it can receive every command of it.
   void spin(bool autostart);
 
  private:
@@ -27,11 +27,11 @@ class ExperimentNode {
   void publish(const CurveRow& row, const ros::Time& stamp);
 
   ros::NodeHandle node_;
-  std::vector<CurveRow> rows_;  ///< of the phases that pull
-  std::size_t next_ = 0;        ///< row to be told
-  std::uint32_t run_ = 0;       ///< test whose commands these are
-  std::uint64_t sequence_ = 0;  ///< of its latest command
-  ros::Time begin_;             ///< when the record does: the stamp of the last command before it is followed
+  std::vector<CurveRow> rows_;  ///< readings of the record, from the first that pulls to the last
+  std::size_t next_ = 0;        ///< index of the next row to be published
+  std::uint32_t run_ = 0;       ///< number of the test whose commands are followed
+  std::uint64_t sequence_ = 0;  ///< sequence number of its latest command
+  ros::Time begin_;  ///< beginning of the record: the stamp of the last command before the record is followed
   ros::Publisher load_cell_, crosshead_;
   ros::Subscriber commands_;
   ros::ServiceClient start_;

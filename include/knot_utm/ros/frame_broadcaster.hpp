@@ -8,12 +8,13 @@
 
 namespace knot_utm {
 
-/// The frames of a test on /tf and /tf_static.
+/// Publishes the frames of a test on /tf and /tf_static.
 class FrameBroadcaster {
  public:
   FrameBroadcaster(const Vec3& lower_grip, double end_to_end);
 
-  /// Once for each stamp: tf2 warns of one that it has already. `looks`: null where nobody looks.
+  /// Publishes the moving frames, once for each stamp, because tf2 warns of repeated ones. `looks`: the camera
+  /// positions; null where nobody views them.
   void publish(const ros::Time& stamp, double displacement, const Vec3& upper_grip, const Looks* looks);
 
  private:

@@ -9,7 +9,8 @@
 
 namespace knot_utm {
 
-/// Says what is wrong on a topic: at most one line in five seconds, by a clock that nobody else sets.
+/// Prints warnings about messages of a topic, at most one line in five seconds. The time is that of a monotonic clock,
+/// which nobody can set.
 class TopicWarning {
  public:
   explicit TopicWarning(std::string topic) : topic_(std::move(topic)) {}
@@ -21,14 +22,14 @@ class TopicWarning {
   bool silent_so_far_ = true;
 };
 
-/// Who may publish on a topic that a test hangs on, and how much at a time. What comes from elsewhere is ignored before
-/// it is unpacked: the length of an array in it would be believed.
+/// Restricts who may publish on a topic, and how long a message may be. A message that is not admitted is ignored
+/// before it is deserialised, because deserialising trusts the lengths of arrays in it.
 class Gate {
  public:
-  /// `publisher`: full name of a node; `largest`: length of a message [bytes].
+  /// `publisher`: full name of the only node that may publish. `largest`: largest length of a message [bytes].
   Gate(const std::string& topic, std::string publisher, std::uint32_t largest);
 
-  /// Whether to take a message; a warning where not.
+  /// Whether to accept a message. A warning is printed where not.
   bool admits(const std::string& publisher, std::uint32_t length);
 
  private:
@@ -37,15 +38,15 @@ class Gate {
   TopicWarning warning_;
 };
 
-/// A topic as one node publishes it, both relative to the namespace of who subscribes.
+/// A topic and the node that publishes it. Both names are relative to the namespace of the subscriber.
 struct Source {
   const char* topic;
   const char* publisher;
-  std::uint32_t queue;    ///< [messages]
-  std::uint32_t largest;  ///< message [bytes]
+  std::uint32_t queue;    ///< length of the subscriber's queue [messages]
+  std::uint32_t largest;  ///< largest message [bytes]
 };
 
-/// Unpacks only what the gate admits.
+/// A subscription callback that deserialises only messages admitted by a gate.
 template <class Message>
 class GatedCallback : public ros::SubscriptionCallbackHelperT<const boost::shared_ptr<const Message>&> {
   using Base = ros::SubscriptionCallbackHelperT<const boost::shared_ptr<const Message>&>;
@@ -63,7 +64,7 @@ class GatedCallback : public ros::SubscriptionCallbackHelperT<const boost::share
   Gate gate_;
 };
 
-/// Subscribes to a topic as published by its rightful node only.
+/// Subscribes to a topic, and accepts messages of its rightful node only.
 template <class Message, class Node>
 ros::Subscriber subscribe_gated(ros::NodeHandle& handle, const Source& source,
                                 void (Node::*take)(const boost::shared_ptr<const Message>&), Node* node) {

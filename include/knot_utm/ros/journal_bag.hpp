@@ -6,10 +6,10 @@
 
 namespace knot_utm {
 
-/// A whole recovery, test.bag too.
+/// Carries out a recovery completely, including test.bag.
 void recover_with_bag(Recovery& recovery);
 
-/// The bag of a test as far as the journal in `folder` goes, while the test goes on.
+/// Writes the bag of a test up to the end of the journal in `folder`, while the test goes on.
 void save_bag(const std::string& folder, const Method& method, const std::string& file);
 
 }  // namespace knot_utm

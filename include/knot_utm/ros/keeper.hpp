@@ -6,22 +6,23 @@
 
 namespace knot_utm {
 
-/// A process beside the recorder that outlives its violent end. As long as the recorder lives it sleeps; where the
-/// recorder ends with a folder that is neither complete nor given up it recovers that folder and ends. It has a session
-/// of its own, so that what is sent to the recorder's process group does not reach it.
+/// A process that recovers the recorder's folder if the recorder is killed. It sleeps as long as the recorder lives. If
+/// the recorder ends while its folder is neither complete nor released, the keeper recovers the folder and ends. It has
+/// a session of its own, so that signals to the recorder's process group do not reach it.
 class Keeper {
  public:
-  /// Starts the executable `keeper` beside this one. Throws std::runtime_error where that cannot be done.
+  /// Starts the executable `keeper`, which stands beside the running one. Throws std::runtime_error where that cannot
+  /// be done.
   Keeper();
-  ~Keeper();  ///< waits for its end
+  ~Keeper();  ///< waits until the process has ended
   Keeper(const Keeper&) = delete;
   Keeper& operator=(const Keeper&) = delete;
   Keeper(Keeper&&) = delete;
   Keeper& operator=(Keeper&&) = delete;
 
-  /// From now on this folder is to be recovered; false where the keeper is gone.
+  /// Registers the folder that is to be recovered from now on. False where the keeper has died.
   bool watch(const std::string& folder);
-  bool release();  ///< nothing is to be recovered
+  bool release();  ///< from now on nothing is to be recovered
 
  private:
   bool tell(const std::string& folder);
@@ -30,7 +31,8 @@ class Keeper {
   pid_t process_ = -1;
 };
 
-/// What the keeper does, told by the recorder through the socket that is its standard input. Returns its exit code.
+/// The main function of the keeper. The recorder sends it messages through the socket that is its standard input.
+/// Returns the exit code.
 int keep();
 
 }  // namespace knot_utm

@@ -23,13 +23,14 @@
 
 namespace knot_utm {
 
-/// The physics as a node. It answers each command with the state of the same sequence and stamp, and a command that
-/// it has answered already with the same answer again, so that a lost message never makes a step twice. Command 0 of
-/// a new test begins with a new specimen. A command out of turn (the specimen was reset in the middle of a test), or
-/// one that no program can mean, is answered with a failure. Commands of anybody but the machine are ignored.
+/// The simulation as a node. It answers each command with the state of the same sequence number and stamp. A command
+/// that it has already answered gets the same answer again, so that a lost message never repeats a step. Command 0 of a
+/// new test begins with a new specimen. A command out of order (as when the specimen was reset during a test), or one
+/// that no program can give, is answered with a failure. Only commands of the machine's node are accepted.
 class KnotNode {
  public:
-  /// Answers kept for asking again. The recorder may fall behind by so many commands.
+  /// Number of answers that are kept, to be sent again on request. The recorder may be behind by this number of
+  /// commands.
   static constexpr std::size_t kKeptAnswers = 256;
 
   KnotNode(const ros::NodeHandle& node, const Method& method);
@@ -53,17 +54,17 @@ class KnotNode {
   ros::NodeHandle node_;
   Method method_;
   TestingMachine bench_;
-  std::uint32_t run_ = 0;                           ///< the test being answered; 0: none
-  std::uint64_t next_ = 0;                          ///< sequence of the command that comes next
+  std::uint32_t run_ = 0;                           ///< number of the present test; 0: there is none
+  std::uint64_t next_ = 0;                          ///< sequence number of the next command
   std::deque<boost::shared_ptr<KnotRecord>> kept_;  ///< the last answers, in order
   Sample sample_;                                   ///< the last answer
-  MotionPatternTracker motion_;                     ///< of this specimen
-  ros::Time stamp_;                                 ///< of the last answer
+  MotionPatternTracker motion_;                     ///< motion pattern of this specimen
+  ros::Time stamp_;                                 ///< stamp of the last answer
   Sample diagnosed_;                                ///< the answer at the last diagnosis
   FrameBroadcaster frames_;
   ScenePicture picture_;
   Views views_;
-  ShownState shown_;  ///< kept while somebody looks
+  ShownState shown_;  ///< maintained while somebody views the pictures
   bool view_is_old_ = true;
   std::uint32_t viewers_ = 0;
 

@@ -6,7 +6,7 @@
 
 namespace knot_utm {
 
-/// What lies between two corners, its edges along x, y and z.
+/// A box with edges along x, y and z, between two corners.
 struct Box {
   Vec3 low, high;  ///< [m]
 
@@ -18,14 +18,14 @@ struct Box {
   static Box around(const Vec3& middle, const Vec3& half) { return {middle - half, middle + half}; }
 };
 
-/// Where the knots are, as far as the centreline alone tells: where strands lie against each other, and there where
-/// they are bent most.
+/// The places of the knots, found from the centreline alone: where strands touch each other and, among these places,
+/// where they are bent most.
 struct KnotPlaces {
-  Vec3 lower, upper;  ///< middles of the two knots; of a single one those of its halves [m]
-  Box all;            ///< holds both; of a single knot its whole loop
+  Vec3 lower, upper;  ///< centres of the two knots; of a single knot those of its two halves [m]
+  Box all;            ///< contains both knots; of a single knot its whole loop
 };
 
-/// `two`: a fisherman's knot. None where no strand lies against another.
+/// Finds the knots. `two`: the specimen has two knots, as a fisherman's loop. Empty where no strand touches another.
 std::optional<KnotPlaces> find_knots(const Points& points, double radius, bool two);
 
 }  // namespace knot_utm

@@ -2,15 +2,16 @@
 
 namespace knot_utm {
 
-/// Before ros::init: with neither ROS_HOSTNAME nor ROS_IP set, ROS_HOSTNAME is localhost, so that this node listens on
-/// loopback only. ROS 1 has no authentication: whoever reaches a node commands it.
+/// To be called before ros::init. Sets ROS_HOSTNAME to localhost if neither ROS_HOSTNAME nor ROS_IP is set, so that
+/// this node listens on the loopback interface only. ROS 1 has no authentication: whoever can reach a node can command
+/// it.
 void prefer_loopback();
 
-/// After ros::start: throws InvalidInput where this node or the master can be reached from another machine. They can
-/// where a socket of theirs listens on an address that is not loopback.
+/// To be called after ros::start. Throws InvalidInput where this node or the master can be reached from another
+/// machine, that is, where one of their sockets listens on an address that is not loopback.
 void require_loopback();
 
-/// Whether the ROS master takes connections.
+/// Whether the ROS master accepts connections.
 bool master_answers();
 
 }  // namespace knot_utm

@@ -12,16 +12,17 @@ namespace knot_utm {
 
 using Transforms = std::vector<geometry_msgs::TransformStamped>;
 
-/// The frames of a test: world -> utm_base -> lower_grip, and utm_base -> crosshead -> upper_grip -> load_cell; for
-/// rviz, below utm_base, those of what is looked at and from where. All have the axes of `world`.
+/// The frames of a test: world -> utm_base -> lower_grip, and utm_base -> crosshead -> upper_grip -> load_cell. For
+/// rviz there are also frames below utm_base for what is viewed and for the places of the camera. All frames have the
+/// axes of `world`.
 class MachineFrames {
  public:
-  /// `end_to_end`: between the grips as the test begins [m].
+  /// `end_to_end`: distance between the grips at the beginning of the test [m].
   MachineFrames(const Vec3& lower_grip, double end_to_end) : lower_grip_(lower_grip), end_to_end_(end_to_end) {}
 
   Transforms fixed(const ros::Time& stamp) const;
 
-  /// The crosshead stands `end_to_end` above the lower grip plus its displacement [m].
+  /// The frames that move. The crosshead is above the lower grip by `end_to_end` plus its displacement [m].
   Transforms moving(const ros::Time& stamp, double displacement, const Vec3& upper_grip) const;
 
   static Transforms of_looks(const ros::Time& stamp, const Looks& looks);

@@ -15,63 +15,64 @@
 
 namespace knot_utm {
 
-/// Tension at the nodes, the mean of their edges' [N].
+/// Tension at the nodes: the mean of the tensions of the two edges [N].
 Eigen::VectorXd tension_at_nodes(const Eigen::VectorXd& tension);
 
-/// Curvature at the nodes, of the circle whose tangents its two edges are in their middles, times the radius of the
-/// rod: the strain that bending gives its surface. Zero at both ends. [-]
+/// Curvature at the nodes times the radius of the rod, which is the bending strain at the rod's surface [-]. The
+/// curvature is that of the circle that touches both edges of the node at their midpoints. Zero at both ends.
 Eigen::VectorXd curvature_at_nodes(const Points& points, double radius);
 
 using Colors = std::vector<std_msgs::ColorRGBA>;
 
-/// Surface of a tube around a centreline: a TRIANGLE_LIST with outward winding and flat ends, lit by its colours.
-/// The cross-section is carried along without twist, so that the surface does not wring where the rod turns.
+/// The surface of a tube around a centreline: a TRIANGLE_LIST with outward winding, flat ends and a colour for each
+/// vertex. The cross-section is carried along the centreline without twist, so that the surface is not wrung where the
+/// rod turns.
 struct TubeOptions {
   int sides = 12;
-  Eigen::Index parted = -1;  ///< edge that is not there; -1: all are
+  Eigen::Index parted = -1;  ///< edge that has parted and is not drawn; -1: none
 };
 /// `colors`: one for each node.
 visualization_msgs::Marker tube_marker(const Points& points, const Colors& colors, double radius,
                                        const TubeOptions& options);
 
-/// The same as a row of spheres, a SPHERE_LIST: a fiftieth of the bytes. Where edges are long there are spheres between
-/// the nodes, too.
+/// The same as a row of spheres, a SPHERE_LIST, with a fiftieth of the bytes. Where edges are long, there are spheres
+/// between the nodes, too.
 visualization_msgs::Marker spheres_marker(const Points& points, const Colors& colors, double radius,
                                           Eigen::Index parted);
 
-/// One line for every force, its middle where the strands meet: they stick out of the strands where these are pressed.
-/// Half of a line is as long as the force's place on the scale of tension says. `longest`: where that is 1 [m].
+/// One line for each contact force, centred at the contact. The lines stick out of the strands where the strands are
+/// pressed together. Half of a line has the length `longest` [m] times the place of the force on the scale of tension.
 visualization_msgs::Marker contact_marker(const std::vector<ContactForce>& forces, double radius,
                                           const ColorScale& scale, double longest);
 
-/// What a picture of the test is made of.
+/// Everything from which a picture of the test is drawn.
 struct SceneView {
   const Points& points;                       ///< nodes of the rod [m]
   const Eigen::VectorXd& tension;             ///< of each edge [N]
-  const std::vector<ContactForce>& contacts;  ///< between the strands
+  const std::vector<ContactForce>& contacts;  ///< contact forces between the strands
   Vec3 lower_grip;                            ///< [m]
   Vec3 upper_grip;                            ///< [m]
   const Sample& sample;
   std::string motion_pattern;
 };
 
-/// The pictures of one test after the other.
+/// Draws pictures of a test, and of the tests that follow it.
 class ScenePicture {
  public:
   ScenePicture(const SpecimenOptions& specimen, const MachineOptions& machine, const Material& material);
 
-  void begin(const Points& points);  ///< a new specimen, which gets its gauge marks now
+  void begin(const Points& points);  ///< begins a new specimen and places its gauge marks
   void color_by(ColorBy what) { color_by_ = what; }
   void show_contacts(bool shown) { show_contacts_ = shown; }
 
-  /// What the colours of the rod mean now.
+  /// The scale of the rod's colours as they are shown now.
   const ColorScale& scale() const { return color_by_ == ColorBy::kTension ? tension_ : curvature_; }
 
-  /// The rod with its gauge marks, the forces between its strands, and what holds and bears it.
+  /// The rod with its gauge marks, the forces between its strands, and the bodies that hold and support it.
   visualization_msgs::MarkerArray draw(const SceneView& view, const ros::Time& stamp) const;
 
-  /// For a bag, small: the rod as spheres, what holds and bears it, and the readings as text that stands still in the
-  /// picture that the camera takes from `eye`, before all else.
+  /// A small picture for a bag: the rod as spheres, the bodies that hold and support it, and the readings as text. The
+  /// text stands at a fixed place in the picture of the camera at `eye`, in front of everything else.
   visualization_msgs::MarkerArray draw_small(const SceneView& view, const Vec3& eye, const ros::Time& stamp) const;
 
  private:
@@ -83,8 +84,8 @@ class ScenePicture {
 
   std::vector<GripBody> bodies_;
   double radius_;                    ///< of the rod [m]
-  Eigen::VectorXd arclength_;        ///< of the nodes, as the specimen began [m]
-  std::vector<Eigen::Index> gauge_;  ///< nodes with a mark
+  Eigen::VectorXd arclength_;        ///< of the nodes, at the beginning of the specimen [m]
+  std::vector<Eigen::Index> gauge_;  ///< nodes that carry a gauge mark
   ColorBy color_by_ = ColorBy::kTension;
   ColorScale tension_, curvature_;
   bool show_contacts_ = true;

@@ -10,32 +10,34 @@
 
 namespace knot_utm {
 
-/// What the parameters of a test say. All nodes of a test read the same, relative to their namespace:
-///   test/method             a method file: as given, or one of test/shipped_methods, with or without ".yaml"
+/// The setup of a test from ROS parameters. All nodes of a test read the same parameters, relative to their namespace:
+///   test/method             a method file: a path, or one of test/shipped_methods, with or without ".yaml"
 ///   test/shipped_methods    folder of the methods that come with the package
-///   test/material           instead of the method's; empty: the method's
-///   test/preload            specimen.preload [N]; empty: the method's
-///   test/overrides          list of "dotted.key=YAML", after these two among paths as long
-///   test/working_directory  where relative paths begin; empty: the node's own
+///   test/material           replaces the method's material; empty: the method's own
+///   test/preload            replaces specimen.preload [N]; empty: the method's own
+///   test/overrides          list of "dotted.key=YAML"; applied after test/material and test/preload where keys have
+///                           equally many parts
+///   test/working_directory  folder from which relative paths begin; empty: the node's own
 ///   test/data               record of an experiment, which is followed instead of the last pull; empty: none
 ///   test/out                folder of the files [out/NAME of the method]
 ///   test/network            true: other machines may reach the nodes
 struct MethodSetup {
   Method method;
-  std::string out;   ///< absolute
-  std::string data;  ///< absolute; empty: none
+  std::string out;   ///< absolute path
+  std::string data;  ///< absolute path; empty: there is no record
 };
 
-/// Wrong input of which another node of the same launch says the line: the cause of a failure stands there once.
+/// Invalid input that another node of the same launch reports. The cause of a failure is thus printed once.
 struct SaidByAnother : InvalidInput {
   explicit SaidByAnother(const InvalidInput& invalid) : InvalidInput(invalid) {}
 };
 
-/// Throws InvalidInput; in every node but utm_node, which reads the same, SaidByAnother where that one is launched,
-/// too.
+/// Reads the setup. Throws InvalidInput. In nodes other than utm_node it throws SaidByAnother where utm_node, which
+/// reads the same parameters, is launched too.
 MethodSetup read_test_setup(const ros::NodeHandle& node);
 
-/// A parameter where it is set; else `value` stays. Throws InvalidInput where it is not what `allowed` says.
+/// Reads a parameter into `value`, which stays as it is where the parameter is not set. Throws InvalidInput where it
+/// has the wrong type; `allowed` says what is allowed.
 template <class Value>
 void read_parameter(const ros::NodeHandle& node, const std::string& name, Value* value, const char* allowed) {
   if (node.hasParam(name) && !node.getParam(name, *value)) {
@@ -48,20 +50,21 @@ void read_parameter(const ros::NodeHandle& node, const std::string& name, Value*
 }
 
 /// Starts ROS as the node `name` of a test, on loopback unless the environment says otherwise. Throws InvalidInput
-/// where other machines reach this node or the master and test/network is not true.
+/// where other machines can reach this node or the master and test/network is not true.
 ros::NodeHandle join_ros(int argc, char** argv, const char* name);
 
-/// Puts the node's exit code where watch_node looks for it, and ends ROS.
+/// Sets the parameter with the node's exit code, which watch_node reads, and shuts ROS down.
 void leave_ros(const char* name, int code);
 
-/// Runs `body` and says in one line what went wrong. Returns the exit code: 0, 1 failed, 2 wrong input.
+/// Runs `body` as the main function of a node, and prints one line where it throws. Returns the exit code: 0 success, 1
+/// failure, 2 invalid input.
 template <class Body>
 int run_node(int argc, char** argv, const char* name, Body body);
 
-/// For `run_node`: whether the only argument is --version, which is answered then.
+/// For `run_node`: prints the version and returns true where --version is the only argument.
 bool asks_for_version(int argc, char** argv);
 
-/// For `run_node`: one line on the console, whether or not ROS logging is up.
+/// For `run_node`: prints one line on the console, whether or not ROS logging is available. Returns `code`.
 int report_failure(const char* name, const char* what, int code);
 
 template <class Body>

@@ -1,9 +1,9 @@
 #pragma once
 
-/// Every name that the nodes share. All but /clock are relative: the launch file decides where they stand.
+/// All names that the nodes share. All of them except /clock are relative; the launch file chooses the namespace.
 namespace knot_utm::names {
 
-// Nodes, as each takes the others' messages
+// Nodes. Each accepts messages of the rightful publisher only, by these names.
 inline constexpr char kUtmNode[] = "utm_node";
 inline constexpr char kKnotNode[] = "knot_node";
 inline constexpr char kRecorderNode[] = "recorder_node";
@@ -11,20 +11,21 @@ inline constexpr char kExperimentNode[] = "experiment_node";
 inline constexpr char kReplayNode[] = "replay_node";
 
 // Topics
-inline constexpr char kCrosshead[] = "utm/crosshead";         ///< Crosshead, a command for the physics
-inline constexpr char kJointStates[] = "utm/joint_states";    ///< sensor_msgs/JointState of the crosshead
-inline constexpr char kLoadCell[] = "utm/load_cell";          ///< geometry_msgs/WrenchStamped, as the cell reads it
-inline constexpr char kTestStatus[] = "utm/status";           ///< TestStatus, latched
-inline constexpr char kMethod[] = "utm/method";               ///< std_msgs/String, latched: the method.yaml of the test
-inline constexpr char kClock[] = "/clock";                    ///< rosgraph_msgs/Clock, the time of the test
-inline constexpr char kKnotState[] = "knot/state";            ///< KnotState, the answer to each command
-inline constexpr char kKnotRecord[] = "knot/record";          ///< KnotRecord, all of it for the recorder
-inline constexpr char kKnotShape[] = "knot/shape";            ///< KnotShape, at each reading of the load cell
-inline constexpr char kSpecimen[] = "knot/specimen";          ///< SpecimenInfo, latched
-inline constexpr char kMarkers[] = "knot/markers";            ///< visualization_msgs/MarkerArray
-inline constexpr char kColors[] = "knot/colors";              ///< ColorBar, latched: what the rod's colours mean
-inline constexpr char kRecorderStatus[] = "recorder/status";  ///< RecorderStatus, latched
-inline constexpr char kExperimentLoad[] = "experiment/load_cell";       ///< geometry_msgs/WrenchStamped, as measured
+inline constexpr char kCrosshead[] = "utm/crosshead";       ///< Crosshead, a command for the physics
+inline constexpr char kJointStates[] = "utm/joint_states";  ///< sensor_msgs/JointState of the crosshead
+inline constexpr char kLoadCell[] = "utm/load_cell";        ///< geometry_msgs/WrenchStamped, as the cell reads it
+inline constexpr char kTestStatus[] = "utm/status";         ///< TestStatus, latched
+inline constexpr char kMethod[] = "utm/method";             ///< std_msgs/String, latched: the method.yaml of the test
+inline constexpr char kClock[] = "/clock";                  ///< rosgraph_msgs/Clock, the time of the test
+inline constexpr char kKnotState[] = "knot/state";          ///< KnotState, the answer to each command
+/// KnotRecord, the complete record of a command, for the recorder
+inline constexpr char kKnotRecord[] = "knot/record";
+inline constexpr char kKnotShape[] = "knot/shape";                 ///< KnotShape, at each reading of the load cell
+inline constexpr char kSpecimen[] = "knot/specimen";               ///< SpecimenInfo, latched
+inline constexpr char kMarkers[] = "knot/markers";                 ///< visualization_msgs/MarkerArray
+inline constexpr char kColors[] = "knot/colors";                   ///< ColorBar, latched: meaning of the rod's colours
+inline constexpr char kRecorderStatus[] = "recorder/status";       ///< RecorderStatus, latched
+inline constexpr char kExperimentLoad[] = "experiment/load_cell";  ///< geometry_msgs/WrenchStamped, as measured
 inline constexpr char kExperimentCrosshead[] = "experiment/crosshead";  ///< Crosshead, as measured
 
 // Services, all of them std_srvs/Trigger
@@ -38,13 +39,14 @@ inline constexpr char kReset[] = "knot/reset";
 inline constexpr char kSave[] = "recorder/save";
 
 // Actions
-inline constexpr char kRunTest[] = "utm/run_test";  ///< RunTest: a test, from its start until all of it is recorded
+inline constexpr char kRunTest[] = "utm/run_test";  ///< RunTest: one test, from its start until all of it is recorded
 
 // Parameters that the nodes set
-inline constexpr char kTestId[] = "test/id";              ///< by utm_node: no other utm_node has it
-inline constexpr char kFolderOfTest[] = "test/folder";    ///< by recorder_node: a test's id, a space, its folder
-inline constexpr char kExitCodes[] = "test/exit_codes";   ///< by each node, its own below it; -1: runs, or was killed
-inline constexpr char kRecordedTest[] = "test/recorded";  ///< by recorder_node: the last test it completed
+inline constexpr char kTestId[] = "test/id";            ///< set by utm_node: identifies this utm_node among all others
+inline constexpr char kFolderOfTest[] = "test/folder";  ///< set by recorder_node: a test's id, a space, its folder
+/// set by each node, below this name; -1: it runs, or was killed
+inline constexpr char kExitCodes[] = "test/exit_codes";
+inline constexpr char kRecordedTest[] = "test/recorded";  ///< set by recorder_node: the last test that it completed
 
 // Frames
 inline constexpr char kWorldFrame[] = "world";
@@ -53,7 +55,7 @@ inline constexpr char kLowerGripFrame[] = "lower_grip";
 inline constexpr char kCrossheadFrame[] = "crosshead";
 inline constexpr char kUpperGripFrame[] = "upper_grip";
 inline constexpr char kLoadCellFrame[] = "load_cell";
-// What is looked at in rviz, and from where
+// What is viewed in rviz, and the places of the camera
 inline constexpr char kMachineFrame[] = "machine";
 inline constexpr char kKnotsFrame[] = "knots";
 inline constexpr char kLowerKnotFrame[] = "lower_knot";

@@ -23,41 +23,42 @@
 
 namespace knot_utm {
 
-/// Writes every command and its answer in order, by the code that writes them headless. What is missing it waits for,
-/// as the machine asks for it again; what does not come it counts as dropped. A test goes to the
-/// folder given, or, where that holds a run, to the one beside it with "-2", "-3" and so on. The service recorder/save
-/// leaves result.yaml as of now and saved.bag, the bag so far.
+/// Writes every command and its answer in order, with the same code as tests without ROS. For a missing record it
+/// waits, because the machine asks for it again. A record that does not come is counted as dropped. A test goes to the
+/// given folder or, where that holds a run, to the first free one beside it with the suffix "-2", "-3" and so on. The
+/// service recorder/save writes result.yaml as of now, and saved.bag, the bag so far.
 ///
-/// A record is acknowledged once the journal has it. Started anew in the midst of a test it goes on from the journal of
-/// that test, as the machine and the physics hold what is not acknowledged; the files are those of one recorder.
+/// A record is acknowledged once it is in the journal. A recorder that is restarted during a test continues from the
+/// journal of that test, because the machine and the simulation keep what is not acknowledged. The files are then the
+/// same as those of one recorder.
 class RecorderNode {
  public:
   RecorderNode(const ros::NodeHandle& node, MethodSetup setup, Keeper& keeper);
 
-  /// Runs until ROS is shut down; a test that has not ended then, or whose machine died, is closed with the reason.
+  /// Runs until ROS is shut down. A test that has not ended then, or whose machine died, is closed with the reason.
   /// Returns the exit code: 1 where something could not be written.
   int spin();
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// The test being written.
+  /// The test that is being written.
   struct Run {
     Run(const std::string& folder_, const Method& method, JournalWriter journal_);
     std::string folder;
     JournalWriter journal;
     RunWriter writer;
     RunBag bag;
-    std::uint64_t next = 0;      ///< sequence of the record that comes next
-    std::uint64_t recorded = 0;  ///< records written
+    std::uint64_t next = 0;      ///< sequence number of the next record
+    std::uint64_t recorded = 0;  ///< number of records written
     std::uint64_t dropped = 0;
-    std::map<std::uint64_t, KnotRecord::ConstPtr> early;  ///< came before `next` did
+    std::map<std::uint64_t, KnotRecord::ConstPtr> early;  ///< records that arrived before record `next`
     Points shape;                                         ///< the latest
-    std::uint64_t shape_sequence = 0;                     ///< of its record
-    ros::Time stamp;                                      ///< of the last record
+    std::uint64_t shape_sequence = 0;                     ///< sequence number of the record with that shape
+    ros::Time stamp;                                      ///< stamp of the last record
     Clock::time_point begin = Clock::now();
-    double progress = 0.0;  ///< `waited_` when something new last came [s]
-    bool failed = false;    ///< the last answer was that of a physics that failed
+    double progress = 0.0;  ///< value of `waited_` when something new last arrived [s]
+    bool failed = false;    ///< the last answer reports that the simulation failed
     bool complete = false;
   };
 
@@ -67,7 +68,7 @@ class RecorderNode {
   bool on_save(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   void begin_run(const Crosshead& first);
-  std::string folder_before() const;  ///< that a recorder before this one wrote the test to; empty: none did
+  std::string folder_before() const;  ///< folder to which an earlier recorder wrote the test; empty: there was none
   bool go_on(const std::string& folder);
   void watch(const std::string& folder);
   void write(const KnotRecord& record);
@@ -89,12 +90,12 @@ class RecorderNode {
   MethodSetup setup_;
   Keeper& keeper_;
   std::uint32_t run_number_ = 0;
-  std::string test_id_;                 ///< of the test being written, as no other test has it; empty: not known
-  std::unique_ptr<Run> run_;            ///< none before the first record
-  bool completed_before_ = false;       ///< a recorder before this one has completed the test
+  std::string test_id_;                 ///< unique id of the test that is being written; empty: not known
+  std::unique_ptr<Run> run_;            ///< null before the first record
+  bool completed_before_ = false;       ///< an earlier recorder has completed the test
   TestStatus test_;                     ///< the latest
-  double waited_ = 0.0;                 ///< for messages, while this process ran [s]
-  std::optional<double> machine_died_;  ///< `waited_` then [s]
+  double waited_ = 0.0;                 ///< time spent waiting for messages while this process was running [s]
+  std::optional<double> machine_died_;  ///< value of `waited_` when the machine died [s]
   TopicWarning odd_record_{names::kKnotRecord}, odd_status_{names::kTestStatus};
   std::string error_;
   RecorderStatus published_;

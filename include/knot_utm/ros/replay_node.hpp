@@ -21,24 +21,24 @@
 
 namespace knot_utm {
 
-/// What is replayed, and how.
+/// The bag that is replayed, and how.
 struct ReplayOptions {
   std::string bag;           ///< a test.bag
-  double rate = 1.0;         ///< time of the test over wall time; 0: as fast as it goes
-  bool exit_at_end = false;  ///< `spin` returns when the bag has ended
-  double patience = 5.0;     ///< wall time for somebody to look at the pictures before it begins [s]
+  double rate = 1.0;         ///< test time over wall time; 0: as fast as possible
+  bool exit_at_end = false;  ///< `spin` returns at the end of the bag
+  double patience = 5.0;     ///< longest wall time to wait for a viewer of the pictures before beginning [s]
 };
 
-/// A recorded test, played without physics: its messages on their topics, /clock, frames and the pictures for rviz,
-/// made of the recorded shapes. The method says only what the machine looks like. It begins when somebody looks at the
-/// pictures, or after the patience is over.
+/// Replays a recorded test without simulating it. It publishes the recorded messages on their topics, /clock, the
+/// frames, and pictures for rviz made from the recorded shapes. The method only says what the machine looks like. The
+/// replay begins when somebody views the pictures, or at the end of the waiting time.
 class ReplayNode {
  public:
-  /// Throws InvalidInput where the bag cannot be read, or has no shapes and states.
+  /// Throws InvalidInput where the bag cannot be read, or contains no shapes or no states.
   ReplayNode(const ros::NodeHandle& node, const Method& method, const ReplayOptions& options);
 
-  /// Runs until ROS is shut down, or the bag has ended with `exit_at_end`. Returns the exit code of the node. Throws
-  /// InvalidInput where a message of the bag is of another version.
+  /// Runs until ROS is shut down or, with `exit_at_end`, until the bag has ended. Returns the exit code of the node.
+  /// Throws InvalidInput where a message of the bag has another version.
   int spin();
 
  private:
@@ -47,7 +47,7 @@ class ReplayNode {
   bool somebody_looks() const { return markers_.getNumSubscribers() > 0; }
   void begin();
   void play_what_is_due();
-  double until_due() const;  ///< wall time until the next message is to be played [s]
+  double until_due() const;  ///< wall time until the next message is due [s]
   void play(const rosbag::MessageInstance& instance);
   template <class Message>
   boost::shared_ptr<Message> replay(const rosbag::MessageInstance& instance);
@@ -58,24 +58,24 @@ class ReplayNode {
   ros::NodeHandle node_;
   ReplayOptions options_;
   rosbag::Bag bag_;
-  std::map<std::string, std::string> names_;  ///< of its topics, what we call them
+  std::map<std::string, std::string> names_;  ///< topics of the bag, each with the package's own name of it
   std::unique_ptr<rosbag::View> view_;
   rosbag::View::iterator next_;
-  TestingMachine bench_;  ///< as it stands before the test
+  TestingMachine bench_;  ///< in its state before the test
   FrameBroadcaster frames_;
   ScenePicture picture_;
   Views views_;
   ShownState shown_;
   bool begun_ = false;
-  ros::Time start_;  ///< of the bag
-  ros::Time now_;    ///< of what was played last
+  ros::Time start_;  ///< time of the first message of the bag
+  ros::Time now_;    ///< time of the last message that was published
   Clock::time_point begin_, clock_published_;
   Sample sample_;
   std::string motion_pattern_;
   bool picture_is_old_ = false;
   std::uint32_t viewers_ = 0;
 
-  std::map<std::string, ros::Publisher> publishers_;  ///< by our names
+  std::map<std::string, ros::Publisher> publishers_;  ///< by the package's own names
   ros::Publisher markers_, colors_, method_, clock_;
   ros::SteadyTimer view_timer_;
   ViewParameters parameters_;

@@ -14,23 +14,23 @@
 
 namespace knot_utm {
 
-/// test.bag: the topics of one test with the stamps of their headers, the same from a live and from a headless run.
-/// utm/crosshead, utm/joint_states and knot/state for every command; utm/load_cell for every reading (cell_reading),
-/// knot/shape at sampling instants. A rod that parts is read in the time step that parts it, of which there is a
-/// knot/state, too.
+/// Writes test.bag: the topics of one test, at the stamps of their headers. Tests with and without ROS give the same
+/// bag. It has utm/crosshead, utm/joint_states and knot/state for every command, utm/load_cell for every reading
+/// (cell_reading), and knot/shape at sampling instants. The load cell is also read in the time step in which a rod
+/// parts, and the bag has a knot/state for that step, too.
 ///
-/// `rosbag play` and rviz show it, with nothing else running: for that it holds utm/method, knot/colors and, at every
-/// reading, knot/markers (small ones, ScenePicture::draw_small), all frames on /tf, and utm/status without what only
-/// the clock on the wall tells.
+/// `rosbag play` and rviz can show the bag while nothing else runs. For this it contains utm/method, knot/colors and
+/// all frames on /tf, and at every reading knot/markers (small ones, ScenePicture::draw_small). utm/status is included
+/// without the fields that depend on wall time.
 class RunBag {
  public:
-  /// Throws std::runtime_error where the file cannot be written, as all of it does, and InvalidInput where the specimen
-  /// does not fit the machine.
+  /// Throws InvalidInput where the specimen does not fit the machine. All functions throw std::runtime_error where the
+  /// file cannot be written.
   RunBag(const std::string& file, const Method& method);
   void add(const Record& record);
   void close() { bag_.close(); }
 
-  std::uint64_t messages() const { return bag_.messages(); }  ///< written so far
+  std::uint64_t messages() const { return bag_.messages(); }  ///< number of messages written so far
 
  private:
   void add_reading(const Sample& reading, const ros::Time& answered);
@@ -39,7 +39,7 @@ class RunBag {
   void add_picture(const Record& record, const ros::Time& stamp);
 
   BagWriter bag_;
-  std::string method_;  ///< its text
+  std::string method_;  ///< text of the method
   double radius_;       ///< [m]
   Grips grips_;
   MachineFrames frames_;

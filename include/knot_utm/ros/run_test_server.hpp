@@ -12,25 +12,25 @@
 
 namespace knot_utm {
 
-/// The action utm/run_test: a goal is one test, from its start until the last file is complete. It starts nothing by
-/// itself: the machine does, which runs one test at a time, and stops it where the goal is cancelled.
+/// The server of the action utm/run_test. A goal is one test, from its start until its last file is complete. The
+/// server itself starts nothing: the machine runs one test at a time, and stops it where the goal is cancelled.
 class RunTestServer {
  public:
-  /// What a goal asks of the machine.
+  /// What a goal needs of the machine.
   struct Machine {
-    std::function<std::string()> start;  ///< a test; returns why not, empty: it runs
-    std::function<void()> stop;          ///< as the operator does
+    std::function<std::string()> start;  ///< starts a test; returns why it cannot, empty: it runs
+    std::function<void()> stop;          ///< stops the test, as an operator does
   };
 
   RunTestServer(const ros::NodeHandle& node, Machine machine);
 
   bool has_goal() const { return goal_.has_value(); }
 
-  /// To the client whose goal runs.
+  /// Sends feedback to the client whose goal runs.
   void report(const RunTestFeedback& feedback);
 
-  /// Ends the goal: aborted where the test `failed`, preempted where the operator ended it, whoever that was, else
-  /// succeeded.
+  /// Ends the goal. Its state is aborted where the test `failed`, preempted where the test was stopped by an operator
+  /// or by cancelling, and succeeded otherwise.
   void finish(EndedBy ended_by, bool failed, const RunTestResult& result);
 
  private:
@@ -40,7 +40,7 @@ class RunTestServer {
   void on_cancel(Server::GoalHandle goal);
 
   Machine machine_;
-  std::optional<Server::GoalHandle> goal_;  ///< whose test runs, or is being recorded
+  std::optional<Server::GoalHandle> goal_;  ///< goal whose test runs or is still being recorded
   Server server_;
 };
 

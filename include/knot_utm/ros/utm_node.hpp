@@ -25,34 +25,36 @@
 
 namespace knot_utm {
 
-/// How the machine runs its test.
+/// How the machine runs its tests.
 struct UtmOptions {
-  double real_time_factor = 1.0;  ///< time of the test over wall time; 0: as fast as it goes
-  bool autostart = true;          ///< starts as soon as a specimen is there
-  bool record = false;            ///< never runs further ahead of the recorder than it can ask again for
-  bool exit_at_end = false;       ///< `spin` returns when the test has ended and all is recorded
-  double resend_period = 0.25;    ///< wall time after which what is not answered is asked again [s]
+  double real_time_factor = 1.0;  ///< test time over wall time; 0: as fast as possible
+  bool autostart = true;          ///< starts a test as soon as there is a specimen
+  bool record = false;            ///< never gets further ahead of the recorder than kWindow commands
+  bool exit_at_end = false;       ///< `spin` returns when the test has ended and everything is recorded
+  double resend_period = 0.25;    ///< wall time after which an unanswered command is sent again [s]
 };
 
-/// The machine as a node: gives the test program's commands and takes the answers, one at a time. A command for time t
-/// has stamp t; the next one is given when the answer of the same sequence has come. Whatever is not answered (or, with
-/// `record`, not recorded) is asked for again, so that nodes may join late and messages may be lost. A physics whose
-/// connection breaks has died: that ends the test, as one that gave up does. One that is only slow is waited for.
+/// The machine as a node. It publishes the commands of the test program and receives the answers, one at a time. A
+/// command for time t has the stamp t, and the next one is published when the answer with the same sequence number has
+/// arrived. A command that is not answered (or, with `record`, not recorded) is sent again, so that nodes may join late
+/// and messages may be lost. If the connection to the simulation breaks, the simulation has died, and the test ends as
+/// it does where the simulation gives up. A slow simulation is waited for.
 class UtmNode {
  public:
-  static constexpr double kStatusPeriod = 0.2;  ///< wall time between two statuses [s]
-  /// Commands that may be ahead of the recorder. Half of what the physics keeps for asking again.
+  static constexpr double kStatusPeriod = 0.2;  ///< wall time between two status messages [s]
+  /// Number of commands by which the test may be ahead of the recorder. It is half of the number of answers that the
+  /// simulation keeps.
   static constexpr std::uint64_t kWindow = 128;
 
   UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOptions& options);
 
-  /// Runs until ROS is shut down, or the test has ended with `exit_at_end`. Returns the exit code of the node: 1 where
-  /// the physics or the recorder failed.
+  /// Runs until ROS is shut down or, with `exit_at_end`, until the test has ended. Returns the exit code of the node: 1
+  /// where the simulation or the recorder failed.
   int spin();
 
  private:
   using Clock = std::chrono::steady_clock;
-  enum class State { kIdle, kRunning, kPaused, kEnded };  ///< as numbered in TestStatus
+  enum class State { kIdle, kRunning, kPaused, kEnded };  ///< numbered as in TestStatus
 
   void on_specimen(const SpecimenInfo::ConstPtr& specimen);
   void on_state(const KnotState::ConstPtr& answer);
@@ -69,14 +71,14 @@ class UtmNode {
   bool recorder_keeps_up() const;
   bool all_is_recorded() const;
   bool may_advance() const;
-  std::string start_if_possible();  ///< returns why not; empty: the test runs
+  std::string start_if_possible();  ///< returns why it cannot; empty: the test runs
   void start();
   void pause(bool paused);
   void advance();
   void send(const Command& command);
   void resend();
   void take_reading();
-  void physics_failed(const std::string& why);  ///< ends the test
+  void physics_failed(const std::string& why);  ///< ends the test with this reason
   void end();
   void publish_clock(bool at_once);
   void publish_status();
@@ -84,39 +86,39 @@ class UtmNode {
   void finish_goal();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void set_pace(MachineConfig& wanted);
-  double wait_time() const;  ///< until there is something to do that no message brings [s]
+  double wait_time() const;  ///< wall time until the next action that no message triggers [s]
 
   ros::NodeHandle node_;
   Method method_;
   UtmOptions options_;
-  double longest_step_ = 0.0;             ///< [s]; 0: no specimen yet
-  std::optional<ProgramRunner> program_;  ///< of this test
+  double longest_step_ = 0.0;             ///< longest time step of the simulation [s]; 0: there is no specimen yet
+  std::optional<ProgramRunner> program_;  ///< program of this test
   State state_ = State::kIdle;
   std::uint32_t run_ = 0;
-  double run_start_ = 0.0;            ///< on /clock [s]
-  Command command_;                   ///< the last given
+  double run_start_ = 0.0;            ///< beginning of the test on /clock [s]
+  Command command_;                   ///< the last command
   Sample sample_;                     ///< the last answer
-  std::string motion_pattern_;        ///< that it told
-  std::vector<Sample> readings_;      ///< of the load cell in this test
-  double max_penetration_ = 0.0;      ///< of all answers [fraction of radius]
-  bool waiting_ = false;              ///< for the answer to `command_`
-  std::uint64_t single_steps_ = 0;    ///< asked for while paused
+  std::string motion_pattern_;        ///< motion pattern in the last answer
+  std::vector<Sample> readings_;      ///< readings of the load cell in this test
+  double max_penetration_ = 0.0;      ///< largest overlap in all answers [fraction of radius]
+  bool waiting_ = false;              ///< whether the answer to `command_` is still awaited
+  std::uint64_t single_steps_ = 0;    ///< number of single steps requested while paused
   std::deque<Crosshead> unrecorded_;  ///< commands that the recorder has not acknowledged
-  std::uint64_t recorded_ = 0;        ///< all before this sequence are
+  std::uint64_t recorded_ = 0;        ///< all commands before this sequence number are recorded
   bool recorder_complete_ = false;
   bool recorder_failed_ = false;
-  std::string directory_;  ///< of the recorder's files
-  ros::Time now_;          ///< what /clock says
+  std::string directory_;  ///< folder of the recorder's files
+  ros::Time now_;          ///< time on /clock
   TopicWarning odd_specimen_{names::kSpecimen};
 
-  Clock::time_point due_;   ///< when the next command may go
-  Clock::time_point sent_;  ///< when something was last asked for, or asked again
+  Clock::time_point due_;   ///< time at which the next command may be sent
+  Clock::time_point sent_;  ///< time at which a command was last sent, or sent again
   Clock::time_point clock_published_;
   Clock::time_point status_published_;
   Clock::time_point diagnosed_;
   Clock::time_point factor_measured_;
-  double factor_time_ = 0.0;  ///< of the test when the factor was last measured [s]
-  double factor_;             ///< test time over wall time of late
+  double factor_time_ = 0.0;  ///< test time at which the factor was last measured [s]
+  double factor_;             ///< recent ratio of test time to wall time
 
   ros::Publisher crosshead_, joint_states_, status_, method_text_, clock_;
   ros::Subscriber states_, specimens_, recorder_;

@@ -9,13 +9,13 @@
 
 namespace knot_utm {
 
-/// What a node's own parameters ~marker_rate, ~color_by and ~contact_forces say of its picture, also while it runs, by
-/// dynamic_reconfigure. A value that is not allowed is refused: the one before stays, whoever asked gets it, and a line
-/// says what is allowed.
+/// The parameters ~marker_rate, ~color_by and ~contact_forces of a node that draws pictures. They can be changed by
+/// dynamic_reconfigure while the node runs. A value that is not allowed is refused: the value before stays and is
+/// returned to the client, and a line says what is allowed.
 class ViewParameters {
  public:
-  /// `on_change` gets the wall time between two pictures [s], now and whenever a parameter has changed. Throws
-  /// InvalidInput where a parameter is not what it may be.
+  /// `on_change` receives the wall time between two pictures [s], at once and whenever a parameter has changed. Throws
+  /// InvalidInput where a parameter has a value that is not allowed.
   ViewParameters(ScenePicture& picture, std::function<void(double)> on_change);
 
  private:

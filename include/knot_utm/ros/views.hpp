@@ -8,28 +8,30 @@
 
 namespace knot_utm {
 
-/// The camera of config/knot_utm.rviz. It stands in a frame of /tf and looks in a direction that never changes; the
-/// frame moves, so that what is to be seen fills the picture whatever the specimen and wherever the crosshead is.
+/// The camera of config/knot_utm.rviz. Its viewing direction is constant in a frame of /tf. The frame moves so that the
+/// subject fills the picture, whatever the specimen and wherever the crosshead is.
 struct Camera {
   static constexpr double kYaw = 1.74;            ///< nearly along y, across the rollers [rad]
   static constexpr double kPitch = 0.12;          ///< a little downwards [rad]
   static constexpr double kFieldOfView = 0.7854;  ///< vertical, as rviz has it [rad]
-  static constexpr double kNarrowest = 0.7;       ///< width over height of a picture that still shows all
-  static constexpr double kFilled = 0.9;          ///< fraction of the picture that is filled, at most
+  /// width over height of the narrowest picture that still shows the whole subject
+  static constexpr double kNarrowest = 0.7;
+  static constexpr double kFilled = 0.9;  ///< largest fraction of the picture that is filled
 
   static Vec3 forwards();
   static Vec3 right();
   static Vec3 up();
 
-  /// Where a point is seen from `eye`: to the right and up from the middle, in halves of the height of the picture
-  /// (its upper edge is at 1), and how far ahead of the eye [m].
+  /// The place of a point in the picture of a camera at `eye`. The first two components are the distances to the right
+  /// and upwards from the centre, in halves of the picture's height (the upper edge is at 1). The third is the distance
+  /// ahead of the camera [m].
   static Vec3 project(const Vec3& eye, const Vec3& point);
 
-  /// The nearest place from which all of a box is seen in such a picture.
+  /// The nearest camera position from which a whole box is visible.
   static Vec3 eye_for(const Box& box);
 };
 
-/// What is looked at, and from where.
+/// A point that is viewed, and the position of the camera.
 struct Look {
   Vec3 at, from;  ///< [m]
 };
@@ -38,15 +40,15 @@ struct Looks {
   Look machine, knots, lower_knot, upper_knot;
 };
 
-/// The looks at one test after the other. That at the machine holds all that was to be seen since the specimen was
-/// made, let go or mounted: from mounting on it only ever moves away. Those at the knots follow them a little slower
-/// than the knots move.
+/// Chooses the views of a test, and of the tests that follow it. The view of the machine contains everything that was
+/// visible since the specimen was made, released or mounted; from mounting on the camera only moves away. The views of
+/// the knots follow them with a delay.
 class Views {
  public:
   Views(const SpecimenOptions& specimen, const MachineOptions& machine, const Material& material)
       : bodies_(grip_bodies(specimen, machine, material)), radius_(material.radius) {}
 
-  void begin() { seen_ = false; }  ///< a new specimen
+  void begin() { seen_ = false; }  ///< begins a new specimen
 
   Looks look(const Points& points, const Vec3& lower_grip, const Vec3& upper_grip, const Sample& sample);
 

@@ -10,23 +10,23 @@
 
 namespace knot_utm {
 
-/// Ends the launch. roslaunch by itself does so only where a node that it calls required ends, and calls that a death,
-/// even after a success. This node asks roslaunch which nodes have ended:
-///   - the one that runs the test (utm_node or replay_node), by itself: the test is over. The launch ends as soon as
-///     nobody looks at the picture any more, that is when rviz is closed, where there is one.
-///   - another one, or by a signal, or because its input was wrong: the launch ends at once.
-/// The nodes that it watches are the names in the parameter test/exit_codes, into which each of them puts its exit code
-/// (run_node).
+/// Ends the launch when the test is over. roslaunch itself ends only where a node that is marked as required ends, and
+/// reports that as a death, even after a success. This node asks roslaunch which nodes have ended:
+/// - If the node that runs the test (utm_node or replay_node) has ended by itself, the test is over. The launch ends as
+///   soon as nobody views the picture, that is, when rviz is closed where it was started.
+/// - If another node has ended, or one was ended by a signal or by invalid input, the launch ends at once.
+/// The watched nodes are the names below the parameter test/exit_codes, where each node sets its exit code (run_node).
 class WatchNode {
  public:
-  /// `verdict`: a file for the exit code of the test and, in a second line, the recorder's folder; empty: none.
+  /// `verdict`: a file to which the exit code of the test is written and, in a second line, the recorder's folder.
+  /// Empty: none.
   WatchNode(const ros::NodeHandle& node, std::string verdict);
 
-  /// Until ROS is shut down.
+  /// Runs until ROS is shut down.
   int spin();
 
  private:
-  /// Processes of the launch by the names of their nodes, true: alive.
+  /// The processes of the launch by the names of their nodes; true: it is alive.
   using Processes = std::map<std::string, bool>;
 
   bool find_launch();
@@ -40,12 +40,12 @@ class WatchNode {
 
   ros::NodeHandle node_;
   std::string verdict_;
-  std::string folder_;  ///< of the recorder; empty: nothing is recorded
-  std::string host_;    ///< of roslaunch's own server
+  std::string folder_;  ///< folder of the recorder; empty: nothing is recorded
+  std::string host_;    ///< host of roslaunch's own server
   int port_ = 0;
   std::map<std::string, std::string> watched_;  ///< node -> its parameter, both full names
-  bool over_ = false;                           ///< the test
-  bool ended_ = false;                          ///< roslaunch was told so
+  bool over_ = false;                           ///< whether the test is over
+  bool ended_ = false;                          ///< whether roslaunch was asked to end
   ros::Subscriber recorder_;
 };
 

@@ -25,8 +25,7 @@ namespace knot_utm {
 ///   c        viscous drag per length, as for the positions: it acts on the rod's surface, whose speed is h omega and
 ///            whose lever is h [N s/m^2]
 ///   r_j      0, or where spin has neither inertia nor drag a regularisation, a small fraction of k_t/l_j, so that a
-///   rod
-///            that is free to turn stays where it is [N m]
+///            rod that is free to turn stays where it is [N m]
 ///   E        of twist at every inner node (twisting.hpp) and, where the rod has a natural curvature,
 ///            bending.hpp [J]; a rod that is straight at rest bends as without frames (isotropic_bending.hpp)
 ///   T_j      torque of the holder of a held frame about the tangent [N m]

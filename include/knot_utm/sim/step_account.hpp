@@ -46,7 +46,7 @@ struct ContactReading {
 ///                less 1/2 (F - F_n) . dx, by which forces at the end overestimate the work of the boundary
 ///   reweighting  contact energy at the last step's end less sum w e(D_n). Between two steps weights follow the shape
 ///                and feet come and go, which changes the stored energy without work; negative where it grows
-///   residual the imbalance that Newton's method left on free nodes, times their increments
+///   residual     the imbalance that Newton's method left on free nodes, times their increments
 ///
 /// A driven roller is part of the boundary by its moment; a free one has inertia as nodes have. The spin of an edge
 /// counts as the motion of a node does, with its own inertia, drag and torques. The work of the regularisation r_j

@@ -39,26 +39,30 @@ struct NewtonSummary {
   }
 };
 
-/// Newton's method for a system that offers
-///   double residual() evaluates at the present unknowns, returns the residual's size
-///   double tolerance() the residual's size that is small enough
-///   bool solve()          assembles and factors the Jacobian, solves for the change; false where singular
-///   void move(factor)      takes `factor` times the change, capped as the system sees fit
-///   bool stands_still() the last change was taken whole and is negligible: no better place lies next to this one Even
-///   a prediction within the tolerance is solved once, because the imbalance that the tolerance allows would let the
-///   rod drift on from step to step. Only a prediction far below the tolerance is accepted as it is. There is no line
-///   search, because the energy is no guide along stiff, nearly inextensible rods. The caller limits the size of a step
-///   and halves the step where this method does not converge. If, after the first few iterations, the residual has not
-///   halved over two iterations, the iterates cycle between two sides of a kink (a foot that jumps, a contact that
-///   sticks and slips). A halved damping factor ends the cycle, but takes iterations. With `abandons_early` the solve
-///   is ended instead once a residual well above its tolerance has hardly fallen over one and over two iterations,
-///   because a shorter step costs less. Source: Nocedal, Wright 2006 (damping); Deuflhard 2004 (monitor of
-///   convergence).
+/// Newton's method for a system that has the functions
+///
+///   double residual()      evaluates the system at the present unknowns and returns the norm of its residual
+///   double tolerance()     the norm that is small enough
+///   bool solve()           assembles and factors the Jacobian and solves for the change; false where it is singular
+///   void move(factor)      moves the unknowns by `factor` times the change, or by less where the system limits it
+///   bool stands_still()    the last change was a whole one and is negligible, so that no better point lies nearby
+///
+/// A prediction within the tolerance is still solved once, because the imbalance that the tolerance allows would let
+/// the rod drift on from step to step. Only a prediction far below the tolerance is accepted as it is. There is no line
+/// search, because the energy is no guide along stiff, nearly inextensible rods. The caller limits the size of a step,
+/// and halves the step where this method does not converge.
+///
+/// If, after the first few iterations, the residual has not halved over two iterations, the iterates cycle between two
+/// sides of a kink (a foot that jumps, a contact that sticks and slips). Halving the damping factor ends the cycle, but
+/// takes iterations. With `abandons_early` the solve is ended instead, once a residual well above its tolerance has
+/// hardly fallen over one and over two iterations, because a shorter step costs less.
+///
+/// Source: Nocedal, Wright 2006 (damping); Deuflhard 2004 (monitor of convergence).
 template <typename System>
 NewtonSummary newton(System& system, const NewtonOptions& options) {
   constexpr int kUndamped = 5;
   constexpr double kUnsolved = 1e-3;
-  constexpr int kFirst = 4;  // iterations that are free to wander
+  constexpr int kFirst = 4;  // iterations that are not judged
   constexpr double kHardly = 0.7, kWellAbove = 3.0;
   NewtonSummary summary;
   double last = 0.0, before = 0.0, factor = options.largest_factor;

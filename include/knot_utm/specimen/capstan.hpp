@@ -18,6 +18,7 @@ class CapstanSpecimen final : public Knot {
   SpecimenOptions defaults(double h) const override;
   void suit(const SpecimenOptions& known, double roller_diameter, double h, SpecimenOptions& out) const override;
   double pull(const SpecimenOptions& specimen, double h) const override;
+  std::optional<double> longest_pull(const SpecimenOptions& specimen, double h) const override;
   void check(const SpecimenOptions& specimen, double h) const override;
   Centreline centreline(const SpecimenOptions& specimen, const Material& material,
                         const Mounting& mounting) const override;

@@ -73,6 +73,9 @@ class Knot {
   /// Extension of a pull whose `until.extension` is `auto` [m].
   virtual double pull(const SpecimenOptions& specimen, double h) const = 0;
 
+  /// Extension beyond which its rod would leave what supports it [m]; empty: none.
+  virtual std::optional<double> longest_pull(const SpecimenOptions& /*specimen*/, double /*h*/) const { return {}; }
+
   /// Throws InvalidInput where its keys do not go together.
   virtual void check(const SpecimenOptions& specimen, double h) const = 0;
 

@@ -11,7 +11,7 @@
 
 namespace knot_utm {
 
-/// The test whose knot is looked at.
+/// The test whose knot is examined.
 struct MarginTest {
   SpecimenOptions specimen;
   Material material;
@@ -20,10 +20,10 @@ struct MarginTest {
   Program program;
 };
 
-/// Runs short tests one after the other, of accuracy `draft`: each ties, mounts and pulls the specimen until a fifth of
-/// the knot distance is passed, which is behind breakaway. The knot opens in a test in which it comes undone or jumps
-/// open (curve_readings.hpp). The same test gives the same margin, to the bit. `interrupted()` is asked between
-/// commands.
+/// Finds the safety margin of a knot by short tests with accuracy `draft`, one after the other. Each test ties and
+/// mounts the specimen, and pulls it by a fifth of the knot distance, which is beyond breakaway. The knot opens in a
+/// test if it comes undone or jumps open (curve_readings.hpp). The same test gives the same margin, to the last bit.
+/// `interrupted()` is called between commands and says whether to stop.
 Margin find_margin(const MarginTest& test, const std::function<bool()>& interrupted);
 
 }  // namespace knot_utm

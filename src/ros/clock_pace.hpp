@@ -1,0 +1,10 @@
+#pragma once
+
+namespace knot_utm {
+
+// How the two nodes that publish /clock, the machine and the replay, keep time, in wall time [s].
+inline constexpr double kClockPeriod = 0.002;    // shortest time between two messages
+inline constexpr double kIdleClockPeriod = 0.1;  // longest time between them
+inline constexpr double kGoodbye = 0.3;          // for the last messages to leave before the node ends
+
+}  // namespace knot_utm

@@ -1,0 +1,49 @@
+#include "knot_utm/record/phase.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+namespace knot_utm {
+namespace {
+
+TEST(Phase, HasANameOfItsOwn) {
+  for (const PhaseTraits& traits : all_phases()) {
+    EXPECT_EQ(phase_named(traits.name), traits.phase);
+    EXPECT_STREQ(phase_name(traits.phase), traits.name);
+  }
+  EXPECT_EQ(phase_named("pulling"), std::nullopt);
+}
+
+/// The rest of the package takes these for granted.
+TEST(Phase, HasTraitsThatGoTogether) {
+  for (const PhaseTraits& traits : all_phases()) {
+    if (traits.pulls) {
+      EXPECT_TRUE(traits.moves && !traits.prepares) << traits.name;
+    }
+    if (traits.forms) {
+      EXPECT_TRUE(traits.prepares && traits.ends_by_itself && !traits.moves) << traits.name;
+    }
+    if (!traits.is_step) {
+      EXPECT_FALSE(traits.moves || traits.forms || traits.can_break) << traits.name;
+    }
+  }
+  EXPECT_THAT(step_names(), testing::ElementsAre("tie", "release", "mount", "preload", "balance", "pull", "hold",
+                                                 "cycle", "return", "follow"));
+}
+
+TEST(Phase, HasTheTraitsThatTheReportReads) {
+  std::ostringstream expected;
+  expected << "name,is_step,prepares,forms,ends_by_itself,moves,pulls,can_break\n";
+  for (const PhaseTraits& t : all_phases())
+    expected << t.name << ',' << t.is_step << ',' << t.prepares << ',' << t.forms << ',' << t.ends_by_itself << ','
+             << t.moves << ',' << t.pulls << ',' << t.can_break << '\n';
+  std::ostringstream read;
+  read << std::ifstream(std::string(KNOT_UTM_SOURCE_DIR) + "/report/phases.csv").rdbuf();
+  EXPECT_EQ(read.str(), expected.str());
+}
+
+}  // namespace
+}  // namespace knot_utm
