@@ -113,7 +113,7 @@ class Matrix {
 
 template <int D>
 void run(const Method& method, TestingMachine& bench) {
-  if (method.physics.contact_law != ContactLaw::kSmooth) throw std::runtime_error("only with contact.law smooth");
+  if (method.physics.contact_scheme != ContactScheme::kSmooth) throw std::runtime_error("only with contact.law smooth");
   ProgramRunner program = make_program(method, bench.longest_step());
   Matrix<D> matrix(bench.rod(), step_settings(method.specimen, method.material, method.machine, method.physics),
                    bench.longest_step());

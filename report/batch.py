@@ -61,7 +61,7 @@ class Batch:
         method = os.path.join(folder, "method.yaml")
         self.method, self.report = read_yaml(method), texts_of(method, "report")
         self.units = units_of(self.report)
-        self.specimens, self.units_of_columns = read_specimens(folder)
+        self.specimens, _ = read_specimens(folder)
         file = os.path.join(folder, "statistics.yaml")
         self.facts = read_yaml(file)
         for key in ("specimens", "rejected", "motion_pattern"):

@@ -6,6 +6,7 @@ from batch import Batch
 from batch_figures import curves
 from batch_tables import (all_readings, checks_of_all, drawn_tables, half_of, main_keys, named, readings_tables, scatter,
                           verdict_of_all)
+from laboratory import counted, particulars
 from mean_curve import mean_curve
 from method_facts import knot_of, method_facts, program
 from page import Headline, files_of, head_of, logo_of, render
@@ -24,7 +25,8 @@ def report_on_batch(folder, command, version):
     length = batch.units.length
     return render("batch.html.j2", {
         "title": f"{knot_of(batch.method)}, {batch.method['material'].get('name', 'own material')}",
-        "head": head_of(batch.report), "report": batch.report, "logo": logo_of(batch), "headlines": headlines(batch),
+        "head": [*head_of(batch.report), *tested_as(batch)], "report": batch.report, "logo": logo_of(batch),
+        "headlines": headlines(batch),
         "count": len(batch.specimens), "counted": len(batch.counted), "rejected": list(batch.reasons.items()),
         "patterns": counts(batch, "motion_pattern"), "endings": counts(batch, "ended_by"),
         "tested_by": batch.tested[0].version if batch.tested else None, "warnings": warnings(batch),
@@ -38,6 +40,11 @@ def report_on_batch(folder, command, version):
         "program": program(batch.method, batch.units), "si": batch.units.are_default,
         "files": with_specimens(files_of(folder), batch), "command": printable(command), "version": version,
         "folder": printable(folder)})
+
+
+def tested_as(batch):
+    return particulars(batch.report, batch.method, batch.mean("gauge_length"), batch.units,
+                       counted(len(batch.specimens), len(batch.reasons)))
 
 
 def headlines(batch):

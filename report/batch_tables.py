@@ -1,14 +1,14 @@
 """The tables of a batch: a row for each specimen and rows of statistics, as the software of a testing machine prints them."""
 from certificate import Check
 from is_number import is_number
-from method_facts import KEYS, label_of, sentence
-from quantities import BESIDE, CERTIFICATE, GROUPS, KINDS, TABLES, error_shown, number, percent, quantity_of
+from method_facts import label_of, place_of, sentence, unit_of
+from quantities import BESIDE, CERTIFICATE, GROUPS, TABLES, error_shown, number, percent, quantity_of
 from results_table import NOTHING, labels_of, short_label
 
 WIDEST = 5  # readings beside each other: as many as a telephone has room for
 # What is looked for first, in this order, where the specimens have it.
-MAIN = ("plateau_force", "jump_force", "force_ratio", "lock_extension", "locked_stiffness", "peak_force", "break_extension",
-        "energy_to_break")
+MAIN = ("knotability", "plateau_force", "jump_force", "force_ratio", "lock_extension", "locked_stiffness", "peak_force",
+        "break_extension", "knot_efficiency", "elongation_total", "elongation_at_break", "energy_to_break")
 STATISTICS = (("Mean", "mean"), ("Standard deviation", "sd"), ("Coefficient of variation", "cv"), ("Minimum", "minimum"),
               ("Maximum", "maximum"), ("95 % interval of the mean, low end", "low"),
               ("95 % interval of the mean, high end", "high"), ("Readings", "n"))
@@ -83,7 +83,7 @@ def statistic(batch, column, part):
 
 def drawn_tables(batch):
     """What was drawn for each specimen, also for those that are rejected."""
-    columns = [Column(key, sentence(name_of(key)), unit_of(batch, key), max(one.drawn[key] for one in batch.specimens),
+    columns = [Column(key, sentence(name_of(key)), unit_of(key, batch.units), max(one.drawn[key] for one in batch.specimens),
                       batch.spread(key)) for key in batch.specimens[0].drawn]
     return [Table(some, [(one.number, [column.text(one.drawn[column.key]) for column in some]) for one in batch.specimens], [])
             for some in beside_each_other(columns)]
@@ -91,19 +91,8 @@ def drawn_tables(batch):
 
 def name_of(key):
     """Of a dotted key of the method: a speed is that of a step."""
-    *where, name = key.split(".")
-    return f"{label_of(name)}, {where[-1]}" if where[0] == "program" else label_of(facts_key(key))
-
-
-def facts_key(key):
-    """The key's name in method_facts.KEYS."""
-    name = key.split(".")[-1]
-    return "cell_" + name if "cell_" + name in KEYS and key.startswith("machine.") else name
-
-
-def unit_of(batch, key):
-    in_si = batch.units_of_columns[key]
-    return batch.units.of(KEYS.get(facts_key(key), ("", KINDS.get(in_si, in_si)))[1])
+    *where, _ = place_of(key).split(".")
+    return f"{label_of(key)}, {where[-1]}" if where[0] == "program" else label_of(key)
 
 
 def scatter(batch):

@@ -48,6 +48,9 @@ def checks_of(result):
     def value(key):
         return result.get(key)
 
+    def label(key):
+        return quantity_of(key).label
+
     ended_by = value("ended_by")
     return [
         Check("The physics solved every time step", ["ended_by"],
@@ -60,12 +63,9 @@ def checks_of(result):
         at_most("Deepest contact, in radii", "max_penetration", value("max_penetration"), LIMITS["kDeep"]),
         must_be("A knot jumped open", "jump_force", None if "jump_force" not in result else is_number(value("jump_force")),
                 False, "yes", "no"),
-        at_most("Error of the energy balance, as a share of the largest energy", "energy_balance_error",
-                value("energy_balance_error"), LIMITS["kUnbalanced"]),
-        at_most("Difference of the forces at both grips, as a share of the largest force", "force_balance_error",
-                value("force_balance_error"), BENCH_FORCE_BALANCE),
-        unlimited("Moment that the model leaves out, over the present force times the radius",
-                  ["moment_balance_error"], value("moment_balance_error")),
+        at_most(label("energy_balance_error"), "energy_balance_error", value("energy_balance_error"), LIMITS["kUnbalanced"]),
+        at_most(label("force_balance_error"), "force_balance_error", value("force_balance_error"), BENCH_FORCE_BALANCE),
+        unlimited(label("moment_balance_error"), ["moment_balance_error"], value("moment_balance_error")),
         *numerical_errors(result),
     ]
 

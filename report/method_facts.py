@@ -1,60 +1,51 @@
 """A method as a person reads it: what was tested, on what, and how."""
+import quantities
+from key_tables import table
 from quantities import number
 from is_number import is_number
+from units import Unit
 
-# (label, kind of its unit, as units.Units.of takes it); keys that are not here are shown as they stand.
-KEYS = {
-    "handedness": ("Handedness of the two overhands", ""), "turns": ("Turns", ""),
-    "knot_distance": ("Knot distance e", "length"), "end_to_end": ("End to end L", "length"),
-    "length": ("Length of rod", "length"), "tail": ("Tails", "length"), "preload": ("Pre-load F_p", "force"),
-    "wrap": ("Angle around the post", "rad"), "post_diameter": ("Post diameter", "length"), "tail_load": ("Tail load", "force"),
-    "edge_length": ("Edge length of the mesh", "length"), "refinement": ("Refinement within the knots", ""),
-    "file": ("Shape from", ""), "radius": ("Radius", "length"), "density": ("Density", "kg/m³"),
-    "stretching_stiffness": ("Stretching stiffness", "force"), "bending_stiffness": ("Bending stiffness", "N m²"),
-    "twisting_stiffness": ("Twisting stiffness", "N m²"), "friction_coefficient": ("Friction coefficient", ""),
-    "friction_couple": ("Share of friction's couple that sections take", ""), "bending_set": ("Share of the tied bend that sets", ""),
-    "contact_stiffness": ("Contact stiffness", "N/m²"), "breaking_force": ("Breaking force", "force"),
-    "grips": ("Grips", ""), "roller_diameter": ("Roller diameter", "length"),
-    "roller_friction": ("Roller friction", ""), "roller_rotation": ("Rollers", ""),
-    "roller_rate": ("Rate of the rollers", "rad/s"), "far_side": ("Far side of the loop", ""),
-    "at": ("Friction acts at the", ""), "stiffness": ("Frame stiffness", "stiffness"),
-    "travel": ("Travel", "length"), "capacity": ("Capacity of the cell", "force"),
-    "sampling_rate": ("Readings of the cell", "Hz"), "resolution": ("Resolution of the cell", "force"),
-    "noise": ("Noise of the cell, standard deviation", "force"), "floor": ("Floor of the cell", "of its capacity"),
-    "accuracy": ("Accuracy", ""), "cell_accuracy": ("Accuracy of the cell", "of the reading"),
-    "speed": ("speed", "speed"), "duration": ("duration", "s"), "extension": ("extension", "length"),
-    "load": ("load", "force"), "load_rate": ("load rate", "force_rate"), "time": ("time", "s"),
-    "drift": ("Drift of the cell", "force_rate"), "overload": ("Stop of the cell", "of its capacity"),
-    "breaking_strain": ("Breaking strain", ""), "yield_strain": ("Yield strain", ""),
-    "arming_load": ("A break counts from a load of", "force"),
-    "sharp_drop_time": ("A sharp drop is one within", "s"), "drop_extension": ("A drop is one within", "length"),
-    "sharp_drop": ("Sharp drop by", "of the peak"), "drop": ("Drop by", "of the peak"),
-    "break_at_fraction_of_peak": ("Break at no more than", "of the peak"),
-    "gravity": ("Gravity", "m/s²"), "slip_tolerance": ("slip tolerance", "m/s"),
-    "presliding": ("presliding", "of the radius"), "tolerance": ("tolerance", "of the radius"),
-    "drag": ("Drag", "N s/m²"), "max_step": ("Longest step", "s"),
-    "residual": ("Residual", "k_b/h²"), "twist": ("Twist", "")}
-OF_LOOP = ("handedness", "knot_distance", "end_to_end", "tail", "preload", "edge_length", "refinement")
-OF_KNOT = {"fisherman": OF_LOOP, "multiple_fisherman": ("turns", *OF_LOOP),
-           "capstan": ("wrap", "post_diameter", "tail_load", "tail", "end_to_end", "edge_length"),
-           "overhand": ("turns", "length", "end_to_end", "edge_length", "refinement"),
-           "straight": ("length", "edge_length"), "file": ("file", "closed", "edge_length")}
-KNOTS = {"fisherman": "Fisherman's knot", "multiple_fisherman": "Multiple fisherman's knot",
-         "capstan": "Strand around a post (capstan)", "overhand": "Overhand knot", "straight": "Straight rod",
-         "file": "Rod of a shape from a file"}
+# Labels and units of dotted keys. The program writes the file: tensile_test --list-method-keys.
+LABELS = {row["key"]: row["label"] for row in table("method_keys.csv")}
+UNITS = {row["key"]: row["unit"] for row in table("method_keys.csv")}
+# What a knot is called, and the keys that are shown of it: tensile_test --list-knots.
+TITLES = {row["knot"]: row["title"] for row in table("knots.csv")}
+KEYS_OF_KNOTS = {row["knot"]: row["keys"].split() for row in table("knots.csv")}
+# How a unit of method_keys.csv is shown, where that is not as in a result.
+KINDS = {**quantities.KINDS, "m/s": "speed", "N/s": "force_rate", "of the radius": "of the radius",
+         "of capacity": "of its capacity", "of k_b/h2": "k_b/h²", "of friction_coefficient": "of the friction coefficient"}
 NOT_FACTS = ("name", "notes", "tying_preload", "seed", "load_cell")
 
 
+def place_of(key):
+    """A dotted key without the number of a step or of an entry."""
+    return ".".join(part for part in key.split(".") if not part.isdigit())
+
+
+def label_of(key):
+    """Of a dotted key. One that is not known here is shown as it stands."""
+    return LABELS.get(place_of(key), key.split(".")[-1].replace("_", " "))
+
+
+def unit_of(key, units):
+    unit = UNITS.get(place_of(key), "-")
+    written = unit.replace("2", "²").replace("3", "³")
+    if key.startswith("physics.") and unit in ("N/m", "m/s"):
+        return Unit(written)  # parameters of the model are in SI
+    return units.of(KINDS.get(unit, written))
+
+
 def text_of(key, value, units):
-    unit = units.of(KEYS.get(key, ("", ""))[1])
+    unit = unit_of(key, units)
     if is_number(value):
         return f"{number(value * unit.scale)} {unit.name}".strip()
     if isinstance(value, bool):
         return "yes" if value else "no"
     if value in (float("inf"), ".inf"):
-        return "rigid" if key == "stiffness" else "none" if key == "overload" else "∞"
+        return {"machine.stiffness": "rigid", "machine.load_cell.overload": "none"}.get(key, "∞")
     if isinstance(value, dict):
-        return ", ".join(f"{label_of(name)} {text_of(name, part, units)}" for name, part in value.items())
+        return ", ".join(f"{label_of(f'{key}.{name}')} {text_of(f'{key}.{name}', part, units)}"
+                         for name, part in value.items())
     if isinstance(value, list):
         return vector(value, unit) if all(map(is_number, value)) else ", ".join(map(str, value))
     return str(value)
@@ -64,14 +55,10 @@ def vector(values, unit):
     return f"[{', '.join(number(value * unit.scale) for value in values)}] {unit.name}".strip()
 
 
-def label_of(key):
-    return KEYS.get(key, (key.replace("_", " "),))[0]
-
-
-def facts(section, units, keys=None):
-    """[(label, text)] of the keys that are there and have a value."""
-    names = [key for key in (keys or section) if section.get(key) is not None and key not in NOT_FACTS]
-    return [(sentence(label_of(key)), text_of(key, section[key], units)) for key in names]
+def facts(place, section, units, keys=None):
+    """[(label, text)] of the keys that are there and have a value. `place`: the section's dotted key."""
+    names = [name for name in (keys or section) if section.get(name) is not None and name not in NOT_FACTS]
+    return [(sentence(label_of(f"{place}.{name}")), text_of(f"{place}.{name}", section[name], units)) for name in names]
 
 
 def sentence(label):
@@ -79,13 +66,13 @@ def sentence(label):
 
 
 def knot_of(method):
-    return KNOTS.get(method["specimen"]["knot"], str(method["specimen"]["knot"]))
+    return TITLES.get(method["specimen"]["knot"], str(method["specimen"]["knot"]))
 
 
 def post_diameter(method):
     """Of the post around which the specimen lies [m]; None: there is none."""
     specimen = method["specimen"]
-    return specimen["post_diameter"] if "post_diameter" in OF_KNOT.get(specimen["knot"], ()) else None
+    return specimen["post_diameter"] if "post_diameter" in KEYS_OF_KNOTS.get(specimen["knot"], ()) else None
 
 
 def without_idle_keys(method):
@@ -111,30 +98,29 @@ def method_facts(method, units):
     specimen, material, machine = method["specimen"], method["material"], method["machine"]
     cell = machine.get("load_cell")
     cell = cell if isinstance(cell, dict) else {}
-    # `accuracy` of the physics is another thing.
-    readings = {"cell_accuracy" if key == "accuracy" else key: value for key, value in cell.items()}
     return [
-        ("Specimen", [("Knot", knot_of(method)), *facts(specimen, units, OF_KNOT.get(specimen["knot"]))], ""),
-        ("Material", [("Name", str(material.get("name", "own"))), *facts(material, units)], material.get("notes") or ""),
-        ("Machine", [*facts({key: value for key, value in machine.items() if key != "load_cell"}, units),
-                     *([("Load cell", str(cell["name"]))] if "name" in cell else []), *facts(readings, units)],
+        ("Specimen", [("Knot", knot_of(method)), *facts("specimen", specimen, units, KEYS_OF_KNOTS.get(specimen["knot"]))], ""),
+        ("Material", [("Name", str(material.get("name", "own"))), *facts("material", material, units)], material.get("notes") or ""),
+        ("Machine", [*facts("machine", machine, units),
+                     *([("Load cell", str(cell["name"]))] if "name" in cell else []), *facts("machine.load_cell", cell, units)],
          cell.get("notes") or ""),
-        ("Physics", facts(method.get("physics", {}), units), ""),
-        *([("When the test ends", facts(method["ends"], units), "")] if method.get("ends") else []),
+        ("Physics", facts("physics", method.get("physics", {}), units), ""),
+        *([("When the test ends", facts("ends", method["ends"], units), "")] if method.get("ends") else []),
     ]
 
 
 def program(method, units):
     """[(step, what it asks for)]"""
-    return [(name, step_text(keys or {}, units)) for step in method.get("program", []) for name, keys in step.items()]
+    return [(name, step_text(f"program.{name}", keys or {}, units)) for step in method.get("program", []) for name, keys in step.items()]
 
 
-def step_text(keys, units):
+def step_text(step, keys, units):
     parts = []
-    for key, value in keys.items():
-        if key == "until" and isinstance(value, dict):
-            ends = ["break" if name == "break" else f"{label_of(name)} {text_of(name, part, units)}"
-                    for name, part in value.items() if part is not False]
+    for name, value in keys.items():
+        key = f"{step}.{name}"
+        if name == "until" and isinstance(value, dict):
+            ends = ["break" if end == "break" else f"{label_of(f'{key}.{end}')} {text_of(f'{key}.{end}', part, units)}"
+                    for end, part in value.items() if part is not False]
             parts.append("until " + " or ".join(ends))
         else:
             parts.append(f"{label_of(key)} {text_of(key, value, units)}")

@@ -76,12 +76,11 @@ class Stage:
     def draw_curve(self, axes, test, shape, loads, name):
         rows = few_points(test.extension, test.load)
         axes.plot(test.extension[rows], test.load[rows], color=FAINT, lw=2.0)
-        past = test.tested["time"] <= shape.time
-        if past.any():
-            rows = few_points(test.extension[past], test.load[past])
-            axes.plot(test.extension[past][rows], test.load[past][rows], color=BLUE, lw=2.4)
-            at = test.extension[past][-1], test.load[past][-1]
-            axes.plot(*at, "o", ms=9, color=ORANGE, clip_on=not loads[0] <= at[1] <= loads[1], zorder=5)
+        if shape.time >= test.begin:
+            extension, load = test.until(shape.time)
+            rows = few_points(extension, load)
+            axes.plot(extension[rows], load[rows], color=BLUE, lw=2.4)
+            axes.plot(extension[-1], load[-1], "o", ms=9, color=ORANGE, clip_on=not loads[0] <= load[-1] <= loads[1], zorder=5)
         axes.set_xlim(*self.extensions)
         axes.set_ylim(loads[0], loads[1] + 0.05 * (loads[1] - loads[0]))
         axes.set_ylabel(f"{name} [{test.run.units.force.name}]", fontsize=USUAL + 3)
@@ -130,6 +129,12 @@ class OneTest:
             return Shape(at, before.points, before.tension, before.twist, before.contact_force)
         return Shape(at, *(between(getattr(before, name), getattr(after, name), part)
                            for name in ("points", "tension", "twist", "contact_force")))
+
+    def until(self, time):
+        """Extension and load up to a time [s], in the units of the page."""
+        times = self.tested["time"]
+        past = times < time
+        return [np.append(values[past], np.interp(time, times, values)) for values in (self.extension, self.load)]
 
     def words(self, shape):
         curve, units = self.run.curve, self.run.units

@@ -11,6 +11,7 @@ from comparison_figures import overlay
 from curve_figures import course, force_extension
 from error_band import error_band
 from failure import CannotReport
+from laboratory import particulars
 from largest_load import largest_load
 from marks import end_of, marks_of, time_of_break
 from method_facts import knot_of, method_facts, program
@@ -45,7 +46,8 @@ FILES = [
     ("report.html", "this page"),
     ("report.pdf", "this page for paper"),
 ]
-HEADLINES = ("plateau_force", "lock_extension", "locked_stiffness", "peak_force", "break_extension")
+HEADLINES = ("knotability", "plateau_force", "lock_extension", "locked_stiffness", "peak_force", "break_extension",
+             "elongation_total")
 
 
 def report_on_run(folder, command, version):
@@ -59,7 +61,8 @@ def report_on_run(folder, command, version):
     return render("run.html.j2", {
         **figures_of(run, marks), "marks": marks, "largest": largest, "run": run, "result": run.result,
         "title": f"{knot_of(run.method)}, {run.method['material'].get('name', 'own material')}",
-        "head": head_of(run.report), "report": run.report, "logo": logo_of(run), "headlines": headlines(run, largest),
+        "head": [*head_of(run.report), *particulars(run.report, run.method, run.value("gauge_length"), run.units)],
+        "report": run.report, "logo": logo_of(run), "headlines": headlines(run, largest),
         "facts": method_facts(run.method, run.units), "program": program(run.method, run.units),
         "gave_up": run.result.get("ended_by") == "solver", "results": results, "unmeasured": unmeasured,
         "checks": checks, "verdict": words, "good": good,
@@ -93,7 +96,7 @@ def words_of_largest(largest):
 
 
 HEAD = (("specimen_id", "Specimen"), ("operator", "Operator"), ("customer", "Customer"), ("date", "Date"),
-        ("standard", "Standard"))
+        ("standard", "Standard"), ("conditioning", "Conditioning"), ("terminations", "Terminations"))
 
 
 def head_of(report):

@@ -1,9 +1,8 @@
 """Numbers as a person reads them: label, unit and digits of every key of result.yaml, also of those not known here."""
-import csv
 import math
-import os
 
 from is_number import is_number
+from key_tables import table
 
 
 class Quantity:
@@ -14,25 +13,24 @@ class Quantity:
 
 
 # How a unit of result_keys.csv is shown, where the page has one of its own for it.
-KINDS = {"N": "force", "m": "length", "N/m": "stiffness", "bytes": "memory", "-": "", "0 to 1": "", "of the radius": ""}
+KINDS = {"N": "force", "m": "length", "N/m": "stiffness", "bytes": "memory", "-": "", "0 to 1": "", "of the radius": "",
+         "of the gauge length": "percent", "of the strength without a knot": "percent"}
 # Groups that are no table of results: what they hold has another place on the page.
 HEAD, BESIDE, CERTIFICATE = "head", "beside", "certificate"
-# The tables of results, in their order.
-TABLES = ["What happened", "Force and extension", "The knots", "Energy of the pull", "The computation"]
 
 
 def keys_of_results():
-    """Quantities by group and key. The program writes the file: tensile_test --list-results."""
-    groups = {}
-    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "result_keys.csv")
-    with open(path, encoding="utf-8", newline="") as file:
-        for row in csv.DictReader(file):
-            quantity = Quantity(row["meaning"], KINDS.get(row["unit"], row["unit"]))
-            groups.setdefault(row["group"], {})[row["key"]] = quantity
-    return groups
+    """Quantities by group and key, and the titles of the tables in their order. The program writes the file:
+    tensile_test --list-results."""
+    groups, tables = {}, {}
+    for row in table("result_keys.csv"):
+        quantity = Quantity(row["meaning"], KINDS.get(row["unit"], row["unit"]))
+        groups.setdefault(row["group"], {})[row["key"]] = quantity
+        tables[int(row["table"])] = row["group"]
+    return groups, [tables[place] for place in sorted(tables) if place > 0]
 
 
-GROUPS = keys_of_results()
+GROUPS, TABLES = keys_of_results()
 KNOWN = {key: quantity for group in GROUPS.values() for key, quantity in group.items()}
 
 # The unit of a key that is not known here, by how it ends: names of quantities are the field's.

@@ -1,6 +1,4 @@
 """The units of a page: files are in SI, a page is in what its reader measures with."""
-from is_number import is_number
-
 FORCES = {"N": 1.0, "kN": 1e-3, "lbf": 1.0 / 4.4482216152605}
 LENGTHS = {"mm": 1e3, "in": 1.0 / 0.0254, "m": 1.0}
 
@@ -18,21 +16,18 @@ class Units:
         self.stiffness = Unit(f"{force}/{length}", self.force.scale / self.length.scale)
         self.speed = Unit(f"{length}/s", self.length.scale)
         self.force_rate = Unit(f"{force}/s", self.force.scale)
+        self.rate = Unit(f"{length}/min", 60.0 * self.length.scale)
         self.memory = Unit("MB", 1e-6)
+        self.percent = Unit("%", 100.0)
         self.are_default = (force, length) == ("N", "mm")
 
     def of(self, kind):
         """`kind`: one of the quantities above, else the name of a unit that every page uses."""
-        return getattr(self, kind) if kind in ("force", "length", "stiffness", "speed", "force_rate", "memory") \
-            else Unit(kind)
+        return getattr(self, kind) if kind in ("force", "length", "stiffness", "speed", "force_rate", "memory",
+                                               "percent") else Unit(kind)
 
 
 def units_of(report):
     """Those that `report` of a method asks for."""
     asked = report.get("units") or {}
     return Units(asked.get("force", "N"), asked.get("length", "mm"))
-
-
-def in_unit(value, unit):
-    """None where there is no number."""
-    return value * unit.scale if is_number(value) else None

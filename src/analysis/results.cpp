@@ -96,16 +96,28 @@ std::optional<Relaxation> last_relaxation(const std::vector<Sample>& samples) {
   return last;
 }
 
-/// Of the last step that cycles.
-std::vector<Cycle> last_cycles(const std::vector<Sample>& samples) {
+/// Of the last step that cycles: its cycles, whose places count from the sample before the step.
+struct LastCycles {
+  std::size_t origin = 0;
+  std::vector<Cycle> closed;
+};
+
+LastCycles last_cycles(const std::vector<Sample>& samples) {
   const std::vector<Stretch> steps = stretches(samples, Phase::kCycle);
-  Path path;
   if (steps.empty()) return {};
   const Stretch& step = steps.back();
   const Sample origin = origin_of(samples[step.begin], samples[step.begin - 1]);
-  path.push_back({origin.extension, origin.force_upper});
+  Path path = {{origin.extension, origin.force_upper}};
   for (std::size_t i = step.begin; i < step.end; ++i) path.push_back({samples[i].extension, samples[i].force_upper});
-  return closed_cycles(path);
+  return {step.begin - 1, closed_cycles(path)};
+}
+
+Elongations elongations_of(const std::vector<Sample>& samples, const LastCycles& cycles, double gauge_length) {
+  const Cycle& last = cycles.closed.back();
+  const auto at = [&](std::size_t i) { return samples.begin() + static_cast<std::ptrdiff_t>(cycles.origin + i); };
+  const auto longest = std::max_element(at(last.begin), at(last.end) + 1,
+                                        [](const Sample& a, const Sample& b) { return a.end_to_end < b.end_to_end; });
+  return elongations(gauge_length, longest->end_to_end, at(last.end)->end_to_end);
 }
 
 /// To where the rod parts.
@@ -329,9 +341,19 @@ void read_end(const Sample& last, Results& results) {
 
 void read_holds_and_cycles(const std::vector<Sample>& samples, Results& results) {
   results.relaxation = last_relaxation(samples);
-  const std::vector<Cycle> cycles = last_cycles(samples);
-  results.cycles = cycles.size();
-  if (!cycles.empty()) results.hysteresis = cycles.back().hysteresis;
+  const LastCycles cycles = last_cycles(samples);
+  results.cycles = cycles.closed.size();
+  if (cycles.closed.empty()) return;
+  results.hysteresis = cycles.closed.back().hysteresis;
+  if (results.gauge_length) results.elongations = elongations_of(samples, cycles, *results.gauge_length);
+}
+
+void read_gauge_length(const Course& course, Results& results) {
+  if (!course.pull_begin()) return;
+  const double length = (course.before_pull() ? course.before_pull() : course.pull_begin())->end_to_end;
+  if (!(length > 0.0)) return;
+  results.gauge_length = length;
+  if (course.at_break()) results.elongation_at_break = (course.at_break()->end_to_end - length) / length;
 }
 
 void read_tied(const Course& course, Results& results) {
@@ -368,6 +390,7 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
   read_tied(course, results);
   read_curve(readings, course.at_break(), results);
   course.read_balances();
+  read_gauge_length(course, results);
   read_holds_and_cycles(samples, results);
   read_whole_pull(course, results);
   return results;

@@ -100,8 +100,27 @@ Specification read_specification(const YAML::Node& node, const std::string& file
 
 /// The speed with which friction may creep, where its law has one.
 void set_creep(FrictionLaw law, double speed, FrictionOptions& friction) {
-  for (const FrictionKey& key : friction_keys())
-    if (key.otherwise == FrictionDefault::kCreep && entry_of(law).has(key.name)) friction.set(key.name, speed);
+  for (const LawKey& key : FrictionRegistry::keys())
+    if (key.otherwise == LawDefault::kCreep && FrictionRegistry::entry(law).has(key.name))
+      friction.set(key.name, speed);
+}
+
+/// A law has the plain values of its own keys that were not given. Keys of other laws, which have no effect, go.
+template <class Registry, class Number>
+void keep_own_keys(LawOptions<Number>& law) {
+  const LawEntry& chosen = Registry::entry(law.law);
+  for (const LawKey& key : Registry::keys()) {
+    if (!chosen.has(key.name)) law.set(key.name, std::nullopt);
+    if (chosen.has(key.name) && key.otherwise == LawDefault::kPlain) law.set(key.name, law.number(key));
+  }
+}
+
+void keep_own_keys(Method& method) {
+  keep_own_keys<FrictionRegistry>(method.physics.friction);
+  keep_own_keys<StretchingRegistry>(method.material.stretching);
+  keep_own_keys<BendingRegistry>(method.material.bending);
+  keep_own_keys<TwistingRegistry>(method.material.twisting);
+  keep_own_keys<PressureRegistry>(method.material.pressure);
 }
 
 /// The method over defaults that suit its knot and material, and, once it has been read with these, what is `known` of
@@ -173,6 +192,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
       if (method.program[i].phase == Phase::kFollow)
         read_record(folder, "program." + std::to_string(i) + ".follow", method.program[i]);
     check_method(method);
+    keep_own_keys(method);
     return method;
   } catch (const InvalidInput& invalid) {
     throw invalid.in_file(file);

@@ -6,6 +6,8 @@
 #include <string>
 #include <system_error>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/before_tying.hpp"
@@ -46,38 +48,64 @@ void has_effect(bool has, const char* key, const Value& value, const Value& unse
 }
 
 /// A law has all keys that it needs, and none of another law.
-void check_friction(const FrictionOptions& friction) {
-  const FrictionLawEntry& law = entry_of(friction.law);
-  for (const FrictionKey& key : friction_keys()) {
-    const std::string name = std::string("physics.friction.") + key.name;
-    const std::optional<double> value = friction.value(key.name);
+/// `section`: where its keys stand, with a dot; `chosen_by`: the key that names it.
+template <class Registry, class Number>
+void check_law(const LawOptions<Number>& given, const std::string& section, const std::string& chosen_by) {
+  const LawEntry& law = Registry::entry(given.law);
+  for (const LawKey& key : Registry::keys()) {
+    const std::string name = section + key.name;
+    const std::optional<double> value = given.value(key.name);
     const bool own = law.has(key.name);
-    if (own && !value && key.otherwise == FrictionDefault::kNone)
-      throw InvalidInput::missing(
-          name, fields::number_text({key.min, key.max, key.unit}) + ", which law: " + law.name + " needs");
-    if (value) has_effect(own, name.c_str(), *value, key.plain, "with law: " + laws_with(key.name));
+    if (own && !value && key.otherwise == LawDefault::kNone)
+      throw InvalidInput::missing(name, fields::number_text({key.min, key.max, key.unit}) + ", which " + chosen_by +
+                                            ": " + law.name + " needs");
+    if (value) has_effect(own, name.c_str(), *value, key.plain, "with " + chosen_by + ": " + Registry::with(key.name));
+  }
+}
+
+/// A `Fields` (method_fields.hpp) that keeps the keys of a specimen and their values as messages show them. Numbers
+/// have all their digits, so that equal texts are equal values. A value that is not set is empty.
+class Texts {
+ public:
+  using Range = fields::Range;
+  void number(const char* key, double& value, const Range&) { add(key, format_number(value)); }
+  void scaled_number(const char* key, double& value, const Range&) { add(key, format_number(value)); }
+  void optional_number(const char* key, std::optional<double>& value, const Range&, const char*) {
+    add(key, value ? format_number(*value) : "");
+  }
+  void integer(const char* key, int& value, int, int) { add(key, std::to_string(value)); }
+  void text(const char* key, std::string& value) { add(key, value); }
+  void flag(const char* key, bool& value) { add(key, value ? "true" : "false"); }
+  template <class Enum, class Names>
+  void choice(const char* key, Enum& value, const Names& names) {
+    add(key, names[static_cast<std::size_t>(value)]);
+  }
+
+  static std::vector<std::pair<const char*, std::string>> of(SpecimenOptions specimen) {
+    Texts texts;
+    fields::specimen(texts, specimen);
+    return texts.all_;
+  }
+
+ private:
+  void add(const char* key, const std::string& value) { all_.emplace_back(key, value); }
+
+  std::vector<std::pair<const char*, std::string>> all_;
+};
+
+/// A key of `specimen` that its knot does not have is without effect.
+void check_keys_of_knot(const SpecimenOptions& specimen) {
+  const auto given = Texts::of(specimen), unset = Texts::of(SpecimenOptions());
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const char* key = given[i].first;
+    has_effect(knot_of(specimen).has(key), (std::string("specimen.") + key).c_str(), given[i].second, unset[i].second,
+               "for knot: " + knots_with(key));
   }
 }
 
 void check_effects(const Method& m) {
   const SpecimenOptions& s = m.specimen;
-  const SpecimenOptions unset;
-  const auto of_knot = [&](const char* name, const auto& value, const auto& plain) {
-    has_effect(knot_of(s).has(name), (std::string("specimen.") + name).c_str(), value, plain,
-               "for knot: " + knots_with(name));
-  };
-  of_knot("handedness", std::string(s.handedness == Handedness::kOpposite ? "opposite" : "same"), std::string("same"));
-  of_knot("turns", s.turns, unset.turns);
-  of_knot("file", s.file, unset.file);
-  of_knot("knot_distance", s.knot_distance, unset.knot_distance);
-  of_knot("end_to_end", s.end_to_end, unset.end_to_end);
-  of_knot("refinement", s.refinement.value_or(0.0), 0.0);
-  of_knot("length", s.length, unset.length);
-  of_knot("tail", s.tail, unset.tail);
-  of_knot("preload", s.preload.value_or(0.0), 0.0);
-  of_knot("wrap", s.wrap, unset.wrap);
-  of_knot("post_diameter", s.post_diameter, unset.post_diameter);
-  of_knot("tail_load", s.tail_load.value_or(0.0), 0.0);
+  check_keys_of_knot(s);
 
   const MachineOptions& machine = m.machine;
   const MachineOptions bare;
@@ -99,7 +127,11 @@ void check_effects(const Method& m) {
   has_effect(rollers_hold(s, machine), "machine.far_side", std::string(held ? "held" : "free"), std::string("held"),
              "for knot: " + loops() + ", with grips: rollers");
 
-  check_friction(m.physics.friction);
+  check_law<FrictionRegistry>(m.physics.friction, "physics.friction.", "law");
+  check_law<StretchingRegistry>(m.material.stretching, "material.", "stretching_law");
+  check_law<BendingRegistry>(m.material.bending, "material.", "bending_law");
+  check_law<TwistingRegistry>(m.material.twisting, "material.", "twisting_law");
+  check_law<PressureRegistry>(m.material.pressure, "material.", "pressure_law");
 }
 
 void check_specimen(const Method& m) {
@@ -114,7 +146,7 @@ void check_specimen(const Method& m) {
     reject("material.breaking_force", *breaking,
            "more than specimen.preload, " + format_number(*s.preload) + " N, the force that ties the knots");
   }
-  if (s.closed) throw InvalidInput("specimen.closed", "true", "false, since the grips hold the rod's two ends");
+  check_ends(s);
 }
 
 /// Friction at the surface turns strands about themselves, which only a rod with twist can do.
@@ -133,9 +165,10 @@ void check_twist(const Method& m) {
 void check_bending(const Method& m) {
   const bool remembers = remembers_bends(m.material);  // throws where its law misses a value
   if (remembers && m.material.bending_set > 0.0)
-    throw InvalidInput::sentence("material.bending_set", format_number(m.material.bending_set),
-                                 "material.bending_set makes the rod keep a share of its bends at once, and "
-                                 "material.bending_law: plastic makes it keep what yields: give one of the two only");
+    throw InvalidInput::sentence(
+        "material.bending_set", format_number(m.material.bending_set),
+        "material.bending_set makes the rod keep a share of its bends at once, and "
+        "this material.bending_law makes it keep what the law remembers: give one of the two only");
   if (bends_on_frames(m.material) && m.physics.twist == TwistMode::kOff)
     throw InvalidInput::sentence(
         "physics.twist", "off",

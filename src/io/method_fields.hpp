@@ -5,9 +5,11 @@
 #include <string>
 
 #include "knot_utm/contact/friction.hpp"
+#include "knot_utm/contact/pressure_laws.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
+#include "knot_utm/rod/twisting_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 /// All keys of a method with their ranges. Reading and writing walk the same lists.
@@ -33,6 +35,30 @@ struct Range {
 };
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// The keys of all laws of a kind. Those that the chosen law does not have may stand with their plain value only
+/// (method_check.cpp).
+template <class Registry, class Fields, class Number>
+void law_keys(Fields& f, LawOptions<Number>& o) {
+  for (const LawKey& key : Registry::keys()) {
+    std::optional<double> value = o.value(key.name);
+    const Range range{key.min, key.max, key.unit};
+    const bool automatic = key.otherwise == LawDefault::kAccuracy || key.otherwise == LawDefault::kCreep;
+    const char* word = automatic ? "auto" : "";
+    if (value)
+      f.optional_number(key.name, value, range, word, *value);
+    else
+      f.optional_number(key.name, value, range, word);
+    o.set(key.name, value);
+  }
+}
+
+/// A law by its name, and its keys. Where there is only one law of a kind there is nothing to choose, and no name.
+template <class Registry, class Fields, class Number>
+void chosen_law(Fields& f, const char* name, LawOptions<Number>& o) {
+  if constexpr (Registry::kCount > 1) f.choice(name, o.law, Registry::kNames);
+  law_keys<Registry>(f, o);
+}
 
 template <class Fields>
 void knot(Fields& f, KnotKind& knot) {
@@ -69,9 +95,10 @@ void material(Fields& f, Material& o) {
   f.required_number("twisting_stiffness", o.twisting_stiffness, Range{1e-18, 1e6, "N m2"});
   f.required_number("friction_coefficient", o.friction_coefficient, Range{0.0, 5.0, "-"});
   f.optional_number("friction_couple", o.friction_couple, Range{0.0, 1.0, "-"}, "auto");
-  f.choice("stretching_law", o.stretching_law, kStretchingLawNames);
-  f.choice("bending_law", o.bending_law, kBendingLawNames);
-  f.number("hardening", o.hardening, Range{0.01, 1.0, "-"});
+  chosen_law<StretchingRegistry>(f, "stretching_law", o.stretching);
+  chosen_law<BendingRegistry>(f, "bending_law", o.bending);
+  chosen_law<TwistingRegistry>(f, "twisting_law", o.twisting);
+  chosen_law<PressureRegistry>(f, "pressure_law", o.pressure);
   f.number("bending_set", o.bending_set, Range{0.0, 1.0, "-"});
   f.optional_number("contact_stiffness", o.contact_stiffness, Range{1.0, 1e13, "N/m2"}, "auto");
   f.optional_number("tying_preload", o.tying_preload, Range{1e-9, 1e9, "N"}, "auto");
@@ -177,7 +204,7 @@ void ends(Fields& f, EndOptions& o) {
   f.optional_number("load", o.load, Range{1e-6, 1e8, "N"}, "auto");
   f.optional_number("time", o.time, Range{1e-3, 1e8, "s"}, "none");
   f.optional_number("arming_load", o.arming_load, Range{0.0, 1e8, "N"}, "auto");
-  f.optional_number("break_at_fraction_of_peak", o.breaks.fraction_of_peak, Range{0.0, 0.99, "-"}, "none");
+  f.optional_number("break_at_fraction_of_peak", o.breaks.fraction_of_peak, Range{0.0, 0.99, "of the peak"}, "none");
   f.optional_number("sharp_drop", o.breaks.sharp_drop, Range{0.01, 2.0, "of the peak"}, "none");
   f.number("sharp_drop_time", o.breaks.sharp_drop_time, Range{1e-3, 1e3, "s"});
   f.optional_number("drop", o.breaks.drop, Range{0.01, 2.0, "of the peak"}, "none");
@@ -190,19 +217,10 @@ void physics(Fields& f, PhysicsOptions& o) {
   f.section("friction", [&o](auto& friction) {
     friction.choice("law", o.friction.law, kFrictionLawNames);
     friction.choice("at", o.friction_at, std::array{"surface", "centreline"});
-    for (const FrictionKey& key : friction_keys()) {
-      std::optional<double> value = o.friction.value(key.name);
-      const Range range{key.min, key.max, key.unit};
-      const char* word = key.otherwise == FrictionDefault::kNone ? "" : "auto";
-      if (value)
-        friction.optional_number(key.name, value, range, word, *value);
-      else
-        friction.optional_number(key.name, value, range, word);
-      o.friction.set(key.name, value);
-    }
+    law_keys<FrictionRegistry>(friction, o.friction);
   });
   f.section("contact", [&o](auto& contact) {
-    contact.choice("law", o.contact_law, std::array{"smooth", "edge"});
+    contact.choice("law", o.contact_scheme, std::array{"smooth", "edge"});
     contact.optional_number("tolerance", o.contact_tolerance, Range{1e-3, 0.5, "of the radius"}, "auto");
   });
   f.choice("twist", o.twist, std::array{"auto", "on", "off"});
@@ -226,6 +244,8 @@ void report(Fields& f, ReportOptions& o) {
   f.short_text("customer", o.customer, 200);
   f.short_text("date", o.date, 80);
   f.short_text("standard", o.standard, 200);
+  f.short_text("conditioning", o.conditioning, 200);
+  f.short_text("terminations", o.terminations, 200);
   f.short_text("notes", o.notes, 4000);
   f.short_text("logo", o.logo, 4000);
   f.short_text("signature", o.signature, 80);

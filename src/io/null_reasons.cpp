@@ -107,6 +107,18 @@ std::string why_no_break(const ResultSource& source) {
   return source.results.break_extension ? "it did not break in a pull" : "the rod did not break";
 }
 
+std::string why_no_efficiency(const ResultSource& source) {
+  if (!source.facts.may_hold_a_knot) return "there is no knot";
+  if (!source.results.break_extension) return "the rod did not break";
+  return of_the_pull(source, "the material has no breaking force or strain");
+}
+
+std::string why_no_hole(const ResultSource& source) {
+  if (!source.facts.one_knot_in_a_strand) return "the specimen is no strand with one knot";
+  if (source.results.break_extension) return "the rod broke";
+  return source.results.knot_type == KnotType::kKept ? "no shape of the rod is known" : "the knot is another one";
+}
+
 std::string why_no_touch(const ResultSource& source) {
   return of_the_pull(source, "no roller bore on a knot or its tail while pulled");
 }

@@ -1,11 +1,13 @@
 #include "knot_utm/io/result_keys.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 
 #include "knot_utm/io/null_reasons.hpp"
 #include "knot_utm/io/run_warnings.hpp"
 #include "knot_utm/machine/load_cell.hpp"
+#include "knot_utm/machine/straight_strength.hpp"
 
 namespace knot_utm {
 namespace {
@@ -94,6 +96,23 @@ std::string why_no_force_ratio(const Source& of) {
                                  : "the force is not steady: the strand does not slide all along the post yet";
 }
 
+template <auto Part>
+Number elongation(const Source& of) {
+  return of.results.elongations ? Number((*of.results.elongations).*Part) : std::nullopt;
+}
+
+/// Of what as many straight rods would bear.
+Number knot_efficiency(const Source& of) {
+  const Number strength = straight_strength(of.facts.material);
+  if (!of.facts.may_hold_a_knot || !of.results.break_extension || !of.results.true_peak_force || !strength)
+    return std::nullopt;
+  return *of.results.true_peak_force / (of.facts.strands * *strength);
+}
+
+Number knotability(const Source& of) {
+  return of.facts.knot_hole ? Number(*of.facts.knot_hole / (2.0 * of.facts.material.radius)) : std::nullopt;
+}
+
 template <auto Force>
 Number held(const Source& of) {
   return of.results.relaxation ? Number((*of.results.relaxation).*Force) : std::nullopt;
@@ -131,9 +150,14 @@ constexpr const char* kHead = result_place::kHead;
 constexpr const char* kBeside = result_place::kBeside;
 constexpr const char* kCertificate = result_place::kCertificate;
 
+/// The tables of the report, in their order.
+constexpr const char* kTables[] = {kHappened, kCurve, kKnots, kEnergy, kComputation};
+constexpr const char* kOfGauge = "of the gauge length";
+
 constexpr const char* kNoReason = "";  // never null, or that goes without saying
 constexpr const char* kNoJump = "no knot jumped open";
 constexpr const char* kNoHold = "the crosshead was not held under a load";
+constexpr const char* kNoCycle = "no cycle was closed";
 constexpr const char* kNoKnots = "there are no two knots";
 constexpr const char* kNoLoop = "the specimen is no loop";
 
@@ -141,6 +165,7 @@ using R = Results;
 using C = CurveReadings;
 using F = RunFacts;
 using E = EnergyParts;
+using L = Elongations;
 
 constexpr ResultKey kKeys[] = {
     // How the test went.
@@ -227,6 +252,13 @@ constexpr ResultKey kKeys[] = {
     {"break_arclength", "m", kCurve, "Place of the break, measured along the rod", result<&R::break_arclength>,
      why_no_break},
     {"break_place", "-", kCurve, "What touched the rod at the place of the break", break_place, kNoReason},
+    {"knot_efficiency", "of the strength without a knot", kCurve,
+     "Knot efficiency, the strength with the knot over that of as many straight strands", knot_efficiency,
+     why_no_efficiency},
+    {"knot_inner_diameter", "m", kKnots, "Inner diameter of the knot at the end, that of the thickest straight pin",
+     fact<&F::knot_hole>, why_no_hole},
+    {"knotability", "-", kKnots, "Knotability, the inner diameter of the knot over the diameter of the rod",
+     knotability, why_no_hole},
     {"failure_mode", "-", kHappened, "Failure mode", failure_mode, "the specimen did not fail"},
     {"roller_touched_at", "m", kHappened, "Extension from which a roller bore on a knot or its tail",
      result<&R::roller_touched_at>, why_no_touch},
@@ -277,7 +309,18 @@ constexpr ResultKey kKeys[] = {
     {"hold_force_end", "N", kCurve, "Force at the end of the last hold", held<&Relaxation::to>, kNoHold},
     {"relaxation", "-", kCurve, "Relaxation, the share of the force that the last hold lost", relaxation, kNoHold},
     {"cycles", "-", kCurve, "Cycles that were completed", counted<&R::cycles>, kNoReason},
-    {"hysteresis", "J", kCurve, "Energy lost in one cycle (hysteresis)", result<&R::hysteresis>, "no cycle was closed"},
+    {"hysteresis", "J", kCurve, "Energy lost in one cycle (hysteresis)", result<&R::hysteresis>, kNoCycle},
+    {"gauge_length", "m", kCurve, "Gauge length, between the grips where the pull begins", result<&R::gauge_length>,
+     why_not_pulled},
+    {"elongation_total", kOfGauge, kCurve, "Total elongation, at the outermost place of the last cycle",
+     elongation<&L::total>, kNoCycle},
+    {"elongation_elastic", kOfGauge, kCurve, "Elastic elongation, which the last cycle gives back",
+     elongation<&L::elastic>, kNoCycle},
+    {"elongation_residual", kOfGauge, kCurve, "Residual elongation, at the end of the last cycle",
+     elongation<&L::residual>, kNoCycle},
+    {"elongation_working", kOfGauge, kCurve, "Working elongation in the last cycle, over the length where it ends",
+     elongation<&L::working>, kNoCycle},
+    {"elongation_at_break", kOfGauge, kCurve, "Elongation at break", result<&R::elongation_at_break>, why_no_break},
 
     // What the run cost.
     {"steps", "-", kComputation, "Time steps", counted<&R::steps>, kNoReason},
@@ -305,6 +348,12 @@ const char* ResultKey::kind() const {
   constexpr std::array kKinds{"number", "count", "flag", "word", "text", "numbers", "list"};
   static_assert(kKinds.size() == std::variant_size_v<ReadResult>);
   return kKinds[read.index()];
+}
+
+int ResultKey::table() const {
+  const auto found = std::find_if(std::begin(kTables), std::end(kTables),
+                                  [this](const char* title) { return std::string(title) == group; });
+  return found == std::end(kTables) ? 0 : static_cast<int>(found - std::begin(kTables)) + 1;
 }
 
 bool ResultKey::is_number() const {

@@ -49,9 +49,10 @@ std::vector<std::string> result_numbers() {
 }
 
 std::string result_keys_csv() {
-  std::string all = "key,unit,kind,group,meaning\n";
+  std::string all = "key,unit,kind,group,table,meaning\n";
   for (const ResultKey& key : result_keys())
-    all += std::string(key.name) + ',' + key.unit + ',' + key.kind() + ',' + key.group + ",\"" + key.meaning + "\"\n";
+    all += std::string(key.name) + ',' + key.unit + ',' + key.kind() + ',' + key.group + ',' +
+           std::to_string(key.table()) + ",\"" + key.meaning + "\"\n";
   return all;
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "knot_utm/contact/sampled_centreline.hpp"
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/speed_warnings.hpp"
@@ -12,6 +13,7 @@
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"
+#include "knot_utm/topology/knot_hole.hpp"
 
 namespace knot_utm {
 namespace {
@@ -27,6 +29,8 @@ std::string begin(const std::string& folder, const Method& method) {
 /// Of a loop around its rollers, by choice: half of the diameter of the default roller [h].
 constexpr double kLargestLoopTurn = 6.0;
 
+bool holds_its_knot(const Results& results) { return !results.break_extension && results.knot_type == KnotType::kKept; }
+
 }  // namespace
 
 RunWriter::RunWriter(const std::string& folder, const Method& method)
@@ -37,6 +41,10 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
   known_.material = method.material;
   for (const NodeForce& load : knot_of(method.specimen).supports(method.specimen, method.material).loads)
     known_.dead_load += load.force.norm();
+  const KnotDescription& knot = knot_of(method.specimen).about();
+  known_.strands = knot.loop ? 2 : 1;
+  known_.may_hold_a_knot = knot.may_hold_a_knot();
+  known_.one_knot_in_a_strand = knot.knots == 1 && !knot.loop;
   if (method.specimen.to_be_tied) known_.knot_distance = method.specimen.knot_distance;
   if (method.machine.roller_rotation == RollerRotation::kTurned)
     known_.warnings.push_back(
@@ -113,7 +121,10 @@ void RunWriter::finish(const Results& results, const RunFacts& facts, const Poin
     if (samples_.back().status == BenchStatus::kBroken) shapes_.add_parted(samples_.back().time, final_shape);
     write_whole((fs::path(folder_) / "shapes.csv").string(), shapes_.csv());
   }
-  write_whole((fs::path(folder_) / "result.yaml").string(), result_yaml(results, facts));
+  RunFacts with_shape = facts;
+  if (facts.one_knot_in_a_strand && holds_its_knot(results) && final_shape.cols() > 0)
+    with_shape.knot_hole = hole_diameter(sampled_centreline(final_shape), facts.material.radius);
+  write_whole((fs::path(folder_) / "result.yaml").string(), result_yaml(results, with_shape));
 }
 
 }  // namespace knot_utm

@@ -82,12 +82,14 @@ ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& ma
                              const PhysicsOptions& physics) {
   const ErrorStudy study = knot_of(specimen).about().error_study;
   ReadingErrors out;
-  if (!stretching_is_studied(material)) return out;
+  if (!StretchingRegistry::entry(material.stretching.law).studied) return out;
   if (study == ErrorStudy::kStraight) out.locked_stiffness = kStraightStiffness;
-  const bool studied = study == ErrorStudy::kFisherman && specimen.to_be_tied &&
-                       physics.contact_law == ContactLaw::kSmooth && entry_of(physics.friction.law).studied &&
-                       friction_couple(material, physics) == 0.0 && material.bending_set == 0.0 &&
-                       !bends_on_frames(material) && machine.roller_friction == 0.0;
+  const bool studied =
+      study == ErrorStudy::kFisherman && specimen.to_be_tied && physics.contact_scheme == ContactScheme::kSmooth &&
+      FrictionRegistry::entry(physics.friction.law).studied && friction_couple(material, physics) == 0.0 &&
+      material.bending_set == 0.0 && BendingRegistry::entry(material.bending.law).studied &&
+      TwistingRegistry::entry(material.twisting.law).studied &&
+      PressureRegistry::entry(material.pressure.law).studied && machine.roller_friction == 0.0;
   if (!studied) return out;
   const double h = material.radius, edge = specimen.edge_length / h;
   const bool solid = stretches(specimen, material), opposite = specimen.handedness == Handedness::kOpposite;

@@ -1,14 +1,12 @@
 #include "knot_utm/machine/step_settings.hpp"
 
 #include "knot_utm/machine/accuracy.hpp"
-#include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
 
 namespace {
 
-constexpr double kStiffeningDepth = 0.015;   // c of the normal law: at the kN of a locked knot a rod gives 5 % [h]
 constexpr double kFullResidual = 0.1;        // of the longest step, below which the residual shrinks with the step
 constexpr double kResidualOfTension = 2e-6;  // of the largest tension, so that kN loads do not ask for more than digits
 constexpr double kNewtonCap = 0.2;           // farthest that an iteration moves a node [h]
@@ -34,11 +32,10 @@ StepSettings step_settings(const SpecimenOptions& specimen, const Material& mate
   const Tolerances tolerance = tolerances(physics, specimen, material);
   const double h = material.radius;
   StepSettings out;
-  out.contact_law = physics.contact_law;
-  out.normal = NormalLaw{default_contact_stiffness(material), tolerance.contact_tolerance * h, kStiffeningDepth * h};
+  out.contact_scheme = physics.contact_scheme;
+  out.normal = PressureRegistry::of(material.pressure.law, material, PressureScales{tolerance.contact_tolerance * h});
   out.friction = Friction::of(physics.friction, {material.friction_coefficient, h, tolerance.presliding});
   out.roller_friction = Friction::of(physics.friction, {machine.roller_friction, h, tolerance.presliding});
-  out.bending = bending_law_of(material);
   out.friction_couple = friction_couple(material, physics);
   out.gravity = physics.gravity / inertia_factor(material, physics);  // the mass of the steps is not the rod's own
   // A slow test; and a rod that is free to turn is then the same with twist and without. But where friction rolls

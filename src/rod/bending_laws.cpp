@@ -2,9 +2,7 @@
 
 namespace knot_utm {
 
-BendingLaws bending_law_of(const Material& material) {
-  return LawRegistry<BendingLaws>::of(static_cast<std::size_t>(material.bending_law), material);
-}
+BendingLaws bending_law_of(const Material& material) { return BendingRegistry::of(material.bending.law, material); }
 
 bool bends_on_frames(const BendingLaws& law) { return !std::holds_alternative<ElasticBending>(law); }
 

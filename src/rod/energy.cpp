@@ -1,8 +1,5 @@
 #include "knot_utm/rod/energy.hpp"
 
-#include <string>
-
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/isotropic_bending.hpp"
 #include "knot_utm/rod/stretching.hpp"
@@ -12,27 +9,6 @@ namespace knot_utm {
 namespace {
 
 bool has_frame(const RodState& state) { return state.twist.size() > 0; }
-
-void expect_size(const char* key, Eigen::Index size, Eigen::Index expected) {
-  if (size != expected)
-    throw InvalidInput::sentence(
-        key, std::to_string(size),
-        std::string(key) + " has " + std::to_string(size) + " values, but must have " + std::to_string(expected));
-}
-
-void check(const RodProperties& rod, const RodState& state) {
-  expect_size("state.position", state.position.cols(), rod.nodes());
-  const Eigen::Index inner = rod.nodes() - 2;
-  if (state.curved_at_rest()) expect_size("state.natural_curvature", state.natural_curvature.cols(), inner);
-  if (rod.natural_twist.size() > 0) expect_size("rod.natural_twist", rod.natural_twist.size(), inner);
-  if (has_frame(state)) {
-    expect_size("state.twist", state.twist.size(), rod.edges());
-    expect_size("state.reference_director", state.reference_director.cols(), rod.edges());
-    expect_size("state.reference_twist", state.reference_twist.size(), inner);
-  } else if (state.curved_at_rest() || rod.natural_twist.size() > 0) {
-    throw InvalidInput("state.twist", "empty", "given for a rod with natural curvature or twist");
-  }
-}
 
 double stretching_energy(const RodProperties& rod, const Points& x) {
   double sum = 0.0;
@@ -65,21 +41,24 @@ InnerNode inner_node(const RodProperties& rod, const RodState& state, Eigen::Ind
   node.twisting.k_t = rod.material.twisting_stiffness;
   node.twisting.voronoi_length = rod.voronoi_length[i];
   if (rod.natural_twist.size() > 0) node.twisting.natural_twist = rod.natural_twist[i - 1];
+  node.twisting.law = rod.laws.twisting;
   return node;
 }
 
 ElasticEnergy elastic_energy(const RodProperties& rod, const RodState& state) {
-  check(rod, state);
   ElasticEnergy energy;
   energy.stretching = stretching_energy(rod, state.position);
-  const bool straight_at_rest = !state.curved_at_rest();
-  if (straight_at_rest) energy.bending = isotropic_bending_energy(rod, state.position);
+  if (!state.curved_at_rest()) energy.bending = isotropic_bending_energy(rod, state.position);
   if (!has_frame(state)) return energy;
-  for (Eigen::Index i = 1; i + 1 < rod.nodes(); ++i) {
-    const InnerNode node = inner_node(rod, state, i);
-    if (!straight_at_rest) energy.bending += bending_energy(node.bending, node.e, node.f, node.on_e, node.on_f);
+  const auto add_node = [&](const InnerNode& node, const auto& bending) {
     energy.twisting += twisting_energy(node.twisting, node.twist);
-  }
+    if (!state.curved_at_rest()) return;
+    const Eigen::Vector2d bend = material_curvature(node.e, node.f, node.on_e, node.on_f);
+    energy.bending +=
+        bending.respond({node.bending.k_b, node.bending.voronoi_length, bend, node.bending.natural_curvature}).energy;
+  };
+  for (Eigen::Index i = 1; i + 1 < rod.nodes(); ++i)
+    std::visit([&](const auto& law) { add_node(inner_node(rod, state, i), law); }, rod.laws.bending);
   return energy;
 }
 

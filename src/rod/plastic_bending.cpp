@@ -10,7 +10,7 @@ PlasticBending PlasticBending::of(const Material& material) {
         "material.yield_strain", "none",
         "material.yield_strain is missing: give the strain of the outermost fibre at which the "
         "rod yields, which bending_law: plastic needs");
-  return {*material.yield_strain / material.radius, material.hardening};
+  return {*material.yield_strain / material.radius, material.bending.number(kHardening)};
 }
 
 }  // namespace knot_utm

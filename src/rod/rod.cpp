@@ -3,12 +3,25 @@
 #include <cmath>
 #include <string>
 
+#include "knot_utm/numeric/invalid_input.hpp"
+
 namespace knot_utm {
+
+namespace {
+
+void require_size(const char* key, Eigen::Index size, Eigen::Index expected) {
+  if (size != expected)
+    throw InvalidInput::sentence(
+        key, std::to_string(size),
+        std::string(key) + " has " + std::to_string(size) + " values, but must have " + std::to_string(expected));
+}
+
+}  // namespace
 
 RodProperties make_rod(const Material& material, const Eigen::VectorXd& rest_length) {
   RodProperties rod;
   rod.material = material;
-  rod.stretching = stretching_law_of(material);
+  rod.laws = RodLaws::of(material);
   rod.rest_length = rest_length;
   const Eigen::Index edges = rest_length.size();
   rod.voronoi_length = Eigen::VectorXd::Zero(edges + 1);
@@ -31,12 +44,11 @@ Eigen::VectorXd RodProperties::arclength() const {
 }
 
 void Material::state(Archive& archive) {
-  archive(name, radius, density, stretching_stiffness, bending_stiffness, twisting_stiffness, friction_coefficient,
-          contact_stiffness, tying_preload, breaking_force, load_cell, notes);
+  archive(radius, density, stretching_stiffness, bending_stiffness, twisting_stiffness);
 }
 
 void RodProperties::state(Archive& archive) {
-  archive.section("PRO2");  // "PROP" had no stretching law
+  archive.section("PRO3");  // "PROP" had no stretching law, "PRO2" no other laws, but all of the material
   archive(material);
   for (Eigen::VectorXd* each : {&rest_length, &voronoi_length, &mass, &natural_twist}) archive.list(*each);
   const Eigen::Index inner = nodes() - 2, twisted = natural_twist.size();
@@ -46,7 +58,24 @@ void RodProperties::state(Archive& archive) {
   const bool solid = positive(rest_length) && positive(voronoi_length) && positive(mass) && std::isfinite(length()) &&
                      material.radius > 0.0 && std::isfinite(material.radius);
   archive.require(solid, "rod", "one without a length, a radius or a mass");
-  LawRegistry<StretchingLaws>::archive(archive, "stretching law", stretching);
+  archive(laws);
+}
+
+void require_fits(const RodProperties& rod, const RodState& state) {
+  require_size("state.position", state.position.cols(), rod.nodes());
+  const Eigen::Index inner = rod.nodes() - 2;
+  if (state.curved_at_rest())
+    require_size("state.natural_curvature", state.natural_curvature.cols(), inner);
+  else if (bends_on_frames(rod.laws.bending))
+    throw InvalidInput("rod", "one without a memory of bends", "made with natural curvatures, be they zero");
+  if (rod.natural_twist.size() > 0) require_size("rod.natural_twist", rod.natural_twist.size(), inner);
+  if (state.twist.size() > 0) {
+    require_size("state.twist", state.twist.size(), rod.edges());
+    require_size("state.reference_director", state.reference_director.cols(), rod.edges());
+    require_size("state.reference_twist", state.reference_twist.size(), inner);
+  } else if (state.curved_at_rest() || rod.natural_twist.size() > 0) {
+    throw InvalidInput("state.twist", "empty", "given for a rod with natural curvature or twist");
+  }
 }
 
 void RodState::state(Archive& archive) {

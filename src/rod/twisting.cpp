@@ -47,7 +47,8 @@ StencilMatrix second_derivatives(const Corner& at) {
 }
 
 TwistingResponse<double> respond(const TwistingInput& input, double twist) {
-  return TwistingLaw().respond(TwistedNode<double>{input.k_t / input.voronoi_length, twist - input.natural_twist});
+  const TwistedNode<double> node{input.k_t / input.voronoi_length, twist - input.natural_twist};
+  return std::visit([&](const auto& law) { return law.respond(node); }, input.law);
 }
 
 }  // namespace

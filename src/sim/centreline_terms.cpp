@@ -43,7 +43,7 @@ void CentrelineTerms::begin(const Points& start, bool predicts) {
   if (!predicts) return;
   for (std::size_t j = 0; j < predicted_tension_.size(); ++j) {
     StretchedEdge edge = stretched_edge(rod_, start, static_cast<Eigen::Index>(j));
-    edge.stiffness = stretching_stiffness_[j];
+    edge.k_s = stretching_stiffness_[j];
     predicted_tension_[j] = respond(rod_, edge).tension;
   }
 }
@@ -56,7 +56,7 @@ void CentrelineTerms::predict_tensions(const std::vector<Lanes>& change, double 
 }
 
 void CentrelineTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
-  std::visit([&](const auto& law) { add_stretching_forces(law, position, force); }, rod_.stretching);
+  std::visit([&](const auto& law) { add_stretching_forces(law, position, force); }, rod_.laws.stretching);
   if (bends_) add_bending_forces(force);
 }
 

@@ -31,13 +31,12 @@ void Boundary::state(Archive& archive, int nodes) {
 }
 
 void StepSettings::state(Archive& archive) {
-  archive.section("SET4");  // "SETT" had friction on centrelines only, "SET2" no bending law, "SET3" one pressure law
-  archive.choice("contact law", contact_law, ContactLaw::kEdge);
-  LawRegistry<PressureLaws>::archive(archive, "pressure law", normal);
+  archive.section("SET5");  // "SETT" had friction on centrelines only, "SET3" one pressure law, "SET4" a bending law
+  archive.choice("contact scheme", contact_scheme, ContactScheme::kEdge);
+  PressureRegistry::archive(archive, "pressure law", normal);
   archive(friction, roller_friction, friction_couple, weighting_time, gravity, drag, spin_inertia, residual,
           residual_from_step, residual_of_tension, residual_at_little_tension, newton_cap, motion_limit, overlap_limit,
           candidate_margin);
-  LawRegistry<BendingLaws>::archive(archive, "bending law", bending);
   archive.number("iterations", max_iterations, 1, kMostIterations);
   const double reach = -2.0 * begin_of(normal);
   const bool finite =

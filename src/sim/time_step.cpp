@@ -153,10 +153,8 @@ void TimeStep::state(Archive& archive) { archive(state_); }
 
 std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodState& state,
                                          const StepSettings& settings) {
-  elastic_energy(rod, state);  // throws where rod and state do not fit together
-  if (bends_on_frames(settings.bending) && !state.curved_at_rest())
-    throw InvalidInput("rod", "one without a memory of bends", "made with natural curvatures, be they zero");
-  const bool edges = settings.contact_law == ContactLaw::kEdge;
+  require_fits(rod, state);
+  const bool edges = settings.contact_scheme == ContactScheme::kEdge;
   if (state.twist.size() == 0) {
     if (edges) return std::make_unique<ImplicitStep<3, EdgeContact>>(rod, state, settings);
     return std::make_unique<ImplicitStep<3, SmoothContact>>(rod, state, settings);

@@ -78,6 +78,7 @@ void check_tail_load(const SpecimenOptions& specimen, const Material& material) 
 KnotDescription description() {
   KnotDescription out;
   out.name = "capstan";
+  out.title = "Strand around a post (capstan)";
   out.keys = {"wrap", "post_diameter", "tail_load", "tail", "end_to_end"};
   return out;
 }

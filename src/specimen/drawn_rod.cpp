@@ -16,7 +16,8 @@ constexpr double kWay = 0.04;  // of a pull, for the paper's radius [m]
 KnotDescription description() {
   KnotDescription out;
   out.name = "file";
-  out.keys = {"file"};
+  out.title = "Rod of a shape from a file";
+  out.keys = {"file", "closed"};
   out.any_shape = true;
   return out;
 }
@@ -41,7 +42,7 @@ void DrawnRod::check(const SpecimenOptions& specimen, double) const {
 }
 
 Centreline DrawnRod::centreline(const SpecimenOptions& specimen, const Material& material, const Mounting&) const {
-  if (specimen.closed) throw InvalidInput("specimen.closed", "true", "false, since the grips hold the rod's two ends");
+  check_ends(specimen);
   const Points points = read_centreline(specimen.file);
   Centreline out = from_points(points, false, material.radius, specimen.edge_length, specimen.file);
   if (!(out.points.rightCols(1)(2) > out.points.leftCols(1)(2))) {

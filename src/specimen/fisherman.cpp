@@ -319,7 +319,8 @@ FishermanKnot::FishermanKnot() : FishermanKnot(description()) {}
 KnotDescription FishermanKnot::description() {
   KnotDescription out;
   out.name = "fisherman";
-  out.keys = {"handedness", "knot_distance", "end_to_end", "refinement", "tail", "preload"};
+  out.title = "Fisherman's knot";
+  out.keys = {"handedness", "knot_distance", "end_to_end", "tail", "preload", "refinement"};
   out.knots = 2;
   out.loop = true;
   out.drawn_coil = FishermanShape().looseness;

@@ -59,11 +59,16 @@ std::string loops() {
   return listed_knots([](const Knot& knot) { return knot.about().loop; });
 }
 
+void check_ends(const SpecimenOptions& specimen) {
+  if (specimen.closed) throw InvalidInput("specimen.closed", "true", "false, since the grips hold the rod's two ends");
+}
+
 double tying_load(const SpecimenOptions& specimen, const Material& material) {
   return specimen.preload.value_or(default_preload(material));
 }
 
 bool Knot::has(const std::string& key) const {
+  if (key == "knot" || key == "edge_length") return true;
   return std::find(about_.keys.begin(), about_.keys.end(), key) != about_.keys.end();
 }
 

@@ -11,7 +11,8 @@ MultipleFishermanKnot::MultipleFishermanKnot() : FishermanKnot(description()) {}
 KnotDescription MultipleFishermanKnot::description() {
   KnotDescription out = FishermanKnot::description();
   out.name = "multiple_fisherman";
-  out.keys.emplace_back("turns");
+  out.title = "Multiple fisherman's knot";
+  out.keys.insert(out.keys.begin(), "turns");
   out.error_study = ErrorStudy::kNone;
   return out;
 }

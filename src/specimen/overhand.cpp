@@ -139,7 +139,8 @@ double fitting_loop(const OverhandShape& shape, double spacing) {
 KnotDescription description() {
   KnotDescription out;
   out.name = "overhand";
-  out.keys = {"turns", "end_to_end", "length", "refinement"};
+  out.title = "Overhand knot";
+  out.keys = {"turns", "length", "end_to_end", "refinement"};
   out.knots = 1;
   return out;
 }

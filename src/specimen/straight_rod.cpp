@@ -15,6 +15,7 @@ constexpr double kLength = 0.25;  // of the shipped method, for the paper's radi
 KnotDescription description() {
   KnotDescription out;
   out.name = "straight";
+  out.title = "Straight rod";
   out.keys = {"length"};
   out.straight = true;
   out.error_study = ErrorStudy::kStraight;

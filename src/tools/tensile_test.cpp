@@ -13,6 +13,7 @@
 #include "knot_utm/io/key_units.hpp"
 #include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/io/method_keys.hpp"
 #include "knot_utm/io/report.hpp"
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/shipped.hpp"
@@ -271,6 +272,20 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
         throw CLI::Success();
       },
       "say which keys result.yaml has, with unit, kind and meaning, and do no more");
+  app.add_flag_callback(
+      "--list-method-keys",
+      [] {
+        std::fputs(method_keys_csv().c_str(), stdout);
+        throw CLI::Success();
+      },
+      "say which keys methods may have, with label and unit, and do no more");
+  app.add_flag_callback(
+      "--list-knots",
+      [] {
+        std::fputs(knots_csv().c_str(), stdout);
+        throw CLI::Success();
+      },
+      "say which knots there are, and their keys, and do no more");
   const std::optional<int> code = parse(app, kTool, argc, argv, [&] {
     if (method->empty() && resume->empty()) throw CLI::RequiredError("METHOD");
   });

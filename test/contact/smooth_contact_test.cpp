@@ -127,6 +127,21 @@ TEST(SmoothContact, StrandsApartFeelNothing) {
   EXPECT_EQ(scene.forces(contact, scene.start, 0.01).norm(), 0.0);
 }
 
+/// K is the material's own, or 300 k_b/h^4; the contact tolerance is asked for.
+TEST(NormalLaw, IsMadeOfAMaterial) {
+  Material material;
+  material.radius = 0.01;
+  material.bending_stiffness = 2e-6;
+  const auto made = [&] {
+    return std::get<NormalLaw>(PressureRegistry::of(material.pressure.law, material, PressureScales{3e-5}));
+  };
+  EXPECT_NEAR(made().stiffness, 6e4, 1e-9 * 6e4);
+  EXPECT_EQ(made().tolerance, 3e-5);
+  EXPECT_GT(made().stiffens_at(), made().tolerance);
+  material.contact_stiffness = 7e5;
+  EXPECT_EQ(made().stiffness, 7e5);
+}
+
 TEST(NormalLaw, SlopeAndEnergyAreThePressuresDerivativeAndIntegral) {
   const NormalLaw law{3e6, 1e-4, 2e-4};
   for (const double overlap : {-6e-5, -4e-5, 1e-5, 4e-5, 6e-5, 1.3e-4, 4e-4}) {

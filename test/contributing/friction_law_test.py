@@ -59,15 +59,28 @@ def recipe():
     return re.findall(r"^\d\. [^\n]*`(\S+)`:\n\n```(\w+)\n(.*?)^```", section, re.M | re.S)
 
 
+def in_full(text, line):
+    """What a line with … stands for in the text, over as many lines as that takes, and what … stands for."""
+    pattern = r"\s+".join(re.escape(word).replace("…", "([^;]*)") for word in line.split())
+    found = re.findall(f"^({pattern}\n)", text, re.M)
+    if len(found) != 1:
+        raise AssertionError(f"{line!r} stands there {len(found)} times")
+    return found[0]
+
+
 def changed(text, diff):
-    """The text with the lines of a diff, whose lines that stay or go must be there once."""
-    before = None
+    """The text with the lines of a diff, whose lines that stay or go must be there once. In a line that goes, … stands for
+    what the recipe leaves out; in the line that takes its place, for the same."""
+    before, left_out = None, ""
     for line in diff.splitlines():
         kind, content = line[0], line[1:] + "\n"
         if kind == "+":
+            content = content.replace("…", left_out)
             text = text.replace(before, before + content) if before else text
             before = content
         else:
+            if "…" in content:
+                content, left_out = in_full(text, content)
             if text.count(content) != 1:
                 raise AssertionError(f"{content!r} stands there {text.count(content)} times")
             if kind == "-":

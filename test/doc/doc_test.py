@@ -88,6 +88,17 @@ class Method(unittest.TestCase):
         for key in keys:
             self.assertIn(key, words)
 
+    def test_names_and_keys_of_laws_and_knots_are_explained_and_fuzzed(self):
+        words = re.findall(r'^"([^"]+)"$', text("test/fuzz/method.dict"), re.MULTILINE)
+        found = [name for file in [*files("include/knot_utm/contact", "_friction.hpp"), *files("include/knot_utm/rod", ".hpp")]
+                 for name in re.findall(r'kName = "(\w+)"|FrictionKey\{"(\w+)"', text(file))]
+        names = [law or key for law, key in found]
+        names += [name for file in files("src/specimen", ".cpp") for name in re.findall(r'out\.name = "(\w+)"', text(file))]
+        self.assertGreater(len(names), 20)
+        for name in names:
+            self.assertTrue(re.search(rf"`(\w+\.)*{name}`", self.page), name)
+            self.assertIn(name, words)
+
     def test_ranges_are_those_of_the_code(self):
         allowed = {}  # a name may stand in two sections, with a range in each
         for key, low, high in re.findall(r'number\("(\w+)", [\w.]+, Range\{([^,]+), ([^,]+),',

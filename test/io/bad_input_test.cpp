@@ -4,11 +4,15 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "io/command.hpp"
+#include "knot_utm/io/key_units.hpp"
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 namespace {
@@ -26,8 +30,11 @@ struct Wrong {
   const char* set;
   const char* key;
   const char* value;
-  const char* allowed;
+  std::string allowed;
 };
+
+/// What a message allows where a key has an effect on some knots only.
+std::string of_knots(const char* key) { return "only for knot: " + knots_with(key); }
 
 const std::vector<Wrong>& wrong_overrides() {
   static const std::vector<Wrong> kTable{
@@ -63,7 +70,7 @@ const std::vector<Wrong>& wrong_overrides() {
       {"material=", "material is missing", "", "green_vps, nylon"},
       {"material=[nylon]", "material", "[nylon]", "green_vps, nylon"},
       // Values, among them those of a wrong unit
-      {"specimen.knot=granny", "specimen.knot", "granny", "fisherman, overhand, straight, file or capstan"},
+      {"specimen.knot=granny", "specimen.knot", "granny", "fisherman, multiple_fisherman, overhand"},
       {"specimen.turns=5", "specimen.turns", "5", "1 to 4"},
       {"specimen.end_to_end=250", "specimen.end_to_end", "250", "m"},
       {"specimen.end_to_end=250 mm", "specimen.end_to_end", "250 mm", "m"},
@@ -129,9 +136,9 @@ const std::vector<Wrong>& wrong_overrides() {
       {"program=[{pull: {}}]", "program.0.pull.until is missing", "", "extension, load, time and break"},
       {"program=[{pull: {until: {break: false}}}]", "program.0.pull.until is missing", "", "one or more of"},
       {"specimen.closed=true", "specimen.closed", "true", "false, since the grips hold"},
-      {"specimen.turns=2", "specimen.turns", "2", "only for knot: multiple_fisherman or overhand"},
-      {"specimen.length=0.5", "specimen.length", "0.5", "only for knot: overhand or straight"},
-      {"specimen.file=shape.csv", "specimen.file", "shape.csv", "only for knot: file"},
+      {"specimen.turns=2", "specimen.turns", "2", of_knots("turns")},
+      {"specimen.length=0.5", "specimen.length", "0.5", of_knots("length")},
+      {"specimen.file=shape.csv", "specimen.file", "shape.csv", of_knots("file")},
       {"machine={grips: clamps, roller_friction: 0.2}", "machine.roller_friction", "0.2", "only with grips: rollers"},
       {"material.bending_set=1.5", "material.bending_set", "1.5", "0 to 1"},
       {"machine={roller_rotation: free}", "machine.roller_rotation", "free", "only with a roller_friction above 0"},
@@ -146,6 +153,8 @@ const std::vector<Wrong>& wrong_overrides() {
        "only with law: stribeck"},
       {"physics.friction={law: stribeck, slip_length: 0.1}", "physics.friction.kinetic_share", "",
        "is missing: give a number from 0 to 1 (of friction_coefficient), which law: stribeck needs"},
+      {"material.hardening=0.5", "material.hardening", "0.5", "only with bending_law: plastic"},
+      {"material.twisting_law=linear", "material.twisting_law is no key", "", "the keys of material are"},
       {"physics.friction.at=skin", "physics.friction.at", "skin", "surface or centreline"},
       {"material.friction_couple=1.5", "material.friction_couple", "1.5", "must be 0 to 1"},
       {"physics.friction={law: smoothed, presliding: 0.01}", "physics.friction.presliding", "0.01",
@@ -302,16 +311,14 @@ TEST(BadInput, ForeignTextLeavesTheLineWhole) {
 TEST(BadInput, WhatHasNoEffectOnAStraightRod) {
   const std::string straight = std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml";
   const std::vector<Wrong> table{
-      {"specimen.handedness=opposite", "specimen.handedness", "opposite",
-       "only for knot: fisherman or multiple_fisherman"},
-      {"specimen.knot_distance=0.1", "specimen.knot_distance", "0.1", "only for knot: fisherman or multiple_fisherman"},
-      {"specimen.end_to_end=0.2", "specimen.end_to_end", "0.2",
-       "only for knot: fisherman, multiple_fisherman, overhand or capstan"},
-      {"specimen.tail=0.05", "specimen.tail", "0.05", "only for knot: fisherman, multiple_fisherman or capstan"},
-      {"specimen.wrap=2", "specimen.wrap", "2", "only for knot: capstan"},
-      {"specimen.post_diameter=0.02", "specimen.post_diameter", "0.02", "only for knot: capstan"},
-      {"specimen.tail_load=2", "specimen.tail_load", "2", "only for knot: capstan"},
-      {"specimen.preload=20", "specimen.preload", "20", "only for knot: fisherman or multiple_fisherman"},
+      {"specimen.handedness=opposite", "specimen.handedness", "opposite", of_knots("handedness")},
+      {"specimen.knot_distance=0.1", "specimen.knot_distance", "0.1", of_knots("knot_distance")},
+      {"specimen.end_to_end=0.2", "specimen.end_to_end", "0.2", of_knots("end_to_end")},
+      {"specimen.tail=0.05", "specimen.tail", "0.05", of_knots("tail")},
+      {"specimen.wrap=2", "specimen.wrap", "2", of_knots("wrap")},
+      {"specimen.post_diameter=0.02", "specimen.post_diameter", "0.02", of_knots("post_diameter")},
+      {"specimen.tail_load=2", "specimen.tail_load", "2", of_knots("tail_load")},
+      {"specimen.preload=20", "specimen.preload", "20", of_knots("preload")},
       {"machine.roller_diameter=0.05", "machine.roller_diameter", "0.05",
        "only for knot: fisherman or multiple_fisherman"},
       {"machine.roller_friction=0.1", "machine.roller_friction", "0.1", "only with grips: rollers"},
@@ -323,6 +330,33 @@ TEST(BadInput, WhatHasNoEffectOnAStraightRod) {
                 AllOf(HasSubstr(wrong.key), HasSubstr(wrong.value), HasSubstr(wrong.allowed)))
         << wrong.set;
   }
+}
+
+/// A value of a key of `specimen` that is not its plain one, in the range of each number.
+std::string other_value(const Method& method, const std::string& key) {
+  if (!unit_of_key(method, "specimen." + key).empty()) return "2";
+  const std::map<std::string, std::string> words{{"handedness", "opposite"}, {"file", "shape.csv"}, {"closed", "true"}};
+  return words.at(key);
+}
+
+TEST(BadInput, EveryKeyOfAKnotIsRefusedOfTheOthers) {
+  std::set<std::string> seen;
+  for (const fs::directory_entry& entry : fs::directory_iterator(std::string(KNOT_UTM_SOURCE_DIR) + "/config")) {
+    if (entry.path().extension() != ".yaml") continue;
+    const std::string file = entry.path().string();
+    const Method method = load_method(file);
+    const Knot& knot = knot_of(method.specimen);
+    seen.insert(knot.about().name);
+    for (const Knot* other : knots())
+      for (const std::string& key : other->about().keys) {
+        if (knot.has(key)) continue;
+        const std::string line = complaint(file, {"specimen." + key + "=" + other_value(method, key)});
+        // The ends of no rod can be joined.
+        EXPECT_THAT(line, AllOf(HasSubstr(": specimen." + key + " is "),
+                                HasSubstr(key == "closed" ? "must be false" : "only for knot: " + knots_with(key))));
+      }
+  }
+  EXPECT_EQ(seen.size(), knots().size());
 }
 
 /// A pull that would take the rod off its post. The shipped method's own is allowed.

@@ -9,13 +9,17 @@
 #include <limits>
 
 #include "knot_utm/contact/friction.hpp"
+#include "knot_utm/io/shipped.hpp"
+#include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AnyOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
 const std::string kTighten = kConfig + "tighten.yaml";
@@ -46,8 +50,8 @@ TEST(Method, TightenIsThePapersTest) {
   EXPECT_EQ(m.program[4].until.extension, 0.12);
   EXPECT_TRUE(m.program[4].until.broken);
   EXPECT_FALSE(m.program[4].until.load);
-  EXPECT_STREQ(entry_of(m.physics.friction.law).name, "memory");
-  EXPECT_EQ(m.physics.contact_law, ContactLaw::kSmooth);
+  EXPECT_STREQ(FrictionRegistry::entry(m.physics.friction.law).name, "memory");
+  EXPECT_EQ(m.physics.contact_scheme, ContactScheme::kSmooth);
   EXPECT_EQ(m.physics.twist, TwistMode::kAuto);
   EXPECT_EQ(m.physics.accuracy, Accuracy::kNormal);
 }
@@ -90,6 +94,20 @@ TEST(Method, EveryShippedFileLoads) {
   }
 }
 
+TEST(Method, EveryStandardLoadsAndSaysWhatItIsAndWhatIsNotSimulated) {
+  int standards = 0;
+  for (const auto& file : fs::directory_iterator(kConfig + "standards")) {
+    const std::string name = "standards/" + file.path().stem().string();
+    const Method method = load_method(find_method(name));
+    EXPECT_NE(method.report.standard, "") << name;
+    EXPECT_NE(method.report.conditioning, "") << name;
+    EXPECT_NE(method.report.terminations, "") << name;
+    EXPECT_THAT(method.report.notes, HasSubstr("Not simulated: ")) << name;
+    ++standards;
+  }
+  EXPECT_GE(standards, 5);
+}
+
 TEST(Method, WritesBackToTheSame) {
   const std::string copy = ::testing::TempDir() + "knot_utm_round_trip.yaml";
   for (const std::string name : {"tighten", "overhand", "straight", "capstan", "from_file"}) {
@@ -108,6 +126,19 @@ TEST(Method, WritesBackToTheSame) {
   std::ofstream(copy) << odd;
   EXPECT_EQ(method_yaml(load_method(copy)), odd);
   fs::remove(copy);
+}
+
+/// What older methods wrote of another law, its plain value, is read and goes.
+TEST(Method, HasTheKeysOfItsLawsAndOfNoOthers) {
+  const std::string elastic = method_yaml(load_method(kTighten));
+  EXPECT_EQ(method_yaml(load_method(kTighten, {"material.hardening=0.1", "physics.friction.slip_tolerance=1e-3"})),
+            elastic);
+  EXPECT_THAT(elastic, Not(AnyOf(HasSubstr("hardening"), HasSubstr("slip_tolerance"))));
+  const std::vector<std::string> plastic = {"material.bending_law=plastic", "material.yield_strain=0.05"};
+  const Method yields = load_method(kTighten, plastic);
+  EXPECT_EQ(yields.material.bending.value("hardening"), 0.1);
+  EXPECT_THAT(method_yaml(yields), HasSubstr("hardening: 0.1"));
+  EXPECT_EQ(std::get<PlasticBending>(bending_law_of(yields.material)).hardening, 0.1);
 }
 
 TEST(Method, WhatAReportSaysAndWhatIsAskedOfATestWriteBackToTheSame) {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
+#include <map>
 #include <set>
 
 #include "knot_utm/io/result_yaml.hpp"
@@ -33,6 +34,15 @@ TEST(ResultKeys, AreThoseOfTheReport) {
   EXPECT_EQ(read_whole(std::string(KNOT_UTM_SOURCE_DIR) + "/report/result_keys.csv"), result_keys_csv());
 }
 
+TEST(ResultKeys, StandInATableOfTheReportOrInAnotherPlace) {
+  const std::set<std::string> places{result_place::kHead, result_place::kBeside, result_place::kCertificate};
+  std::map<std::string, int> tables;
+  for (const ResultKey& key : result_keys()) {
+    EXPECT_EQ(key.table() == 0, places.count(key.group) == 1) << key.name;
+    EXPECT_EQ(tables.emplace(key.group, key.table()).first->second, key.table()) << key.name;
+  }
+}
+
 TEST(ResultKeys, SayByHowMuchAKnotOpenedAsItWasMounted) {
   Results results;
   EXPECT_THAT(result_yaml(results, RunFacts()),
@@ -57,6 +67,42 @@ TEST(ResultKeys, SayTheForceOverTheDeadLoadAtTheOtherEnd) {
   EXPECT_THAT(result_yaml(results, facts), testing::HasSubstr("force_ratio: null  # the rod broke"));
   results.true_peak_force.reset();
   EXPECT_THAT(result_yaml(results, facts), testing::HasSubstr("force_ratio: null  # "));
+}
+
+/// Of a loop two strands bear the load.
+TEST(ResultKeys, SayHowMuchOfItsStrengthAKnotLeaves) {
+  Results results;
+  RunFacts facts;
+  const auto said = [&](const std::string& value) { return testing::HasSubstr("knot_efficiency: " + value); };
+  EXPECT_THAT(result_yaml(results, facts), said("null  # there is no knot"));
+  facts.may_hold_a_knot = true;
+  results.true_peak_force = 60.0;
+  facts.material.breaking_force = 100.0;
+  EXPECT_THAT(result_yaml(results, facts), said("null  # the rod did not break"));
+  results.break_extension = 0.1;
+  EXPECT_THAT(result_yaml(results, facts), said("0.6\n"));
+  facts.strands = 2;
+  EXPECT_THAT(result_yaml(results, facts), said("0.3\n"));
+  facts.material.breaking_force.reset();
+  EXPECT_THAT(result_yaml(results, facts), said("null  # the material has no breaking force"));
+}
+
+TEST(ResultKeys, SayHowWideAHoleAKnotKeeps) {
+  Results results;
+  RunFacts facts;
+  const auto said = [&](const std::string& value) { return testing::HasSubstr("knotability: " + value); };
+  EXPECT_THAT(result_yaml(results, facts), said("null  # the specimen is no strand with one knot"));
+  facts.one_knot_in_a_strand = true;
+  facts.material.radius = 0.25;
+  facts.knot_hole = 0.75;
+  EXPECT_THAT(result_yaml(results, facts), said("1.5\n"));
+  EXPECT_THAT(result_yaml(results, facts), testing::HasSubstr("knot_inner_diameter: 0.75\n"));
+  facts.knot_hole.reset();
+  EXPECT_THAT(result_yaml(results, facts), said("null  # no shape"));
+  results.knot_type = KnotType::kChanged;
+  EXPECT_THAT(result_yaml(results, facts), said("null  # the knot is another one"));
+  results.break_extension = 0.1;
+  EXPECT_THAT(result_yaml(results, facts), said("null  # the rod broke"));
 }
 
 }  // namespace

@@ -10,10 +10,13 @@
 #include <random>
 #include <sstream>
 
+#include "knot_utm/contact/sampled_centreline.hpp"
 #include "knot_utm/io/gravity_warnings.hpp"
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/run_warnings.hpp"
 #include "knot_utm/machine/run_test.hpp"
+#include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/topology/knot_hole.hpp"
 #include "machine/fake_bench.hpp"
 
 namespace knot_utm {
@@ -56,6 +59,24 @@ class RunFolder : public ::testing::Test {
   fs::path folder_ = fs::path(::testing::TempDir()) /
                      (std::string("knot_utm_run_") + ::testing::UnitTest::GetInstance()->current_test_info()->name());
 };
+
+/// Of the last shape, with the centreline by which its strands touch.
+TEST_F(RunFolder, HoldsTheInnerDiameterOfAKnotThatIsWhole) {
+  const Method method = load_method(kConfig + "overhand.yaml");
+  const Points shape = knot_of(method.specimen).centreline(method.specimen, method.material, {}).points;
+  RunWriter writer(folder_.string(), method);
+  Results results;
+  const auto written = [&](const char* key) {
+    writer.finish(results, writer.facts(), shape);
+    return YAML::LoadFile((folder_ / "result.yaml").string())[key];
+  };
+  const double hole = hole_diameter(sampled_centreline(shape), method.material.radius);
+  EXPECT_GT(hole, 4.0 * method.material.radius);  // it is drawn loose
+  EXPECT_EQ(written("knot_inner_diameter").as<double>(), hole);
+  EXPECT_DOUBLE_EQ(written("knotability").as<double>(), hole / (2.0 * method.material.radius));
+  results.break_extension = 0.1;
+  EXPECT_TRUE(written("knotability").IsNull());
+}
 
 TEST_F(RunFolder, HoldsEveryPromisedFileAndKey) {
   run(load_method(kConfig + "tighten.yaml"));

@@ -150,7 +150,7 @@ TEST(Tolerances, EdgesAreShorterInRopesThatAreTiedHard) {
 
 TEST(ReadingErrors, AreNotGivenWhereNoStudySays) {
   Loop edge, smoothed, untied, overhand, rolling, set, rough, rubber, straight;
-  edge.physics.contact_law = ContactLaw::kEdge;
+  edge.physics.contact_scheme = ContactScheme::kEdge;
   smoothed.physics.friction.law = law_named("smoothed");
   untied.specimen.to_be_tied = false;
   overhand.specimen.knot = knot_named("overhand");
@@ -159,7 +159,7 @@ TEST(ReadingErrors, AreNotGivenWhereNoStudySays) {
   rough.machine.roller_friction = 0.2;
   straight.specimen.knot = knot_named("straight");
   EXPECT_TRUE(straight.errors().locked_stiffness);
-  rubber.material.stretching_law = straight.material.stretching_law = static_cast<StretchingLaw>(1);
+  rubber.material.stretching.law = straight.material.stretching.law = static_cast<StretchingLaw>(1);
   for (const Loop& loop : {edge, smoothed, untied, overhand, rolling, set, rough, rubber, straight}) {
     EXPECT_FALSE(loop.errors().plateau_force);
     EXPECT_FALSE(loop.errors().lock_extension);

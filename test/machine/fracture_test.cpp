@@ -115,13 +115,13 @@ TEST(Fracture, ABenchWhoseRodPartedAnswersEveryCommandWithTheSame) {
   EXPECT_EQ(answer.message, last.message);
 }
 
-class FractureOfAnOverhand : public testing::TestWithParam<std::tuple<ContactLaw, TwistMode>> {};
+class FractureOfAnOverhand : public testing::TestWithParam<std::tuple<ContactScheme, TwistMode>> {};
 
 TEST_P(FractureOfAnOverhand, EndsTheTestAndChangesNothingBefore) {
   const auto [contact, twist] = GetParam();
   PhysicsOptions physics;
   physics.accuracy = Accuracy::kDraft;
-  physics.contact_law = contact;
+  physics.contact_scheme = contact;
   physics.twist = twist;
   ProgramStep settle;
   settle.phase = Phase::kHold;
@@ -145,10 +145,10 @@ TEST_P(FractureOfAnOverhand, EndsTheTestAndChangesNothingBefore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, FractureOfAnOverhand,
-                         testing::Combine(testing::Values(ContactLaw::kSmooth, ContactLaw::kEdge),
+                         testing::Combine(testing::Values(ContactScheme::kSmooth, ContactScheme::kEdge),
                                           testing::Values(TwistMode::kOn, TwistMode::kOff)),
                          [](const auto& test) {
-                           return std::string(std::get<0>(test.param) == ContactLaw::kSmooth ? "smooth" : "edge") +
+                           return std::string(std::get<0>(test.param) == ContactScheme::kSmooth ? "smooth" : "edge") +
                                   (std::get<1>(test.param) == TwistMode::kOn ? "WithTwist" : "");
                          });
 

@@ -60,7 +60,7 @@ struct Touching {
 
   explicit Touching(double friction) {
     const std::vector<int> numbers = random_numbers(RandomScene::kNumbers);
-    scene = RandomScene(numbers, ContactLaw::kSmooth, false).scene();
+    scene = RandomScene(numbers, ContactScheme::kSmooth, false).scene();
     presliding = 0.02 * scene.rod.material.radius;
     scene.settings.friction = MemoryFriction{friction, presliding};
     position = scene.state.position + scene.dt * scene.state.velocity;

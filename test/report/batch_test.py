@@ -18,9 +18,11 @@ import curve_figures
 import style
 from batch import Batch
 from certificate import Check
+from laboratory import particulars
 from mean_curve import mean_curve
-from quantities import number
+from quantities import number, quantity_of
 from student import quantile
+from units import Units
 
 SCATTER = ["--set", "specimens.scatter={material.stretching_stiffness: {normal: 0.05}, program.pull.speed: {uniform: 0.1}}"]
 # Of these three specimens the second one comes undone before it is pulled.
@@ -34,10 +36,6 @@ def setUpModule():
     loops = folders.run("loops", [*FISHERMAN, "--specimens", "3"], "--report")
     rods = folders.run("rods", [*STRAIGHT, *SCATTER, "--specimens", "2"])
     loose = folders.run("loose", [*LOOSE, "--specimens", "3"])
-
-
-def tearDownModule():
-    folders.remove()
 
 
 def html_of(folder):
@@ -78,6 +76,41 @@ def all_rejected(of):
     folder = changed(of, "statistics.yaml", change)
     write(read(folder, "specimens.csv").replace(",false,", ",true,"), folder, "specimens.csv")
     return folder
+
+
+def head_of(html):
+    """{label: text}"""
+    return dict(re.findall(r'<div><span class="label">(.*?)</span>(.*?)</div>', html))
+
+
+class PageByAStandard(unittest.TestCase):
+    ASKED = {"standard": "ISO 1", "conditioning": "23 °C", "terminations": "wedges", "units": {"length": "in"}}
+
+    def test_says_how_the_specimens_were_tested(self):
+        folder = changed(rods, "method.yaml", lambda method: method.update(report=self.ASKED))
+        head, speed = head_of(html_of(folder)), Batch(folder).method["program"][-1]["pull"]["speed"]
+        self.assertEqual(head, {"Standard": "ISO 1", "Conditioning": "23 °C", "Terminations": "wedges",
+                                "Gauge length": number(0.25 / 0.0254) + " in",
+                                "Speed of the crosshead": number(60.0 * speed / 0.0254) + " in/min",
+                                "Specimens": "2 tested, 2 count, 0 discarded"})
+
+    def test_says_how_many_are_discarded(self):
+        folder = changed(loose, "method.yaml", lambda method: method.update(report=self.ASKED))
+        self.assertEqual(head_of(html_of(folder))["Specimens"], "3 tested, 2 count, 1 discarded")
+
+    def test_of_no_standard_the_head_is_empty(self):
+        self.assertEqual(head_of(html_of(rods)), {})
+
+    def test_shows_elongations_and_efficiencies_in_percent(self):
+        for key in ("elongation_total", "elongation_at_break", "knot_efficiency"):
+            unit = Units().of(quantity_of(key).kind)
+            self.assertEqual((unit.name, unit.scale), ("%", 100.0), key)
+
+    def test_of_a_load_rate_there_is_no_speed(self):
+        method = {"program": [{"pull": {"speed": 0.1, "load_rate": 5.0}}]}
+        self.assertEqual(particulars({"standard": "ISO 1"}, method, None, Units()), [])
+        self.assertEqual([row[2] for row in particulars({"standard": "ISO 1"}, {"program": [{"pull": {"speed": 0.005}}, {"hold": {}}]},
+                                                        0.25, Units())], ["250 mm", "300 mm/min"])
 
 
 class PageOfABatch(unittest.TestCase):

@@ -91,10 +91,6 @@ def setUpModule():
     batch = folders.run("batch", [*FISHERMAN, "--specimens", "2"], "--report")
 
 
-def tearDownModule():
-    folders.remove()
-
-
 def chromium(*arguments, graphics=NO_WEBGL):
     with tempfile.TemporaryDirectory(prefix="knot_utm_browser_") as profile:
         done = subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",

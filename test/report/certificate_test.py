@@ -3,7 +3,7 @@
 import re
 import unittest
 
-from runs import FISHERMAN, ROOT, STRAIGHT, Folders, OfValues, html_of, read, row_of
+from runs import ROOT, STRAIGHT, OfValues, html_of, read, row_of, two_runs
 
 import yaml
 
@@ -17,13 +17,7 @@ from units import Units
 
 def setUpModule():
     global folders, straight, fisherman
-    folders = Folders()
-    straight = folders.run("straight", STRAIGHT)
-    fisherman = folders.run("fisherman", FISHERMAN)
-
-
-def tearDownModule():
-    folders.remove()
+    folders, straight, fisherman = two_runs()
 
 
 class Certificate(unittest.TestCase):
@@ -90,6 +84,27 @@ class Facts(unittest.TestCase):
             ("Friction", "slip tolerance 0.001 m/s, presliding 0.01 of the radius"),
             ("Sharp drop by", "0.5 of the peak"), ("Drop by", "0.3 of the peak"),
             ("Break at no more than", "0.2 of the peak")}, found)
+
+    def test_have_the_labels_and_units_of_every_law(self):
+        method = {"specimen": {"knot": "capstan", "wrap": 3.0, "end_to_end": 0.2}, "machine": {},
+                  "material": {"stretching_law": "linear", "bending_law": "plastic", "hardening": 0.1},
+                  "physics": {"inertia": 2.0, "friction": {"law": "power", "exponent": 0.9, "reference_pressure": 100.0,
+                                                           "kinetic_share": 0.8, "slip_length": 1.5}}}
+        found = {row for _, rows, _ in method_facts.method_facts(method, Units("lbf", "in")) for row in rows}
+        self.assertLessEqual({
+            ("Knot", "Strand around a post (capstan)"), ("Angle around the post", "3 rad"), ("End to end L", "7.874 in"),
+            ("Stretching law", "linear"), ("Bending law", "plastic"),
+            ("Share of the bending stiffness that does not yield", "0.1"),
+            ("Mass that is accelerated", "2 of the own mass"),
+            ("Friction", "law power, exponent 0.9 of the pressure, reference pressure 100 N/m, kinetic share 0.8 of the "
+                         "friction coefficient, slip length 1.5 of the radius")}, found)
+
+    def test_of_a_step_have_the_units_of_the_page(self):
+        steps = [{"pull": {"speed": 0.002, "until": {"extension": 0.1, "load": 5.0, "break": True}}},
+                 {"cycle": {"extension": [0.0, 0.01], "count": 3}}]
+        self.assertEqual(method_facts.program({"program": steps}, Units()), [
+            ("pull", "speed 2 mm/s, until extension 100 mm or load 5 N or break"),
+            ("cycle", "extension [0, 10] mm, count 3")])
 
     def test_call_the_stiffness_of_the_whole_pull_so(self):
         result = {"lock_extension": None, "locked_stiffness": 1.0, "locked_stiffness_error": 0.1}

@@ -15,10 +15,6 @@ def setUpModule():
     straight = folders.run("straight", STRAIGHT)
 
 
-def tearDownModule():
-    folders.remove()
-
-
 class PageOfAComparison(unittest.TestCase):
     def compare(self, out, *more):
         return tool("compare", f"{straight}/curve.csv", f"{straight}/curve_full.csv", "--report", out, *more)

@@ -6,7 +6,7 @@ import struct
 import unittest
 from types import SimpleNamespace
 
-from runs import FISHERMAN, ROOT, STRAIGHT, Folders, OfValues, a_pull, html_of, read, row_of, write
+from runs import ROOT, OfValues, a_pull, html_of, read, row_of, two_runs, write
 
 import matplotlib.text
 import numpy as np
@@ -24,13 +24,7 @@ from run import Run
 
 def setUpModule():
     global folders, straight, fisherman
-    folders = Folders()
-    straight = folders.run("straight", STRAIGHT)
-    fisherman = folders.run("fisherman", FISHERMAN)
-
-
-def tearDownModule():
-    folders.remove()
+    folders, straight, fisherman = two_runs()
 
 
 class Band(unittest.TestCase):

@@ -92,6 +92,14 @@ class Pictures(unittest.TestCase):
         for i in (0, 7, len(test.shapes) - 1):
             np.testing.assert_allclose(test.at(test.shapes[i].time - test.begin).points, test.shapes[i].points, atol=1e-12)
 
+    def test_end_their_curve_where_the_words_say(self):
+        test = OneTest(nylon)
+        shape = test.at(20.03)
+        extension, load = test.until(shape.time)
+        self.assertIn(f"s = {extension[-1]:.4g} mm", test.words(shape))
+        self.assertAlmostEqual(load[-1], np.interp(extension[-1], test.extension, test.load), delta=0.01 * load[-1])
+        self.assertTrue((np.diff(extension) > 0.0).all())
+
     def test_show_the_rod_whole_until_it_has_parted(self):
         test = OneTest(nylon)
         whole, parted = test.shapes[-2:]

@@ -7,8 +7,8 @@ import re
 import subprocess
 import unittest
 
-from runs import (FISHERMAN, ROOT, STRAIGHT, Folders, command_of, html_of, keys_on, open_bytes, page_of, put_into,
-                  read, row_of, script, tool, write)
+from runs import (FISHERMAN, ROOT, STRAIGHT, command_of, html_of, keys_on, open_bytes, page_of, put_into, read, row_of,
+                  script, tool, two_runs, write)
 
 import numpy as np
 import yaml
@@ -24,13 +24,7 @@ from shapes import series_of
 
 def setUpModule():
     global folders, straight, fisherman
-    folders = Folders()
-    straight = folders.run("straight", STRAIGHT)
-    fisherman = folders.run("fisherman", FISHERMAN, "--report")
-
-
-def tearDownModule():
-    folders.remove()
+    folders, straight, fisherman = two_runs("--report")
 
 
 class PageOfARun(unittest.TestCase):

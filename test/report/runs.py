@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import unittest
 
 import numpy as np
 import yaml
@@ -99,11 +100,12 @@ class OfValues(Run):
 
 
 class Folders:
-    """A folder for runs, and copies of them to be changed."""
+    """A folder for the runs of a module of tests, and for copies of them to be changed."""
 
     def __init__(self):
         self.path = tempfile.mkdtemp(prefix="knot_utm_report_")
         self.copies = 0
+        unittest.addModuleCleanup(shutil.rmtree, self.path)
 
     def run(self, name, method, *more):
         out = os.path.join(self.path, name)
@@ -124,5 +126,7 @@ class Folders:
         write(yaml.safe_dump(result, sort_keys=False), folder, "result.yaml")
         return folder
 
-    def remove(self):
-        shutil.rmtree(self.path)
+def two_runs(*more):
+    """Folders with a run of a straight rod and one of a loop, which takes `more` arguments: for setUpModule."""
+    folders = Folders()
+    return folders, folders.run("straight", STRAIGHT), folders.run("fisherman", FISHERMAN, *more)

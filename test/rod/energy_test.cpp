@@ -94,12 +94,31 @@ TEST(Energy, TensionIsPositiveWhereTheEdgeIsLonger) {
   EXPECT_LT((edge_tension(rod, arc(8, 0.09, 0.3).position).array() + 5.0).abs().maxCoeff(), 1e-12);
 }
 
+/// What is bent within its yield stores r/2 k kappa^2 + (1 - r)/2 k (kappa - kappabar)^2, k = k_b/lbar, in every node.
+TEST(Energy, OfBendingIsThatOfTheRodsLaw) {
+  constexpr Eigen::Index kEdges = 8;
+  constexpr double kLength = 0.1, kAngle = 0.3, kKept = 0.2, kHardening = 0.25;
+  RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(kEdges, kLength));
+  rod.laws.bending = PlasticBending{10.0 * kAngle / kLength, kHardening};
+  RodState state = arc(kEdges, kLength, kAngle);
+  initialise_frames(&state);
+  state.natural_curvature = Eigen::Matrix2Xd::Zero(2, kEdges - 1);
+  const auto expected = [&](double kept) {
+    const double each = kHardening * kAngle * kAngle + (1.0 - kHardening) * std::pow(kAngle - kept, 2);
+    return 0.5 * 2.0 / kLength * each * (kEdges - 1);
+  };
+  EXPECT_NEAR(elastic_energy(rod, state).bending, expected(0.0), 1e-9 * expected(0.0));
+  take_bending_set(kKept / kAngle, &state);
+  EXPECT_NEAR(elastic_energy(rod, state).bending, expected(kKept), 1e-9 * expected(kKept));
+}
+
 TEST(Energy, RefusesAStateThatDoesNotFitTheRod) {
   const RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(8, 0.1));
-  EXPECT_THROW(elastic_energy(rod, arc(7, 0.1, 0.0)), InvalidInput);
+  EXPECT_THROW(require_fits(rod, arc(7, 0.1, 0.0)), InvalidInput);
   RodState without_frames = arc(8, 0.1, 0.0);
   without_frames.natural_curvature = Eigen::Matrix2Xd::Zero(2, 7);
-  EXPECT_THROW(elastic_energy(rod, without_frames), InvalidInput);
+  EXPECT_THROW(require_fits(rod, without_frames), InvalidInput);
+  EXPECT_NO_THROW(require_fits(rod, arc(8, 0.1, 0.0)));
 }
 
 }  // namespace

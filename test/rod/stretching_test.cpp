@@ -40,7 +40,7 @@ TEST_P(StretchingOf, AnEdgeOfARodIsTheSame) {
   material.radius = material.density = 1.0;
   material.stretching_stiffness = kStiffness;
   RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(1, kRest));
-  rod.stretching = law;
+  rod.laws.stretching = law;
   Points position = Points::Zero(3, 2);
   position.col(1) = edge;
   const StretchingResponse response = respond(rod, stretched_edge(rod, position, 0));

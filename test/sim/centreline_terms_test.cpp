@@ -35,7 +35,7 @@ struct Crumpled {
       position.col(j + 1) = position.col(j) + (1.0 + 0.05 * std::tanh(noise(random))) * rest[j] * direction;
     }
     rod = make_rod(material, rest);
-    rod.stretching = law;
+    rod.laws.stretching = law;
     for (int j = 0; j + 1 < kNodes; ++j) {
       const StretchingLocal local = std::visit(
           [&](const auto& own) { return stretching(own, material.stretching_stiffness, rest[j], edge(j)); }, law);

@@ -110,7 +110,7 @@ Eigen::MatrixXd stiffness_of(const FrameTerms& terms) {
 /// Where bends yield, too: their tangent couples the two curvatures.
 TEST_P(FrameTermsOf, StiffnessIsTheForcesDerivative) {
   for (const BendingLaws& law : {BendingLaws(ElasticBending()), BendingLaws(PlasticBending{0.1, 0.2})}) {
-    settings.bending = law;
+    rod.laws.bending = law;
     FrameTerms terms(rod, settings);
     const Eigen::MatrixXd expected =
         -finite_difference([&](const Eigen::VectorXd& y) { return force_at(terms, y); }, trial, 1e-3);

@@ -36,7 +36,7 @@ struct Strip {
     rod = make_rod(material, Eigen::VectorXd::Constant(kEdges, material.radius));
     settings = closed_form_settings(material);
     settings.drag = 5.0;
-    settings.bending = PlasticBending{kYield * kTurn / kEdges / material.radius, kHardening};
+    rod.laws.bending = PlasticBending{kYield * kTurn / kEdges / material.radius, kHardening};
     state = straight_state(rod);
     state.natural_curvature.setZero(2, rod.nodes() - 2);
     state.position = arc(kTurn / kEdges, material.radius);
@@ -72,6 +72,22 @@ TEST(PlasticBending, AReleasedStripKeepsWhatItsMomentDoesNotHold) {
   for (int i = 1; i < kEdges; ++i)
     EXPECT_NEAR(turning_angle(balance.stepper().state().position, i), kept, 1e-3 * kept) << i;
   EXPECT_LT(std::abs(balance.gap()), balance.rounding());
+}
+
+/// What a stepper accounts for before its first step is what another one has left, so that the first step of a rod that
+/// has yielded dissipates nothing that it did not; and a rod that is drawn bent has what it is about to dissipate.
+TEST(PlasticBending, ANewStepperBeginsWithTheEnergyOfTheLastOne) {
+  const Strip strip;
+  const std::unique_ptr<TimeStep> stepper = TimeStep::make(strip.rod, strip.state, strip.settings);
+  const double drawn = stepper->energies().bending;
+  Boundary held;
+  for (int i = 0; i <= kEdges; ++i) held.fixed_nodes.push_back({i, strip.state.position.col(i)});
+  ASSERT_TRUE(stepper->step(held, 0.02).accepted());
+  const double stored = stepper->energies().bending;
+  EXPECT_NEAR(drawn, stored + stepper->work().plastic, 1e-9 * drawn);
+  EXPECT_GT(stepper->work().plastic, 0.0);
+  const std::unique_ptr<TimeStep> next = TimeStep::make(strip.rod, stepper->state(), strip.settings);
+  EXPECT_NEAR(next->energies().bending, stored, 1e-9 * stored);
 }
 
 TEST(PlasticBending, NeedsARodThatRemembersItsBends) {

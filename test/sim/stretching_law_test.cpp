@@ -24,7 +24,7 @@ struct Bar {
 
   explicit Bar(const StretchingLaws& law) {
     rod = make_rod(material, Eigen::VectorXd::Constant(kEdges, material.radius));
-    rod.stretching = law;
+    rod.laws.stretching = law;
     settings = closed_form_settings(material);
     settings.drag = 50.0;
     state = straight_state(rod);
@@ -72,7 +72,7 @@ TEST(StretchingLaw, IsSavedWithItsRod) {
   const std::unique_ptr<TimeStep> stepper = TimeStep::make(bar.rod, bar.state, bar.settings);
   const Boundary& boundary = bar.at_strain(0.01);
   SavedStep loaded = load_step(save_step(*stepper, boundary, 0.0, 0.01), "bar");
-  EXPECT_TRUE(std::holds_alternative<NeoHookeanStretching>(loaded.stepper->rod().stretching));
+  EXPECT_TRUE(std::holds_alternative<NeoHookeanStretching>(loaded.stepper->rod().laws.stretching));
   ASSERT_TRUE(loaded.try_again().accepted());
   ASSERT_TRUE(stepper->step(boundary, 0.01).accepted());
   EXPECT_EQ(loaded.stepper->reaction(kEdges), stepper->reaction(kEdges));
@@ -80,8 +80,9 @@ TEST(StretchingLaw, IsSavedWithItsRod) {
 
 TEST(StretchingLaw, AMaterialGivesItToItsRod) {
   Material material = braided_rope();
-  material.stretching_law = static_cast<knot_utm::StretchingLaw>(1);
-  EXPECT_TRUE(std::holds_alternative<NeoHookeanStretching>(make_rod(material, Eigen::Vector3d::Ones()).stretching));
+  material.stretching.law = static_cast<knot_utm::StretchingLaw>(1);
+  EXPECT_TRUE(
+      std::holds_alternative<NeoHookeanStretching>(make_rod(material, Eigen::Vector3d::Ones()).laws.stretching));
 }
 
 }  // namespace

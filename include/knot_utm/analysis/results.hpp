@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "knot_utm/analysis/curve_readings.hpp"
+#include "knot_utm/analysis/elongations.hpp"
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/analysis/rate_shares.hpp"
 #include "knot_utm/record/ended_by.hpp"
@@ -87,8 +88,12 @@ struct Results {
   std::optional<Relaxation> relaxation;  ///< of the last hold under load in which the crosshead stood still
 
   // Readings of the last step that cycles (cycles.hpp).
-  std::size_t cycles = 0;            ///< number of closed cycles
-  std::optional<double> hysteresis;  ///< of the last closed cycle [J]
+  std::size_t cycles = 0;                  ///< number of closed cycles
+  std::optional<double> hysteresis;        ///< of the last closed cycle [J]
+  std::optional<Elongations> elongations;  ///< of the last closed cycle
+
+  std::optional<double> gauge_length;         ///< distance between the grips where the specimen is first pulled [m]
+  std::optional<double> elongation_at_break;  ///< (L - L_0)/L_0, L where the rod parted, L_0 the gauge length [-]
 
   std::optional<double> untangled_at;    ///< time at which the knot came undone [s]; see MotionPatternTracker
   KnotType knot_type = KnotType::kKept;  ///< at the end of the test; see KnotWatch

@@ -1,10 +1,7 @@
 #pragma once
 
-#include <array>
-#include <string>
 #include <utility>
 #include <variant>
-#include <vector>
 
 #include "knot_utm/contact/memory_friction.hpp"
 #include "knot_utm/contact/power_friction.hpp"
@@ -17,40 +14,9 @@ namespace knot_utm {
 /// All friction laws there are, in the order in which messages name them; the first is the default.
 using FrictionLaws = std::variant<MemoryFriction, SmoothedFriction, StribeckFriction, PowerFriction>;
 
-/// What is known of a law by its type alone.
-struct FrictionLawEntry {
-  const char* name;
-  const FrictionKey* keys;
-  std::size_t key_count;
-  bool studied;
+using FrictionRegistry = LawRegistry<FrictionLaws>;
 
-  bool has(const std::string& key) const;
-};
-
-namespace friction {
-
-template <std::size_t... I>
-constexpr std::array<FrictionLawEntry, sizeof...(I)> entries(std::index_sequence<I...>) {
-  return {FrictionLawEntry{std::variant_alternative_t<I, FrictionLaws>::kName,
-                           std::variant_alternative_t<I, FrictionLaws>::kKeys.data(),
-                           std::variant_alternative_t<I, FrictionLaws>::kKeys.size(),
-                           std::variant_alternative_t<I, FrictionLaws>::kStudied}...};
-}
-
-inline constexpr auto kEntries = entries(std::make_index_sequence<std::variant_size_v<FrictionLaws>>());
-
-}  // namespace friction
-
-inline constexpr auto kFrictionLawNames = LawRegistry<FrictionLaws>::kNames;
-
-inline constexpr const FrictionLawEntry& entry_of(FrictionLaw law) {
-  return friction::kEntries[static_cast<std::size_t>(law)];
-}
-
-/// The keys of all laws, each once.
-const std::vector<FrictionKey>& friction_keys();
-/// The laws that have a key, as a message lists them: "memory or smoothed".
-std::string laws_with(const std::string& key);
+inline constexpr auto kFrictionLawNames = FrictionRegistry::kNames;
 
 /// The friction of one kind of contact, by one of the laws.
 class Friction {
@@ -67,7 +33,7 @@ class Friction {
   }
 
   bool on() const { return on_; }
-  const char* name() const { return friction::kEntries[law_.index()].name; }
+  const char* name() const { return kFrictionLawNames[law_.index()]; }
   double coefficient() const {
     return visit([](const auto& law) { return law.coefficient; });
   }

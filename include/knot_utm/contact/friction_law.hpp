@@ -14,13 +14,17 @@ namespace knot_utm {
 /// as a function of the pressure p, of the slip r (the elastic slip that it keeps plus the slip of this step), of an
 /// internal variable of its own, and of the length dt of the step. Both z and mu may depend on all of these.
 ///
+/// A law that depends on the speed of slip has it from r and dt. A law that keeps no elastic slip slides by all of r in
+/// the step, v = |r|/dt. Of a law with a tangential spring, the spring holds a part xi of r, and v = (|r| - |xi|)/dt.
+/// As xi grows with the traction, which depends on v, the law solves both together.
+///
 /// A law is a pair of files and one line in `FrictionLaws` (friction.hpp). It is a plain struct, which has
 ///
 ///     static constexpr const char* kName              the name that methods use
-///     static constexpr std::array kKeys               its keys in physics.friction (FrictionKey)
+///     static constexpr std::array kKeys               its keys in physics.friction (LawKey)
 ///     static Law of(options, scales)                  made from a method
-///     double coefficient                              mu of the method [-]: the largest mu or, where mu falls with the
-///                                                     load, that at a reference load; 0: no friction
+///     double coefficient                              mu of the method [-]; 0: no friction. Where mu depends on more
+///                                                     than the material, the law says which of its values this is
 ///     traction(FrictionInput<Vector>)                 -> FrictionTraction<Vector>
 ///     tangent(FrictionInput<Vector>, Linearisation)   -> FrictionTangent<Vector>
 ///     remember(FrictionInput<Vec3>, z)                -> FrictionMemory, once the step is accepted with this z
@@ -87,23 +91,6 @@ struct FrictionTangent {
 /// the tangent along the slip vanishes, and Newton's method may jump for ever from one saturated side to the other. The
 /// secant bounds the law from above (Kacanov's method) and converges slowly, but from any start.
 enum class Linearisation { kTangent, kSecant };
-
-/// Where the value of a key comes from that a method does not give.
-enum class FrictionDefault {
-  kNone,        ///< a method must give it
-  kPresliding,  ///< from physics.accuracy
-  kCreep,       ///< from the slowest pull, beside which the creep must be small
-};
-
-/// A key of physics.friction.
-struct FrictionKey {
-  const char* name;
-  double min, max;  ///< both allowed
-  const char* unit;
-  FrictionDefault otherwise;
-  double plain;  ///< value that older methods give although their law does not have the key; it is allowed there; NaN:
-                 ///< none
-};
 
 /// What a law's parameters depend on besides its keys.
 struct FrictionScales {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include <cstddef>
-#include <map>
-#include <optional>
 #include <string>
+
+#include "knot_utm/numeric/law_keys.hpp"
 
 namespace knot_utm {
 
@@ -14,20 +14,6 @@ enum class FrictionLaw : std::size_t {};
 FrictionLaw law_named(const std::string& name);
 
 /// `physics.friction` of a method.
-struct FrictionOptions {
-  FrictionLaw law{};
-  std::map<std::string, double> values;  ///< of the keys that are set, in the method's units
-
-  std::optional<double> value(const std::string& key) const {
-    const auto found = values.find(key);
-    return found == values.end() ? std::nullopt : std::optional<double>(found->second);
-  }
-  void set(const std::string& key, const std::optional<double>& value) {
-    if (value)
-      values[key] = *value;
-    else
-      values.erase(key);
-  }
-};
+using FrictionOptions = LawOptions<FrictionLaw>;
 
 }  // namespace knot_utm

@@ -15,8 +15,8 @@ namespace knot_utm {
 /// pressure times z, its stiffness grows with the pressure.
 struct MemoryFriction : FrictionLawDefaults {
   static constexpr const char* kName = "memory";
-  static constexpr std::array kKeys{FrictionKey{"presliding", 1e-5, 0.5, "of the radius", FrictionDefault::kPresliding,
-                                                std::numeric_limits<double>::quiet_NaN()}};
+  static constexpr std::array kKeys{LawKey{"presliding", 1e-5, 0.5, "of the radius", LawDefault::kAccuracy,
+                                           std::numeric_limits<double>::quiet_NaN()}};
   static constexpr bool kStudied = true;
 
   double coefficient = 0.0;  ///< mu [-]

@@ -3,12 +3,15 @@
 #include <cmath>
 #include <limits>
 
+#include "knot_utm/contact/pressure_law.hpp"
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/lanes.hpp"
+#include "knot_utm/numeric/law_keys.hpp"
+#include "knot_utm/rod/material.hpp"
 
 namespace knot_utm {
 
-/// A pressure law (pressure_laws.hpp) of two strands of radius h: the line pressure p [N/m] as a function of the
+/// A pressure law (pressure_law.hpp) of two strands of radius h: the line pressure p [N/m] as a function of the
 /// overlap D = 2h - d [m] of two centrelines at distance d,
 ///
 ///     p = K s (1 + (s/c)^4),      s = (D + delta/2)^2 / (2 delta)  for |D| < delta/2,   s = D beyond, 0 before,
@@ -19,10 +22,17 @@ namespace knot_utm {
 /// depend on it.
 struct NormalLaw {
   static constexpr const char* kName = "normal";
+  static constexpr NoKeys kKeys{};
+  static constexpr bool kStudied = true;
 
   double stiffness = 0.0;                                       ///< K [N/m^2]
   double tolerance = 0.0;                                       ///< delta [m]
   double stiffening = std::numeric_limits<double>::infinity();  ///< c [m]
+
+  static NormalLaw of(const Material& material, const PressureScales& scales) {
+    constexpr double kStiffeningDepth = 0.015;  // c: at the kN of a locked knot a rod gives 5 % [h]
+    return {default_contact_stiffness(material), scales.tolerance, kStiffeningDepth * material.radius};
+  }
 
   void state(Archive& archive) { archive(stiffness, tolerance, stiffening); }
 

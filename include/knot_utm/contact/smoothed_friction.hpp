@@ -15,8 +15,7 @@ namespace knot_utm {
 struct SmoothedFriction : FrictionLawDefaults {
   static constexpr const char* kName = "smoothed";
   static constexpr double kPlainTolerance = 1e-3;  // v_s of a method that says nothing of it [m/s]
-  static constexpr std::array kKeys{
-      FrictionKey{"slip_tolerance", 1e-7, 0.1, "m/s", FrictionDefault::kCreep, kPlainTolerance}};
+  static constexpr std::array kKeys{LawKey{"slip_tolerance", 1e-7, 0.1, "m/s", LawDefault::kCreep, kPlainTolerance}};
 
   double coefficient = 0.0;     ///< mu [-]
   double slip_tolerance = 0.0;  ///< v_s [m/s]

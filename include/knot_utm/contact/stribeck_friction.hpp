@@ -22,9 +22,9 @@ struct StribeckFriction : FrictionLawDefaults {
   static constexpr const char* kName = "stribeck";
   static constexpr double kNoValue = std::numeric_limits<double>::quiet_NaN();
   static constexpr std::array kKeys{
-      FrictionKey{"presliding", 1e-5, 0.5, "of the radius", FrictionDefault::kPresliding, kNoValue},
-      FrictionKey{"kinetic_share", 0.0, 1.0, "of friction_coefficient", FrictionDefault::kNone, kNoValue},
-      FrictionKey{"slip_length", 1e-3, 100.0, "of the radius", FrictionDefault::kNone, kNoValue}};
+      LawKey{"presliding", 1e-5, 0.5, "of the radius", LawDefault::kAccuracy, kNoValue},
+      LawKey{"kinetic_share", 0.0, 1.0, "of friction_coefficient", LawDefault::kNone, kNoValue},
+      LawKey{"slip_length", 1e-3, 100.0, "of the radius", LawDefault::kNone, kNoValue}};
 
   double coefficient = 0.0;    ///< mu_s [-]
   double presliding = 0.0;     ///< xi_s [m]

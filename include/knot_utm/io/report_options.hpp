@@ -17,6 +17,8 @@ struct ReportOptions {
   std::string customer;
   std::string date;  ///< text of the user; no clock is read, so that a report that is made again has the same bytes
   std::string standard;
+  std::string conditioning;  ///< of the specimens before the test
+  std::string terminations;  ///< of the specimen's ends in the grips
   std::string notes;
   std::string logo;       ///< a PNG or SVG file; empty: none
   std::string signature;  ///< name below the line for a signature; empty: no line

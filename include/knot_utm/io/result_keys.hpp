@@ -59,6 +59,7 @@ struct ResultKey {
   NullReason why_null;
 
   const char* kind() const;  ///< "number", "count", "flag", "word", "text", "numbers" or "list"
+  int table() const;         ///< number of the report's table in which it stands, from 1; 0: another place
   bool is_number() const;    ///< whether it is a number or a count; only these may have requirements
 };
 

@@ -16,7 +16,7 @@ std::string result_yaml(const Results& results, const RunFacts& facts);
 /// keys.
 std::vector<std::string> result_numbers();
 
-/// The table of the keys as CSV with the columns key, unit, kind, group and meaning: the content of
+/// The table of the keys as CSV with the columns key, unit, kind, group, table and meaning: the content of
 /// report/result_keys.csv.
 std::string result_keys_csv();
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,21 +19,25 @@ struct RunFacts {
   std::vector<std::string> foreseen;  ///< warnings known before anything was tied, one line each
   /// further warnings, other than those that follow from the results, one line each
   std::vector<std::string> warnings;
-  double preload = Sample::kNone;  ///< F_p [N]; NaN: nothing was tied
-  ReadingErrors errors;            ///< relative errors of the readings from mesh and tolerances [-]
-  Margin margin;                   ///< safety margin of the knot, where it was asked for
-  double wall_time = 0.0;          ///< [s]
-  std::uint64_t peak_memory = 0;   ///< largest memory of the process [bytes]; 0: not known
-  double inertia = 1.0;            ///< accelerated mass over the rod's own mass [-]
-  double weight = 0.0;             ///< weight of the rod [N]; 0: no gravity acts
-  double slid_along = 0.0;         ///< largest motion of a loop on rollers along their axes [m]
-  Material material;               ///< material of the rod
-  double dead_load = 0.0;          ///< constant force on the specimen's other end [N]; 0: there is none
-  double knot_distance = 0.0;      ///< knot distance at which the knots were to be tied [m]; 0: none were tied
-  double pull_speed = 0.0;         ///< largest programmed speed of a pull [m/s]; 0: there is none
-  LoadCellOptions load_cell;       ///< load cell that read the forces
-  Specification specification;     ///< requirements on the results
-  std::string version;             ///< version of this package
+  double preload = Sample::kNone;     ///< F_p [N]; NaN: nothing was tied
+  ReadingErrors errors;               ///< relative errors of the readings from mesh and tolerances [-]
+  Margin margin;                      ///< safety margin of the knot, where it was asked for
+  double wall_time = 0.0;             ///< [s]
+  std::uint64_t peak_memory = 0;      ///< largest memory of the process [bytes]; 0: not known
+  double inertia = 1.0;               ///< accelerated mass over the rod's own mass [-]
+  double weight = 0.0;                ///< weight of the rod [N]; 0: no gravity acts
+  double slid_along = 0.0;            ///< largest motion of a loop on rollers along their axes [m]
+  Material material;                  ///< material of the rod
+  int strands = 1;                    ///< number of strands that bear the load: two of a loop
+  bool may_hold_a_knot = false;       ///< as the specimen is made
+  bool one_knot_in_a_strand = false;  ///< one knot, and the specimen is no loop
+  std::optional<double> knot_hole;    ///< hole_diameter at the end of the test, of one knot in a strand [m]
+  double dead_load = 0.0;             ///< constant force on the specimen's other end [N]; 0: there is none
+  double knot_distance = 0.0;         ///< knot distance at which the knots were to be tied [m]; 0: none were tied
+  double pull_speed = 0.0;            ///< largest programmed speed of a pull [m/s]; 0: there is none
+  LoadCellOptions load_cell;          ///< load cell that read the forces
+  Specification specification;        ///< requirements on the results
+  std::string version;                ///< version of this package
 };
 
 /// The largest memory that this process has used so far [bytes].

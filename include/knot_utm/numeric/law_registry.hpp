@@ -2,14 +2,38 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <variant>
+#include <vector>
 
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/numeric/law_keys.hpp"
 
 namespace knot_utm {
 
-/// The laws of one kind: plain structs in a variant, numbered by their place in it. Each has a `kName`, a static
-/// `of(...)` that makes it from a method, and a visitor `state(Archive&)` of its parameters.
+/// What is known of a law by its type alone.
+struct LawEntry {
+  const char* name;
+  const LawKey* keys;
+  std::size_t key_count;
+  bool studied;
+
+  bool has(const std::string& key) const;
+};
+
+/// The keys of some laws, each once.
+std::vector<LawKey> keys_of(const LawEntry* laws, std::size_t count);
+/// Those of them that have a key, as a message lists them: "memory or smoothed".
+std::string laws_with(const std::string& key, const LawEntry* laws, std::size_t count);
+
+/// The laws of one kind: plain structs in a variant, numbered by their place in it. Each has
+///
+///     static constexpr const char* kName    is what a method calls it
+///     static constexpr std::array kKeys     its own keys (LawKey), or NoKeys
+///     static constexpr bool kStudied        whether the errors beside readings were studied with it
+///                                           (machine/accuracy.hpp)
+///     static Law of(...)                    from a method
+///     state(Archive&)                       its parameters
 template <typename Laws>
 struct LawRegistry;
 
@@ -17,21 +41,36 @@ template <typename... Law>
 struct LawRegistry<std::variant<Law...>> {
   using Laws = std::variant<Law...>;
 
-  static constexpr std::array<const char*, sizeof...(Law)> kNames{Law::kName...};
+  static constexpr std::size_t kCount = sizeof...(Law);
+  static constexpr std::array<const char*, kCount> kNames{Law::kName...};
+  static constexpr std::array<LawEntry, kCount> kEntries{
+      LawEntry{Law::kName, Law::kKeys.data(), Law::kKeys.size(), Law::kStudied}...};
+
+  /// `Number`: that of LawOptions.
+  template <typename Number>
+  static constexpr const LawEntry& entry(Number number) {
+    return kEntries[static_cast<std::size_t>(number)];
+  }
+  /// The keys of all laws, each once.
+  static const std::vector<LawKey>& keys() {
+    static const std::vector<LawKey> all = keys_of(kEntries.data(), kCount);
+    return all;
+  }
+  static std::string with(const std::string& key) { return laws_with(key, kEntries.data(), kCount); }
 
   /// The law of that number, with its parameters from `method`.
-  template <typename... Method>
-  static Laws of(std::size_t number, const Method&... method) {
+  template <typename Number, typename... Method>
+  static Laws of(Number number, const Method&... method) {
     Laws out;
     std::size_t next = 0;
-    static_cast<void>(((next++ == number && (out = Law::of(method...), true)) || ...));
+    static_cast<void>(((next++ == static_cast<std::size_t>(number) && (out = Law::of(method...), true)) || ...));
     return out;
   }
 
   /// Saves or loads which law it is, and its parameters. `what`: the kind of law, for messages.
   static void archive(Archive& archive, const char* what, Laws& law) {
     int number = static_cast<int>(law.index());
-    archive.number(what, number, 0, static_cast<int>(sizeof...(Law)) - 1);
+    archive.number(what, number, 0, static_cast<int>(kCount) - 1);
     if (archive.loads()) {
       int next = 0;
       static_cast<void>(((next++ == number && (law = Law(), true)) || ...));

@@ -7,16 +7,21 @@ namespace knot_utm {
 /// The interface of a bending law. At every inner node a law gives the bending moment as a function of the bend and of
 /// an internal variable, the natural curvature kappabar_n of the last accepted step,
 ///
-///     M = dW/dkappa,   W(kappa; kappabar_n) = E(kappa, kappabar) + (energy dissipated in this step),
+///     M = dW/dkappa,   W(kappa; kappabar_n, dt) = E(kappa, kappabar) + dt psi((kappabar - kappabar_n)/dt),
 ///
-/// kappabar being the natural curvature that is kept once this step is accepted. W is the incremental energy of the
-/// variational form; where nothing is dissipated, it is the elastic energy E.
+/// kappabar being the natural curvature that is kept once this step is accepted, and psi the dissipation potential. W
+/// is the incremental energy of the variational form. Where nothing is dissipated, it is the elastic energy E. Where
+/// the rate does not matter, as of a rod that yields, dt psi is the energy dissipated in this step. Of a viscous law,
+/// whose psi is quadratic, it is half of that.
 ///
 /// A law is a pair of files, or a header, and one line in `BendingLaws` (bending_laws.hpp). It is a plain struct, which
 /// has
 ///
 ///     static constexpr const char* kName          the name that methods use (material.bending_law)
 ///     static Law of(Material)                     made from a method; throws InvalidInput where a value is missing
+///     static constexpr std::array kKeys           its keys in `material` (LawKey), or NoKeys
+///     static constexpr bool kStudied              whether the errors beside readings were studied with this law
+///                                                 (machine/accuracy.hpp)
 ///     static constexpr bool kRemembers            whether its internal variable changes in a step
 ///     respond(BendingNode)                        -> BendingResponse
 ///     remember(BendingNode)                       -> BendingMemory, once the step is accepted
@@ -27,10 +32,11 @@ namespace knot_utm {
 
 /// What a law is told of one inner node. Curvatures are integrated over the Voronoi length, on (m1, m2).
 struct BendingNode {
-  double stiffness;         ///< k_b [N m^2]
+  double k_b;               ///< stiffness [N m^2]
   double voronoi_length;    ///< lbar [m]
   Eigen::Vector2d bend;     ///< kappa [-]
   Eigen::Vector2d natural;  ///< kappabar_n, of the last accepted step [-]
+  double dt = 0.0;          ///< length of this step, for laws that depend on the rate; 0: bent at once [s]
 };
 
 struct BendingResponse {
@@ -43,6 +49,7 @@ struct BendingResponse {
 struct BendingMemory {
   Eigen::Vector2d natural;  ///< kappabar [-]
   double dissipated;        ///< in this step, at least 0 [J]
+  double stored;            ///< E(kappa, kappabar) [J]
 };
 
 }  // namespace knot_utm

@@ -11,7 +11,9 @@ namespace knot_utm {
 /// All bending laws there are, in the order in which messages name them; the first is the default.
 using BendingLaws = std::variant<ElasticBending, PlasticBending>;
 
-inline constexpr auto kBendingLawNames = LawRegistry<BendingLaws>::kNames;
+using BendingRegistry = LawRegistry<BendingLaws>;
+
+inline constexpr auto kBendingLawNames = BendingRegistry::kNames;
 
 /// The law that a material names, with its parameters. Throws InvalidInput where one is missing.
 BendingLaws bending_law_of(const Material& material);

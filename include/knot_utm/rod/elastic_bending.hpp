@@ -1,6 +1,7 @@
 #pragma once
 
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/numeric/law_keys.hpp"
 #include "knot_utm/rod/bending_law.hpp"
 #include "knot_utm/rod/material.hpp"
 
@@ -10,17 +11,19 @@ namespace knot_utm {
 /// curvature bends by the same law without frames (isotropic_bending.hpp).
 struct ElasticBending {
   static constexpr const char* kName = "elastic";
+  static constexpr NoKeys kKeys{};
+  static constexpr bool kStudied = true;
   static constexpr bool kRemembers = false;
 
   static ElasticBending of(const Material& /*material*/) { return {}; }
 
   BendingResponse respond(const BendingNode& node) const {
-    const double stiffness = node.stiffness / node.voronoi_length;
+    const double stiffness = node.k_b / node.voronoi_length;
     const Eigen::Vector2d off = node.bend - node.natural;
     return {0.5 * stiffness * off[0] * off[0] + 0.5 * stiffness * off[1] * off[1], stiffness * off,
             stiffness * Eigen::Matrix2d::Identity()};
   }
-  BendingMemory remember(const BendingNode& node) const { return {node.natural, 0.0}; }
+  BendingMemory remember(const BendingNode& node) const { return {node.natural, 0.0, respond(node).energy}; }
 
   void state(Archive& /*archive*/) {}
 };

@@ -9,8 +9,11 @@ namespace knot_utm {
 /// Elastic energy of a whole rod [J], the sum over its edges and inner nodes:
 ///   E = sum_j E_s(e_j) + sum_i E_b(i) + sum_i E_t(i)
 ///   E_s  stretching.hpp
-///   E_b  isotropic_bending.hpp where the rod is straight at rest, bending.hpp where it has a natural curvature
+///   E_b  isotropic_bending.hpp where the rod is straight at rest, else W of its bending law (bending_law.hpp). Of a
+///        bend that has yet to yield, as in a rod that is drawn bent, it has what that will dissipate
 ///   E_t  twisting.hpp, where the state has a frame
+///
+/// All by the laws of the rod.
 struct ElasticEnergy {
   double stretching = 0.0;  ///< [J]
   double bending = 0.0;     ///< [J]
@@ -18,8 +21,8 @@ struct ElasticEnergy {
   double total() const { return stretching + bending + twisting; }
 };
 
-/// A state without twist members is taken as twist-free; its rod must then be naturally straight and untwisted.
-/// Throws InvalidInput where state and rod do not fit together.
+/// State and rod must fit together (require_fits). A state without twist members is taken as twist-free; its rod is
+/// then naturally straight and untwisted.
 ElasticEnergy elastic_energy(const RodProperties& rod, const RodState& state);
 
 /// Tension of every edge [N], N-1 values, positive where the edge is longer than at rest.

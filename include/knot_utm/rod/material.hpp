@@ -6,13 +6,18 @@
 #include <string>
 
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/numeric/law_keys.hpp"
 
 namespace knot_utm {
 
-/// Number of a bending law in the registry (bending_laws.hpp).
-enum class BendingLaw : std::size_t {};
-/// Number of a stretching law in the registry (stretching_laws.hpp).
+/// Number of a stretching law in its registry (stretching_laws.hpp).
 enum class StretchingLaw : std::size_t {};
+/// Number of a bending law in its registry (bending_laws.hpp).
+enum class BendingLaw : std::size_t {};
+/// Number of a twisting law in its registry (twisting_laws.hpp).
+enum class TwistingLaw : std::size_t {};
+/// Number of a pressure law in its registry (contact/pressure_laws.hpp).
+enum class PressureLaw : std::size_t {};
 
 /// What a rod of circular cross-section is made of. The three stiffnesses are independent: a braided rope
 /// bends 10^3 to 10^4 times softer than a solid rod of the same stretching stiffness.
@@ -25,20 +30,22 @@ struct Material {
   double twisting_stiffness = 0.0;        ///< k_t [N m^2]
   double friction_coefficient = 0.0;      ///< mu [-]
   std::optional<double> friction_couple;  ///< eta [-]; unset: default_friction_couple
-  StretchingLaw stretching_law{};
-  BendingLaw bending_law{};
-  double hardening = 0.1;                   ///< r of bending that yields (plastic_bending.hpp) [-]
+  LawOptions<StretchingLaw> stretching;   ///< stretching_law and the keys of that law; so of the others
+  LawOptions<BendingLaw> bending;
+  LawOptions<TwistingLaw> twisting;
+  LawOptions<PressureLaw> pressure;
   double bending_set = 0.0;                 ///< fraction of the bend in its tied knots that the rod keeps at rest [-]
-  std::optional<double> contact_stiffness;  ///< K [N/m^2], that of the normal law; unset: default_contact_stiffness
+  std::optional<double> contact_stiffness;  ///< K [N/m^2], of the pressure law; unset: default_contact_stiffness
   std::optional<double> tying_preload;      ///< F_p [N]; unset: default_preload
   std::optional<double> breaking_force;     ///< F_b, tension at which it parts [N]; unset: it does not
   std::optional<double> breaking_strain;    ///< eps_b of its outermost fibre (machine/fracture.hpp) [-]; unset: none
-  std::optional<double>
-      yield_strain;       ///< eps_y of its outermost fibre, beyond which it stays bent if bending_law is plastic [-]
-  std::string load_cell;  ///< name of the load cell that suits it
+  std::optional<double> yield_strain;       ///< eps_y of its outermost fibre (plastic_bending.hpp) [-]; unset: none
+  std::string load_cell;                    ///< name of the load cell that suits it
   std::string notes;
 
-  void state(Archive& archive);  ///< all that a time step depends on
+  /// What a time step takes from it: radius, density and stiffnesses. Its laws have been made (RodLaws, StepSettings),
+  /// and the rest is the machine's.
+  void state(Archive& archive);
 };
 
 /// Pre-load F_p of `specimen.preload: auto` [N]: the material's own, else 4 k_b/h^2, with which a knot holds together

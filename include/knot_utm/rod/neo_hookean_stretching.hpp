@@ -1,6 +1,7 @@
 #pragma once
 
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/numeric/law_keys.hpp"
 #include "knot_utm/rod/material.hpp"
 #include "knot_utm/rod/stretching_law.hpp"
 
@@ -18,12 +19,13 @@ namespace knot_utm {
 /// stiffnesses. Source: Treloar 1975, chapter 4; Ogden 1997, chapter 4.
 struct NeoHookeanStretching {
   static constexpr const char* kName = "neo_hookean";
+  static constexpr NoKeys kKeys{};
   static constexpr bool kStudied = false;
 
   static NeoHookeanStretching of(const Material& /*material*/) { return {}; }
 
   StretchingResponse respond(const StretchedEdge& edge) const {
-    const double lambda = edge.stretch, inverse = 1.0 / lambda, third = edge.stiffness / 3.0;
+    const double lambda = edge.stretch, inverse = 1.0 / lambda, third = edge.k_s / 3.0;
     // lambda^2 + 2/lambda - 3 with its double root at 1 factored out, which keeps its digits at small strains.
     const double strain = lambda - 1.0, energy = strain * strain * (1.0 + 2.0 * inverse);
     return {0.5 * third * energy * edge.rest_length, third * (lambda - inverse * inverse),

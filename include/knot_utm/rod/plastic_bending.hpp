@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
+
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/numeric/law_keys.hpp"
 #include "knot_utm/rod/bending_law.hpp"
 #include "knot_utm/rod/material.hpp"
 
@@ -21,6 +24,9 @@ namespace knot_utm {
 /// 1998, section 1.6.
 struct PlasticBending {
   static constexpr const char* kName = "plastic";
+  static constexpr LawKey kHardening{"hardening", 0.01, 1.0, "-", LawDefault::kPlain, 0.1};
+  static constexpr std::array kKeys{kHardening};
+  static constexpr bool kStudied = false;
   static constexpr bool kRemembers = true;
 
   double yield_curvature = 0.0;  ///< kappa_y, more than 0 [1/m]
@@ -31,7 +37,7 @@ struct PlasticBending {
   static PlasticBending of(const Material& material);
 
   BendingResponse respond(const BendingNode& node) const {
-    const double whole = node.stiffness / node.voronoi_length, stiff = hardening * whole, yields = whole - stiff;
+    const double whole = node.k_b / node.voronoi_length, stiff = hardening * whole, yields = whole - stiff;
     const double yield = yield_curvature * node.voronoi_length;
     const Eigen::Vector2d off = node.bend - node.natural;
     const double size = off.norm();
@@ -53,12 +59,14 @@ struct PlasticBending {
   }
 
   BendingMemory remember(const BendingNode& node) const {
-    const double yields = (1.0 - hardening) * node.stiffness / node.voronoi_length;
+    const double yields = (1.0 - hardening) * node.k_b / node.voronoi_length;
     const double yield = yield_curvature * node.voronoi_length;
     const Eigen::Vector2d off = node.bend - node.natural;
     const double size = off.norm();
-    if (size <= yield) return {node.natural, 0.0};
-    return {node.natural + (1.0 - yield / size) * off, yields * yield * (size - yield)};
+    const double energy = respond(node).energy;  // W: what is stored and what is dissipated
+    if (size <= yield) return {node.natural, 0.0, energy};
+    const double dissipated = yields * yield * (size - yield);
+    return {node.natural + (1.0 - yield / size) * off, dissipated, energy - dissipated};
   }
 
   void state(Archive& archive) { archive(yield_curvature, hardening); }

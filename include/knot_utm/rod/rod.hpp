@@ -4,7 +4,7 @@
 
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/rod/material.hpp"
-#include "knot_utm/rod/stretching_laws.hpp"
+#include "knot_utm/rod/rod_laws.hpp"
 
 namespace knot_utm {
 
@@ -19,7 +19,7 @@ bool are_places(const Points& points);
 /// Symbols: l_j rest length of edge j, lbar_i = (l_{i-1}+l_i)/2 Voronoi length of node i.
 struct RodProperties {
   Material material;
-  StretchingLaws stretching;       ///< law of its edges
+  RodLaws laws;
   Eigen::VectorXd rest_length;     ///< l_j [m], N-1
   Eigen::VectorXd voronoi_length;  ///< lbar_i [m], N (half an edge at the ends)
   Eigen::VectorXd mass;            ///< m_i [kg], N
@@ -55,5 +55,9 @@ struct RodState {
 
   void state(Archive& archive);
 };
+
+/// Throws InvalidInput where state and rod do not fit together: other numbers of nodes, or a rod that needs frames or a
+/// memory of its bends which the state has not.
+void require_fits(const RodProperties& rod, const RodState& state);
 
 }  // namespace knot_utm

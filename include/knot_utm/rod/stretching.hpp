@@ -46,7 +46,7 @@ inline StretchedEdge stretched_edge(const RodProperties& rod, const Points& posi
 
 /// Response of the rod's own law to it.
 inline StretchingResponse respond(const RodProperties& rod, const StretchedEdge& edge) {
-  return std::visit([&](const auto& law) { return law.respond(edge); }, rod.stretching);
+  return std::visit([&](const auto& law) { return law.respond(edge); }, rod.laws.stretching);
 }
 
 }  // namespace knot_utm

@@ -11,6 +11,7 @@ namespace knot_utm {
 /// has
 ///
 ///     static constexpr const char* kName          the name that methods use (material.stretching_law)
+///     static constexpr std::array kKeys           its keys in `material` (LawKey), or NoKeys
 ///     static constexpr bool kStudied              whether the errors beside readings were studied with this law
 ///                                                 (machine/accuracy.hpp)
 ///     static Law of(Material)                     made from a method; throws InvalidInput where a value is missing
@@ -27,7 +28,7 @@ namespace knot_utm {
 
 /// What a law is told of one edge.
 struct StretchedEdge {
-  double stiffness;    ///< k_s [N]
+  double k_s;          ///< stiffness [N]
   double rest_length;  ///< l0 [m]
   double stretch;      ///< lambda, more than 0 [-]
 };

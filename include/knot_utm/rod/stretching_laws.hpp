@@ -11,22 +11,19 @@ namespace knot_utm {
 /// All stretching laws there are, in the order in which messages name them; the first is the default.
 using StretchingLaws = std::variant<LinearStretching, NeoHookeanStretching>;
 
-inline constexpr auto kStretchingLawNames = LawRegistry<StretchingLaws>::kNames;
+using StretchingRegistry = LawRegistry<StretchingLaws>;
+
+inline constexpr auto kStretchingLawNames = StretchingRegistry::kNames;
 
 /// The law that a material names, with its parameters.
 inline StretchingLaws stretching_law_of(const Material& material) {
-  return LawRegistry<StretchingLaws>::of(static_cast<std::size_t>(material.stretching_law), material);
+  return StretchingRegistry::of(material.stretching.law, material);
 }
 
 /// Strain lambda - 1 of a straight rod of this material that bears a tension [N] of 0 or more.
 inline double strain_under(const Material& material, double tension) {
   return std::visit([&](const auto& law) { return law.strain(material.stretching_stiffness, tension); },
                     stretching_law_of(material));
-}
-
-/// Whether the errors beside readings were studied with the law that a material names.
-inline bool stretching_is_studied(const Material& material) {
-  return std::visit([](const auto& law) { return law.kStudied; }, stretching_law_of(material));
 }
 
 }  // namespace knot_utm

@@ -2,7 +2,7 @@
 
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/stencil.hpp"
-#include "knot_utm/rod/twisting_law.hpp"
+#include "knot_utm/rod/twisting_laws.hpp"
 
 namespace knot_utm {
 
@@ -30,6 +30,7 @@ struct TwistingInput {
   double k_t = 0.0;             ///< [N m^2]
   double voronoi_length = 0.0;  ///< lbar [m]
   double natural_twist = 0.0;   ///< mbar [rad]
+  TwistingLaws law;
 };
 
 double twisting_energy(const TwistingInput& input, double twist);

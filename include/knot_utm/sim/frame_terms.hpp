@@ -5,7 +5,6 @@
 #include "knot_utm/contact/surface_contact.hpp"
 #include "knot_utm/numeric/block.hpp"
 #include "knot_utm/rod/bending.hpp"
-#include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stencil.hpp"
 #include "knot_utm/rod/twisting.hpp"
@@ -131,7 +130,8 @@ class FrameTerms {
   template <typename Law>
   void add_bending_stiffness(const Law& law, StepMatrix<4>& matrix) const;
   void set_tangents(const Points& position);
-  void set_twist();
+  template <typename Law>
+  void set_twist(const Law& law);
   void carry_directors();
   void set_turn(std::size_t edge, double turned);
 
@@ -150,7 +150,6 @@ class FrameTerms {
   double angle_change(const std::vector<Lanes>& change, int edge) const;
 
   const RodProperties& rod_;
-  BendingLaws law_;          // of a rod with natural curvature
   Eigen::VectorXd inertia_;  // I_j
   Eigen::VectorXd drag_;     // c h^2 l_j [N m s]
   Eigen::VectorXd rest_;     // r_j

@@ -3,7 +3,6 @@
 #include <vector>
 
 #include "knot_utm/contact/roller_contact.hpp"
-#include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/options.hpp"
 
@@ -80,12 +79,10 @@ struct Boundary {
 
 /// What a time step needs to know besides rod and boundary; constant during a run.
 struct StepSettings {
-  ContactLaw contact_law = ContactLaw::kSmooth;  ///< between strands; rollers always touch the smooth centreline
-  PressureLaws normal;                           ///< between strands, and on rollers
-  Friction friction;                             ///< between strands
+  ContactScheme contact_scheme = ContactScheme::kSmooth;  ///< of strands; rollers touch the smooth centreline
+  PressureLaws normal;                                    ///< between strands, and on rollers
+  Friction friction;                                      ///< between strands
   Friction roller_friction;
-  BendingLaws bending;  ///< of a rod with natural curvature; others bend elastically (isotropic_bending.hpp);
-                        ///< `bends_on_frames` tells
   double friction_couple =
       0.0;  ///< eta: friction acts at the surfaces (surface_contact.hpp); 0: on the centrelines [-]
   double weighting_time = 0.05;             ///< relaxation time of weighting factors (smooth_contact.hpp) [s]

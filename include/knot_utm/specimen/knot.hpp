@@ -39,7 +39,8 @@ enum class ErrorStudy { kNone, kStraight, kFisherman };
 /// Properties of a knot that do not depend on its keys.
 struct KnotDescription {
   const char* name = "";          ///< what a method calls it
-  std::vector<std::string> keys;  ///< its keys in `specimen` besides `knot` and `edge_length`
+  const char* title = "";         ///< what a report calls it
+  std::vector<std::string> keys;  ///< its keys in `specimen` besides those of all knots, in the order of a report
   /// Number of knots, and of the values in each list of a sample (PerKnot). With one or more, strands touch: edges must
   /// then not be longer than the rod's diameter, and the type of the knot is followed (KnotWatch).
   int knots = 0;
@@ -61,6 +62,7 @@ class Knot {
   virtual ~Knot() = default;
 
   const KnotDescription& about() const { return about_; }
+  /// Of its own keys and of those that all knots have, `knot` and `edge_length`.
   bool has(const std::string& key) const;
 
   /// The values of `auto` for a rod of radius h [m]. Keys that the knot does not have keep their plain values, so that
@@ -109,6 +111,9 @@ std::vector<const char*> knot_names();
 /// The knots that have a key of `specimen`, or that are loops, as a message lists them: "fisherman or overhand".
 std::string knots_with(const std::string& key);
 std::string loops();
+
+/// Throws InvalidInput ("specimen.closed") where the last point of the rod is to join the first one.
+void check_ends(const SpecimenOptions& specimen);
 
 /// F_p on each overhand of a loop [N]: that of the specimen, else default_preload of its material.
 double tying_load(const SpecimenOptions& specimen, const Material& material);

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "knot_utm/rod/bending_laws.hpp"
+#include "knot_utm/rod/stretching_laws.hpp"
+#include "knot_utm/rod/twisting_laws.hpp"
+
+namespace knot_utm {
+
+/// The laws of one rod, with their parameters. What they remember is in RodState.
+struct RodLaws {
+  StretchingLaws stretching;  ///< of its edges
+  BendingLaws bending;        ///< of its inner nodes; without a natural curvature in the state the elastic one
+                              ///< (isotropic_bending.hpp), which is all that require_fits allows there
+  TwistingLaws twisting;      ///< of its inner nodes, where the state has a frame
+
+  /// Those that a material names. Throws InvalidInput where a value of theirs is missing.
+  static RodLaws of(const Material& material);
+
+  void state(Archive& archive);
+};
+
+}  // namespace knot_utm

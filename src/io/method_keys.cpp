@@ -1,0 +1,121 @@
+#include "knot_utm/io/method_keys.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "key_walk.hpp"
+#include "knot_utm/record/program.hpp"
+#include "knot_utm/specimen/knot.hpp"
+
+namespace knot_utm {
+namespace {
+
+struct Label {
+  const char* key;
+  const char* words;
+};
+
+/// Of keys whose names alone would not tell a reader enough.
+constexpr Label kLabels[] = {
+    {"specimen.handedness", "Handedness of the two overhands"},
+    {"specimen.file", "Shape from"},
+    {"specimen.knot_distance", "Knot distance e"},
+    {"specimen.end_to_end", "End to end L"},
+    {"specimen.length", "Length of rod"},
+    {"specimen.tail", "Tails"},
+    {"specimen.preload", "Pre-load F_p"},
+    {"specimen.wrap", "Angle around the post"},
+    {"specimen.edge_length", "Edge length of the mesh"},
+    {"specimen.refinement", "Refinement within the knots"},
+    {"material.friction_couple", "Share of friction's couple that sections take"},
+    {"material.hardening", "Share of the bending stiffness that does not yield"},
+    {"material.bending_set", "Share of the tied bend that sets"},
+    {"machine.roller_rotation", "Rollers"},
+    {"machine.roller_rate", "Rate of the rollers"},
+    {"machine.far_side", "Far side of the loop"},
+    {"machine.stiffness", "Frame stiffness"},
+    {"machine.load_cell.capacity", "Capacity of the cell"},
+    {"machine.load_cell.sampling_rate", "Readings of the cell"},
+    {"machine.load_cell.accuracy", "Accuracy of the cell"},
+    {"machine.load_cell.floor", "Floor of the cell"},
+    {"machine.load_cell.resolution", "Resolution of the cell"},
+    {"machine.load_cell.noise", "Noise of the cell, standard deviation"},
+    {"machine.load_cell.drift", "Drift of the cell"},
+    {"machine.load_cell.overload", "Stop of the cell"},
+    {"ends.arming_load", "A break counts from a load of"},
+    {"ends.break_at_fraction_of_peak", "Break at no more than"},
+    {"ends.sharp_drop", "Sharp drop by"},
+    {"ends.sharp_drop_time", "A sharp drop is one within"},
+    {"ends.drop", "Drop by"},
+    {"ends.drop_extension", "A drop is one within"},
+    {"physics.friction.at", "Friction acts at the"},
+    {"physics.inertia", "Mass that is accelerated"},
+    {"physics.max_step", "Longest step"},
+};
+
+/// Of an entry of a list, or of a step that goes by its number.
+bool is_numbered(const std::string& key) {
+  for (std::size_t begin = 0; begin <= key.size();) {
+    const std::size_t end = std::min(key.find('.', begin), key.size());
+    if (key.find_first_not_of("0123456789", begin) >= end) return true;
+    begin = end + 1;
+  }
+  return false;
+}
+
+/// The name of a key in words: "contact stiffness" of "material.contact_stiffness".
+std::string words_of(const std::string& key) {
+  std::string words = key.substr(key.rfind('.') + 1);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+/// A method with every step that there is.
+Method with_every_step() {
+  Method method;
+  for (const std::string& name : step_names()) {
+    ProgramStep step;
+    step.phase = *phase_named(name);
+    step.hold_load = true;
+    method.program.push_back(step);
+  }
+  return method;
+}
+
+}  // namespace
+
+std::vector<MethodKey> method_keys() {
+  std::vector<MethodKey> keys;
+  for (const WalkedKey& one : walked_keys(with_every_step()))
+    if (!is_numbered(one.key)) keys.push_back({one.key, words_of(one.key), one.unit});
+  for (const Label& label : kLabels) {
+    const auto key = std::find_if(keys.begin(), keys.end(), [&](const MethodKey& one) { return one.key == label.key; });
+    if (key == keys.end()) throw std::logic_error(std::string(label.key) + " has a label, but is no key of a method");
+    key->label = label.words;
+  }
+  return keys;
+}
+
+std::string method_keys_csv() {
+  std::string all = "key,label,unit\n";
+  for (const MethodKey& one : method_keys()) all += one.key + ",\"" + one.label + "\"," + one.unit + "\n";
+  return all;
+}
+
+std::string knots_csv() {
+  // The mesh comes last.
+  const char *const kEdges = "edge_length", *const kRefinement = "refinement";
+  std::string all = "knot,title,keys\n";
+  for (const Knot* knot : knots()) {
+    const KnotDescription& about = knot->about();
+    all += std::string(about.name) + ",\"" + about.title + "\",";
+    for (const std::string& key : about.keys)
+      if (key != kRefinement) all += key + " ";
+    all += kEdges;
+    if (knot->has(kRefinement)) all += std::string(" ") + kRefinement;
+    all += "\n";
+  }
+  return all;
+}
+
+}  // namespace knot_utm
