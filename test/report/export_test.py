@@ -31,10 +31,6 @@ def setUpModule():
     assert not note
 
 
-def tearDownModule():
-    folders.remove()
-
-
 def export(*arguments):
     return subprocess.run([EXPORT, *arguments], cwd=ROOT, capture_output=True, text=True, check=False,
                           env={**os.environ, "KNOT_UTM_SKIP_BUILD": "1"})

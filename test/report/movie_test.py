@@ -23,10 +23,6 @@ def setUpModule():
     other = folders.run("other", [*draft, "--set", "material=polypropylene"], "--shapes")
 
 
-def tearDownModule():
-    folders.remove()
-
-
 def movie(*arguments):
     return subprocess.run([MOVIE, *arguments], cwd=folders.path, capture_output=True, text=True, check=False,
                           env={**os.environ, "KNOT_UTM_SKIP_BUILD": "1"})
