@@ -43,4 +43,4 @@ if(catkin_FOUND)
           PATTERN "__pycache__" EXCLUDE)
 endif()
 install(DIRECTORY report DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} FILES_MATCHING PATTERN "*.py" PATTERN "*.j2"
-        PATTERN "*.csv" PATTERN "__pycache__" EXCLUDE)
+        PATTERN "*.js" PATTERN "*.csv" PATTERN "__pycache__" EXCLUDE)

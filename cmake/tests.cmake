@@ -109,7 +109,7 @@ set_tests_properties(site_test PROPERTIES SKIP_RETURN_CODE 77)
 add_test(NAME panel_test COMMAND ${PYTHON_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/test/panel/panel_test.py)
 
 # The report: what is made of a run, and what a browser and a printer make of that.
-foreach(name report_test certificate_test figures_test comparison_test batch_test browser_test)
+foreach(name report_test certificate_test figures_test comparison_test batch_test browser_test export_test movie_test)
   add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/report/${name}.py)
   set_tests_properties(${name} PROPERTIES TIMEOUT 1800 ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
 endforeach()

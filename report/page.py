@@ -20,8 +20,9 @@ from quantities import error_shown, percent, quantity_of, shown, with_unit
 from results_table import results_table, short_label
 from rod_pictures import pictures
 from run import Run, printable
-from shapes import shapes_at
+from shapes import series_of, shapes_at
 from style import LOOKS, embedded
+from turnable import turnable
 from units import Units
 
 FILES = [
@@ -32,6 +33,7 @@ FILES = [
     ("specimens.csv", "a row for each specimen: what was drawn, how its test ended, and all of its readings"),
     ("method.yaml", "the method with every value, which gives the same curve when it is run again"),
     ("final_shape.csv", "the rod at the end"),
+    ("shapes.csv", "the rod over the time of the test"),
     ("test.bag", "the topics of the test"),
     ("saved.bag", "the bag as it was when recorder/save was called"),
     ("specimen.csv", "the shape that was tested"),
@@ -77,14 +79,16 @@ def report_on_run(folder, command, version):
 
 def figures_of(run, marks):
     """Each for a wide page and for a narrow one; None where there is nothing to draw."""
-    found = {"curve": None, "course": None, "pictures": None, "note": ""}
+    found = {"curve": None, "course": None, "pictures": None, "note": "", "turnable": None}
     if marks:
         found["curve"] = [force_extension(run, marks, look) for look in LOOKS]
     if len(run.curve) >= 2:
         found["course"] = [course(run, look) for look in LOOKS]
         shown_at = marks or [end_of(run.curve)]
-        shapes, found["note"] = shapes_at(run, [mark.time for mark in shown_at], time_of_break(shown_at))
+        series, found["note"] = series_of(run)
+        shapes = shapes_at(series, [mark.time for mark in shown_at], time_of_break(shown_at))
         found["pictures"] = [pictures(run, shown_at[-len(shapes):], shapes, look) for look in LOOKS]
+        found["turnable"] = turnable(run, series, marks)
     return found
 
 

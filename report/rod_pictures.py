@@ -3,16 +3,16 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
-from matplotlib.colors import LinearSegmentedColormap, LogNorm, to_rgb
-from matplotlib.ticker import FuncFormatter, LogLocator
+from matplotlib.colors import LogNorm, to_rgb
 
+from colour_scales import colour_scales
 from method_facts import post_diameter
-from quantities import number, with_unit
+from node_values import node_values
+from quantities import with_unit
 from shapes import pieces
 from style import GREY, HUB, INK, ROLLER, SMALL, USUAL, as_png
 from tube import Tube, smooth, to_picture
 
-TENSION = LinearSegmentedColormap.from_list("tension", ["#ece5d3", "#e8bd6a", "#d9752f", "#b02a30", "#6e1540"])
 UNKNOWN = to_rgb("#9fb3c4")
 PIXELS = 1500   # across a picture
 NEAR = 2.6      # strands whose centrelines are nearer than this many radii touch, or nearly so
@@ -25,22 +25,22 @@ NAME = 0.24     # of a name above its picture [in]
 def pictures(run, marks, shapes, look):
     """All of them in one picture, one below the other, with one scale of colours."""
     radius = run.method["material"]["radius"]
-    norm = scale_of([shape.tension for shape in shapes if shape.tension is not None])
+    scale = next((one for one in colour_scales(shapes, radius, run.units) if one.name == "tension"), None)
     views = [view(run, shape, radius) for shape in shapes]
     width = width_of(views)
     heights = [look.width * (top - bottom) / width + NAME for _, _, bottom, top in views]
-    scale_height = 0.75 if norm else 0.1
+    scale_height = 0.75 if scale else 0.1
     figure = plt.figure(figsize=(look.width, sum(heights) + scale_height))
     grid = figure.add_gridspec(len(shapes) + 1, 1, height_ratios=[*heights, scale_height], left=0.0, right=1.0,
                                bottom=0.0, top=1.0, hspace=0.0)
     for row, (mark, shape, box) in enumerate(zip(marks, shapes, views)):
         axes = figure.add_subplot(grid[row])
-        draw_rod(axes, shape, shapes[0], radius, norm)
+        draw_rod(axes, shape, shapes[0], radius, scale)
         draw_rollers(axes, run, shape)
         frame(axes, box, (width, width * heights[row] / look.width), 0.5 * NAME * width / look.width)
         label(axes, mark, shape, run)
-    if norm:
-        draw_scale(figure.add_subplot(grid[len(shapes)]), norm, run.units.force)
+    if scale:
+        draw_scale(figure.add_subplot(grid[len(shapes)]), scale)
     return as_png(figure, PIXELS / look.width)
 
 
@@ -49,18 +49,9 @@ def width_of(views):
     return max(max(right - left, (top - bottom) / HIGHEST) for left, right, bottom, top in views)
 
 
-def scale_of(tensions):
-    """Logarithmic: a sliding knot carries a thousandth of a locked one. None where no tension is known."""
-    largest = max((float(np.percentile(tension, 99.5)) for tension in tensions), default=0.0)
-    if not largest > 0.0:
-        return None
-    usual = min(float(np.percentile(tension, 70.0)) for tension in tensions)
-    return LogNorm(min(max(0.3 * usual, 1e-4 * largest), 0.1 * largest), largest, clip=True)
-
-
-def draw_rod(axes, shape, whole, radius, norm):
+def draw_rod(axes, shape, whole, radius, scale):
     tubes = [(part, Tube(smooth(to_picture(shape.points[part])), radius)) for part in pieces(shape, whole)]
-    colours = np.concatenate([tube.shaded(base_of(shape, part, tube.along, norm)) for part, tube in tubes])
+    colours = np.concatenate([tube.shaded(base_of(shape, part, tube.along, scale)) for part, tube in tubes])
     depth = np.concatenate([tube.depth for _, tube in tubes])
     # What is farther from the eye is paler.
     away = (depth.max() - depth) / max(np.ptp(depth), 4.0 * radius)
@@ -71,13 +62,12 @@ def draw_rod(axes, shape, whole, radius, norm):
                                        linewidths=0.25, zorder=2))
 
 
-def base_of(shape, part, along, norm):
-    """Colours by tension at places along a part of the rod, 0 to 1."""
-    if shape.tension is None or norm is None:
+def base_of(shape, part, along, scale):
+    """Colours by the values of a scale at places along a part of the rod, 0 to 1."""
+    values = node_values(shape).get(scale.name) if scale else None
+    if values is None:
         return np.tile(UNKNOWN, (len(along), 1))
-    nodes = part.start + along * (part.stop - 1 - part.start)
-    tension = np.interp(nodes, np.arange(len(shape.tension)) + 0.5, shape.tension)
-    return TENSION(norm(np.maximum(tension, norm.vmin)))[:, :3]
+    return scale.of(np.interp(part.start + along * (part.stop - 1 - part.start), np.arange(len(values)), values))
 
 
 def rollers(run, shape):
@@ -147,14 +137,18 @@ def label(axes, mark, shape, run):
     axes.annotate(f"{mark.title()}: s = {with_unit(at, run.units.length)}", xytext=(16, -11), fontsize=USUAL, **place)
 
 
-def draw_scale(axes, norm, force):
+def draw_scale(axes, scale):
     axes.axis("off")
-    inset = axes.inset_axes([0.25, 0.62, 0.5, 0.16])
-    shown = LogNorm(force.scale * norm.vmin, force.scale * norm.vmax)
-    bar = plt.colorbar(ScalarMappable(shown, TENSION), cax=inset, orientation="horizontal", extend="min")
-    bar.set_label(f"tension of the rod [{force.name}]", fontsize=SMALL)
-    bar.outline.set_edgecolor(GREY)
-    narrow = norm.vmax < 150.0 * norm.vmin
-    bar.ax.xaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0) if narrow else (1.0,)))
-    bar.ax.xaxis.set_major_formatter(FuncFormatter(lambda value, _: number(value)))
+    draw_bar(axes.inset_axes([0.25, 0.62, 0.5, 0.16]), scale, SMALL)
+
+
+def draw_bar(axes, scale, letters):
+    """The colours with what they mean. `letters`: their size [pt]."""
+    bar = plt.colorbar(ScalarMappable(scale.norm, scale.colours), cax=axes, orientation="horizontal",
+                       extend="min" if isinstance(scale.norm, LogNorm) else "neither")
+    ticks = scale.ticks()
+    bar.set_ticks([scale.norm.inverse(place) for place, _ in ticks], labels=[text for _, text in ticks])
     bar.ax.minorticks_off()
+    bar.ax.tick_params(labelsize=letters)
+    bar.set_label(scale.label(), fontsize=letters)
+    bar.outline.set_edgecolor(GREY)

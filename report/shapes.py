@@ -1,18 +1,35 @@
-"""The rod as it lay at given times of a test: from its bag, else the final shape alone."""
+"""The rod as it lay over the time of a test: from its shapes.csv or its bag, else the final shape alone."""
 import os
 
 import numpy as np
 
+from failure import CannotReport
 from run import numbers, read_columns
 
 SHAPE, STATE = "knot/shape", "knot/state"
 
 
 class Shape:
-    """`tension`: of each edge [N]; None: not known. `time` of the test [s]."""
+    """`time` of the test [s]; `points`: the nodes [m]. `tension`: of each edge [N]; `twist`: of each node [rad/m];
+    `contact_force`: that presses on each node, per length [N/m]. None: not known."""
 
-    def __init__(self, time, points, tension):
+    def __init__(self, time, points, tension=None, twist=None, contact_force=None):
         self.time, self.points, self.tension = time, points, tension
+        self.twist, self.contact_force = twist, contact_force
+
+
+class Series:
+    """Shapes in order of their `times` [s]; `shape(i)` gives one."""
+
+    def __init__(self, times, shape):
+        self.times, self.shape = np.asarray(times, dtype=float), shape
+
+    def __len__(self):
+        return len(self.times)
+
+    def at(self, time, broke=None):
+        """The shape nearest to a time; of a time before the rod `broke` one from before that."""
+        return self.shape(nearest(self.times, time, broke))
 
 
 def pieces(shape, whole):
@@ -30,19 +47,58 @@ def lengths(shape):
     return np.linalg.norm(np.diff(shape.points, axis=0), axis=1)
 
 
-def shapes_at(run, times, broke=None):
-    """The shape nearest to each time that has one, in the order of `times`, and what is to be said of them: a line, or
-    nothing. Of a time before the rod `broke` a shape that is from before that."""
-    bag = os.path.join(run.folder, "test.bag")
+def series_of(run):
+    """All shapes that the folder of a run has, and what is to be said of them: a line, or nothing."""
+    file, bag = (os.path.join(run.folder, name) for name in ("shapes.csv", "test.bag"))
+    if os.path.exists(file):
+        return series_of_csv(file), ""
     if not os.path.exists(bag):
-        return [final_shape(run)], "There is no test.bag, so only the final shape is shown, without tensions."
+        return only_the_final(run), ("There is no shapes.csv and no test.bag, so only the final shape is shown, without "
+                                     "tensions.")
     try:
-        return shapes_of_bag(bag, times, broke), ""
+        return series_of_bag(bag), ""
     except ModuleNotFoundError as missing:
         why = f"{missing} (Debian: python3-rosbag)"
     except Exception as error:  # a bag is read by code that its own content chooses: anything may go wrong
         why = " ".join(str(error).split()) or type(error).__name__
-    return [final_shape(run)], f"test.bag cannot be read, so only the final shape is shown, without tensions: {why}"
+    return only_the_final(run), f"test.bag cannot be read, so only the final shape is shown, without tensions: {why}"
+
+
+def shapes_at(series, times, broke=None):
+    """The shape nearest to each time, in the order of `times`, or the only one that there is. Of a time before the rod
+    `broke` a shape that is from before that."""
+    return [series.shape(0)] if len(series) == 1 else [series.at(time, broke) for time in times]
+
+
+def only_the_final(run):
+    shape = final_shape(run)
+    return Series([shape.time], lambda _: shape)
+
+
+def series_of_csv(file):
+    columns = {name: numbers(file, name, column) for name, column in read_columns(file).items()}
+    missing = {"time", "node", "x", "y", "z", "tension", "twist", "contact_force"} - set(columns)
+    begins = np.flatnonzero(columns["node"] == 0) if not missing else []
+    if not len(begins):
+        raise CannotReport(f"{file}: no column {sorted(missing)[0]}" if missing else f"{file}: it holds no shape")
+    ends = [*begins[1:], len(columns["node"])]
+
+    def shape(i):
+        rows = slice(begins[i], ends[i])
+        points = np.column_stack([columns[name][rows] for name in ("x", "y", "z")])
+        return Shape(float(columns["time"][begins[i]]), points, known(columns["tension"][rows][:-1]),
+                     known(filled(columns["twist"][rows])), known(columns["contact_force"][rows]))
+
+    return Series(columns["time"][begins], shape)
+
+
+def filled(twist):
+    """It is measured between two edges: the end nodes have that of their neighbours."""
+    return np.concatenate([twist[1:2], twist[1:-1], twist[-2:-1]]) if len(twist) > 2 else twist
+
+
+def known(values):
+    return values if np.isfinite(values).all() else None
 
 
 def final_shape(run):
@@ -57,7 +113,7 @@ def nearest(seconds, time, broke):
     return i - 1 if broke is not None and i > 0 and time <= broke < seconds[i] else i
 
 
-def shapes_of_bag(file, times, broke):
+def series_of_bag(file):
     import rosbag
 
     with rosbag.Bag(file) as bag:
@@ -67,13 +123,10 @@ def shapes_of_bag(file, times, broke):
         # Stamps run on over all tests of one launch; the state knows both times.
         first = next(bag.read_messages(topics=[state]))
         begin = first.message.header.stamp.to_sec() - first.message.time
-        stamps = [entry.timestamp for entry in bag.read_messages(topics=[shape], raw=True)]
-        if not stamps:
-            raise ValueError("it holds no shape")
-        seconds = np.array([stamp.to_sec() for stamp in stamps]) - begin
-        chosen = [nearest(seconds, time, broke) for time in times]
-        return [shape_of(next(bag.read_messages(topics=[shape], start_time=stamps[i], end_time=stamps[i])).message,
-                         float(seconds[i])) for i in chosen]
+        shapes = [shape_of(entry.message, entry.timestamp.to_sec() - begin) for entry in bag.read_messages(topics=[shape])]
+    if not shapes:
+        raise ValueError("it holds no shape")
+    return Series([one.time for one in shapes], lambda i: shapes[i])
 
 
 def shape_of(message, time):

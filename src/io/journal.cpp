@@ -24,7 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "knot_utm journal\n";
-constexpr std::uint32_t kVersion = 5;
+constexpr std::uint32_t kVersion = 6;
 constexpr std::size_t kWord = sizeof(std::uint32_t);
 constexpr std::size_t kFrameHead = 2 * kWord;
 

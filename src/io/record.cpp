@@ -4,11 +4,17 @@
 
 namespace knot_utm {
 
+void RodReadings::state(Archive& archive) {
+  archive.list(twist_rate);
+  archive.list(contact_load);
+}
+
 void Record::state(Archive& archive) {
   archive(wall_time, command, answer);
   archive.list(steps);
   archive.list(shape);
   archive.list(tension);
+  archive(readings);
 }
 
 const Sample* cell_reading(const Record& record) {

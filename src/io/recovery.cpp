@@ -114,7 +114,7 @@ void Recovery::finish() {
 
 /// The result last: where it is, all is.
 void Recovery::move_into_place() const {
-  for (const char* name : {"curve.csv", "curve_full.csv", "test.bag", "final_shape.csv", "result.yaml"}) {
+  for (const char* name : {"curve.csv", "curve_full.csv", "test.bag", "shapes.csv", "final_shape.csv", "result.yaml"}) {
     const fs::path made = fs::path(place_.folder) / name;
     std::error_code error;
     if (!fs::exists(made, error)) continue;

@@ -25,9 +25,9 @@ constexpr const char* kFailedStep = "failed_step.bin";
 constexpr std::array<const char*, 5> kWritten{"method.yaml", "specimen.csv", "curve.csv", "curve_full.csv",
                                               "comparison.yaml"};
 /// What it takes away when it begins.
-constexpr std::array<const char*, 9> kOld{"result.yaml", "final_shape.csv", "test.bag",
-                                          "saved.bag",   "report.html",     "report.pdf",
-                                          kFailedStep,   "statistics.yaml", "specimens.csv"};
+constexpr std::array<const char*, 10> kOld{"result.yaml",     "final_shape.csv", "shapes.csv", "test.bag",
+                                           "saved.bag",       "report.html",     "report.pdf", kFailedStep,
+                                           "statistics.yaml", "specimens.csv"};
 
 /// The value of a key in result.yaml, as it stands there.
 std::optional<std::string> result_of(const std::string& folder, const std::string& key) {

@@ -85,6 +85,7 @@ void RunWriter::add(const Record& record) {
                   .colwise()
                   .norm()
                   .sum();
+  shapes_.add(record);
   const Sample* reading = cell_reading(record);
   if (reading && (readings_.empty() || reading->time > readings_.back().time)) {
     curve_.write(*reading);
@@ -116,6 +117,10 @@ RunFacts RunWriter::facts() const {
 
 void RunWriter::finish(const Results& results, const RunFacts& facts, const Points& final_shape) {
   if (final_shape.cols() > 0) write_centreline((fs::path(folder_) / "final_shape.csv").string(), final_shape);
+  if (!shapes_.empty()) {
+    if (samples_.back().status == BenchStatus::kBroken) shapes_.add_parted(samples_.back().time, final_shape);
+    write_whole((fs::path(folder_) / "shapes.csv").string(), shapes_.csv());
+  }
   RunFacts with_shape = facts;
   if (facts.one_knot_in_a_strand && holds_its_knot(results) && final_shape.cols() > 0)
     with_shape.knot_hole = hole_diameter(sampled_centreline(final_shape), facts.material.radius);

@@ -196,6 +196,8 @@ struct TestingMachine::Impl {
   TiedLoop::Place place() const { return {time, displacement, grip}; }
 
   bool parted() const { return stepper->parted_edge() >= 0; }
+  /// A step that could not be made leaves contacts that no accepted step has, of a recoil too.
+  bool knows_contacts() const { return status != BenchStatus::kFailed && status != BenchStatus::kBroken; }
 
   /// After an accepted step: does the rod part? The next step ends where at this pace it will.
   void watch_for_break(double dt) {
@@ -407,9 +409,11 @@ double TestingMachine::longest_step() const {
 }
 Eigen::VectorXd TestingMachine::tension() const { return impl_->stepper->tension(); }
 std::vector<ContactForce> TestingMachine::contact_forces() const {
-  // A step that could not be made leaves contacts that no accepted step has, of a recoil too.
-  const bool over = impl_->status == BenchStatus::kFailed || impl_->status == BenchStatus::kBroken;
-  return over ? std::vector<ContactForce>() : impl_->stepper->contact_forces();
+  return impl_->knows_contacts() ? impl_->stepper->contact_forces() : std::vector<ContactForce>();
+}
+Eigen::VectorXd TestingMachine::contact_load() const {
+  if (!impl_->knows_contacts()) return {};
+  return impl_->stepper->normal_forces().cwiseQuotient(rod().voronoi_length);
 }
 void TestingMachine::state(Archive& archive) { impl_->state(archive); }
 

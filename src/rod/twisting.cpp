@@ -63,6 +63,13 @@ StencilGradient twisting_gradient(const TwistingInput& input, const Vec3& e, con
   return local;
 }
 
+Eigen::VectorXd twist_rates(const RodProperties& rod, const RodState& state) {
+  if (state.twist.size() == 0) return {};
+  const Eigen::Index inner = rod.nodes() - 2;
+  const Eigen::VectorXd twist = state.twist.tail(inner) - state.twist.head(inner) + state.reference_twist;
+  return twist.cwiseQuotient(rod.voronoi_length.segment(1, inner));
+}
+
 StencilLocal twisting(const TwistingInput& input, const Vec3& e, const Vec3& f, double twist) {
   const Corner at(e, f);
   const TwistingResponse<double> law = respond(input, twist);

@@ -1,6 +1,31 @@
 #include "knot_utm/sim/contact_sums.hpp"
 
+#include <algorithm>
+
 namespace knot_utm {
+
+namespace {
+
+/// Weights on three nodes of the sum 1, of which those below zero count as zero.
+void share(const double* weights, double sign, int first, double normal, Eigen::VectorXd& force) {
+  double sum = 0.0;
+  for (int k = 0; k < 3; ++k) sum += std::max(0.0, sign * weights[k]);
+  for (int k = 0; k < 3; ++k) {
+    const double weight = std::max(0.0, sign * weights[k]);
+    if (weight > 0.0) force[first + k] += weight / sum * normal;
+  }
+}
+
+}  // namespace
+
+void add_normal_forces(const std::vector<ContactPoint>& contacts, Eigen::VectorXd& force) {
+  for (const ContactPoint& contact : contacts) {
+    if (!contact.touches()) continue;
+    const double normal = contact.weight * contact.pressure;
+    share(contact.c, 1.0, contact.a0, normal, force);
+    if (!contact.on_roller()) share(contact.c + 3, -1.0, contact.b0, normal, force);
+  }
+}
 
 std::vector<ContactForce> contact_forces(const std::vector<ContactPoint>& contacts, const Points& position) {
   std::vector<ContactForce> out;

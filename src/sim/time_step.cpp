@@ -66,6 +66,12 @@ class ImplicitStep final : public TimeStep {
   std::vector<ContactForce> contact_forces() const override {
     return knot_utm::contact_forces(equation_.strands.points(), state_.position);
   }
+  Eigen::VectorXd normal_forces() const override {
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(rod_.nodes());
+    add_normal_forces(equation_.strands.points(), force);
+    add_normal_forces(equation_.rollers.points(), force);
+    return force;
+  }
   double normal_force_between(const NodeRange& a, const NodeRange& b) const override {
     return knot_utm::normal_force_between(equation_.strands.points(), a, b);
   }

@@ -83,6 +83,7 @@ class SideBySide {
     out.folder = specimen_folder(folder_, specimen.number);
     out.resume = holds_unfinished_run(out.folder);
     out.overwrite = !out.resume;  // what stands there is an earlier batch's, which the whole one writes over
+    out.shapes = options_.shapes;
     out.checkpoint_period = options_.checkpoint_period;
     out.interrupted = [this] { return stops(); };
     const int number = specimen.number;

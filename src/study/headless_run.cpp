@@ -16,6 +16,7 @@
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/rod/twisting.hpp"
 #include "knot_utm/study/find_margin.hpp"
 #include "past_records.hpp"
 
@@ -75,13 +76,16 @@ struct CheckedBench {
 };
 
 /// All that is kept of the bench's last answer.
-void take(const Command& command, const Sample& answer, const TestingMachine& bench, double wall_time, Record& record) {
+void take(const Command& command, const Sample& answer, const TestingMachine& bench, bool shapes, double wall_time,
+          Record& record) {
   const bool shape = shape_is_due(command);
   record.command = command;
   record.answer = answer;
   record.steps = bench.substeps();
   record.shape = shape ? bench.state().position : Points();
   record.tension = shape ? bench.tension() : Eigen::VectorXd();
+  record.readings.reset();
+  if (shape && shapes) record.readings = RodReadings{twist_rates(bench.rod(), bench.state()), bench.contact_load()};
   record.wall_time = wall_time;
 }
 
@@ -142,13 +146,13 @@ HeadlessOutcome outcome_of(const Test& test, const Results& results, const WallC
   return out;
 }
 
-void pull(const Test& test, Writers& writers, JournalWriter& journal, const WallClock& clock) {
+void pull(const Test& test, bool shapes, Writers& writers, JournalWriter& journal, const WallClock& clock) {
   Record record;
   CheckedBench checked{test.bench, test.program, journal, test.checkpoint, clock, test.options.checkpoint_period};
   run_test(
       checked, test.program,
       [&](const Command& command, const Sample& sample) {
-        take(command, sample, test.bench, clock.seconds(), record);
+        take(command, sample, test.bench, shapes, clock.seconds(), record);
         journal.append(record);
         writers.add(record);
         if (test.options.progress) test.options.progress(sample, test.program, clock.seconds());
@@ -156,9 +160,13 @@ void pull(const Test& test, Writers& writers, JournalWriter& journal, const Wall
       [&] { return stops_here(test) || test.options.interrupted(); });
 }
 
-/// All records that there are before anything is stepped; the wall time that had passed [s].
-double replay(const Test& test, Writers& writers, JournalWriter& journal) {
-  const auto add = [&](const Record& record) { writers.add(record); };
+/// All records that there are before anything is stepped, and whether they have `shapes`; the wall time that had passed
+/// [s].
+double replay(const Test& test, bool& shapes, Writers& writers, JournalWriter& journal) {
+  const auto add = [&](const Record& record) {
+    writers.add(record);
+    shapes |= record.readings.has_value();
+  };
   if (test.past) return test.past->replay(add, journal);
   return test.earlier ? test.earlier->replay(add, journal) : 0.0;
 }
@@ -166,8 +174,9 @@ double replay(const Test& test, Writers& writers, JournalWriter& journal) {
 HeadlessOutcome run_to_end(const Test& test, JournalWriter& journal) {
   if (!test.past) test.checkpoint.remove();
   Writers writers(test.folder, test.method, test.options);
-  const WallClock clock(replay(test, writers, journal));
-  pull(test, writers, journal, clock);
+  bool shapes = test.options.shapes;
+  const WallClock clock(replay(test, shapes, writers, journal));
+  pull(test, shapes, writers, journal, clock);
   if (!test.program.ended()) {
     // Before anything that takes long: a second Ctrl-C ends the program.
     if (test.options.checkpoint_period > 0.0 || stops_here(test))

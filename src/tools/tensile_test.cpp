@@ -60,6 +60,7 @@ struct Arguments {
   bool overwrite = false;
   bool quiet = false;
   bool report = false;
+  bool shapes = false;
   bool check = false;      // no test
   bool list_keys = false;  // no test
   std::string command;     // the whole line
@@ -121,6 +122,7 @@ HeadlessOutcome run_and_tell(const Arguments& arguments, const Method& method) {
   options.resume = !arguments.resume.empty();
   options.overwrite = arguments.overwrite;
   options.checkpoint_period = arguments.checkpoint;
+  options.shapes = arguments.shapes || arguments.report;
   options.begin_with = arguments.begin_with;
   options.stop_before = step_to_stop_before(arguments, method);
 #ifdef KNOT_UTM_HAS_ROS
@@ -166,6 +168,7 @@ int run_all_specimens(const Arguments& arguments, const Method& method) {
   options.jobs = arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::thread::hardware_concurrency());
   options.resume = !arguments.resume.empty();
   options.overwrite = arguments.overwrite;
+  options.shapes = arguments.shapes;
   options.checkpoint_period = arguments.checkpoint;
   ProgressLine progress(arguments.quiet);
   options.interrupted = [] { return stop_asked != 0; };
@@ -254,6 +257,9 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
       ->capture_default_str();
   app.add_flag("--quiet", arguments.quiet, "say only what went wrong");
   app.add_flag("--report", arguments.report, "also write report.html and report.pdf");
+  app.add_flag(
+      "--shapes", arguments.shapes,
+      "also write shapes.csv, the rod at 60 to 120 readings of the load cell; a single test with --report does");
   CLI::Option* check = app.add_flag("--check", arguments.check,
                                     "only say whether the test could be made: writes the method with every value");
   CLI::Option* list_keys = app.add_flag("--list-keys", arguments.list_keys,

@@ -1,7 +1,9 @@
 #!/usr/bin/python3
 """README.md and doc/ against the code: keys and their ranges, launch arguments, names, tests, files, links."""
+import ast
 import csv
 import glob
+import json
 import os
 import re
 import unittest
@@ -199,6 +201,42 @@ class Ros(unittest.TestCase):
         for file in files("cfg", ".cfg"):
             for name in re.findall(r"\.add\('(\w+)'", text(file)):
                 self.assertTrue(f"`~{name}` (dynamic)" in self.page, name)
+
+
+class CurvesInOtherPrograms(unittest.TestCase):
+    """Files for programs that Debian does not have: what they name is there."""
+
+    def exists(self, name):
+        topic, _, field = name.strip("/").rpartition("/")
+        if name.strip("/") in self.topics:
+            return True
+        fields = re.findall(r"^[\w/]+(?:\[\])? (\w+)$", text(f"msg/{self.topics.get(topic, 'none')}.msg"), re.M)
+        return field in fields
+
+    def setUp(self):
+        self.topics = {topic: of.group(1) for topic, of in
+                       ((topic, re.search(r"(?:knot_utm|sensor_msgs)/(\w+)", line))
+                        for line in text("doc/ros.md").splitlines() if line.startswith("|")
+                        for topic in re.findall(r"`((?:knot|view)/\w+)`", line)) if of}
+
+    def test_plotjuggler_draws_fields_that_are_there(self):
+        root = xml.etree.ElementTree.fromstring(text("config/plotjuggler.xml").encode())
+        curves = [curve.attrib for curve in root.iter("curve")]
+        names = [curve[key] for curve in curves for key in ("curve_x", "curve_y") if key in curve]
+        names += [curve["name"] for curve in curves if "curve_x" not in curve]
+        self.assertIn("/knot/state/load", names)
+        for name in [*names, *(one.get("value") for one in root.iter("selected_topics"))]:
+            self.assertTrue(self.exists(name), name)
+
+    def test_rqt_shows_topics_and_fields_that_are_there(self):
+        manager = json.loads(text("config/knot_utm.perspective"))["groups"]["pluginmanager"]
+        of = {name: {key: ast.literal_eval(value["repr"]) for key, value in group["groups"]["plugin"]["keys"].items()}
+              for name, group in manager["groups"].items()}
+        running = ast.literal_eval(manager["keys"]["running-plugins"]["repr"])
+        self.assertEqual({f"plugin__{name.replace('/', '__')}__{number}" for name, numbers in running.items()
+                          for number in numbers}, set(of))
+        for name in [of["plugin__rqt_image_view__ImageView__1"]["topic"], *of["plugin__rqt_plot__Plot__1"]["topics"]]:
+            self.assertTrue(self.exists(name), name)
 
 
 class Readme(unittest.TestCase):

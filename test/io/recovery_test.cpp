@@ -40,6 +40,7 @@ class RecoveryOf : public OwnFolder {
       record.answer = sample;
       record.steps = bench.substeps;
       record.shape = Points::Constant(3, 4, command.time);
+      record.readings = RodReadings{{}, Eigen::VectorXd::Constant(4, command.time)};
       record.wall_time = 0.5;
       journal.append(record);
       writer.add(record);
@@ -87,14 +88,15 @@ TEST_F(RecoveryOf, ARunThatDiedBeforeItsResultIsThatOfAnUnbrokenRunToTheByte) {
       record.answer = sample;
       record.steps = bench.substeps;
       record.shape = Points::Constant(3, 4, command.time);
+      record.readings = RodReadings{{}, Eigen::VectorXd::Constant(4, command.time)};
       journal.append(record);
     });
   }
-  for (const char* name : {"curve.csv", "curve_full.csv", "final_shape.csv", "result.yaml"}) {
+  for (const char* name : {"curve.csv", "curve_full.csv", "final_shape.csv", "shapes.csv", "result.yaml"}) {
     fs::remove(in("killed") + "/" + name);
   }
   recover(in("killed"), in("killed"));
-  for (const char* name : {"curve.csv", "curve_full.csv", "final_shape.csv", "method.yaml"}) {
+  for (const char* name : {"curve.csv", "curve_full.csv", "final_shape.csv", "shapes.csv", "method.yaml"}) {
     EXPECT_EQ(read_whole(in("killed") + "/" + name), read_whole(in("unbroken") + "/" + name)) << name;
   }
 }

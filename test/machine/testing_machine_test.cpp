@@ -274,6 +274,27 @@ TEST(TestingMachine, ForcesBetweenStrandsAreThoseOfTheReading) {
   EXPECT_LE(sum, sample.normal_force * std::hypot(1.0, mu) + rounding);
 }
 
+/// Between strands each force presses on both; on a roller, on the rod alone.
+TEST(TestingMachine, ContactLoadAddsUpToTheForcesOfTheReading) {
+  SpecimenOptions overhand;
+  overhand.knot = knot_named("overhand");
+  overhand.end_to_end = 0.7;
+  overhand.edge_length = 0.0063;
+  TestingMachine machine = bench(overhand);
+  machine.respond(Command{});
+  Sample sample;
+  for (std::uint64_t k = 1; k <= 10; ++k) sample = machine.respond(pull(k, 0.2 * static_cast<double>(k), 0.0));
+  ASSERT_GT(sample.normal_force, 0.0);
+  const Eigen::VectorXd load = machine.contact_load();
+  EXPECT_GE(load.minCoeff(), 0.0) << "strands press, and do not pull";
+  EXPECT_NEAR(load.dot(machine.rod().voronoi_length), 2.0 * sample.normal_force, 1e-12 * sample.normal_force);
+  for (const ContactForce& contact : machine.contact_forces()) {
+    Eigen::Index nearest = 0;
+    (machine.state().position.colwise() - contact.place).colwise().norm().minCoeff(&nearest);
+    EXPECT_GT(load[nearest], 0.0) << "where the strands press";
+  }
+}
+
 TEST(TestingMachine, OnceFailedItAnswersEveryCommandWithTheSame) {
   TestingMachine machine = bench(straight_rod());
   machine.respond(Command{});
@@ -293,6 +314,7 @@ TEST(TestingMachine, OnceFailedItAnswersEveryCommandWithTheSame) {
     EXPECT_EQ(machine.substeps().size(), 1u);
   }
   EXPECT_TRUE(machine.contact_forces().empty());
+  EXPECT_EQ(machine.contact_load().size(), 0);
   EXPECT_EQ(machine.state().position, position);
 }
 

@@ -11,10 +11,12 @@ from html import escape
 from runs import FISHERMAN, Folders, read, tool, write
 
 import matplotlib.image
+import numpy as np
 import yaml
 
 import style
 
+NO_WEBGL, WEBGL = ["--disable-3d-apis"], ["--enable-unsafe-swiftshader"]  # by the processor, as no graphics card is there
 WIDTH = 1200                    # of the window [px]
 WIDTHS = (360, 720, 800, 1280)  # a telephone, tablets, a desk [px]
 SMALLEST, DRAWN = 12.0, 10.0    # letters of the page, and those in its figures [px]
@@ -41,6 +43,42 @@ PROBE = """<script>window.addEventListener("load", () => {
   parent.tell(btoa(unescape(encodeURIComponent(JSON.stringify(seen)))));
 });</script>"""
 
+# What the rod that can be turned does when it is used. The bytes of a picture are there only until the browser takes it.
+USE = """<script>window.addEventListener("load", () => {
+  const figure = document.getElementById("turnable"), part = name => figure.querySelector("." + name);
+  const looks = () => {
+    const marker = part("marker");
+    return {words: part("words").textContent, cx: Number(marker.getAttribute("cx")), cy: Number(marker.getAttribute("cy")),
+            marked: marker.style.display != "none"};
+  };
+  const drawn = event => { event(); return part("stage").toDataURL(); };
+  const set = (name, value, kind) => () => { part(name).value = value; part(name).dispatchEvent(new Event(kind)); };
+  const mouse = (where, kind, x) => where.dispatchEvent(new MouseEvent(kind,
+    {clientX: x, clientY: 100, button: 0, bubbles: true, cancelable: true}));
+  const used = {hidden: figure.hidden, shapes: Number(part("time").max) + 1, states: [], quantities: []};
+  const pictures = [];
+  for (const shape of SHAPES) {
+    pictures.push(drawn(set("time", shape < 0 ? used.shapes + shape : shape, "input")));
+    used.states.push(looks());
+  }
+  used.shapes_drawn = new Set(pictures).size;
+  const colours = [...part("quantity").options].map(option => {
+    const picture = drawn(set("quantity", option.value, "change"));
+    used.quantities.push([option.text, part("ticks").children.length]);
+    return picture;
+  });
+  used.colours_drawn = new Set(colours).size;
+  const turned = drawn(() => {
+    mouse(part("stage"), "mousedown", 200); mouse(document, "mousemove", 260); mouse(document, "mouseup", 260);
+  });
+  used.turned = turned != colours[colours.length - 1];
+  set("time", 0, "input")();
+  const box = part("course").getBoundingClientRect();
+  part("course").dispatchEvent(new MouseEvent("click", {clientX: box.left + used.states[1].cx, bubbles: true}));
+  used.clicked = looks();
+  parent.tell(btoa(unescape(encodeURIComponent(JSON.stringify(used)))));
+});</script>"""
+
 
 def setUpModule():
     global folders, run, comparison, batch
@@ -53,24 +91,25 @@ def setUpModule():
     batch = folders.run("batch", [*FISHERMAN, "--specimens", "2"], "--report")
 
 
-def chromium(*arguments):
+def chromium(*arguments, graphics=NO_WEBGL):
     with tempfile.TemporaryDirectory(prefix="knot_utm_browser_") as profile:
         done = subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
-                               "--disable-dev-shm-usage", f"--user-data-dir={profile}", "--enable-logging=stderr",
+                               "--disable-dev-shm-usage", *graphics, f"--user-data-dir={profile}", "--enable-logging=stderr",
                                *arguments], capture_output=True, text=True, check=False, timeout=120)
     assert done.returncode == 0, done.stderr
     return done
 
 
-def in_browser(html, width=WIDTH):
-    """What the page is like once loaded, and what the console says."""
+def in_browser(html, width=WIDTH, probe=PROBE, graphics=NO_WEBGL):
+    """What the page is like once loaded, and what the console says, but for what it says of slow graphics."""
     file = os.path.join(folders.path, "probed.html")
-    write(FRAME % (width, escape(html.replace("</body>", PROBE + "</body>"))), file)
-    done = chromium(f"--window-size={max(width, WIDTH) + 50},1600", "--dump-dom", f"file://{file}")
+    write(FRAME % (width, escape(html.replace("</body>", probe + "</body>"))), file)
+    done = chromium(f"--window-size={max(width, WIDTH) + 50},1600", "--dump-dom", f"file://{file}",
+                    graphics=graphics)
     seen = re.search(r'<pre id="seen">([^<]+)</pre>', done.stdout)
     assert seen, done.stdout[-2000:] + done.stderr
     decoded = subprocess.run(["base64", "-d"], input=seen.group(1), capture_output=True, text=True, check=True).stdout
-    return json.loads(decoded), [line for line in done.stderr.splitlines() if "CONSOLE" in line]
+    return json.loads(decoded), [line for line in done.stderr.splitlines() if "CONSOLE" in line and "OpenGL, Performance" not in line]
 
 
 def in_mm(length):
@@ -145,8 +184,63 @@ class InABrowser(unittest.TestCase):
         # The load in blue, the tension of the locked rod in dark red.
         red, green, blue = (pixels[:, :, i] for i in range(3))
         self.assertGreater(int(((blue > 0.5) & (red < 0.25) & (green < 0.5)).sum()), 500)
-        if os.path.exists(os.path.join(run, "test.bag")):  # built with ROS: tensions are known
-            self.assertGreater(int(((red > 1.6 * green) & (red > 1.2 * blue) & (red > 0.25)).sum()), 2000)
+        self.assertGreater(int(((red > 1.6 * green) & (red > 1.2 * blue) & (red > 0.25)).sum()), 2000)
+
+
+class ARodToTurn(unittest.TestCase):
+    def used(self, folder, *shapes):
+        seen, console = in_browser(read(folder, "report.html"), probe=USE.replace("SHAPES", json.dumps(shapes)), graphics=WEBGL)
+        self.assertEqual(console, [])
+        self.assertFalse(seen["hidden"])
+        return seen
+
+    def test_follows_the_slider_and_so_does_the_mark_on_the_curve(self):
+        seen = self.used(run, 1, -1, -10, -20)
+        states = seen["states"]
+        self.assertEqual(seen["shapes_drawn"], 4)
+        self.assertEqual([state["marked"] for state in states], [False, True, True, True])
+        self.assertRegex(states[0]["words"], "^tie, ")
+        places = [(float(s), float(force), state["cx"], state["cy"]) for state in states[1:]
+                  for s, force in re.findall(r"s = ([\d.]+) mm, F = ([\d.]+) N", state["words"])]
+        self.assertEqual(len(places), 3)
+        for column in (0, 1):  # both axes are straight: extension to the right, load upwards
+            value, at = ([place[column + 2 * k] for place in places] for k in (0, 1))
+            slope = (at[2] - at[0]) / (value[2] - value[0])
+            self.assertGreater(slope if column == 0 else -slope, 0.0)
+            self.assertAlmostEqual(at[1], at[0] + slope * (value[1] - value[0]), delta=1.0)
+        self.assertEqual(seen["clicked"]["words"], states[1]["words"])
+
+    def test_turns_and_shows_all_that_is_known(self):
+        seen = self.used(run, 0, -1)
+        self.assertEqual([text for text, _ in seen["quantities"]],
+                         ["tension of the rod [N]", "curvature times radius", "contact force per length [N/mm]"])
+        self.assertGreaterEqual(min(ticks for _, ticks in seen["quantities"]), 2)
+        self.assertEqual(seen["colours_drawn"], 3)
+        self.assertTrue(seen["turned"])
+
+    def test_shows_twist_where_the_test_solves_for_it(self):
+        twisted = folders.run("twisted", ["config/overhand.yaml", "--set", "physics.accuracy=draft", "--set",
+                                          "program=[{balance: {}}, {hold: {duration: 1}}]"], "--report")
+        self.assertIn("twist [rad/m]", [text for text, _ in self.used(twisted, 0, -1)["quantities"]])
+
+    def test_is_drawn_in_colour_and_on_a_page_that_fits(self):
+        for width in (360, WIDTH):
+            seen, console = in_browser(read(run, "report.html"), width, graphics=WEBGL)
+            self.assertEqual((seen["overflow"], seen["outside"], seen["requests"], console), (0, [], [], []))
+            self.assertGreaterEqual(seen["letters"], SMALLEST)
+        shot, alone = (os.path.join(folders.path, name) for name in ("rod.png", "rod.html"))
+        write(read(run, "report.html").replace("</body>", """<script>for (const one of document.body.children)
+          one.hidden = one.id != "turnable"; document.querySelector(".course").remove();
+          document.querySelector(".above").remove();</script></body>"""), alone)
+        chromium(f"--window-size={WIDTH},600", f"--screenshot={shot}", f"file://{alone}", graphics=WEBGL)
+        red, green, blue = np.moveaxis(matplotlib.image.imread(shot)[:, :, :3], 2, 0)
+        self.assertGreater(int(((red > blue + 0.2) & (green > blue)).sum()), 2000, "the rod under tension, in orange")
+
+    def test_without_webgl_leaves_the_page_as_it_is(self):
+        seen, console = in_browser(read(run, "report.html"), probe="""<script>window.addEventListener("load", () =>
+          parent.tell(btoa(JSON.stringify({hidden: document.getElementById("turnable").hidden,
+            high: document.getElementById("turnable").offsetHeight})))); </script>""")
+        self.assertEqual((seen, console), ({"hidden": True, "high": 0}, []))
 
 
 class OnPaper(unittest.TestCase):

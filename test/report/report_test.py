@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The report of a run: what is on its page, and what is said where it cannot be made."""
 import base64
+import json
 import os
 import re
 import subprocess
@@ -9,13 +10,16 @@ import unittest
 from runs import (FISHERMAN, ROOT, STRAIGHT, command_of, html_of, keys_on, open_bytes, page_of, put_into, read, row_of,
                   script, tool, two_runs, write)
 
+import numpy as np
 import yaml
 
 import certificate
 import page
 import quantities
+import turnable
 from failure import CannotReport
 from run import Run
+from shapes import series_of
 
 
 def setUpModule():
@@ -101,10 +105,34 @@ class PageOfARun(unittest.TestCase):
             self.assertIn(f"<code>{name}</code>", html)
 
     def test_asks_for_nothing_from_elsewhere(self):
-        html = page_of(fisherman)
+        html = page_of(fisherman)  # what its scripts do the browser tells
         self.assertEqual([source[:5] for source in re.findall(r'(?:src|srcset)="([^"]*)"', html)], ["data:"] * 6)
         for elsewhere in ("<link", "<script", "http://", "https://", "url(", "@import"):
             self.assertNotIn(elsewhere, html)
+
+    def test_holds_every_shape_in_a_millionth_of_its_size(self):
+        given = json.loads(re.search(r'id="turnable-data">(.*?)</script>', read(fisherman, "report.html"))[1])
+        series, _ = series_of(Run(fisherman))
+        points = np.frombuffer(base64.b64decode(given["points"]), "<u2").reshape(len(series), given["nodes"], 3)
+        for i, (time, places) in enumerate(zip(given["times"], points)):
+            shape = series.shape(i)
+            self.assertEqual(time, shape.time)
+            np.testing.assert_allclose(np.array(given["low"]) + places * given["step"], 1e3 * shape.points, rtol=0.0,
+                                       atol=0.51 * max(given["step"]))
+        self.assertLess(max(given["step"]), 0.01 * given["radius"])
+        for quantity in given["quantities"]:
+            places = np.frombuffer(base64.b64decode(quantity["places"]), "u1").reshape(len(series), -1)
+            self.assertGreater(len(np.unique(places)), 50, quantity["label"])
+
+    def test_holds_the_library_as_it_is_installed_or_else_the_pictures_alone(self):
+        html = read(fisherman, "report.html")
+        for file in turnable.SCRIPTS:
+            self.assertIn(f"<script>{read(file)}</script>", html)
+        self.addCleanup(setattr, turnable, "SCRIPTS", turnable.SCRIPTS)
+        turnable.SCRIPTS = ["/not/there"]
+        html = page.report_on_run(fisherman, "of the test", "")
+        self.assertNotIn("<script", html)
+        self.assertEqual(html.count(' src="data:image/'), 3)
 
     def test_is_the_same_to_the_last_byte_when_made_again(self):
         folder, made = folders.copy(fisherman), []

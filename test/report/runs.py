@@ -36,8 +36,12 @@ def script(*arguments):
 
 
 def page_of(folder):
-    """report.html with images cut short, as no message should be a megabyte long."""
-    return re.sub(r'(src="data:[^"]{80})[^"]*', r"\1…", read(folder, "report.html"))
+    """report.html with images cut short and without its scripts, as no message should be a megabyte long."""
+    return re.sub(r'(src="data:[^"]{80})[^"]*', r"\1…", without_scripts(read(folder, "report.html")))
+
+
+def without_scripts(html):
+    return re.sub(r"<script.*?</script>", "", html, flags=re.DOTALL)
 
 
 def read(*parts):
@@ -63,8 +67,8 @@ def open_bytes(*parts):
 
 
 def html_of(folder):
-    """The page as the script makes it, without the time that its PDF takes."""
-    return page.report_on_run(folder, "of the test", "")
+    """The page as the script makes it, without its scripts and the time that its PDF takes."""
+    return without_scripts(page.report_on_run(folder, "of the test", ""))
 
 
 def command_of(html):

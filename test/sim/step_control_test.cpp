@@ -46,6 +46,7 @@ class ScriptedStep : public TimeStep {
   StepWork work() const override { return {}; }
   LoadSum loads() const override { return {}; }
   std::vector<ContactForce> contact_forces() const override { return {}; }
+  Eigen::VectorXd normal_forces() const override { return {}; }
   double normal_force_between(const NodeRange&, const NodeRange&) const override { return 0.0; }
   double roller_normal_force(const NodeRange&) const override { return 0.0; }
 

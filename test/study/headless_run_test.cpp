@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -73,6 +74,29 @@ TEST_F(HeadlessRun, InterruptedAndResumedItLeavesTheSameCurve) {
   EXPECT_TRUE(run_headless(method, options).ended);
   EXPECT_EQ(curve(), whole);
   EXPECT_GT(records, 3);  // those from before the interruption, too
+}
+
+TEST_F(HeadlessRun, KeepsShapesWhereAskedAndChangesNothingElseAlsoWhereItIsResumed) {
+  const auto shapes = [&] { return options.folder + "/shapes.csv"; };
+  ASSERT_TRUE(run_headless(method, options).ended);
+  EXPECT_FALSE(fs::exists(shapes()));
+  const std::string plain = curve();
+  options.folder += "_with_shapes";
+  options.shapes = true;
+  ASSERT_TRUE(run_headless(method, options).ended);
+  EXPECT_EQ(curve(), plain);
+  const std::string whole = read_whole(shapes());
+  EXPECT_GT(std::count(whole.begin(), whole.end(), '\n'), 100);
+
+  options.folder += "_cut";
+  int asked = 0;
+  options.interrupted = [&] { return ++asked > 3; };
+  EXPECT_FALSE(run_headless(method, options).ended);
+  options.interrupted = [] { return false; };
+  options.resume = true;
+  options.shapes = false;  // it goes on as it began
+  EXPECT_TRUE(run_headless(method, options).ended);
+  EXPECT_EQ(read_whole(shapes()), whole);
 }
 
 /// Specimens that are pulled differently are made once.

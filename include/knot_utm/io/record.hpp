@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "knot_utm/numeric/archive.hpp"
@@ -8,14 +9,23 @@
 
 namespace knot_utm {
 
+/// What a picture colours the rod by, beside its tension. A vector is empty where its values are not known.
+struct RodReadings {
+  Eigen::VectorXd twist_rate;    ///< of each inner node (twist_rates) [rad/m]
+  Eigen::VectorXd contact_load;  ///< normal forces on each node per length (TestingMachine::contact_load) [N/m]
+
+  void state(Archive& archive);
+};
+
 /// All that is kept of one command. The files of a run can be written from its records alone.
 struct Record {
   Command command;
   Sample answer;
-  std::vector<Sample> steps;  ///< the accepted time steps of this command, in order
-  Points shape;               ///< nodes after the command [m]; no columns where no shape is due
-  Eigen::VectorXd tension;    ///< of each edge, tension positive [N]; empty where no shape is due
-  double wall_time = 0.0;     ///< wall time since the beginning of the test [s]
+  std::vector<Sample> steps;            ///< the accepted time steps of this command, in order
+  Points shape;                         ///< nodes after the command [m]; no columns where no shape is due
+  Eigen::VectorXd tension;              ///< of each edge, tension positive [N]; empty where no shape is due
+  std::optional<RodReadings> readings;  ///< where they are asked for and a shape is due
+  double wall_time = 0.0;               ///< wall time since the beginning of the test [s]
 
   void state(Archive& archive);
 };

@@ -9,6 +9,7 @@
 #include "knot_utm/io/record.hpp"
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/run_facts.hpp"
+#include "knot_utm/io/shape_series.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/topology/loop_turn.hpp"
@@ -20,6 +21,7 @@ namespace knot_utm {
 ///   curve.csv        one row for each reading of the load cell (cell_reading)
 ///   curve_full.csv   one row for each accepted time step
 ///   result.yaml, final_shape.csv   at the end; until then the folder has none, not even those of an earlier run
+///   shapes.csv       with those two, where records have readings of the rod (ShapeSeries)
 ///
 /// Make it once all input has been checked and a JournalWriter holds the folder. All functions throw std::runtime_error
 /// where a file cannot be written.
@@ -31,8 +33,8 @@ class RunWriter {
   /// Adds one record. If the simulation failed, only the time steps that it still made are added.
   void add(const Record& record);
 
-  /// Writes result.yaml and, unless `final_shape` is empty, final_shape.csv. `facts`: the result of `facts()`,
-  /// completed by what only the caller knows.
+  /// Writes result.yaml and, unless `final_shape` is empty, final_shape.csv; and shapes.csv where there are shapes.
+  /// `facts`: the result of `facts()`, completed by what only the caller knows.
   void finish(const Results& results, const RunFacts& facts, const Points& final_shape);
 
   RunFacts facts() const;                   ///< facts that follow from the method, the shapes and this process
@@ -53,6 +55,7 @@ class RunWriter {
   bool far_side_held_ = false;
   CurveWriter curve_;
   CurveWriter full_curve_;
+  ShapeSeries shapes_;
 };
 
 }  // namespace knot_utm

@@ -50,6 +50,11 @@ class TestingMachine {
   /// rod has parted. For pictures: computed on demand only.
   std::vector<ContactForce> contact_forces() const;
 
+  /// Force per length that strands and rollers press on the rod with, at each node after the last accepted step: the
+  /// sum of normal forces there over the node's Voronoi length [N/m]. Empty where `contact_forces` has none to give.
+  /// For pictures: computed on demand only.
+  Eigen::VectorXd contact_load() const;
+
   /// Saves or loads the state after the last command. A bench that was constructed in the same way and has loaded it
   /// answers all further commands with the same bits. `substeps` are not part of it.
   void state(Archive& archive);

@@ -21,6 +21,11 @@ double normal_force_between(const std::vector<ContactPoint>& contacts, const Nod
 /// Sum of the normal forces of rollers on a piece of the rod [N].
 double roller_normal_force(const std::vector<ContactPoint>& contacts, const NodeRange& piece);
 
+/// Adds to each node's force [N] its share of the normal forces of these contacts on the rod: w p, shared among the
+/// nodes of either point by those of its weights c_k that are of its side's sign. For pictures: by the other weights of
+/// a smooth centreline a strand would pull at its neighbours.
+void add_normal_forces(const std::vector<ContactPoint>& contacts, Eigen::VectorXd& force);
+
 /// Of the contacts that a law has evaluated at `position`, those between strands that touch.
 std::vector<ContactForce> contact_forces(const std::vector<ContactPoint>& contacts, const Points& position);
 

@@ -102,6 +102,8 @@ class TimeStep {
   virtual LoadSum loads() const = 0;
   /// Of the last step that was tried: to be read after an accepted step, before the next one is tried.
   virtual std::vector<ContactForce> contact_forces() const = 0;
+  /// Sum of the normal forces of strands and rollers on each node; to be read at the same time [N].
+  virtual Eigen::VectorXd normal_forces() const = 0;
   virtual double normal_force_between(const NodeRange& a, const NodeRange& b) const = 0;
   virtual double roller_normal_force(const NodeRange& piece) const = 0;
   /// Tension of each edge [N]; of a parted one none.

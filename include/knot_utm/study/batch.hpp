@@ -16,6 +16,7 @@ struct BatchOptions {
   int jobs = 1;                    ///< number of specimens that are tested at the same time
   bool resume = false;             ///< continues the interrupted batch in `folder`
   bool overwrite = false;          ///< overwrites the contents of `folder`, instead of using the next free folder
+  bool shapes = false;             ///< also writes shapes.csv of each specimen
   double checkpoint_period = 5.0;  ///< wall time between two checkpoints of a specimen [s]; 0: no checkpoints
 
   std::function<bool()> interrupted;                    ///< whether to stop; called by several threads

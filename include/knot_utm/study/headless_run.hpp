@@ -24,6 +24,7 @@ struct HeadlessOptions {
   bool overwrite = false;          ///< overwrites the contents of `folder`, instead of using the next free folder
   std::string begin_with;          ///< folder of a run from whose last state this run begins; empty: from the start
   std::optional<int> stop_before;  ///< step of the program before which the run stops, as if it were interrupted there
+  bool shapes = false;             ///< also writes shapes.csv; a resumed run does so where it began with it
   double checkpoint_period = 5.0;  ///< wall time between two checkpoints [s]; 0: no checkpoints
 
   /// Makes the writer of a further file in this folder.
