@@ -27,7 +27,7 @@ TestingMachine bench_of(const Method& method) {
 void prepare(TestingMachine& bench, ProgramRunner& program, RunWriter& writer) {
   for (Command command = program.last(); !program.ended() && command.phase != Phase::kPull;) {
     const Sample sample = bench.respond(command);
-    writer.add({command, sample, bench.substeps(), {}, {}, 0.0});
+    writer.add({command, sample, bench.substeps(), {}, {}, {}, 0.0});
     command = program.next(sample);
   }
 }
@@ -58,7 +58,7 @@ bool run(const Arguments& arguments) {
   archive(other, rest);
   archive.end();
   run_test(other, rest, [&](const Command& command, const Sample& sample) {
-    writer.add({command, sample, other.substeps(), {}, {}, 0.0});
+    writer.add({command, sample, other.substeps(), {}, {}, {}, 0.0});
   });
   RunFacts facts = writer.facts();
   facts.reason = rest.reason();

@@ -39,8 +39,8 @@ TEST_F(ReportIn, AFolderWithoutResultsIsRefusedInOneLine) {
     write_report(folder(), "no command");
     FAIL() << "a report of nothing";
   } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(),
-                HasSubstr("report: " + folder() + ": none of result.yaml, comparison.yaml, statistics.yaml, fit.yaml is there"));
+    EXPECT_THAT(error.what(), HasSubstr("report: " + folder() +
+                                        ": none of result.yaml, comparison.yaml, statistics.yaml, fit.yaml is there"));
     EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
   }
   EXPECT_FALSE(fs::exists(file("report.html")));
