@@ -7,8 +7,8 @@ from quantities import number, quantity_of
 from is_number import is_number
 
 LIMITS = {
-    "kDeep": 0.05,        # contact [of the radius]
-    "kUnbalanced": 0.01,  # energies [of the largest]
+    "kDeepContact": 0.05,  # contact [of the radius]
+    "kUnbalanced": 0.01,   # energies [of the largest]
     "kUnsure": 0.1,       # plateau force [of itself]
 }
 BENCH_FORCE_BALANCE = 0.01  # [of the peak]
@@ -60,7 +60,7 @@ def checks_of(result):
                 "no"),
         must_be("The specimen was at rest before it was pulled", "not_equilibrated", value("not_equilibrated"), False,
                 "no", "yes"),
-        at_most("Deepest contact, in radii", "max_penetration", value("max_penetration"), LIMITS["kDeep"]),
+        at_most("Deepest contact, in radii", "max_penetration", value("max_penetration"), LIMITS["kDeepContact"]),
         must_be("A knot jumped open", "jump_force", None if "jump_force" not in result else is_number(value("jump_force")),
                 False, "yes", "no"),
         at_most(label("energy_balance_error"), "energy_balance_error", value("energy_balance_error"), LIMITS["kUnbalanced"]),

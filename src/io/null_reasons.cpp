@@ -116,6 +116,7 @@ std::string why_no_efficiency(const ResultSource& source) {
 std::string why_no_hole(const ResultSource& source) {
   if (!source.facts.one_knot_in_a_strand) return "the specimen is no strand with one knot";
   if (source.results.break_extension) return "the rod broke";
+  if (!source.facts.ends_with_hold) return "the test does not end with a hold, in which a knot is measured";
   return source.results.knot_type == KnotType::kKept ? "no shape of the rod is known" : "the knot is another one";
 }
 

@@ -122,7 +122,8 @@ void RunWriter::finish(const Results& results, const RunFacts& facts, const Poin
     write_whole((fs::path(folder_) / "shapes.csv").string(), shapes_.csv());
   }
   RunFacts with_shape = facts;
-  if (facts.one_knot_in_a_strand && holds_its_knot(results) && final_shape.cols() > 0)
+  with_shape.ends_with_hold = !samples_.empty() && samples_.back().phase == Phase::kHold;
+  if (with_shape.ends_with_hold && facts.one_knot_in_a_strand && holds_its_knot(results) && final_shape.cols() > 0)
     with_shape.knot_hole = hole_diameter(sampled_centreline(final_shape), facts.material.radius);
   write_whole((fs::path(folder_) / "result.yaml").string(), result_yaml(results, with_shape));
 }

@@ -98,6 +98,8 @@ TEST(ResultKeys, SayHowWideAHoleAKnotKeeps) {
   EXPECT_THAT(result_yaml(results, facts), said("1.5\n"));
   EXPECT_THAT(result_yaml(results, facts), testing::HasSubstr("knot_inner_diameter: 0.75\n"));
   facts.knot_hole.reset();
+  EXPECT_THAT(result_yaml(results, facts), said("null  # the test does not end with a hold"));
+  facts.ends_with_hold = true;
   EXPECT_THAT(result_yaml(results, facts), said("null  # no shape"));
   results.knot_type = KnotType::kChanged;
   EXPECT_THAT(result_yaml(results, facts), said("null  # the knot is another one"));
