@@ -6,7 +6,7 @@ import shutil
 import subprocess
 
 from knot_utm.errors import WrongInput
-from knot_utm.yaml_text import text_of
+from knot_utm.yaml_text import parsed, text_of
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
 CONFIG = os.path.join(ROOT, "config")
@@ -58,6 +58,14 @@ def refusal(method, settings):
     if done.returncode not in (0, REFUSED):
         raise RuntimeError(f"tensile_test could not check {method}: {said_by(done.stderr) or f'exit code {done.returncode}'}")
     return said_by(done.stderr) if done.returncode == REFUSED else None
+
+
+def resolved(method, settings):
+    """The method with every value. Raises WrongInput where it would be refused."""
+    done = _asked(method, settings, "--check")
+    if done.returncode:
+        raise WrongInput(said_by(done.stderr))
+    return parsed(done.stdout)
 
 
 def key_units(method, settings):

@@ -41,6 +41,11 @@ def load(path):
         raise WrongInput(f"{path}: {' '.join(str(error).split())}") from error
 
 
+def parsed(text):
+    """What a text of tensile_test says."""
+    return yaml.load(text, _Loader)
+
+
 def text_of(value):
     """A value in one line, which reads back as the same value."""
     text = yaml.dump(value, Dumper=_Dumper, default_flow_style=True, width=float("inf"), allow_unicode=True)
