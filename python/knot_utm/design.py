@@ -12,6 +12,7 @@ from knot_utm.yaml_text import text_of
 MOST_RUNS = 1_000_000
 RANGE = "{from, to, steps, scale: linear or log}"
 DRAW = "{draw: uniform or log_uniform, from, to} or {draw: normal, mean, sd}"
+VALUES = "{values: [a, b, ...]}"
 DRAWS = {"uniform": ("from", "to"), "log_uniform": ("from", "to"), "normal": ("mean", "sd")}
 
 
@@ -37,31 +38,51 @@ class Drawn:
         return self.distribution.ppf(np.clip(shares, 2.0**-31, 1.0 - 2.0**-31)).tolist()
 
 
-def varied(key, given):
-    """What the study says of one key, as Listed or Drawn. Raises WrongInput."""
-    where = f"vary.{key}"
+def varied(key, given, map_of="vary"):
+    """What the study says of one key, as Listed or Drawn, in the unit that it gives. Raises WrongInput."""
+    where = f"{map_of}.{key}"
     if isinstance(given, list) and given:
         return Listed(given)
     if not isinstance(given, dict):
         raise WrongInput(f"{where} is {text_of(given)}, but must be a list of values, a range {RANGE}, or a draw {DRAW}")
+    given = {part: value for part, value in given.items() if part != "unit"}
+    if "values" in given:
+        return _values(where, given)
     return _drawn(where, given) if "draw" in given else _range(where, given)
 
 
 def points(kinds, design, runs=None, seed=1):
-    """[{key: value}] of every run. `kinds`: {key: Listed or Drawn}; `runs`: of the designs that are not a grid."""
-    made = {"grid": _grid, "list": _list, "sobol": _sobol}[design](kinds, runs, seed)
+    """[{key: value}] of every run. `kinds`: {key: Listed or Drawn}; `runs`: of the designs that draw."""
+    made = {"grid": _grid, "one_at_a_time": _one_at_a_time, "list": _list, "sobol": _sobol}[design](kinds, runs, seed)
     return [dict(zip(kinds, values)) for values in made]
 
 
-def _grid(kinds, _runs, _seed):
-    for key, kind in kinds.items():
-        if isinstance(kind, Drawn):
-            raise WrongInput(f"vary.{key} is drawn or has no steps, but a grid needs values: give steps, or design: list or "
-                             "sobol")
+def combinations(kinds, where="vary", what="a grid"):
+    """[{key: value}] of every combination, the last key fastest. `where` and `what` are for messages."""
+    _require_listed(kinds, where, what)
     count = math.prod(len(kind.values) for kind in kinds.values())
     if count > MOST_RUNS:
-        raise WrongInput(f"vary asks for {count} runs, but must ask for at most {MOST_RUNS}")
-    return itertools.product(*(kind.values for kind in kinds.values()))
+        raise WrongInput(f"{where} asks for {count} runs, but must ask for at most {MOST_RUNS}")
+    return [dict(zip(kinds, values)) for values in itertools.product(*(kind.values for kind in kinds.values()))]
+
+
+def _require_listed(kinds, where, what):
+    for key, kind in kinds.items():
+        if isinstance(kind, Drawn):
+            raise WrongInput(f"{where}.{key} is drawn or has no steps, but {what} needs values: give steps, or design: list or "
+                             "sobol")
+
+
+def _grid(kinds, _runs, _seed):
+    return [point.values() for point in combinations(kinds)]
+
+
+def _one_at_a_time(kinds, _runs, _seed):
+    """The first values of all keys, and then beside them each other value of each key."""
+    _require_listed(kinds, "vary", "one_at_a_time")
+    first = [kind.values[0] for kind in kinds.values()]
+    changed = [[*first[:i], value, *first[i + 1:]] for i, kind in enumerate(kinds.values()) for value in kind.values[1:]]
+    return [first, *changed]
 
 
 def _list(kinds, runs, seed):
@@ -92,6 +113,15 @@ def _sobol(kinds, runs, seed):
         warnings.filterwarnings("ignore", message="The balance properties")
         shares = stats.qmc.Sobol(len(kinds), seed=seed).random(runs)
     return zip(*(kind.at(column) for kind, column in zip(kinds.values(), shares.T)))
+
+
+def _values(where, given):
+    """A list in a map, where it may have a unit."""
+    _only(where, given, ("values",), VALUES)
+    values = given["values"]
+    if not isinstance(values, list) or not values or not all(is_number(value) for value in values):
+        raise WrongInput(f"{where}.values is {text_of(values)}, but must be a list of numbers")
+    return Listed(values)
 
 
 def _range(where, given):
@@ -147,6 +177,10 @@ def _number(where, given, part):
     if part not in given:
         raise WrongInput(f"{where}.{part} is missing: give a number")
     value = given[part]
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
+    if not is_number(value):
         raise WrongInput(f"{where}.{part} is {text_of(value)}, but must be a number")
     return float(value)
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)

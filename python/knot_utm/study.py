@@ -2,13 +2,14 @@
 import os
 from dataclasses import dataclass
 
-from knot_utm import design, tool
+from knot_utm import design, groups, tool
 from knot_utm.errors import WrongInput
 from knot_utm.yaml_text import load, text_of
 
-KEYS = ("method", "vary", "design", "runs", "repeat", "seed")
+KEYS = ("method", "for_each", "vary", "below", "design", "runs", "repeat", "seed")
 COUNT = "specimens.count"  # how tensile_test is told of repeats
-DESIGNS = ("grid", "list", "sobol")
+DESIGNS = ("grid", "one_at_a_time", "list", "sobol")
+DRAWING = ("list", "sobol")
 
 
 @dataclass(frozen=True)
@@ -19,6 +20,9 @@ class Study:
     method: str    # path of the method's file
     points: list   # [{key: value}], one a run
     repeat: int
+    cases: tuple   # the keys of for_each: with each of their combinations the design begins anew
+    design: str
+    below: dict    # {key: the key that it is below in all runs}
 
     @property
     def name(self):
@@ -51,25 +55,53 @@ def _study(file, given):
             raise WrongInput(f"{key} is no key of a study; its keys are " + ", ".join(KEYS))
     method = tool.find_method(_method(given), os.path.dirname(os.path.abspath(file)))
     _require_one_specimen(method)
-    vary = given.get("vary")
-    if not isinstance(vary, dict) or not vary:
-        raise WrongInput(f"vary is {text_of(vary)}, but must be a map of at least one key of the method and its values")
+    vary, cases = _keys(given, "vary"), _keys(given, "for_each") if "for_each" in given else {}
     kind = given.get("design", "grid")
     if kind not in DESIGNS:
         raise WrongInput(f"design is {text_of(kind)}, but must be " + ", ".join(DESIGNS))
     runs, seed = _integer(given, "runs", 1, design.MOST_RUNS), _integer(given, "seed", 0, 2**32 - 1)
     for name, value in (("runs", runs), ("seed", seed)):
-        if kind == "grid" and value is not None:
-            raise WrongInput(f"{name} is {value}, but has no effect in a grid")
-    for key in vary:
-        if key in (COUNT, "specimens"):
-            raise WrongInput(f"vary has the key {key}, but a run of a study is one specimen: give repeat")
+        if kind not in DRAWING and value is not None:
+            raise WrongInput(f"{name} is {value}, but has no effect in a {kind}")
+    for key in cases:
+        if key in vary:
+            raise WrongInput(f"vary has the key {key}, which stands in for_each, too")
+    units = groups.asked({**cases, **vary})
     kinds = {key: design.varied(key, values) for key, values in vary.items()}
-    points = design.points(kinds, kind, runs, 1 if seed is None else seed)
+    made = design.points(kinds, kind, runs, 1 if seed is None else seed)
+    each = design.combinations({key: design.varied(key, values, "for_each") for key, values in cases.items()}, "for_each",
+                               "for_each")
+    points = _within(given, groups.in_si(method, [{**case, **point} for case in each for point in made], units))
     repeat = _integer(given, "repeat", 1, 10_000) or 1
     if len(points) * repeat > design.MOST_RUNS:
         raise WrongInput(f"repeat is {repeat}: these are {len(points) * repeat} tests, of at most {design.MOST_RUNS}")
-    return Study(file, method, points, repeat)
+    return Study(file, method, points, repeat, tuple(cases), kind, given.get("below", {}))
+
+
+def _within(given, points):
+    """Those where each key of `below` is below the key that it names."""
+    below = given.get("below", {})
+    if not isinstance(below, dict):
+        raise WrongInput(f"below is {text_of(below)}, but must be a map of a key that is varied and the key that it must be below")
+    for pair in below.items():
+        for key in pair:
+            if key not in points[0] or not all(design.is_number(point[key]) for point in points):
+                raise WrongInput(f"below has the key {text_of(key)}, but must have numbers that are varied")
+    left = [point for point in points if all(point[low] < point[high] for low, high in below.items())]
+    if not left:
+        raise WrongInput(f"below is {text_of(below)}: no run is left")
+    return left
+
+
+def _keys(given, name):
+    """{key of the method: its values}."""
+    keys = given.get(name)
+    if not isinstance(keys, dict) or not keys:
+        raise WrongInput(f"{name} is {text_of(keys)}, but must be a map of at least one key of the method and its values")
+    for key in keys:
+        if key in (COUNT, "specimens"):
+            raise WrongInput(f"{name} has the key {key}, but a run of a study is one specimen: give repeat")
+    return keys
 
 
 def _method(given):

@@ -1,18 +1,24 @@
 """The folder of a sweep: which runs are in it, whole."""
 import contextlib
 import fcntl
+import math
 import os
 import shutil
 import tempfile
 
+import pandas as pd
 import yaml
 
 from knot_utm.errors import WrongInput
+from knot_utm.groups import rod_of
 from knot_utm.yaml_text import load
 
 RECORD = "run.yaml"  # beside what tensile_test wrote: how the run ended
 RESULT = "result.yaml"
 STATISTICS = "statistics.yaml"  # of a batch of specimens
+CURVE = "curve_full.csv"
+CURVE_COLUMNS = ("time", "extension", "load", "knot_distance", "phase")
+METHOD = "method.yaml"
 
 
 class SweepFolder:
@@ -77,6 +83,16 @@ class SweepFolder:
         """{specimen: reason} of a batch."""
         file = self._file(run, STATISTICS)
         return {entry["specimen"]: entry["reason"] for entry in load(file)["rejected"]} if os.path.exists(file) else {}
+
+    def curve(self, run):
+        """Its curve_full.csv, a pandas.DataFrame without units; empty where it left none."""
+        file = self._file(run, CURVE)
+        return pd.read_csv(file, skiprows=[1]) if os.path.exists(file) else pd.DataFrame(columns=CURVE_COLUMNS)
+
+    def rod(self, run):
+        """(k_b, h) of a run that left a result, else NaN."""
+        file = self._file(run, METHOD)
+        return rod_of(load(file)) if os.path.exists(file) else (math.nan, math.nan)
 
     def _file(self, run, name):
         return os.path.join(self.of(run), name)

@@ -4,7 +4,7 @@ import os
 from knot_utm import tool
 from knot_utm.address import Addresses
 from knot_utm.errors import WrongInput
-from knot_utm.plots import require_plottable, write_plot
+from knot_utm.plots import require_plottable, write_plots
 from knot_utm.sharing import beginnings
 from knot_utm.study import load_study
 from knot_utm.sweep_folder import SweepFolder
@@ -98,7 +98,7 @@ class Sweep:
         with work.stopping():
             table.write(self.folder.path)
             for result in self.plots if table.rows else ():
-                write_plot(frame, study.keys, result, self.folder.path)
+                write_plots(frame, study, result, self.folder.path, self.folder)
         return frame
 
     def _add(self, table, point, run, record):

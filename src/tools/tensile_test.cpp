@@ -185,13 +185,17 @@ int run_all_specimens(const Arguments& arguments, const Method& method) {
   return outcome.interrupted || none_counts ? kFailed : kDone;
 }
 
-/// All that a test is refused for, and the method with every value.
+void check_one(const Method& method) {
+  const TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
+  make_program(method, bench.longest_step());
+}
+
+/// All that a test is refused for, and the method with every value. One specimen alone does not scatter.
 int check(const Method& method) {
-  for (const DrawnSpecimen& specimen : draw_specimens(method)) {
-    const TestingMachine bench(specimen.method.specimen, specimen.method.material, specimen.method.machine,
-                               specimen.method.physics);
-    make_program(specimen.method, bench.longest_step());
-  }
+  if (method.specimens.count == 1)
+    check_one(method);
+  else
+    for (const DrawnSpecimen& specimen : draw_specimens(method)) check_one(specimen.method);
   std::fputs(method_yaml(method).c_str(), stdout);
   return kDone;
 }

@@ -113,6 +113,62 @@ class Designs(Studies):
             self.assertEqual(self.values(text), self.values(text + "\n        seed: 1"))
             self.assertNotEqual(self.values(text), self.values(text + "\n        seed: 2"))
 
+    def test_one_at_a_time_changes_each_key_beside_the_first_values(self):
+        found = self.values("""
+            method: straight
+            design: one_at_a_time
+            vary: {material.density: [900, 1000, 1100], specimen.length: [0.1], physics.gravity: [[0, 0, 0], [0, 0, -9.81]]}""")
+        none, down = [0, 0, 0], [0, 0, -9.81]
+        self.assertEqual(found, [(900, 0.1, none), (1000, 0.1, none), (1100, 0.1, none), (900, 0.1, down)])
+
+    def test_for_each_case_the_design_begins_anew(self):
+        study = self.study("""
+            method: straight
+            design: sobol
+            runs: 4
+            for_each: {material: [nylon, pink_vps], physics.accuracy: [draft]}
+            vary: {specimen.length: {from: 0.1, to: 0.2}}""")
+        self.assertEqual([(point["material"], point["physics.accuracy"]) for point in study.points],
+                         [("nylon", "draft")] * 4 + [("pink_vps", "draft")] * 4)
+        lengths = [point["specimen.length"] for point in study.points]
+        self.assertEqual(lengths[:4], lengths[4:])
+        self.assertEqual(study.cases, ("material", "physics.accuracy"))
+
+    def test_units_of_the_rod_are_those_of_each_rod(self):
+        study = self.study("""
+            method: tighten
+            for_each: {material: [nylon, pink_vps]}
+            vary:
+              specimen.preload: {from: 1, to: 100, steps: 3, scale: log, unit: k_b/h2}
+              specimen.knot_distance: {values: [40], unit: h}
+              material.twisting_stiffness: {values: [0.5], unit: k_b}""")
+        for name, points in (("nylon", study.points[:3]), ("pink_vps", study.points[3:])):
+            rod = load(os.path.join(ROOT, f"config/materials/{name}.yaml"))
+            force = rod["bending_stiffness"] / rod["radius"] ** 2
+            np.testing.assert_allclose([point["specimen.preload"] for point in points], np.array([1, 10, 100]) * force)
+            np.testing.assert_allclose([point["specimen.knot_distance"] for point in points], 40 * rod["radius"])
+            np.testing.assert_allclose([point["material.twisting_stiffness"] for point in points], 0.5 * rod["bending_stiffness"])
+
+    def test_units_follow_a_rod_that_is_drawn(self):
+        study = self.study("""
+            method: tighten
+            design: sobol
+            runs: 8
+            vary:
+              material.radius: {from: 1e-3, to: 1e-2}
+              material.bending_stiffness: {from: 1e-6, to: 1e-4, scale: log}
+              specimen.preload: {values: [20], unit: k_b/h2}""")
+        for point in study.points:
+            force = point["material.bending_stiffness"] / point["material.radius"] ** 2
+            self.assertAlmostEqual(point["specimen.preload"] / force, 20)
+
+    def test_below_leaves_runs_out(self):
+        found = self.values("""
+            method: straight
+            below: {specimen.edge_length: specimen.length}
+            vary: {specimen.edge_length: [1, 2, 3], specimen.length: [2, 3]}""")
+        self.assertEqual(found, [(1, 2), (1, 3), (2, 3)])
+
     def test_repeats_are_batches(self):
         study = self.study("method: straight\nvary: {specimen.length: [0.1, 0.2]}\nrepeat: 3")
         self.assertEqual(study.settings, [{"specimen.length": length, "specimens.count": 3} for length in (0.1, 0.2)])
@@ -170,8 +226,12 @@ class Documented(unittest.TestCase):
         self.assertTrue(studies)
         for file in studies:
             study = load_study(file)
-            for point in study.points:
+            for point in study.points[::max(1, len(study.points) // 4)]:  # the sweep itself asks of all
                 self.assertIsNone(tool.refusal(study.method, point), file)
+
+    def test_one_specimen_does_not_scatter_when_it_is_checked(self):
+        """With 1 % more there would be no room for the knots."""
+        self.assertIsNone(tool.refusal(os.path.join(ROOT, "config/tighten.yaml"), {"specimen.knot_distance": 0.2117}))
 
 
 class Refused(Studies):
@@ -184,7 +244,7 @@ class Refused(Studies):
         self.refuses("method: strait\nvary: {specimen.length: [0.1]}", "method is strait")
         self.refuses("method: straight", "vary is null")
         self.refuses("method: straight\nvary: {}", "vary is {}")
-        self.refuses(self.ONE + "design: star", "design is star", "grid, list, sobol")
+        self.refuses(self.ONE + "design: star", "design is star", "grid, one_at_a_time, list, sobol")
         self.refuses(self.ONE + "runs: 3", "runs is 3", "no effect in a grid")
         self.refuses(self.ONE + "seed: 3", "seed is 3", "no effect in a grid")
         self.refuses(self.ONE + "repeat: 0", "repeat is 0", "from 1 to")
@@ -192,6 +252,22 @@ class Refused(Studies):
         self.refuses(self.ONE + "repeat: 2\nrepeat: 3", "repeat stands there twice")
         self.refuses("method: straight\nvary: {1: [0.1]}", "1 is no key")
         self.refuses("{", "study.yaml")
+
+    def test_cases_units_and_what_must_be_below(self):
+        self.refuses(self.ONE + "for_each: [1]", "for_each is [1]", "a map of at least one key")
+        self.refuses(self.ONE + "for_each: {specimen.length: [1]}", "vary has the key specimen.length", "for_each")
+        self.refuses(self.ONE + "for_each: {a: {from: 1, to: 2}}", "for_each.a is drawn", "needs values")
+        self.refuses(self.ONE + "design: one_at_a_time\nruns: 3", "runs is 3", "no effect in a one_at_a_time")
+        for values, *words in (("{from: 1, to: 2, steps: 2, unit: k_b/h2}", "unit is k_b/h2", "this key is in m"),
+                               ("{values: [1], unit: m}", "unit is m", "must be h, k_b/h2"), ("{values: [a], unit: h}", "values is [a]"),
+                               ("{values: [1], steps: 2}", "specimen.length.steps is no key")):
+            self.refuses(f"method: straight\nvary: {{specimen.length: {values}}}", "vary.specimen.length", *words)
+        self.refuses("method: straight\nvary: {material.radius: {values: [1], unit: h}}", "material.radius.unit is h",
+                     "follow from this")
+        self.refuses("method: straight\nfor_each: {material: [nylonn]}\nvary: {specimen.length: {values: [80], unit: h}}", "nylonn")
+        for below, *words in (("3", "below is 3"), ("{a: specimen.length}", "has the key a"),
+                              ("{specimen.length: specimen.length}", "no run is left")):
+            self.refuses(self.ONE + f"below: {below}", *words)
 
     def test_batches(self):
         self.refuses("method: straight\nvary: {specimens.count: [1, 2]}", "specimens.count", "give repeat")

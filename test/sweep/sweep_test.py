@@ -181,7 +181,7 @@ class Plots(Sweeps):
             np.testing.assert_array_equal(panel.get_lines()[0].get_xdata(), table[key])
 
     def test_of_what_is_no_number_are_refused(self):
-        for name in ("motion_pattern", "peak"):
+        for name in ("reason", "peak"):
             said = self.sweep("out", "--plot", name, code=2)
             self.assertIn(f"--plot is {name}", said)
             self.assertFalse(os.path.exists(self.path("out")))

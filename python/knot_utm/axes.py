@@ -1,0 +1,60 @@
+"""What all plots of a study share: panels, names of axes, which key makes what."""
+import numpy as np
+from matplotlib.figure import Figure
+
+FAR = 20  # times the smallest value: the axis is then logarithmic
+MOST_COLUMNS = 4
+
+
+def panels(count, width=4.5, height=4.0, columns=MOST_COLUMNS):
+    """A figure and its panels, row by row."""
+    columns = min(count, columns)
+    rows = -(-count // columns)
+    drawn = Figure(figsize=(2 + width * columns, height * rows), layout="constrained")
+    places = list(drawn.subplots(rows, columns, squeeze=False).flat)
+    for unused in places[count:]:
+        unused.set_visible(False)
+    return drawn, places[:count]
+
+
+def numbers_and_words(table, keys, cases=()):
+    """(keys of numbers, other keys) of those that were varied; keys of for_each (`cases`) are of the latter."""
+    varied = [key for key in keys if table[key].nunique() > 1]
+    numbers = [key for key in varied if table[key].dtype.kind in "if" and key not in cases]
+    return numbers, [key for key in varied if key not in numbers]
+
+
+def parts(table, words):
+    """[(label, rows)] of each combination of the words."""
+    if not words:
+        return [("", table)]
+    return [(label(name, words, table), rows) for name, rows in table.groupby(words if len(words) > 1 else words[0], sort=False)]
+
+
+def label(name, words, table):
+    """Words as they are; a number with the last part of its key."""
+    values = name if isinstance(name, tuple) else (name,)
+    return ", ".join(f"{word.split('.')[-1]} {value:g}" if table[word].dtype.kind in "if" else str(value)
+                     for word, value in zip(words, values))
+
+
+def name_axis(set_label, table, column):
+    unit = table.attrs["units"][column]
+    set_label(column if unit == "-" else f"{column} [{unit}]")
+
+
+def spans_far(values):
+    return values.dtype.kind in "if" and values.min() > 0 and values.max() > FAR * values.min()
+
+
+def scale_axis(set_scale, values):
+    if spans_far(values):
+        set_scale("log")
+
+
+def edges(values):
+    """Of cells around values, half-way to the next, as the axis counts."""
+    ahead, back = (np.log, np.exp) if spans_far(values) else (np.asarray, np.asarray)
+    places = ahead(values.to_numpy(float))
+    middles = 0.5 * (places[1:] + places[:-1])
+    return back(np.concatenate([[2 * places[0] - middles[0]], middles, [2 * places[-1] - middles[-1]]]))

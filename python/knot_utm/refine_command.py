@@ -1,0 +1,31 @@
+"""The command line of a refinement; scripts/refine has its words."""
+import argparse
+import sys
+
+from knot_utm.errors import WrongInput
+from knot_utm.refining import refine
+
+
+def main(words):
+    parser = argparse.ArgumentParser(prog="scripts/refine", add_help=False)
+    parser.add_argument("study")
+    parser.add_argument("--out", required=True)
+    parser.add_argument("--runs", type=int, required=True)
+    parser.add_argument("--seed", type=int, default=1)
+    asked = parser.parse_args(words)
+    for name, value, least in (("runs", asked.runs, 1), ("seed", asked.seed, 0)):
+        if value < least:
+            parser.error(f"--{name} is {value}, but must be at least {least}")
+    try:
+        print(refine(asked.study, asked.out, asked.runs, asked.seed))
+    except WrongInput as wrong:
+        print(f"refine: {wrong}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"refine: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
