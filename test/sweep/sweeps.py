@@ -24,7 +24,7 @@ vary:
 
 TOLD = r"""#!/bin/bash
 # What is only asked of the real one, or would be refused by it, is no run.
-case " $* " in *" --version "* | *" --list-results "* | *"/checked "*) exec "$REAL" "$@" ;; esac
+case " $* " in *" --version "* | *" --list-results "* | *" --check "* | *" --list-keys "*) exec "$REAL" "$@" ;; esac
 echo "$* job=${SLURM_JOB_ID:-}" >>"$LOG"
 case " $* " in
   *" ${HOLD_AT:-none} "*) exec 3>"$HELD"; echo held >&3; read -r _ <"$NEVER" ;;
