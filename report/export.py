@@ -11,6 +11,7 @@ import argparse
 import os
 import sys
 
+from failure import CannotReport, in_one_line
 from make_report import OneLineParser
 
 PACKAGES = {"vtkmodules": "python3-vtk9", "numpy": "python3-numpy", "yaml": "python3-yaml",
@@ -41,18 +42,11 @@ def asked():
 
 def main():
     arguments = asked()
-    try:
-        print(export(arguments))
-    except ModuleNotFoundError as missing:
-        package = PACKAGES.get((missing.name or "").split(".")[0])
-        sys.exit(f"export: {missing}" + (f": install Debian's package {package}" if package else ""))
-    except KeyboardInterrupt:
-        sys.exit("export: interrupted")
-    except OSError as error:
-        sys.exit(f"export: {error.filename}: cannot be written: {error.strerror}")
-    except Exception as error:  # one line, whatever it was
-        said = " ".join(str(error).split())
-        sys.exit("export: " + (said if type(error).__name__ == "CannotReport" else f"{type(error).__name__}: {said}"))
+    with in_one_line("export", PACKAGES):
+        try:
+            print(export(arguments))
+        except OSError as error:
+            raise CannotReport(f"{error.filename}: cannot be written: {error.strerror}") from error
 
 
 def export(arguments):

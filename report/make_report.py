@@ -10,6 +10,8 @@ import os
 import shlex
 import sys
 
+from failure import CannotReport, in_one_line
+
 # Debian's name of what a module is in.
 PACKAGES = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy", "yaml": "python3-yaml",
             "jinja2": "python3-jinja2", "weasyprint": "weasyprint"}
@@ -36,20 +38,11 @@ def main():
     if not os.path.isdir(arguments.folder):
         refuse(f"{arguments.folder}: no such folder")
     command = arguments.command or "scripts/report " + shlex.quote(arguments.folder)
-    try:
+    with in_one_line("report", PACKAGES):
         make(arguments.folder, command, arguments.version)
-    except ModuleNotFoundError as missing:
-        package = PACKAGES.get((missing.name or "").split(".")[0])
-        sys.exit(f"report: {missing}" + (f": install Debian's package {package}" if package else ""))
-    except KeyboardInterrupt:
-        sys.exit("report: interrupted")
-    except Exception as error:  # one line, whatever it was
-        said = " ".join(str(error).split())
-        sys.exit("report: " + (said if type(error).__name__ == "CannotReport" else f"{type(error).__name__}: {said}"))
 
 
 def make(folder, command, version):
-    from failure import CannotReport
 
     # The first is the newest where a folder holds two: `compare` takes no folder of a run, and tests take away what
     # older tests and comparisons left.

@@ -13,6 +13,7 @@ import shutil
 import subprocess
 import sys
 
+from failure import CannotReport, in_one_line
 from make_report import PACKAGES, OneLineParser
 
 SIZE = (1920, 1080)
@@ -43,20 +44,11 @@ def asked():
 
 def main():
     arguments = asked()
-    try:
+    with in_one_line("movie", PACKAGES):
         make(arguments)
-    except ModuleNotFoundError as missing:
-        package = PACKAGES.get((missing.name or "").split(".")[0])
-        sys.exit(f"movie: {missing}" + (f": install Debian's package {package}" if package else ""))
-    except KeyboardInterrupt:
-        sys.exit("movie: interrupted")
-    except Exception as error:  # one line, whatever it was
-        said = " ".join(str(error).split())
-        sys.exit("movie: " + (said if type(error).__name__ == "CannotReport" else f"{type(error).__name__}: {said}"))
 
 
 def make(arguments):
-    from failure import CannotReport
     from movie_frame import Stage
 
     if shutil.which("ffmpeg") is None:
@@ -75,7 +67,6 @@ def make(arguments):
 
 def encode(stage, times, rate, file):
     """All pictures in order, each as soon as a core has drawn it."""
-    from failure import CannotReport
 
     encoder = subprocess.Popen(
         ["ffmpeg", "-loglevel", "error", "-y", "-f", "rawvideo", "-pix_fmt", "rgba", "-s", f"{SIZE[0]}x{SIZE[1]}",

@@ -225,6 +225,28 @@ int run(const Arguments& arguments) {
   return stopped || (outcome.ended && !outcome.failed) ? kDone : kFailed;
 }
 
+/// An option that prints a table, and does no more.
+void add_listing(CLI::App& app, const char* name, std::string (*table)(), const std::string& what) {
+  const auto print = [table] {
+    std::fputs(table().c_str(), stdout);
+    throw CLI::Success();
+  };
+  app.add_flag_callback(name, print, what + ", and do no more");
+}
+
+/// Where the method stands and where the results go, once all words are read.
+void settle(Arguments& arguments) {
+  if (arguments.specimens > 0) arguments.overrides.push_back("specimens.count=" + std::to_string(arguments.specimens));
+  if (arguments.resume.empty()) {
+    arguments.method = find_method(arguments.method);
+    return;
+  }
+  arguments.method = arguments.resume + "/method.yaml";
+  arguments.out = arguments.resume;
+  // What stands there is of the interrupted test, and is made anew of the whole one.
+  arguments.report |= std::filesystem::exists(arguments.resume + "/report.html");
+}
+
 /// Reads the command line; an exit code where that is all there is to do.
 std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::App app("Runs the whole test that a method describes, as fast as the computer can.");
@@ -269,40 +291,14 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::Option* list_keys = app.add_flag("--list-keys", arguments.list_keys,
                                         "only say which keys of the method are numbers, with their units");
   for (CLI::Option* one : {check, list_keys}) one->excludes(resume);
-  app.add_flag_callback(
-      "--list-results",
-      [] {
-        std::fputs(result_keys_csv().c_str(), stdout);
-        throw CLI::Success();
-      },
-      "say which keys result.yaml has, with unit, kind and meaning, and do no more");
-  app.add_flag_callback(
-      "--list-method-keys",
-      [] {
-        std::fputs(method_keys_csv().c_str(), stdout);
-        throw CLI::Success();
-      },
-      "say which keys methods may have, with label and unit, and do no more");
-  app.add_flag_callback(
-      "--list-knots",
-      [] {
-        std::fputs(knots_csv().c_str(), stdout);
-        throw CLI::Success();
-      },
-      "say which knots there are, and their keys, and do no more");
+  add_listing(app, "--list-results", result_keys_csv, "say which keys result.yaml has, with unit, kind and meaning");
+  add_listing(app, "--list-method-keys", method_keys_csv, "say which keys methods may have, with label and unit");
+  add_listing(app, "--list-knots", knots_csv, "say which knots there are, and their keys");
   const std::optional<int> code = parse(app, kTool, argc, argv, [&] {
     if (method->empty() && resume->empty()) throw CLI::RequiredError("METHOD");
   });
   if (code) return code;
-  if (arguments.specimens > 0) arguments.overrides.push_back("specimens.count=" + std::to_string(arguments.specimens));
-  if (resume->empty()) {
-    arguments.method = find_method(arguments.method);
-    return std::nullopt;
-  }
-  arguments.method = arguments.resume + "/method.yaml";
-  arguments.out = arguments.resume;
-  // What stands there is of the interrupted test, and is made anew of the whole one.
-  arguments.report |= std::filesystem::exists(arguments.resume + "/report.html");
+  settle(arguments);
   return std::nullopt;
 }
 
