@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Ten tests one after the other, each on a new specimen: the same files each time, /clock goes on, memory does not
+"""Thirty tests one after the other, each on a new specimen: the same files each time, /clock goes on, memory does not
 grow. The soak itself says so, of as many samples as it is asked for."""
 import csv
 import os
@@ -17,15 +17,15 @@ class SoakTest(unittest.TestCase):
         return subprocess.run([sys.executable, '-B', SOAK] + list(words), check=False, universal_newlines=True,
                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=900)
 
-    def test_ten_resets(self):
+    def test_thirty_resets(self):
         with tempfile.TemporaryDirectory() as folder:
-            done = self.soak('resets=10', 'samples=5000', 'busy=0', 'results=' + folder)
+            done = self.soak('resets=30', 'samples=30000', 'busy=0', 'results=' + folder)
             self.assertEqual(done.returncode, 0, done.stdout)
             with open(os.path.join(folder, 'soak.csv'), encoding='utf-8', newline='') as file:
                 table = {row['quantity']: row['value'] for row in csv.DictReader(file)}
-            self.assertEqual(table['tests, each on a new specimen'], '10')
-            self.assertEqual(table['published by the machine (sequence numbers)'], '5000')
-            self.assertEqual(table['recorded'], '5000')
+            self.assertEqual(table['tests, each on a new specimen'], '30')
+            self.assertEqual(table['published by the machine (sequence numbers)'], '30000')
+            self.assertEqual(table['recorded'], '30000')
 
     def test_wrong_words(self):
         for word in ('samples=many', 'sample=10', 'resets=0'):
