@@ -79,15 +79,17 @@ class Matrix {
   void set(const RodState& state) {
     const Points& position = state.position;
     std::vector<Lanes> force(at(static_cast<int>(rod_.nodes())));
-    centreline_.add_forces(position, force);
+    const Boundary free;
+    const StepStart step{state, free, dt_};
+    centreline_.add_forces(step, position, force);
     contact_.begin(position);
     contact_.evaluate(position, position, dt_);
     matrix_.locate(contact_.contacts());
     matrix_.set_zero_beyond_band();
     centreline_.set_stiffness(diagonal_, matrix_);
     if constexpr (D == 4) {
-      frames_.begin(state, {}, dt_);
-      frames_.add_forces(position, force);
+      frames_.begin(step);
+      frames_.add_forces(step, position, force);
       frames_.add_stiffness(matrix_);
       matrix_.values().set_identity_row(static_cast<int>(rod_.nodes()) - 1, Lanes{1.0, 1.0, 1.0, 0.0});
     }

@@ -30,6 +30,8 @@ std::size_t at(int i) { return static_cast<std::size_t>(i); }
 struct Specimen {
   RodProperties rod;
   Points position, start;
+  RodState state;  // at `start`
+  Boundary free;
 
   explicit Specimen(int nodes) {
     Material material;
@@ -47,7 +49,10 @@ struct Specimen {
     }
     start = position;
     start.row(2) *= 1.0 + 1e-6;  // everything slips a little
+    state.position = start;
   }
+
+  StepStart step() const { return {state, free, kDt}; }
 
   int nodes() const { return static_cast<int>(position.cols()); }
 
@@ -65,7 +70,7 @@ void residual_elastic(benchmark::State& state) {
   std::vector<Lanes> force(at(specimen.nodes()));
   for (auto _ : state) {
     std::fill(force.begin(), force.end(), Lanes{0.0, 0.0, 0.0, 0.0});
-    centreline.add_forces(specimen.position, force);
+    centreline.add_forces(specimen.step(), specimen.position, force);
     benchmark::DoNotOptimize(force.data());
   }
   per_node(state);
@@ -95,7 +100,7 @@ struct Evaluated {
     contact.begin(specimen.position);
     contact.evaluate(specimen.position, specimen.start, kDt);
     std::vector<Lanes> force(at(specimen.nodes()));
-    centreline.add_forces(specimen.position, force);
+    centreline.add_forces(specimen.step(), specimen.position, force);
     matrix.locate(contact.contacts());
     matrix.set_zero_beyond_band();
     centreline.set_stiffness(diagonal, matrix);

@@ -161,7 +161,7 @@ Vec3 RollerContact::moment_on(const Roller& roller, int number, const Points& po
 double RollerContact::torque_on(int roller) const {
   double sum = 0.0;
   for (const ContactPoint& contact : contacts_)
-    if (contact.roller == roller) sum -= surface_way(contact, lever_of(contact)).dot(contact.force);
+    if (contact.roller == roller) sum -= surface_increment(contact, lever_of(contact)).dot(contact.force);
   return sum;
 }
 

@@ -8,7 +8,7 @@ namespace knot_utm {
 namespace {
 
 /// From which load on a fall may be a break, unless the method says so: testing machines have such a fraction.
-constexpr double kArmingShare = 0.02;  // of the cell's capacity
+constexpr double kArmingFraction = 0.02;  // of the cell's capacity
 
 /// Half the windows within which a drop of the load counts as a break, so that they are resolved [s].
 double longest_period(const Method& method) {
@@ -32,7 +32,7 @@ ProgramRunner make_program(const Method& method, double longest_step) {
   limits.travel = method.machine.travel;
   limits.time = method.ends.time.value_or(limits.time);
   limits.breaks = method.ends.breaks;
-  limits.breaks.arming_load = method.ends.arming_load.value_or(kArmingShare * capacity);
+  limits.breaks.arming_load = method.ends.arming_load.value_or(kArmingFraction * capacity);
   return ProgramRunner(method.program, machine.load_cell.sampling_rate, std::min(longest_step, longest_period(method)),
                        limits);
 }

@@ -106,7 +106,7 @@ std::string knots_travelled(const Results& results, const RunFacts& facts) {
 
 }  // namespace
 
-std::vector<std::string> told(const Results& results, const RunFacts& facts) {
+std::vector<std::string> printed_warnings(const Results& results, const RunFacts& facts) {
   std::vector<std::string> all = events(results);
   for (const std::vector<std::string>& more :
        {gravity_warnings(results, facts), speed_warnings(results.rate, facts.inertia),
@@ -121,7 +121,7 @@ std::vector<std::string> told(const Results& results, const RunFacts& facts) {
 
 std::vector<std::string> all_warnings(const Results& r, const RunFacts& f) {
   std::vector<std::string> all = warnings(r);
-  for (const std::vector<std::string>& more : {warnings(r, f.load_cell), f.foreseen, told(r, f)})
+  for (const std::vector<std::string>& more : {warnings(r, f.load_cell), f.foreseen, printed_warnings(r, f)})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

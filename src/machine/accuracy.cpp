@@ -56,9 +56,11 @@ Tolerances of(Accuracy accuracy, const SpecimenOptions& specimen, const Material
 /// is of second order, and in proportion to all else. `edge`: before refinement [h].
 double coarseness(const Tolerances& own, const Tolerances& normal, double edge) {
   const double edges = edge * normal.refinement / own.refinement;
-  return kShareOfEdges * edges * edges + kShareOfContactTolerance * own.contact_tolerance / normal.contact_tolerance +
-         kShareOfPresliding * own.presliding / normal.presliding +
-         kShareOfStep * own.longest_step / normal.longest_step + kShareOfResidual * own.residual / normal.residual;
+  return kFractionOfEdges * edges * edges +
+         kFractionOfContactTolerance * own.contact_tolerance / normal.contact_tolerance +
+         kFractionOfPresliding * own.presliding / normal.presliding +
+         kFractionOfStep * own.longest_step / normal.longest_step +
+         kFractionOfResidual * own.residual / normal.residual;
 }
 
 }  // namespace

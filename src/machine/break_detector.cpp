@@ -66,7 +66,7 @@ std::string BreakDetector::judge(const Sample& sample) {
   if (detection_.sharp_drop)
     falls_within(in_time_, time, detection_.sharp_drop_time, *detection_.sharp_drop, " at once");
   if (detection_.drop)
-    falls_within(in_extension_, extension, detection_.drop_extension, *detection_.drop, " over a short way");
+    falls_within(in_extension_, extension, detection_.drop_extension, *detection_.drop, " over a short distance");
   if (peak_ <= 0.0 || peak_ < detection_.arming_load) return {};
   if (detection_.fraction_of_peak && from_peak.size() > 0.0 &&
       from_peak.to <= *detection_.fraction_of_peak * from_peak.from)

@@ -8,15 +8,15 @@ namespace knot_utm {
 namespace {
 
 constexpr double kCreep = 0.01;  // of the highest speed
-// Of the longest way of a command: over less, the slope is that of what Newton's method leaves unbalanced.
+// Of the longest motion of a command: over less, the slope is that of what Newton's method leaves unbalanced.
 constexpr double kCounts = 1e-5;
 
 }  // namespace
 
-void LoadControl::learn(const Sample& now, double way_that_counts) {
-  const double load = balanced_load(now), way = now.displacement - last_displacement_;
-  if (knows_last_ && std::abs(way) >= way_that_counts) {
-    slope_ = (load - last_load_) / way;
+void LoadControl::learn(const Sample& now, double counting_distance) {
+  const double load = balanced_load(now), moved = now.displacement - last_displacement_;
+  if (knows_last_ && std::abs(moved) >= counting_distance) {
+    slope_ = (load - last_load_) / moved;
     knows_slope_ = true;
     stiffness_ = std::max(slope_, 0.5 * stiffness_);
   } else {
@@ -39,8 +39,8 @@ double LoadControl::following(const Sample& now, double wanted_load, double peri
 double LoadControl::meeting(const Sample& now, double wanted_load, double period, double fastest, bool creeps) {
   learn(now, kCounts * fastest * period);
   if (!knows_slope_) return creeps ? kCreep * fastest : fastest;
-  const double way = fastest * period, missing = std::abs(wanted_load - balanced_load(now));
-  return slope_ * way > missing ? missing / (slope_ * period) : fastest;
+  const double longest = fastest * period, missing = std::abs(wanted_load - balanced_load(now));
+  return slope_ * longest > missing ? missing / (slope_ * period) : fastest;
 }
 
 }  // namespace knot_utm

@@ -44,7 +44,7 @@ inline constexpr double kStraightStiffness = 1e-3;
 
 // Fraction of the error that each source contributes at `normal` with edges of one radius [-]; they sum to 1. They were
 // chosen by hand together with the errors above, from the same draws. No bench varies one source at a time.
-inline constexpr double kShareOfEdges = 0.5, kShareOfContactTolerance = 0.2, kShareOfPresliding = 0.1,
-                        kShareOfStep = 0.1, kShareOfResidual = 0.1;
+inline constexpr double kFractionOfEdges = 0.5, kFractionOfContactTolerance = 0.2, kFractionOfPresliding = 0.1,
+                        kFractionOfStep = 0.1, kFractionOfResidual = 0.1;
 
 }  // namespace knot_utm::measured

@@ -123,24 +123,25 @@ double ProgramRunner::seconds(std::uint64_t commands) const { return static_cast
 double ProgramRunner::estimated_duration(const ProgramStep& step) const {
   // Tie, mount and preload end when the specimen says so; their usual time stands for them.
   constexpr double kUsualTie = 10.0;
-  constexpr double kUsualWay = 0.01;
+  constexpr double kUsualDistance = 0.01;
   switch (step.phase) {
     case Phase::kTie:
       return kUsualTie;
     case Phase::kMount:
     case Phase::kPreload:
-      return kUsualWay / step.speed;
+      return kUsualDistance / step.speed;
     case Phase::kRelease:
     case Phase::kHold:
       return step.duration;
     case Phase::kPull: {
-      const double way = step.until.extension.value_or(limits_.travel) / step.speed;
-      const double rise = step.load_rate ? step.until.load.value_or(limits_.load) / *step.load_rate : way;
-      return std::min({way, rise, step.until.time.value_or(way)});
+      const double by_speed = step.until.extension.value_or(limits_.travel) / step.speed;
+      const double by_load = step.load_rate ? step.until.load.value_or(limits_.load) / *step.load_rate : by_speed;
+      return std::min({by_speed, by_load, step.until.time.value_or(by_speed)});
     }
     case Phase::kCycle: {
-      const double way = step.extension_turns ? step.extension_turns->high - step.extension_turns->low : kUsualWay;
-      const double whole = 2.0 * way * step.cycles / step.speed, time = step.until.time.value_or(whole);
+      const double distance =
+          step.extension_turns ? step.extension_turns->high - step.extension_turns->low : kUsualDistance;
+      const double whole = 2.0 * distance * step.cycles / step.speed, time = step.until.time.value_or(whole);
       return step.cycles > 0 ? std::min(whole, time) : time;
     }
     case Phase::kReturn:
@@ -169,7 +170,7 @@ bool ProgramRunner::end_by_alarm(const Sample& sample) {
   } else if (std::abs(sample.load) > limits_.load || std::abs(sample.force_upper) > limits_.load) {
     end(EndedBy::kLoad, phase + ": the load is beyond its limit, the load cell's capacity or ends.load");
   } else if (std::abs(last_.displacement) >= limits_.travel) {
-    end(EndedBy::kTravel, phase + ": the crosshead is at the end of its way");
+    end(EndedBy::kTravel, phase + ": the crosshead is at the end of its travel");
   } else if (sample.end_to_end < limits_.least_distance) {
     end(EndedBy::kTravel, phase + ": the grips meet");
   } else if (const std::string seen = break_seen(sample); !seen.empty()) {
@@ -193,7 +194,7 @@ bool ProgramRunner::is_undone(const Sample& sample) const {
 
 std::string ProgramRunner::break_seen(const Sample& sample) {
   if (!traits_of(last_.phase).can_break) return {};
-  // On a way inwards loads fall as they should.
+  // While the crosshead returns, loads fall as they should.
   if (leg_.velocity < 0.0) {
     break_detector_.begin();
     return {};
@@ -213,9 +214,9 @@ void ProgramRunner::take_balance(const Sample& sample) {
 }
 
 void ProgramRunner::learn_gain(const Sample& sample) {
-  const double way = sample.displacement - gain_.displacement;
-  if (std::abs(way) > kMetExtension && !last_.balance)
-    gain_.value = std::clamp((sample.extension - gain_.extension) / way, kLeastGain, 1.0);
+  const double moved = sample.displacement - gain_.displacement;
+  if (std::abs(moved) > kMetExtension && !last_.balance)
+    gain_.value = std::clamp((sample.extension - gain_.extension) / moved, kLeastGain, 1.0);
   gain_.extension = sample.extension;
   gain_.displacement = sample.displacement;
 }

@@ -60,7 +60,7 @@ struct TestingMachine::Impl {
   double grip = 0.0;          // of the upper grip, the same on a rigid frame [m]
   double grip_tried = 0.0;    // in the step that is being made
   double extension_zero = 0.0, raw_extension_zero = 0.0;
-  double exposure = 0.0;    // fraction of the way to a break
+  double exposure = 0.0;    // damage: fraction of the time to break that is used up
   double recoil_end = 0.0;  // of a rod that has just parted [s]
   BreakPlace break_place = BreakPlace::kNone;
   double travel_tried = 0.0;  // of the crosshead, in the step that is being made [m]

@@ -38,8 +38,8 @@ TestingMachine make_bench(const Method& method) {
 KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
     : node_(node),
       method_(method),
-      bench_(make_bench(method)),
-      frames_(bench_.lower_grip(), method.specimen.end_to_end),
+      machine_(make_bench(method)),
+      frames_(machine_.lower_grip(), method.specimen.end_to_end),
       picture_(method.specimen, method.machine, method.material),
       views_(method.specimen, method.machine, method.material),
       colors_(node_.advertise<ColorBar>(names::kColors, 1, true)),
@@ -74,7 +74,7 @@ void KnotNode::new_specimen() {
   kept_.clear();
   sample_ = Sample();
   motion_ = MotionPatternTracker();
-  picture_.begin(bench_.state().position);
+  picture_.begin(machine_.state().position);
   views_.begin();
   shown_.begin();
   view_is_old_ = true;
@@ -82,10 +82,10 @@ void KnotNode::new_specimen() {
   SpecimenInfo info;
   info.header.stamp = stamp_;
   info.header.frame_id = names::kBaseFrame;
-  info.longest_step = bench_.longest_step();
+  info.longest_step = machine_.longest_step();
   info.radius = method_.material.radius;
-  info.length = bench_.rod().length();
-  info.nodes = static_cast<std::uint32_t>(bench_.rod().nodes());
+  info.length = machine_.rod().length();
+  info.nodes = static_cast<std::uint32_t>(machine_.rod().nodes());
   specimen_.publish(info);
 }
 
@@ -97,7 +97,7 @@ void KnotNode::on_command(const Crosshead::ConstPtr& command) {
   if (message.run != run_) {
     if (message.sequence != 0) return refuse(message, "the specimen was reset during the test");
     if (next_ != 0) {
-      bench_ = make_bench(method_);
+      machine_ = make_bench(method_);
       new_specimen();
     }
     run_ = message.run;
@@ -111,14 +111,14 @@ void KnotNode::on_command(const Crosshead::ConstPtr& command) {
          "command " + std::to_string(message.sequence) + " came where " + std::to_string(next_) + " was expected");
 }
 
-CrossheadLimits KnotNode::limits() const { return {method_.machine.travel, bench_.longest_step()}; }
+CrossheadLimits KnotNode::limits() const { return {method_.machine.travel, machine_.longest_step()}; }
 
 void KnotNode::answer(const Crosshead& message) {
   const std::string fault = kept_.empty() ? "" : fault_after(kept_.back()->command, message, limits());
   if (!fault.empty()) return refuse(message, std::string(names::kCrosshead) + ": " + fault);
   const Command command = from_message(message);
   stamp_ = message.header.stamp;
-  sample_ = bench_.respond(command);
+  sample_ = machine_.respond(command);
   motion_.add(sample_);
   ++next_;
   view_is_old_ = true;
@@ -129,12 +129,12 @@ void KnotNode::answer(const Crosshead& message) {
   record->answer = to_message(sample_, message.run, stamp_);
   put_motion(motion_, record->answer);
   const double start = stamp_.toSec() - command.time;
-  record->steps.reserve(bench_.substeps().size());
-  for (const Sample& step : bench_.substeps()) {
+  record->steps.reserve(machine_.substeps().size());
+  for (const Sample& step : machine_.substeps()) {
     record->steps.push_back(to_message(step, message.run, test_stamp(start, step.time)));
   }
   if (shape_is_due(command) || sample_.status == BenchStatus::kFailed) put_shape(*record);
-  const std::string& failed_step = bench_.failed_step();
+  const std::string& failed_step = machine_.failed_step();
   record->failed_step.assign(failed_step.begin(), failed_step.end());
   kept_.push_back(record);
   if (kept_.size() > kKeptAnswers) kept_.pop_front();
@@ -154,7 +154,7 @@ void KnotNode::refuse(const Crosshead& message, const std::string& why) {
 }
 
 void KnotNode::put_shape(KnotRecord& record) const {
-  record.shape = to_message(bench_.state().position, bench_.tension(), method_.material.radius);
+  record.shape = to_message(machine_.state().position, machine_.tension(), method_.material.radius);
   record.shape.header.stamp = record.command.header.stamp;
   record.shape.run = record.command.run;
   record.shape.sequence = record.command.sequence;
@@ -185,7 +185,7 @@ void KnotNode::on_status(const TestStatus::ConstPtr& ended) {
 }
 
 bool KnotNode::on_reset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  bench_ = make_bench(method_);
+  machine_ = make_bench(method_);
   new_specimen();
   response.success = 1;
   response.message = "a new specimen";
@@ -197,25 +197,28 @@ void KnotNode::on_view_timer(const ros::SteadyTimerEvent& /*event*/) {
   const bool somebody_is_new = viewers > viewers_;
   if (viewers_ == 0) shown_.begin();
   viewers_ = viewers;
-  if (viewers == 0) return frames_.publish(stamp_, sample_.displacement, bench_.upper_grip(), nullptr);
+  if (viewers == 0) return frames_.publish(stamp_, sample_.displacement, machine_.upper_grip(), nullptr);
   if (shown_.empty()) shown_.add(moment(), ShownState::Clock::now());
   if (view_is_old_ || somebody_is_new) publish_markers();
 }
 
 Moment KnotNode::moment() const {
-  return {stamp_,           bench_.state().position,
-          bench_.tension(), bench_.upper_grip(),
-          sample_,          motion_pattern_name(motion_.pattern())};
+  return {stamp_,
+          machine_.state().position,
+          machine_.tension(),
+          machine_.upper_grip(),
+          sample_,
+          motion_pattern_name(motion_.pattern())};
 }
 
 void KnotNode::publish_markers() {
   const ShownState::Clock::time_point now = ShownState::Clock::now();
   view_is_old_ = !shown_.settled(now);
   const Moment moment = shown_.at(now);
-  const Looks looks = views_.look(moment.points, bench_.lower_grip(), moment.upper_grip, moment.sample);
+  const Looks looks = views_.look(moment.points, machine_.lower_grip(), moment.upper_grip, moment.sample);
   frames_.publish(moment.stamp, moment.sample.displacement, moment.upper_grip, &looks);
-  const std::vector<ContactForce> contacts = moved(bench_.contact_forces(), bench_.state().position, moment.points);
-  const SceneView view{moment.points, moment.tension,       contacts, bench_.lower_grip(), moment.upper_grip,
+  const std::vector<ContactForce> contacts = moved(machine_.contact_forces(), machine_.state().position, moment.points);
+  const SceneView view{moment.points, moment.tension,       contacts, machine_.lower_grip(), moment.upper_grip,
                        moment.sample, moment.motion_pattern};
   markers_.publish(picture_.draw(view, moment.stamp));
 }

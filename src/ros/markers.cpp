@@ -47,7 +47,7 @@ constexpr double kSphereDistance = 1.3;  // beyond which one is put between two 
 constexpr int kMostBetween = 4;          // on an edge
 
 // The readings as text, in halves of the height of the picture
-constexpr double kTextAhead = 0.3;                  // of the way to the machine
+constexpr double kTextAhead = 0.3;                  // of the distance to the machine
 constexpr double kTextHeight = 0.038;               // of letters; rviz sets lines 3.8 times that apart
 constexpr double kTextUp = 0.36, kTextLeft = 0.42;  // of its middle
 
@@ -190,8 +190,8 @@ Marker gauge_marker(const Points& points, const std::vector<Eigen::Index>& nodes
     if (node < 1 || node + 1 >= points.cols()) continue;
     const Vec3 here = points.col(node);
     const auto towards = [&](Eigen::Index other) -> Vec3 {
-      const Vec3 way = points.col(other) - here;
-      return here + std::min(1.0, kGaugeMark * radius / way.norm()) * way;
+      const Vec3 offset = points.col(other) - here;
+      return here + std::min(1.0, kGaugeMark * radius / offset.norm()) * offset;
     };
     Points band(3, 3);
     band << towards(node - 1), here, towards(node + 1);

@@ -53,8 +53,8 @@ std::map<std::string, std::string> topics_of(const rosbag::Bag& bag, const std::
 ReplayNode::ReplayNode(const ros::NodeHandle& node, const Method& method, const ReplayOptions& options)
     : node_(node),
       options_(options),
-      bench_(method.specimen, method.material, method.machine, method.physics),
-      frames_(bench_.lower_grip(), method.specimen.end_to_end),
+      machine_(method.specimen, method.material, method.machine, method.physics),
+      frames_(machine_.lower_grip(), method.specimen.end_to_end),
       picture_(method.specimen, method.machine, method.material),
       views_(method.specimen, method.machine, method.material),
       markers_(node_.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 1)),
@@ -165,9 +165,9 @@ void ReplayNode::show(const KnotShape& shape) {
   const Eigen::VectorXd tension =
       Eigen::Map<const Eigen::VectorXd>(shape.tension.data(), static_cast<Eigen::Index>(shape.tension.size()));
   // On a compliant frame the grip goes less far than the crosshead.
-  const double way =
-      sample_.end_to_end > 0.0 ? sample_.end_to_end - (bench_.upper_grip() - bench_.lower_grip()).norm() : 0.0;
-  shown_.add({now_, points, tension, bench_.upper_grip() + way * Vec3::UnitZ(), sample_, motion_pattern_},
+  const double travel =
+      sample_.end_to_end > 0.0 ? sample_.end_to_end - (machine_.upper_grip() - machine_.lower_grip()).norm() : 0.0;
+  shown_.add({now_, points, tension, machine_.upper_grip() + travel * Vec3::UnitZ(), sample_, motion_pattern_},
              Clock::now());
   picture_is_old_ = true;
 }
@@ -179,7 +179,7 @@ void ReplayNode::on_view_timer(const ros::SteadyTimerEvent& /*event*/) {
   if (shown_.empty()) return;
   const Clock::time_point now = Clock::now();
   const Moment moment = shown_.at(now);
-  const Vec3 lower_grip = bench_.lower_grip();
+  const Vec3 lower_grip = machine_.lower_grip();
   if (viewers == 0) return frames_.publish(moment.stamp, moment.sample.displacement, moment.upper_grip, nullptr);
   if (!picture_is_old_ && !somebody_is_new) return;
   picture_is_old_ = !shown_.settled(now);

@@ -167,7 +167,7 @@ std::string fault_of(const Crosshead& message, const CrossheadLimits& limits) {
 
 std::string fault_after(const Crosshead& last, const Crosshead& message, const CrossheadLimits& limits) {
   const double passed = message.time - last.time;
-  const double way = message.displacement - last.displacement;
+  const double moved = message.displacement - last.displacement;
   const double farthest = kFastestCrosshead * passed + kSlack;
   return Check()
       .that(
@@ -175,7 +175,7 @@ std::string fault_after(const Crosshead& last, const Crosshead& message, const C
           [&] { return format_number(message.time); },
           [&] { return "after " + format_number(last.time) + " by at most " + format_number(limits.longest_step); })
       .that(
-          std::abs(way) <= farthest, "displacement", [&] { return format_number(message.displacement); },
+          std::abs(moved) <= farthest, "displacement", [&] { return format_number(message.displacement); },
           [&] { return "within " + format_number(farthest) + " of " + format_number(last.displacement); })
       .fault();
 }

@@ -7,7 +7,7 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kFollow = 0.25;  // fraction of the way to the knots that a look at them goes with each picture
+constexpr double kFollow = 0.25;  // fraction of the distance to the knots that a look at them goes with each picture
 constexpr double kClose = 9.0;    // half of the width of one knot seen alone [radius]
 
 Look look_at(const Box& box) { return {box.middle(), Camera::eye_for(box)}; }
@@ -31,10 +31,10 @@ Vec3 Camera::right() { return {std::sin(kYaw), -std::cos(kYaw), 0.0}; }
 Vec3 Camera::up() { return {std::sin(kPitch) * std::cos(kYaw), std::sin(kPitch) * std::sin(kYaw), std::cos(kPitch)}; }
 
 Vec3 Camera::project(const Vec3& eye, const Vec3& point) {
-  const Vec3 way = point - eye;
-  const double ahead = way.dot(forwards());
+  const Vec3 offset = point - eye;
+  const double ahead = offset.dot(forwards());
   const double half_height = ahead * std::tan(0.5 * kFieldOfView);
-  return {way.dot(right()) / half_height, way.dot(up()) / half_height, ahead};
+  return {offset.dot(right()) / half_height, offset.dot(up()) / half_height, ahead};
 }
 
 Vec3 Camera::eye_for(const Box& box) {
@@ -44,9 +44,10 @@ Vec3 Camera::eye_for(const Box& box) {
   for (int corner = 0; corner < 8; ++corner) {
     const Vec3 point((corner & 1) != 0 ? box.high.x() : box.low.x(), (corner & 2) != 0 ? box.high.y() : box.low.y(),
                      (corner & 4) != 0 ? box.high.z() : box.low.z());
-    const Vec3 way = point - box.middle();
-    const double sideways = std::max(std::abs(way.dot(up())) / half_height, std::abs(way.dot(right())) / half_width);
-    distance = std::max(distance, sideways - way.dot(forwards()));
+    const Vec3 offset = point - box.middle();
+    const double sideways =
+        std::max(std::abs(offset.dot(up())) / half_height, std::abs(offset.dot(right())) / half_width);
+    distance = std::max(distance, sideways - offset.dot(forwards()));
   }
   return box.middle() - distance * forwards();
 }

@@ -38,11 +38,11 @@ void CentrelineTerms::part(int edge) {
   stretching_stiffness_[j] = bending_stiffness_[j] = bending_stiffness_[j + 1] = 0.0;
 }
 
-void CentrelineTerms::begin(const Points& start, bool predicts) {
+void CentrelineTerms::begin(const StepStart& start, bool predicts) {
   predicts_ = predicts;
   if (!predicts) return;
   for (std::size_t j = 0; j < predicted_tension_.size(); ++j) {
-    StretchedEdge edge = stretched_edge(rod_, start, static_cast<Eigen::Index>(j));
+    StretchedEdge edge = stretched_edge(rod_, start.state.position, static_cast<Eigen::Index>(j));
     edge.k_s = stretching_stiffness_[j];
     predicted_tension_[j] = respond(rod_, edge).tension;
   }
@@ -55,8 +55,8 @@ void CentrelineTerms::predict_tensions(const std::vector<Lanes>& change, double 
                                               dot(tangent_[j], change[j + 1] - change[j]);
 }
 
-void CentrelineTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
-  std::visit([&](const auto& law) { add_stretching_forces(law, position, force); }, rod_.laws.stretching);
+void CentrelineTerms::add_forces(const StepStart&, const Points& x, std::vector<Lanes>& force) {
+  std::visit([&](const auto& law) { add_stretching_forces(law, x, force); }, rod_.laws.stretching);
   if (bends_) add_bending_forces(force);
 }
 
@@ -119,6 +119,13 @@ CentrelineTerms::Energy CentrelineTerms::energy(const Points& increment) const {
     before = turned;
   }
   return out;
+}
+
+void CentrelineTerms::account(const SolvedStep& step, StepAccount& account) const {
+  const Energy energy = this->energy(step.increment);
+  account.energies.stretching += energy.stretching;
+  account.energies.bending += energy.bending;
+  account.work.numerical += energy.along;
 }
 
 CentrelineTerms::NodeHessian CentrelineTerms::bending_hessian(std::size_t node) const {

@@ -1,7 +1,17 @@
 #pragma once
 
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "knot_utm/sim/solved_step.hpp"
+#include "knot_utm/sim/step_account.hpp"
+
+namespace knot_utm {
+
 /// The interface of a force term of the time step's equation (increment.hpp). It has no base class, because no call in
-/// the inner loop is virtual, and a term has only those functions that it needs. A step calls them in this order:
+/// the inner loop is virtual. Every term has add_forces and account, of which kIsForceTerm makes sure, and of the other
+/// functions those that it needs. A step calls them in this order:
 ///
 ///   begin(start, ...)               once a step: the state that the term kept of the last accepted step becomes the
 ///                                   start
@@ -12,3 +22,10 @@
 ///   commit(...)                     stores the state of the accepted step in the term
 ///
 /// A step that is not accepted is never committed, so `begin` always starts from the last accepted one.
+template <typename Term>
+constexpr bool kIsForceTerm = std::is_void_v<decltype(std::declval<Term&>().add_forces(
+    std::declval<const StepStart&>(), std::declval<const Points&>(), std::declval<std::vector<Lanes>&>()))>&&
+    std::is_void_v<decltype(std::declval<const Term&>().account(std::declval<const SolvedStep&>(),
+                                                                std::declval<StepAccount&>()))>;
+
+}  // namespace knot_utm

@@ -117,14 +117,15 @@ void FrameTerms::part(int edge) {
   stiffness_[at(edge)] = stiffness_[at(edge + 1)] = 0.0;
 }
 
-void FrameTerms::begin(const RodState& start, const std::vector<FixedTwist>& held, double dt) {
+void FrameTerms::begin(const StepStart& step) {
+  const RodState& start = step.state;
   start_ = &start;
   curved_ = start.curved_at_rest();
-  dt_ = dt;
+  dt_ = step.dt;
   const int edges = static_cast<int>(rod_.edges());
   for (int j = 0; j < edges; ++j) {
     start_tangent_[at(j)] = to_lanes(Vec3((start.position.col(j + 1) - start.position.col(j)).normalized()));
-    angle_[at(j)] = start.twist[j] + dt * start.twist_rate[j];
+    angle_[at(j)] = start.twist[j] + dt_ * start.twist_rate[j];
   }
   for (int i = 1; i < edges; ++i) {
     reference_twist_[at(i)] = start.reference_twist[i - 1];
@@ -133,7 +134,7 @@ void FrameTerms::begin(const RodState& start, const std::vector<FixedTwist>& hel
   }
   std::fill(held_.begin(), held_.end(), 0);
   held_.back() = 1;
-  for (const FixedTwist& fixed : held) {
+  for (const FixedTwist& fixed : step.boundary.fixed_twists) {
     held_[at(fixed.edge)] = 1;
     angle_[at(fixed.edge)] = fixed.angle;
   }
@@ -183,9 +184,9 @@ void FrameTerms::carry_directors() {
                                             to_vec3(tangent_[at(j)]));
 }
 
-void FrameTerms::add_forces(const Points& position, std::vector<Lanes>& force) {
+void FrameTerms::add_forces(const StepStart&, const Points& x, std::vector<Lanes>& force) {
   const int edges = static_cast<int>(rod_.edges());
-  set_tangents(position);
+  set_tangents(x);
   std::visit([&](const auto& law) { set_twist(law); }, rod_.laws.twisting);
   std::fill(torque_.begin(), torque_.end(), 0.0);
   for (std::size_t i = 1; i < static_cast<std::size_t>(edges); ++i) {
@@ -436,6 +437,18 @@ FrameTerms::Energy FrameTerms::energy(const Points& increment, const std::vector
     out.moment += (inertia_[j] * change / dt_ + drag_[j] * rate + rest_[j] * turned) * to_vec3(tangent_[at(j)]);
   }
   return out;
+}
+
+void FrameTerms::account(const SolvedStep& step, StepAccount& account) const {
+  const Energy energy = this->energy(step.increment, step.force);
+  account.energies.bending += energy.bending;
+  account.energies.twisting += energy.twisting;
+  account.energies.kinetic += energy.kinetic;
+  account.loads.moment -= energy.moment;
+  account.work.numerical += energy.along + energy.inertia + energy.rest - energy.plastic;
+  account.work.plastic += energy.plastic;
+  account.work.drag += energy.drag;
+  account.work.residual += energy.residual;
 }
 
 }  // namespace knot_utm

@@ -20,6 +20,15 @@ namespace knot_utm {
 /// Takes the place of FrameTerms where the scene does not solve for twist.
 struct NoFrames {
   NoFrames(const RodProperties&, const StepSettings&) {}
+  void part(int) {}
+  void begin(const StepStart&) {}
+  void add_forces(const StepStart&, const Points&, std::vector<Lanes>&) {}
+  void add_stiffness(StepMatrix<3>&) const {}
+  void account(const SolvedStep&, StepAccount&) const {}
+  void commit(RodState&) {}
+  double largest_factor(const std::vector<Lanes>&) const { return 1.0; }
+  void move(const std::vector<Lanes>&, double) {}
+  double kinetic_energy(const Eigen::VectorXd&) const { return 0.0; }
 };
 
 /// All force terms of the equation, its linear system, and storage for its unknowns. D = 3: the unknowns of node i are
@@ -27,7 +36,10 @@ struct NoFrames {
 /// held.
 template <int D, typename StrandContact>
 struct Equation {
-  static constexpr bool kTwists = D == 4;
+  using Frames = std::conditional_t<D == 4, FrameTerms, NoFrames>;
+  static_assert(kIsForceTerm<MotionTerm> && kIsForceTerm<CentrelineTerms> && kIsForceTerm<Frames> &&
+                kIsForceTerm<ContactTerm<D, StrandContact>> && kIsForceTerm<ContactTerm<D, RollerContact>> &&
+                kIsForceTerm<GripTerm>);
 
   Equation(const RodProperties& rod_, const RodState& state, const StepSettings& settings_)
       : rod(rod_),
@@ -42,7 +54,7 @@ struct Equation {
         matrix(static_cast<int>(rod.nodes())),
         force(static_cast<std::size_t>(rod.nodes())),
         change(force.size()) {
-    if constexpr (kTwists)
+    if constexpr (D == 4)
       if (settings.friction_couple > 0.0) {
         if (settings.friction.on()) strands.contacts().act_at_surface(settings.friction_couple, frames.turns());
         if (settings.roller_friction.on()) rollers.contacts().act_at_surface(settings.friction_couple, frames.turns());
@@ -52,7 +64,7 @@ struct Equation {
   /// From the next step on, the rod is parted at this edge.
   void part(int edge) {
     centreline.part(edge);
-    if constexpr (kTwists) frames.part(edge);
+    frames.part(edge);
     strands.contacts().part(edge);
     rollers.contacts().part(edge);
   }
@@ -61,7 +73,7 @@ struct Equation {
   const StepSettings& settings;
   MotionTerm motion;
   CentrelineTerms centreline;
-  std::conditional_t<kTwists, FrameTerms, NoFrames> frames;
+  Frames frames;
   ContactTerm<D, StrandContact> strands;
   ContactTerm<D, RollerContact> rollers;
   GripTerm grips;
@@ -96,10 +108,10 @@ class Increment {
   /// long, is soon seen to be out of reach. Otherwise the stiffness uses the tensions of the trial positions.
   Increment(Equation<D, StrandContact>& equation, const StepStart& start, bool predicts)
       : eq_(equation), start_(start), predicts_(predicts) {
-    eq_.centreline.begin(start.state.position, predicts);
+    eq_.centreline.begin(start, predicts);
     eq_.strands.begin(start);
     eq_.rollers.begin(start);
-    if constexpr (D == 4) eq_.frames.begin(start.state, start.boundary.fixed_twists, start.dt);
+    eq_.frames.begin(start);
     eq_.matrix.begin();
     eq_.x = start.state.position + start.dt * start.state.velocity;
     eq_.held.begin(start, eq_.x);
@@ -109,8 +121,8 @@ class Increment {
   double residual() {
     std::fill(eq_.force.begin(), eq_.force.end(), Lanes{0.0, 0.0, 0.0, 0.0});
     eq_.motion.add_forces(start_, eq_.x, eq_.force);
-    eq_.centreline.add_forces(eq_.x, eq_.force);
-    if constexpr (D == 4) eq_.frames.add_forces(eq_.x, eq_.force);
+    eq_.centreline.add_forces(start_, eq_.x, eq_.force);
+    eq_.frames.add_forces(start_, eq_.x, eq_.force);
     eq_.strands.add_forces(start_, eq_.x, eq_.force);
     eq_.rollers.add_forces(start_, eq_.x, eq_.force);
     eq_.grips.add_forces(start_, eq_.x, eq_.force);
@@ -130,7 +142,7 @@ class Increment {
     eq_.matrix.locate(eq_.strands.points());
     eq_.matrix.set_zero_beyond_band();
     eq_.centreline.set_stiffness(eq_.motion.stiffness(start_), eq_.matrix);
-    if constexpr (D == 4) eq_.frames.add_stiffness(eq_.matrix);
+    eq_.frames.add_stiffness(eq_.matrix);
     eq_.change = eq_.force;
     eq_.strands.add_stiffness(start_, how, spins(), eq_.matrix, eq_.roller_turns, eq_.change);
     eq_.rollers.add_stiffness(start_, how, spins(), eq_.matrix, eq_.roller_turns, eq_.change);
@@ -154,10 +166,8 @@ class Increment {
     const double longest = std::max(std::sqrt(longest2), eq_.roller_turns.largest_motion()),
                  cap = eq_.settings.newton_cap;
     factor_ = wanted * (longest > cap ? cap / longest : 1.0);
-    if constexpr (D == 4) {
-      factor_ = std::min(factor_, wanted * eq_.frames.largest_factor(eq_.change));
-      eq_.frames.move(eq_.change, factor_);
-    }
+    factor_ = std::min(factor_, wanted * eq_.frames.largest_factor(eq_.change));
+    eq_.frames.move(eq_.change, factor_);
     for (int i = 0; i < nodes(); ++i) eq_.x.col(i) += factor_ * to_vec3(eq_.change[static_cast<std::size_t>(i)]);
     eq_.roller_turns.move(eq_.rollers.contacts(), factor_);
     eq_.centreline.predict_tensions(eq_.change, factor_);

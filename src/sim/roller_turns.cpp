@@ -60,7 +60,7 @@ RollerTurns::Border* RollerTurns::border_of(const ContactPoint& contact) {
 void RollerTurns::add(const ContactPoint& contact, const RollerModel& model) {
   Border* border = border_of(contact);
   if (border == nullptr) return;
-  const Vec3 s = surface_way(contact, 0.0), g = to_vec3(model.force);
+  const Vec3 s = surface_increment(contact, 0.0), g = to_vec3(model.force);
   Lanes row = to_lanes(Vec3(g.cross(contact.axis)));
   for (int i = 0; i < 3; ++i) row[i] -= dot(to_lanes(s), model.still[i]);
   for (int k = 0; k < 3; ++k) {
@@ -75,8 +75,8 @@ void RollerTurns::add(const ContactPoint& contact, const SurfacePoint& surface, 
                       const SectionTurns& turns) {
   Border* border = border_of(contact);
   if (border == nullptr) return;
-  const Vec3 g = to_vec3(model.force), way = surface_way(contact, surface.lever);
-  const Lanes s = to_lanes(way), pushed = to_lanes(Vec3((1.0 - surface.lever) * g.cross(contact.axis)));
+  const Vec3 g = to_vec3(model.force), increment = surface_increment(contact, surface.lever);
+  const Lanes s = to_lanes(increment), pushed = to_lanes(Vec3((1.0 - surface.lever) * g.cross(contact.axis)));
   const SurfaceModel::Response& by_turn = model.by[SurfaceModel::kTurned];
   const double spins[3] = {surface.s_a[0], surface.s_a[1], 0.0};
   const auto spin = spin_of_nodes(turns.pull, contact.a0, surface.s_a);
@@ -90,7 +90,7 @@ void RollerTurns::add(const ContactPoint& contact, const SurfacePoint& surface, 
     border->row[at(contact.a0 + k)] += row;
   }
   border->diagonal -= dot(s, by_turn.force);
-  border->torque -= way.dot(g - contact.force);
+  border->torque -= increment.dot(g - contact.force);
 }
 
 void RollerTurns::hold(int node, const Lanes& keep) {

@@ -7,8 +7,8 @@ namespace knot_utm {
 
 /// Solves the increment of a step in one of the ways of `Solution` (time_step.hpp).
 ///
-/// Each way makes its own `Increment`, so that all of them begin at the prediction. `watch(increment)` is called after
-/// every evaluation of the residual.
+/// Each of them makes its own `Increment`, so that all of them begin at the prediction. `watch(increment)` is called
+/// after every evaluation of the residual.
 template <int D, typename StrandContact, typename Watch>
 class SolutionOf {
  public:
@@ -30,7 +30,7 @@ class SolutionOf {
   static constexpr int kTurns = 3;                 // largest number of rounds of secants and tangents
   static constexpr double kFactorOfSecants = 0.5;  // damping factor of the secants after the first round has failed
 
-  /// The system that Newton's method solves: an increment with one way of linearising friction.
+  /// The system that Newton's method solves: an increment with one linearisation of friction.
   struct System {
     TheIncrement& increment;
     const Watch& watch;

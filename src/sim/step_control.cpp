@@ -49,8 +49,8 @@ double StepControl::next_after(double dt, const StepSummary& summary) const {
 std::string StepControl::no_headway(double time) {
   const std::uint64_t iterations = counters_.iterations - watched_from_.iterations;
   if (iterations < kPatience) return {};
-  const double way = time - watched_from_.time;
-  if (way < kLeastHeadway * options_.longest * static_cast<double>(iterations)) {
+  const double headway = time - watched_from_.time;
+  if (headway < kLeastHeadway * options_.longest * static_cast<double>(iterations)) {
     std::ostringstream reason;
     reason << "the solver makes no headway: the last " << iterations
            << " iterations of Newton's method led only from t = " << watched_from_.time << " s to " << time

@@ -64,9 +64,9 @@ void StepMatrix<D>::find_rooms(const std::vector<ContactPoint>& contacts) {
   for (const ContactPoint& contact : contacts) {
     // Those that stay apart need no room; those about to touch soon would.
     if (!contact.active() && contact.overlap < 2.0 * contact.begins) continue;
-    // A foot slides on the way it goes; one that does not, to the segment that it is nearer to.
-    const double way = contact.slip.dot(contact.db);
-    const bool backwards = way != 0.0 ? way < 0.0 : contact.c[3] < contact.c[5];
+    // A foot goes on as it slides; one that does not slide, to the segment that it is nearer to.
+    const double slip = contact.slip.dot(contact.db);
+    const bool backwards = slip != 0.0 ? slip < 0.0 : contact.c[3] < contact.c[5];
     const int first = contact.b0 - (backwards ? kRoomNodes - 3 : 0);
     present_.rooms.push_back({contact.a0, std::max(first, 0), std::min(first + kRoomNodes, nodes_) - 1});
   }
@@ -260,7 +260,7 @@ void StepMatrix<D>::add_columns(const ContactPoint& contact, const SurfacePoint&
   double c[6];
   std::copy_n(contact.c, 6, c);
   Lanes rows_a[3], rows_b[3];      // weights of on_a and on_b in a node's row
-  Lanes slides_a[3], slides_b[3];  // what a foot's way does to it
+  Lanes slides_a[3], slides_b[3];  // what the motion of a foot does to it
   for (int k = 0; k < 3; ++k) {
     const double d = surface.d_a[k], beta = contact.beta[3 + k], bends = kTwo ? 0.0 : kSecondDifference[k];
     rows_a[k] = Lanes{d, d, d, spins_a[k]};

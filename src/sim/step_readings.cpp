@@ -97,17 +97,7 @@ void StepReadings::add_free_turns(const SolvedStep& step, const RollerContact& r
   }
 }
 
-void StepReadings::add_elastic(const CentrelineTerms::Energy& centreline, const FrameTerms::Energy& frames) {
-  account_.energies.stretching = centreline.stretching;
-  account_.energies.bending = centreline.bending + frames.bending;
-  account_.energies.twisting = frames.twisting;
-  account_.energies.kinetic += frames.kinetic;
-  account_.loads.moment -= frames.moment;
-  account_.work.numerical += centreline.along;
-  account_.work.numerical += frames.along + frames.inertia + frames.rest - frames.plastic;
-  account_.work.plastic += frames.plastic;
-  account_.work.drag += frames.drag;
-  account_.work.residual += frames.residual;
+void StepReadings::add_fall_of_elastic_energy() {
   account_.work.numerical += account_.before.elastic() - account_.energies.elastic();
 }
 

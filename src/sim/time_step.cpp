@@ -23,7 +23,7 @@ class ImplicitStep final : public TimeStep {
       : TimeStep(rod, state, settings),
         equation_(rod_, state_, settings_),
         tunnelling_(rod.nodes(), std::is_same_v<StrandContact, SmoothContact>),
-        readings_(rod_, state_, initial_spin_energy()),
+        readings_(rod_, state_, equation_.frames.kinetic_energy(state_.twist_rate)),
         increment_(3, rod.nodes()) {}
 
   StepSummary step(const Boundary& boundary, double dt, Solution solution) override {
@@ -100,7 +100,7 @@ class ImplicitStep final : public TimeStep {
     equation_.rollers.commit(step);
     equation_.matrix.commit();
     state_.velocity = step.increment / step.dt;
-    if constexpr (D == 4) equation_.frames.commit(state_);
+    equation_.frames.commit(state_);
     state_.position = step.end;
   }
 
@@ -109,9 +109,9 @@ class ImplicitStep final : public TimeStep {
     equation_.grips.account(step, account);
     equation_.motion.account(step, account);
     readings_.add_free_turns(step, equation_.rollers.contacts());
-    FrameTerms::Energy frames;
-    if constexpr (D == 4) frames = equation_.frames.energy(step.increment, step.force);
-    readings_.add_elastic(equation_.centreline.energy(step.increment), frames);
+    equation_.centreline.account(step, account);
+    equation_.frames.account(step, account);
+    readings_.add_fall_of_elastic_energy();
     equation_.strands.account(step, account);
     equation_.rollers.account(step, account);
   }
@@ -127,11 +127,6 @@ class ImplicitStep final : public TimeStep {
   }
 
   ContactLists contacts() const { return {equation_.strands.points(), equation_.rollers.points()}; }
-
-  double initial_spin_energy() const {
-    if constexpr (D == 4) return equation_.frames.kinetic_energy(state_.twist_rate);
-    return 0.0;
-  }
 
   Equation<D, StrandContact> equation_;
   TunnellingSearch tunnelling_;

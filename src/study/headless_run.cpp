@@ -131,7 +131,7 @@ Results write_results(const Test& test, Writers& writers, const WallClock& clock
   const Results results = writers.run.results(test.program.ended_by());
   facts.margin = margin_of(test, results);
   writers.run.finish(results, facts, test.bench.state().position);
-  for (const std::string& warning : told(results, facts)) tell(test.options, warning);
+  for (const std::string& warning : printed_warnings(results, facts)) tell(test.options, warning);
   return results;
 }
 

@@ -63,7 +63,7 @@ class View {
     double least = std::numeric_limits<double>::infinity();
     for (const Segment& segment : near_) {
       const Vec2 from = p - segment.begin;
-      const double at = std::clamp(from.dot(segment.along) * segment.share, 0.0, 1.0);
+      const double at = std::clamp(from.dot(segment.along) * segment.over_squared_length, 0.0, 1.0);
       least = std::min(least, (from - at * segment.along).squaredNorm());
     }
     count_turns(p);
@@ -108,7 +108,7 @@ class View {
 
   struct Segment {
     Vec2 begin, along;
-    double share;  ///< 1/|along|^2
+    double over_squared_length;  ///< 1/|along|^2
   };
 
   Eigen::Matrix2Xd points_;

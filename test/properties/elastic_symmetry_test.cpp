@@ -22,12 +22,14 @@ struct Rod {
   /// Force on every node, and in the last row torque about every edge.
   Eigen::Matrix4Xd forces() const {
     std::vector<Lanes> sum(static_cast<std::size_t>(rod.nodes()), Lanes{0.0, 0.0, 0.0, 0.0});
-    CentrelineTerms(rod, !state.curved_at_rest()).add_forces(state.position, sum);
+    const Boundary free;
+    const StepStart step{state, free, 1.0};
+    CentrelineTerms(rod, !state.curved_at_rest()).add_forces(step, state.position, sum);
     StepSettings settings;
     settings.spin_inertia = false;
     FrameTerms frames(rod, settings);
-    frames.begin(state, {}, 1.0);
-    frames.add_forces(state.position, sum);
+    frames.begin(step);
+    frames.add_forces(step, state.position, sum);
     Eigen::Matrix4Xd out(4, rod.nodes());
     for (Eigen::Index i = 0; i < rod.nodes(); ++i)
       for (int k = 0; k < 4; ++k) out(k, i) = sum[static_cast<std::size_t>(i)][k];

@@ -20,6 +20,8 @@ constexpr int kNodes = 9;
 struct Crumpled {
   RodProperties rod;
   Points position{3, kNodes};
+  RodState state;  // at that position
+  Boundary free;
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(3, kNodes);
   Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(3 * kNodes, 3 * kNodes);
 
@@ -49,7 +51,10 @@ struct Crumpled {
       add(i - 1, i, local.hessian_ef, Vec3::Zero());
       add(i, i - 1, local.hessian_ef.transpose(), Vec3::Zero());
     }
+    state.position = position;
   }
+
+  StepStart step() const { return {state, free, 1.0}; }
 
   Vec3 edge(int j) const { return position.col(j + 1) - position.col(j); }
 
@@ -73,7 +78,7 @@ TEST_P(CentrelineTermsOf, ForcesAreThoseOfEveryTerm) {
   const Crumpled scene(bends_, law_);
   CentrelineTerms terms(scene.rod, bends_);
   std::vector<Lanes> force(kNodes, Lanes{0.0, 0.0, 0.0, 0.0});
-  terms.add_forces(scene.position, force);
+  terms.add_forces(scene.step(), scene.position, force);
   Eigen::MatrixXd ours(3, kNodes);
   for (int i = 0; i < kNodes; ++i)
     for (int j = 0; j < 3; ++j) ours(j, i) = force[static_cast<std::size_t>(i)][j];
@@ -89,7 +94,7 @@ void expect_stiffness_of_every_term(bool bends, const StretchingLaws& law) {
   const Crumpled scene(bends, law);
   CentrelineTerms terms(scene.rod, bends);
   std::vector<Lanes> force(kNodes);
-  terms.add_forces(scene.position, force);
+  terms.add_forces(scene.step(), scene.position, force);
   StepMatrix<D> matrix(kNodes);
   matrix.locate({});
   std::vector<double> diagonal;
@@ -121,12 +126,10 @@ TEST_P(CentrelineTermsOf, EnergyIsThatOfEveryTermAndItsSlopeThatOfTheForces) {
   const Crumpled scene(bends_, law_);
   CentrelineTerms terms(scene.rod, bends_);
   std::vector<Lanes> force(kNodes, Lanes{0.0, 0.0, 0.0, 0.0});
-  terms.add_forces(scene.position, force);
+  terms.add_forces(scene.step(), scene.position, force);
   const Points increment = 0.1 * scene.rod.material.radius * Points::Random(3, kNodes);
   const CentrelineTerms::Energy energy = terms.energy(increment);
-  RodState state;
-  state.position = scene.position;
-  const ElasticEnergy expected = elastic_energy(scene.rod, state);
+  const ElasticEnergy expected = elastic_energy(scene.rod, scene.state);
   EXPECT_NEAR(energy.stretching, expected.stretching, 1e-13 * expected.stretching);
   EXPECT_NEAR(energy.bending, bends_ ? expected.bending : 0.0, 1e-13 * expected.bending);
   const double along = -(scene.force.array() * increment.array()).sum();
@@ -148,8 +151,8 @@ TEST_P(PredictedTension, IsThatOfTheLinearModelOfAChange) {
   const Crumpled scene(false, GetParam());
   CentrelineTerms terms(scene.rod, false);
   std::vector<Lanes> force(kNodes);
-  terms.begin(scene.position, true);
-  terms.add_forces(scene.position, force);
+  terms.begin(scene.step(), true);
+  terms.add_forces(scene.step(), scene.position, force);
   std::vector<Lanes> change(kNodes);
   std::mt19937 random(5);
   std::normal_distribution<double> noise(0.0, 0.1 * scene.rod.material.radius);
@@ -159,7 +162,7 @@ TEST_P(PredictedTension, IsThatOfTheLinearModelOfAChange) {
   std::vector<Lanes> moved_force(kNodes);
   Points moved = scene.position;
   for (int i = 0; i < kNodes; ++i) moved.col(i) += kFactor * to_vec3(change[static_cast<std::size_t>(i)]);
-  terms.add_forces(moved, moved_force);
+  terms.add_forces(scene.step(), moved, moved_force);
   StepMatrix<3> matrix(kNodes);
   matrix.locate({});
   terms.set_stiffness(std::vector<double>(kNodes, 0.0), matrix);

@@ -70,14 +70,16 @@ class FrameTermsOf : public testing::TestWithParam<bool> {
   /// Stands at y: the angles are moved there as Newton's method moves them.
   void evaluate(FrameTerms& terms, const Eigen::VectorXd& y, std::vector<Lanes>& force) const {
     force.assign(kNodes, Lanes{0.0, 0.0, 0.0, 0.0});
-    terms.begin(start, {}, kDt);
-    terms.add_forces(positions(y), force);
+    const Boundary free;
+    const StepStart step{start, free, kDt};
+    terms.begin(step);
+    terms.add_forces(step, positions(y), force);
     std::vector<Lanes> turn(kNodes, Lanes{0.0, 0.0, 0.0, 0.0});
     for (int j = 0; j + 1 < kNodes; ++j)
       turn[static_cast<std::size_t>(j)][3] = y[4 * j + 3] - start.twist[j] - kDt * start.twist_rate[j];
     terms.move(turn, 1.0);
     force.assign(kNodes, Lanes{0.0, 0.0, 0.0, 0.0});
-    terms.add_forces(positions(y), force);
+    terms.add_forces(step, positions(y), force);
   }
 
   Eigen::VectorXd force_at(FrameTerms& terms, const Eigen::VectorXd& y) const {
@@ -193,14 +195,17 @@ TEST_P(FrameTermsOf, ForcesAreTheEnergysSlopeAtFixedSpin) {
 
 TEST_P(FrameTermsOf, AHeldAngleStandsWhereItMust) {
   FrameTerms terms(rod, settings);
-  terms.begin(start, {{2, 0.4}}, kDt);
+  Boundary held;
+  held.fixed_twists = {{2, 0.4}};
+  const StepStart step{start, held, kDt};
+  terms.begin(step);
   EXPECT_TRUE(terms.held(2));
   EXPECT_FALSE(terms.held(3));
   EXPECT_TRUE(terms.held(kNodes - 1)) << "there is no edge behind the last node";
   std::vector<Lanes> force(kNodes, Lanes{0.0, 0.0, 0.0, 0.0});
-  terms.add_forces(start.position, force);
+  terms.add_forces(step, start.position, force);
   terms.move(std::vector<Lanes>(kNodes, Lanes{0.1, 0.2, 0.0, 0.3}), 1.0);
-  terms.add_forces(start.position, force);
+  terms.add_forces(step, start.position, force);
   RodState end = start;
   terms.commit(end);
   EXPECT_EQ(end.twist[2], 0.4);

@@ -22,7 +22,7 @@ Points drawn(const std::vector<Vec3>& places) {
 /// rod apart.
 Points loop(double circle) {
   std::vector<Vec3> places;
-  constexpr int kSteps = 720;
+  constexpr int kSteps = 360;
   for (int i = 60; i > 0; --i) places.emplace_back(-0.1 * circle * i, -circle, -kRadius);
   for (int i = 0; i <= kSteps; ++i) {
     const double turn = static_cast<double>(i) / kSteps, angle = 2.0 * M_PI * turn - 0.5 * M_PI;
@@ -36,7 +36,7 @@ Points loop(double circle) {
 /// R; its ends go straight outwards. Seen along the axis, its inmost places are R - r away.
 Points overhand_on_torus(double core, double r) {
   std::vector<Vec3> places;
-  constexpr int kSteps = 2000;
+  constexpr int kSteps = 1000;
   const auto at = [&](double t) {
     const double across = core + r * std::cos(3.0 * t);
     return Vec3(across * std::cos(2.0 * t), across * std::sin(2.0 * t), r * std::sin(3.0 * t));

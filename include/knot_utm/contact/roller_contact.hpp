@@ -30,7 +30,7 @@ struct RollerTurn {
 };
 
 /// s of a contact: the motion of the roller's surface there for one radian of its rotation [m]; `lever`: lambda.
-inline Vec3 surface_way(const ContactPoint& contact, double lever) {
+inline Vec3 surface_increment(const ContactPoint& contact, double lever) {
   return (1.0 - lever) * contact.axis.cross(contact.x);
 }
 /// psi s, the motion of the roller's surface in this step [m].

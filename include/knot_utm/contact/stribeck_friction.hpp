@@ -26,14 +26,14 @@ struct StribeckFriction : FrictionLawDefaults {
       LawKey{"kinetic_share", 0.0, 1.0, "of friction_coefficient", LawDefault::kNone, kNoValue},
       LawKey{"slip_length", 1e-3, 100.0, "of the radius", LawDefault::kNone, kNoValue}};
 
-  double coefficient = 0.0;    ///< mu_s [-]
-  double presliding = 0.0;     ///< xi_s [m]
-  double kinetic_share = 1.0;  ///< k [-]
-  double slip_length = 0.0;    ///< l [m]
+  double coefficient = 0.0;       ///< mu_s [-]
+  double presliding = 0.0;        ///< xi_s [m]
+  double kinetic_fraction = 1.0;  ///< k [-]
+  double slip_length = 0.0;       ///< l [m]
 
   StribeckFriction() = default;
   StribeckFriction(double mu_s, double xi_s, double k, double l)
-      : coefficient(mu_s), presliding(xi_s), kinetic_share(k), slip_length(l) {}
+      : coefficient(mu_s), presliding(xi_s), kinetic_fraction(k), slip_length(l) {}
   static StribeckFriction of(const FrictionOptions& options, const FrictionScales& scales);
 
   template <typename Vector>
@@ -63,7 +63,7 @@ struct StribeckFriction : FrictionLawDefaults {
 
   FrictionMemory remember(const FrictionInput<Vec3>& in, const Vec3& z) const;
 
-  void state(Archive& archive) { archive(coefficient, presliding, kinetic_share, slip_length); }
+  void state(Archive& archive) { archive(coefficient, presliding, kinetic_fraction, slip_length); }
 
  private:
   /// The largest traction after the slip of this step, divided by mu_s p, and its derivative in |y|.
@@ -74,10 +74,10 @@ struct StribeckFriction : FrictionLawDefaults {
     Real slope;  // d bears/d|y|
 
     Cone(const StribeckFriction& law, const Real& y, const Real& slid) : size(y) {
-      const double k = law.kinetic_share, over_length = 1.0 / law.slip_length;
+      const double k = law.kinetic_fraction, over_length = 1.0 / law.slip_length;
       const Real before = k + (1.0 - k) * exponential(-over_length * slid);
-      const Real way = law.presliding * (y - before);
-      const Real left = (1.0 - k) * exponential(-over_length * (slid + larger(way, Real{})));
+      const Real slip = law.presliding * (y - before);
+      const Real left = (1.0 - k) * exponential(-over_length * (slid + larger(slip, Real{})));
       bears = k + left;
       slope = -law.presliding * over_length * left;
     }

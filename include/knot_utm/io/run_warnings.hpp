@@ -20,9 +20,9 @@ std::vector<std::string> events(const Results& results);
 std::string accuracy_warning(const Results& results, const ReadingErrors& errors);
 
 /// The warnings that are also printed on the console, one line each.
-std::vector<std::string> told(const Results& results, const RunFacts& facts);
+std::vector<std::string> printed_warnings(const Results& results, const RunFacts& facts);
 
-/// All warnings that a reader of the results should know, one line each. Those of `told` are among them.
+/// All warnings that a reader of the results should know, one line each. The printed ones are among them.
 std::vector<std::string> all_warnings(const Results& results, const RunFacts& facts);
 
 }  // namespace knot_utm

@@ -39,7 +39,7 @@ class LoadControl {
   }
 
  private:
-  void learn(const Sample& now, double way_that_counts);
+  void learn(const Sample& now, double counting_distance);
 
   bool knows_last_ = false, knows_slope_ = false;
   double last_load_ = 0.0, last_displacement_ = 0.0;

@@ -53,7 +53,7 @@ class KnotNode {
 
   ros::NodeHandle node_;
   Method method_;
-  TestingMachine bench_;
+  TestingMachine machine_;
   std::uint32_t run_ = 0;                           ///< number of the present test; 0: there is none
   std::uint64_t next_ = 0;                          ///< sequence number of the next command
   std::deque<boost::shared_ptr<KnotRecord>> kept_;  ///< the last answers, in order

@@ -61,7 +61,7 @@ class ReplayNode {
   std::map<std::string, std::string> names_;  ///< topics of the bag, each with the package's own name of it
   std::unique_ptr<rosbag::View> view_;
   rosbag::View::iterator next_;
-  TestingMachine bench_;  ///< in its state before the test
+  TestingMachine machine_;  ///< in its state before the test
   FrameBroadcaster frames_;
   ScenePicture picture_;
   Views views_;

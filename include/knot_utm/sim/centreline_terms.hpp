@@ -3,6 +3,8 @@
 #include <vector>
 
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/sim/solved_step.hpp"
+#include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 
 namespace knot_utm {
@@ -17,14 +19,15 @@ class CentrelineTerms {
   /// From now on the rod has parted at an edge: it has no tension, and does not bend at its ends.
   void part(int edge);
 
-  /// Begins a step. `predicts`: the geometric stiffness uses the predicted tensions, at first those at `start`; else
+  /// Begins a step. `predicts`: the geometric stiffness uses the predicted tensions, at first those at its start; else
   /// the present ones.
-  void begin(const Points& start, bool predicts);
+  void begin(const StepStart& start, bool predicts);
   /// Predicts the tensions after `factor` times a change of the nodes [m], with the stiffness as it was set.
   void predict_tensions(const std::vector<Lanes>& change, double factor);
 
-  /// Adds the forces on every node [N]. A stiffness that is set afterwards belongs to this position.
-  void add_forces(const Points& position, std::vector<Lanes>& force);
+  /// Adds the forces on every node [N], which depend on the trial positions x only. A stiffness that is set afterwards
+  /// belongs to them.
+  void add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force);
 
   /// Largest |tension| of an edge at that position [N].
   double largest_tension() const { return largest_tension_; }
@@ -42,6 +45,8 @@ class CentrelineTerms {
     double along = 0.0;                      ///< dE/dx . increment [J]
   };
   Energy energy(const Points& increment) const;
+  /// Adds the energies at the end of an accepted step, and the work of their forces in it.
+  void account(const SolvedStep& step, StepAccount& account) const;
 
   /// Overwrites blocks (i, i) to (i, i+2) and their mirrors with the Hessian of both energies, and with `diagonal`
   /// [N/m] of each node on the diagonal of its three positions. Where tensions are predicted, the geometric stiffness

@@ -9,6 +9,8 @@
 #include "knot_utm/rod/stencil.hpp"
 #include "knot_utm/rod/twisting.hpp"
 #include "knot_utm/sim/scene.hpp"
+#include "knot_utm/sim/solved_step.hpp"
+#include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 
 namespace knot_utm {
@@ -69,13 +71,13 @@ class FrameTerms {
   /// From now on the rod has parted at an edge: at its ends nothing twists or bends.
   void part(int edge);
 
-  /// Begins a step of length dt [s] from `start`, a state with frames, which must stay unchanged until the step ends.
-  /// Held angles begin at their prescribed values, all others at a prediction from their rates.
-  void begin(const RodState& start, const std::vector<FixedTwist>& held, double dt);
+  /// Begins a step, whose state must have frames. Held angles begin at their prescribed values, all others at a
+  /// prediction from their rates.
+  void begin(const StepStart& start);
 
   /// Adds forces [N] (lanes 0 to 2 of every node) and torques [N m] (lane 3: of the edge behind the node) at trial
   /// positions. A stiffness that is read afterwards belongs to these positions.
-  void add_forces(const Points& position, std::vector<Lanes>& force);
+  void add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force);
 
   /// Adds -d(force, torque)/d(x, s) to the matrix.
   void add_stiffness(StepMatrix<4>& matrix) const;
@@ -112,6 +114,8 @@ class FrameTerms {
     Vec3 moment = Vec3::Zero();            ///< of inertia, drag and r_j, about the edges' tangents [N m]
   };
   Energy energy(const Points& increment, const std::vector<Lanes>& force) const;
+  /// Adds the energies at the end of an accepted step, and the work of forces and torques in it.
+  void account(const SolvedStep& step, StepAccount& account) const;
   /// Kinetic energy of spin at these rates [rad/s]; [J].
   double kinetic_energy(const Eigen::VectorXd& rate) const { return 0.5 * inertia_.dot(rate.cwiseAbs2()); }
 

@@ -3,9 +3,7 @@
 #include <vector>
 
 #include "knot_utm/contact/roller_contact.hpp"
-#include "knot_utm/sim/centreline_terms.hpp"
 #include "knot_utm/sim/contact_sums.hpp"
-#include "knot_utm/sim/frame_terms.hpp"
 #include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
 
@@ -22,7 +20,8 @@ class StepReadings {
   StepAccount& begin(const SolvedStep& step, const RollerContact& rollers);
   /// Kinetic energy and numerical loss of free rollers.
   void add_free_turns(const SolvedStep& step, const RollerContact& rollers);
-  void add_elastic(const CentrelineTerms::Energy& centreline, const FrameTerms::Energy& frames);
+  /// By how much the elastic energies, all of which must be in the account, have fallen.
+  void add_fall_of_elastic_energy();
 
   /// Force of a node's holder on it [N]; torque of the holder of an edge's material frame [N m].
   Vec3 reaction(int node) const;
