@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "knot_utm/contact/friction_law.hpp"
+#include "knot_utm/contact/return_mapping.hpp"
 
 namespace knot_utm {
 
@@ -28,35 +28,22 @@ struct MemoryFriction : FrictionLawDefaults {
 
   template <typename Vector>
   FrictionTraction<Vector> traction(const FrictionInput<Vector>& in) const {
-    const Vector y = (1.0 / presliding) * in.slip;
-    const auto size = square_root(dot(y, y));
-    return {ratio(size) * y, constant<decltype(dot(y, y))>(coefficient)};
+    using Real = typename FrictionInput<Vector>::Real;
+    return {ReturnMapping<Vector>::of((1.0 / presliding) * in.slip), constant<Real>(coefficient)};
   }
 
   template <typename Vector>
   FrictionTangent<Vector> tangent(const FrictionInput<Vector>& in, Linearisation linearisation) const {
     using Real = typename FrictionInput<Vector>::Real;
     const double over_scale = 1.0 / presliding;
-    const Vector y = over_scale * in.slip;
-    const Real size = square_root(dot(y, y)), across = ratio(size);
-    Real along = Real{};  // d|z|/d|y| - |z|/|y|
-    if (linearisation == Linearisation::kTangent) along = select(size < 1.0, along, -across);
-    const Vector unit = select(size > 1e-12, 1.0 / size, Real{}) * y;
-    const Vector z = across * y;
+    const ReturnMapping<Vector> y(over_scale * in.slip, linearisation);
     const Real mu = constant<Real>(coefficient);
-    return {z, mu, mu * z, constant<Real>(coefficient * over_scale), across, along, unit, unit};
+    return {y.z, mu, mu * y.z, constant<Real>(coefficient * over_scale), y.across, y.along, y.unit, y.unit};
   }
 
   FrictionMemory remember(const FrictionInput<Vec3>&, const Vec3& z) const { return {presliding * z, 0.0}; }
 
   void state(Archive& archive) { archive(coefficient, presliding); }
-
- private:
-  /// |z|/|y|
-  template <typename Real>
-  static Real ratio(const Real& size) {
-    return select(size < 1.0, constant<Real>(1.0), 1.0 / size);
-  }
 };
 
 }  // namespace knot_utm

@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "knot_utm/contact/friction_law.hpp"
+#include "knot_utm/contact/return_mapping.hpp"
 
 namespace knot_utm {
 
@@ -36,24 +36,18 @@ struct PowerFriction : FrictionLawDefaults {
 
   template <typename Vector>
   FrictionTraction<Vector> traction(const FrictionInput<Vector>& in) const {
-    const Vector y = (1.0 / presliding) * in.slip;
-    return {over_size(square_root(dot(y, y))) * y, coefficient_at(in.pressure)};
+    return {ReturnMapping<Vector>::of((1.0 / presliding) * in.slip), coefficient_at(in.pressure)};
   }
 
   template <typename Vector>
   FrictionTangent<Vector> tangent(const FrictionInput<Vector>& in, Linearisation linearisation) const {
     using Real = typename FrictionInput<Vector>::Real;
     const double over_scale = 1.0 / presliding;
-    const Vector y = over_scale * in.slip;
-    const Real size = square_root(dot(y, y)), across = over_size(size);
-    Real along = Real{};  // d|z|/d|y| - |z|/|y|
-    if (linearisation == Linearisation::kTangent) along = select(size < 1.0, along, -across);
-    const Vector unit = select(size > 1e-12, 1.0 / size, Real{}) * y;
-    const Vector z = across * y;
+    const ReturnMapping<Vector> y(over_scale * in.slip, linearisation);
     const Real mu = coefficient_at(in.pressure);
     // d(mu p)/dp = mu (1 + (n - 1) p/(p + p_0))
     const Real by_pressure = mu * (1.0 + (exponent - 1.0) * in.pressure / (in.pressure + least()));
-    return {z, mu, by_pressure * z, over_scale * mu, across, along, unit, unit};
+    return {y.z, mu, by_pressure * y.z, over_scale * mu, y.across, y.along, y.unit, y.unit};
   }
 
   FrictionMemory remember(const FrictionInput<Vec3>&, const Vec3& z) const { return {presliding * z, 0.0}; }
@@ -67,11 +61,6 @@ struct PowerFriction : FrictionLawDefaults {
   template <typename Real>
   Real coefficient_at(const Real& pressure) const {
     return coefficient * power((pressure + least()) / (reference_pressure + least()), exponent - 1.0);
-  }
-  /// |z|/|y|
-  template <typename Real>
-  static Real over_size(const Real& size) {
-    return select(size < 1.0, constant<Real>(1.0), 1.0 / size);
   }
 };
 
