@@ -38,10 +38,9 @@ def result_keys():
 
 
 def find_method(name, folder):
-    """The file of a method, from a folder, or of one that comes with the package. Raises WrongInput."""
-    places = [os.path.join(folder, name)]
-    if os.path.basename(name) == name:
-        places += [os.path.join(CONFIG, name), os.path.join(CONFIG, name + ".yaml")]
+    """The file of a method, from a folder, or of one that comes with the package, as tensile_test finds it. Raises WrongInput."""
+    shipped = [CONFIG] if os.sep in name else [CONFIG, os.path.join(CONFIG, "standards")]
+    places = [os.path.join(folder, name)] + [os.path.join(of, name + end) for of in shipped for end in ("", ".yaml")]
     for place in places:
         if os.path.isfile(place):
             return os.path.abspath(place)
