@@ -1,5 +1,5 @@
-"""knot_utm from Python: one test (run), what a test left (read), a method many times over (sweep), the values with
-which a test produces a measured curve (fit). doc/studies.md and doc/fits.md have examples."""
+"""knot_utm from Python: one test (run), several specimens (batch), what tests left (read, read_batch), a method many times
+over (sweep), the values with which a test produces a measured curve (fit). doc/studies.md and doc/fits.md have examples."""
 import importlib
 import pkgutil
 
@@ -7,8 +7,8 @@ import pkgutil
 __path__ = pkgutil.extend_path(__path__, __name__)
 
 # Which module has a name. It is imported when the name is first used: the messages alone need no pandas.
-_MODULES = {"Interrupted": "errors", "Run": "runs", "WrongInput": "errors", "fit": "finding", "read": "runs", "run": "runs",
-            "sweep": "sweeping"}
+_MODULES = {"Batch": "batches", "Interrupted": "errors", "Run": "runs", "WrongInput": "errors", "batch": "batches",
+            "fit": "finding", "read": "runs", "read_batch": "batches", "run": "runs", "sweep": "sweeping"}
 __all__ = list(_MODULES)
 
 
