@@ -38,7 +38,7 @@ def batch(method, out, specimens=8, jobs=None, **overrides):
     cores; the numbers are the same. `overrides` and what it raises: as `run`."""
     if specimens < 2:
         raise WrongInput(f"specimens is {specimens}, but a batch has at least 2: knot_utm.run tests one")
-    make(method, out, STATISTICS, overrides, "--specimens", str(specimens), *(["--jobs", str(jobs)] if jobs is not None else []))
+    make(method, out, specimens, STATISTICS, overrides, *(["--jobs", str(jobs)] if jobs is not None else []))
     return read_batch(out)
 
 

@@ -32,23 +32,26 @@ def read(folder):
 
 
 def run(method, out, **overrides):
-    """Runs a method's file, or a shipped method by its name, to its end and reads what it left in `out`.
+    """Tests one specimen of a method's file, or of a shipped method by its name, and reads what the test left in `out`.
 
     `overrides`: dotted keys of the method, as in run("tighten", "out/a", **{"specimen.preload": 20}). Raises WrongInput
     where tensile_test refuses, or `out` holds a run; RuntimeError where it leaves no result."""
-    make(method, out, "result.yaml", overrides)
+    make(method, out, 1, "result.yaml", overrides)
     return read(out)
 
 
-def make(method, out, result, overrides, *more):
+def make(method, out, specimens, result, overrides, *more):
     """Runs tensile_test to its end, with more words where they are given. Raises WrongInput where it refuses, or `out` holds a run;
     RuntimeError where it leaves no `result` there."""
+    if tool.COUNT in overrides:
+        raise WrongInput(f"{tool.COUNT} is {overrides[tool.COUNT]}, but run tests one specimen, and batch as many as its argument "
+                         "specimens says")
     out = os.path.abspath(out)
     if any(os.path.exists(os.path.join(out, name)) for name in OF_A_RUN):
         raise WrongInput(f"{out} holds a run already: choose another folder")
     method = tool.find_method(os.fspath(method), os.getcwd())
-    done = subprocess.run(tool.command(method, overrides, out, "--quiet", *more), check=False, text=True, errors="replace",
-                          stdin=subprocess.DEVNULL, capture_output=True)
+    words = tool.command(method, overrides, out, "--quiet", "--specimens", str(specimens), *more)
+    done = subprocess.run(words, check=False, text=True, errors="replace", stdin=subprocess.DEVNULL, capture_output=True)
     if done.returncode == tool.REFUSED:
         raise WrongInput(tool.said_by(done.stderr))
     if not os.path.exists(os.path.join(out, result)):

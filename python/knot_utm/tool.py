@@ -15,6 +15,7 @@ IN_SOURCES = os.path.isdir(os.path.join(HERE, "../../config"))
 # Of the sources, or of an installation: where config/ and report/ stand.
 SHARE = os.path.realpath(os.path.join(HERE, "../.." if IN_SOURCES else "../../../../share/knot_utm"))
 CONFIG = os.path.join(SHARE, "config")
+COUNT = "specimens.count"  # how it is told of repeats
 REFUSED = 2  # its exit code for wrong input
 DISK_IS_FULL = [os.strerror(code).lower() for code in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)]
 

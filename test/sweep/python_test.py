@@ -50,6 +50,15 @@ class Package(Sweeps):
         with self.assertRaisesRegex(knot_utm.WrongInput, "holds a run already"):
             knot_utm.run("straight", out)
 
+    def test_a_run_is_one_specimen_whatever_the_method_says(self):
+        with open(os.path.join(CONFIG, "straight.yaml"), encoding="utf-8") as file:
+            method = write(self.path("method.yaml"), file.read() + "specimens: {count: 3}\n")
+        run = knot_utm.run(method, self.path("run"), **DRAFT)
+        alone = knot_utm.run("straight", self.path("alone"), **DRAFT)
+        self.assertTrue(run.curve.equals(alone.curve))
+        with self.assertRaisesRegex(knot_utm.WrongInput, "specimens.count is 3, but run tests one specimen"):
+            knot_utm.run("straight", self.path("more"), **{"specimens.count": 3})
+
     def test_what_is_refused_raises(self):
         with self.assertRaisesRegex(knot_utm.WrongInput, "specimen.length is -1"):
             knot_utm.run("straight", self.path("run"), **{"specimen.length": -1})
