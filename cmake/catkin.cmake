@@ -21,6 +21,13 @@ if(catkin_FOUND)
                     ColorBar.msg Crosshead.msg KnotRecord.msg KnotShape.msg KnotState.msg RecorderStatus.msg SpecimenInfo.msg
                     TestStatus.msg)
   add_action_files(DIRECTORY action FILES RunTest.action)
+  # The messages are in the Python package that python/ holds. In devel space its __init__.py stands for both; installed, there
+  # is that of python/ only. catkin_python_setup() would do the same, but it installs to where CMAKE_INSTALL_PREFIX was when
+  # configured, whatever `cmake --install --prefix` says.
+  set(PACKAGE_PYTHONPATH ${PROJECT_SOURCE_DIR}/python)
+  configure_file(${catkin_EXTRAS_DIR}/templates/__init__.py.in
+                 ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_PYTHON_DESTINATION}/__init__.py @ONLY)
+  set(${PROJECT_NAME}_CATKIN_PYTHON_SETUP_HAS_PACKAGE_INIT TRUE)
   generate_dynamic_reconfigure_options(cfg/Machine.cfg cfg/View.cfg)
   generate_messages(DEPENDENCIES ${message_packages})
   get_target_property(EIGEN3_INCLUDE_DIRS Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
@@ -35,6 +42,7 @@ else()
   include(GNUInstallDirs)
   set(CATKIN_PACKAGE_BIN_DESTINATION lib/knot_utm)
   set(CATKIN_PACKAGE_LIB_DESTINATION ${CMAKE_INSTALL_LIBDIR})
+  set(CATKIN_PACKAGE_PYTHON_DESTINATION lib/python3/dist-packages/knot_utm)
   set(CATKIN_PACKAGE_SHARE_DESTINATION share/knot_utm)
   set(KNOT_UTM_EXECUTABLE_DIR ${PROJECT_BINARY_DIR}/devel/lib/knot_utm)
 endif()

@@ -96,8 +96,9 @@ add_test(NAME material_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/t
 set_tests_properties(material_test PROPERTIES TIMEOUT 600 ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
 add_test(NAME efficiency_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/efficiency_test.py)
 add_test(NAME resave_steps_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/resave_steps_test.py)
-# Studies: their designs, their pictures, what scripts/sweep makes of small ones, and the same as jobs on this machine and of Slurm.
-foreach(name design_test plots_test sweep_test workflow_test)
+# Studies: their designs, their pictures, what scripts/sweep makes of small ones, the same from Python, and as jobs on this machine
+# and of Slurm.
+foreach(name design_test plots_test sweep_test python_test workflow_test)
   add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/sweep/${name}.py)
   set_tests_properties(${name} PROPERTIES TIMEOUT 600 SKIP_RETURN_CODE 77
                        ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")

@@ -1,13 +1,22 @@
-"""knot_utm from Python: one test (run), what a test left (read), many tests (sweep), the
-values with which a test produces a measured curve (fit). doc/studies.md and doc/fits.md have examples."""
+"""knot_utm from Python: one test (run), several specimens (batch), what tests left (read, read_batch), a method many times
+over (sweep), the values with which a test produces a measured curve (fit). doc/studies.md and doc/fits.md have examples."""
+import importlib
 import pkgutil
 
-# The messages of ROS are a package of the same name elsewhere on the path: knot_utm.msg is theirs.
+# The messages of ROS are in the same package, elsewhere on the path: knot_utm.msg is theirs.
 __path__ = pkgutil.extend_path(__path__, __name__)
 
-from knot_utm.errors import Interrupted, WrongInput
-from knot_utm.finding import fit
-from knot_utm.runs import Run, read, run
-from knot_utm.sweeping import sweep
+# Which module has a name. It is imported when the name is first used: the messages alone need no pandas.
+_MODULES = {"Batch": "batches", "Interrupted": "errors", "Run": "runs", "WrongInput": "errors", "batch": "batches",
+            "fit": "finding", "read": "runs", "read_batch": "batches", "run": "runs", "sweep": "sweeping"}
+__all__ = list(_MODULES)
 
-__all__ = ["Interrupted", "Run", "WrongInput", "fit", "read", "run", "sweep"]
+
+def __getattr__(name):
+    if name not in _MODULES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(importlib.import_module(f"{__name__}.{_MODULES[name]}"), name)
+
+
+def __dir__():
+    return sorted({*globals(), *_MODULES})

@@ -7,11 +7,12 @@ import sys
 
 import yaml
 
+from knot_utm import tool
 from knot_utm.errors import Interrupted, WrongInput
 from knot_utm.finding import fit
 from knot_utm.yaml_text import value_of
 
-PROGRAM = "scripts/fit"
+PROGRAM = tool.program("fit")
 
 
 def main(words):

@@ -2,12 +2,13 @@
 import argparse
 import sys
 
+from knot_utm import tool
 from knot_utm.errors import WrongInput
 from knot_utm.refining import refine
 
 
 def main(words):
-    parser = argparse.ArgumentParser(prog="scripts/refine", add_help=False)
+    parser = argparse.ArgumentParser(prog=tool.program("refine"), add_help=False)
     parser.add_argument("study")
     parser.add_argument("--out", required=True)
     parser.add_argument("--runs", type=int, required=True)

@@ -7,7 +7,6 @@ from knot_utm.errors import WrongInput
 from knot_utm.yaml_text import load, text_of
 
 KEYS = ("method", "for_each", "vary", "below", "design", "runs", "repeat", "seed")
-COUNT = "specimens.count"  # how tensile_test is told of repeats
 DESIGNS = ("grid", "one_at_a_time", "list", "sobol")
 DRAWING = ("list", "sobol")
 
@@ -35,7 +34,7 @@ class Study:
     @property
     def settings(self):
         """[{key: value}] of every run, with all that it is told."""
-        return [{**point, COUNT: self.repeat} for point in self.points] if self.repeat > 1 else self.points
+        return [{**point, tool.COUNT: self.repeat} for point in self.points] if self.repeat > 1 else self.points
 
 
 def load_study(file):
@@ -99,7 +98,7 @@ def _keys(given, name):
     if not isinstance(keys, dict) or not keys:
         raise WrongInput(f"{name} is {text_of(keys)}, but must be a map of at least one key of the method and its values")
     for key in keys:
-        if key in (COUNT, "specimens"):
+        if key in (tool.COUNT, "specimens"):
             raise WrongInput(f"{name} has the key {key}, but a run of a study is one specimen: give repeat")
     return keys
 

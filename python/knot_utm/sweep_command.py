@@ -4,10 +4,11 @@ import os
 import shlex
 import sys
 
+from knot_utm import tool
 from knot_utm.errors import Interrupted, WrongInput
 from knot_utm.sweeping import Sweep
 
-PROGRAM = "scripts/sweep"
+PROGRAM = tool.program("sweep")
 
 
 def main(words):

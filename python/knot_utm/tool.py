@@ -6,24 +6,42 @@ import os
 import shutil
 import subprocess
 
+import knot_utm
 from knot_utm.errors import WrongInput
 from knot_utm.yaml_text import text_of
 
-ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
-CONFIG = os.path.join(ROOT, "config")
+HERE = os.path.dirname(os.path.realpath(__file__))
+IN_SOURCES = os.path.isdir(os.path.join(HERE, "../../config"))
+# Of the sources, or of an installation: where config/ and report/ stand.
+SHARE = os.path.realpath(os.path.join(HERE, "../.." if IN_SOURCES else "../../../../share/knot_utm"))
+CONFIG = os.path.join(SHARE, "config")
+COUNT = "specimens.count"  # how it is told of repeats
 REFUSED = 2  # its exit code for wrong input
 DISK_IS_FULL = [os.strerror(code).lower() for code in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)]
 
 
 @functools.cache
 def tensile_test():
-    """The program: in the folder that KNOT_UTM_TOOLS_DIR names, else as scripts/build made it, else the one on the path."""
-    folder = os.environ.get("KNOT_UTM_TOOLS_DIR") or os.path.join(ROOT, "build/devel/lib/knot_utm")
-    place = os.path.join(folder, "tensile_test")
-    found = place if os.access(place, os.X_OK) else shutil.which("tensile_test")
-    if not found:
-        raise WrongInput(f"{place} is not there: scripts/build tensile_test makes it")
-    return os.path.abspath(found)
+    """The program: in the folder that KNOT_UTM_TOOLS_DIR names, else as it was built or installed with this package, else the
+    one on the path. Raises WrongInput."""
+    given = os.environ.get("KNOT_UTM_TOOLS_DIR")
+    places = [os.path.join(folder, "tensile_test") for folder in ([given] if given else _folders_of_tools())]
+    for place in [*places, shutil.which("tensile_test")]:
+        if place and os.access(place, os.X_OK):
+            return os.path.abspath(place)
+    raise WrongInput(f"{places[0]} is not there" + (": scripts/build tensile_test makes it" if IN_SOURCES else ""))
+
+
+def _folders_of_tools():
+    """Of the places where this package is, in their order: a workspace of catkin has one beside the sources."""
+    for place in knot_utm.__path__:
+        built = IN_SOURCES and os.path.realpath(place) == HERE
+        yield os.path.realpath(os.path.join(SHARE, "build/devel/lib/knot_utm") if built else os.path.join(place, "../../../knot_utm"))
+
+
+def program(name):
+    """How a user calls a command of this package."""
+    return f"scripts/{name}" if IN_SOURCES else f"python3 -m knot_utm.{name}_command"
 
 
 @functools.cache
@@ -38,10 +56,9 @@ def result_keys():
 
 
 def find_method(name, folder):
-    """The file of a method, from a folder, or of one that comes with the package. Raises WrongInput."""
-    places = [os.path.join(folder, name)]
-    if os.path.basename(name) == name:
-        places += [os.path.join(CONFIG, name), os.path.join(CONFIG, name + ".yaml")]
+    """The file of a method, from a folder, or of one that comes with the package, as tensile_test finds it. Raises WrongInput."""
+    shipped = [CONFIG] if os.sep in name else [CONFIG, os.path.join(CONFIG, "standards")]
+    places = [os.path.join(folder, name)] + [os.path.join(of, name + end) for of in shipped for end in ("", ".yaml")]
     for place in places:
         if os.path.isfile(place):
             return os.path.abspath(place)

@@ -12,9 +12,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> names_of_methods(const std::vector<std::string>& folders) {
+/// Where methods lie in each of the shipped folders. What else lies there, such as materials, is no method.
+std::vector<std::string> folders_of_methods(const std::vector<std::string>& shipped) {
+  std::vector<std::string> folders;
+  for (const std::string& folder : shipped) {
+    folders.push_back(folder);
+    folders.push_back(folder + "/standards");
+  }
+  return folders;
+}
+
+std::vector<std::string> names_of_methods(const std::vector<std::string>& shipped) {
   std::set<std::string> names;
-  for (const std::string& folder : folders) {
+  for (const std::string& folder : folders_of_methods(shipped)) {
     std::error_code error;
     for (fs::directory_iterator file(folder, error), end; !error && file != end; file.increment(error))
       if (file->path().extension() == ".yaml") names.insert(file->path().stem().string());
@@ -39,11 +49,12 @@ std::string find_method(const std::string& method, const std::string& base, cons
   std::error_code error;
   const auto is_file = [&](const fs::path& file) { return fs::is_regular_file(file, error); };
   if (is_file(given)) return given.string();
-  for (const std::string& folder : shipped) {
+  const bool has_folder = method.find('/') != std::string::npos;
+  for (const std::string& folder : has_folder ? shipped : folders_of_methods(shipped)) {
     for (const std::string& name : {method, method + ".yaml"})
       if (const fs::path place = fs::path(folder) / name; is_file(place)) return place.string();
   }
-  const bool is_name = !method.empty() && method.find('/') == std::string::npos && !fs::path(method).has_extension();
+  const bool is_name = !method.empty() && !has_folder && !fs::path(method).has_extension();
   if (is_name && !fs::exists(given, error)) {
     const std::vector<std::string> names = names_of_methods(shipped);
     throw InvalidInput::unknown_name("the method", method,

@@ -129,13 +129,15 @@ TEST_F(KeptRun, AMethodThatComesWithThePackageIsKnownByItsName) {
   EXPECT_EQ(find_method("straight"), std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml");
   EXPECT_EQ(find_method("straight.yaml"), find_method("straight"));
   EXPECT_EQ(find_method("nowhere/straight.yaml"), "nowhere/straight.yaml") << "a path is a path";
+  EXPECT_EQ(find_method("../tighten.yaml", folder()), in("../tighten.yaml")) << "a path is no name of a standard";
   write_whole(in("straight"), "a file of this name comes first");
   EXPECT_EQ(find_method("straight", folder()), in("straight"));
   fs::remove(in("straight"));
 
   const Answer refused = answer_of(tool("tensile_test", "strait --out '" + in("out") + "'"));
   EXPECT_EQ(refused.code, 2);
-  EXPECT_THAT(refused.text, AllOf(HasSubstr("strait"), HasSubstr("from_file, overhand, straight, tighten")));
+  EXPECT_THAT(refused.text, AllOf(HasSubstr("strait"), HasSubstr("(astm_d2256_knotted, "),
+                                  HasSubstr("overhand, straight, tighten, usp_881_knot_pull)")));
   EXPECT_FALSE(fs::exists(in("out")));
 }
 

@@ -97,7 +97,9 @@ TEST(Method, EveryShippedFileLoads) {
 TEST(Method, EveryStandardLoadsAndSaysWhatItIsAndWhatIsNotSimulated) {
   int standards = 0;
   for (const auto& file : fs::directory_iterator(kConfig + "standards")) {
-    const std::string name = "standards/" + file.path().stem().string();
+    const std::string name = file.path().stem().string();
+    EXPECT_EQ(find_method(name), file.path().string()) << "it has a name of its own";
+    EXPECT_EQ(find_method("standards/" + name), file.path().string());
     const Method method = load_method(find_method(name));
     EXPECT_NE(method.report.standard, "") << name;
     EXPECT_NE(method.report.conditioning, "") << name;
@@ -106,6 +108,10 @@ TEST(Method, EveryStandardLoadsAndSaysWhatItIsAndWhatIsNotSimulated) {
     ++standards;
   }
   EXPECT_GE(standards, 5);
+}
+
+TEST(Method, IsNoMaterialAndNoStudy) {
+  for (const std::string name : {"nylon", "preload"}) EXPECT_THROW(find_method(name), InvalidInput) << name;
 }
 
 TEST(Method, WritesBackToTheSame) {

@@ -400,42 +400,5 @@ class Refused(Sweeps):
         self.assertIn("star is no run of " + self.study, self.sweep("out", "--only", "star", code=2))
 
 
-class FromPython(Sweeps):
-    def test_a_run_is_made_and_read_with_units(self):
-        out = self.path("run")
-        run = knot_utm.run("straight", out, **{"physics.accuracy": "draft", "specimen.length": 0.2})
-        self.assertEqual(run.method["specimen"]["length"], 0.2)
-        self.assertEqual(run.results["peak_force"], load(os.path.join(out, "result.yaml"))["peak_force"])
-        self.assertEqual(run.results.attrs["units"]["peak_force"], "N")
-        names, units, *values = rows(content(out, "curve.csv"))
-        self.assertEqual(run.curve.attrs["units"], dict(zip(names, units)))
-        self.assertEqual(list(run.curve["load"]), [float(row[names.index("load")]) for row in values])
-        with self.assertRaisesRegex(knot_utm.WrongInput, "holds a run already"):
-            knot_utm.run("straight", out)
-
-    def test_what_is_refused_raises(self):
-        with self.assertRaisesRegex(knot_utm.WrongInput, "specimen.length is -1"):
-            knot_utm.run("straight", self.path("run"), **{"specimen.length": -1})
-        with self.assertRaisesRegex(knot_utm.WrongInput, "method is strait"):
-            knot_utm.run("strait", self.path("run"))
-        with self.assertRaisesRegex(knot_utm.WrongInput, "no such file"):
-            knot_utm.read(self.path("run"))
-
-    def test_messages_of_ros_are_a_part_of_it(self):
-        os.makedirs(self.path("devel/knot_utm/msg"))
-        write(self.path("devel/knot_utm/__init__.py"), "")
-        write(self.path("devel/knot_utm/msg/__init__.py"), "Crosshead = 'a message'")
-        path = os.pathsep.join([os.path.join(ROOT, "python"), self.path("devel")])
-        said = subprocess.run([sys.executable, "-Bc", "import knot_utm.msg; print(knot_utm.msg.Crosshead, knot_utm.read)"],
-                              env={**os.environ, "PYTHONPATH": path}, check=True, text=True, stdout=subprocess.PIPE).stdout
-        self.assertRegex(said, "^a message <function read")
-
-    def test_a_sweep_gives_its_table(self):
-        table = knot_utm.sweep(self.study, self.path("out"), jobs=1)
-        self.assertEqual(list(table["specimen.length"]), LENGTHS)
-        self.assertEqual(table.attrs["units"]["specimen.length"], "m")
-        self.assertTrue((table["peak_force"] > 0).all())
-
-
 if __name__ == "__main__":
     unittest.main()

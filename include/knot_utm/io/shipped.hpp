@@ -10,9 +10,9 @@ namespace knot_utm {
 std::vector<std::string> shipped_folders();
 
 /// The file to which `method` refers: a path, relative to the folder `base`, or the name of a method in one of the
-/// `shipped` folders, with or without its extension. A path to which no file belongs is returned as it is; reading it
-/// then reports the error. Throws InvalidInput (key "method"), which lists the shipped methods, where a name is not one
-/// of them.
+/// `shipped` folders or in its `standards/`, with or without its extension. A path to which no file belongs is returned
+/// as it is; reading it then reports the error. Throws InvalidInput (key "method"), which lists the shipped methods,
+/// where a name is not one of them.
 std::string find_method(const std::string& method, const std::string& base = "",
                         const std::vector<std::string>& shipped = shipped_folders());
 

@@ -29,7 +29,8 @@ def write_fit(folder, fitted, methods):
 
 def write_report(folder, command):
     """report.html and report.pdf, of the other files. Raises RuntimeError with a line where they cannot be made."""
-    words = [PYTHON, "-EsB", os.path.join(tool.ROOT, "report/make_report.py"), "--command", command, "--version", tool.version()]
+    script = os.path.join(tool.SHARE, "report/make_report.py")
+    words = [PYTHON, "-EsB", script, "--command", command, "--version", tool.version()]
     done = subprocess.run([*words, "--", folder], check=False, text=True, errors="replace", stdin=subprocess.DEVNULL,
                           capture_output=True)
     if done.returncode != 0:

@@ -1,0 +1,189 @@
+#!/usr/bin/python3
+"""The Python package knot_utm: a run, a batch and a sweep made by it and read by it, and its place among the messages of ROS.
+Skipped, with exit code 77, where a module is not installed."""
+import csv
+import io
+import os
+import re
+import subprocess
+import sys
+import unittest
+
+from sweeps import CONFIG, LENGTHS, ROOT, Sweeps, content, write
+
+try:
+    import numpy as np
+
+    import knot_utm
+    from knot_utm import tool
+    from knot_utm.yaml_text import load
+except ModuleNotFoundError as absent:
+    print(f"skipped: {absent} (scripts/sweep installs it)")
+    sys.exit(77)
+
+DRAFT = {"physics.accuracy": "draft"}
+
+
+def rows(text):
+    return list(csv.reader(io.StringIO(text.decode())))
+
+
+class Package(Sweeps):
+    def test_a_shipped_method_is_found_by_its_name(self):
+        standard = os.path.join(CONFIG, "standards/usp_881_knot_pull.yaml")
+        for name, file in (("tighten", CONFIG + "/tighten.yaml"), ("usp_881_knot_pull", standard),
+                           ("usp_881_knot_pull.yaml", standard), ("standards/usp_881_knot_pull", standard)):
+            self.assertEqual(tool.find_method(name, self.folder), file)
+        for name in ("nylon", "preload", "../tighten.yaml"):
+            with self.assertRaisesRegex(knot_utm.WrongInput, f"method is {name}"):
+                tool.find_method(name, self.folder)
+
+    def test_a_run_is_made_and_read_with_units(self):
+        out = self.path("run")
+        run = knot_utm.run("straight", out, **{"physics.accuracy": "draft", "specimen.length": 0.2})
+        self.assertEqual(run.method["specimen"]["length"], 0.2)
+        self.assertEqual(run.results["peak_force"], load(os.path.join(out, "result.yaml"))["peak_force"])
+        self.assertEqual(run.results.attrs["units"]["peak_force"], "N")
+        names, units, *values = rows(content(out, "curve.csv"))
+        self.assertEqual(run.curve.attrs["units"], dict(zip(names, units)))
+        self.assertEqual(list(run.curve["load"]), [float(row[names.index("load")]) for row in values])
+        with self.assertRaisesRegex(knot_utm.WrongInput, "holds a run already"):
+            knot_utm.run("straight", out)
+
+    def test_a_run_is_one_specimen_whatever_the_method_says(self):
+        with open(os.path.join(CONFIG, "straight.yaml"), encoding="utf-8") as file:
+            method = write(self.path("method.yaml"), file.read() + "specimens: {count: 3}\n")
+        run = knot_utm.run(method, self.path("run"), **DRAFT)
+        alone = knot_utm.run("straight", self.path("alone"), **DRAFT)
+        self.assertTrue(run.curve.equals(alone.curve))
+        with self.assertRaisesRegex(knot_utm.WrongInput, "specimens.count is 3, but run tests one specimen"):
+            knot_utm.run("straight", self.path("more"), **{"specimens.count": 3})
+
+    def test_what_is_refused_raises(self):
+        with self.assertRaisesRegex(knot_utm.WrongInput, "specimen.length is -1"):
+            knot_utm.run("straight", self.path("run"), **{"specimen.length": -1})
+        with self.assertRaisesRegex(knot_utm.WrongInput, "method is strait"):
+            knot_utm.run("strait", self.path("run"))
+        with self.assertRaisesRegex(knot_utm.WrongInput, "no such file"):
+            knot_utm.read(self.path("run"))
+
+    def test_messages_of_ros_are_a_part_of_it(self):
+        os.makedirs(self.path("devel/knot_utm/msg"))
+        write(self.path("devel/knot_utm/__init__.py"), "")
+        write(self.path("devel/knot_utm/msg/__init__.py"), "Crosshead = 'a message'")
+        path = os.pathsep.join([os.path.join(ROOT, "python"), self.path("devel")])
+        asks = ("import sys, knot_utm.msg; print(knot_utm.msg.Crosshead, 'pandas' in sys.modules, knot_utm.read, "
+                "'pandas' in sys.modules)")
+        said = subprocess.run([sys.executable, "-Bc", asks], env={**os.environ, "PYTHONPATH": path}, check=True, text=True,
+                              stdout=subprocess.PIPE).stdout
+        self.assertRegex(said, "^a message False <function read .*> True$", "they need no pandas")
+
+    def test_has_the_names_that_it_lists(self):
+        for name in knot_utm.__all__:
+            self.assertTrue(callable(getattr(knot_utm, name)), name)
+            self.assertIn(name, dir(knot_utm))
+        with self.assertRaisesRegex(AttributeError, "no attribute 'pull'"):
+            knot_utm.pull
+
+    def test_a_sweep_gives_its_table(self):
+        table = knot_utm.sweep(self.study, self.path("out"), jobs=1)
+        self.assertEqual(list(table["specimen.length"]), LENGTHS)
+        self.assertEqual(table.attrs["units"]["specimen.length"], "m")
+        self.assertTrue((table["peak_force"] > 0).all())
+
+
+class ABatch(Sweeps):
+    SCATTER = {"specimens.scatter": {"specimen.length": {"normal": 0.1}}}
+
+    def batch(self, out, specimens=4, **overrides):
+        return knot_utm.batch("straight", self.path(out), specimens, **DRAFT, **self.SCATTER, **overrides)
+
+    def test_has_the_statistics_that_tensile_test_wrote_with_units(self):
+        batch = self.batch("out")
+        told = load(self.path("out", "statistics.yaml"))
+        of_peak = batch.statistics.loc["peak_force"]
+        self.assertEqual(of_peak.to_dict(), told["peak_force"])
+        self.assertEqual(of_peak["n"], 4)
+        self.assertGreater(of_peak["sd"], 0)
+        self.assertEqual(batch.statistics.attrs["units"]["peak_force"], "N")
+        self.assertEqual(set(batch.statistics.index), {key for key, value in told.items() if isinstance(value, dict) and "mean" in value})
+        self.assertTrue(np.isnan(batch.statistics.loc["lock_extension", "mean"]), "no specimen has it")
+        self.assertEqual(batch.rejected, {})
+        self.assertEqual(batch.method["specimens"]["count"], 4)
+
+    def test_has_a_row_and_a_run_for_each_specimen(self):
+        batch = self.batch("out")
+        self.assertEqual(list(batch.specimens.index), [1, 2, 3, 4])
+        self.assertEqual(batch.specimens.attrs["units"]["specimen.length"], "m")
+        self.assertEqual(batch.specimens["specimen.length"].nunique(), 4)
+        self.assertFalse(batch.specimens["rejected"].any())
+        self.assertEqual(list(batch.specimens["peak_force"]), [run.results["peak_force"] for run in batch.runs])
+        self.assertEqual(list(batch.specimens["specimen.length"]), [run.method["specimen"]["length"] for run in batch.runs])
+        self.assertAlmostEqual(batch.specimens["peak_force"].std(ddof=1), batch.statistics.loc["peak_force", "sd"])
+
+    def test_is_the_same_whatever_the_jobs_and_whoever_reads_it(self):
+        one, two = self.batch("one", jobs=1), self.batch("two", jobs=2)
+        readings = [name for name in one.specimens if one.specimens[name].dtype == float]
+        np.testing.assert_array_equal(one.specimens[readings], two.specimens[readings])
+        again = knot_utm.read_batch(self.path("one"))
+        self.assertTrue(again.specimens.equals(one.specimens))
+        self.assertTrue(again.statistics.equals(one.statistics))
+
+    def test_tells_why_a_specimen_does_not_count(self):
+        batch = knot_utm.batch("tighten", self.path("out"), 2, **DRAFT, **{"material.friction_coefficient": 0.05})
+        self.assertEqual(list(batch.rejected), [1, 2])
+        for number, why in batch.rejected.items():
+            self.assertTrue(batch.specimens.loc[number, "rejected"])
+            self.assertIn("came undone", why)
+        self.assertEqual(batch.statistics.loc["peak_force", "n"], 0)
+
+    def test_is_refused_where_its_folder_holds_something_or_it_is_none(self):
+        self.batch("out", 2)
+        with self.assertRaisesRegex(knot_utm.WrongInput, "holds a run already"):
+            self.batch("out", 2)
+        with self.assertRaisesRegex(knot_utm.WrongInput, "specimens is 1, but a batch has at least 2"):
+            self.batch("other", 1)
+        with self.assertRaisesRegex(knot_utm.WrongInput, "specimen.length"):
+            self.batch("other", **{"specimen.length": -1})
+        with self.assertRaisesRegex(knot_utm.WrongInput, "statistics.yaml: no such file"):
+            knot_utm.read_batch(self.path("out", "specimen_001"))
+        self.assertFalse(os.path.exists(self.path("other")))
+
+
+class Examples(Sweeps):
+    """Those of examples/python/, with tests that take tenths of a second."""
+
+    def example(self, name, *words, code=0):
+        done = subprocess.run([sys.executable, "-B", os.path.join(ROOT, "examples/python", name), *words], cwd=self.folder,
+                              env={**os.environ, "PYTHONPATH": os.path.join(ROOT, "python")}, check=False, text=True,
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        self.assertEqual(done.returncode, code, done.stderr)
+        return done.stdout if code == 0 else done.stderr
+
+    def assert_is_a_picture(self, *path):
+        self.assertTrue(content(self.path(*path)).startswith(b"\x89PNG"))
+
+    def test_a_batch_is_pulled_and_its_mean_curve_drawn(self):
+        with open(os.path.join(CONFIG, "straight.yaml"), encoding="utf-8") as file:
+            method = file.read() + "physics: {accuracy: draft}\nspecimens: {scatter: {specimen.length: {normal: 0.1}}}\n"
+        said = self.example("pull_a_batch.py", write(self.path("method.yaml"), method), "out").splitlines()
+        peak = load(self.path("out/batch/statistics.yaml"))["peak_force"]
+        self.assertEqual(said, [f"one test: {load(self.path('out/one/result.yaml'))['peak_force']:.4g} N",
+                                f"8 specimens: {peak['mean']:.4g} N, from {peak['low']:.4g} to {peak['high']:.4g}"])
+        self.assert_is_a_picture("out/curves.png")
+        again = self.example("pull_a_batch.py", self.path("method.yaml"), "out", code=1)
+        self.assertRegex(again, r"^pull_a_batch: .*/out/one holds a run already: choose another folder\n$")
+
+    def test_a_sweep_is_drawn_and_a_hidden_value_found(self):
+        *table, found = self.example("sweep_and_fit.py", "out").splitlines()
+        self.assertEqual(len(table), 6, table)
+        forces = [float(line.split()[1]) for line in table[1:]]
+        self.assertEqual(forces, sorted(forces), "a stiffer rod pulls harder")
+        self.assert_is_a_picture("out/sweep.png")
+        value, low, high = (float(number) for number in re.findall(r"\d[\d.]*(?:e[+-]?\d+)?", found))
+        self.assertTrue(4e4 < low < value < high < 8e4, found)
+        self.assertTrue(low < 6.1e4 < high, found)
+
+
+if __name__ == "__main__":
+    unittest.main()
