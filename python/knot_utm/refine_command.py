@@ -3,12 +3,15 @@ import argparse
 import sys
 
 from knot_utm import tool
+from knot_utm.command_line import say
 from knot_utm.errors import WrongInput
 from knot_utm.refining import refine
 
+PROGRAM = tool.program("refine")
+
 
 def main(words):
-    parser = argparse.ArgumentParser(prog=tool.program("refine"), add_help=False)
+    parser = argparse.ArgumentParser(prog=PROGRAM, add_help=False)
     parser.add_argument("study")
     parser.add_argument("--out", required=True)
     parser.add_argument("--runs", type=int, required=True)
@@ -20,11 +23,9 @@ def main(words):
     try:
         print(refine(asked.study, asked.out, asked.runs, asked.seed))
     except WrongInput as wrong:
-        print(f"refine: {wrong}", file=sys.stderr)
-        return 2
+        return say(PROGRAM, wrong, 2)
     except OSError as error:
-        print(f"refine: {error}", file=sys.stderr)
-        return 1
+        return say(PROGRAM, error, 1)
     return 0
 
 
