@@ -70,8 +70,8 @@ std::vector<std::string> events(const Results& results) {
                   short_number(*curve.force_after_jump) + " N, and later readings belong to a looser knot");
   if (slid_to_the_end(results) && results.true_plateau_force)
     all.push_back(
-        "the pull ended while the knots still slid: the plateau force is the mean over the way that was pulled; where "
-        "the load rises it is smaller than the mean up to the lock");
+        "the pull ended while the knots still slid: the plateau force is the mean up to there; where "
+        "the load rises, it is smaller than the mean up to the lock");
   if (results.roller_touched_at)
     all.push_back("a roller bore on a knot or its tail from an extension of " +
                   short_number(*results.roller_touched_at) + " m on");
