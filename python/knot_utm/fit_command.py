@@ -1,12 +1,11 @@
 """The command line of a fit; scripts/fit has its words."""
-import argparse
-import os
 import shlex
 import signal
 import sys
 
 import yaml
 
+from knot_utm.command_line import parsed, parser_of, say
 from knot_utm.errors import Interrupted, WrongInput
 from knot_utm.finding import fit
 from knot_utm.yaml_text import value_of
@@ -22,11 +21,11 @@ def main(words):
         fitted = fit(asked.measured, asked.method, asked.free, asked.out, _settings(asked.set, "--set"), also, asked.jobs,
                      shlex.join([PROGRAM, *words]), not asked.no_report)
     except WrongInput as wrong:
-        return _say(wrong, 2)
+        return say(PROGRAM, wrong, 2)
     except KeyboardInterrupt:
-        return _say("it was interrupted", 1)
+        return say(PROGRAM, "it was interrupted", 1)
     except (Interrupted, OSError, RuntimeError) as error:
-        return _say(error, 1)
+        return say(PROGRAM, error, 1)
     for key, one in fitted.found.items():
         low, high = ("?" if end is None else f"{end:.5g}" for end in (one.low, one.high))
         print(f"{key}: {one.value:.5g}, from {low} to {high}" + ("" if one.identifiable else " (not identifiable)"))
@@ -50,24 +49,12 @@ def _settings(words, option):
 
 
 def _arguments(words):
-    parser = argparse.ArgumentParser(prog=PROGRAM, add_help=False, allow_abbrev=False)
-    parser.add_argument("measured")
-    parser.add_argument("method")
+    parser = parser_of(PROGRAM, "measured", "method")
     parser.add_argument("--free", action="extend", nargs="+", default=[])
     parser.add_argument("--also", action="append", nargs="+", default=[])
     parser.add_argument("--set", action="append", default=[])
-    parser.add_argument("--out")
-    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
     parser.add_argument("--no-report", action="store_true")
-    asked = parser.parse_args(words)
-    if asked.jobs < 1:
-        parser.error(f"--jobs is {asked.jobs}, but must be at least 1")
-    return asked
-
-
-def _say(why, code):
-    print(f"fit: {why}", file=sys.stderr)
-    return code
+    return parsed(parser, words)
 
 
 if __name__ == "__main__":

@@ -2,12 +2,15 @@
 import argparse
 import sys
 
+from knot_utm.command_line import say
 from knot_utm.errors import WrongInput
 from knot_utm.refining import refine
 
+PROGRAM = "scripts/refine"
+
 
 def main(words):
-    parser = argparse.ArgumentParser(prog="scripts/refine", add_help=False)
+    parser = argparse.ArgumentParser(prog=PROGRAM, add_help=False)
     parser.add_argument("study")
     parser.add_argument("--out", required=True)
     parser.add_argument("--runs", type=int, required=True)
@@ -19,11 +22,9 @@ def main(words):
     try:
         print(refine(asked.study, asked.out, asked.runs, asked.seed))
     except WrongInput as wrong:
-        print(f"refine: {wrong}", file=sys.stderr)
-        return 2
+        return say(PROGRAM, wrong, 2)
     except OSError as error:
-        print(f"refine: {error}", file=sys.stderr)
-        return 1
+        return say(PROGRAM, error, 1)
     return 0
 
 

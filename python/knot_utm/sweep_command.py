@@ -1,9 +1,9 @@
 """The command line of a sweep; scripts/sweep has its words."""
-import argparse
 import os
 import shlex
 import sys
 
+from knot_utm.command_line import parsed, parser_of, say
 from knot_utm.errors import Interrupted, WrongInput
 from knot_utm.sweeping import Sweep
 
@@ -23,11 +23,11 @@ def main(words):
         else:
             _tell(work, work.table() if asked.only else work.all(asked.jobs))
     except WrongInput as wrong:
-        return _say(wrong, 2)
+        return say(PROGRAM, wrong, 2)
     except (Interrupted, OSError) as error:
-        return _say(f"{error}; the same command goes on: {PROGRAM} {shlex.join(words)}", 1)
+        return say(PROGRAM, f"{error}; the same command goes on: {PROGRAM} {shlex.join(words)}", 1)
     except RuntimeError as error:
-        return _say(error, 1)
+        return say(PROGRAM, error, 1)
     return 0
 
 
@@ -43,21 +43,10 @@ def _tell(work, table):
 
 
 def _arguments(words):
-    parser = argparse.ArgumentParser(prog=PROGRAM, add_help=False)
-    parser.add_argument("study")
-    parser.add_argument("--out")
-    parser.add_argument("--jobs", type=int, default=len(os.sched_getaffinity(0)))
+    parser = parser_of(PROGRAM, "study")
     parser.add_argument("--only")
     parser.add_argument("--plot", action="append", default=[])
-    asked = parser.parse_args(words)
-    if asked.jobs < 1:
-        parser.error(f"--jobs is {asked.jobs}, but must be at least 1")
-    return asked
-
-
-def _say(why, code):
-    print(f"sweep: {why}", file=sys.stderr)
-    return code
+    return parsed(parser, words)
 
 
 if __name__ == "__main__":

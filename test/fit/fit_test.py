@@ -6,34 +6,19 @@ import sys
 import tempfile
 import unittest
 
-ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
-TOOLS = os.environ.get("KNOT_UTM_TOOLS_DIR", os.path.join(ROOT, "build/devel/lib/knot_utm"))
-sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(ROOT, "python"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from head import ROOT, TOOLS, content
 
-try:
-    import pandas as pd
-    import scipy  # noqa: F401
-    import tqdm  # noqa: F401
+import pandas as pd
 
-    import knot_utm
-    from knot_utm.yaml_text import load, text_of
-except ModuleNotFoundError as missing:
-    if missing.name not in ("pandas", "scipy", "tqdm", "yaml"):
-        raise
-    print(f"skipped: {missing}")
-    sys.exit(77)
+import knot_utm
+from knot_utm.yaml_text import load, text_of
 
 CELL = {"machine.load_cell.accuracy": 0.005, "machine.load_cell.noise": 1.0}
 STRETCH = "material.stretching_stiffness"
 ROLLER = "machine.roller_friction"
 SHORT = {"program.pull.until.extension": 0.008}  # the rod does not part
 PULLED = {**SHORT, **CELL}
-
-
-def content(*path):
-    with open(os.path.join(*path), "rb") as file:
-        return file.read()
 
 
 class Fits(unittest.TestCase):

@@ -8,27 +8,17 @@ import sys
 import tempfile
 import unittest
 
-ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
-sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(ROOT, "python"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from head import ROOT, write
 
-try:
-    import numpy as np
-    from scipy import special, stats
+import numpy as np
+from scipy import special, stats
 
-    from knot_utm import WrongInput, tool
-    from knot_utm.design import DRAWS
-    from knot_utm.sharing import beginnings
-    from knot_utm.study import KEYS, load_study
-    from knot_utm.yaml_text import load, text_of
-except ModuleNotFoundError as absent:
-    print(f"skipped: {absent} (scripts/sweep installs it)")
-    sys.exit(77)
-
-
-def write(path, text):
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
+from knot_utm import WrongInput, tool
+from knot_utm.design import DRAWS
+from knot_utm.sharing import beginnings
+from knot_utm.study import KEYS, load_study
+from knot_utm.yaml_text import load, text_of
 
 
 class Studies(unittest.TestCase):

@@ -7,22 +7,17 @@ import sys
 import tempfile
 import unittest
 
-ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
-sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(ROOT, "python"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from head import ROOT
 
-try:
-    import numpy as np
-    import pandas as pd
-    from scipy import stats
+import numpy as np
+import pandas as pd
+from scipy import stats
 
-    from knot_utm import WrongInput, pattern_plots, plots, refining, trends
-    from knot_utm.groups import dimensionless
-    from knot_utm.neighbours import Neighbours
-    from knot_utm.study import load_study
-except ModuleNotFoundError as absent:
-    print(f"skipped: {absent} (scripts/sweep installs it)")
-    sys.exit(77)
+from knot_utm import WrongInput, pattern_plots, plots, refining, trends
+from knot_utm.groups import dimensionless
+from knot_utm.neighbours import Neighbours
+from knot_utm.study import load_study
 
 UNITS = {"specimen.preload": "N", "specimen.knot_distance": "m", "material.friction_coefficient": "-",
          "material.stretching_stiffness": "N", "plateau_force": "N", "locked_stiffness": "N/m"}

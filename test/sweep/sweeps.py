@@ -5,13 +5,11 @@ import sys
 import tempfile
 import unittest
 
-ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
-TOOLS = os.environ.get("KNOT_UTM_TOOLS_DIR", os.path.join(ROOT, "build/devel/lib/knot_utm"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from head import ROOT, TOOLS, content, write  # noqa: F401
+
 REAL = os.path.join(TOOLS, "tensile_test")
 CONFIG = os.path.join(ROOT, "config")
-
-sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(ROOT, "python"))
 
 # Runs of some hundredths of a second.
 LENGTHS = [0.1, 0.2, 0.3, 0.4]
@@ -36,17 +34,6 @@ case " $* " in
 esac
 exec "$REAL" "$@"
 """
-
-
-def write(path, text):
-    with open(path, "w", encoding="utf-8") as file:
-        file.write(text)
-    return path
-
-
-def content(*path):
-    with open(os.path.join(*path), "rb") as file:
-        return file.read()
 
 
 class Sweeps(unittest.TestCase):

@@ -12,15 +12,6 @@ import unittest
 
 from sweeps import CONFIG, LENGTHS, ROOT, Sweeps, content, write
 
-try:
-    import pandas
-    import scipy
-    import tables
-    import tqdm
-except ModuleNotFoundError as absent:
-    print(f"skipped: {absent} (scripts/sweep installs it)")
-    sys.exit(77)
-
 COMMANDS = ("snakemake", "slurmctld", "slurmd", "sbatch")
 
 SLURM = """
