@@ -1,4 +1,5 @@
 """Fits of curves whose parameters are known but hidden: how many of them lie within the intervals that scripts/fit gives."""
+import math
 import os
 import random
 import sys
@@ -10,7 +11,7 @@ from table import Report, Table, at_least
 
 MATERIALS = []
 SEED, CASES = 29, 4  # of each kind
-INSIDE = 0.9         # of the hidden values: 18 of 20
+INSIDE = 0.9         # of the hidden values of a group: 18 of 20, 7 of 8
 CLASS = 0.005        # of the cell: class 0.5
 
 # Method, what is set, noise of the cell [N], and the hidden keys: from where the truth is drawn, and the range of the fit.
@@ -23,7 +24,12 @@ KINDS = {
                   "material.bending_stiffness": ((3e-6, 7e-6), None)}),
     "loop": ("tighten", {"physics.accuracy": "draft", "material": "polypropylene", "program.pull.until.extension": 0.05}, 0.03,
              {"material.friction_coefficient": ((0.58, 0.85), (0.5, 1.0))}),
+    # Knots of a little less friction or pre-load open.
+    "loop beside a jump": ("tighten", {"physics.accuracy": "draft"}, 0.5,
+                           {"material.friction_coefficient": ((0.41, 0.44), (0.3, 0.6)),
+                            "specimen.preload": ((155.0, 230.0), (50.0, 500.0))}),
 }
+GROUPS = {"All but those beside a jump": list(KINDS)[:-1], "Beside a jump": list(KINDS)[-1:]}
 
 
 class Case:
@@ -74,17 +80,19 @@ def report(runner, _materials):
                   f"Curves of specimens whose values are drawn at random (seed {SEED}), read by a cell of class {100 * CLASS:g} "
                   "with noise, and what scripts/fit finds of them when it knows the method but for these values. The specimens are "
                   "others than those of the fit. An interval of 95 % should hold 19 of 20 values.",
-                  [summary(cases), *tables(cases)], lambda file: plots.intervals(file, relative_to_the_truth(cases)))
+                  [*summaries(cases), *tables(cases)], lambda file: plots.intervals(file, relative_to_the_truth(cases)))
 
 
-def summary(cases):
-    inside = [is_inside(one, truth) for case in cases for _, truth, one in case.rows()]
-    table = Table("All", ["fits"])
-    table.add("hidden values", "-", [len(inside)])
-    table.add("of them within their interval", "-", [sum(inside)], at_least(INSIDE * len(inside)))
-    table.add("records that fit within the errors", "-", [sum(case.fitted.fits for case in cases)])
-    table.add("CPU time of all", "s", [sum(case.cpu_time for case in cases)], None, ".0f")
-    return table
+def summaries(cases):
+    for title, kinds in GROUPS.items():
+        of_group = [case for case in cases if case.kind in kinds]
+        inside = [is_inside(one, truth) for case in of_group for _, truth, one in case.rows()]
+        table = Table(title, ["fits"])
+        table.add("hidden values", "-", [len(inside)])
+        table.add("of them within their interval", "-", [sum(inside)], at_least(math.floor(INSIDE * len(inside))))
+        table.add("records that fit within the errors", "-", [sum(case.fitted.fits for case in of_group)])
+        table.add("CPU time of all", "s", [sum(case.cpu_time for case in of_group)], None, ".0f")
+        yield table
 
 
 def tables(cases):

@@ -12,7 +12,7 @@ from knot_utm.fitting.keys import method_key, offset_key, parse_free
 from knot_utm.fitting.records import Record
 from knot_utm.fitting.runs import EXACT_CELL, Runs, read_model
 from knot_utm.fitting.scatter import SPECIMENS, Batch
-from knot_utm.fitting.search import MOST_WAVES, Case, Search
+from knot_utm.fitting.search import Case, Search
 from knot_utm.fitting.verdict import judge, short
 from knot_utm.yaml_text import described, value_of
 
@@ -91,8 +91,7 @@ class _Fit:
 
     def go(self):
         inputs = sum(key.offset is None for key in self.keys)
-        first, more = Search.runs_of(inputs)
-        self.runs.expect(len(self.records) * (first + MOST_WAVES * more))
+        self.runs.expect(len(self.records) * Search.most_runs(len(self.keys), inputs))
         batches = [self._batch(record.settings) for record in self.records]
         cells = [method["machine"]["load_cell"] for method in self.methods]
         self.cases = [Case(record, number, self.keys, cell, batch)

@@ -4,38 +4,27 @@ import os
 import sys
 import unittest
 
-ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
-sys.dont_write_bytecode = True
-sys.path.insert(0, os.path.join(ROOT, "python"))
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+import head  # noqa: F401
 
-try:
-    import numpy as np
-    import pandas as pd
-    from scipy import linalg, stats
+import numpy as np
+import pandas as pd
+from scipy import linalg, special, stats
 
-    from knot_utm.errors import WrongInput
-    from knot_utm.fitting import errors, profiles
-    from knot_utm.fitting.curves import Pull, pull_of_table
-    from knot_utm.fitting.emulator import Emulator
-    from knot_utm.fitting.keys import FreeKey, method_key, offset_key, parse_free, value_at
-    from knot_utm.fitting.likelihood import Likelihood, RecordLikelihood
-    from knot_utm.fitting.records import MOST_BINS, Record
-    from knot_utm.fitting.runs import Model
-    from knot_utm.fitting.scatter import covariance_of, left_over
-    from knot_utm.fitting.search import Case, Search
-    from knot_utm.fitting.verdict import judge
-except ModuleNotFoundError as missing:
-    if missing.name not in ("numpy", "pandas", "scipy", "tqdm", "yaml"):
-        raise
-    print(f"skipped: {missing}")
-    sys.exit(77)
+from knot_utm.errors import WrongInput
+from knot_utm.fitting import ends, errors, kinds, profiles
+from knot_utm.fitting.curves import Pull, pull_of_table
+from knot_utm.fitting.emulator import Emulator
+from knot_utm.fitting.keys import FreeKey, method_key, offset_key, parse_free, value_at
+from knot_utm.fitting.likelihood import Likelihood, RecordLikelihood
+from knot_utm.fitting.records import MOST_BINS, Record
+from knot_utm.fitting.runs import Model
+from knot_utm.fitting.scatter import covariance_of, left_over
+from knot_utm.fitting.search import Case, Search
+from knot_utm.fitting.verdict import judge
 
 EXTENSION = np.linspace(0.0, 1.0, 12)
 LOW, HIGH = np.zeros(2), np.ones(2)
-
-
-def nothing_is_lost(places):
-    return np.zeros(len(places))
 
 
 def record(load, extension=EXTENSION):
@@ -141,7 +130,7 @@ class Likelihoods(unittest.TestCase):
         covariance = np.diag(np.full(12, sigma**2))
         emulator = Emulator(places, curves, np.full(100, sigma))
         one = RecordLikelihood(measured, 1, self.keys, np.array([0]), emulator, grid, covariance, np.zeros(12), "cell")
-        all_ = Likelihood([one], nothing_is_lost)
+        all_ = Likelihood([one])
         for k, force, shift in ((2.0, 0.3, 0.0), (2.3, -0.2, 0.05), (1.5, 0.0, -0.1), (2.9, 0.9, 0.013)):
             place = np.array([[(k - 1.0) / 2.0, (force + 1.0) / 2.0, (shift + 0.1) / 0.2]])
             residual = measured.measured - (k * (measured.centres - shift) + force)
@@ -166,7 +155,7 @@ class Likelihoods(unittest.TestCase):
             parts = [common] if cells[0] == cells[1] else [np.where(np.arange(24) < 12, common, 0.0),
                                                            np.where(np.arange(24) < 12, 0.0, common)]
             whole = sigma**2 * np.eye(24) + sum(np.outer(part, part) for part in parts)
-            likelihood = Likelihood(records, nothing_is_lost)
+            likelihood = Likelihood(records)
             told[cells] = likelihood.chi_square(place[0])
             self.assertAlmostEqual(told[cells], residual @ np.linalg.solve(whole, residual), delta=1e-3 * told[cells])
             logarithm = np.linalg.slogdet(whole)[1] - 24 * np.log(sigma**2)
@@ -238,6 +227,7 @@ class Jumps(unittest.TestCase):
     keys = [FreeKey("friction", 0.0, 1.0)]
     cell = {"accuracy": 0.005, "noise": 0.01}
     critical, truth = 0.5, 0.53
+    low, high = np.zeros(1), np.ones(1)
 
     @classmethod
     def load(cls, friction):
@@ -251,17 +241,16 @@ class Jumps(unittest.TestCase):
 
     def test_tell_runs_of_another_kind(self):
         case = self.case()
-        for friction in (0.1, 0.4, 0.6, 0.9):
+        for friction in (0.1, 0.3, 0.35, 0.4, 0.6, 0.65, 0.7, 0.9):
             case.add(np.array([friction]), self.model(friction))
-        self.assertEqual(case.unlike().tolist(), [True, True, False, False])
-        asked = np.array([[0.05], [0.4], [0.45], [0.5], [0.55], [0.8]])
-        self.assertEqual(case.is_not(asked, np.ones(1)).tolist(), [True, True, True, False, False, False])
+        self.assertEqual(case.unlike(self.low, self.high).tolist(), 4 * [True] + 4 * [False])
+        self.assertEqual(case.is_right(self.low, self.high).tolist(), 4 * [False] + 4 * [True])
 
     def test_are_nothing_where_no_run_comes_near(self):
         case = self.case()
         for friction in (0.1, 0.4):
             case.add(np.array([friction]), self.model(friction))
-        self.assertFalse(case.unlike().any())
+        self.assertFalse(case.unlike(self.low, self.high).any())
 
     def test_beside_the_true_value_do_not_move_its_interval(self):
         case = self.case()
@@ -275,6 +264,127 @@ class Jumps(unittest.TestCase):
         self.assertGreater(found.high, self.truth)
         self.assertLess(found.high - found.low, 0.05)
         self.assertIn("left loads of quite another size", " ".join(fitted.notes))
+
+
+class Kinds(unittest.TestCase):
+    def test_are_apart_where_sizes_leave_a_gap(self):
+        even = np.linspace(-1.0, 1.0, 12)
+        self.assertFalse(kinds.beyond_a_gap(even, slice(None)).any())
+        self.assertFalse(kinds.beyond_a_gap(10.0 * even + 0.9, slice(None)).any(), "a wide range has wide gaps")
+        both = np.concatenate([even - 5.0, 0.5 * even, even + 5.0])
+        found = kinds.beyond_a_gap(both, slice(None))
+        self.assertEqual(found.tolist(), 12 * [True] + 12 * [False] + 12 * [True])
+        found = kinds.beyond_a_gap(both, np.arange(36) < 24)
+        self.assertEqual(found.tolist(), 12 * [True] + 24 * [False], "a gap among some of them")
+
+    def test_size_is_the_logarithm_of_the_ratio(self):
+        measured = 1.0 + EXTENSION
+        self.assertAlmostEqual(kinds.size(3.0 * measured, measured, np.zeros(12)), np.log(3.0))
+        self.assertAlmostEqual(kinds.size(np.zeros(12), np.zeros(12), np.zeros(12)), 0.0)
+
+    def test_share_is_that_of_many_runs(self):
+        random = np.random.default_rng(8)
+        places = random.random((4000, 2))
+        odds = 8.0 * (places[:, 0] - 0.6 + 0.5 * (places[:, 1] - 0.5)**2)
+        found = kinds.Share(places, random.random(4000) < special.expit(odds))
+        asked = np.array([[0.2, 0.5], [0.6, 0.5], [0.6, 0.0], [0.8, 0.8]])
+        truth = 2.0 * np.logaddexp(0.0, 8.0 * (asked[:, 0] - 0.6 + 0.5 * (asked[:, 1] - 0.5)**2))
+        np.testing.assert_allclose(found.rarity(asked), truth, rtol=0.2)
+
+    def test_share_of_a_few_runs_speaks_against_what_is_far_beyond_them_only(self):
+        places = np.linspace(0.0, 1.0, 11)[:, None]
+        found = kinds.Share(places, places[:, 0] < 0.45)
+        beside, beyond, right = found.rarity(np.array([[0.44], [0.0], [0.9]]))
+        self.assertLess(beside, profiles.RISE)
+        self.assertGreater(beyond, 2.0 * profiles.RISE)
+        self.assertLess(right, 0.1)
+        self.assertEqual(kinds.Share(places, np.zeros(11, bool)).rarity(places).tolist(), 11 * [0.0])
+
+
+class Ends(unittest.TestCase):
+    """Of a load (1 + friction) s."""
+    keys = [FreeKey("friction", 0.0, 1.0)]
+    truth = 0.5
+
+    def setUp(self):
+        def model(friction):
+            return Model(Pull(EXTENSION, (1.0 + friction) * EXTENSION), {})
+        case = Case(record(model(self.truth).pull.load), 1, self.keys, {"noise": 0.1}, None)
+        self.search = Search([case], self.keys, lambda places, _: [[model(place[0]) for place in places]], lambda best: None)
+        self.search.go()
+        found = judge(self.search).found["friction"]
+        self.low, self.high = found.low, found.high
+
+    def test_are_not_doubted_where_runs_beyond_them_do_not_fit(self):
+        self.assertEqual(self.search.doubted, [])
+        half = stats.norm.ppf(0.975) * 0.1 / np.sqrt(np.sum(EXTENSION**2))
+        np.testing.assert_allclose([self.low, self.high], [self.truth - half, self.truth + half], rtol=0.05)
+
+    def test_are_doubted_where_runs_beyond_them_fit(self):
+        within, beyond = np.array([0.9 * self.high + 0.1 * self.truth]), np.array([1.3 * self.high - 0.3 * self.truth])
+        self.assertEqual(ends.doubtful(self.search, [(0, within), (0, beyond)]), [(0, within)])
+
+    def test_that_are_doubted_go_on_to_those_runs(self):
+        self.search.doubted = [(0, np.array([0.9])), (0, np.array([self.truth]))]
+        fitted = judge(self.search)
+        self.assertEqual((fitted.found["friction"].low, fitted.found["friction"].high), (self.low, 0.9))
+        self.assertEqual(sum("goes on to there" in note for note in fitted.notes), 1)
+
+    def test_given_up_too_early_come_back(self):
+        self.search.low, self.search.high = np.array([0.65]), np.array([0.8])
+        self.search.learn(0)
+        for number in range(6):
+            self.search.wave(number)
+        self.assertLess(self.search.low[0], self.low)
+
+
+class Specimens:
+    """A batch of loops that slide, with a load that goes with friction and pre-load, and that open below a critical pre-load, where
+    their load is a fifth. They scatter."""
+    extension = np.linspace(0.0, 0.104, 60)
+
+    def __init__(self, friction, preload):
+        self.drawn = np.random.default_rng(0).standard_normal((12, 3))
+        self.models = [self.model(friction, preload, z) for z in self.drawn]
+
+    @classmethod
+    def model(cls, friction, preload, drawn):
+        s, preload = cls.extension, preload * (1.0 + 0.02 * drawn[0])
+        begins = 1.0 - np.exp(-s / 0.004)
+        if preload < 140.0 * np.exp(-(friction - 0.41) / 0.06):
+            return Model(Pull(s, 0.6 * (preload / 180.0)**0.7 * begins + 1e5 * np.maximum(s - 0.09, 0.0)), {})
+        slides = 3.3 * (preload / 180.0)**0.7 * np.exp(6.0 * (friction - 0.41)) * (0.5 + s / 0.06) * (1.0 + 0.02 * drawn[2])
+        locks = 2e5 * np.maximum(s - 0.083 - 6e-4 * drawn[1], 0.0) * (0.59 + friction)
+        return Model(Pull(s, slides * begins + locks), {})
+
+
+class TwoKinds(unittest.TestCase):
+    """Friction and pre-load of a loop whose neighbours open."""
+    keys = [FreeKey("friction", 0.3, 0.6), FreeKey("preload", 50.0, 500.0)]
+    truth = {"friction": 0.42, "preload": 170.0}
+
+    def test_do_not_move_intervals(self):
+        random = np.random.default_rng(1)
+        true = Specimens.model(*self.truth.values(), random.standard_normal(3)).pull.load
+        case = Case(record(1.002 * true + 0.5 * random.standard_normal(len(true)), Specimens.extension), 1, self.keys,
+                    {"accuracy": 0.005, "noise": 0.5}, Specimens(0.5, 120.0))
+
+        def of(place):
+            return [key.value(at) for key, at in zip(self.keys, place)]
+
+        def run(places, first):
+            drawn = case.batch.drawn
+            return [[Specimens.model(*of(place), drawn[(first + i) % len(drawn)]) for i, place in enumerate(places)]]
+        search = Search([case], self.keys, run, lambda best: case.renew(Specimens(*of(best))))
+        search.go()
+        for key, found in judge(search).found.items():
+            self.assertTrue(found.identifiable, key)
+            self.assertTrue(found.low < self.truth[key] < found.high, (key, found))
+        unlike = case.unlike(search.low, search.high)
+        for place, is_unlike in zip(case.places, unlike):
+            friction, preload = of(place)
+            if abs(preload / (140.0 * np.exp(-(friction - 0.41) / 0.06)) - 1.0) > 0.06:  # three standard deviations
+                self.assertEqual(is_unlike, preload < 140.0 * np.exp(-(friction - 0.41) / 0.06))
 
 
 class Pulls(unittest.TestCase):

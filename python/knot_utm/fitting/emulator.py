@@ -46,6 +46,17 @@ class Emulator:
         return self.mean + self.weights(place[None])[0][0] @ self.components
 
 
+class Known:
+    """In place of an emulator, where the curve is known."""
+
+    def __init__(self, curve):
+        self.mean = curve
+        self.components = np.zeros((1, len(curve)))
+
+    def weights(self, places):
+        return np.zeros((len(places), 1)), np.ones((len(places), 1))
+
+
 class Process:
     """One component."""
 

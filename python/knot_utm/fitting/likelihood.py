@@ -1,9 +1,10 @@
 """How likely measured curves are, over the free keys:
 
-    -2 log L = r^T (A + g g^T)^-1 r + log det(A + g g^T) - log det C,   A = C + V
+    -2 log L = r^T (A + g g^T)^-1 r + log det(A + g g^T) - log det C - 2 log p,   A = C + V
 
 r: measured less simulated means [N], with the offsets of the record. C: errors.py. V: what the emulator does not know of the
-simulated curve, so that a place where nothing was run is not believed to be unlikely. g: the systematic error of the cell. C and
+simulated curve, so that a place where nothing was run is not believed to be unlikely. p: the share of the runs that are of the
+record's kind (kinds.py). g: the systematic error of the cell. C and
 V are blocks, one a record. g is one vector over all records of one cell, so that (Sherman and Morrison)
 
     r^T (A + g g^T)^-1 r = a - b^2/(1 + c),   log det(A + g g^T) = log det A + log(1 + c)
@@ -15,7 +16,6 @@ import numpy as np
 from scipy import linalg
 
 SHIFTS = 41  # of an offset of the extension, over its range
-LOST = 1e6   # -2 log L of no curve at all, over that of the emulator
 
 
 class RecordLikelihood:
@@ -91,14 +91,14 @@ class RecordLikelihood:
 
 
 class Likelihood:
-    """Of all records, over places in the ranges of the free keys, 0 to 1 each. `is_lost(places)`: whether runs leave no whole
-    curve there."""
+    """Of all records, over places in the ranges of the free keys, 0 to 1 each. `shares`: of each record the inputs of its runs
+    and the Share of them that are of its kind."""
 
-    def __init__(self, records, is_lost):
-        self.records, self.is_lost = records, is_lost
+    def __init__(self, records, shares=()):
+        self.records, self.shares = records, shares
 
     def at(self, places):
-        return sum(self._parts(places)) + LOST * self.is_lost(places)
+        return sum(self._parts(places)) + sum(share.rarity(places[:, inputs]) for inputs, share in self.shares)
 
     def chi_square(self, place):
         return float(self._parts(place[None])[0][0])

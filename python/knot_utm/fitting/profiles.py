@@ -15,12 +15,19 @@ KNOWN_TOGETHER = 0.99     # correlation from which on two keys are known as a co
 @dataclass(frozen=True)
 class Profile:
     """-2 log L over one key, the others such that it is smallest, less the smallest of all. `low`, `high`: where it rises by
-    RISE; None where it does not within the range of the key."""
+    RISE; None where it does not within the box. `at`: where it is smallest, a value of all keys a row."""
 
     places: np.ndarray
     rises: np.ndarray
     low: object
     high: object
+    at: np.ndarray
+    mine: int  # which of the places is that of the smallest of all
+
+    def outwards(self, way):
+        """(places, rises) from the smallest one on; `way`: -1 or 1."""
+        inside = slice(self.mine, None, way)
+        return self.at[inside], self.rises[inside]
 
 
 def sobol(keys, count, seed):
@@ -80,8 +87,9 @@ def profile(likelihood, key, low, high, best, value, seed):
             starts = np.stack([beside, tried[np.argmin(np.where(is_near, values, np.inf))]])
             starts[:, key] = places[i]
             beside, found = smallest(likelihood, low, high, starts, key)
-            rises[i] = max(found - value, 0.0)
-    return Profile(places, rises, _crossing(places[mine::-1], rises[mine::-1]), _crossing(places[mine:], rises[mine:]))
+            rises[i], at[i] = max(found - value, 0.0), beside
+    ends = (_crossing(places[mine::way], rises[mine::way]) for way in (-1, 1))
+    return Profile(places, rises, *ends, np.array(at), mine)
 
 
 def _crossing(places, rises):

@@ -4,8 +4,8 @@ So it is neither led astray by stick-slip, which makes single runs rough, nor do
 Craig and others 1997)."""
 import numpy as np
 
-from knot_utm.fitting import errors, profiles
-from knot_utm.fitting.emulator import Emulator
+from knot_utm.fitting import ends, errors, kinds, profiles
+from knot_utm.fitting.emulator import Emulator, Known
 from knot_utm.fitting.likelihood import Likelihood, RecordLikelihood
 from knot_utm.fitting.scatter import covariance_of, left_over
 from knot_utm.yaml_text import text_of
@@ -18,9 +18,7 @@ SHRUNK = 0.8        # a side of the box that shrinks by less has settled
 LEARNT = 0.1        # errors of the emulator over all others, at the best place, which are small enough
 MARGIN = 0.3        # of the box, beyond which runs are forgotten
 GROWN = 0.05        # of the box, by which it is larger than what is kept
-ALIKE, UNLIKE = 0.5, 0.8  # misfit of runs that come near to the record, and of those that are of another kind
-LEAST = 1e-300      # [N]
-CLEARLY = 2.0       # times as far as the nearest run of another kind the nearest one of the record's kind must be
+LOOK = 0.25         # of the box, beyond which nothing is looked for: what an earlier wave gave up may come back
 
 
 class Case:
@@ -32,14 +30,20 @@ class Case:
         self.inputs = np.array([i for i, key in enumerate(keys) if key.offset is None], int)  # what its runs depend on
         most = max((max(abs(key.low), abs(key.high)) for key in keys if key.offset == (number, "extension")), default=0.0)
         self.grid = np.linspace(record.extension[0] - most, record.extension[-1] + most, GRID)
-        self.places, self.curves, self.models, self.misfits = [], [], [], []
+        self.places, self.curves, self.models, self.sizes = [], [], [], []
         self.tried, self.lost = [], []  # all places, and whether the run there left no whole curve
-        self._gather()
-
-    def _gather(self):
-        """How the specimens of the batch differ from their mean, in the means of the record and at the grid."""
-        pulls = [model.pull for model in self.batch.models if self.record.is_reached(model)] if self.batch else []
         self.apart = None
+        self._gather(self._right_of(batch))
+
+    def _right_of(self, batch):
+        """The pulls of a batch that are of the record's kind, as far as the runs tell: others would count as scatter."""
+        pulls = [model.pull for model in batch.models if self.record.is_reached(model)] if batch else []
+        sizes = [*self.sizes, *(self._size(self._means(pull)) for pull in pulls)]
+        unlike = kinds.beyond_a_gap(sizes, slice(None))[len(self.sizes):]
+        return [pull for pull, is_unlike in zip(pulls, unlike) if not is_unlike]
+
+    def _gather(self, pulls):
+        """How the specimens of a batch differ from their mean, in the means of the record and at the grid."""
         if len(pulls) > 1:
             means, curves = (np.array(rows) for rows in zip(*((self._means(pull), pull.at(self.grid)) for pull in pulls)))
             larger = np.sqrt(len(pulls) / (len(pulls) - 1))
@@ -60,11 +64,12 @@ class Case:
         return covariance_of(rows[0]), rows[1].T @ rows[1] / len(rows[1])
 
     def renew(self, batch):
-        """Another batch, of specimens nearer to the best values; one that fails there tells nothing."""
-        if 2 * sum(self.record.is_reached(model) for model in batch.models) < len(batch.models):
-            return
-        self.batch = batch
-        self._gather()
+        """Another batch, of specimens nearer to the best values; one of which fewer than half are of the record's kind tells
+        too little."""
+        pulls = self._right_of(batch)
+        if 2 * len(pulls) >= len(batch.models):
+            self.batch = batch
+            self._gather(pulls)
 
     def settings(self, place, number):
         """Of a run: the record's, the free keys, and what is drawn for a specimen."""
@@ -79,38 +84,39 @@ class Case:
             self.places.append(place)
             self.curves.append(model.pull.at(self.grid))
             self.models.append(model)
-            self.misfits.append(self._misfit(self._means(model.pull)))
+            self.sizes.append(self._size(self._means(model.pull)))
 
-    def _misfit(self, means):
-        """From 0 to 1: 0.8 where the loads of a run are nine times as large as the measured ones, or a ninth of them."""
-        measured, error = self.record.measured, errors.of_single_means(self.record, self.cell, means)
-        return float(np.mean(np.abs(means - measured) / np.maximum(np.abs(means) + np.abs(measured) + error, LEAST)))
+    def _size(self, means):
+        return kinds.size(means, self.record.measured, errors.of_single_means(self.record, self.cell, means))
 
-    def unlike(self):
-        """Whether a run is of another kind than the record, as where knots opened. Nothing is, where no run comes near."""
-        misfits = np.array(self.misfits)
-        return (misfits > UNLIKE) & (misfits.min(initial=1.0) < ALIKE)
+    def unlike(self, low, high):
+        """Whether a run is of another kind than the record, beyond a gap among all runs, or among those in a box and a margin
+        around it."""
+        near = self._away(self.places, low, high) <= MARGIN
+        return kinds.beyond_a_gap(self.sizes, slice(None)) | kinds.beyond_a_gap(self.sizes, near)
 
-    def is_not(self, places, width):
-        """Where runs of the record leave no whole curve, or one of another kind. The benefit of the doubt is for the record: the
-        emulator knows little there, and the next runs tell."""
-        inputs = self.inputs
-        unlike = self.unlike()
-        right = [place for place, is_unlike in zip(self.places, unlike) if not is_unlike]
-        wrong = [place for place, is_lost in zip(self.tried, self.lost) if is_lost]
-        wrong += [place for place, is_unlike in zip(self.places, unlike) if is_unlike]
-        if not wrong:
-            return np.zeros(len(places), bool)
-        to_right, to_wrong = (distances((places / width)[:, inputs], (np.array(of) / width)[:, inputs]) for of in (right, wrong))
-        return to_right > CLEARLY * to_wrong
+    def _away(self, places, low, high):
+        """How far beyond a box places are, in sides of the box."""
+        places, inputs = np.array(places), self.inputs
+        return np.max(np.maximum(low - places, places - high)[:, inputs] / (high - low)[inputs], axis=1)
+
+    def is_right(self, low, high):
+        """Of all places that were tried: whether the run there left a whole curve, which is of the record's kind."""
+        right = ~np.array(self.lost)
+        right[right] = ~self.unlike(low, high)
+        return right
+
+    def share(self, low, high):
+        """Of the runs in a box and a margin around it that leave a whole curve of the record's kind."""
+        near = self._away(self.tried, low, high) <= MARGIN
+        return kinds.Share(np.array(self.tried)[near][:, self.inputs], ~self.is_right(low, high)[near])
 
     def likelihood(self, low, high, best):
         """Learnt of the runs in a box and a margin around it that are of the record's kind: others would smear a jump from one
         kind to the other over both sides. `best`: a place at which the errors are taken."""
         places, inputs = np.array(self.places), self.inputs
-        width = high - low
-        away = np.max(np.maximum(low - places, places - high)[:, inputs] / width[inputs], axis=1)
-        away[self.unlike()] = np.inf
+        away = self._away(places, low, high)
+        away[self.unlike(low, high)] = np.inf
         least = min(3 * (len(inputs) + 1), np.isfinite(away).sum())
         used = np.flatnonzero(away <= max(MARGIN, np.sort(away)[least - 1]))
         curves = np.array([self.curves[i] for i in used])
@@ -119,10 +125,25 @@ class Case:
         means = self._means(self.models[nearest].pull)
         result = self.models[nearest].result
         covariance = errors.covariance(self.record, self.cell, means, result, scatter)
+        self.errors = covariance, errors.of_the_cell(self.cell, means, result), scatter
         scale = np.interp(self.grid, self.record.centres, np.sqrt(np.diag(covariance)))
-        emulator = Emulator(places[used][:, inputs], curves, scale, grid_scatter if np.any(grid_scatter) else None)
-        return RecordLikelihood(self.record, self.number, self.keys, inputs, emulator, self.grid, covariance,
-                                errors.of_the_cell(self.cell, means, result), self.cell_name)
+        return self._of(Emulator(places[used][:, inputs], curves, scale, grid_scatter if np.any(grid_scatter) else None), covariance)
+
+    def _of(self, emulator, covariance):
+        return RecordLikelihood(self.record, self.number, self.keys, self.inputs, emulator, self.grid, covariance, self.errors[1],
+                                self.cell_name)
+
+    def seen(self, tried, low, high):
+        """(likelihood, share) of some of the runs, by their numbers among those that were tried. The likelihood is that of the mean
+        of those that are of the record's kind, without an emulator; the share is theirs. None where there are none of them."""
+        right = self.is_right(low, high)
+        chosen = [i for i in tried if right[i]]
+        if not chosen:
+            return None
+        covariance, _, scatter = self.errors
+        number = np.cumsum(~np.array(self.lost)) - 1  # among the runs with a whole curve
+        curve = np.mean([self.curves[number[i]] for i in chosen], axis=0)
+        return self._of(Known(curve), covariance + scatter / len(chosen)), len(chosen) / len(tried)
 
 
 class Search:
@@ -135,55 +156,71 @@ class Search:
         self.count = 0
 
     @staticmethod
-    def runs_of(inputs):
+    def most_runs(keys, inputs):
+        """Of one record."""
+        first, more = Search._runs_of(inputs)
+        return first + MOST_WAVES * more + ends.CHECKS * (more + 2 * keys * ends.SPECIMENS)
+
+    @staticmethod
+    def _runs_of(inputs):
         """(of the first wave, of each other)"""
         return 8 * inputs + 2, 4 * inputs + 2
 
     def go(self):
-        first, more = self.runs_of(len(self.inputs))
-        self._add(profiles.sobol(len(self.keys), first, 1))
+        first, _ = self._runs_of(len(self.inputs))
+        self.add(profiles.sobol(len(self.keys), first, 1))
         self.best = np.full(len(self.keys), 0.5)
-        self._learn(0)
+        self.learn(0)
         for wave in range(1, MOST_WAVES + 1):
-            low, high, places = self._kept(wave, more)
-            shrunk = np.any((high - low)[self.inputs] < SHRUNK * (self.high - self.low)[self.inputs])
-            self._add(places)
-            self.low, self.high = low, high
-            self._learn(wave)
+            has_settled = self.wave(wave)
             if wave == 2:
                 self.renew(self.best)
-                self._learn(wave)
-            if wave > 2 and not shrunk and self.likelihood.unknown(self.best) < LEARNT * self._means():
+                self.learn(wave)
+            if wave > 2 and has_settled and self.likelihood.unknown(self.best) < LEARNT * self._means():
                 break
+        self.profiles, self.doubted = ends.checked(self, MOST_WAVES + 1)
 
-    def _add(self, places):
+    def wave(self, number):
+        """More runs, in a new box; whether the box is no longer smaller."""
+        low, high, places = self._kept(number, self._runs_of(len(self.inputs))[1])
+        shrunk = np.any((high - low)[self.inputs] < SHRUNK * (self.high - self.low)[self.inputs])
+        self.add(places)
+        self.low, self.high = low, high
+        self.learn(number)
+        return not shrunk
+
+    def add(self, places):
         for case, models in zip(self.cases, self.run(places, self.count)):
             for place, model in zip(places, models):
                 case.add(place, model)
         self.count += len(places)
 
-    def _learn(self, wave):
+    def learn(self, wave):
         for _ in range(2):  # the errors are those at the best place, which is known afterwards
-            self.likelihood = Likelihood([case.likelihood(self.low, self.high, self.best) for case in self.cases], self._is_lost)
+            shares = [(case.inputs, case.share(self.low, self.high)) for case in self.cases]
+            self.likelihood = Likelihood([case.likelihood(self.low, self.high, self.best) for case in self.cases], shares)
             self.best, self.value = profiles.best_of(self.likelihood, self.low, self.high, wave)
 
-    def _is_lost(self, places):
-        return np.any([case.is_not(places, self.high - self.low) for case in self.cases], axis=0)
+    def around(self):
+        """The box, and what is beside it, as far as the range goes."""
+        beside = LOOK * (self.high - self.low)
+        return np.maximum(self.low - beside, 0.0), np.minimum(self.high + beside, 1.0)
 
     def _means(self):
         return sum(len(case.record.centres) for case in self.cases)
 
     def _kept(self, wave, more):
         """The box of all that may be best, and places in it for the next runs: the best one, and others far from each other."""
-        tried = profiles.candidates(self.low, self.high, 100 + wave)
+        around = self.around()
+        tried = profiles.candidates(*around, 100 + wave)
         rises = self.likelihood.at(tried) - self.value
         # Where nothing fits as yet, neither the emulator nor a rise of -2 log L can be relied on.
         misfit = max(1.0, self.likelihood.chi_square(self.best) / self._means())
         kept = tried[rises <= max(KEPT * misfit, np.sort(rises)[LEAST_KEPT - 1])]
         kept = np.concatenate([self.best[None], kept])
         width = np.maximum(np.ptp(kept, axis=0), 1e-6)
-        low = np.maximum(kept.min(axis=0) - GROWN * width, self.low)
-        high = np.minimum(kept.max(axis=0) + GROWN * width, self.high)
+        low = np.maximum(kept.min(axis=0) - GROWN * width, around[0])
+        high = np.minimum(kept.max(axis=0) + GROWN * width, around[1])
         inside = (kept[:, self.inputs] - low[self.inputs]) / (high - low)[self.inputs]
         chosen = [0]
         away = np.sum((inside - inside[0])**2, axis=1)
@@ -191,8 +228,3 @@ class Search:
             chosen.append(int(np.argmax(away)))
             away = np.minimum(away, np.sum((inside - inside[chosen[-1]])**2, axis=1))
         return low, high, kept[chosen]
-
-
-def distances(places, others):
-    """How far the nearest of the others is, for each place."""
-    return np.sqrt(((places[:, None] - others[None])**2).sum(axis=2).min(axis=1))

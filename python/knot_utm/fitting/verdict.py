@@ -48,15 +48,13 @@ def short(value):
 def judge(search):
     """A search that has ended, as Fitted."""
     keys, best, likelihood = search.keys, search.best, search.likelihood
-    found, drawn = {}, {}
+    found, drawn, doubted = {}, {}, []
     for i, key in enumerate(keys):
-        profile = profiles.profile(likelihood, i, search.low, search.high, best, search.value, 50 + i)
-        # Places beyond the box were given up because they are much less likely.
-        low = profile.low if profile.low is not None or search.low[i] <= 0.0 else search.low[i]
-        high = profile.high if profile.high is not None or search.high[i] >= 1.0 else search.high[i]
+        low, high, beyond = _interval(search, i)
         ends = [None if place is None else short(key.value(place)) for place in (low, high)]
         found[key.name] = Found(short(key.value(best[i])), *ends, None not in ends)
-        drawn[key.name] = key.value(profile.places), profile.rises
+        drawn[key.name] = key.value(search.profiles[i].places), search.profiles[i].rises
+        doubted += [(key, place) for place in beyond]
     matrix = profiles.correlations(likelihood, best, search.low, search.high)
     correlation = {a.name: {b.name: float(matrix[i, j]) for j, b in enumerate(keys) if j != i} for i, a in enumerate(keys)}
     chi_square, means = likelihood.chi_square(best), sum(len(record.record.centres) for record in likelihood.records)
@@ -65,16 +63,31 @@ def judge(search):
     rms = float(np.sqrt(sum(((record.measured - simulated)**2).sum() for record, simulated, _ in curves) / means))
     probability = float(stats.chi2.sf(chi_square, degrees))
     notes = _notes(keys, best, found, matrix)
+    notes += [f"{key.name}: runs with {key.value(at):.4g} fit, although those around them say that they should not; the interval "
+              "goes on to there" for key, at in doubted]
     for case in search.cases:
-        unlike = int(case.unlike().sum())
+        unlike = int(case.unlike(search.low, search.high).sum())
         for count, words in ((sum(case.lost), "left no whole curve"), (unlike, "left loads of quite another size, as where knots open")):
             if count:
-                notes.append(f"{case.record.name}: {count} of {len(case.tried)} runs {words}; values near theirs count as values "
-                             "that do not fit")
+                notes.append(f"{case.record.name}: {count} of {len(case.tried)} runs {words}; values around which these are "
+                             "common count as unlikely")
     if probability < LEAST_PROBABILITY:
         notes.insert(0, f"nothing fits within the errors: the sum of squares over them is {chi_square:.4g} with {degrees} degrees "
                         "of freedom")
     return Fitted(found, rms, correlation, chi_square, degrees, probability, notes, drawn, curves)
+
+
+def _interval(search, i):
+    """(low, high, places to which an end was moved) of a key. An end that is doubted is where runs fit that are beyond it."""
+    profile = search.profiles[i]
+    # Places beyond these were given up because they are much less likely.
+    first, last = (around[i] for around in search.around())
+    low = profile.low if profile.low is not None or first <= 0.0 else first
+    high = profile.high if profile.high is not None or last >= 1.0 else last
+    places = [place[i] for key, place in search.doubted if key == i]
+    below = [place for place in places if low is not None and place < low]
+    above = [place for place in places if high is not None and place > high]
+    return min([low, *below]) if below else low, max([high, *above]) if above else high, below + above
 
 
 def _notes(keys, best, found, matrix):
