@@ -141,6 +141,10 @@ void check_specimen(const Method& m) {
     reject("specimen.edge_length", s.edge_length, "at most twice the radius, " + format_number(2.0 * h) + " m");
   }
   knot_of(s).check(s, h);
+  const double apart = s.end_to_end - 2.0 * h;
+  if (m.machine.grips == GripKind::kRollers && !(m.machine.roller_diameter < apart))
+    reject("machine.roller_diameter", m.machine.roller_diameter,
+           "less than " + format_number(apart) + " m, specimen.end_to_end less the diameter of the rod");
   const std::optional<double>& breaking = m.material.breaking_force;
   if (s.to_be_tied && s.preload && breaking && *breaking <= *s.preload) {
     reject("material.breaking_force", *breaking,

@@ -30,10 +30,10 @@ std::vector<std::string> warnings(const Results& results) {
         "undone");
   }
   if (results.max_penetration > kDeepContact) {
-    all.push_back("strands are pressed into each other by up to " + format_number(results.max_penetration) + " radii");
+    all.push_back("strands are pressed into each other by up to " + short_number(results.max_penetration) + " radii");
   }
   if (results.energy_balance_error > kUnbalanced) {
-    all.push_back("the energies and the work differ by " + format_number(*results.energy_balance_error) +
+    all.push_back("the energies and the work differ by " + short_number(*results.energy_balance_error) +
                   " of the largest of them: choose a smaller physics.residual");
   }
   return all;
@@ -104,6 +104,12 @@ std::string knots_travelled(const Results& results, const RunFacts& facts) {
          " m apart, where specimen.knot_distance is " + short_number(facts.knot_distance) + " m";
 }
 
+/// Of a test that the machine ended too early. A solver that gave up and a knot that came undone say so themselves.
+std::string ended_before_pull(const Results& results, const RunFacts& facts) {
+  if (results.true_peak_force || results.ended_by != EndedBy::kTravel) return {};
+  return "the test ended before anything was pulled: " + facts.reason;
+}
+
 }  // namespace
 
 std::vector<std::string> printed_warnings(const Results& results, const RunFacts& facts) {
@@ -113,6 +119,7 @@ std::vector<std::string> printed_warnings(const Results& results, const RunFacts
         snap_warnings(results, facts.pull_speed), facts.warnings})
     all.insert(all.end(), more.begin(), more.end());
   if (const std::string travelled = knots_travelled(results, facts); !travelled.empty()) all.push_back(travelled);
+  if (const std::string early = ended_before_pull(results, facts); !early.empty()) all.push_back(early);
   const std::string unsure = accuracy_warning(results, known_errors(results, facts));
   if (!unsure.empty()) all.push_back(unsure);
   if (!facts.margin.reason.empty()) all.push_back("no margin: " + facts.margin.reason);

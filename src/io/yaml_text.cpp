@@ -4,6 +4,7 @@
 
 #include <fstream>
 #include <map>
+#include <sstream>
 #include <system_error>
 
 #include "knot_utm/numeric/invalid_input.hpp"
@@ -11,6 +12,19 @@
 namespace knot_utm {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// Whether the line, from 0 on, has a tab before its first word. yaml-cpp does not always say that this is what is
+/// wrong.
+bool has_tab_in_indentation(const std::string& text, int line) {
+  std::istringstream lines(text);
+  std::string read;
+  for (int i = 0; i <= line; ++i) std::getline(lines, read);
+  return read.substr(0, read.find_first_not_of(" \t")).find('\t') != std::string::npos;
+}
+
+}  // namespace
 
 std::string yaml_fault(const YAML::Exception& fault) {
   if (dynamic_cast<const YAML::DeepRecursion*>(&fault) != nullptr) return "maps and lists are nested too deeply";
@@ -44,7 +58,10 @@ YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   } catch (const YAML::ParserException& parser) {
     const std::string place =
         "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1);
-    throw InvalidInput::sentence(place, parser.msg, place + ": " + yaml_fault(parser)).in_file(file);
+    const std::string fault = has_tab_in_indentation(text, parser.mark.line)
+                                  ? yaml_fault(YAML::ParserException(parser.mark, YAML::ErrorMsg::TAB_IN_INDENTATION))
+                                  : yaml_fault(parser);
+    throw InvalidInput::sentence(place, parser.msg, place + ": " + fault).in_file(file);
   }
 }
 

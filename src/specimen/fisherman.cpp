@@ -307,9 +307,10 @@ double outward_shift(const SpecimenOptions& specimen, const Material& material, 
          kRecovered * strain * specimen.knot_distance;
 }
 
-/// The least L for knots at this distance, by which their coils clear the rollers.
+/// The least L for knots at this distance, by which their coils clear the rollers, and the rollers each other.
 double least_end_to_end(double knot_distance, double roller_diameter, double h) {
-  return knot_distance + 2.0 * (5.0 * h + std::sqrt(9.0 * h * (0.5 * roller_diameter + h)));
+  const double between = knot_distance + 2.0 * (5.0 * h + std::sqrt(9.0 * h * (0.5 * roller_diameter + h)));
+  return std::max(between, roller_diameter + 4.0 * h);
 }
 
 }  // namespace

@@ -268,7 +268,7 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
                                ->check(CLI::Range(1, kMostSpecimens));
   app.add_option("--jobs", arguments.jobs,
                  "how many specimens are tested side by side; unless given, one for each processor")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(1, kMostSpecimens));
   CLI::Option* begin_with = app.add_option(
       "--begin-with", arguments.begin_with,
       "the folder of a test of the same specimen, stopped by --stop-before: this test begins where that one stopped");

@@ -258,7 +258,17 @@ TEST_F(BadFile, MissingEmptyBrokenOrNoMap) {
   EXPECT_THAT(complaint(write("broken.yaml", "specimen:\n  knot: [\nmaterial: x")),
               AllOf(HasSubstr("broken.yaml: line "), HasSubstr("a list begins with \"[\" and has no \"]\""),
                     Not(HasSubstr("\n"))));
+  EXPECT_THAT(complaint(write("tab.yaml", "specimen:\n\tknot: overhand\n")),
+              HasSubstr("tab.yaml: line 2, column 6: the line is indented by a tab; use blanks"));
   EXPECT_THAT(complaint(write("binary.yaml", std::string("\x00\x01\xff\xfe: {", 7))), HasSubstr("binary.yaml: "));
+}
+
+TEST_F(BadFile, RollersThatTouchEachOther) {
+  EXPECT_THAT(complaint(write("rollers.yaml",
+                              "specimen: {knot: fisherman, knot_distance: 0.12, end_to_end: 0.22, tail: 0.04}\n"
+                              "material: nylon\nmachine: {roller_diameter: 0.3}\n"
+                              "program: [tie: {}, release: {}, mount: {}, pull: {until: {extension: 0.08}}]\n")),
+              HasSubstr("rollers.yaml: machine.roller_diameter is 0.3, but must be less than 0.21365 m"));
 }
 
 TEST_F(BadFile, AWrongMaterialFileIsNamedItself) {

@@ -415,6 +415,17 @@ TEST(GravityWarnings, HoldTheWeightAgainstTheSlidingForceAndElseAgainstTheLarges
   EXPECT_THAT(gravity_warnings(results, facts), ::testing::IsEmpty());
 }
 
+TEST(ResultYaml, WarnsOfATestThatEndedBeforeAnythingWasPulled) {
+  Results results;
+  results.ended_by = EndedBy::kTravel;
+  RunFacts facts;
+  facts.reason = "mount: the grips meet";
+  EXPECT_THAT(printed_warnings(results, facts),
+              ::testing::ElementsAre("the test ended before anything was pulled: mount: the grips meet"));
+  results.true_peak_force = 1.0;
+  EXPECT_THAT(printed_warnings(results, facts), ::testing::IsEmpty());
+}
+
 TEST(ResultYaml, TellsOfAPullThatEndedBeforeTheKnotsLocked) {
   Results results;
   results.motion_pattern = MotionPattern::kSliding;
