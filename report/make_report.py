@@ -19,12 +19,12 @@ PACKAGES = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy", "yaml"
 
 class OneLineParser(argparse.ArgumentParser):
     def error(self, message):
-        refuse(message)
+        refuse(self.prog, message)
 
 
-def refuse(message):
+def refuse(program, message):
     """Bad input."""
-    print("report:", message.encode("utf-8", "backslashreplace").decode("utf-8"), file=sys.stderr)
+    print(f"{program}:", message.encode("utf-8", "backslashreplace").decode("utf-8"), file=sys.stderr)
     sys.exit(2)
 
 
@@ -36,7 +36,7 @@ def main():
     parser.add_argument("--version", help="of knot_utm, that made it", default="")
     arguments = parser.parse_args()
     if not os.path.isdir(arguments.folder):
-        refuse(f"{arguments.folder}: no such folder")
+        parser.error(f"{arguments.folder}: no such folder")
     command = arguments.command or "scripts/report " + shlex.quote(arguments.folder)
     with in_one_line("report", PACKAGES):
         make(arguments.folder, command, arguments.version)

@@ -66,7 +66,11 @@ class _Fit:
     def _method_key(self, name, limits, given):
         if name in EXACT_CELL:
             raise WrongInput(f"--free: {name} is an error of the cell, which is one of the errors that a fit goes by")
-        return method_key(name, limits, self.methods[0], tool.key_units(self.method, given))
+        numbers = tool.key_units(self.method, given)
+        refused = name not in numbers and tool.refusal(self.method, {**given, name: 1.0}) or ""
+        if "is no key" in refused:
+            raise WrongInput(f"--free: {refused}")
+        return method_key(name, limits, self.methods[0], numbers)
 
     def _require_allowed(self, keys, settings):
         """All corners of the ranges, and a place within them, for all records: before the first run."""

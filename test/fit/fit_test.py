@@ -173,6 +173,7 @@ class Refused(Fits):
         self.refused(record, "straight", "--free", STRETCH, says="specimen.lenght is no key",
                      settings={**PULLED, "specimen.lenght": 1})
         self.refused(record, "straight", "--free", "specimen.knot=0:1", says="specimen.knot is straight, but only a number may be free")
+        self.refused(record, "straight", "--free", "material.radiuss", says="did you mean material.radius?")
         self.refused(record, "straight", "--free", "machine.load_cell.noise=0:1", says="machine.load_cell.noise is an error of the cell")
         self.refused(record, "straight", "--free", STRETCH, "--also", record, STRETCH + "=5e4", says=STRETCH + " is set, but it is free")
         self.refused(record, "overhand", "--free", "specimen.turns=1:3", says="specimen.turns is 1.8642, but must be a whole number",
