@@ -67,9 +67,10 @@ class _Fit:
         if name in EXACT_CELL:
             raise WrongInput(f"--free: {name} is an error of the cell, which is one of the errors that a fit goes by")
         numbers = tool.key_units(self.method, given)
-        refused = name not in numbers and tool.refusal(self.method, {**given, name: 1.0}) or ""
-        if "is no key" in refused:
-            raise WrongInput(f"--free: {refused}")
+        if name not in numbers:
+            refused = tool.refusal(self.method, {**given, name: 1.0})
+            if refused and "is no key" in refused:
+                raise WrongInput(f"--free: {refused}")
         return method_key(name, limits, self.methods[0], numbers)
 
     def _require_allowed(self, keys, settings):
