@@ -11,8 +11,6 @@ endforeach()
 list(APPEND core_test_sources test/rooms_test.cpp)
 add_executable(core_tests ${core_test_sources})
 target_include_directories(core_tests PRIVATE test)
-# The physics is in the library; -O3 takes a third longer to compile, and gains the tests nothing.
-target_compile_options(core_tests PRIVATE -O1)
 target_link_libraries(core_tests PRIVATE knot_utm_core yaml-cpp ZLIB::ZLIB GTest::gtest_main GTest::gmock)
 # Halves what the tests take to compile. A compiler cache cannot look behind precompiled headers.
 if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
@@ -59,16 +57,14 @@ endif()
 find_package(rapidcheck REQUIRED)
 file(GLOB property_sources CONFIGURE_DEPENDS test/properties/*_test.cpp)
 add_executable(property_tests ${property_sources})
-target_compile_options(property_tests PRIVATE -O1)
+# Their physics is in the library; optimised themselves, they take minutes to compile.
+set_source_files_properties(${property_sources} PROPERTIES COMPILE_OPTIONS -O1)
 target_include_directories(property_tests PRIVATE test)
 target_link_libraries(property_tests PRIVATE knot_utm_core rapidcheck GTest::gtest_main)
-if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  target_precompile_headers(property_tests REUSE_FROM core_tests)
-endif()
 gtest_discover_tests(property_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
                      PROPERTIES TIMEOUT 1800 ENVIRONMENT "RC_PARAMS=seed=1 max_success=25")
 
-# What follows runs long, or runs tools and scripts, in which sanitizers find nothing that the tests above do not reach.
+# What follows runs long, or runs tools and scripts. What of the code it reaches, the tests above reach too.
 if(KNOT_UTM_SANITIZE)
   return()
 endif()
@@ -80,7 +76,6 @@ if(validation_sources)
   set_source_files_properties(test/validation/break_test.cpp test/validation/compliant_loop_test.cpp
                               PROPERTIES COMPILE_DEFINITIONS "KNOT_UTM_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\"")
   target_include_directories(validation_tests PRIVATE test)
-  target_compile_options(validation_tests PRIVATE -O1)
   target_link_libraries(validation_tests PRIVATE knot_utm_core yaml-cpp ZLIB::ZLIB GTest::gtest_main GTest::gmock)
   if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
     target_precompile_headers(validation_tests REUSE_FROM core_tests)

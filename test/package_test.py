@@ -17,7 +17,7 @@ BUILD = os.path.realpath(sys.argv.pop(1))
 # The loop is tied and pulled far enough for a plateau, by coarse time steps.
 SETTINGS = ["physics.accuracy=draft", "program.pull.until.extension=0.03"]
 
-HAS_PANDAS = importlib.util.find_spec("pandas") and importlib.util.find_spec("tables")
+HAS_PANDAS = all(importlib.util.find_spec(name) for name in ("pandas", "tables", "scipy", "tqdm", "matplotlib"))
 HAS_MESSAGES = os.path.isdir(os.path.join(BUILD, "devel/lib/python3/dist-packages/knot_utm/msg"))
 RUN = """
 import knot_utm
@@ -98,7 +98,7 @@ class Package(unittest.TestCase):
         return subprocess.run([*env, "/usr/bin/python3", "-sB", *words], check=False, text=True, cwd=self.built, env=shell,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
 
-    @unittest.skipUnless(HAS_PANDAS, "python3-pandas is not installed")
+    @unittest.skipUnless(HAS_PANDAS, "what scripts/sweep installs is not there")
     def test_python_runs_what_was_installed_with_it(self):
         said = self.python("-c", RUN, path=self.packages)
         self.assertEqual(said.returncode, 0, said.stderr)
@@ -108,7 +108,7 @@ class Package(unittest.TestCase):
             self.assertTrue(os.path.isfile(place), said.stdout)
         self.assertGreater(float(force), 0)
 
-    @unittest.skipUnless(HAS_PANDAS, "python3-pandas is not installed")
+    @unittest.skipUnless(HAS_PANDAS, "what scripts/sweep installs is not there")
     def test_commands_of_scripts_are_there_without_the_scripts(self):
         study = os.path.join(self.built, "study.yaml")
         with open(study, "w", encoding="utf-8") as file:

@@ -47,7 +47,9 @@ def main(out="out/sweep_and_fit"):
     fitted = knot_utm.fit(os.path.join(measured.folder, "curve.csv"), "straight", [f"{STIFFNESS}=4e+4:8e+4"],
                           os.path.join(out, "fit"), settings=TEST, report=False)
     found = fitted.found[STIFFNESS]
-    print(f"{STIFFNESS}: {found.value:.5g} {units[STIFFNESS]}, from {found.low:.5g} to {found.high:.5g}")
+    # An end that the curve cannot tell is None.
+    low, high = ("?" if end is None else f"{end:.5g}" for end in (found.low, found.high))
+    print(f"{STIFFNESS}: {found.value:.5g} {units[STIFFNESS]}, from {low} to {high}")
 
 
 if __name__ == "__main__":

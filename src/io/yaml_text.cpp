@@ -24,6 +24,12 @@ bool has_tab_in_indentation(const std::string& text, int line) {
   return read.substr(0, read.find_first_not_of(" \t")).find('\t') != std::string::npos;
 }
 
+/// Whether a list, a map or a text in quotes has no end. Within them tabs are allowed.
+bool ends_too_early(const YAML::ParserException& fault) {
+  namespace Said = YAML::ErrorMsg;
+  return fault.msg == Said::END_OF_SEQ_FLOW || fault.msg == Said::END_OF_MAP_FLOW || fault.msg == Said::EOF_IN_SCALAR;
+}
+
 }  // namespace
 
 std::string yaml_fault(const YAML::Exception& fault) {
@@ -58,9 +64,9 @@ YAML::Node parse_yaml(const std::string& text, const std::string& file) {
   } catch (const YAML::ParserException& parser) {
     const std::string place =
         "line " + std::to_string(parser.mark.line + 1) + ", column " + std::to_string(parser.mark.column + 1);
-    const std::string fault = has_tab_in_indentation(text, parser.mark.line)
-                                  ? yaml_fault(YAML::ParserException(parser.mark, YAML::ErrorMsg::TAB_IN_INDENTATION))
-                                  : yaml_fault(parser);
+    const bool tab = !ends_too_early(parser) && has_tab_in_indentation(text, parser.mark.line);
+    const std::string fault =
+        tab ? yaml_fault(YAML::ParserException(parser.mark, YAML::ErrorMsg::TAB_IN_INDENTATION)) : yaml_fault(parser);
     throw InvalidInput::sentence(place, parser.msg, place + ": " + fault).in_file(file);
   }
 }

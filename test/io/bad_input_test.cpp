@@ -260,6 +260,7 @@ TEST_F(BadFile, MissingEmptyBrokenOrNoMap) {
                     Not(HasSubstr("\n"))));
   EXPECT_THAT(complaint(write("tab.yaml", "specimen:\n\tknot: overhand\n")),
               HasSubstr("tab.yaml: line 2, column 6: the line is indented by a tab; use blanks"));
+  EXPECT_THAT(complaint(write("list_with_tab.yaml", "specimen: [\n\tknot")), HasSubstr("a list begins with \"[\""));
   EXPECT_THAT(complaint(write("binary.yaml", std::string("\x00\x01\xff\xfe: {", 7))), HasSubstr("binary.yaml: "));
 }
 

@@ -11,15 +11,11 @@ import unittest
 
 from sweeps import CONFIG, LENGTHS, ROOT, Sweeps, content, write
 
-try:
-    import numpy as np
+import numpy as np
 
-    import knot_utm
-    from knot_utm import tool
-    from knot_utm.yaml_text import load
-except ModuleNotFoundError as absent:
-    print(f"skipped: {absent} (scripts/sweep installs it)")
-    sys.exit(77)
+import knot_utm
+from knot_utm import tool
+from knot_utm.yaml_text import load
 
 DRAFT = {"physics.accuracy": "draft"}
 
