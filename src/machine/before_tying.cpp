@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -35,27 +35,20 @@ double least_preload(const SpecimenOptions& specimen, const Material& material) 
   return std::min(closed * fraction * fraction, bending_force(material) / (2.0 * kClosed * kClosed));
 }
 
-std::string digits(double value) {
-  std::ostringstream out;
-  out.precision(3);
-  out << value;
-  return out.str();
-}
-
 /// Of what a tied knot asks of the outermost fibre. Empty: nothing is known to fail.
 std::string strain_warning(double strain, const Material& material) {
-  const std::string needed = "tied knots strain the outermost fibre by up to " + digits(strain);
+  const std::string needed = "tied knots strain the outermost fibre by up to " + short_number(strain);
   if (material.breaking_strain && *material.breaking_strain < strain)
-    return needed + ", and the rod parts at a strain of " + digits(*material.breaking_strain) +
+    return needed + ", and the rod parts at a strain of " + short_number(*material.breaking_strain) +
            " (material.breaking_strain), so it may part while it is tied";
   if (remembers_bends(material)) return "";
   if (material.yield_strain && *material.yield_strain < strain)
-    return needed + ", and the material yields at a strain of " + digits(*material.yield_strain) +
+    return needed + ", and the material yields at a strain of " + short_number(*material.yield_strain) +
            " (material.yield_strain), which only material.bending_law: plastic simulates";
   if (material.breaking_strain || material.yield_strain || !is_solid(material)) return "";
   const double modulus = material.stretching_stiffness / (M_PI * material.radius * material.radius);
   if (modulus < kMetal) return "";
-  return needed + ", but a solid rod with a modulus of " + digits(1e-9 * modulus) +
+  return needed + ", but a solid rod with a modulus of " + short_number(1e-9 * modulus) +
          " GPa yields or breaks at a much smaller strain, which is not simulated; set material.yield_strain or "
          "material.breaking_strain if "
          "you know them";
@@ -65,11 +58,12 @@ std::string strain_warning(double strain, const Material& material) {
 std::string mesh_warning(double edge, const Material& material) {
   const double h = material.radius;
   if (edge <= kCoarsestEdge * h || is_solid(material)) return "";
-  return "edges of " + digits(edge / h) +
-         " radii are too long for the bends of a tied knot, in which the rod turns by " + digits(edge / (kClosed * h)) +
+  return "edges of " + short_number(edge / h) +
+         " radii are too long for the bends of a tied knot, in which the rod turns by " +
+         short_number(edge / (kClosed * h)) +
          " rad from one to the next, so the knot may open where it would hold with shorter edges; choose a smaller "
          "specimen.edge_length or a higher specimen.refinement, so that edges in knots are at most " +
-         digits(kCoarsestEdge) + " radii long";
+         short_number(kCoarsestEdge) + " radii long";
 }
 
 }  // namespace
@@ -85,13 +79,14 @@ double coil_radius(const Material& material, double preload) {
 void check_tying(const SpecimenOptions& specimen, const Material& material) {
   const double preload = tying_load(specimen, material), least = least_preload(specimen, material);
   if (preload < least)
-    throw InvalidInput("specimen.preload", digits(preload),
-                       "at least " + digits(least) + " N: a smaller one does not move the coils, which close only at " +
-                           digits(closing_preload(material)) + " N");
+    throw InvalidInput("specimen.preload", short_number(preload),
+                       "at least " + short_number(least) +
+                           " N: a smaller one does not move the coils, which close only at " +
+                           short_number(closing_preload(material)) + " N");
   const double strain = strain_under(material, preload) + 1.0 / drawn_coil(specimen);
   if (material.breaking_strain && *material.breaking_strain <= strain)
-    throw InvalidInput("material.breaking_strain", digits(*material.breaking_strain),
-                       "more than " + digits(strain) +
+    throw InvalidInput("material.breaking_strain", short_number(*material.breaking_strain),
+                       "more than " + short_number(strain) +
                            ", the strain of the outermost fibre in the loose coil from which a knot is tied");
 }
 
@@ -101,12 +96,12 @@ std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const M
   const double h = material.radius;
   const double preload = tying_load(specimen, material), closing = closing_preload(material);
   if (preload < closing)
-    all.push_back("a pre-load of " + digits(preload) + " N leaves the coils open, at a radius of about " +
-                  digits(std::min(coil_radius(material, preload) / h, drawn_coil(specimen))) +
-                  " radii of the rod: they close at " + digits(closing) + " N");
+    all.push_back("a pre-load of " + short_number(preload) + " N leaves the coils open, at a radius of about " +
+                  short_number(std::min(coil_radius(material, preload) / h, drawn_coil(specimen))) +
+                  " radii of the rod: they close at " + short_number(closing) + " N");
   const double stretch = strain_under(material, preload);
   if (stretch > kMostStretch)
-    all.push_back("a pre-load of " + digits(preload) + " N stretches the rod to " + digits(1.0 + stretch) +
+    all.push_back("a pre-load of " + short_number(preload) + " N stretches the rod to " + short_number(1.0 + stretch) +
                   " times its length");
   const double edge = specimen.edge_length / tolerances(physics, specimen, material).refinement;
   for (const std::string& found : {strain_warning(stretch + kSharpestBend, material), mesh_warning(edge, material)})

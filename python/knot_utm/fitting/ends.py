@@ -21,8 +21,8 @@ def checked(search, wave):
     """([Profile] of all keys, [(key, place)] beyond ends that are doubted still)."""
     for check in range(CHECKS):
         found = _profiles(search)
-        beyond = [(key, place) for key, one in enumerate(found) for way in (-1, 1)
-                  for place in [_beyond(one, way, key, search)] if place is not None]
+        beyond = [(key, place) for key, one in enumerate(found) for side in (-1, 1)
+                  for place in [_beyond(one, side, key, search)] if place is not None]
         if not beyond:
             return found, []
         doubted = doubtful(search, beyond)
@@ -39,9 +39,9 @@ def _profiles(search):
             for key in range(len(search.keys))]
 
 
-def _beyond(profile, way, key, search):
+def _beyond(profile, side, key, search):
     """The nearest place on a profile that is clearly beyond its end; None where the range ends before."""
-    places, rises = profile.outwards(way)
+    places, rises = profile.outwards(side)
     clear = np.flatnonzero(rises >= CLEARLY)
     if len(clear):
         return places[clear[0]]
