@@ -8,6 +8,11 @@ FrameBroadcaster::FrameBroadcaster(const Vec3& lower_grip, double end_to_end) : 
   fixed_.sendTransform(frames_.fixed(ros::TIME_MIN));
 }
 
+void FrameBroadcaster::begin(const Vec3& lower_grip, double end_to_end) {
+  frames_ = MachineFrames(lower_grip, end_to_end);
+  fixed_.sendTransform(frames_.fixed(ros::TIME_MIN));
+}
+
 void FrameBroadcaster::publish(const ros::Time& stamp, double displacement, const Vec3& upper_grip,
                                const Looks* looks) {
   const ros::Time valid = std::max(stamp, ros::TIME_MIN);

@@ -10,6 +10,7 @@
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/study/specimens.hpp"
 
 namespace knot_utm {
 namespace {
@@ -37,6 +38,7 @@ TestingMachine make_bench(const Method& method) {
 
 KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
     : node_(node),
+      described_(method),
       method_(method),
       machine_(make_bench(method)),
       frames_(machine_.lower_grip(), method.specimen.end_to_end),
@@ -65,17 +67,29 @@ KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
   diagnostics_.add("physics", this, &KnotNode::diagnose);
   diagnostics_timer_ = node_.createSteadyTimer(ros::WallDuration(kDiagnosticsPeriod),
                                                [this](const ros::SteadyTimerEvent&) { diagnostics_.force_update(); });
-  new_specimen();
+  begin_specimen();
 }
 
-void KnotNode::new_specimen() {
+void KnotNode::put_in(const BatchPlace& place) {
+  method_ = method_of_specimen(method_of_batch(described_, place.count), place.number);
+  place_ = place;
+  machine_ = make_bench(method_);
+  frames_.begin(machine_.lower_grip(), method_.specimen.end_to_end);
+  ScenePicture picture(method_.specimen, method_.machine, method_.material);
+  picture.show_as(picture_);
+  picture_ = picture;
+  views_ = Views(method_.specimen, method_.machine, method_.material);
+  colors_.publish(picture_.scale().bar());
+  begin_specimen();
+}
+
+void KnotNode::begin_specimen() {
   run_ = 0;
   next_ = 0;
   kept_.clear();
   sample_ = Sample();
   motion_ = MotionPatternTracker();
   picture_.begin(machine_.state().position);
-  views_.begin();
   shown_.begin();
   view_is_old_ = true;
 
@@ -96,9 +110,11 @@ void KnotNode::on_command(const Crosshead::ConstPtr& command) {
   if (!fault.empty()) return refuse(message, std::string(names::kCrosshead) + ": " + fault);
   if (message.run != run_) {
     if (message.sequence != 0) return refuse(message, "the specimen was reset during the test");
-    if (next_ != 0) {
-      machine_ = make_bench(method_);
-      new_specimen();
+    try {
+      const BatchPlace place = batch_place(node_);
+      if (next_ != 0 || !(place == place_)) put_in(place);
+    } catch (const InvalidInput& invalid) {
+      return refuse(message, invalid.what());
     }
     run_ = message.run;
   }
@@ -185,8 +201,7 @@ void KnotNode::on_status(const TestStatus::ConstPtr& ended) {
 }
 
 bool KnotNode::on_reset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  machine_ = make_bench(method_);
-  new_specimen();
+  put_in(place_);
   response.success = 1;
   response.message = "a new specimen";
   return true;

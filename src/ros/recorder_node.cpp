@@ -48,8 +48,9 @@ EndedBy ended_by_from_name(const std::string& name) { return ended_by_named(name
 
 }  // namespace
 
-RecorderNode::Run::Run(const std::string& folder_, const Method& method, JournalWriter journal_)
+RecorderNode::Run::Run(const std::string& folder_, const Method& method_, JournalWriter journal_)
     : folder(folder_),
+      method(method_),
       journal(std::move(journal_)),
       writer(folder_, method),
       bag((fs::path(folder_) / "test.bag").string(), method) {}
@@ -108,13 +109,14 @@ void RecorderNode::begin_run(const Crosshead& first) {
   run_.reset();
   const std::uint32_t run = first.run;
   run_number_ = run;
-  test_id_.clear();
-  if (node_.getParam(names::kTestId, test_id_)) test_id_ += "/" + std::to_string(run);
+  place_ = batch_place(node_);
+  test_id_ = id_of_test(run);
   std::string recorded;
   node_.getParam(names::kRecordedTest, recorded);
   completed_before_ = !test_id_.empty() && recorded == test_id_;
   if (completed_before_) return;
-  const std::string before = folder_before();
+  begin_batch(id_of_test(run + 1 - static_cast<std::uint32_t>(place_.number)));
+  const std::string before = told_folder(names::kFolderOfTest, test_id_);
   if (!before.empty()) {
     if (go_on(before)) return;
     if (first.sequence > 0 && has_complete_result(before)) {
@@ -122,19 +124,45 @@ void RecorderNode::begin_run(const Crosshead& first) {
                                " holds a result, which the rest of the test would write over");
     }
   }
-  require_no_record_in(setup_.out, setup_.method);
-  ClaimedFolder claimed = claim_folder(setup_.out, journal_header(setup_.method, test_id_));
-  if (claimed.folder != setup_.out) ROS_WARN("%s", moved_notice(setup_.out, claimed.folder).c_str());
+  const Method method = batch_ ? batch_->method_of(place_.number) : method_of_batch(setup_.method, 1);
+  ClaimedFolder claimed = claim(batch_ ? batch_->folder_of(place_.number) : setup_.out, method, test_id_);
   if (!test_id_.empty()) tell_master(names::kFolderOfTest, test_id_ + " " + claimed.folder);
-  run_ = std::make_unique<Run>(claimed.folder, setup_.method, std::move(claimed.journal));
+  run_ = std::make_unique<Run>(claimed.folder, method, std::move(claimed.journal));
   watch(claimed.folder);
 }
 
-std::string RecorderNode::folder_before() const {
+void RecorderNode::begin_batch(const std::string& id) {
+  if (!place_.alone() && batch_ && batch_id_ == id) return;
+  batch_.reset();
+  batch_id_ = id;
+  if (place_.alone()) return;
+  const Method method = method_of_batch(setup_.method, place_.count);
+  const std::string before = told_folder(names::kFolderOfBatch, id);
+  if (!before.empty()) {
+    batch_.emplace(RecordedBatch::go_on(method, {before, JournalWriter::go_on(before, kPatienceWithKeeper)}));
+    return;
+  }
+  batch_.emplace(RecordedBatch::begin(method, claim(setup_.out, method, "")));
+  if (!id.empty()) tell_master(names::kFolderOfBatch, id + " " + batch_->folder());
+}
+
+std::string RecorderNode::id_of_test(std::uint32_t run) const {
+  std::string machine;
+  return node_.getParam(names::kTestId, machine) ? machine + "/" + std::to_string(run) : "";
+}
+
+ClaimedFolder RecorderNode::claim(const std::string& asked, const Method& method, const std::string& test) {
+  require_no_record_in(asked, method);
+  ClaimedFolder claimed = claim_folder(asked, journal_header(method, test));
+  if (claimed.folder != asked) ROS_WARN("%s", moved_notice(asked, claimed.folder).c_str());
+  return claimed;
+}
+
+std::string RecorderNode::told_folder(const char* parameter, const std::string& id) const {
   std::string told;
-  node_.getParam(names::kFolderOfTest, told);
-  const std::string begin = test_id_ + " ";
-  return !test_id_.empty() && told.rfind(begin, 0) == 0 ? told.substr(begin.size()) : "";
+  node_.getParam(parameter, told);
+  const std::string begin = id + " ";
+  return !id.empty() && told.rfind(begin, 0) == 0 ? told.substr(begin.size()) : "";
 }
 
 bool RecorderNode::go_on(const std::string& folder) {
@@ -286,6 +314,7 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
     if (run.dropped > 0)
       facts.warnings.push_back(std::to_string(run.dropped) + " commands of the test were not recorded");
     run.writer.finish(run.writer.results(ended_by), facts, run.shape);
+    if (batch_) conclude_batch();
     // Whoever begins anew from here on has nothing left to do.
     if (ros::ok() && !test_id_.empty()) tell_master(names::kRecordedTest, test_id_);
     run.journal.remove();
@@ -300,6 +329,12 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
   } catch (const std::exception& error) {
     fail(error.what());
   }
+}
+
+void RecorderNode::conclude_batch() {
+  if (!batch_->conclude(place_.number)) return;
+  ROS_INFO("the statistics of all %d specimens were written to %s/statistics.yaml", place_.count,
+           batch_->folder().c_str());
 }
 
 void RecorderNode::tell_master(const char* parameter, const std::string& text) const {
@@ -329,7 +364,7 @@ bool RecorderNode::on_save(std_srvs::Trigger::Request& /*request*/, std_srvs::Tr
   }
   if (!run_->complete && error_.empty()) {
     try {
-      save_bag(run_->folder, setup_.method, (fs::path(run_->folder) / "saved.bag").string());
+      save_bag(run_->folder, run_->method, (fs::path(run_->folder) / "saved.bag").string());
       RunFacts facts = run_->writer.facts();
       facts.reason = "saved while the test was running";
       facts.wall_time = seconds_since(run_->begin);
@@ -358,6 +393,7 @@ void RecorderNode::publish_status() {
     status.full_rows = run_->writer.full_rows();
     status.bag_messages = run_->bag.messages();
     status.directory = run_->folder;
+    if (batch_) status.batch = batch_->folder();
   }
   published_ = status;
   published_at_ = Clock::now();

@@ -25,7 +25,7 @@ RunTestServer::RunTestServer(const ros::NodeHandle& node, Machine machine)
 }
 
 void RunTestServer::on_goal(Server::GoalHandle goal) {
-  const std::string why_not = machine_.start();
+  const std::string why_not = machine_.start(goal.getGoal()->count);
   if (!why_not.empty()) return goal.setRejected(RunTestResult(), why_not);
   goal_ = goal;
   goal_->setAccepted("the test is running");
@@ -39,15 +39,18 @@ void RunTestServer::report(const RunTestFeedback& feedback) {
   if (goal_) goal_->publishFeedback(feedback);
 }
 
-void RunTestServer::finish(EndedBy ended_by, bool failed, const RunTestResult& result) {
+void RunTestServer::finish(GoalEnd end, const RunTestResult& result, const std::string& text) {
   if (!goal_) return;
-  const std::string text = "ended by " + result.ended_by + (result.reason.empty() ? "" : ": " + result.reason);
-  if (failed) {
-    goal_->setAborted(result, text);
-  } else if (ended_by == EndedBy::kOperator) {
-    goal_->setCanceled(result, text);
-  } else {
-    goal_->setSucceeded(result, text);
+  switch (end) {
+    case GoalEnd::kSucceeded:
+      goal_->setSucceeded(result, text);
+      break;
+    case GoalEnd::kPreempted:
+      goal_->setCanceled(result, text);
+      break;
+    case GoalEnd::kAborted:
+      goal_->setAborted(result, text);
+      break;
   }
   goal_.reset();
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
 
 #include "clock_pace.hpp"
 #include "knot_utm/io/knot_advice.hpp"
@@ -24,7 +25,6 @@ using std::chrono::steady_clock;
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
 constexpr double kCatchUp = 0.1;            // wall time that is made up for after a slow step [s]
 constexpr double kLongestPause = 86400.0;   // between two commands, however slow the pace asked for [s]
-constexpr double kGapBetweenTests = 1.0;    // on /clock [s]
 constexpr std::uint32_t kQueue = 1000;
 constexpr std::uint32_t kLargest = 64 * 1024;  // message to this node [bytes]
 
@@ -41,10 +41,7 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOpt
       method_(method),
       options_(options),
       factor_(std::numeric_limits<double>::quiet_NaN()),
-      run_test_(node, {[this] { return start_if_possible(); },
-                       [this] {
-                         if (active()) program_->stop();
-                       }}),
+      run_test_(node, {[this](std::uint32_t count) { return start_if_possible(count); }, [this] { stop(); }}),
       diagnostics_(node) {
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
   crosshead_ = node_.advertise<Crosshead>(names::kCrosshead, kQueue, ros::SubscriberStatusCallback(), gone);
@@ -79,7 +76,10 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOpt
 int UtmNode::spin() {
   while (ros::ok()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(wait_time()));
-    if (options_.autostart && run_ == 0 && longest_step_ > 0.0) start();
+    if (options_.autostart && run_ == 0 && has_specimen_) {
+      const std::string why_not = start_if_possible(0);
+      if (!why_not.empty()) throw std::runtime_error(why_not);
+    }
     if (may_advance()) advance();
     if (seconds_since(sent_) > options_.resend_period) resend();
     if (seconds_since(clock_published_) > kIdleClockPeriod) publish_clock(true);
@@ -88,14 +88,13 @@ int UtmNode::spin() {
       diagnosed_ = steady_clock::now();
       diagnostics_.force_update();
     }
-    if (state_ == State::kEnded && all_is_recorded()) finish_goal();
+    if (state_ == State::kEnded && all_is_recorded()) see_to_the_next();
     if (options_.exit_at_end && state_ == State::kEnded && all_is_recorded()) {
       ros::WallDuration(kGoodbye).sleep();
       break;
     }
   }
-  const bool failed = program_ && program_->failed();
-  return failed || recorder_failed_ ? 1 : 0;
+  return failed() ? 1 : 0;
 }
 
 double UtmNode::wait_time() const {
@@ -107,11 +106,12 @@ double UtmNode::wait_time() const {
 void UtmNode::on_specimen(const SpecimenInfo::ConstPtr& specimen) {
   const std::string fault = fault_of(*specimen);
   if (!fault.empty()) return odd_specimen_.say(names::kKnotNode, fault);
-  longest_step_ = specimen->longest_step;
+  has_specimen_ = true;
 }
 
 void UtmNode::on_gone(const ros::SingleSubscriberPublisher& subscriber) {
   if (active() && subscriber.getSubscriberName() == node_.resolveName(names::kKnotNode)) {
+    physics_died_ = true;
     physics_failed("knot_node died during the test");
   }
 }
@@ -161,11 +161,12 @@ void UtmNode::on_recorder(const RecorderStatus::ConstPtr& recorded) {
   while (!unrecorded_.empty() && unrecorded_.front().sequence < recorded_) unrecorded_.pop_front();
   recorder_complete_ = status.complete != 0;
   directory_ = status.directory;
+  batch_directory_ = status.batch;
   if (!status.error.empty()) {
     recorder_failed_ = true;
     if (active()) {
       ROS_ERROR("the recorder failed: %s", one_line(status.error).c_str());
-      program_->stop();
+      stop();
     }
   }
 }
@@ -183,27 +184,6 @@ bool UtmNode::may_advance() const {
   if (!recorder_keeps_up()) return false;
   if (state_ == State::kPaused) return single_steps_ > 0;
   return options_.real_time_factor <= 0.0 || steady_clock::now() >= due_;
-}
-
-void UtmNode::start() {
-  program_.emplace(make_program(method_, longest_step_));
-  if (run_ > 0) run_start_ = now_.toSec() + kGapBetweenTests;
-  ++run_;
-  recorded_ = 0;
-  unrecorded_.clear();
-  recorder_complete_ = false;
-  recorder_failed_ = false;
-  single_steps_ = 0;
-  sample_ = Sample();
-  motion_pattern_.clear();
-  readings_.clear();
-  max_penetration_ = 0.0;
-  state_ = State::kRunning;
-  due_ = steady_clock::now();
-  factor_measured_ = due_;
-  factor_time_ = 0.0;
-  send(program_->last());
-  publish_status();
 }
 
 void UtmNode::advance() {

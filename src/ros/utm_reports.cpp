@@ -50,6 +50,8 @@ void UtmNode::publish_status() {
 void UtmNode::report_to_goal(const TestStatus& status) {
   if (!run_test_.has_goal()) return;
   RunTestFeedback feedback;
+  feedback.specimen = static_cast<std::uint32_t>(specimen_ + 1);
+  feedback.specimens = static_cast<std::uint32_t>(drawn_.size());
   feedback.phase = status.phase;
   feedback.time = sample_.time;
   feedback.extension = sample_.extension;
@@ -63,23 +65,50 @@ void UtmNode::report_to_goal(const TestStatus& status) {
   run_test_.report(feedback);
 }
 
+TestOutcome UtmNode::outcome() const {
+  const EndedBy ended_by = program_->ended_by();
+  TestOutcome out;
+  out.run = run_;
+  out.specimen = static_cast<std::uint32_t>(specimen_ + 1);
+  out.ended_by = ended_by_name(ended_by);
+  out.reason = recorder_failed_ ? "the recorder failed" : program_->reason();
+  out.motion_pattern = motion_pattern_;
+  out.time = sample_.time;
+  out.extension = sample_.extension;
+  const Results results = analyse(readings_, ended_by);
+  out.peak_force = results.curve.peak_force.value_or(Sample::kNone);
+  out.true_peak_force = results.true_peak_force.value_or(Sample::kNone);
+  out.balance_offset = results.balance_offset.value_or(Sample::kNone);
+  out.max_penetration = max_penetration_;
+  out.directory = directory_;
+  return out;
+}
+
 void UtmNode::finish_goal() {
   if (!run_test_.has_goal()) return;
-  const EndedBy ended_by = program_->ended_by();
+  const TestOutcome& last = outcomes_.back();
   RunTestResult result;
-  result.run = run_;
-  result.ended_by = ended_by_name(ended_by);
-  result.reason = recorder_failed_ ? "the recorder failed" : program_->reason();
-  result.motion_pattern = motion_pattern_;
-  result.time = sample_.time;
-  result.extension = sample_.extension;
-  const Results results = analyse(readings_, ended_by);
-  result.peak_force = results.curve.peak_force.value_or(Sample::kNone);
-  result.true_peak_force = results.true_peak_force.value_or(Sample::kNone);
-  result.balance_offset = results.balance_offset.value_or(Sample::kNone);
-  result.max_penetration = max_penetration_;
-  result.directory = directory_;
-  run_test_.finish(ended_by, program_->failed() || recorder_failed_, result);
+  result.run = last.run;
+  result.ended_by = last.ended_by;
+  result.reason = last.reason;
+  result.motion_pattern = last.motion_pattern;
+  result.time = last.time;
+  result.extension = last.extension;
+  result.peak_force = last.peak_force;
+  result.true_peak_force = last.true_peak_force;
+  result.balance_offset = last.balance_offset;
+  result.max_penetration = last.max_penetration;
+  result.directory = batch_directory_.empty() ? last.directory : batch_directory_;
+  result.tests = outcomes_;
+  std::string text = "ended by " + last.ended_by + (last.reason.empty() ? "" : ": " + last.reason);
+  if (drawn_.size() > 1)
+    text = "tested " + std::to_string(outcomes_.size()) + " of " + std::to_string(drawn_.size()) +
+           " specimens; the last test " + text;
+  const bool by_operator = stopped_ || program_->ended_by() == EndedBy::kOperator;
+  run_test_.finish(failed()      ? GoalEnd::kAborted
+                   : by_operator ? GoalEnd::kPreempted
+                                 : GoalEnd::kSucceeded,
+                   result, text);
 }
 
 void UtmNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
@@ -100,6 +129,7 @@ void UtmNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.summary(DiagnosticStatus::OK, states[static_cast<int>(state_)]);
   }
   status.add("test", run_);
+  if (drawn_.size() > 1) status.addf("specimen", "%zu of %zu", specimen_ + 1, drawn_.size());
   status.add("phase", phase_name(program_ ? program_->phase() : Phase::kIdle));
   status.add("time [s]", sample_.time);
   status.add("real-time factor", factor_);

@@ -21,26 +21,17 @@ bool accept(std_srvs::Trigger::Response& response, const std::string& what) {
 
 }  // namespace
 
-std::string UtmNode::start_if_possible() {
-  // What is told in the same breath as this request: the last goal gets the result of its own test.
-  if (state_ == State::kEnded && all_is_recorded()) finish_goal();
-  if (active()) return "a test is running";
-  if (longest_step_ <= 0.0) return "there is no specimen yet";
-  if (run_ > 0 && !all_is_recorded()) return "the last test is still being recorded";
-  start();
-  return "";
-}
-
 bool UtmNode::on_start(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  const std::string why_not = start_if_possible();
+  const std::string why_not = start_if_possible(0);
   if (!why_not.empty()) return refuse(response, why_not);
   return accept(response, "test " + std::to_string(run_) + " is running");
 }
 
 bool UtmNode::on_stop(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  if (!active()) return refuse(response, "no test is running");
-  program_->stop();
-  return accept(response, "the test ends");
+  const bool between_two = state_ == State::kEnded && another_follows();
+  if (!active() && !between_two) return refuse(response, "no test is running");
+  stop();
+  return accept(response, drawn_.size() > 1 ? "the test ends, and its batch with it" : "the test ends");
 }
 
 bool UtmNode::on_balance(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {

@@ -78,7 +78,7 @@ int WatchNode::spin() {
 }
 
 void WatchNode::on_recorder(const RecorderStatus::ConstPtr& status) {
-  if (status->run > 0) folder_ = one_line(status->directory);
+  if (status->run > 0) folder_ = one_line(status->batch.empty() ? status->directory : status->batch);
 }
 
 std::optional<WatchNode::Processes> WatchNode::ask_launch() const {

@@ -134,8 +134,15 @@ std::string specimen_folder(const std::string& folder, int number) {
   return (fs::path(folder) / name.data()).string();
 }
 
+std::vector<Rejected> write_batch_tables(const std::string& folder, const std::vector<DrawnSpecimen>& tested) {
+  const BatchTable table(folder, tested);
+  write_whole((fs::path(folder) / "specimens.csv").string(), table.csv());
+  write_whole(statistics_file(folder), table.statistics());
+  return table.rejected();
+}
+
 BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
-  if (options.resume && fs::exists(statistics_file(options.folder)))
+  if (options.resume && fs::exists(statistics_file(options.folder)) && !holds_unfinished_run(options.folder))
     throw InvalidInput::sentence("--resume", options.folder,
                                  "cannot resume " + shown(options.folder) + ": all of its specimens have been tested");
   const std::vector<DrawnSpecimen> specimens = draw_specimens(method);
@@ -152,10 +159,7 @@ BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
   out.interrupted = tests.interrupted();
   if (!tests.fault().empty()) throw std::runtime_error(tests.fault());
   if (out.interrupted) return out;
-  const BatchTable table(claimed.folder, specimens);
-  out.rejected = table.rejected();
-  write_whole((fs::path(claimed.folder) / "specimens.csv").string(), table.csv());
-  write_whole(statistics_file(claimed.folder), table.statistics());  // the last: where it is, all is
+  out.rejected = write_batch_tables(claimed.folder, specimens);
   claimed.journal.remove();
   return out;
 }

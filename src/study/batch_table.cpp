@@ -35,6 +35,7 @@ std::string word(const YAML::Node& results, const char* key) {
 std::string why_rejected(const std::string& ended_by, const std::string& reason) {
   if (ended_by == ended_by_name(EndedBy::kSolver)) return "the physics gave up: " + reason;
   if (ended_by == ended_by_name(EndedBy::kUntangled)) return "the knot came undone before it was pulled";
+  if (ended_by == ended_by_name(EndedBy::kOperator)) return "the operator stopped the test";
   return "";
 }
 

@@ -33,38 +33,41 @@ void check_fits(const Method& method) {
 
 }  // namespace
 
-std::vector<DrawnSpecimen> draw_specimens(const Method& method) {
+DrawnSpecimen draw_specimen(const Method& method, int number) {
   const SpecimensOptions& specimens = method.specimens;
   Method one = method;
   one.specimens = {};
   one.specimens.scatter.clear();
-  const std::string text = method_yaml(one);
-  std::vector<DrawnSpecimen> out;
-  std::vector<double> nominal;
-  for (const Scatter& scatter : specimens.scatter) nominal.push_back(number_at(method, scatter.key).value());
-  for (int number = 1; number <= specimens.count; ++number) {
-    DrawnSpecimen specimen;
-    specimen.number = number;
-    std::vector<std::string> overrides;
-    for (std::size_t i = 0; i < nominal.size(); ++i) {
-      const Scatter& scatter = specimens.scatter[i];
-      const double value =
-          drawn(nominal[i], scatter, sequence_of(specimens.seed, static_cast<std::uint64_t>(number), scatter.key));
-      specimen.drawn.emplace_back(scatter.key, value);
-      overrides.push_back(scatter.key + "=" + format_yaml_number(value));
-    }
-    overrides.push_back(kNoise + ("=" + std::to_string(noise_run(specimens.seed, number))));
-    try {
-      specimen.method = parse_method(text, method.name + ".yaml", overrides);
-      check_fits(specimen.method);
-    } catch (const InvalidInput& invalid) {
-      throw InvalidInput::sentence("specimens", std::to_string(number),
-                                   "specimen " + std::to_string(number) + " of " + std::to_string(specimens.count) +
-                                       " cannot be made: " + invalid.what());
-    }
-    out.push_back(std::move(specimen));
+  DrawnSpecimen specimen;
+  specimen.number = number;
+  std::vector<std::string> overrides;
+  for (const Scatter& scatter : specimens.scatter) {
+    const double nominal = number_at(method, scatter.key).value();
+    const double value =
+        drawn(nominal, scatter, sequence_of(specimens.seed, static_cast<std::uint64_t>(number), scatter.key));
+    specimen.drawn.emplace_back(scatter.key, value);
+    overrides.push_back(scatter.key + "=" + format_yaml_number(value));
   }
+  overrides.push_back(kNoise + ("=" + std::to_string(noise_run(specimens.seed, number))));
+  try {
+    specimen.method = parse_method(method_yaml(one), method.name + ".yaml", overrides);
+    check_fits(specimen.method);
+  } catch (const InvalidInput& invalid) {
+    throw InvalidInput::sentence("specimens", std::to_string(number),
+                                 "specimen " + std::to_string(number) + " of " + std::to_string(specimens.count) +
+                                     " cannot be made: " + invalid.what());
+  }
+  return specimen;
+}
+
+std::vector<DrawnSpecimen> draw_specimens(const Method& method) {
+  std::vector<DrawnSpecimen> out;
+  for (int number = 1; number <= method.specimens.count; ++number) out.push_back(draw_specimen(method, number));
   return out;
+}
+
+Method method_of_specimen(const Method& method, int number) {
+  return method.specimens.count > 1 ? draw_specimen(method, number).method : method;
 }
 
 }  // namespace knot_utm

@@ -49,7 +49,7 @@ class KilledRecorderTest(unittest.TestCase):
 
     def launch(self, name, **arguments):
         self.out = os.path.join(self.folder, name)
-        launch = OwnLaunch(method=METHOD, out=self.out, **arguments)
+        launch = OwnLaunch(**dict({'method': METHOD, 'out': self.out}, **arguments))
         self.addCleanup(launch.stop)
         return launch
 
@@ -100,6 +100,22 @@ class KilledRecorderTest(unittest.TestCase):
         self.assertEqual(said.count('goes on with'), 3)
         self.assert_same_as_headless()
         self.assertIn(b'ended_by: program\n', content(self.out, 'result.yaml'))
+
+    def test_another_one_goes_on_with_a_batch(self):
+        method = os.path.join(os.path.dirname(METHOD), 'batch.yaml')
+        headless = os.path.join(self.folder, 'headless_batch')
+        subprocess.run([executable('tensile_test'), method, '--out', headless, '--quiet'], check=True)
+        launch = self.launch('batch', respawn='true', method=method, real_time_factor='0.5')
+        wait_until('the second specimen is tested', lambda: self.rows('specimen_002/curve.csv') >= 5)
+        before = launch.kill('recorder_node')
+        wait_until('another recorder', lambda: launch.pid('recorder_node') not in (None, before))
+        self.assertEqual(launch.end().count('goes on with'), 1)
+        for name in CURVES:
+            for specimen in 'specimen_001', 'specimen_002', 'specimen_003':
+                file = os.path.join(specimen, name)
+                self.assertEqual(content(self.out, file), content(headless, file), file)
+        self.assertEqual(content(self.out, 'statistics.yaml'), content(headless, 'statistics.yaml'))
+        self.assertFalse(self.has('journal'))
 
     def test_started_anew_after_the_end_it_leaves_the_files_alone(self):
         launch = self.launch('after', respawn='true', real_time_factor='0', exit_at_end='false')

@@ -8,14 +8,11 @@ import signal
 import subprocess
 import sys
 import tempfile
-import threading
-import time
 import unittest
 import xmlrpc.client
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 
-import actionlib
 import rospkg
 import rospy
 import rostest
@@ -23,7 +20,8 @@ from actionlib_msgs.msg import GoalStatus
 from catkin.find_in_workspaces import find_in_workspaces
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from dynamic_reconfigure.client import Client
-from knot_utm.msg import ColorBar, KnotState, RunTestAction, RunTestGoal, TestStatus
+from goal import Goal, start
+from knot_utm.msg import ColorBar, KnotState, TestStatus
 from node_test import LAST_RESORT, Latest, call
 from own_launch import wait_until
 from rosgraph_msgs.msg import Clock, Log
@@ -31,50 +29,6 @@ from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
 
 OUT = '/tmp/knot_utm_run_test'
-
-
-class Goal:
-    """One goal of the action, and what is heard of it."""
-
-    def __init__(self):
-        self.client = actionlib.SimpleActionClient('utm/run_test', RunTestAction)
-        self.client.wait_for_server()
-        self.feedback = []
-        self._heard = threading.Event()
-        self.client.send_goal(RunTestGoal(), feedback_cb=self._take)
-
-    def _take(self, feedback):
-        self.feedback.append(feedback)
-        self._heard.set()
-
-    def wait_for_feedback(self):
-        self._heard.clear()
-        if not self._heard.wait(LAST_RESORT):
-            raise AssertionError('no feedback: ' + self.client.get_goal_status_text())
-        return self.feedback[-1]
-
-    def wait(self):
-        """State, result and text at the end."""
-        end = time.monotonic() + LAST_RESORT
-        while not self.client.wait_for_result(rospy.Duration(0.01)):
-            if time.monotonic() > end:
-                raise AssertionError('the goal goes on')
-            time.sleep(0.01)
-        return self.client.get_state(), self.client.get_result(), self.client.get_goal_status_text()
-
-
-def start():
-    """A goal that runs: the physics may not be there yet."""
-    end = time.monotonic() + LAST_RESORT
-    while True:
-        goal = Goal()
-        while goal.client.get_state() == GoalStatus.PENDING and time.monotonic() < end:
-            time.sleep(0.01)
-        if goal.client.get_state() == GoalStatus.ACTIVE:
-            return goal
-        if time.monotonic() > end:
-            raise AssertionError(goal.client.get_goal_status_text())
-        time.sleep(0.2)
 
 
 def process(node):

@@ -86,6 +86,11 @@ TEST_F(Batch, InterruptedAndResumedItLeavesTheSameStatistics) {
   EXPECT_FALSE(has_complete_result(specimen_folder(options.folder, 5)));
   const fs::file_time_type first = fs::last_write_time(specimen_folder(options.folder, 1) + "/curve.csv");
 
+  // Under ROS the tables are written after each test.
+  write_batch_tables(options.folder, {draw_specimen(method, 1), draw_specimen(method, 2)});
+  EXPECT_EQ(statistics()["specimens"].as<int>(), 2);
+  EXPECT_EQ(statistics()["peak_force"]["n"].as<int>(), 2);
+
   options.interrupted = [] { return false; };
   options.resume = true;
   const Method again = load_method(options.folder + "/method.yaml");

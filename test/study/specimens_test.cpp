@@ -31,6 +31,23 @@ std::string refused(const std::string& method, const std::vector<std::string>& o
   return "";
 }
 
+TEST(Specimens, OneIsDrawnAsAmongAllOthers) {
+  const Method method = straight("{count: 3, scatter: {specimen.length: {normal: 0.02}}}");
+  const std::vector<DrawnSpecimen> all = draw_specimens(method);
+  for (const int number : {3, 1}) {
+    const DrawnSpecimen one = draw_specimen(method, number);
+    EXPECT_EQ(one.number, number);
+    EXPECT_EQ(one.drawn, all[static_cast<std::size_t>(number - 1)].drawn);
+    EXPECT_EQ(method_yaml(one.method), method_yaml(all[static_cast<std::size_t>(number - 1)].method));
+    EXPECT_EQ(method_yaml(method_of_specimen(method, number)), method_yaml(one.method));
+  }
+}
+
+TEST(Specimens, OneAloneHasTheValuesOfTheMethod) {
+  const Method method = straight("{count: 1, scatter: {specimen.length: {normal: 0.02}}}");
+  EXPECT_EQ(method_yaml(method_of_specimen(method, 1)), method_yaml(method));
+}
+
 /// The standard error of a standard deviation over n normal readings is its 1/sqrt(2 n)-th part, that of the mean the
 /// 1/sqrt(n)-th; three of them, which the fixed seed keeps. Leaving out what is beyond 3 standard deviations takes 1.3
 /// % of the standard deviation.

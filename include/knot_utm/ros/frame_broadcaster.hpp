@@ -13,6 +13,9 @@ class FrameBroadcaster {
  public:
   FrameBroadcaster(const Vec3& lower_grip, double end_to_end);
 
+  /// Begins a new specimen, whose grips may have other places.
+  void begin(const Vec3& lower_grip, double end_to_end);
+
   /// Publishes the moving frames, once for each stamp, because tf2 warns of repeated ones. `looks`: the camera
   /// positions; null where nobody views them.
   void publish(const ros::Time& stamp, double displacement, const Vec3& upper_grip, const Looks* looks);

@@ -14,6 +14,7 @@
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/ros/batch_place.hpp"
 #include "knot_utm/ros/frame_broadcaster.hpp"
 #include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/shown_state.hpp"
@@ -25,8 +26,9 @@ namespace knot_utm {
 
 /// The simulation as a node. It answers each command with the state of the same sequence number and stamp. A command
 /// that it has already answered gets the same answer again, so that a lost message never repeats a step. Command 0 of a
-/// new test begins with a new specimen. A command out of order (as when the specimen was reset during a test), or one
-/// that no program can give, is answered with a failure. Only commands of the machine's node are accepted.
+/// new test begins with a new specimen, drawn as the test's place in its batch says (batch_place.hpp). A command out of
+/// order (as when the specimen was reset during a test), or one that no program can give, is answered with a failure.
+/// Only commands of the machine's node are accepted.
 class KnotNode {
  public:
   /// Number of answers that are kept, to be sent again on request. The recorder may be behind by this number of
@@ -42,7 +44,8 @@ class KnotNode {
   void on_view_timer(const ros::SteadyTimerEvent& event);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  void new_specimen();
+  void put_in(const BatchPlace& place);  ///< puts in a new specimen
+  void begin_specimen();
   CrossheadLimits limits() const;
   void answer(const Crosshead& message);
   void refuse(const Crosshead& message, const std::string& why);
@@ -52,7 +55,9 @@ class KnotNode {
   void publish_markers();
 
   ros::NodeHandle node_;
-  Method method_;
+  Method described_;  ///< method of all specimens
+  BatchPlace place_;  ///< of the present specimen
+  Method method_;     ///< method of the present specimen
   TestingMachine machine_;
   std::uint32_t run_ = 0;                           ///< number of the present test; 0: there is none
   std::uint64_t next_ = 0;                          ///< sequence number of the next command

@@ -64,6 +64,11 @@ class ScenePicture {
   void begin(const Points& points);  ///< begins a new specimen and places its gauge marks
   void color_by(ColorBy what) { color_by_ = what; }
   void show_contacts(bool shown) { show_contacts_ = shown; }
+  /// Shows what another picture shows.
+  void show_as(const ScenePicture& other) {
+    color_by_ = other.color_by_;
+    show_contacts_ = other.show_contacts_;
+  }
 
   /// The scale of the rod's colours as they are shown now.
   const ColorScale& scale() const { return color_by_ == ColorBy::kTension ? tension_ : curvature_; }

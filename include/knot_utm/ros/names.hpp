@@ -42,7 +42,11 @@ inline constexpr char kSave[] = "recorder/save";
 inline constexpr char kRunTest[] = "utm/run_test";  ///< RunTest: one test, from its start until all of it is recorded
 
 // Parameters that the nodes set
-inline constexpr char kTestId[] = "test/id";            ///< set by utm_node: identifies this utm_node among all others
+inline constexpr char kTestId[] = "test/id";  ///< set by utm_node: identifies this utm_node among all others
+/// set by utm_node: which specimen of which number of specimens a test takes, {number: 2, count: 8}
+inline constexpr char kBatchPlace[] = "test/specimen";
+/// set by recorder_node: the id of a batch's first test, a space, the batch's folder
+inline constexpr char kFolderOfBatch[] = "test/batch_folder";
 inline constexpr char kFolderOfTest[] = "test/folder";  ///< set by recorder_node: a test's id, a space, its folder
 /// set by each node, below this name; -1: it runs, or was killed
 inline constexpr char kExitCodes[] = "test/exit_codes";

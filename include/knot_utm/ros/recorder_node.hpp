@@ -15,10 +15,12 @@
 
 #include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/run_writer.hpp"
+#include "knot_utm/ros/batch_place.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/keeper.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/recorded_batch.hpp"
 #include "knot_utm/ros/run_bag.hpp"
 
 namespace knot_utm {
@@ -26,7 +28,8 @@ namespace knot_utm {
 /// Writes every command and its answer in order, with the same code as tests without ROS. For a missing record it
 /// waits, because the machine asks for it again. A record that does not come is counted as dropped. A test goes to the
 /// given folder or, where that holds a run, to the first free one beside it with the suffix "-2", "-3" and so on. The
-/// service recorder/save writes result.yaml as of now, and saved.bag, the bag so far.
+/// specimens of a batch go to the folder of the batch (recorded_batch.hpp). The service recorder/save writes
+/// result.yaml as of now, and saved.bag, the bag so far.
 ///
 /// A record is acknowledged once it is in the journal. A recorder that is restarted during a test continues from the
 /// journal of that test, because the machine and the simulation keep what is not acknowledged. The files are then the
@@ -44,8 +47,9 @@ class RecorderNode {
 
   /// The test that is being written.
   struct Run {
-    Run(const std::string& folder_, const Method& method, JournalWriter journal_);
+    Run(const std::string& folder_, const Method& method_, JournalWriter journal_);
     std::string folder;
+    Method method;
     JournalWriter journal;
     RunWriter writer;
     RunBag bag;
@@ -68,7 +72,12 @@ class RecorderNode {
   bool on_save(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
   void begin_run(const Crosshead& first);
-  std::string folder_before() const;  ///< folder to which an earlier recorder wrote the test; empty: there was none
+  void begin_batch(const std::string& id);
+  void conclude_batch();                            ///< writes the tables of the batch
+  std::string id_of_test(std::uint32_t run) const;  ///< unique among all machines; empty: not known
+  /// The folder that an earlier recorder told by this parameter for this id; empty: none.
+  std::string told_folder(const char* parameter, const std::string& id) const;
+  static ClaimedFolder claim(const std::string& asked, const Method& method, const std::string& test);
   bool go_on(const std::string& folder);
   void watch(const std::string& folder);
   void write(const KnotRecord& record);
@@ -91,6 +100,9 @@ class RecorderNode {
   Keeper& keeper_;
   std::uint32_t run_number_ = 0;
   std::string test_id_;                 ///< unique id of the test that is being written; empty: not known
+  BatchPlace place_;                    ///< of the test that is being written
+  std::optional<RecordedBatch> batch_;  ///< empty: the test stands alone
+  std::string batch_id_;                ///< id of the first test of the batch
   std::unique_ptr<Run> run_;            ///< null before the first record
   bool completed_before_ = false;       ///< an earlier recorder has completed the test
   TestStatus test_;                     ///< the latest

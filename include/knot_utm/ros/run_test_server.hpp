@@ -4,22 +4,26 @@
 #include <knot_utm/RunTestAction.h>
 #include <ros/ros.h>
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 
-#include "knot_utm/machine/program_runner.hpp"
-
 namespace knot_utm {
 
-/// The server of the action utm/run_test. A goal is one test, from its start until its last file is complete. The
-/// server itself starts nothing: the machine runs one test at a time, and stops it where the goal is cancelled.
+/// How a goal ends.
+enum class GoalEnd { kSucceeded, kPreempted, kAborted };
+
+/// The server of the action utm/run_test. A goal is one test, or a batch, from its start until its last file is
+/// complete. The server itself starts nothing: the machine runs one test at a time, and stops it where the goal is
+/// cancelled.
 class RunTestServer {
  public:
   /// What a goal needs of the machine.
   struct Machine {
-    std::function<std::string()> start;  ///< starts a test; returns why it cannot, empty: it runs
-    std::function<void()> stop;          ///< stops the test, as an operator does
+    /// Starts tests of `count` specimens (0: as many as the method says). Returns why it cannot; empty: the first runs.
+    std::function<std::string(std::uint32_t count)> start;
+    std::function<void()> stop;  ///< stops the test, as an operator does
   };
 
   RunTestServer(const ros::NodeHandle& node, Machine machine);
@@ -29,9 +33,8 @@ class RunTestServer {
   /// Sends feedback to the client whose goal runs.
   void report(const RunTestFeedback& feedback);
 
-  /// Ends the goal. Its state is aborted where the test `failed`, preempted where the test was stopped by an operator
-  /// or by cancelling, and succeeded otherwise.
-  void finish(EndedBy ended_by, bool failed, const RunTestResult& result);
+  /// Ends the goal; its client gets `text` beside the result.
+  void finish(GoalEnd end, const RunTestResult& result, const std::string& text);
 
  private:
   using Server = actionlib::ActionServer<RunTestAction>;

@@ -7,6 +7,7 @@
 #include <knot_utm/MachineConfig.h>
 #include <knot_utm/RecorderStatus.h>
 #include <knot_utm/SpecimenInfo.h>
+#include <knot_utm/TestOutcome.h>
 #include <knot_utm/TestStatus.h>
 #include <ros/ros.h>
 #include <std_srvs/Trigger.h>
@@ -19,6 +20,7 @@
 
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/program_runner.hpp"
+#include "knot_utm/ros/batch_place.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/run_test_server.hpp"
@@ -39,6 +41,10 @@ struct UtmOptions {
 /// arrived. A command that is not answered (or, with `record`, not recorded) is sent again, so that nodes may join late
 /// and messages may be lost. If the connection to the simulation breaks, the simulation has died, and the test ends as
 /// it does where the simulation gives up. A slow simulation is waited for.
+///
+/// The specimens of a batch are tested one after the other, each when all of the one before is recorded. A batch ends
+/// early where an operator stops it, the connection to the simulation breaks, or the recorder fails. Where the
+/// simulation gives up on a specimen, the next one is tested.
 class UtmNode {
  public:
   static constexpr double kStatusPeriod = 0.2;  ///< wall time between two status messages [s]
@@ -48,8 +54,8 @@ class UtmNode {
 
   UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOptions& options);
 
-  /// Runs until ROS is shut down or, with `exit_at_end`, until the test has ended. Returns the exit code of the node: 1
-  /// where the simulation or the recorder failed.
+  /// Runs until ROS is shut down or, with `exit_at_end`, until the test or the batch has ended. Returns the exit code
+  /// of the node: 1 where the simulation failed on all specimens, or the recorder failed.
   int spin();
 
  private:
@@ -71,8 +77,13 @@ class UtmNode {
   bool recorder_keeps_up() const;
   bool all_is_recorded() const;
   bool may_advance() const;
-  std::string start_if_possible();  ///< returns why it cannot; empty: the test runs
-  void start();
+  std::string start_if_possible(std::uint32_t count);  ///< returns why it cannot; empty: the test runs
+  void draw_specimens(int count);                      ///< draws those of a new batch
+  bool start(std::size_t specimen);  ///< starts a test; false, and changes nothing, where the master does not answer
+  void stop();                       ///< stops the test and its batch
+  bool another_follows() const;      ///< whether another test of the batch follows the present one
+  void see_to_the_next();            ///< once a test is recorded: starts the next one, or ends the batch
+  bool failed() const;
   void pause(bool paused);
   void advance();
   void send(const Command& command);
@@ -83,6 +94,7 @@ class UtmNode {
   void publish_clock(bool at_once);
   void publish_status();
   void report_to_goal(const TestStatus& status);
+  TestOutcome outcome() const;
   void finish_goal();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
   void set_pace(MachineConfig& wanted);
@@ -91,7 +103,13 @@ class UtmNode {
   ros::NodeHandle node_;
   Method method_;
   UtmOptions options_;
-  double longest_step_ = 0.0;             ///< longest time step of the simulation [s]; 0: there is no specimen yet
+  bool has_specimen_ = false;             ///< whether the simulation holds one
+  bool physics_died_ = false;             ///< during this test
+  std::vector<Method> drawn_;             ///< methods of the specimens of this batch; a test alone has one
+  std::vector<TestOutcome> outcomes_;     ///< tests of this batch that have ended and are recorded
+  std::size_t specimen_ = 0;              ///< index of the present one
+  int good_tests_ = 0;                    ///< tests of this batch in which the simulation did not fail
+  bool stopped_ = false;                  ///< whether an operator stopped the batch
   std::optional<ProgramRunner> program_;  ///< program of this test
   State state_ = State::kIdle;
   std::uint32_t run_ = 0;
@@ -107,8 +125,9 @@ class UtmNode {
   std::uint64_t recorded_ = 0;        ///< all commands before this sequence number are recorded
   bool recorder_complete_ = false;
   bool recorder_failed_ = false;
-  std::string directory_;  ///< folder of the recorder's files
-  ros::Time now_;          ///< time on /clock
+  std::string directory_;        ///< folder of the recorder's files
+  std::string batch_directory_;  ///< folder of the batch; empty: the test stands alone
+  ros::Time now_;                ///< time on /clock
   TopicWarning odd_specimen_{names::kSpecimen};
 
   Clock::time_point due_;   ///< time at which the next command may be sent

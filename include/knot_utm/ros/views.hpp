@@ -33,22 +33,20 @@ struct Camera {
 
 /// A point that is viewed, and the position of the camera.
 struct Look {
-  Vec3 at, from;  ///< [m]
+  Vec3 at = Vec3::Zero(), from = Vec3::Zero();  ///< [m]
 };
 
 struct Looks {
   Look machine, knots, lower_knot, upper_knot;
 };
 
-/// Chooses the views of a test, and of the tests that follow it. The view of the machine contains everything that was
+/// Chooses the views of a test. The view of the machine contains everything that was
 /// visible since the specimen was made, released or mounted; from mounting on the camera only moves away. The views of
 /// the knots follow them with a delay.
 class Views {
  public:
   Views(const SpecimenOptions& specimen, const MachineOptions& machine, const Material& material)
       : bodies_(grip_bodies(specimen, machine, material)), radius_(material.radius) {}
-
-  void begin() { seen_ = false; }  ///< begins a new specimen
 
   Looks look(const Points& points, const Vec3& lower_grip, const Vec3& upper_grip, const Sample& sample);
 

@@ -7,6 +7,7 @@
 #include "knot_utm/analysis/statistics.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/study/headless_run.hpp"
+#include "knot_utm/study/specimens.hpp"
 
 namespace knot_utm {
 
@@ -41,11 +42,16 @@ struct BatchOutcome {
 /// The folder of a specimen within that of its batch: FOLDER/specimen_001 for number 1.
 std::string specimen_folder(const std::string& folder, int number);
 
+/// Writes specimens.csv, with one row for each specimen that has been tested, and statistics.yaml into the folder of a
+/// batch. The statistics leave out the readings of rejected specimens, which are returned. A test is rejected if the
+/// simulation gave up, if the knot came undone before it was pulled, or if an operator stopped it. Throws
+/// std::runtime_error where a file cannot be written.
+std::vector<Rejected> write_batch_tables(const std::string& folder, const std::vector<DrawnSpecimen>& tested);
+
 /// Tests all specimens of a method. For each it writes the files of a single test into a folder of its own. Then it
-/// writes specimens.csv, with one row for each specimen, and statistics.yaml. Both have the same bytes however many
-/// specimens were tested at the same time. A test is rejected if the simulation gave up or the knot came undone before
-/// it was pulled; the statistics leave its readings out. Throws InvalidInput, before anything is written, where a
-/// specimen would be refused. Throws std::runtime_error where a file cannot be written; the batch can then be resumed.
+/// writes its tables, as write_batch_tables does. They have the same bytes however many specimens were tested at the
+/// same time. Throws InvalidInput, before anything is written, where a specimen would be refused. Throws
+/// std::runtime_error where a file cannot be written; the batch can then be resumed.
 BatchOutcome run_batch(const Method& method, const BatchOptions& options);
 
 }  // namespace knot_utm

@@ -15,9 +15,17 @@ struct DrawnSpecimen {
   Method method;                                      ///< method of this specimen alone
 };
 
-/// Draws the values of all specimens of a method, as `Method::specimens` says. The values of a specimen depend only on
-/// the seed, its number and the key, so neither a larger count nor a further key changes them. All specimens are tested
-/// with one load cell, whose noise is different for each. Throws InvalidInput where a drawn method would be refused.
+/// Draws the values of one specimen of a method, as `Method::specimens` says. They depend only on the seed, the number
+/// of the specimen (from 1) and the key, so neither a larger count nor a further key changes them. All specimens are
+/// tested with one load cell, whose noise is different for each. Throws InvalidInput where the drawn method would be
+/// refused.
+DrawnSpecimen draw_specimen(const Method& method, int number);
+
+/// Draws all specimens of a method.
 std::vector<DrawnSpecimen> draw_specimens(const Method& method);
+
+/// The method by which specimen `number` is tested. One specimen alone does not scatter: it has the method's own
+/// values.
+Method method_of_specimen(const Method& method, int number);
 
 }  // namespace knot_utm

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A whole test program, up to the break of the rod: live, the files are those of the headless tool."""
+"""Whole tests, launched as a user does it: a program up to the break of the rod, and a batch."""
 import os
 import sys
 import unittest
@@ -9,6 +9,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..
 from launched import ROOT, Headless, Launch
 
 PROGRAM = os.path.join(ROOT, 'test/ros/whole_program.yaml')
+BATCH = os.path.join(ROOT, 'test/ros/batch.yaml')
 
 
 class ProgramTest(unittest.TestCase):
@@ -19,6 +20,12 @@ class ProgramTest(unittest.TestCase):
             self.assertEqual(launch.result('ended_by'), 'break', launch.console())
             self.assertIn('the rod parted', launch.result('reason'))
             self.assertEqual(headless.different(launch.out), ([], []))
+
+    def test_a_batch_ends_with_its_statistics(self):
+        with Launch('method:=' + BATCH, 'rviz:=false', 'real_time_factor:=0',
+                    command=[os.path.join(ROOT, 'scripts/tighten')]) as launch:
+            self.assertEqual(launch.end(), 0, launch.console())
+            self.assertIn('/out/statistics.yaml:\nspecimens: 3\nrejected: []\n', launch.console())
 
 
 if __name__ == '__main__':

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <ros/node_handle.h>
+
+#include <string>
+
+#include "knot_utm/io/method.hpp"
+
+namespace knot_utm {
+
+/// Which specimen of a batch a test takes. utm_node sets it as a parameter before the first command of each test, and
+/// the other nodes read it when that command arrives.
+struct BatchPlace {
+  int number = 1;  ///< of the specimen, from 1
+  int count = 1;   ///< specimens of the batch; 1: the test stands alone
+
+  bool alone() const { return count == 1; }
+  /// "specimen 2 of 8"
+  std::string text() const;
+  friend bool operator==(const BatchPlace& a, const BatchPlace& b) {
+    return a.number == b.number && a.count == b.count;
+  }
+};
+
+/// Sets the parameter. False where the ROS master does not answer.
+bool set_batch_place(const ros::NodeHandle& node, const BatchPlace& place);
+
+/// Reads the parameter; where it is not set, the test stands alone. Throws InvalidInput where it is none that utm_node
+/// sets.
+BatchPlace batch_place(const ros::NodeHandle& node);
+
+/// The method of a batch of this many specimens.
+Method method_of_batch(const Method& method, int count);
+
+}  // namespace knot_utm
