@@ -200,8 +200,55 @@ class Ros(unittest.TestCase):
                 self.assertTrue(f"`~{name}` (dynamic)" in self.page, name)
 
 
+class LoadsOfIso2307(unittest.TestCase):
+    """The reference tension is d^2/8 daN, d in mm, and the cycles go to half of the breaking force, of each rope its own."""
+
+    def loads(self, name):
+        material = yaml.safe_load(text(f"config/materials/{name}.yaml"))
+        return [round(10.0 * (2e3 * material["radius"]) ** 2 / 8.0), 0.5 * material["breaking_force"]]
+
+    def test_the_method_has_those_of_its_material(self):
+        method = yaml.safe_load(text("config/standards/iso_2307_bedding.yaml"))
+        steps = {name: keys for step in method["program"] for name, keys in step.items()}
+        self.assertEqual(steps["cycle"]["load"], self.loads(method["material"]))
+        self.assertEqual(steps["preload"]["load"], steps["cycle"]["load"][0])
+
+    def test_the_page_has_those_of_the_other_ropes(self):
+        page = text("doc/standards.md")
+        section = page[page.index("## ISO 2307 with another rope"):page.index("## What was checked")]
+        table = {name: [float(cell) for cell in found[0][1:]] for name, found in rows(section).items()}
+        for name, (diameter, breaking_force, *loads) in table.items():
+            material = yaml.safe_load(text(f"config/materials/{name}.yaml"))
+            self.assertEqual([diameter / 2e3, breaking_force], [material["radius"], material["breaking_force"]], name)
+            self.assertEqual(loads, self.loads(name), name)
+        self.assertGreaterEqual(set(table), {"nylon", "polypropylene", "polyester_cord"})
+
+    def test_the_example_has_those_of_its_material(self):
+        for document in ("doc/standards.md", "config/standards/iso_2307_bedding.yaml"):
+            found = re.search(r"--set material=(\w+)[\s\S]*?preload\.load=(\d+)[\s\S]*?cycle\.load=\[(\d+), (\d+)\]",
+                              text(document))
+            self.assertEqual([float(load) for load in found.groups()[1:]],
+                             [self.loads(found[1])[0], *self.loads(found[1])], document)
+
+
+# What PlotJuggler reads of a layout, and what the plugins of rqt read of a perspective: element or plugin, attributes or keys.
+PLOTJUGGLER = {
+    "root": set(), "tabbed_widget": {"name", "parent"}, "Tab": {"tab_name", "containers"}, "Container": set(),
+    "DockSplitter": {"orientation", "sizes", "count"}, "DockArea": {"name"}, "limitY": {"min", "max"},
+    "plot": {"style", "mode", "flip_x", "flip_y"}, "curve": {"name", "color", "curve_x", "curve_y"},
+    "currentTabIndex": {"index"}, "use_relative_time_offset": {"enabled"}, "streaming_buffer_size": {"value"},
+    "Plugins": set(), "plugin": {"ID"}, "previouslyLoaded_Datafiles": set(), "previouslyLoaded_Streamer": {"name"},
+    "customMathEquations": set(), "snippets": set()}
+TOPIC_SUBSCRIBER = {"use_header_stamp", "discard_large_arrays", "max_array_size", "boolean_strings_to_number",
+                    "remove_suffix_from_strings", "selected_topics"}
+RQT = {"plugin__rqt_image_view__ImageView__1": {"topic", "zoom1", "dynamic_range", "max_range", "num_gridlines",
+                                                "publish_click_location", "mouse_pub_topic", "toolbar_hidden",
+                                                "smooth_image", "rotate", "color_scheme"},
+       "plugin__rqt_plot__Plot__1": {"topics", "autoscroll", "plot_type", "x_limits", "y_limits"}}
+
+
 class CurvesInOtherPrograms(unittest.TestCase):
-    """Files for programs that Debian does not have: what they name is there."""
+    """Files for programs that Debian does not have: the programs know every name in them, and what they name is there."""
 
     def exists(self, name):
         topic, _, field = name.strip("/").rpartition("/")
@@ -215,15 +262,41 @@ class CurvesInOtherPrograms(unittest.TestCase):
                        ((topic, re.search(r"(?:knot_utm|sensor_msgs)/(\w+)", line))
                         for line in text("doc/ros.md").splitlines() if line.startswith("|")
                         for topic in re.findall(r"`((?:knot|view)/\w+)`", line)) if of}
+        self.layout = xml.etree.ElementTree.fromstring(text("config/plotjuggler.xml").encode())
+        curves = [curve.attrib for curve in self.layout.iter("curve")]
+        self.over_time = {curve["name"] for curve in curves if "curve_x" not in curve}
+        self.over_another = {curve[key] for curve in curves for key in ("curve_x", "curve_y") if key in curve}
 
     def test_plotjuggler_draws_fields_that_are_there(self):
-        root = xml.etree.ElementTree.fromstring(text("config/plotjuggler.xml").encode())
-        curves = [curve.attrib for curve in root.iter("curve")]
-        names = [curve[key] for curve in curves for key in ("curve_x", "curve_y") if key in curve]
-        names += [curve["name"] for curve in curves if "curve_x" not in curve]
-        self.assertIn("/knot/state/load", names)
-        for name in [*names, *(one.get("value") for one in root.iter("selected_topics"))]:
+        self.assertIn("/knot/state/load", self.over_another)
+        for name in [*self.over_another, *self.over_time, *(one.get("value") for one in self.layout.iter("selected_topics"))]:
             self.assertTrue(self.exists(name), name)
+
+    def test_plotjuggler_has_room_for_each_series_before_the_first_message(self):
+        # It makes an empty series for each curve by its `name`, and drops a curve one of whose series is missing.
+        self.assertLessEqual(self.over_another, self.over_time)
+
+    def test_plotjuggler_knows_every_element_and_attribute(self):
+        for element in self.layout.iter():
+            if element.tag in TOPIC_SUBSCRIBER:
+                self.assertEqual(set(element.attrib), {"value"}, element.tag)
+            else:
+                self.assertLessEqual(set(element.attrib), PLOTJUGGLER[element.tag], element.tag)
+        for plot in self.layout.iter("plot"):
+            self.assertIn(plot.get("mode"), ("XYPlot", "TimeSeries"))
+            self.assertEqual({"curve_x" in curve.attrib for curve in plot.iter("curve")}, {plot.get("mode") == "XYPlot"})
+
+    def test_plotjuggler_finds_a_place_for_every_plot(self):
+        for splitter in self.layout.iter("DockSplitter"):
+            shares = [float(share) for share in splitter.get("sizes").split(";")]
+            self.assertEqual([len(splitter), len(shares)], 2 * [int(splitter.get("count"))])
+            self.assertAlmostEqual(sum(shares), 1.0)
+            self.assertIn(splitter.get("orientation"), ("-", "|"))
+
+    def test_plotjuggler_starts_the_plugin_that_it_has_all_settings_of(self):
+        plugin = self.layout.find("Plugins/plugin")
+        self.assertEqual(plugin.get("ID"), self.layout.find("previouslyLoaded_Streamer").get("name"))
+        self.assertEqual({setting.tag for setting in plugin}, TOPIC_SUBSCRIBER)
 
     def test_rqt_shows_topics_and_fields_that_are_there(self):
         manager = json.loads(text("config/knot_utm.perspective"))["groups"]["pluginmanager"]
@@ -232,6 +305,9 @@ class CurvesInOtherPrograms(unittest.TestCase):
         running = ast.literal_eval(manager["keys"]["running-plugins"]["repr"])
         self.assertEqual({f"plugin__{name.replace('/', '__')}__{number}" for name, numbers in running.items()
                           for number in numbers}, set(of))
+        self.assertEqual(set(of), set(RQT))
+        for plugin, keys in of.items():
+            self.assertLessEqual(set(keys), RQT[plugin], plugin)
         for name in [of["plugin__rqt_image_view__ImageView__1"]["topic"], *of["plugin__rqt_plot__Plot__1"]["topics"]]:
             self.assertTrue(self.exists(name), name)
 
