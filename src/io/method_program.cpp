@@ -43,6 +43,7 @@ Program read_program(const YAML::Node& node, const std::string& file, const fiel
       throw InvalidInput::unknown_name(path, name, listed(steps), steps).in_file(file);
     ProgramStep step = default_step(*phase_named(name), defaults.scale);
     Reader reader(node[i].begin()->second, file, path + "." + name);
+    reader.understand(defaults.loads);
     fields::step(reader, step, defaults.way);
     reader.finish();
     program.push_back(step);

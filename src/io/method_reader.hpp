@@ -9,12 +9,14 @@
 #include <locale>
 #include <optional>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "load_terms.hpp"
 #include "method_fields.hpp"
 
 namespace knot_utm::fields {
@@ -97,6 +99,9 @@ class Reader {
       : map_(map), file_(std::move(file)), path_(std::move(path)), of_(std::move(of)) {
     if (map_.IsDefined() && !map_.IsNull() && !map_.IsMap()) fail_here(map_, "a map of keys and values");
   }
+
+  /// From now on numbers in newtons may be given in these terms.
+  void understand(const LoadTerms& loads) { loads_ = loads; }
 
   void number(const char* key, double& value, const Range& range) {
     const YAML::Node node = take(key);
@@ -197,11 +202,11 @@ class Reader {
   void turns(const char* key, std::optional<TurningPoints>& value, const Range& range) {
     const YAML::Node node = take(key);
     if (!node.IsDefined()) return;
-    const std::string allowed = "a list [low, high] with low below high, each " + number_text(range);
+    const std::string allowed = "a list [low, high] with low below high, each " + number_text(range) + or_term(range);
     if (!node.IsSequence() || node.size() != 2) fail(key, node, allowed);
     double numbers[2];
     for (std::size_t i = 0; i < 2; ++i) {
-      const std::optional<double> number = number_in(node[i]);
+      const std::optional<double> number = number_in(key, node[i], range);
       if (!number || !(*number >= range.min && *number <= range.max)) fail(key, node, allowed);
       numbers[i] = *number;
     }
@@ -213,6 +218,7 @@ class Reader {
   void section(const char* key, Body body) {
     const YAML::Node node = take(key);
     Reader inner(node.IsDefined() ? node : YAML::Node(), file_, path_of(key), of_);
+    inner.loads_ = loads_;
     body(inner);
     inner.finish();
   }
@@ -266,9 +272,25 @@ class Reader {
     return node.IsScalar() ? parse_number(node.Scalar()) : std::nullopt;
   }
 
+  bool takes_terms(const Range& range) const { return loads_ && range.unit == std::string("N"); }
+
+  std::string or_term(const Range& range) const { return takes_terms(range) ? LoadTerms::allowed() : ""; }
+
+  std::optional<double> number_in(const char* key, const YAML::Node& node, const Range& range) const {
+    if (const std::optional<double> number = number_in(node)) return number;
+    if (!takes_terms(range) || !node.IsScalar()) return std::nullopt;
+    try {
+      return loads_->load(node.Scalar());
+    } catch (const std::invalid_argument& why) {
+      throw InvalidInput::sentence(path_of(key), as_given(node),
+                                   path_of(key) + ": cannot take " + as_given(node) + ": " + why.what())
+          .in_file(file_);
+    }
+  }
+
   double checked(const char* key, const YAML::Node& node, const Range& range, const std::string& word) const {
-    const std::optional<double> number = number_in(node);
-    const std::string or_word = word.empty() ? "" : ", or " + word;
+    const std::optional<double> number = number_in(key, node, range);
+    const std::string or_word = or_term(range) + (word.empty() ? "" : ", or " + word);
     if (!number) fail(key, node, number_text(range) + or_word);
     // Written so that not-a-number fails.
     if (!(*number >= range.min && *number <= range.max)) fail(key, node, range_text(range) + or_word);
@@ -280,6 +302,7 @@ class Reader {
   std::string path_;
   std::string of_;
   std::vector<std::string> known_;
+  std::optional<LoadTerms> loads_;
 };
 
 /// Writes the same keys, in the same order, into a map. Values that are not set are left out.

@@ -203,32 +203,17 @@ class Ros(unittest.TestCase):
 class LoadsOfIso2307(unittest.TestCase):
     """The reference tension is d^2/8 daN, d in mm, and the cycles go to half of the breaking force, of each rope its own."""
 
-    def loads(self, name):
-        material = yaml.safe_load(text(f"config/materials/{name}.yaml"))
-        return [round(10.0 * (2e3 * material["radius"]) ** 2 / 8.0), 0.5 * material["breaking_force"]]
-
-    def test_the_method_has_those_of_its_material(self):
-        method = yaml.safe_load(text("config/standards/iso_2307_bedding.yaml"))
-        steps = {name: keys for step in method["program"] for name, keys in step.items()}
-        self.assertEqual(steps["cycle"]["load"], self.loads(method["material"]))
-        self.assertEqual(steps["preload"]["load"], steps["cycle"]["load"][0])
-
-    def test_the_page_has_those_of_the_other_ropes(self):
+    def test_the_page_has_those_of_the_ropes(self):
         page = text("doc/standards.md")
         section = page[page.index("## ISO 2307 with another rope"):page.index("## What was checked")]
         table = {name: [float(cell) for cell in found[0][1:]] for name, found in rows(section).items()}
-        for name, (diameter, breaking_force, *loads) in table.items():
+        for name, numbers in table.items():
             material = yaml.safe_load(text(f"config/materials/{name}.yaml"))
-            self.assertEqual([diameter / 2e3, breaking_force], [material["radius"], material["breaking_force"]], name)
-            self.assertEqual(loads, self.loads(name), name)
+            d, breaking_force = 2e3 * material["radius"], material["breaking_force"]
+            expected = [d, breaking_force, 10.0 * d * d / 8.0, 0.5 * breaking_force]
+            for number, exact in zip(numbers, expected):  # to a tenth
+                self.assertLessEqual(abs(number - exact), 0.0501, name)
         self.assertGreaterEqual(set(table), {"nylon", "polypropylene", "polyester_cord"})
-
-    def test_the_example_has_those_of_its_material(self):
-        for document in ("doc/standards.md", "config/standards/iso_2307_bedding.yaml"):
-            found = re.search(r"--set material=(\w+)[\s\S]*?preload\.load=(\d+)[\s\S]*?cycle\.load=\[(\d+), (\d+)\]",
-                              text(document))
-            self.assertEqual([float(load) for load in found.groups()[1:]],
-                             [self.loads(found[1])[0], *self.loads(found[1])], document)
 
 
 # What PlotJuggler reads of a layout, and what the plugins of rqt read of a perspective: element or plugin, attributes or keys.
