@@ -9,7 +9,7 @@ from matplotlib.ticker import MaxNLocator
 UNPULLED = 0.01, 1.0  # ends of the axes before anything is pulled [m, N]
 WIDTH, HEIGHT, DPI = 430, 786, 100  # of the picture [px, px, px/in]
 BACKGROUND, FAINT, NAME, VALUE = '#26282e', '#4a4d55', '#a9adb7', '#f4f4f6'
-OURS, MEASURED = '#ffc531', '#59d5f2'
+OURS, EARLIER, MEASURED = '#ffc531', '#8d7434', '#59d5f2'
 ROWS = 9  # of the table, at most
 TOP, ROW = 0.972, 0.0365  # of the table, in heights of the picture
 LEFT, RIGHT, UNIT = 0.05, 0.84, 0.865  # where names begin, values end and units begin, in widths of the picture
@@ -34,6 +34,7 @@ class Drawing:
         self._axes = self.figure.add_axes([0.165, 0.235, 0.785, 0.365], facecolor=BACKGROUND)
         self._bar = self.figure.add_axes([0.08, 0.075, 0.84, 0.026])
         self._curve, = self._axes.plot([], [], color=OURS, linewidth=1.8, animated=True, zorder=3)
+        self._earlier, = self._axes.plot([], [], color=EARLIER, linewidth=1.2, animated=True, zorder=1)
         self._now, = self._axes.plot([], [], 'o', color=OURS, markersize=6, animated=True, zorder=4)
         self._measured, = self._axes.plot([], [], color=MEASURED, linewidth=1.4, animated=True, zorder=2)
         self._style()
@@ -63,13 +64,16 @@ class Drawing:
         """The picture as an array of bytes: height, width, red green blue."""
         curve = numpy.array(readings.curve()).reshape(-1, 2)
         measured = numpy.array(readings.measured()).reshape(-1, 2)
-        self._draw_background(numpy.vstack([curve, measured]), len(measured) > 0, readings.bar)
+        earlier = joined(readings.earlier())
+        beside = [line for line, points in ((self._earlier, earlier), (self._measured, measured)) if len(points) > 0]
+        self._draw_background(numpy.vstack([curve, measured, earlier]), beside, readings.bar)
         self.canvas.restore_region(self._background)
         self._fill_table(readings.table())
         self._curve.set_data(1e3 * curve[:, 0], curve[:, 1])
         self._now.set_data(1e3 * curve[-1:, 0], curve[-1:, 1])
         self._measured.set_data(1e3 * measured[:, 0], measured[:, 1])
-        for artist in (self._measured, self._curve, self._now):
+        self._earlier.set_data(1e3 * earlier[:, 0], earlier[:, 1])
+        for artist in (self._earlier, self._measured, self._curve, self._now):
             self._axes.draw_artist(artist)
         for cell in self.cells():
             self.figure.draw_artist(cell)
@@ -92,22 +96,33 @@ class Drawing:
                 cell.set_text(text)
             row[1].set_x(RIGHT if index < len(table) and table[index][2] else 0.95)
 
-    def _draw_background(self, points, compared, bar):
+    def _draw_background(self, points, beside, bar):
+        """beside: the lines that are drawn beside the curve of this test."""
+        points = points[~numpy.isnan(points).any(axis=1)]
         low, high = points.min(axis=0, initial=0.0), points.max(axis=0, initial=0.0)
         limits = [(-limit(-low[i]) if low[i] < -1e-3 * high[i] else 0.0, limit(high[i], UNPULLED[i]))
                   for i in (0, 1)]
-        keep = (limits, compared, bar)
+        keep = (limits, beside, bar)
         if keep == self._kept:
             return
         self._kept = keep
         self._axes.set_xlim(1e3 * limits[0][0], 1e3 * limits[0][1])
         self._axes.set_ylim(*limits[1])
-        if compared and self._axes.get_legend() is None:
-            self._axes.legend([self._curve, self._measured], ['simulated', 'measured'], loc='lower center', ncol=2,
-                              bbox_to_anchor=(0.5, 1.0), frameon=False, labelcolor=NAME, fontsize=9)
+        self._draw_legend(beside)
         self._draw_bar(bar)
         self.canvas.draw()
         self._background = self.canvas.copy_from_bbox(self.figure.bbox)
+
+    def _draw_legend(self, beside):
+        if self._axes.get_legend() is not None:
+            self._axes.get_legend().remove()
+        if not beside:
+            return
+        names = {self._curve: 'simulated' if self._measured in beside else 'this test',
+                 self._earlier: 'earlier tests', self._measured: 'measured'}
+        lines = [self._curve, *beside]
+        self._axes.legend(lines, [names[line] for line in lines], loc='lower center', ncol=3, columnspacing=1.2,
+                          bbox_to_anchor=(0.5, 1.0), frameon=False, labelcolor=NAME, fontsize=9)
 
     def _draw_bar(self, bar):
         self._bar.clear()
@@ -119,6 +134,12 @@ class Drawing:
         self._bar.set_yticks([])
         self._bar.set_xticks(bar.places, ['%g' % tick for tick in bar.ticks])
         self._bar.set_title('%s of the rod [%s]' % (bar.quantity, bar.unit), color=NAME, fontsize=10, pad=6)
+
+
+def joined(curves):
+    """Points of several curves, with a gap behind each."""
+    gap = numpy.full((1, 2), numpy.nan)
+    return numpy.vstack([numpy.empty((0, 2)), *(part for curve in curves for part in (numpy.array(curve), gap))])
 
 
 def shown(axis, text):

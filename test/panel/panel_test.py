@@ -10,11 +10,11 @@ import unittest
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../panel'))
 
 from drawing import HEIGHT, WIDTH, Drawing, limit
-from readings import KEPT, Readings
+from readings import CURVES, KEPT, Readings
 
 
 def state(**fields):
-    return types.SimpleNamespace(**{**dict(time=12.5, phase='pull', motion_pattern='sliding', locked=False,
+    return types.SimpleNamespace(**{**dict(run=1, time=12.5, phase='pull', motion_pattern='sliding', locked=False,
                                            extension=0.0301, load=4.2, knot_distance=0.1021, end_to_end=0.2801),
                                     **fields})
 
@@ -25,10 +25,11 @@ def color_bar(full=5000.0):
                                  places=[0.0, 0.206, 0.412, 0.604, 0.802, 1.0], colors=[color] * 16)
 
 
-def pull(readings, loads, step=1e-3, **fields):
+def pull(readings, loads, step=1e-3, begin=0.0, **fields):
     for i, load in enumerate(loads):
-        readings.take_state(i / 3.0, state(**{'time': i / 3.0, 'extension': step * i, 'load': load, **fields}))
-        readings.take_load(i / 3.0, load)
+        stamp = begin + i / 3.0
+        readings.take_state(stamp, state(**{'time': i / 3.0, 'extension': step * i, 'load': load, **fields}))
+        readings.take_load(stamp, load)
     return readings
 
 
@@ -69,6 +70,20 @@ class ReadingsTest(unittest.TestCase):
         readings = pull(Readings(), [1.0, 2.0, 3.0])
         readings.take_state(0.0, state())
         self.assertEqual(readings.curve(), [])
+
+    def test_another_test_has_a_curve_of_its_own_beside_the_earlier_ones(self):
+        readings = pull(Readings(), [1.0, 2.0])
+        readings.take_load(10.0, 3.0)  # of the second test, before its state
+        readings.take_state(10.0, state(run=2, extension=0.0))
+        self.assertEqual(readings.curve(), [(0.0, 3.0)])
+        self.assertEqual(readings.earlier(), [[(0.0, 1.0), (0.001, 2.0)]])
+
+    def test_the_oldest_curves_are_forgotten(self):
+        readings = Readings()
+        for run in range(1, CURVES + 5):
+            pull(readings, [float(run)], begin=10.0 * run, run=run)
+        self.assertEqual(len(readings.earlier()), CURVES - 1)
+        self.assertEqual(readings.earlier()[-1], [(0.0, CURVES + 3.0)])
 
     def test_the_recorded_curve_begins_where_the_test_is(self):
         readings = Readings()
@@ -121,6 +136,22 @@ class DrawingTest(unittest.TestCase):
         drawing = Drawing()
         drawing.draw(readings)
         self.assertIn('measured', [text.get_text() for text in drawing.texts()])
+        self.assert_legible(drawing)
+
+    def test_with_earlier_tests(self):
+        readings = pull(pull(Readings(), [0.0, 40.0, 20.0]), [0.0, 10.0], begin=10.0, run=2)
+        readings.bar = color_bar()
+        drawing = Drawing()
+        drawing.draw(readings)
+        texts = [text.get_text() for text in drawing.texts()]
+        self.assertIn('earlier tests', texts)
+        self.assertIn('50', texts)  # the axis has room for them
+        self.assert_legible(drawing)
+        for stamp in (20.0, 21.0):
+            readings.take_measured_extension(stamp, 0.001 * stamp)
+            readings.take_measured_load(stamp, 30.0)
+        drawing.draw(readings)
+        self.assertTrue({'simulated', 'earlier tests', 'measured'} <= {text.get_text() for text in drawing.texts()})
         self.assert_legible(drawing)
 
     def test_what_changes_is_drawn_anew_without_the_rest(self):
