@@ -98,6 +98,9 @@ class Reader {
     if (map_.IsDefined() && !map_.IsNull() && !map_.IsMap()) fail_here(map_, "a map of keys and values");
   }
 
+  /// Notes the dotted keys of the numbers that are left to `auto`.
+  void note_automatic(std::vector<std::string>& keys) { automatic_ = &keys; }
+
   void number(const char* key, double& value, const Range& range) {
     const YAML::Node node = take(key);
     if (node.IsDefined()) value = checked(key, node, range, "");
@@ -106,7 +109,10 @@ class Reader {
   /// `auto` leaves the value as it is.
   void scaled_number(const char* key, double& value, const Range& range) {
     const YAML::Node node = take(key);
-    if (node.IsDefined() && !node.IsNull() && !is_auto(node)) value = checked(key, node, range, "auto");
+    if (node.IsDefined() && !node.IsNull() && !is_auto(node))
+      value = checked(key, node, range, "auto");
+    else
+      note(key);
   }
 
   void required_number(const char* key, double& value, const Range& range) {
@@ -128,10 +134,12 @@ class Reader {
   /// `auto` stands for the value `automatic`.
   void optional_number(const char* key, std::optional<double>& value, const Range& range, const char* word,
                        double automatic) {
-    if (const YAML::Node node = take(key); node.IsDefined() && is_auto(node))
+    if (const YAML::Node node = take(key); node.IsDefined() && is_auto(node)) {
       value = automatic;
-    else
+      note(key);
+    } else {
       optional_number(key, value, range, word);
+    }
   }
 
   template <class Integer>
@@ -213,6 +221,7 @@ class Reader {
   void section(const char* key, Body body) {
     const YAML::Node node = take(key);
     Reader inner(node.IsDefined() ? node : YAML::Node(), file_, path_of(key), of_);
+    inner.automatic_ = automatic_;
     body(inner);
     inner.finish();
   }
@@ -256,6 +265,10 @@ class Reader {
  private:
   static bool is_auto(const YAML::Node& node) { return node.IsScalar() && node.Scalar() == "auto"; }
 
+  void note(const char* key) {
+    if (automatic_) automatic_->push_back(path_of(key));
+  }
+
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
 
   [[noreturn]] void fail_here(const YAML::Node& value, const std::string& allowed) const {
@@ -280,6 +293,7 @@ class Reader {
   std::string path_;
   std::string of_;
   std::vector<std::string> known_;
+  std::vector<std::string>* automatic_ = nullptr;
 };
 
 /// Writes the same keys, in the same order, into a map. Values that are not set are left out.
