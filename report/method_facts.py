@@ -14,6 +14,8 @@ KEYS_OF_KNOTS = {row["knot"]: row["keys"].split() for row in table("knots.csv")}
 # How a unit of method_keys.csv is shown, where that is not as in a result.
 KINDS = {**quantities.KINDS, "m/s": "speed", "N/s": "force_rate", "of the radius": "of the radius",
          "of capacity": "of its capacity", "of k_b/h2": "k_b/h²", "of friction_coefficient": "of the friction coefficient"}
+# Labels where the rod lies around a post.
+ON_POST = {"machine.roller_friction": "Friction coefficient of the rod on the post"}
 NOT_FACTS = ("name", "notes", "tying_preload", "seed", "load_cell")
 
 
@@ -55,10 +57,24 @@ def vector(values, unit):
     return f"[{', '.join(number(value * unit.scale) for value in values)}] {unit.name}".strip()
 
 
-def facts(place, section, units, keys=None):
-    """[(label, text)] of the keys that are there and have a value. `place`: the section's dotted key."""
-    names = [name for name in (keys or section) if section.get(name) is not None and name not in NOT_FACTS]
-    return [(sentence(label_of(f"{place}.{name}")), text_of(f"{place}.{name}", section[name], units)) for name in names]
+class Facts:
+    """What is said of the keys of a method, in the units of a page."""
+
+    def __init__(self, method, units):
+        self.units, self.around_post = units, lies_around_post(method)
+        self.automatic = method.get("automatic") or {}
+
+    def of(self, place, section, keys=None):
+        """[(label, text)] of the keys that are there and have a value. `place`: the section's dotted key."""
+        names = [name for name in (keys or section) if section.get(name) is not None and name not in NOT_FACTS]
+        return [(self.label(f"{place}.{name}"), self.text(f"{place}.{name}", section[name])) for name in names]
+
+    def label(self, key):
+        return ON_POST[key] if self.around_post and key in ON_POST else sentence(label_of(key))
+
+    def text(self, key, value):
+        """Says of a number whether anybody chose it."""
+        return text_of(key, value, self.units) + (" (auto)" if key in self.automatic else "")
 
 
 def sentence(label):
@@ -69,10 +85,13 @@ def knot_of(method):
     return TITLES.get(method["specimen"]["knot"], str(method["specimen"]["knot"]))
 
 
+def lies_around_post(method):
+    return "post_diameter" in KEYS_OF_KNOTS.get(method.get("specimen", {}).get("knot"), ())
+
+
 def post_diameter(method):
     """Of the post around which the specimen lies [m]; None: there is none."""
-    specimen = method["specimen"]
-    return specimen["post_diameter"] if "post_diameter" in KEYS_OF_KNOTS.get(specimen["knot"], ()) else None
+    return method["specimen"]["post_diameter"] if lies_around_post(method) else None
 
 
 def without_idle_keys(method):
@@ -89,6 +108,8 @@ def without_idle_keys(method):
         machine = without(machine, "roller_rate")
     if not machine.get("roller_friction"):
         machine = without(machine, "roller_rotation")
+    if lies_around_post(method):
+        material = without(material, "friction_coefficient", "friction_couple")  # the rod touches the post alone
     return {**method, "material": material, "machine": machine, "physics": physics}
 
 
@@ -98,30 +119,33 @@ def method_facts(method, units):
     specimen, material, machine = method["specimen"], method["material"], method["machine"]
     cell = machine.get("load_cell")
     cell = cell if isinstance(cell, dict) else {}
+    facts = Facts(method, units)
     return [
-        ("Specimen", [("Knot", knot_of(method)), *facts("specimen", specimen, units, KEYS_OF_KNOTS.get(specimen["knot"]))], ""),
-        ("Material", [("Name", str(material.get("name", "own"))), *facts("material", material, units)], material.get("notes") or ""),
-        ("Machine", [*facts("machine", machine, units),
-                     *([("Load cell", str(cell["name"]))] if "name" in cell else []), *facts("machine.load_cell", cell, units)],
+        ("Specimen", [("Knot", knot_of(method)), *facts.of("specimen", specimen, KEYS_OF_KNOTS.get(specimen["knot"]))], ""),
+        ("Material", [("Name", str(material.get("name", "own"))), *facts.of("material", material)], material.get("notes") or ""),
+        ("Machine", [*facts.of("machine", machine),
+                     *([("Load cell", str(cell["name"]))] if "name" in cell else []), *facts.of("machine.load_cell", cell)],
          cell.get("notes") or ""),
-        ("Physics", facts("physics", method.get("physics", {}), units), ""),
-        *([("When the test ends", facts("ends", method["ends"], units), "")] if method.get("ends") else []),
+        ("Physics", facts.of("physics", method.get("physics", {})), ""),
+        *([("When the test ends", facts.of("ends", method["ends"]), "")] if method.get("ends") else []),
     ]
 
 
 def program(method, units):
     """[(step, what it asks for)]"""
-    return [(name, step_text(f"program.{name}", keys or {}, units)) for step in method.get("program", []) for name, keys in step.items()]
+    facts = Facts(method, units)
+    return [(name, step_text(f"program.{number}.{name}", keys or {}, facts))
+            for number, step in enumerate(method.get("program", [])) for name, keys in step.items()]
 
 
-def step_text(step, keys, units):
+def step_text(step, keys, facts):
     parts = []
     for name, value in keys.items():
         key = f"{step}.{name}"
         if name == "until" and isinstance(value, dict):
-            ends = ["break" if end == "break" else f"{label_of(f'{key}.{end}')} {text_of(f'{key}.{end}', part, units)}"
+            ends = ["break" if end == "break" else f"{label_of(f'{key}.{end}')} {facts.text(f'{key}.{end}', part)}"
                     for end, part in value.items() if part is not False]
             parts.append("until " + " or ".join(ends))
         else:
-            parts.append(f"{label_of(key)} {text_of(key, value, units)}")
+            parts.append(f"{label_of(key)} {facts.text(key, value)}")
     return ", ".join(parts)

@@ -50,7 +50,7 @@ FILES = [
     ("report.html", "this page"),
     ("report.pdf", "this page for paper"),
 ]
-HEADLINES = ("knotability", "plateau_force", "lock_extension", "locked_stiffness", "peak_force", "break_extension",
+HEADLINES = ("knotability", "force_ratio", "plateau_force", "lock_extension", "locked_stiffness", "peak_force", "break_extension",
              "elongation_total")
 
 

@@ -1,8 +1,10 @@
 """What all plots of a study share: panels, names of axes, which key makes what."""
 import numpy as np
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
 
 FAR = 20  # times the smallest value: the axis is then logarithmic
+ENOUGH_DECADES = 1e3  # times the smallest value: two powers of ten or more lie between, which are ticks enough
 MOST_COLUMNS = 4
 
 
@@ -47,9 +49,16 @@ def spans_far(values):
     return values.dtype.kind in "if" and values.min() > 0 and values.max() > FAR * values.min()
 
 
-def scale_axis(set_scale, values):
-    if spans_far(values):
-        set_scale("log")
+def scale_axis(panel, name, values):
+    """`name`: x or y."""
+    if not spans_far(values):
+        return
+    panel.set(**{f"{name}scale": "log"})
+    if values.max() < ENOUGH_DECADES * values.min():
+        axis = getattr(panel, f"{name}axis")
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_minor_formatter(NullFormatter())
 
 
 def edges(values):

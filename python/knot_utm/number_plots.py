@@ -57,8 +57,8 @@ def _panels(table, groups, across, result):
                            linestyle="-" if len(across) == 1 and rows[key].is_unique else "none", label=name)
         axes.name_axis(panel.set_xlabel, table, key)
         axes.name_axis(panel.set_ylabel, table, result)
-        axes.scale_axis(panel.set_xscale, table[key])
-        axes.scale_axis(panel.set_yscale, table[result])
+        axes.scale_axis(panel, "x", table[key])
+        axes.scale_axis(panel, "y", table[result])
     if len(groups) > 1:
         panels[0].legend()
     return drawn
@@ -85,10 +85,9 @@ def _maps(table, groups, numbers, result):
         shown = panel.pcolormesh(axes.edges(cells.columns), axes.edges(cells.index), np.ma.masked_invalid(cells.to_numpy(float)),
                                  vmin=low, vmax=high)
         panel.set_title(name)
-        for key, set_label, set_scale in ((numbers[0], panel.set_xlabel, panel.set_xscale),
-                                          (numbers[1], panel.set_ylabel, panel.set_yscale)):
+        for key, set_label, name in ((numbers[0], panel.set_xlabel, "x"), (numbers[1], panel.set_ylabel, "y")):
             axes.name_axis(set_label, table, key)
-            axes.scale_axis(set_scale, table[key])
+            axes.scale_axis(panel, name, table[key])
     axes.name_axis(drawn.colorbar(shown, ax=panels).set_label, table, result)
     return drawn
 

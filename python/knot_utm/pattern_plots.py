@@ -132,9 +132,9 @@ def _map(table, keys):
         _slice(panel, near, places, keys, (across, up), inside)
         middle = near.values(places[:1])[0]
         panel.set_title(", ".join(f"{_short(keys[place], table)} {middle[place]:.3g}" for place in between), fontsize="small")
-        for place, set_label, set_scale in ((across, panel.set_xlabel, panel.set_xscale), (up, panel.set_ylabel, panel.set_yscale)):
+        for place, set_label, name in ((across, panel.set_xlabel, "x"), (up, panel.set_ylabel, "y")):
             axes.name_axis(set_label, table, keys[place])
-            axes.scale_axis(set_scale, table[keys[place]])
+            axes.scale_axis(panel, name, table[keys[place]])
     _legend(drawn, set(near.names))
     return drawn
 

@@ -161,7 +161,7 @@ void drop_what_does_not_slide(MotionPattern pattern, CurveReadings& curve) {
   } else if (curve.plateau_force && pattern == MotionPattern::kStretching) {
     drop_plateau("the load is level, but the knots do not slide: they stretch", curve);
   } else if (curve.plateau_force && pattern == MotionPattern::kNone) {
-    drop_plateau("the load is level, but there are no two knots that slide", curve);
+    drop_plateau("the load is level, but only two knots that slide towards each other have a plateau", curve);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "config_library.hpp"
 #include "knot_utm/io/result_yaml.hpp"
@@ -49,17 +50,20 @@ Material read_material(const YAML::Node& node, const std::string& file, const Co
 }
 
 LoadCellOptions read_load_cell(const YAML::Node& node, const std::string& file, const Material& material,
-                               const LoadCellOptions& by_default, const ConfigLibrary& library) {
+                               const LoadCellOptions& by_default, const ConfigLibrary& library,
+                               std::vector<std::string>& automatic) {
   LoadCellOptions cell = by_default;
   const std::optional<std::string> name = load_cell_name(node, material.load_cell);
   if (node.IsSequence()) throw InvalidInput(file, "machine.load_cell", as_given(node), library.allowed("load_cells"));
   if (node.IsDefined() && !node.IsNull() && !node.IsScalar()) {
     Reader reader(node, file, "machine.load_cell");
+    reader.note_automatic(automatic);
     fields::load_cell(reader, cell);
     reader.finish();
     if (cell.name.empty()) cell.name = "own";
   } else if (!name) {
     cell.name = "auto";
+    automatic.emplace_back("machine.load_cell.capacity");
   } else {
     const fs::path path = library.find("load_cells", *name, "machine.load_cell");
     Reader reader(read_yaml(path), path.string(), "", "a load cell");
@@ -98,6 +102,32 @@ Specification read_specification(const YAML::Node& node, const std::string& file
   return specification;
 }
 
+/// As the method.yaml of a run has it.
+std::map<std::string, std::string> read_automatic(const YAML::Node& node, const std::string& file) {
+  std::map<std::string, std::string> found;
+  if (!node.IsDefined() || node.IsNull()) return found;
+  if (!node.IsMap())
+    throw InvalidInput(file, "automatic", as_given(node),
+                       "a map of keys and the values that auto gave them, as method.yaml of a run has it");
+  for (const auto& item : node) found[one_line(item.first)] = one_line(item.second);
+  return found;
+}
+
+/// What `auto` gave: what this reading noted and what an earlier one did, as far as the values are still the same.
+void keep_automatic(const std::vector<std::string>& noted, Method& method) {
+  const std::map<std::string, std::string> earlier = std::move(method.automatic);
+  method.automatic.clear();
+  const YAML::Node values = YAML::Load(method_yaml(method));
+  const auto written = [&](const std::string& key) {
+    const YAML::Node value = value_at(values, key);
+    return value.IsDefined() && value.IsScalar() ? value.Scalar() : "";
+  };
+  for (const std::string& key : noted)
+    if (!written(key).empty()) method.automatic[key] = written(key);
+  for (const auto& [key, value] : earlier)
+    if (written(key) == value) method.automatic[key] = value;
+}
+
 /// The speed with which friction may creep, where its law has one.
 void set_creep(FrictionLaw law, double speed, FrictionOptions& friction) {
   for (const LawKey& key : FrictionRegistry::keys())
@@ -124,12 +154,15 @@ void keep_own_keys(Method& method) {
 }
 
 /// The method over defaults that suit its knot and material, and, once it has been read with these, what is `known` of
-/// the rest.
-Method read_method(const YAML::Node& root, const std::string& file, const ConfigLibrary& library, const Method* known) {
+/// the rest. Notes the keys whose values are `automatic`.
+Method read_method(const YAML::Node& root, const std::string& file, const ConfigLibrary& library, const Method* known,
+                   std::vector<std::string>& automatic) {
   Method method;
   Reader top(root, file, "");
+  top.note_automatic(automatic);
   method.material = read_material(top.take("material"), file, library);
   Reader specimen(top.take("specimen"), file, "specimen");
+  specimen.note_automatic(automatic);
   fields::knot(specimen, method.specimen.knot);
   const fields::Defaults defaults = fields::defaults(method.specimen.knot, method.material, known);
   method.specimen = defaults.specimen;
@@ -139,9 +172,9 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   top.section("machine", [&](Reader& reader) {
     fields::machine(reader, method.machine);
     method.machine.load_cell =
-        read_load_cell(reader.take("load_cell"), file, method.material, defaults.machine.load_cell, library);
+        read_load_cell(reader.take("load_cell"), file, method.material, defaults.machine.load_cell, library, automatic);
   });
-  method.program = read_program(top.take("program"), file, defaults);
+  method.program = read_program(top.take("program"), file, defaults, automatic);
   // Without effect they keep their plain value.
   if (known && known->ends.breaks.drop) method.ends.breaks.drop_extension = defaults.drop_extension;
   if (known) set_creep(known->physics.friction.law, defaults.slip_tolerance, method.physics.friction);
@@ -150,9 +183,10 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   top.section("analysis", [&](Reader& reader) { fields::analysis(reader, method.analysis); });
   top.section("report", [&](Reader& reader) { fields::report(reader, method.report); });
   method.specification = read_specification(top.take("specification"), file);
-  bool automatic = true;
-  method.specimens = read_specimens(top.take("specimens"), file, automatic);
-  if (automatic) method.specimens.scatter = default_scatter(method);
+  bool usual_scatter = true;
+  method.specimens = read_specimens(top.take("specimens"), file, usual_scatter);
+  if (usual_scatter) method.specimens.scatter = default_scatter(method);
+  method.automatic = read_automatic(top.take("automatic"), file);
   top.finish();
   return method;
 }
@@ -173,8 +207,9 @@ Method parse_method(const std::string& text, const std::string& file, const std:
       throw InvalidInput("the file", as_given(root), "a map with the keys specimen, material, machine and program");
     apply_overrides(root, overrides, library);
 
-    const Method first = read_method(root, file, library, nullptr);
-    Method method = read_method(root, file, library, &first);
+    std::vector<std::string> noted_first, noted;
+    const Method first = read_method(root, file, library, nullptr, noted_first);
+    Method method = read_method(root, file, library, &first, noted);
     method.name = path.stem().string();
     method.specimen.to_be_tied = std::any_of(method.program.begin(), method.program.end(),
                                              [](const ProgramStep& step) { return step.phase == Phase::kTie; });
@@ -182,6 +217,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     const Material& material = method.material;
     if (!method.specimen.preload && knot_of(method.specimen).has("preload")) {
       method.specimen.preload = default_preload(material);
+      noted.emplace_back("specimen.preload");
     }
     if (!method.specimen.file.empty()) {
       method.specimen.file = fs::absolute(folder / method.specimen.file).lexically_normal().string();
@@ -193,6 +229,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
         read_record(folder, "program." + std::to_string(i) + ".follow", method.program[i]);
     check_method(method);
     keep_own_keys(method);
+    keep_automatic(noted, method);
     return method;
   } catch (const InvalidInput& invalid) {
     throw invalid.in_file(file);

@@ -28,7 +28,8 @@ ProgramStep default_step(Phase phase, double scale) {
 
 }  // namespace
 
-Program read_program(const YAML::Node& node, const std::string& file, const fields::Defaults& defaults) {
+Program read_program(const YAML::Node& node, const std::string& file, const fields::Defaults& defaults,
+                     std::vector<std::string>& automatic) {
   const std::vector<std::string> steps = step_names();
   const std::string form = "a list of steps, such as [{pull: {until: {break: true}}}]";
   if (!node.IsDefined() || node.IsNull()) throw InvalidInput::missing("program", form).in_file(file);
@@ -44,6 +45,7 @@ Program read_program(const YAML::Node& node, const std::string& file, const fiel
     ProgramStep step = default_step(*phase_named(name), defaults.scale);
     Reader reader(node[i].begin()->second, file, path + "." + name);
     reader.understand(defaults.loads);
+    reader.note_automatic(automatic);
     fields::step(reader, step, defaults.way);
     reader.finish();
     program.push_back(step);

@@ -103,6 +103,9 @@ class Reader {
   /// From now on numbers in newtons may be given in these terms.
   void understand(const LoadTerms& loads) { loads_ = loads; }
 
+  /// Notes the dotted keys of the numbers that are left to `auto`.
+  void note_automatic(std::vector<std::string>& keys) { automatic_ = &keys; }
+
   void number(const char* key, double& value, const Range& range) {
     const YAML::Node node = take(key);
     if (node.IsDefined()) value = checked(key, node, range, "");
@@ -111,7 +114,10 @@ class Reader {
   /// `auto` leaves the value as it is.
   void scaled_number(const char* key, double& value, const Range& range) {
     const YAML::Node node = take(key);
-    if (node.IsDefined() && !node.IsNull() && !is_auto(node)) value = checked(key, node, range, "auto");
+    if (node.IsDefined() && !node.IsNull() && !is_auto(node))
+      value = checked(key, node, range, "auto");
+    else
+      note(key);
   }
 
   void required_number(const char* key, double& value, const Range& range) {
@@ -133,10 +139,12 @@ class Reader {
   /// `auto` stands for the value `automatic`.
   void optional_number(const char* key, std::optional<double>& value, const Range& range, const char* word,
                        double automatic) {
-    if (const YAML::Node node = take(key); node.IsDefined() && is_auto(node))
+    if (const YAML::Node node = take(key); node.IsDefined() && is_auto(node)) {
       value = automatic;
-    else
+      note(key);
+    } else {
       optional_number(key, value, range, word);
+    }
   }
 
   template <class Integer>
@@ -219,6 +227,7 @@ class Reader {
     const YAML::Node node = take(key);
     Reader inner(node.IsDefined() ? node : YAML::Node(), file_, path_of(key), of_);
     inner.loads_ = loads_;
+    inner.automatic_ = automatic_;
     body(inner);
     inner.finish();
   }
@@ -262,6 +271,10 @@ class Reader {
  private:
   static bool is_auto(const YAML::Node& node) { return node.IsScalar() && node.Scalar() == "auto"; }
 
+  void note(const char* key) {
+    if (automatic_) automatic_->push_back(path_of(key));
+  }
+
   std::string path_of(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
 
   [[noreturn]] void fail_here(const YAML::Node& value, const std::string& allowed) const {
@@ -303,6 +316,7 @@ class Reader {
   std::string of_;
   std::vector<std::string> known_;
   std::optional<LoadTerms> loads_;
+  std::vector<std::string>* automatic_ = nullptr;
 };
 
 /// Writes the same keys, in the same order, into a map. Values that are not set are left out.

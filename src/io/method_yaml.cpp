@@ -1,5 +1,6 @@
 // The method written as YAML.
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/specimen/knot.hpp"
 #include "method_overrides.hpp"
 #include "method_reader.hpp"
 #include "specimens_section.hpp"
@@ -7,6 +8,23 @@
 namespace knot_utm {
 
 using fields::Writer;
+
+namespace {
+
+/// Keys that another choice leaves without effect have plain values, which suit no rod, and would say what the test is
+/// not.
+void leave_out_idle_keys(const Method& m, YAML::Node& root) {
+  const Knot& knot = knot_of(m.specimen);
+  std::vector<std::string> idle;
+  for (const auto& item : root["specimen"])
+    if (!knot.has(item.first.Scalar())) idle.push_back(item.first.Scalar());
+  for (const std::string& key : idle) root["specimen"].remove(key);
+  if (!knot.about().loop) root["machine"].remove("roller_diameter");
+  if (!m.ends.breaks.sharp_drop) root["ends"].remove("sharp_drop_time");
+  if (!m.ends.breaks.drop) root["ends"].remove("drop_extension");
+}
+
+}  // namespace
 
 std::string method_yaml(const Method& method) {
   Method m = method;
@@ -51,8 +69,10 @@ std::string method_yaml(const Method& method) {
     limits_map.SetStyle(YAML::EmitterStyle::Flow);
     root["specification"][required.key] = limits_map;
   }
+  leave_out_idle_keys(method, root);
   // A single specimen is the one that the method describes.
   if (m.specimens.count > 1) root["specimens"] = specimens_map(m.specimens);
+  for (const auto& [key, value] : m.automatic) root["automatic"][key] = value;
   YAML::Emitter out;
   out << root;
   return std::string(out.c_str()) + "\n";

@@ -29,10 +29,12 @@ std::string why_they_did_not_lock(const Results& results) {
     case MotionPattern::kNone:
       break;
   }
-  return "there are no two knots that could lock";
+  return "only two knots that slide towards each other lock, and there are none";
 }
 
 std::string why_the_load_has_no_stiffness(const Results& results) {
+  if (results.motion_pattern == MotionPattern::kNone && !results.curve.jump_force)
+    return "the load has no rise with three readings or more";
   if (results.curve.jump_force || results.opened_when_mounted || results.motion_pattern != MotionPattern::kSliding)
     return why_they_did_not_lock(results);
   if (results.curve.rises_at) return "the load was read fewer than three times between the lock and the peak";

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/numeric/text_rows.hpp"
 #include "raw_names.hpp"
@@ -140,18 +141,26 @@ std::optional<Columns> all_of(const Found& found) {
   return Columns{*found[0], *found[1], *found[2]};
 }
 
-/// What the row does not name, and the names that it might have, for the message.
-std::string missing_names(const Found& found, const Names& given) {
+/// A handful of the known names, those first that a cell nearly is.
+std::string some_of(const std::vector<std::string>& known, const Cells& cells) {
+  constexpr std::size_t kHandful = 4;
+  std::vector<std::string> some;
+  const auto add = [&](const std::string& name) {
+    const bool is_new = std::find(some.begin(), some.end(), name) == some.end();
+    if (!name.empty() && is_new && some.size() < kHandful) some.push_back(name);
+  };
+  for (const std::string& cell : cells) add(nearest_name(name_of(cell).name, known));
+  for (const std::string& name : known) add(name);
+  return listed(some, ", ") + " and " + std::to_string(known.size() - some.size()) + " others";
+}
+
+/// What the row does not name, and names that it might have, for the message.
+std::string missing_names(const Found& found, const Names& given, const Cells& cells) {
   std::string out;
   for (std::size_t i = 0; i < found.size(); ++i) {
     if (found[i]) continue;
     out += (out.empty() ? "" : "; ") + std::string(raw_quantities()[i].name) + ", whose known names are ";
-    if (!given[i].empty()) out += '"' + shown(given[i]) + "\" alone";
-    const char* comma = "";
-    for (const std::string& name : given[i].empty() ? raw_quantities()[i].names : std::vector<std::string>()) {
-      out += comma + name;
-      comma = ", ";
-    }
+    out += given[i].empty() ? some_of(raw_quantities()[i].names, cells) : '"' + shown(given[i]) + "\" alone";
   }
   return out;
 }
@@ -317,7 +326,7 @@ class RawTable {
         if (named <= most) continue;
         most = named;
         out = "row " + std::to_string(row.number) + " is \"" + shown(visible(row.text)) + "\" and does not name " +
-              missing_names(found, given_);
+              missing_names(found, given_, cells);
       }
     return out;
   }

@@ -15,11 +15,9 @@ namespace {
 /// where a loose loop pulls with far less than k_b/h^2, of which `physics.residual` is a fraction.
 constexpr double kUnbalanced = 0.01;
 
-std::vector<std::string> warnings(const Results& results) {
+/// What became of the knot. Where it came undone, the console has a line of its own.
+std::vector<std::string> knot_warnings(const Results& results) {
   std::vector<std::string> all;
-  if (results.knot_type == KnotType::kCrossed) {
-    all.push_back("the rod ran through itself at " + short_number(results.untangled_at.value_or(Sample::kNone)) + " s");
-  }
   if (results.untangled_at && results.knot_type != KnotType::kCrossed && results.ended_by != EndedBy::kUntangled) {
     all.push_back("the knot came undone at " + short_number(*results.untangled_at) +
                   " s, while it was pulled, so there is no sliding force");
@@ -29,8 +27,18 @@ std::vector<std::string> warnings(const Results& results) {
         "with its two ends joined, the rod is another knot than at the start; as it still bears the load, nothing came "
         "undone");
   }
+  return all;
+}
+
+/// Where the simulated rod is not the one that was meant.
+std::vector<std::string> physics_warnings(const Results& results) {
+  std::vector<std::string> all;
+  if (results.knot_type == KnotType::kCrossed) {
+    all.push_back("the rod ran through itself at " + short_number(results.untangled_at.value_or(Sample::kNone)) + " s");
+  }
   if (results.max_penetration > kDeepContact) {
-    all.push_back("strands are pressed into each other by up to " + short_number(results.max_penetration) + " radii");
+    all.push_back("strands are pressed into each other by up to " + short_number(results.max_penetration) +
+                  " radii, where a contact is right up to " + short_number(kDeepContact));
   }
   if (results.energy_balance_error > kUnbalanced) {
     all.push_back("the energies and the work differ by " + short_number(*results.energy_balance_error) +
@@ -40,7 +48,7 @@ std::vector<std::string> warnings(const Results& results) {
 }
 
 /// What the cell cannot tell: forces below its floor, or beyond its stop.
-std::vector<std::string> warnings(const Results& results, const LoadCellOptions& cell) {
+std::vector<std::string> cell_warnings(const Results& results, const LoadCellOptions& cell) {
   std::vector<std::string> all;
   const std::string floor = "the load cell's floor of " + format_number(cell.floor * cell.capacity) + " N";
   if (results.true_peak_force && is_below_floor(cell, *results.true_peak_force)) {
@@ -110,10 +118,28 @@ std::string ended_before_pull(const Results& results, const RunFacts& facts) {
   return "the test ended before anything was pulled: " + facts.reason;
 }
 
+/// Of an overhand whose pull left it a loose loop. A loop of the radius R under the tension T has 2 T R^2 = k_b without
+/// friction, and is wider with it (before_tying.hpp).
+std::string stayed_loose(const Results& results, const RunFacts& facts) {
+  constexpr double kClosed = 2.0;  // radius of a loop that lies on the strands in it [h]
+  const double force = results.true_peak_force.value_or(0.0), h = facts.material.radius;
+  const bool whole = results.knot_type == KnotType::kKept && !results.break_extension;
+  if (!facts.one_knot_in_a_strand || !whole || !(force > 0.0)) return {};
+  const double radius = std::sqrt(facts.material.bending_stiffness / (2.0 * force));
+  if (radius <= kClosed * h) return {};
+  return "the pull ended while the knot was still loose: the largest force, " + short_number(force) +
+         " N, leaves its loop a radius of about " + short_number(radius / h) +
+         " radii of the rod, and more with friction; it is tight from about " +
+         short_number(facts.material.bending_stiffness / (2.0 * kClosed * kClosed * h * h)) +
+         " N on, to which a longer pull brings it";
+}
+
 }  // namespace
 
 std::vector<std::string> printed_warnings(const Results& results, const RunFacts& facts) {
-  std::vector<std::string> all = events(results);
+  std::vector<std::string> all = physics_warnings(results);
+  for (const std::string& event : events(results)) all.push_back(event);
+  if (const std::string loose = stayed_loose(results, facts); !loose.empty()) all.push_back(loose);
   for (const std::vector<std::string>& more :
        {gravity_warnings(results, facts), speed_warnings(results.rate, facts.inertia),
         snap_warnings(results, facts.pull_speed), facts.warnings})
@@ -127,8 +153,8 @@ std::vector<std::string> printed_warnings(const Results& results, const RunFacts
 }
 
 std::vector<std::string> all_warnings(const Results& r, const RunFacts& f) {
-  std::vector<std::string> all = warnings(r);
-  for (const std::vector<std::string>& more : {warnings(r, f.load_cell), f.foreseen, printed_warnings(r, f)})
+  std::vector<std::string> all = knot_warnings(r);
+  for (const std::vector<std::string>& more : {cell_warnings(r, f.load_cell), f.foreseen, printed_warnings(r, f)})
     all.insert(all.end(), more.begin(), more.end());
   return all;
 }

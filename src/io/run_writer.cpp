@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "knot_utm/contact/sampled_centreline.hpp"
+#include "knot_utm/io/foreseen.hpp"
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/speed_warnings.hpp"
-#include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -50,10 +50,8 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
     known_.warnings.push_back(
         "the rollers are driven: what holds the far side bears a part of the load, and the two grips read different "
         "forces");
-  if (method.specimen.to_be_tied) {
-    known_.preload = method.specimen.preload.value_or(Sample::kNone);
-    known_.foreseen = tying_warnings(method.specimen, method.material, method.physics);
-  }
+  if (method.specimen.to_be_tied) known_.preload = method.specimen.preload.value_or(Sample::kNone);
+  known_.foreseen = foreseen_warnings(method);
   weight_per_length_ =
       method.physics.gravity.norm() * method.material.density * M_PI * method.material.radius * method.material.radius;
   if (rollers_hold(method.specimen, method.machine)) radius_on_rollers_ = method.material.radius;

@@ -20,7 +20,12 @@ constexpr double kSharpestBend = 0.5;  // of a tied knot, 1/kClosed [1/h]
 constexpr double kCoarsestEdge =
     0.9;  // of a rope whose knots slide as with finer ones [h]: bench/before_tying.py --study meshes
 constexpr double kMostStretch = 2.0;  // strain by a pre-load up to which a law of tension was ever measured [-]
-constexpr double kMetal = 20e9;       // modulus that no polymer reaches, but metals, glass and carbon do [Pa]
+constexpr double kMuchStretch = 0.2;  // by choice: no shipped rope is stretched by a tenth of it as it is tied [-]
+// Of ropes that were tied with 2 to 8 k_b/h^2, 27 of 40 opened or jumped open with a friction of 0.3 to 0.5, and 1 of
+// 60 with more; of those with 20 to 60 k_b/h^2, 3 of 20 did (bench/results/studies/pattern_map.csv.gz).
+constexpr double kHoldsLoosely = 0.5, kLimp = 300.0;    // friction [-]; k_s h^2/k_b of a rope [-]
+constexpr double kTightly = 20.0, kVeryTightly = 60.0;  // [k_b/h^2]
+constexpr double kMetal = 20e9;  // modulus that no polymer reaches, but metals, glass and carbon do [Pa]
 
 double drawn_coil(const SpecimenOptions& specimen) { return knot_of(specimen).about().drawn_coil; }  // R_0 [h]
 
@@ -33,6 +38,19 @@ double bending_force(const Material& material) {
 double least_preload(const SpecimenOptions& specimen, const Material& material) {
   const double closed = closing_preload(material), fraction = kClosed / drawn_coil(specimen);
   return std::min(closed * fraction * fraction, bending_force(material) / (2.0 * kClosed * kClosed));
+}
+
+/// Of a pre-load that nobody chose, not even for the material. Empty: it suits the rod.
+std::string automatic_warning(double preload, double stretch, const Material& material) {
+  if (material.tying_preload || preload != default_preload(material)) return "";
+  const double force = bending_force(material);
+  const std::string which = "the automatic pre-load of " + short_number(preload) + " N";
+  const std::string set = "; set specimen.preload or material.tying_preload to the load that your knots are tied with";
+  if (stretch > kMuchStretch) return which + " stretches the rod by " + short_number(100.0 * stretch) + " %" + set;
+  if (material.stretching_stiffness <= kLimp * force || material.friction_coefficient >= kHoldsLoosely) return "";
+  return which + " is little for a rope whose friction is below " + short_number(kHoldsLoosely) +
+         ": most knots that are tied so open, while most hold that are tied with " + short_number(kTightly * force) +
+         " to " + short_number(kVeryTightly * force) + " N" + set;
 }
 
 /// Of what a tied knot asks of the outermost fibre. Empty: nothing is known to fail.
@@ -80,8 +98,10 @@ void check_tying(const SpecimenOptions& specimen, const Material& material) {
   const double preload = tying_load(specimen, material), least = least_preload(specimen, material);
   if (preload < least)
     throw InvalidInput("specimen.preload", short_number(preload),
-                       "at least " + short_number(least) +
-                           " N: a smaller one does not move the coils, which close only at " +
+                       "at least " + short_number(least) + " N for a rod with material.bending_stiffness " +
+                           short_number(material.bending_stiffness) + " N m2, radius " + short_number(material.radius) +
+                           " m and friction_coefficient " + short_number(material.friction_coefficient) +
+                           ": a smaller one does not move the coils, which close only at " +
                            short_number(closing_preload(material)) + " N");
   const double strain = strain_under(material, preload) + 1.0 / drawn_coil(specimen);
   if (material.breaking_strain && *material.breaking_strain <= strain)
@@ -100,7 +120,10 @@ std::vector<std::string> tying_warnings(const SpecimenOptions& specimen, const M
                   short_number(std::min(coil_radius(material, preload) / h, drawn_coil(specimen))) +
                   " radii of the rod: they close at " + short_number(closing) + " N");
   const double stretch = strain_under(material, preload);
-  if (stretch > kMostStretch)
+  const std::string automatic = automatic_warning(preload, stretch, material);
+  if (!automatic.empty())
+    all.push_back(automatic);
+  else if (stretch > kMostStretch)
     all.push_back("a pre-load of " + short_number(preload) + " N stretches the rod to " + short_number(1.0 + stretch) +
                   " times its length");
   const double edge = specimen.edge_length / tolerances(physics, specimen, material).refinement;

@@ -7,14 +7,17 @@
 #include <filesystem>
 #include <map>
 #include <mutex>
+#include <regex>
 #include <set>
 #include <stdexcept>
 #include <thread>
 
 #include "batch_table.hpp"
 #include "knot_utm/io/claimed_folder.hpp"
+#include "knot_utm/io/foreseen.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/study/specimens.hpp"
 
 namespace knot_utm {
@@ -22,6 +25,11 @@ namespace knot_utm {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string without_numbers(const std::string& line) {
+  static const std::regex number("[-+]?[0-9][0-9.]*(e[-+]?[0-9]+)?");
+  return std::regex_replace(line, number, "#");
+}
 
 /// Tests the specimens, each by the next thread that is free.
 class SideBySide {
@@ -38,16 +46,29 @@ class SideBySide {
   }
 
   bool interrupted() const { return interrupted_; }
-  /// What the tests said, each line once with the specimens that it is about: "specimens 1, 2 and 5: ...".
+  /// What is known of the method before any test. `auto` is no word of what was drawn from it.
+  void tell_of_all(const std::vector<std::string>& warnings) {
+    if (!options_.notice) return;
+    for (const std::string& warning : warnings) {
+      options_.notice(warning);
+      told_.insert(without_numbers(warning));
+    }
+  }
+  /// What the tests said, each once with the specimens that it is about: "specimens 1, 2 and 5: ...". Lines that differ
+  /// by their numbers alone are one.
   void tell() const {
     if (!options_.notice) return;
-    for (const auto& [line, numbers] : said_) {
-      std::string who;
-      for (const int number : numbers) {
-        if (!who.empty()) who += number == *numbers.rbegin() ? " and " : ", ";
-        who += std::to_string(number);
+    for (const auto& [words, lines] : said_) {
+      if (told_.count(words) > 0) continue;
+      std::vector<std::string> who;
+      bool same = true;
+      const auto& [first, line] = *lines.begin();
+      for (const auto& [number, its_own] : lines) {
+        who.push_back(std::to_string(number));
+        same &= its_own == line;
       }
-      options_.notice((numbers.size() > 1 ? "specimens " : "specimen ") + who + ": " + line);
+      const std::string of_first = same ? "" : ", with the numbers of specimen " + std::to_string(first);
+      options_.notice((who.size() > 1 ? "specimens " : "specimen ") + listed(who, " and ") + of_first + ": " + line);
     }
   }
   /// What kept a test from being run, such as a full disk; empty: nothing did.
@@ -89,7 +110,7 @@ class SideBySide {
     const int number = specimen.number;
     out.notice = [this, number](const std::string& line) {
       const std::lock_guard<std::mutex> lock(telling_);
-      said_[line].insert(number);
+      said_[without_numbers(line)].emplace(number, line);
     };
     return out;
   }
@@ -100,7 +121,8 @@ class SideBySide {
   std::atomic<std::size_t> next_{0};
   std::atomic<bool> interrupted_{false};
   std::mutex telling_;
-  std::map<std::string, std::set<int>> said_;
+  std::map<std::string, std::map<int, std::string>> said_;  // by its words, what each specimen said
+  std::set<std::string> told_;                              // words that all have heard
   int ended_ = 0;
   std::atomic<bool> stops_{false};  // a test could not be run
   std::string fault_;
@@ -151,6 +173,7 @@ BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
   if (options.overwrite && !options.resume) remove_specimens(claimed.folder);
   if (!options.resume) begin_run_folder(claimed.folder, method);
   SideBySide tests(claimed.folder, specimens, options);
+  tests.tell_of_all(foreseen_warnings(method));
   tests.run();
   tests.tell();
   BatchOutcome out;

@@ -8,12 +8,12 @@
 
 #include "earlier_run.hpp"
 #include "knot_utm/io/claimed_folder.hpp"
+#include "knot_utm/io/foreseen.hpp"
 #include "knot_utm/io/locked_file.hpp"
 #include "knot_utm/io/recovery.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/run_warnings.hpp"
 #include "knot_utm/io/run_writer.hpp"
-#include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/rod/twisting.hpp"
@@ -228,9 +228,7 @@ HeadlessOutcome run_headless(const Method& method, const HeadlessOptions& option
   ClaimedFolder claimed = folder_of_run(options, method);
   const Checkpoint checkpoint(claimed.folder, method_file_text(method));
   const Test test{method, options, claimed.folder, bench, program, checkpoint, past, earlier};
-  if (method.specimen.to_be_tied)
-    for (const std::string& warning : tying_warnings(method.specimen, method.material, method.physics))
-      tell(options, warning);
+  for (const std::string& warning : foreseen_warnings(method)) tell(options, warning);
   try {
     return run_to_end(test, claimed.journal);
   } catch (const InvalidInput&) {

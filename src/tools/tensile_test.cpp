@@ -10,6 +10,7 @@
 #include <thread>
 #include <vector>
 
+#include "knot_utm/io/foreseen.hpp"
 #include "knot_utm/io/key_units.hpp"
 #include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/method.hpp"
@@ -18,6 +19,7 @@
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/study/batch.hpp"
 #include "knot_utm/study/headless_run.hpp"
 #include "knot_utm/study/specimens.hpp"
@@ -109,10 +111,14 @@ std::optional<int> step_to_stop_before(const Arguments& arguments, const Method&
   if (arguments.stop_before.empty()) return std::nullopt;
   const std::optional<int> step = step_called(method.program, arguments.stop_before);
   if (step && *step > 0) return step;
+  std::vector<std::string> steps;
+  for (std::size_t i = 0; i < method.program.size(); ++i)
+    steps.push_back(std::to_string(i) + " " + phase_name(method.program[i].phase));
   throw InvalidInput::sentence("--stop-before", arguments.stop_before,
                                "--stop-before " + shown(arguments.stop_before) +
-                                   ": give the number of a step of the program from 1 on (the first step is 0), or the "
-                                   "name of a step that stands there once");
+                                   " names no step to stop before: give the number of a step from 1 on, or a name that "
+                                   "stands once in the program, whose steps are " +
+                                   listed(steps, " and "));
 }
 
 HeadlessOutcome run_and_tell(const Arguments& arguments, const Method& method) {
@@ -196,6 +202,7 @@ int check(const Method& method) {
     check_one(method);
   else
     for (const DrawnSpecimen& specimen : draw_specimens(method)) check_one(specimen.method);
+  for (const std::string& warning : foreseen_warnings(method)) std::fprintf(stderr, "%s: %s\n", kTool, warning.c_str());
   std::fputs(method_yaml(method).c_str(), stdout);
   return kDone;
 }

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
 #include <cmath>
 #include <filesystem>
@@ -286,6 +287,39 @@ TEST(Method, FilesBesideTheMethodComeFirst) {
   EXPECT_EQ(m.material.stretching_stiffness, 9.0);
   EXPECT_EQ(m.machine.load_cell.name, "auto");
   fs::remove_all(folder);
+}
+
+/// They have plain values, which say what the test is not.
+TEST(Method, AsItIsWrittenItHasNoKeysWithoutEffect) {
+  const YAML::Node overhand = YAML::Load(method_yaml(load_method(kConfig + "overhand.yaml")));
+  for (const char* key : {"knot_distance", "tail", "handedness", "wrap", "post_diameter"})
+    EXPECT_FALSE(overhand["specimen"][key].IsDefined()) << key;
+  for (const char* key : {"knot", "turns", "length", "end_to_end", "edge_length"})
+    EXPECT_TRUE(overhand["specimen"][key].IsDefined()) << key;
+  EXPECT_FALSE(overhand["machine"]["roller_diameter"].IsDefined());
+  const YAML::Node loop = YAML::Load(method_yaml(load_method(kConfig + "tighten.yaml", {"ends.drop=0.5"})));
+  EXPECT_TRUE(loop["machine"]["roller_diameter"].IsDefined());
+  EXPECT_TRUE(loop["ends"]["drop_extension"].IsDefined());
+  EXPECT_FALSE(loop["ends"]["sharp_drop_time"].IsDefined());
+}
+
+TEST(Method, SaysWhichValuesAutoGave) {
+  const Method method = load_method(kTighten, {"specimen.tail=0.04", "machine.travel=2", "specimen.preload=auto"});
+  for (const char* key : {"specimen.edge_length", "specimen.preload", "machine.roller_diameter", "program.0.tie.speed"})
+    EXPECT_EQ(method.automatic.count(key), 1u) << key;
+  for (const char* key : {"specimen.tail", "machine.travel", "specimen.length", "ends.drop_extension"})
+    EXPECT_EQ(method.automatic.count(key), 0u) << key;
+  // As written and read again, but for what has another value by then.
+  const std::string text = method_yaml(method);
+  EXPECT_EQ(parse_method(text, "method.yaml").automatic, method.automatic);
+  std::map<std::string, std::string> others = method.automatic;
+  others.erase("specimen.edge_length");
+  EXPECT_EQ(parse_method(text, "method.yaml", {"specimen.edge_length=0.003"}).automatic, others);
+  EXPECT_EQ(load_method(kTighten, {"machine.load_cell=auto"}).automatic.count("machine.load_cell.capacity"), 0u)
+      << "that of the material's cell";
+  EXPECT_EQ(load_method(kConfig + "straight.yaml", {"material=silicone_cord", "machine.load_cell=auto"})
+                .automatic.count("machine.load_cell.capacity"),
+            1u);
 }
 
 }  // namespace

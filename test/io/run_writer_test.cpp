@@ -426,6 +426,49 @@ TEST(ResultYaml, WarnsOfATestThatEndedBeforeAnythingWasPulled) {
   EXPECT_THAT(printed_warnings(results, facts), ::testing::IsEmpty());
 }
 
+/// Before all others: the rod is then not the one that was meant.
+TEST(ResultYaml, ThePrintedWarningsHaveDeepContactsAndRodsThatCrossed) {
+  Results results;
+  EXPECT_THAT(printed_warnings(results, RunFacts()), ::testing::IsEmpty());
+  results.max_penetration = 0.06;
+  EXPECT_THAT(printed_warnings(results, RunFacts()),
+              ::testing::ElementsAre(
+                  "strands are pressed into each other by up to 0.06 radii, where a contact is right up to 0.05"));
+  results.knot_type = KnotType::kCrossed;
+  results.untangled_at = 3.0;
+  EXPECT_THAT(printed_warnings(results, RunFacts()).front(), "the rod ran through itself at 3 s");
+}
+
+/// A free loop of the radius R bears 2 T R^2 = k_b: at 0.05 k_b/h^2 it is 3.16 h.
+TEST(ResultYaml, WarnsOfAnOverhandThatWasNotPulledTight) {
+  Results results;
+  RunFacts facts;
+  facts.one_knot_in_a_strand = true;
+  facts.material.radius = 0.002;
+  facts.material.bending_stiffness = 4e-6;  // k_b/h^2 is 1 N
+  results.true_peak_force = 0.05;
+  EXPECT_THAT(printed_warnings(results, facts),
+              ::testing::ElementsAre(
+                  HasSubstr("the pull ended while the knot was still loose: the largest force, 0.05 "
+                            "N, leaves its loop a radius of about 3.16 radii of the rod, and more "
+                            "with friction; it is tight from about 0.125 N on, to which a longer pull brings it")));
+  results.true_peak_force = 0.13;
+  EXPECT_THAT(printed_warnings(results, facts), ::testing::IsEmpty());
+  results.true_peak_force = 0.05;
+  results.knot_type = KnotType::kChanged;
+  EXPECT_THAT(printed_warnings(results, facts), ::testing::IsEmpty()) << "there is no knot";
+}
+
+TEST(ResultYaml, OfOneKnotNothingIsSaidOfALockOfTwo) {
+  Results results;
+  results.true_peak_force = 1.0;
+  const std::string yaml = result_yaml(results, RunFacts());
+  EXPECT_THAT(yaml,
+              HasSubstr("lock_extension: null  # only two knots that slide towards each other lock, and there are "
+                        "none\n"));
+  EXPECT_THAT(yaml, HasSubstr("locked_stiffness: null  # the load has no rise with three readings or more\n"));
+}
+
 TEST(ResultYaml, TellsOfAPullThatEndedBeforeTheKnotsLocked) {
   Results results;
   results.motion_pattern = MotionPattern::kSliding;

@@ -106,6 +106,24 @@ class Facts(unittest.TestCase):
             ("pull", "speed 2 mm/s, until extension 100 mm or load 5 N or break"),
             ("cycle", "extension [0, 10] mm, count 3")])
 
+    def test_say_which_values_were_automatic(self):
+        method = {"specimen": {"knot": "straight", "length": 0.25, "edge_length": 0.005}, "material": {}, "machine": {"travel": 1.0},
+                  "program": [{"hold": {"duration": 2}}, {"pull": {"speed": 0.0033, "until": {"extension": 0.01}}}],
+                  "automatic": {"specimen.edge_length": 0.005, "machine.travel": 1, "program.1.pull.until.extension": 0.01}}
+        found = {row for _, rows, _ in method_facts.method_facts(method, Units()) for row in rows}
+        self.assertLessEqual({("Length of rod", "250 mm"), ("Edge length of the mesh", "5 mm (auto)"), ("Travel", "1000 mm (auto)")},
+                             found)
+        self.assertEqual(method_facts.program(method, Units())[1], ("pull", "speed 3.3 mm/s, until extension 10 mm (auto)"))
+
+    def test_have_the_friction_that_counts_around_a_post(self):
+        method = {"specimen": {"knot": "capstan"}, "material": {"friction_coefficient": 0.46}, "machine": {"roller_friction": 0.3}}
+        found = [row for _, rows, _ in method_facts.method_facts(method, Units()) for row in rows if "riction" in row[0]]
+        self.assertEqual(found, [("Friction coefficient of the rod on the post", "0.3")])
+
+    def test_begin_with_what_a_capstan_is_for(self):
+        shown = page.headlines(OfValues(None, force_ratio=5.8, peak_force=25.0), None)
+        self.assertEqual([headline.label for headline in shown], ["Force ratio", "Peak force"])
+
     def test_call_the_stiffness_of_the_whole_pull_so(self):
         result = {"lock_extension": None, "locked_stiffness": 1.0, "locked_stiffness_error": 0.1}
         for lock, name in ((None, "tiffness of the pull"), (0.05, "ocked stiffness")):

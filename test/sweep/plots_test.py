@@ -14,7 +14,7 @@ import numpy as np
 import pandas as pd
 from scipy import stats
 
-from knot_utm import WrongInput, pattern_plots, plots, refining, trends
+from knot_utm import WrongInput, axes, pattern_plots, plots, refining, trends
 from knot_utm.groups import dimensionless
 from knot_utm.neighbours import Neighbours
 from knot_utm.study import load_study
@@ -46,6 +46,21 @@ class MadeUpRuns:
 
     def rod(self, _run):
         return 2e-5, 2e-3  # k_b/h^2 is 5 N
+
+
+class Axes(unittest.TestCase):
+    def test_that_are_logarithmic_name_two_numbers_at_least(self):
+        for low, high in ((2.0, 50.0), (1.5, 60.0), (0.15, 38.4), (3.0, 2900.0)):
+            values = pd.Series([low, high])
+            panel = axes.panels(1)[1][0]
+            panel.plot(values, values, "o")
+            for name in ("x", "y"):
+                axes.scale_axis(panel, name, values)
+            panel.figure.canvas.draw()
+            for axis, (first, last) in ((panel.xaxis, panel.get_xlim()), (panel.yaxis, panel.get_ylim())):
+                named = [tick for tick, label in zip(axis.get_majorticklocs(), axis.get_majorticklabels())
+                         if first <= tick <= last and label.get_text()]
+                self.assertGreaterEqual(len(named), 2, (low, high))
 
 
 class Trends(unittest.TestCase):

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ struct Method {
   ReportOptions report;
   Specification specification;
   SpecimensOptions specimens;
+  std::map<std::string, std::string>
+      automatic;  ///< dotted keys whose values `auto` gave, and these as they are written
 };
 
 /// Reads a method file. Materials and load cells are given as maps in the method, or by name. A name is looked up as

@@ -1,0 +1,82 @@
+// What is known of a method before it is run.
+#include "knot_utm/io/foreseen.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "io/command.hpp"
+
+namespace knot_utm {
+namespace {
+
+using testing::AllOf;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
+
+std::vector<std::string> warnings_of(const std::string& name, const std::vector<std::string>& set) {
+  return foreseen_warnings(load_method(kConfig + name + ".yaml", set));
+}
+
+TEST(Foreseen, NothingIsSaidOfTheShippedMethods) {
+  for (const std::string& folder : {kConfig, kConfig + "standards/"})
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+      if (entry.path().extension() == ".yaml" && entry.path().filename() != "from_file.yaml") {
+        EXPECT_THAT(foreseen_warnings(load_method(entry.path().string())), IsEmpty()) << entry.path();
+      }
+}
+
+TEST(Foreseen, AnOverhandThatAutoMadeLongerThanUsual) {
+  EXPECT_THAT(warnings_of("overhand", {"specimen.end_to_end=0.73"}), IsEmpty()) << "0.27 m are enough";
+  const std::vector<std::string> set{"specimen.end_to_end=0.9"};
+  EXPECT_THAT(warnings_of("overhand", set),
+              ElementsAre(AllOf(HasSubstr("specimen.length: auto is 1.2 m, more than its usual 1 m"),
+                                HasSubstr("the length of rod in the knot, 0.3 m, is the same"))));
+  EXPECT_THAT(warnings_of("overhand", {set[0], "specimen.length=1.19"}), IsEmpty()) << "chosen";
+  // method.yaml of the run has the number in place of `auto`, and a test goes on from it.
+  const Method again = parse_method(method_yaml(load_method(kConfig + "overhand.yaml", set)), "method.yaml");
+  EXPECT_EQ(foreseen_warnings(again).size(), 1u);
+}
+
+TEST(Foreseen, AnExtensionBeyondTheTravelOfTheCrosshead) {
+  EXPECT_THAT(warnings_of("straight", {"machine.travel=0.02", "program=[{pull: {until: {extension: 0.02}}}]"}),
+              IsEmpty());
+  EXPECT_THAT(
+      warnings_of("straight", {"machine.travel=0.02", "program=[{pull: {until: {extension: 0.03}}}]"}),
+      ElementsAre("program.0.pull.until.extension is 0.03 m, which is never reached: before it the crosshead is "
+                  "at the end of machine.travel, 0.02 m, and the test ends there"));
+  EXPECT_THAT(warnings_of("straight", {"machine.travel=0.02", "program=[{cycle: {extension: [0, 0.03], count: 2}}]"}),
+              ElementsAre(HasSubstr("program.0.cycle.extension is 0.03 m, which is never reached")));
+}
+
+TEST(Foreseen, ALoadOrATimeBeyondWhatEndsTheTest) {
+  EXPECT_THAT(warnings_of("straight", {"ends.load=50", "program=[{pull: {until: {load: 100}}}]"}),
+              ElementsAre(HasSubstr("program.0.pull.until.load is 100 N, which is never reached: before it the load is "
+                                    "at ends.load, 50 N")));
+  EXPECT_THAT(warnings_of("straight", {"ends.time=5", "program=[{pull: {until: {time: 9}}}]"}),
+              ElementsAre(HasSubstr("program.0.pull.until.time is 9 s, which is never reached")));
+  EXPECT_THAT(warnings_of("straight", {"program=[{pull: {speed: 0.1, until: {time: 100}}}]"}),
+              ElementsAre(HasSubstr("at the end of machine.travel after 10 s at 0.1 m/s")));
+}
+
+TEST(Foreseen, AFractureOfARodThatNothingBreaks) {
+  const std::vector<std::string> set{"program=[{pull: {until: {break: true}}}]", "material=pink_vps"};
+  EXPECT_THAT(warnings_of("straight", set),
+              ElementsAre(HasSubstr("program.0.pull.until.break is the only end of the pull, but nothing breaks")));
+  EXPECT_THAT(warnings_of("straight", {set[0], set[1], "material.breaking_strain=2"}), IsEmpty());
+  EXPECT_THAT(warnings_of("straight", {set[0], set[1], "ends.drop=0.5"}), IsEmpty());
+}
+
+TEST(Foreseen, CheckSaysIt) {
+  const Answer answer = answer_of(tool("tensile_test", "straight --check --set machine.travel=0.001"));
+  EXPECT_EQ(answer.code, 0);
+  EXPECT_THAT(answer.text, HasSubstr("tensile_test: program."));
+  EXPECT_THAT(answer.text, HasSubstr("which is never reached"));
+}
+
+}  // namespace
+}  // namespace knot_utm
