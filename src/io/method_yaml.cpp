@@ -1,5 +1,6 @@
 // The method written as YAML.
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/machine/grips.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_overrides.hpp"
 #include "method_reader.hpp"
@@ -20,6 +21,7 @@ void leave_out_idle_keys(const Method& m, YAML::Node& root) {
     if (!knot.has(item.first.Scalar())) idle.push_back(item.first.Scalar());
   for (const std::string& key : idle) root["specimen"].remove(key);
   if (!knot.about().loop) root["machine"].remove("roller_diameter");
+  if (!rollers_hold(m.specimen, m.machine)) root["machine"].remove("far_side");
   if (!m.ends.breaks.sharp_drop) root["ends"].remove("sharp_drop_time");
   if (!m.ends.breaks.drop) root["ends"].remove("drop_extension");
 }

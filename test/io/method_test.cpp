@@ -296,9 +296,9 @@ TEST(Method, AsItIsWrittenItHasNoKeysWithoutEffect) {
     EXPECT_FALSE(overhand["specimen"][key].IsDefined()) << key;
   for (const char* key : {"knot", "turns", "length", "end_to_end", "edge_length"})
     EXPECT_TRUE(overhand["specimen"][key].IsDefined()) << key;
-  EXPECT_FALSE(overhand["machine"]["roller_diameter"].IsDefined());
+  for (const char* key : {"roller_diameter", "far_side"}) EXPECT_FALSE(overhand["machine"][key].IsDefined()) << key;
   const YAML::Node loop = YAML::Load(method_yaml(load_method(kConfig + "tighten.yaml", {"ends.drop=0.5"})));
-  EXPECT_TRUE(loop["machine"]["roller_diameter"].IsDefined());
+  for (const char* key : {"roller_diameter", "far_side"}) EXPECT_TRUE(loop["machine"][key].IsDefined()) << key;
   EXPECT_TRUE(loop["ends"]["drop_extension"].IsDefined());
   EXPECT_FALSE(loop["ends"]["sharp_drop_time"].IsDefined());
 }
