@@ -11,13 +11,13 @@ LoadTerms::LoadTerms(const Material& material)
 
 std::optional<double> LoadTerms::load(const std::string& text) const {
   if (text == "reference_tension") return reference_tension_;
-  const std::size_t sign = text.size() - 1;
-  if (text.empty() || text[sign] != '%') return std::nullopt;
-  const std::optional<double> percent = parse_number(text.substr(0, text.find_last_not_of(' ', sign - 1) + 1));
+  if (text.empty() || text.back() != '%') return std::nullopt;
+  const std::string before = text.substr(0, text.size() - 1);
+  const std::optional<double> percent = parse_number(before.substr(0, before.find_last_not_of(' ') + 1));
   if (!percent) return std::nullopt;
   if (!breaking_force_)
     throw std::invalid_argument("the material has no breaking_force, of which this is a percentage");
-  return *percent / 100.0 * *breaking_force_;
+  return *percent * *breaking_force_ / 100.0;
 }
 
 double reference_tension(const Material& material) {

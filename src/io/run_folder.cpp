@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -20,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kFailedStep = "failed_step.bin";
+constexpr const char* kSpecimen = "specimen_";  // and a number, the folder of one
 
 /// What a run writes from its beginning; its checkpoint is of no use without the journal.
 constexpr std::array<const char*, 5> kWritten{"method.yaml", "specimen.csv", "curve.csv", "curve_full.csv",
@@ -100,10 +103,29 @@ void begin_run_folder(const std::string& folder, const Method& method) {
   }
 }
 
+std::string specimen_folder(const std::string& folder, int number) {
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "%s%03d", kSpecimen, number);
+  return (fs::path(folder) / name.data()).string();
+}
+
 bool holds_results(const std::string& folder) {
   std::error_code error;
   const auto stands = [&](const char* name) { return fs::is_regular_file(fs::path(folder) / name, error); };
-  return std::any_of(kWritten.begin(), kWritten.end(), stands) || std::any_of(kOld.begin(), kOld.end(), stands);
+  return std::any_of(kWritten.begin(), kWritten.end(), stands) || std::any_of(kOld.begin(), kOld.end(), stands) ||
+         !specimen_folders(folder).empty();
+}
+
+std::vector<std::string> specimen_folders(const std::string& folder) {
+  std::vector<std::string> found;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    const bool numbered = name.rfind(kSpecimen, 0) == 0 && name.size() > std::strlen(kSpecimen) &&
+                          name.find_first_not_of("0123456789", std::strlen(kSpecimen)) == std::string::npos;
+    if (numbered && entry.is_directory(error)) found.push_back(entry.path().string());
+  }
+  return found;
 }
 
 bool holds_run(const std::string& folder) {

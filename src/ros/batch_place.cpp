@@ -1,10 +1,11 @@
 #include "knot_utm/ros/batch_place.hpp"
 
-#include <ros/master.h>
-#include <ros/this_node.h>
+#include <array>
+#include <filesystem>
+#include <optional>
 
-#include <map>
-
+#include "knot_utm/io/report.hpp"
+#include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/names.hpp"
 
 namespace knot_utm {
@@ -17,27 +18,38 @@ constexpr char kNumber[] = "number", kCount[] = "count";
 std::string BatchPlace::text() const { return "specimen " + std::to_string(number) + " of " + std::to_string(count); }
 
 bool set_batch_place(const ros::NodeHandle& node, const BatchPlace& place) {
-  // A master that died is not waited for.
-  XmlRpc::XmlRpcValue request, response, payload;
-  request[0] = ros::this_node::getName();
-  request[1] = node.resolveName(names::kBatchPlace);
-  request[2][kNumber] = place.number;
-  request[2][kCount] = place.count;
-  return ros::master::execute("setParam", request, response, payload, false);
+  XmlRpc::XmlRpcValue value;
+  value[kNumber] = place.number;
+  value[kCount] = place.count;
+  return set_on_master(node.resolveName(names::kBatchPlace), value);
 }
 
 BatchPlace batch_place(const ros::NodeHandle& node) {
-  std::map<std::string, int> set;
-  if (!node.getParam(names::kBatchPlace, set)) return {};
-  const BatchPlace place{set[kNumber], set[kCount]};
-  if (place.number >= 1 && place.number <= place.count && place.count <= kMostSpecimens) return place;
-  throw InvalidInput(node.resolveName(names::kBatchPlace), place.text(), "the place that utm_node sets");
+  const std::string name = node.resolveName(names::kBatchPlace);
+  std::optional<XmlRpc::XmlRpcValue> set = get_from_master(name);
+  const auto number = [&](const char* key) {
+    const bool there = set->hasMember(key) && (*set)[key].getType() == XmlRpc::XmlRpcValue::TypeInt;
+    return there ? static_cast<int>((*set)[key]) : 0;
+  };
+  // Without it nobody knows which specimen is meant: the test is then not taken for one that stands alone.
+  if (!set || set->getType() != XmlRpc::XmlRpcValue::TypeStruct)
+    throw InvalidInput::sentence(name, "",
+                                 "the parameter " + name + ", which utm_node sets before each test, is not there");
+  const BatchPlace place{number(kNumber), number(kCount)};
+  if (place.number >= 1 && place.number <= place.count && place.count <= kMostInBatch) return place;
+  throw InvalidInput(name, place.text(), "the place that utm_node sets");
 }
 
 Method method_of_batch(const Method& method, int count) {
   Method out = method;
   out.specimens.count = count;
   return out;
+}
+
+std::string command_to_resume(const std::string& batch) {
+  const std::string tool = std::filesystem::read_symlink("/proc/self/exe").replace_filename("tensile_test").string();
+  const std::array<const char*, 3> words{tool.c_str(), "--resume", batch.c_str()};
+  return command_line(words.size(), words.data());
 }
 
 }  // namespace knot_utm

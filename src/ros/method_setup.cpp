@@ -2,7 +2,6 @@
 
 #include <ros/console.h>
 #include <ros/init.h>
-#include <ros/master.h>
 #include <ros/names.h>
 #include <ros/this_node.h>
 
@@ -13,7 +12,9 @@
 
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/io/shipped.hpp"
+#include "knot_utm/ros/batch_place.hpp"
 #include "knot_utm/ros/loopback.hpp"
+#include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/study/specimens.hpp"
 
@@ -58,6 +59,17 @@ std::string following(const std::string& data, const Program& program) {
   return "program." + std::to_string(program.rend() - pull - 1) + "={follow: {record: '" + quoted + "'}}";
 }
 
+/// Refused now, and not once others have been tested.
+void check_specimens(const Method& method, const std::string& file) {
+  const int count = method.specimens.count;
+  if (count > kMostInBatch)
+    throw InvalidInput::sentence("specimens.count", std::to_string(count),
+                                 "specimens.count is " + std::to_string(count) + ", but under ROS it may be at most " +
+                                     std::to_string(kMostInBatch) + "; tensile_test takes more")
+        .in_file(file);
+  draw_specimens(method);
+}
+
 bool another_says_it(const ros::NodeHandle& node) {
   return ros::this_node::getName() != node.resolveName(names::kUtmNode) &&
          node.hasParam(std::string(names::kExitCodes) + "/" + names::kUtmNode);
@@ -85,7 +97,7 @@ MethodSetup read_parameters(const ros::NodeHandle& node) {
     overrides.push_back(following(setup.data, setup.method.program));
     setup.method = load_method(file, overrides);
   }
-  if (setup.method.specimens.count > 1) draw_specimens(setup.method);  // refused now, and not by the first test
+  if (setup.method.specimens.count > 1 && !another_says_it(node)) check_specimens(setup.method, file);
   // The folder's name below out/.
   if (setup.method.name == "." || setup.method.name == "..") {
     throw InvalidInput::sentence("method", file,
@@ -125,14 +137,7 @@ ros::NodeHandle join_ros(int argc, char** argv, const char* name) {
 
 void leave_ros(const char* name, int code) {
   if (!ros::isStarted()) return;
-  if (ros::ok()) {
-    // A master that died is not waited for.
-    XmlRpc::XmlRpcValue request, response, payload;
-    request[0] = ros::this_node::getName();
-    request[1] = ros::names::resolve(std::string(names::kExitCodes) + "/" + name);
-    request[2] = code;
-    ros::master::execute("setParam", request, response, payload, false);
-  }
+  if (ros::ok()) set_on_master(ros::names::resolve(std::string(names::kExitCodes) + "/" + name), code);
   ros::shutdown();
 }
 

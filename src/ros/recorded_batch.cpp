@@ -7,7 +7,7 @@
 namespace knot_utm {
 
 RecordedBatch::RecordedBatch(const Method& method, ClaimedFolder claimed)
-    : method_(method), claimed_(std::move(claimed)) {}
+    : method_(method), claimed_(std::move(claimed)), table_(claimed_.folder) {}
 
 RecordedBatch RecordedBatch::begin(const Method& method, ClaimedFolder claimed) {
   begin_run_folder(claimed.folder, method);
@@ -24,7 +24,8 @@ const Method& RecordedBatch::method_of(int number) {
 
 bool RecordedBatch::conclude(int number) {
   method_of(number);
-  write_batch_tables(folder(), {drawn_.begin(), drawn_.begin() + number});
+  for (; concluded_ < number; ++concluded_) table_.add(drawn_[static_cast<std::size_t>(concluded_)]);
+  table_.write();
   if (number < method_.specimens.count) return false;
   claimed_.journal.remove();
   return true;

@@ -14,6 +14,7 @@
 #include "knot_utm/ros/journal_bag.hpp"
 #include "knot_utm/ros/knot_node.hpp"
 #include "knot_utm/ros/loopback.hpp"
+#include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/validate.hpp"
 
 namespace knot_utm {
@@ -116,7 +117,8 @@ void RecorderNode::begin_run(const Crosshead& first) {
   completed_before_ = !test_id_.empty() && recorded == test_id_;
   if (completed_before_) return;
   begin_batch(id_of_test(run + 1 - static_cast<std::uint32_t>(place_.number)));
-  const std::string before = told_folder(names::kFolderOfTest, test_id_);
+  // That of a specimen is known even where the recorder before died between making it and telling it.
+  const std::string before = batch_ ? batch_->folder_of(place_.number) : told_folder(names::kFolderOfTest, test_id_);
   if (!before.empty()) {
     if (go_on(before)) return;
     if (first.sequence > 0 && has_complete_result(before)) {
@@ -125,7 +127,8 @@ void RecorderNode::begin_run(const Crosshead& first) {
     }
   }
   const Method method = batch_ ? batch_->method_of(place_.number) : method_of_batch(setup_.method, 1);
-  ClaimedFolder claimed = claim(batch_ ? batch_->folder_of(place_.number) : setup_.out, method, test_id_);
+  if (batch_ && holds_run(before)) throw std::runtime_error(before + " holds another run, which is not written over");
+  ClaimedFolder claimed = claim(batch_ ? before : setup_.out, method, test_id_);
   if (!test_id_.empty()) tell_master(names::kFolderOfTest, test_id_ + " " + claimed.folder);
   run_ = std::make_unique<Run>(claimed.folder, method, std::move(claimed.journal));
   watch(claimed.folder);
@@ -283,67 +286,96 @@ void RecorderNode::finish_when_ready() {
   const bool shape = run_->shape.cols() > 0 && run_->shape_sequence == test_.sequence;
   // A physics that has failed may not have the specimen any more.
   if (all && (shape || run_->failed)) {
-    finish(ended_by_from_name(test_.ended_by), test_.reason, "");
+    finish_as_told("");
   } else if (waited_ - run_->progress > kPatienceAtEnd) {
     if (!all) run_->dropped += test_.sequence + 1 - run_->next;
-    finish(ended_by_from_name(test_.ended_by), test_.reason, "the physics did not answer at the end of the test");
+    finish_as_told("the physics did not answer at the end of the test");
   }
+}
+
+void RecorderNode::finish_as_told(const std::string& warning) {
+  if (batch_ && test_.reason == names::kPhysicsDied) return interrupt(test_.reason);
+  finish(ended_by_from_name(test_.ended_by), test_.reason, warning);
 }
 
 void RecorderNode::finish_early() {
   if (test_.state == TestStatus::ENDED && test_.run == run_number_) {
-    finish(ended_by_from_name(test_.ended_by), test_.reason, "");
+    finish_as_told("");
   } else if (!master_answers()) {
     // Its launch then ends the nodes in any order: that of the machine may be gone before this one.
-    finish(EndedBy::kOperator, "the ROS master died before the test had ended", "");
+    cut_off("the ROS master died before the test had ended");
   } else if (machine_died_) {
-    finish(EndedBy::kOperator, "utm_node died before the test had ended", "");
+    cut_off("utm_node died before the test had ended");
   } else {
-    finish(EndedBy::kOperator, "ROS was shut down before the test had ended", "");
+    cut_off("ROS was shut down before the test had ended");
   }
+}
+
+void RecorderNode::cut_off(const std::string& why) {
+  if (batch_) return interrupt(why);
+  finish(EndedBy::kOperator, why, "");
+}
+
+void RecorderNode::write_results(EndedBy ended_by, const std::string& reason, const std::string& warning) {
+  Run& run = *run_;
+  run.bag.close();
+  RunFacts facts = run.writer.facts();
+  facts.reason = reason;
+  facts.wall_time = seconds_since(run.begin);
+  if (!warning.empty()) facts.warnings.push_back(warning);
+  if (run.dropped > 0)
+    facts.warnings.push_back(std::to_string(run.dropped) + " commands of the test were not recorded");
+  run.writer.finish(run.writer.results(ended_by), facts, run.shape);
 }
 
 void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std::string& warning) {
   Run& run = *run_;
   try {
-    run.bag.close();
-    RunFacts facts = run.writer.facts();
-    facts.reason = reason;
-    facts.wall_time = seconds_since(run.begin);
-    if (!warning.empty()) facts.warnings.push_back(warning);
-    if (run.dropped > 0)
-      facts.warnings.push_back(std::to_string(run.dropped) + " commands of the test were not recorded");
-    run.writer.finish(run.writer.results(ended_by), facts, run.shape);
-    if (batch_) conclude_batch();
+    write_results(ended_by, reason, warning);
     // Whoever begins anew from here on has nothing left to do.
     if (ros::ok() && !test_id_.empty()) tell_master(names::kRecordedTest, test_id_);
     run.journal.remove();
     keeper_.release();
-    run.complete = true;
-    const std::string failed_step = failed_step_file(run.folder);
-    if (fs::exists(failed_step))
-      ROS_WARN("the time step that failed can be looked at by: scripts/replay-step %s", failed_step.c_str());
-    if (run.dropped > 0)
-      ROS_WARN("%llu commands of the test were not recorded", static_cast<unsigned long long>(run.dropped));
-    ROS_INFO("%zu readings were written to %s", run.writer.rows(), run.folder.c_str());
+  } catch (const std::exception& error) {
+    return fail(error.what());
+  }
+  const std::string failed_step = failed_step_file(run.folder);
+  if (fs::exists(failed_step))
+    ROS_WARN("the time step that failed can be looked at by: scripts/replay-step %s", failed_step.c_str());
+  if (run.dropped > 0)
+    ROS_WARN("%llu commands of the test were not recorded", static_cast<unsigned long long>(run.dropped));
+  ROS_INFO("%zu readings were written to %s", run.writer.rows(), run.folder.c_str());
+  if (batch_ && !conclude_specimen()) return;
+  run.complete = true;
+}
+
+void RecorderNode::interrupt(const std::string& why) {
+  try {
+    // As an interrupted test without ROS: its journal stays, and `tensile_test --resume` tests the specimen once more.
+    write_results(EndedBy::kNotYet, kInterrupted, why);
+    keeper_.release();
+    run_->complete = true;
+    ROS_WARN("%s: %s is left to be tested again", why.c_str(), place_.text().c_str());
   } catch (const std::exception& error) {
     fail(error.what());
   }
 }
 
-void RecorderNode::conclude_batch() {
-  if (!batch_->conclude(place_.number)) return;
-  ROS_INFO("the statistics of all %d specimens were written to %s/statistics.yaml", place_.count,
-           batch_->folder().c_str());
+bool RecorderNode::conclude_specimen() {
+  try {
+    if (batch_->conclude(place_.number))
+      ROS_INFO("the statistics of all %d specimens were written to %s", place_.count,
+               statistics_file(batch_->folder()).c_str());
+    return true;
+  } catch (const std::exception& error) {
+    error_ = error.what();  // what was measured is in the folder of the specimen
+    ROS_ERROR("%s", error_.c_str());
+    return false;
+  }
 }
 
 void RecorderNode::tell_master(const char* parameter, const std::string& text) const {
-  // A master that died is not waited for, as setParam would for ever; nobody is started anew without one.
-  XmlRpc::XmlRpcValue request, response, payload;
-  request[0] = ros::this_node::getName();
-  request[1] = node_.resolveName(parameter);
-  request[2] = text;
-  ros::master::execute("setParam", request, response, payload, false);
+  set_on_master(node_.resolveName(parameter), text);
 }
 
 void RecorderNode::fail(const std::string& why) {
@@ -393,8 +425,8 @@ void RecorderNode::publish_status() {
     status.full_rows = run_->writer.full_rows();
     status.bag_messages = run_->bag.messages();
     status.directory = run_->folder;
-    if (batch_) status.batch = batch_->folder();
   }
+  if (batch_) status.batch = batch_->folder();
   published_ = status;
   published_at_ = Clock::now();
   status_.publish(status);

@@ -1,4 +1,6 @@
 // The tests of a batch, one after the other. A test that stands alone is a batch of one.
+#include <utility>
+
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 #include "knot_utm/study/specimens.hpp"
@@ -15,6 +17,13 @@ ProgramRunner program_of(const Method& method) {
   return make_program(method, tolerances(method.physics, method.specimen, method.material).longest_step);
 }
 
+std::vector<Method> methods_of_batch(const Method& method, int count) {
+  const Method batch = method_of_batch(method, count);
+  std::vector<Method> out;
+  for (int number = 1; number <= count; ++number) out.push_back(method_of_specimen(batch, number));
+  return out;
+}
+
 }  // namespace
 
 std::string UtmNode::start_if_possible(std::uint32_t count) {
@@ -23,34 +32,25 @@ std::string UtmNode::start_if_possible(std::uint32_t count) {
   if (active()) return "a test is running";
   if (!has_specimen_) return "there is no specimen yet";
   if (run_ > 0 && !all_is_recorded()) return "the last test is still being recorded";
-  if (count > static_cast<std::uint32_t>(kMostSpecimens))
-    return "count is " + std::to_string(count) + ": it may be at most " + std::to_string(kMostSpecimens);
+  if (count > static_cast<std::uint32_t>(kMostInBatch))
+    return "count is " + std::to_string(count) + ": it may be at most " + std::to_string(kMostInBatch);
+  Batch batch;
   try {
-    draw_specimens(count > 0 ? static_cast<int>(count) : method_.specimens.count);
+    batch.methods = methods_of_batch(method_, count > 0 ? static_cast<int>(count) : method_.specimens.count);
   } catch (const InvalidInput& invalid) {
     return invalid.what();
   }
-  return start(0) ? "" : "the ROS master does not answer";
-}
-
-void UtmNode::draw_specimens(int count) {
-  const Method batch = method_of_batch(method_, count);
-  std::vector<Method> drawn;
-  for (int number = 1; number <= count; ++number) {
-    drawn.push_back(method_of_specimen(batch, number));
-    program_of(drawn.back());  // refused now, and not once others have been tested
-  }
-  drawn_ = std::move(drawn);
-  outcomes_.clear();
-  good_tests_ = 0;
-  stopped_ = false;
+  std::swap(batch, batch_);
+  if (start(0)) return "";
+  std::swap(batch, batch_);
+  return "the ROS master does not answer";
 }
 
 bool UtmNode::start(std::size_t specimen) {
-  const BatchPlace place{static_cast<int>(specimen) + 1, static_cast<int>(drawn_.size())};
+  const BatchPlace place{static_cast<int>(specimen) + 1, static_cast<int>(batch_.methods.size())};
   if (!set_batch_place(node_, place)) return false;
-  specimen_ = specimen;
-  program_.emplace(program_of(drawn_[specimen]));
+  batch_.specimen = specimen;
+  program_.emplace(program_of(batch_.methods[specimen]));
   if (run_ > 0) run_start_ = now_.toSec() + kGapBetweenTests;
   ++run_;
   recorded_ = 0;
@@ -74,35 +74,33 @@ bool UtmNode::start(std::size_t specimen) {
 }
 
 void UtmNode::stop() {
-  stopped_ = true;
+  if (!active() && !another_follows()) return;
+  batch_.stopped = true;
   if (active()) program_->stop();
 }
 
 bool UtmNode::another_follows() const {
-  return specimen_ + 1 < drawn_.size() && !stopped_ && !physics_died_ && !recorder_failed_;
+  return batch_.specimen + 1 < batch_.methods.size() && !batch_.stopped && !physics_died_ && !recorder_failed_;
 }
 
 void UtmNode::see_to_the_next() {
-  if (outcomes_.size() > specimen_) return;  // it has been seen to
-  outcomes_.push_back(outcome());
-  if (!program_->failed()) ++good_tests_;
+  if (batch_.outcomes.size() > batch_.specimen) return;  // it has been seen to
+  batch_.outcomes.push_back(outcome());
+  if (!program_->failed()) ++batch_.good_tests;
   if (another_follows()) {
-    if (start(specimen_ + 1)) return;
+    if (start(batch_.specimen + 1)) return;
     ROS_ERROR("the ROS master does not answer");
-    stopped_ = true;
+    batch_.stopped = true;
   }
-  if (outcomes_.size() < drawn_.size()) {
-    const std::string go_on = batch_directory_.empty() ? ""
-                                                       : "; the others can be tested, once the launch has ended, by: "
-                                                         "rosrun knot_utm tensile_test --resume " +
-                                                             batch_directory_;
-    ROS_WARN("the batch ended after %zu of %zu specimens%s", outcomes_.size(), drawn_.size(), go_on.c_str());
-  }
+  if (batch_.outcomes.size() < batch_.methods.size())
+    ROS_WARN("the batch ended after %zu of %zu specimens", batch_.outcomes.size(), batch_.methods.size());
+  if (batch_.outcomes.size() < batch_.methods.size() && !batch_directory_.empty())
+    ROS_WARN("once the launch has ended, the others can be tested by: %s", command_to_resume(batch_directory_).c_str());
   finish_goal();
 }
 
 bool UtmNode::failed() const {
-  return recorder_failed_ || physics_died_ || (program_ && program_->failed() && good_tests_ == 0);
+  return recorder_failed_ || physics_died_ || (program_ && program_->failed() && batch_.good_tests == 0);
 }
 
 }  // namespace knot_utm

@@ -112,7 +112,7 @@ void UtmNode::on_specimen(const SpecimenInfo::ConstPtr& specimen) {
 void UtmNode::on_gone(const ros::SingleSubscriberPublisher& subscriber) {
   if (active() && subscriber.getSubscriberName() == node_.resolveName(names::kKnotNode)) {
     physics_died_ = true;
-    physics_failed("knot_node died during the test");
+    physics_failed(names::kPhysicsDied);
   }
 }
 
@@ -224,7 +224,7 @@ void UtmNode::end() {
     ROS_INFO("the test ended by %s: %s", ended_by_name(program_->ended_by()), program_->reason().c_str());
   }
   if (program_->ended_by() == EndedBy::kUntangled)
-    ROS_WARN("the knot came undone: %s", what_keeps_a_knot(method_).c_str());
+    ROS_WARN("the knot came undone: %s", what_keeps_a_knot(batch_.methods[batch_.specimen]).c_str());
   publish_clock(true);
   publish_status();
 }

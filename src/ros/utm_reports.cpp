@@ -50,8 +50,8 @@ void UtmNode::publish_status() {
 void UtmNode::report_to_goal(const TestStatus& status) {
   if (!run_test_.has_goal()) return;
   RunTestFeedback feedback;
-  feedback.specimen = static_cast<std::uint32_t>(specimen_ + 1);
-  feedback.specimens = static_cast<std::uint32_t>(drawn_.size());
+  feedback.specimen = static_cast<std::uint32_t>(batch_.specimen + 1);
+  feedback.specimens = static_cast<std::uint32_t>(batch_.methods.size());
   feedback.phase = status.phase;
   feedback.time = sample_.time;
   feedback.extension = sample_.extension;
@@ -69,7 +69,7 @@ TestOutcome UtmNode::outcome() const {
   const EndedBy ended_by = program_->ended_by();
   TestOutcome out;
   out.run = run_;
-  out.specimen = static_cast<std::uint32_t>(specimen_ + 1);
+  out.specimen = static_cast<std::uint32_t>(batch_.specimen + 1);
   out.ended_by = ended_by_name(ended_by);
   out.reason = recorder_failed_ ? "the recorder failed" : program_->reason();
   out.motion_pattern = motion_pattern_;
@@ -86,7 +86,7 @@ TestOutcome UtmNode::outcome() const {
 
 void UtmNode::finish_goal() {
   if (!run_test_.has_goal()) return;
-  const TestOutcome& last = outcomes_.back();
+  const TestOutcome& last = batch_.outcomes.back();
   RunTestResult result;
   result.run = last.run;
   result.ended_by = last.ended_by;
@@ -99,12 +99,12 @@ void UtmNode::finish_goal() {
   result.balance_offset = last.balance_offset;
   result.max_penetration = last.max_penetration;
   result.directory = batch_directory_.empty() ? last.directory : batch_directory_;
-  result.tests = outcomes_;
+  result.tests = batch_.outcomes;
   std::string text = "ended by " + last.ended_by + (last.reason.empty() ? "" : ": " + last.reason);
-  if (drawn_.size() > 1)
-    text = "tested " + std::to_string(outcomes_.size()) + " of " + std::to_string(drawn_.size()) +
+  if (batch_.methods.size() > 1)
+    text = "tested " + std::to_string(batch_.outcomes.size()) + " of " + std::to_string(batch_.methods.size()) +
            " specimens; the last test " + text;
-  const bool by_operator = stopped_ || program_->ended_by() == EndedBy::kOperator;
+  const bool by_operator = batch_.stopped || program_->ended_by() == EndedBy::kOperator;
   run_test_.finish(failed()      ? GoalEnd::kAborted
                    : by_operator ? GoalEnd::kPreempted
                                  : GoalEnd::kSucceeded,
@@ -129,7 +129,7 @@ void UtmNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     status.summary(DiagnosticStatus::OK, states[static_cast<int>(state_)]);
   }
   status.add("test", run_);
-  if (drawn_.size() > 1) status.addf("specimen", "%zu of %zu", specimen_ + 1, drawn_.size());
+  if (batch_.methods.size() > 1) status.addf("specimen", "%zu of %zu", batch_.specimen + 1, batch_.methods.size());
   status.add("phase", phase_name(program_ ? program_->phase() : Phase::kIdle));
   status.add("time [s]", sample_.time);
   status.add("real-time factor", factor_);

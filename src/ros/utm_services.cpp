@@ -31,7 +31,8 @@ bool UtmNode::on_stop(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger
   const bool between_two = state_ == State::kEnded && another_follows();
   if (!active() && !between_two) return refuse(response, "no test is running");
   stop();
-  return accept(response, drawn_.size() > 1 ? "the test ends, and its batch with it" : "the test ends");
+  if (between_two) return accept(response, "the batch ends");
+  return accept(response, batch_.methods.size() > 1 ? "the test ends, and its batch with it" : "the test ends");
 }
 
 bool UtmNode::on_balance(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {

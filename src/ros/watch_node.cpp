@@ -11,8 +11,11 @@
 #include <stdexcept>
 #include <utility>
 
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/ros/batch_place.hpp"
 #include "knot_utm/ros/gate.hpp"
+#include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/validate.hpp"
 
@@ -74,11 +77,21 @@ int WatchNode::spin() {
     if (ended_) continue;  // roslaunch ends this node, too
     if (const std::optional<Processes> processes = ask_launch()) look(*processes);
   }
+  tell_unfinished_batch();
   return 0;
 }
 
 void WatchNode::on_recorder(const RecorderStatus::ConstPtr& status) {
-  if (status->run > 0) folder_ = one_line(status->batch.empty() ? status->directory : status->batch);
+  batch_ = status->batch;
+  if (status->run > 0) folder_ = one_line(batch_.empty() ? status->directory : batch_);
+}
+
+void WatchNode::tell_unfinished_batch() const {
+  if (batch_.empty() || !holds_unfinished_run(batch_)) return;
+  // ROS may be shut down by now.
+  std::printf("not all specimens of the batch in %s were tested; test the others by: %s\n", batch_.c_str(),
+              command_to_resume(batch_).c_str());
+  std::fflush(stdout);
 }
 
 std::optional<WatchNode::Processes> WatchNode::ask_launch() const {
@@ -95,13 +108,9 @@ std::optional<WatchNode::Processes> WatchNode::ask_launch() const {
 }
 
 std::optional<int> WatchNode::exit_code(const std::string& node) const {
-  XmlRpc::XmlRpcValue request, response, code;
-  request[0] = ros::this_node::getName();
-  request[1] = watched_.at(node);
-  // A master that died is not waited for.
-  if (!ros::master::execute("getParam", request, response, code, false)) return std::nullopt;
-  if (code.getType() != XmlRpc::XmlRpcValue::TypeInt || static_cast<int>(code) < 0) return std::nullopt;
-  return static_cast<int>(code);
+  std::optional<XmlRpc::XmlRpcValue> code = get_from_master(watched_.at(node));
+  if (!code || code->getType() != XmlRpc::XmlRpcValue::TypeInt || static_cast<int>(*code) < 0) return std::nullopt;
+  return static_cast<int>(*code);
 }
 
 void WatchNode::look(const Processes& processes) {

@@ -12,7 +12,6 @@
 #include <stdexcept>
 #include <thread>
 
-#include "batch_table.hpp"
 #include "knot_utm/io/claimed_folder.hpp"
 #include "knot_utm/io/foreseen.hpp"
 #include "knot_utm/io/run_folder.hpp"
@@ -128,8 +127,6 @@ class SideBySide {
   std::string fault_;
 };
 
-std::string statistics_file(const std::string& folder) { return (fs::path(folder) / "statistics.yaml").string(); }
-
 /// The journal of the batch's folder has no records: it holds the folder, and stands there until the batch has ended.
 ClaimedFolder folder_of_batch(const Method& method, const BatchOptions& options) {
   const std::string& asked = options.folder;
@@ -143,25 +140,10 @@ ClaimedFolder folder_of_batch(const Method& method, const BatchOptions& options)
 /// Of an earlier batch that is written over.
 void remove_specimens(const std::string& folder) {
   std::error_code error;
-  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error))
-    if (entry.is_directory() && entry.path().filename().string().rfind("specimen_", 0) == 0)
-      fs::remove_all(entry.path(), error);
+  for (const std::string& specimen : specimen_folders(folder)) fs::remove_all(specimen, error);
 }
 
 }  // namespace
-
-std::string specimen_folder(const std::string& folder, int number) {
-  std::array<char, 32> name{};
-  std::snprintf(name.data(), name.size(), "specimen_%03d", number);
-  return (fs::path(folder) / name.data()).string();
-}
-
-std::vector<Rejected> write_batch_tables(const std::string& folder, const std::vector<DrawnSpecimen>& tested) {
-  const BatchTable table(folder, tested);
-  write_whole((fs::path(folder) / "specimens.csv").string(), table.csv());
-  write_whole(statistics_file(folder), table.statistics());
-  return table.rejected();
-}
 
 BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
   if (options.resume && fs::exists(statistics_file(options.folder)) && !holds_unfinished_run(options.folder))
@@ -182,7 +164,10 @@ BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
   out.interrupted = tests.interrupted();
   if (!tests.fault().empty()) throw std::runtime_error(tests.fault());
   if (out.interrupted) return out;
-  out.rejected = write_batch_tables(claimed.folder, specimens);
+  BatchTable table(claimed.folder);
+  for (const DrawnSpecimen& specimen : specimens) table.add(specimen);
+  table.write();
+  out.rejected = table.rejected();
   claimed.journal.remove();
   return out;
 }

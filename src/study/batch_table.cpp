@@ -1,12 +1,16 @@
-#include "batch_table.hpp"
+#include "knot_utm/study/batch_table.hpp"
 
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
+#include <stdexcept>
 
+#include "knot_utm/analysis/statistics.hpp"
 #include "knot_utm/io/key_units.hpp"
 #include "knot_utm/io/result_keys.hpp"
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
@@ -27,6 +31,15 @@ std::vector<const ResultKey*> keys_of_table() {
   return out;
 }
 
+YAML::Node results_in(const std::string& folder) {
+  const std::string file = (std::filesystem::path(folder) / "result.yaml").string();
+  try {
+    return YAML::Load(read_whole(file));
+  } catch (const YAML::Exception& error) {
+    throw std::runtime_error("cannot read " + file + ": " + error.what());
+  }
+}
+
 std::string word(const YAML::Node& results, const char* key) {
   const YAML::Node value = results[key];
   return value.IsDefined() && value.IsScalar() ? value.Scalar() : "";
@@ -43,25 +56,32 @@ std::string csv_number(const std::optional<double>& value) { return value ? form
 
 }  // namespace
 
-BatchTable::BatchTable(const std::string& folder, const std::vector<DrawnSpecimen>& specimens) {
-  for (const DrawnSpecimen& specimen : specimens) {
-    const YAML::Node results = YAML::LoadFile(specimen_folder(folder, specimen.number) + "/result.yaml");
-    Row row{&specimen, true, word(results, "ended_by"), word(results, "motion_pattern"), {}};
-    for (const ResultKey* key : keys_of_table()) row.numbers.push_back(parse_number(word(results, key->name)));
-    const std::string why = why_rejected(row.ended_by, word(results, "reason"));
-    row.counts = why.empty();
-    if (!row.counts) rejected_.push_back({specimen.number, why});
-    rows_.push_back(std::move(row));
+void BatchTable::add(const DrawnSpecimen& specimen) {
+  const YAML::Node results = results_in(specimen_folder(folder_, specimen.number));
+  Row row{specimen.number, {}, true, word(results, "ended_by"), word(results, "motion_pattern"), {}};
+  drawn_keys_.clear();
+  for (const auto& [key, value] : specimen.drawn) {
+    drawn_keys_.emplace_back(key, unit_of_key(specimen.method, key));
+    row.drawn.push_back(value);
   }
+  for (const ResultKey* key : keys_of_table()) row.numbers.push_back(parse_number(word(results, key->name)));
+  const std::string why = why_rejected(row.ended_by, word(results, "reason"));
+  row.counts = why.empty();
+  if (!row.counts) rejected_.push_back({specimen.number, why});
+  rows_.push_back(std::move(row));
+}
+
+void BatchTable::write() const {
+  write_whole((std::filesystem::path(folder_) / "specimens.csv").string(), csv());
+  write_whole(statistics_file(folder_), statistics());
 }
 
 std::string BatchTable::csv() const {
   std::string names = "specimen", units = "-", all;
-  if (!rows_.empty())
-    for (const auto& [key, value] : rows_.front().specimen->drawn) {
-      names += "," + key;
-      units += "," + unit_of_key(rows_.front().specimen->method, key);
-    }
+  for (const auto& [key, unit] : drawn_keys_) {
+    names += "," + key;
+    units += "," + unit;
+  }
   names += ",rejected,ended_by,motion_pattern";
   units += ",-,-,-";
   for (const ResultKey* key : keys_of_table()) {
@@ -70,8 +90,8 @@ std::string BatchTable::csv() const {
   }
   all = names + "\n" + units + "\n";
   for (const Row& row : rows_) {
-    all += std::to_string(row.specimen->number);
-    for (const auto& [key, value] : row.specimen->drawn) all += "," + format_number(value);
+    all += std::to_string(row.specimen);
+    for (const double value : row.drawn) all += "," + format_number(value);
     all += std::string(row.counts ? ",false," : ",true,") + row.ended_by + "," + row.motion_pattern;
     for (const std::optional<double>& number : row.numbers) all += "," + csv_number(number);
     all += "\n";
@@ -110,6 +130,10 @@ std::string BatchTable::statistics() const {
            "}\n";
   }
   return out;
+}
+
+std::string statistics_file(const std::string& folder) {
+  return (std::filesystem::path(folder) / "statistics.yaml").string();
 }
 
 }  // namespace knot_utm

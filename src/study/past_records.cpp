@@ -9,7 +9,7 @@ PastRecords::PastRecords(const std::string& folder, const Method& method, const 
                          TestingMachine& bench, ProgramRunner& program)
     : folder_(folder) {
   JournalReader journal = reader();
-  if (!(journal.header() == journal_header(method)))
+  if (!journal.header().same_run(journal_header(method)))
     throw InvalidInput::sentence("method", folder, "the journal belongs to another method than method.yaml beside it")
         .in_file(journal_file(folder));
   bytes_ = journal.good_bytes();

@@ -28,7 +28,8 @@ std::uint32_t noise_run(unsigned seed, int number) {
 
 /// Refused now, and not once others have been tested.
 void check_fits(const Method& method) {
-  TestingMachine(method.specimen, method.material, method.machine, method.physics);
+  const TestingMachine machine(method.specimen, method.material, method.machine, method.physics);
+  make_program(method, machine.longest_step());
 }
 
 }  // namespace

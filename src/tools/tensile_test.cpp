@@ -201,7 +201,7 @@ int check(const Method& method) {
   if (method.specimens.count == 1)
     check_one(method);
   else
-    for (const DrawnSpecimen& specimen : draw_specimens(method)) check_one(specimen.method);
+    draw_specimens(method);
   for (const std::string& warning : foreseen_warnings(method)) std::fprintf(stderr, "%s: %s\n", kTool, warning.c_str());
   std::fputs(method_yaml(method).c_str(), stdout);
   return kDone;

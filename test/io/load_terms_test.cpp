@@ -23,14 +23,20 @@ std::string refused(const std::vector<std::string>& overrides) {
 }
 
 TEST(LoadTerms, APercentageIsOfTheBreakingForceOfTheMaterial) {
-  const Method m = straight({"material.breaking_force=1700",
-                             "program=[{preload: {load: 2.5%}}, {cycle: {load: [10 %, 50 %], count: 3}}, {hold: {duration: 1, "
-                             "control: load, load: 1e1 %}}, {pull: {until: {load: 80%}}}]"});
+  const Method m =
+      straight({"material.breaking_force=1700",
+                "program=[{preload: {load: 2.5%}}, {cycle: {load: [10 %, 50 %], count: 3}}, {hold: {duration: 1, "
+                "control: load, load: 1e1 %}}, {pull: {until: {load: 80%}}}]"});
   EXPECT_DOUBLE_EQ(m.program[0].load, 42.5);
   EXPECT_DOUBLE_EQ(m.program[1].load_turns->low, 170.0);
   EXPECT_DOUBLE_EQ(m.program[1].load_turns->high, 850.0);
   EXPECT_DOUBLE_EQ(*m.program[2].held_load, 170.0);
   EXPECT_DOUBLE_EQ(*m.program[3].until.load, 1360.0);
+}
+
+TEST(LoadTerms, WholePercentagesOfWholeForcesAreWhole) {
+  const Method m = straight({"material.breaking_force=1700", "program.0={preload: {load: 7 %}}"});
+  EXPECT_EQ(m.program[0].load, 119.0);
 }
 
 TEST(LoadTerms, TheReferenceTensionIsAnEighthOfTheSquaredDiameter) {
@@ -45,9 +51,10 @@ TEST(LoadTerms, AreWrittenAsNewtons) {
 }
 
 TEST(LoadTerms, WhatIsNoneIsRefused) {
-  EXPECT_THAT(refused({"material.breaking_force=none", "program.0={preload: {load: 50 %}}"}),
-              HasSubstr("program.0.preload.load: cannot take \"50 %\": the material has no breaking_force, of which this "
-                        "is a percentage"));
+  EXPECT_THAT(
+      refused({"material.breaking_force=none", "program.0={preload: {load: 50 %}}"}),
+      HasSubstr("program.0.preload.load: cannot take \"50 %\": the material has no breaking_force, of which this "
+                "is a percentage"));
   for (const char* term : {"fifty %", "\"%\"", "\" %\"", "half", "50 percent"})
     EXPECT_THAT(refused({std::string("program.0={preload: {load: ") + term + "}}"}),
                 HasSubstr("a percentage of material.breaking_force, such as \"50 %\", or reference_tension"))

@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <filesystem>
+#include <fstream>
 
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
@@ -87,7 +88,9 @@ TEST_F(Batch, InterruptedAndResumedItLeavesTheSameStatistics) {
   const fs::file_time_type first = fs::last_write_time(specimen_folder(options.folder, 1) + "/curve.csv");
 
   // Under ROS the tables are written after each test.
-  write_batch_tables(options.folder, {draw_specimen(method, 1), draw_specimen(method, 2)});
+  BatchTable so_far(options.folder);
+  for (const int number : {1, 2}) so_far.add(draw_specimen(method, number));
+  so_far.write();
   EXPECT_EQ(statistics()["specimens"].as<int>(), 2);
   EXPECT_EQ(statistics()["peak_force"]["n"].as<int>(), 2);
 
@@ -98,6 +101,35 @@ TEST_F(Batch, InterruptedAndResumedItLeavesTheSameStatistics) {
   EXPECT_EQ(written("statistics.yaml") + written("specimens.csv"), whole);
   EXPECT_EQ(fs::last_write_time(specimen_folder(options.folder, 1) + "/curve.csv"), first) << "was tested twice";
   EXPECT_THROW(run_batch(again, options), InvalidInput) << "there is nothing to resume";
+}
+
+TEST_F(Batch, OneGoesOnWhereAnyProgramBeganIt) {
+  run_batch(method, options);
+  const std::string whole = written("statistics.yaml");
+  // The journal of a test that ROS began names that test.
+  const std::string second = specimen_folder(options.folder, 2);
+  fs::remove(second + "/result.yaml");
+  { JournalWriter(options.folder, journal_header(method, "")); }
+  { JournalWriter(second, journal_header(draw_specimen(method, 2).method, "13221-5/2")); }
+  options.resume = true;
+  run_batch(load_method(options.folder + "/method.yaml"), options);
+  EXPECT_EQ(written("statistics.yaml"), whole);
+}
+
+TEST_F(Batch, DoesNotTakeASpecimenThatAnotherOneLeft) {
+  fs::create_directories(specimen_folder(options.folder, 1));
+  std::ofstream(specimen_folder(options.folder, 1) + "/result.yaml") << "ended_by: break\n";
+  EXPECT_EQ(run_batch(method, options).folder, options.folder + "-2");
+}
+
+TEST_F(Batch, SaysWhichResultItMisses) {
+  BatchTable table(options.folder);
+  try {
+    table.add(draw_specimen(method, 1));
+    FAIL();
+  } catch (const std::runtime_error& error) {
+    EXPECT_THAT(error.what(), HasSubstr("specimen_001/result.yaml"));
+  }
 }
 
 TEST_F(Batch, AnotherOneGoesToAFolderOfItsOwn) {

@@ -30,9 +30,8 @@ struct JournalHeader {
   std::uint32_t specimen = 0;  ///< CRC-32 of the centreline file; 0: the specimen is not read from a file
   std::string test;            ///< distinguishes tests of the same method, such as those of two launches
 
-  bool operator==(const JournalHeader& other) const {
-    return method == other.method && specimen == other.specimen && test == other.test;
-  }
+  /// Whether both runs test the same method on the same specimen, and so have the same records.
+  bool same_run(const JournalHeader& other) const { return method == other.method && specimen == other.specimen; }
 
   void state(Archive& archive);
 };

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "knot_utm/io/method.hpp"
 
@@ -26,8 +27,13 @@ void require_no_record_in(const std::string& folder, const Method& method);
 /// that is followed. Throws std::runtime_error where a copy cannot be written.
 void begin_run_folder(const std::string& folder, const Method& method);
 
-/// Whether the folder contains something that a run there would overwrite or remove: results, a method, a report or a
-/// comparison. `holds_run` also counts a journal, which a run has from its beginning until its results are complete.
+/// The folder of a specimen within that of its batch: FOLDER/specimen_001 for number 1.
+std::string specimen_folder(const std::string& folder, int number);
+/// All such folders that there are.
+std::vector<std::string> specimen_folders(const std::string& folder);
+
+/// Whether the folder contains something that a run there would overwrite or remove: results, a method, a report, a
+/// comparison, or the folder of a specimen. `holds_run` also counts a journal, which a run has from its beginning until its results are complete.
 bool holds_results(const std::string& folder);
 bool holds_run(const std::string& folder);
 /// Whether the folder holds a run that is still going on, was cut off or was interrupted.

@@ -8,6 +8,10 @@
 
 namespace knot_utm {
 
+/// Largest number of specimens in a batch under ROS. All of them are drawn before the first is tested, which takes
+/// about 15 ms for each, and the machine answers nobody meanwhile.
+inline constexpr int kMostInBatch = 1000;
+
 /// Which specimen of a batch a test takes. utm_node sets it as a parameter before the first command of each test, and
 /// the other nodes read it when that command arrives.
 struct BatchPlace {
@@ -25,11 +29,14 @@ struct BatchPlace {
 /// Sets the parameter. False where the ROS master does not answer.
 bool set_batch_place(const ros::NodeHandle& node, const BatchPlace& place);
 
-/// Reads the parameter; where it is not set, the test stands alone. Throws InvalidInput where it is none that utm_node
-/// sets.
+/// Reads the parameter. Throws InvalidInput where it is not there, or none that utm_node sets.
 BatchPlace batch_place(const ros::NodeHandle& node);
 
 /// The method of a batch of this many specimens.
 Method method_of_batch(const Method& method, int count);
+
+/// The command that tests the specimens of a batch which have not been tested, with the tool that stands beside this
+/// program.
+std::string command_to_resume(const std::string& batch);
 
 }  // namespace knot_utm

@@ -39,7 +39,7 @@ inline constexpr char kReset[] = "knot/reset";
 inline constexpr char kSave[] = "recorder/save";
 
 // Actions
-inline constexpr char kRunTest[] = "utm/run_test";  ///< RunTest: one test, from its start until all of it is recorded
+inline constexpr char kRunTest[] = "utm/run_test";  ///< RunTest: a test or a batch, until all is recorded
 
 // Parameters that the nodes set
 inline constexpr char kTestId[] = "test/id";  ///< set by utm_node: identifies this utm_node among all others
@@ -51,6 +51,9 @@ inline constexpr char kFolderOfTest[] = "test/folder";  ///< set by recorder_nod
 /// set by each node, below this name; -1: it runs, or was killed
 inline constexpr char kExitCodes[] = "test/exit_codes";
 inline constexpr char kRecordedTest[] = "test/recorded";  ///< set by recorder_node: the last test that it completed
+
+/// The reason that utm_node gives for the end of a test in which knot_node died
+inline constexpr char kPhysicsDied[] = "knot_node died during the test";
 
 // Frames
 inline constexpr char kWorldFrame[] = "world";

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "knot_utm/io/claimed_folder.hpp"
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/study/batch.hpp"
 
 namespace knot_utm {
@@ -24,8 +25,8 @@ class RecordedBatch {
   const Method& method_of(int number);
   std::string folder_of(int number) const { return specimen_folder(folder(), number); }
 
-  /// Writes the tables of the specimens up to this one. Returns whether all have been tested now. Throws
-  /// std::runtime_error.
+  /// Adds the specimens up to this one, which have been tested, to the tables, and writes them. Returns whether all
+  /// have been tested now. Throws std::runtime_error.
   bool conclude(int number);
 
  private:
@@ -34,6 +35,8 @@ class RecordedBatch {
   Method method_;
   ClaimedFolder claimed_;
   std::vector<DrawnSpecimen> drawn_;  ///< those so far
+  BatchTable table_;
+  int concluded_ = 0;  ///< number of specimens in the table
 };
 
 }  // namespace knot_utm

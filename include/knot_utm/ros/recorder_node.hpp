@@ -73,7 +73,7 @@ class RecorderNode {
 
   void begin_run(const Crosshead& first);
   void begin_batch(const std::string& id);
-  void conclude_batch();                            ///< writes the tables of the batch
+  bool conclude_specimen();                         ///< writes the tables of the batch; false where that failed
   std::string id_of_test(std::uint32_t run) const;  ///< unique among all machines; empty: not known
   /// The folder that an earlier recorder told by this parameter for this id; empty: none.
   std::string told_folder(const char* parameter, const std::string& id) const;
@@ -88,7 +88,11 @@ class RecorderNode {
   void finish_when_ready();
   void finish_early();
   void wait_for_messages();
+  void finish_as_told(const std::string& warning);  ///< by the last status of the machine
+  void cut_off(const std::string& why);             ///< the test ended, and neither machine nor operator ended it
   void finish(EndedBy ended_by, const std::string& reason, const std::string& warning);
+  void interrupt(const std::string& why);  ///< leaves the specimen of a batch to be tested again
+  void write_results(EndedBy ended_by, const std::string& reason, const std::string& warning);
   void tell_master(const char* parameter, const std::string& text) const;
   void fail(const std::string& why);
   bool is_complete() const { return run_ ? run_->complete : completed_before_; }

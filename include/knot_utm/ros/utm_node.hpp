@@ -62,6 +62,15 @@ class UtmNode {
   using Clock = std::chrono::steady_clock;
   enum class State { kIdle, kRunning, kPaused, kEnded };  ///< numbered as in TestStatus
 
+  /// Tests of several specimens, one after the other. A test that stands alone is a batch of one.
+  struct Batch {
+    std::vector<Method> methods;        ///< of the specimens
+    std::vector<TestOutcome> outcomes;  ///< of the tests that have ended and are recorded
+    std::size_t specimen = 0;           ///< index of the present one
+    int good_tests = 0;                 ///< number of tests in which the simulation did not fail
+    bool stopped = false;               ///< by an operator
+  };
+
   void on_specimen(const SpecimenInfo::ConstPtr& specimen);
   void on_state(const KnotState::ConstPtr& answer);
   void on_recorder(const RecorderStatus::ConstPtr& recorded);
@@ -78,7 +87,6 @@ class UtmNode {
   bool all_is_recorded() const;
   bool may_advance() const;
   std::string start_if_possible(std::uint32_t count);  ///< returns why it cannot; empty: the test runs
-  void draw_specimens(int count);                      ///< draws those of a new batch
   bool start(std::size_t specimen);  ///< starts a test; false, and changes nothing, where the master does not answer
   void stop();                       ///< stops the test and its batch
   bool another_follows() const;      ///< whether another test of the batch follows the present one
@@ -103,13 +111,9 @@ class UtmNode {
   ros::NodeHandle node_;
   Method method_;
   UtmOptions options_;
-  bool has_specimen_ = false;             ///< whether the simulation holds one
-  bool physics_died_ = false;             ///< during this test
-  std::vector<Method> drawn_;             ///< methods of the specimens of this batch; a test alone has one
-  std::vector<TestOutcome> outcomes_;     ///< tests of this batch that have ended and are recorded
-  std::size_t specimen_ = 0;              ///< index of the present one
-  int good_tests_ = 0;                    ///< tests of this batch in which the simulation did not fail
-  bool stopped_ = false;                  ///< whether an operator stopped the batch
+  bool has_specimen_ = false;  ///< whether the simulation holds one
+  bool physics_died_ = false;  ///< during this test
+  Batch batch_;
   std::optional<ProgramRunner> program_;  ///< program of this test
   State state_ = State::kIdle;
   std::uint32_t run_ = 0;

@@ -36,11 +36,13 @@ class WatchNode {
   void look(const Processes& processes);
   void test_is_over(int code, bool somebody_looks);
   void tell(int code) const;
+  void tell_unfinished_batch() const;
   void end_launch();
 
   ros::NodeHandle node_;
   std::string verdict_;
   std::string folder_;  ///< folder of the recorder; empty: nothing is recorded
+  std::string batch_;   ///< folder of the batch; empty: the test stands alone
   std::string host_;    ///< host of roslaunch's own server
   int port_ = 0;
   std::map<std::string, std::string> watched_;  ///< node -> its parameter, both full names

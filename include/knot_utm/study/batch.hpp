@@ -4,10 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/analysis/statistics.hpp"
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/study/batch_table.hpp"
 #include "knot_utm/study/headless_run.hpp"
-#include "knot_utm/study/specimens.hpp"
 
 namespace knot_utm {
 
@@ -26,12 +25,6 @@ struct BatchOptions {
   std::function<void(int ended, int count)> progress;
 };
 
-/// A specimen whose readings do not count, and the reason, such as "the knot came undone before it was pulled".
-struct Rejected {
-  int specimen = 0;
-  std::string reason;
-};
-
 struct BatchOutcome {
   std::string folder;
   bool interrupted = false;  ///< the batch can be resumed, and has no statistics yet
@@ -39,17 +32,8 @@ struct BatchOutcome {
   std::vector<Rejected> rejected;
 };
 
-/// The folder of a specimen within that of its batch: FOLDER/specimen_001 for number 1.
-std::string specimen_folder(const std::string& folder, int number);
-
-/// Writes specimens.csv, with one row for each specimen that has been tested, and statistics.yaml into the folder of a
-/// batch. The statistics leave out the readings of rejected specimens, which are returned. A test is rejected if the
-/// simulation gave up, if the knot came undone before it was pulled, or if an operator stopped it. Throws
-/// std::runtime_error where a file cannot be written.
-std::vector<Rejected> write_batch_tables(const std::string& folder, const std::vector<DrawnSpecimen>& tested);
-
 /// Tests all specimens of a method. For each it writes the files of a single test into a folder of its own. Then it
-/// writes its tables, as write_batch_tables does. They have the same bytes however many specimens were tested at the
+/// writes its tables, as BatchTable does. They have the same bytes however many specimens were tested at the
 /// same time. Throws InvalidInput, before anything is written, where a specimen would be refused. Throws
 /// std::runtime_error where a file cannot be written; the batch can then be resumed.
 BatchOutcome run_batch(const Method& method, const BatchOptions& options);

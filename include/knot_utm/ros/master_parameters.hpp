@@ -1,0 +1,19 @@
+#pragma once
+
+#include <XmlRpcValue.h>
+
+#include <optional>
+#include <string>
+
+namespace knot_utm {
+
+/// Parameters of the ROS master, which is not waited for: roscpp's own functions wait for ever for a master that died.
+/// `name`: resolved.
+
+/// False where the master does not answer.
+bool set_on_master(const std::string& name, const XmlRpc::XmlRpcValue& value);
+
+/// Empty where the parameter is not set, or the master does not answer.
+std::optional<XmlRpc::XmlRpcValue> get_from_master(const std::string& name);
+
+}  // namespace knot_utm
