@@ -55,6 +55,12 @@ def result_keys():
     return list(csv.DictReader(_said("--list-results").splitlines()))
 
 
+@functools.cache
+def method_keys():
+    """The keys that methods may have, but for those of sections that do not act on the test, such as analysis."""
+    return tuple(row["key"] for row in csv.DictReader(_said("--list-method-keys").splitlines()))
+
+
 def find_method(name, folder):
     """The file of a method, from a folder, or of one that comes with the package, as tensile_test finds it. Raises WrongInput."""
     shipped = [CONFIG] if os.sep in name else [CONFIG, os.path.join(CONFIG, "standards")]

@@ -161,7 +161,7 @@ class Refused(Fits):
     def test_in_one_line_before_anything_is_written(self):
         record = self.straight()
         self.refused(record, "straight", says="--free is missing")
-        self.refused(record, "straight", "--free", "material.stifness=1:2", says="material.stifness is no key of a method")
+        self.refused(record, "straight", "--free", "material.stifness=1:2", says="material.stifness is no key of a method; the keys of material")
         self.refused(record, "straight", "--free", STRETCH + "=-5:10", says="material.stretching_stiffness is -5")
         self.refused(record, "straight", "--free", STRETCH + "=10:5", says="low:high")
         self.refused(record, "straight", "--free", STRETCH, STRETCH, says="twice")
@@ -170,10 +170,16 @@ class Refused(Fits):
         self.refused(record, "strait", "--free", STRETCH, says="method is strait")
         self.refused("absent.csv", "straight", "--free", STRETCH, says="absent.csv: no such file")
         self.refused(record, "straight", "--free", STRETCH, settings={}, says="machine.load_cell.accuracy")
-        self.refused(record, "straight", "--free", STRETCH, says="specimen.lenght is no key",
-                     settings={**PULLED, "specimen.lenght": 1})
-        self.refused(record, "straight", "--free", "specimen.knot=0:1", says="specimen.knot is straight, but only a number may be free")
-        self.refused(record, "straight", "--free", "material.radiuss", says="did you mean material.radius?")
+        self.refused(record, "straight", "--free", STRETCH, settings={**PULLED, "specimen.lenght": 1},
+                     says="--set: specimen.lenght is no key of a method; did you mean specimen.length?")
+        self.refused(record, "straight", "--free", STRETCH, "--also", record, "specimen.lenght=1",
+                     says=f"--also {record}: specimen.lenght is no key of a method; did you mean specimen.length?")
+        for name, said in (("specimen.knot", "straight"), ("specimen.file", "nothing"), ("material", "several values"),
+                           ("wrong", "nothing")):
+            self.refused(record, "straight", "--free", name + "=0:1", says=f"--free: {name} is {said}, but only a number that acts on "
+                         "the test may be free")
+        self.refused(record, "straight", "--free", "material.radiuss",
+                     says="--free: material.radiuss is no key of a method; did you mean material.radius?")
         self.refused(record, "straight", "--free", "machine.load_cell.noise=0:1", says="machine.load_cell.noise is an error of the cell")
         self.refused(record, "straight", "--free", STRETCH, "--also", record, STRETCH + "=5e4", says=STRETCH + " is set, but it is free")
         self.refused(record, "overhand", "--free", "specimen.turns=1:3", says="specimen.turns is 1.8642, but must be a whole number",

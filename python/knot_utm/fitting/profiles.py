@@ -24,6 +24,10 @@ class Profile:
     at: np.ndarray
     mine: int  # which of the places is that of the smallest of all
 
+    def end(self, way):
+        """On that side; `way`: -1 or 1."""
+        return self.low if way < 0 else self.high
+
     def outwards(self, way):
         """(places, rises) from the smallest one on; `way`: -1 or 1."""
         inside = slice(self.mine, None, way)

@@ -159,7 +159,7 @@ class Search:
     def most_runs(keys, inputs):
         """Of one record."""
         first, more = Search._runs_of(inputs)
-        return first + MOST_WAVES * more + ends.CHECKS * (more + 2 * keys * ends.SPECIMENS)
+        return first + (MOST_WAVES + ends.CHECKS) * more + (ends.CHECKS + 1) * 2 * keys * ends.SPECIMENS
 
     @staticmethod
     def _runs_of(inputs):
@@ -178,7 +178,7 @@ class Search:
                 self.learn(wave)
             if wave > 2 and has_settled and self.likelihood.unknown(self.best) < LEARNT * self._means():
                 break
-        self.profiles, self.doubted = ends.checked(self, MOST_WAVES + 1)
+        self.ends = ends.checked(self, MOST_WAVES + 1)
 
     def wave(self, number):
         """More runs, in a new box; whether the box is no longer smaller."""
