@@ -362,6 +362,22 @@ class Ends(unittest.TestCase):
         self.assertLess(self.search.low[0], self.low)
 
 
+class Corners(unittest.TestCase):
+    """A load that rises at once and then slides: the second of a few readings is a corner."""
+
+    def test_are_no_error_of_the_fit(self):
+        def model(friction):
+            return Model(Pull(extension, (1.0 + friction) * np.where(extension > 0.0, 1.0, 0.1)), {})
+        extension, truth = np.linspace(0.0, 1.0, 32), 0.4
+        keys = [FreeKey("friction", 0.0, 1.0)]
+        case = Case(record(model(truth).pull.load, extension), 1, keys, {"noise": 1e-3}, None)
+        search = Search([case], keys, lambda places, _: [[model(place[0]) for place in places]], lambda best: None)
+        search.go()
+        fitted = judge(search)
+        self.assertLess(fitted.chi_square, 1.0)
+        self.assertAlmostEqual(fitted.found["friction"].value, truth, delta=1e-3)
+
+
 class Open(unittest.TestCase):
     """Of a load (1 + friction) s, which density does not act on."""
 
