@@ -354,6 +354,21 @@ class Ends(unittest.TestCase):
         self.assertEqual(len(looks), ends.CHECKS + 1)
         self.assertEqual(found.unconfirmed, {(0, 1): looks[-1][0, 1][0]})
 
+    def test_of_a_range_that_the_value_is_not_in_ask_for_a_wider_one(self):
+        for low, high, words in ((0.6, 1.0, "lower end of its range: the data only tell that it is below 0.6"),
+                                 (0.0, 0.4, "upper end of its range: the data only tell that it is above 0.")):
+            keys = [FreeKey("friction", low, high)]
+
+            def run(places, _, key=keys[0]):
+                return [[Model(Pull(EXTENSION, (1.0 + key.value(place[0])) * EXTENSION), {}) for place in places]]
+            case = Case(self.search.cases[0].record, 1, keys, {"noise": 1e-3}, None)
+            search = Search([case], keys, run, lambda best: None)
+            search.go()
+            fitted = judge(search)
+            self.assertFalse(fitted.fits)
+            self.assertIn("friction is at the " + words, " ".join(fitted.notes))
+            self.assertIn("give a wider range", " ".join(fitted.notes))
+
     def test_given_up_too_early_come_back(self):
         self.search.low, self.search.high = np.array([0.65]), np.array([0.8])
         self.search.learn(0)

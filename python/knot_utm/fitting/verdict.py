@@ -88,14 +88,17 @@ def _notes(keys, best, found, matrix):
     """What the data do not tell, in words."""
     notes = []
     for i, (key, one) in enumerate(zip(keys, found.values())):
+        at_end = not AT_THE_END < best[i] < 1.0 - AT_THE_END
+        at = f"{key.name} is at the {'lower' if best[i] < 0.5 else 'upper'} end of its range"
         if one.low is None and one.high is None:
             notes.append(f"{key.name} is not identifiable: no value from {key.low:.6g} to {key.high:.6g} fits worse than the "
                          "errors allow")
         elif not one.identifiable:
             end, limit = ("above", one.low) if one.high is None else ("below", one.high)
-            notes.append(f"{key.name} is not identifiable: the data only tell that it is {end} {limit:.4g}")
-        elif not AT_THE_END < best[i] < 1.0 - AT_THE_END:
-            notes.append(f"{key.name} is at the end of its range")
+            told = f"the data only tell that it is {end} {limit:.4g}"
+            notes.append(f"{at}: {told}; give a wider range" if at_end else f"{key.name} is not identifiable: {told}")
+        elif at_end:
+            notes.append(f"{at}: give a wider range")
         for side in one.unconfirmed:
             notes.append(f"{key.name}: runs do not confirm that its interval ends at {getattr(one, side):.4g}: take this as a bound that "
                          "is not known well")
