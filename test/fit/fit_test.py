@@ -130,6 +130,14 @@ class Hidden(Fits):
         self.assert_found(fitted[STRETCH], 6.1e4)
 
 
+class Said(unittest.TestCase):
+    def test_what_other_languages_print_is_left_out(self):
+        code = "import os, sys; from knot_utm import fit_command as f; sys.stdout = f.only_python(); os.write(1, b'Fortran'); print('Python')"
+        done = subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": os.path.join(ROOT, "python")}, check=True,
+                              stdout=subprocess.PIPE)
+        self.assertEqual(done.stdout, b"Python\n")
+
+
 class Untold(Fits):
     def test_density_is_not_identifiable(self):
         fitted, said = self.fit("fit", self.straight(), "straight", "--free", STRETCH, "material.density=200:5000", settings=PULLED)
