@@ -7,11 +7,12 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from head import ROOT, TOOLS, content
+from head import ROOT, TOOLS, content, write
 
 import pandas as pd
 
 import knot_utm
+from knot_utm.fitting.files import write_report
 from knot_utm.yaml_text import load, text_of
 
 CELL = {"machine.load_cell.accuracy": 0.005, "machine.load_cell.noise": 1.0}
@@ -98,6 +99,13 @@ class Hidden(Fits):
         for word in (f'data-key="{STRETCH}"', 'data-key="record.force_offset"', "The curve fits within the errors",
                      "record/curve.csv", f"{STRETCH}, record.force_offset", "curves.csv", "profiles.csv"):
             self.assertIn(word, pages[0].decode())
+        self.assertNotIn("(not confirmed)", pages[0].decode())
+        facts = load(self.path("fit/fit.yaml"))
+        facts[STRETCH]["unconfirmed"] = ["high"]
+        write(self.path("fit/fit.yaml"), text_of({**facts, "fits": False}))
+        write_report(self.path("fit"), "a test")
+        for word in ("(not confirmed)", "the values and their intervals mean little"):
+            self.assertEqual(content(self.path("fit/report.html")).decode().count(word), 1, word)
 
     def test_friction_on_a_post_is_found_from_two_records(self):
         truth, cell = 0.23, {**CELL, "machine.load_cell.noise": 0.05}
