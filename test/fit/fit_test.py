@@ -50,10 +50,10 @@ class Fits(unittest.TestCase):
             table.to_csv(out, index=False, header=False)
         return self.path(name)
 
-    def command(self, *words, settings=None, code=0):
+    def command(self, *words, settings=None, code=0, tools=TOOLS):
         sets = [word for key, value in (settings or {}).items() for word in ("--set", f"{key}={text_of(value)}")]
         done = subprocess.run([os.path.join(ROOT, "scripts/fit"), *words, *sets], cwd=self.folder, check=False, text=True,
-                              env={**os.environ, "KNOT_UTM_SKIP_BUILD": "1", "KNOT_UTM_TOOLS_DIR": TOOLS},
+                              env={**os.environ, "KNOT_UTM_SKIP_BUILD": "1", "KNOT_UTM_TOOLS_DIR": tools},
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout + done.stderr
@@ -144,6 +144,16 @@ class Said(unittest.TestCase):
         done = subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": os.path.join(ROOT, "python")}, check=True,
                               stdout=subprocess.PIPE)
         self.assertEqual(done.stdout, b"Python\n")
+
+
+class Broken(Fits):
+    def test_tool_is_told_in_a_line(self):
+        """As one whose library was built anew."""
+        record = self.straight()
+        write(self.path("tensile_test"), "#!/bin/sh\nkill -SEGV $$\n")
+        os.chmod(self.path("tensile_test"), 0o755)
+        said = self.command(record, "straight", "--free", STRETCH, "--out", self.path("fit"), code=1, tools=self.folder)
+        self.assertEqual(said, "fit: tensile_test failed at --list-method-keys: exit code -11\n")
 
 
 class Untold(Fits):
