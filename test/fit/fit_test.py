@@ -140,7 +140,8 @@ class Hidden(Fits):
 
 class Said(unittest.TestCase):
     def test_what_other_languages_print_is_left_out(self):
-        code = "import os, sys; from knot_utm import fit_command as f; sys.stdout = f.only_python(); os.write(1, b'Fortran'); print('Python')"
+        code = "import os, sys\nfrom knot_utm import fit_command\nsys.stdout = fit_command.only_python()\n" \
+               "os.write(1, b'Fortran')\nprint('Python')"
         done = subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": os.path.join(ROOT, "python")}, check=True,
                               stdout=subprocess.PIPE)
         self.assertEqual(done.stdout, b"Python\n")
@@ -187,7 +188,8 @@ class Refused(Fits):
     def test_in_one_line_before_anything_is_written(self):
         record = self.straight()
         self.refused(record, "straight", says="--free is missing")
-        self.refused(record, "straight", "--free", "material.stifness=1:2", says="material.stifness is no key of a method; the keys of material")
+        self.refused(record, "straight", "--free", "material.stifness=1:2",
+                     says="material.stifness is no key of a method; the keys of material")
         self.refused(record, "straight", "--free", STRETCH + "=-5:10", says="material.stretching_stiffness is -5")
         self.refused(record, "straight", "--free", STRETCH + "=10:5", says="low:high")
         self.refused(record, "straight", "--free", STRETCH, STRETCH, says="twice")
