@@ -11,13 +11,14 @@ NOT_KEYS = ("rms", "correlation", "fits", "chi_square", "degrees_of_freedom", "n
 
 
 class Key:
-    """A free key. `low`, `high`: None where the data do not tell that end."""
+    """A free key. `low`, `high`: None where the data do not tell that end; `unconfirmed`: those of the two that runs do not confirm."""
 
     def __init__(self, name, found, places, rises):
         self.name = name
         self.value, self.low, self.high = (found.get(part) if is_number(found.get(part)) else None
                                            for part in ("value", "low", "high"))
         self.is_identifiable = bool(found.get("identifiable"))
+        self.unconfirmed = found.get("unconfirmed") or []
         self.places, self.rises = places, rises
 
 

@@ -3,7 +3,7 @@ import itertools
 import os
 import shutil
 
-from knot_utm import tool
+from knot_utm import method_keys, tool
 from knot_utm.errors import WrongInput
 from knot_utm.fitting.curves import is_own, read_other, read_own
 from knot_utm.fitting.errors import require_known
@@ -56,6 +56,7 @@ class _Fit:
             for name in names:
                 if name in given and given[name] != asked[0][1].get(name):
                     raise WrongInput(f"--also {file}: {name} is set, but it is free, and free keys are the same for all records")
+        _require_keys(names, asked)
         self.methods = [value_of(tool.resolved(method, given)) for _, given in asked]
         keys = {name: self._method_key(name, limits, asked[0][1]) for name, limits in free if not name.startswith("record.")}
         self._require_allowed(list(keys.values()), [given for _, given in asked])
@@ -66,12 +67,7 @@ class _Fit:
     def _method_key(self, name, limits, given):
         if name in EXACT_CELL:
             raise WrongInput(f"--free: {name} is an error of the cell, which is one of the errors that a fit goes by")
-        numbers = tool.key_units(self.method, given)
-        if name not in numbers:
-            refused = tool.refusal(self.method, {**given, name: 1.0})
-            if refused and "is no key" in refused:
-                raise WrongInput(f"--free: {refused}")
-        return method_key(name, limits, self.methods[0], numbers)
+        return method_key(name, limits, self.methods[0], tool.key_units(self.method, given))
 
     def _require_allowed(self, keys, settings):
         """All corners of the ranges, and a place within them, for all records: before the first run."""
@@ -138,6 +134,15 @@ def fitted_method(method, given, fitted):
     """The text of the method with the values that were found."""
     values = {key: one.value for key, one in fitted.found.items() if not key.startswith("record.")}
     return tool.resolved(method, {**given, **values})
+
+
+def _require_keys(free, asked):
+    """Raises WrongInput where a key is mistyped. `free`: names; `asked`: [(file, {key: value})] of the records."""
+    method_keys.require_known([name for name in free if not name.startswith("record.")], "--free: ")
+    (_, settings), *more = asked
+    method_keys.require_known(settings, "--set: ")
+    for file, given in more:
+        method_keys.require_known(given, f"--also {file}: ")
 
 
 def _require_room(out):

@@ -24,7 +24,7 @@ def main(words):
         print(refine(asked.study, asked.out, asked.runs, asked.seed))
     except WrongInput as wrong:
         return say(PROGRAM, wrong, 2)
-    except OSError as error:
+    except (OSError, RuntimeError) as error:
         return say(PROGRAM, error, 1)
     return 0
 

@@ -55,6 +55,12 @@ def result_keys():
     return list(csv.DictReader(_said("--list-results").splitlines()))
 
 
+@functools.cache
+def method_keys():
+    """The keys that methods may have, but for those of sections that do not act on the test, such as analysis."""
+    return tuple(row["key"] for row in csv.DictReader(_said("--list-method-keys").splitlines()))
+
+
 def find_method(name, folder):
     """The file of a method, from a folder, or of one that comes with the package, as tensile_test finds it. Raises WrongInput."""
     shipped = [CONFIG] if os.sep in name else [CONFIG, os.path.join(CONFIG, "standards")]
@@ -80,18 +86,20 @@ def start(method, settings, out, *more):
 
 def refusal(method, settings):
     """Why tensile_test would refuse to run that, in a line; None where it would not."""
-    done = _asked(method, settings, "--check")
-    if done.returncode not in (0, REFUSED):
-        raise RuntimeError(f"tensile_test could not check {method}: {said_by(done.stderr) or f'exit code {done.returncode}'}")
+    done = _checked(method, settings)
     return said_by(done.stderr) if done.returncode == REFUSED else None
 
 
 def resolved(method, settings):
     """The text of the method with every value. Raises WrongInput where tensile_test would refuse to run it."""
-    done = _asked(method, settings, "--check")
-    if done.returncode != 0:
+    done = _checked(method, settings)
+    if done.returncode == REFUSED:
         raise WrongInput(said_by(done.stderr))
     return done.stdout
+
+
+def _checked(method, settings):
+    return _succeeded(_asked(method, settings, "--check"), f"--check of {method}", (0, REFUSED))
 
 
 def key_units(method, settings):
@@ -121,4 +129,13 @@ def _asked(method, settings, option):
 
 
 def _said(option):
-    return subprocess.run([tensile_test(), option], check=True, text=True, stdin=subprocess.DEVNULL, capture_output=True).stdout
+    done = subprocess.run([tensile_test(), option], check=False, text=True, errors="replace", stdin=subprocess.DEVNULL,
+                          capture_output=True)
+    return _succeeded(done, option, (0,)).stdout
+
+
+def _succeeded(done, asked, codes):
+    """What was asked of tensile_test. Raises RuntimeError with a line where it failed in another way than by these exit codes."""
+    if done.returncode not in codes:
+        raise RuntimeError(f"tensile_test failed at {asked}: {said_by(done.stderr) or f'exit code {done.returncode}'}")
+    return done

@@ -7,11 +7,12 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from head import ROOT, TOOLS, content
+from head import ROOT, TOOLS, content, write
 
 import pandas as pd
 
 import knot_utm
+from knot_utm.fitting.files import write_report
 from knot_utm.yaml_text import load, text_of
 
 CELL = {"machine.load_cell.accuracy": 0.005, "machine.load_cell.noise": 1.0}
@@ -49,10 +50,10 @@ class Fits(unittest.TestCase):
             table.to_csv(out, index=False, header=False)
         return self.path(name)
 
-    def command(self, *words, settings=None, code=0):
+    def command(self, *words, settings=None, code=0, tools=TOOLS):
         sets = [word for key, value in (settings or {}).items() for word in ("--set", f"{key}={text_of(value)}")]
         done = subprocess.run([os.path.join(ROOT, "scripts/fit"), *words, *sets], cwd=self.folder, check=False, text=True,
-                              env={**os.environ, "KNOT_UTM_SKIP_BUILD": "1", "KNOT_UTM_TOOLS_DIR": TOOLS},
+                              env={**os.environ, "KNOT_UTM_SKIP_BUILD": "1", "KNOT_UTM_TOOLS_DIR": tools},
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout + done.stderr
@@ -98,6 +99,13 @@ class Hidden(Fits):
         for word in (f'data-key="{STRETCH}"', 'data-key="record.force_offset"', "The curve fits within the errors",
                      "record/curve.csv", f"{STRETCH}, record.force_offset", "curves.csv", "profiles.csv"):
             self.assertIn(word, pages[0].decode())
+        self.assertNotIn("(not confirmed)", pages[0].decode())
+        facts = load(self.path("fit/fit.yaml"))
+        facts[STRETCH]["unconfirmed"] = ["high"]
+        write(self.path("fit/fit.yaml"), text_of({**facts, "fits": False}))
+        write_report(self.path("fit"), "a test")
+        for word in ("(not confirmed)", "the values and their intervals mean little"):
+            self.assertEqual(content(self.path("fit/report.html")).decode().count(word), 1, word)
 
     def test_friction_on_a_post_is_found_from_two_records(self):
         truth, cell = 0.23, {**CELL, "machine.load_cell.noise": 0.05}
@@ -128,6 +136,25 @@ class Hidden(Fits):
                 file.write(f"{row.time:.4f},{1e3 * row.extension + 3.0:.5f},{row.load + 5.0:.4f}\n")
         fitted, _ = self.fit("fit", "raw.csv", "straight", "--free", STRETCH, settings=PULLED)
         self.assert_found(fitted[STRETCH], 6.1e4)
+
+
+class Said(unittest.TestCase):
+    def test_what_other_languages_print_is_left_out(self):
+        code = "import os, sys\nfrom knot_utm import fit_command\nsys.stdout = fit_command.only_python()\n" \
+               "os.write(1, b'Fortran')\nprint('Python')"
+        done = subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": os.path.join(ROOT, "python")}, check=True,
+                              stdout=subprocess.PIPE)
+        self.assertEqual(done.stdout, b"Python\n")
+
+
+class Broken(Fits):
+    def test_tool_is_told_in_a_line(self):
+        """As one whose library was built anew."""
+        record = self.straight()
+        write(self.path("tensile_test"), "#!/bin/sh\nkill -SEGV $$\n")
+        os.chmod(self.path("tensile_test"), 0o755)
+        said = self.command(record, "straight", "--free", STRETCH, "--out", self.path("fit"), code=1, tools=self.folder)
+        self.assertEqual(said, "fit: tensile_test failed at --list-method-keys: exit code -11\n")
 
 
 class Untold(Fits):
@@ -161,7 +188,8 @@ class Refused(Fits):
     def test_in_one_line_before_anything_is_written(self):
         record = self.straight()
         self.refused(record, "straight", says="--free is missing")
-        self.refused(record, "straight", "--free", "material.stifness=1:2", says="material.stifness is no key of a method")
+        self.refused(record, "straight", "--free", "material.stifness=1:2",
+                     says="material.stifness is no key of a method; the keys of material")
         self.refused(record, "straight", "--free", STRETCH + "=-5:10", says="material.stretching_stiffness is -5")
         self.refused(record, "straight", "--free", STRETCH + "=10:5", says="low:high")
         self.refused(record, "straight", "--free", STRETCH, STRETCH, says="twice")
@@ -170,10 +198,16 @@ class Refused(Fits):
         self.refused(record, "strait", "--free", STRETCH, says="method is strait")
         self.refused("absent.csv", "straight", "--free", STRETCH, says="absent.csv: no such file")
         self.refused(record, "straight", "--free", STRETCH, settings={}, says="machine.load_cell.accuracy")
-        self.refused(record, "straight", "--free", STRETCH, says="specimen.lenght is no key",
-                     settings={**PULLED, "specimen.lenght": 1})
-        self.refused(record, "straight", "--free", "specimen.knot=0:1", says="specimen.knot is straight, but only a number may be free")
-        self.refused(record, "straight", "--free", "material.radiuss", says="did you mean material.radius?")
+        self.refused(record, "straight", "--free", STRETCH, settings={**PULLED, "specimen.lenght": 1},
+                     says="--set: specimen.lenght is no key of a method; did you mean specimen.length?")
+        self.refused(record, "straight", "--free", STRETCH, "--also", record, "specimen.lenght=1",
+                     says=f"--also {record}: specimen.lenght is no key of a method; did you mean specimen.length?")
+        for name, said in (("specimen.knot", "straight"), ("specimen.file", "nothing"), ("material", "several values"),
+                           ("wrong", "nothing")):
+            self.refused(record, "straight", "--free", name + "=0:1", says=f"--free: {name} is {said}, but only a number that acts on "
+                         "the test may be free")
+        self.refused(record, "straight", "--free", "material.radiuss",
+                     says="--free: material.radiuss is no key of a method; did you mean material.radius?")
         self.refused(record, "straight", "--free", "machine.load_cell.noise=0:1", says="machine.load_cell.noise is an error of the cell")
         self.refused(record, "straight", "--free", STRETCH, "--also", record, STRETCH + "=5e4", says=STRETCH + " is set, but it is free")
         self.refused(record, "overhand", "--free", "specimen.turns=1:3", says="specimen.turns is 1.8642, but must be a whole number",

@@ -3,6 +3,7 @@
 import os
 import sys
 import unittest
+from unittest import mock
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
 import head  # noqa: F401
@@ -12,7 +13,7 @@ import pandas as pd
 from scipy import linalg, special, stats
 
 from knot_utm.errors import WrongInput
-from knot_utm.fitting import ends, errors, kinds, profiles
+from knot_utm.fitting import ends, errors, files, kinds, profiles
 from knot_utm.fitting.curves import Pull, pull_of_table
 from knot_utm.fitting.emulator import Emulator
 from knot_utm.fitting.keys import FreeKey, method_key, offset_key, parse_free, value_at
@@ -315,20 +316,58 @@ class Ends(unittest.TestCase):
         found = judge(self.search).found["friction"]
         self.low, self.high = found.low, found.high
 
-    def test_are_not_doubted_where_runs_beyond_them_do_not_fit(self):
-        self.assertEqual(self.search.doubted, [])
+    def test_are_confirmed_where_runs_beyond_them_do_not_fit(self):
+        self.assertEqual(self.search.ends.unconfirmed, {})
         half = stats.norm.ppf(0.975) * 0.1 / np.sqrt(np.sum(EXTENSION**2))
         np.testing.assert_allclose([self.low, self.high], [self.truth - half, self.truth + half], rtol=0.05)
 
     def test_are_doubted_where_runs_beyond_them_fit(self):
         within, beyond = np.array([0.9 * self.high + 0.1 * self.truth]), np.array([1.3 * self.high - 0.3 * self.truth])
-        self.assertEqual(ends.doubtful(self.search, [(0, within), (0, beyond)]), [(0, within)])
+        self.assertEqual(ends.doubtful(self.search, {(0, -1): beyond, (0, 1): within}), [(0, 1)])
 
-    def test_that_are_doubted_go_on_to_those_runs(self):
-        self.search.doubted = [(0, np.array([0.9])), (0, np.array([self.truth]))]
+    def test_that_are_doubted_in_the_last_look_go_on_to_those_runs_and_are_told(self):
+        self.search.ends.unconfirmed.update({(0, 1): 0.9})
         fitted = judge(self.search)
-        self.assertEqual((fitted.found["friction"].low, fitted.found["friction"].high), (self.low, 0.9))
-        self.assertEqual(sum("goes on to there" in note for note in fitted.notes), 1)
+        found = fitted.found["friction"]
+        self.assertEqual((found.low, found.high, found.unconfirmed), (self.low, 0.9, ["high"]))
+        self.assertEqual(sum("do not confirm that its interval ends at 0.9" in note for note in fitted.notes), 1)
+        self.assertEqual(files.summary(fitted)["friction"]["unconfirmed"], ["high"])
+
+    def test_are_unconfirmed_where_the_last_look_moved_them(self):
+        found, end = self.search.ends.profiles, (0, 1)
+        within, beyond = (np.array([0.5 * (self.truth + at)]) for at in (self.high, 1.0))
+        low = {(0, -1): np.zeros(1)}
+        self.assertEqual(ends.unconfirmed(found, {**low, end: beyond}, []), {})
+        self.assertEqual(ends.unconfirmed(found, {**low, end: beyond}, [end]), {end: beyond[0]})
+        self.assertEqual(ends.unconfirmed(found, {**low, end: within}, []), {end: None}, "it is beyond the runs")
+        self.assertEqual(ends.unconfirmed(found, low, []), {end: None}, "it was open when the runs were made")
+
+    def test_that_move_on_and_on_are_looked_at_a_bounded_number_of_times(self):
+        """Runs beyond an end that fit, each time."""
+        looks = []
+
+        def doubtful(_, beyond):
+            looks.append(beyond)
+            return [(0, 1)]
+        with mock.patch.object(ends, "doubtful", doubtful):
+            found = ends.checked(self.search, 9)
+        self.assertEqual(len(looks), ends.CHECKS + 1)
+        self.assertEqual(found.unconfirmed, {(0, 1): looks[-1][0, 1][0]})
+
+    def test_of_a_range_that_the_value_is_not_in_ask_for_a_wider_one(self):
+        for low, high, words in ((0.6, 1.0, "lower end of its range: the data only tell that it is below 0.6"),
+                                 (0.0, 0.4, "upper end of its range: the data only tell that it is above 0.")):
+            keys = [FreeKey("friction", low, high)]
+
+            def run(places, _, key=keys[0]):
+                return [[Model(Pull(EXTENSION, (1.0 + key.value(place[0])) * EXTENSION), {}) for place in places]]
+            case = Case(self.search.cases[0].record, 1, keys, {"noise": 1e-3}, None)
+            search = Search([case], keys, run, lambda best: None)
+            search.go()
+            fitted = judge(search)
+            self.assertFalse(fitted.fits)
+            self.assertIn("friction is at the " + words, " ".join(fitted.notes))
+            self.assertIn("give a wider range", " ".join(fitted.notes))
 
     def test_given_up_too_early_come_back(self):
         self.search.low, self.search.high = np.array([0.65]), np.array([0.8])
@@ -336,6 +375,42 @@ class Ends(unittest.TestCase):
         for number in range(6):
             self.search.wave(number)
         self.assertLess(self.search.low[0], self.low)
+
+
+class Corners(unittest.TestCase):
+    """A load that rises at once and then slides: the second of a few readings is a corner."""
+
+    def test_are_no_error_of_the_fit(self):
+        def model(friction):
+            return Model(Pull(extension, (1.0 + friction) * np.where(extension > 0.0, 1.0, 0.1)), {})
+        extension, truth = np.linspace(0.0, 1.0, 32), 0.4
+        keys = [FreeKey("friction", 0.0, 1.0)]
+        case = Case(record(model(truth).pull.load, extension), 1, keys, {"noise": 1e-3}, None)
+        search = Search([case], keys, lambda places, _: [[model(place[0]) for place in places]], lambda best: None)
+        search.go()
+        fitted = judge(search)
+        self.assertLess(fitted.chi_square, 1.0)
+        self.assertAlmostEqual(fitted.found["friction"].value, truth, delta=1e-3)
+
+
+class Open(unittest.TestCase):
+    """Of a load (1 + friction) s, which density does not act on."""
+
+    def test_ends_cost_no_runs_and_stay_open_wherever_the_box_ends(self):
+        def run(places, _):
+            return [[Model(Pull(EXTENSION, (1.0 + place[0]) * EXTENSION), {}) for place in places]]
+        keys = [FreeKey("friction", 0.0, 1.0), FreeKey("density", 0.0, 1.0)]
+        case = Case(record(1.5 * EXTENSION), 1, keys, {"noise": 0.1}, None)
+        search = Search([case], keys, run, lambda best: None)
+        search.go()
+        search.low[1], search.high[1] = 0.4, 0.6
+        search.learn(1)
+        before = search.count
+        search.ends = ends.checked(search, 9)
+        self.assertEqual(search.count - before, 2, "one beyond each end of friction")
+        found = judge(search).found
+        self.assertTrue(found["friction"].identifiable)
+        self.assertEqual((found["density"].low, found["density"].high, found["density"].unconfirmed), (None, None, []))
 
 
 class Specimens:
@@ -418,7 +493,7 @@ class Keys(unittest.TestCase):
         self.assertEqual(parse_free("a.b=1:2e3"), ("a.b", (1.0, 2000.0)))
         self.assertEqual(parse_free("a.b"), ("a.b", None))
         method = {"a": {"b": 6.0, "none": 0, "word": "auto"}, "program": [{"tie": {"speed": 3.0}}]}
-        numbers = {"a.b", "a.none"}
+        numbers = {"a.b", "a.none", "a.absent"}
         self.assertEqual(method_key("a.b", None, method, numbers), FreeKey("a.b", 2.0, 18.0))
         self.assertEqual(value_at(method, "program.tie.speed"), 3.0)
         self.assertEqual(value_at(method, "program.0.tie.speed"), 3.0)
@@ -430,8 +505,9 @@ class Keys(unittest.TestCase):
             with self.assertRaisesRegex(WrongInput, f"give --free {name}=low:high"):
                 method_key(name, None, method, numbers)
         for limits in (None, (0.0, 1.0)):
-            with self.assertRaisesRegex(WrongInput, "a.word is auto, but only a number may be free"):
-                method_key("a.word", limits, method, numbers)
+            for name, said in (("a.word", "auto"), ("a", "several values"), ("a.other", "nothing")):
+                with self.assertRaisesRegex(WrongInput, f"{name} is {said}, but only a number that acts on the test may be free"):
+                    method_key(name, limits, method, numbers)
         with self.assertRaisesRegex(WrongInput, "there are 1"):
             offset_key("record.2.force_offset", None, [record(EXTENSION)])
 

@@ -16,9 +16,10 @@ from scipy import special, stats
 
 from knot_utm import WrongInput, tool
 from knot_utm.design import DRAWS
+from knot_utm.method_keys import require_known
 from knot_utm.sharing import beginnings
 from knot_utm.study import KEYS, load_study
-from knot_utm.yaml_text import load, text_of
+from knot_utm.yaml_text import load, text_of, value_of
 
 
 class Studies(unittest.TestCase):
@@ -202,6 +203,13 @@ class Shared(Studies):
         self.assertEqual(self.beginnings("{program.pull.speed: [1, 2]}"), [None] * 2, "a balance takes no time")
 
 
+def keys_of(node):
+    """Of all sections and values of a method, dotted."""
+    for name, value in node.items() if isinstance(node, dict) else enumerate(node) if isinstance(node, list) else ():
+        yield str(name)
+        yield from (f"{name}.{key}" for key in keys_of(value))
+
+
 class Documented(unittest.TestCase):
     def test_every_key_and_draw(self):
         with open(os.path.join(ROOT, "doc/studies.md"), encoding="utf-8") as file:
@@ -218,6 +226,12 @@ class Documented(unittest.TestCase):
             study = load_study(file)
             for point in study.points[::max(1, len(study.points) // 4)]:  # the sweep itself asks of all
                 self.assertIsNone(tool.refusal(study.method, point), file)
+
+    def test_no_key_of_a_shipped_method_counts_as_mistyped(self):
+        methods = glob.glob(os.path.join(ROOT, "config/*.yaml")) + glob.glob(os.path.join(ROOT, "config/standards/*.yaml"))
+        self.assertTrue(methods)
+        for file in methods:
+            require_known([*keys_of(load(file)), *keys_of(value_of(tool.resolved(file, {}))), *tool.key_units(file, {})], file)
 
     def test_one_specimen_does_not_scatter_when_it_is_checked(self):
         """With 1 % more there would be no room for the knots."""
@@ -258,6 +272,16 @@ class Refused(Studies):
         for below, *words in (("3", "below is 3"), ("{a: specimen.length}", "has the key a"),
                               ("{specimen.length: specimen.length}", "no run is left")):
             self.refuses(self.ONE + f"below: {below}", *words)
+
+    def test_mistyped_keys_of_the_method(self):
+        """The line names the study and not the method, which is right."""
+        for map_of, given, meant in (("vary", "specimen.lenght", "did you mean specimen.length?"),
+                                     ("for_each", "program.1.pull.sped", "did you mean program.pull.speed?"),
+                                     ("vary", "speciment.length", "did you mean specimen.length?"),
+                                     ("vary", "friction_coefficient", "did you mean material.friction_coefficient?"),
+                                     ("vary", "machine.post", "the keys of machine are grips, roller_diameter")):
+            one = f"vary: {{{given}: [0.1]}}" if map_of == "vary" else f"vary: {{specimen.length: [0.1]}}\nfor_each: {{{given}: [1]}}"
+            self.refuses(f"method: straight\n{one}", f"{self.file}: {map_of}.{given} is no key of a method; {meant}")
 
     def test_batches(self):
         self.refuses("method: straight\nvary: {specimens.count: [1, 2]}", "specimens.count", "give repeat")

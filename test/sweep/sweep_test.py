@@ -378,7 +378,7 @@ class Refused(Sweeps):
 
     def test_an_unknown_key(self):
         write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{specimen.lenght: [0.2]}}")
-        self.refused("specimen.lenght is no key of a method")
+        self.refused(self.study + ": vary.specimen.lenght is no key of a method; did you mean specimen.length?")
 
     def test_a_wrong_study(self):
         write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{specimen.length: [0.2]}}\ndesign: star")

@@ -39,8 +39,8 @@ def write_report(folder, command):
 
 def summary(fitted):
     """The map of fit.yaml."""
-    found = {key: {"value": one.value, "low": one.low, "high": one.high, "identifiable": one.identifiable}
-             for key, one in fitted.found.items()}
+    found = {key: {"value": one.value, "low": one.low, "high": one.high, "identifiable": one.identifiable,
+                   "unconfirmed": one.unconfirmed} for key, one in fitted.found.items()}
     correlation = {key: {other: round(value, 4) for other, value in row.items()} for key, row in fitted.correlation.items()}
     return {**found, "rms": short(fitted.rms), "correlation": correlation,
             "fits": fitted.fits, "chi_square": short(fitted.chi_square), "degrees_of_freedom": fitted.degrees_of_freedom,

@@ -4,6 +4,7 @@ import re
 from dataclasses import dataclass
 
 from knot_utm.errors import WrongInput
+from knot_utm.fitting.curves import is_number
 from knot_utm.yaml_text import text_of
 
 OFFSET = re.compile(r"record(?:\.([1-9]\d*))?\.(force|extension)_offset")
@@ -65,15 +66,15 @@ def offset_key(name, limits, records):
 
 
 def method_key(name, limits, method, numbers):
-    """Of a key of the method, with its range. `method`: as resolved; `numbers`: the keys of it that are numbers. Raises
-    WrongInput."""
+    """Of a key of the method, with its range. `method`: as resolved; `numbers`: those of its keys that are numbers and act on the
+    test. Raises WrongInput."""
     value = value_at(method, name)
-    said = "nothing" if value is None else text_of(value)
-    if name not in numbers and value is not None:
-        raise WrongInput(f"--free: {name} is {said}, but only a number may be free")
+    said = "nothing" if value is None else "several values" if isinstance(value, (dict, list)) else text_of(value)
+    if name not in numbers:
+        raise WrongInput(f"--free: {name} is {said}, but only a number that acts on the test may be free")
     if limits:
         return FreeKey(name, *limits)
-    if isinstance(value, bool) or not isinstance(value, (int, float)) or not 0 < value < math.inf:
+    if not is_number(value) or value <= 0:
         raise WrongInput(f"--free: the method has {said} at {name}, around which no range can be laid: give --free "
                          f"{name}=low:high")
     return FreeKey(name, value / AROUND, value * AROUND)

@@ -9,6 +9,7 @@ CANDIDATES = 2048
 POINTS = 41
 RISE = 3.841458820694124  # of -2 log L: 95 % of chi^2 with one degree of freedom
 STEP = 1e-4               # of a derivative, over the box
+WELL_ENOUGH = {"ftol": 1e-6, "gtol": 1e-2}  # more would be lost in the rounding of the derivatives
 KNOWN_TOGETHER = 0.99     # correlation from which on two keys are known as a combination only
 
 
@@ -23,6 +24,10 @@ class Profile:
     high: object
     at: np.ndarray
     mine: int  # which of the places is that of the smallest of all
+
+    def end(self, way):
+        """On that side; `way`: -1 or 1."""
+        return self.low if way < 0 else self.high
 
     def outwards(self, way):
         """(places, rises) from the smallest one on; `way`: -1 or 1."""
@@ -58,7 +63,7 @@ def smallest(likelihood, low, high, starts, fixed=None):
             values = likelihood.at(about)
             return values[0], (values[1::2] - values[2::2]) / (2.0 * STEP)
         found = optimize.minimize(value_and_slopes, np.clip((start[free] - low[free]) / width, 0.0, 1.0), jac=True,
-                                  method="L-BFGS-B", bounds=[(0.0, 1.0)] * len(free))
+                                  method="L-BFGS-B", bounds=[(0.0, 1.0)] * len(free), options=WELL_ENOUGH)
         if best is None or found.fun < best[1]:
             place = start.copy()
             place[free] = low[free] + found.x * width

@@ -10,7 +10,7 @@ from knot_utm.fitting.likelihood import Likelihood, RecordLikelihood
 from knot_utm.fitting.scatter import covariance_of, left_over
 from knot_utm.yaml_text import text_of
 
-GRID = 384          # points of a simulated curve
+GRID = 384          # points of a simulated curve; so many readings at most are points, too
 MOST_WAVES = 8
 KEPT = 16.0         # rise of -2 log L within which values are kept for the next wave
 LEAST_KEPT = 48     # candidates, where those within KEPT are fewer
@@ -21,6 +21,13 @@ GROWN = 0.05        # of the box, by which it is larger than what is kept
 LOOK = 0.25         # of the box, beyond which nothing is looked for: what an earlier wave gave up may come back
 
 
+def _grid(extension, most):
+    """Extensions at which a simulated curve is known, of a record that may be off by `most`. It is straight from one reading to the
+    next: of a few readings each may be a corner."""
+    even = np.linspace(extension[0] - most, extension[-1] + most, GRID)
+    return np.union1d(even, extension) if len(extension) <= GRID else even
+
+
 class Case:
     """One record in a search: its runs so far."""
 
@@ -29,7 +36,7 @@ class Case:
         self.cell_name = text_of({key: value for key, value in cell.items() if key != "noise_run"})
         self.inputs = np.array([i for i, key in enumerate(keys) if key.offset is None], int)  # what its runs depend on
         most = max((max(abs(key.low), abs(key.high)) for key in keys if key.offset == (number, "extension")), default=0.0)
-        self.grid = np.linspace(record.extension[0] - most, record.extension[-1] + most, GRID)
+        self.grid = _grid(record.extension, most)
         self.places, self.curves, self.models, self.sizes = [], [], [], []
         self.tried, self.lost = [], []  # all places, and whether the run there left no whole curve
         self.apart = None
@@ -55,7 +62,7 @@ class Case:
     def scatter(self, used=()):
         """Covariances of the means and at the grid, of the batch and of runs in the box, which are specimens too."""
         if self.apart is None:
-            return (np.zeros((n, n)) for n in (len(self.record.centres), GRID))
+            return (np.zeros((n, n)) for n in (len(self.record.centres), len(self.grid)))
         rows = self.apart
         if len(used):
             places = np.array([self.places[i] for i in used])[:, self.inputs]
@@ -159,7 +166,7 @@ class Search:
     def most_runs(keys, inputs):
         """Of one record."""
         first, more = Search._runs_of(inputs)
-        return first + MOST_WAVES * more + ends.CHECKS * (more + 2 * keys * ends.SPECIMENS)
+        return first + (MOST_WAVES + ends.CHECKS) * more + (ends.CHECKS + 1) * 2 * keys * ends.SPECIMENS
 
     @staticmethod
     def _runs_of(inputs):
@@ -178,7 +185,7 @@ class Search:
                 self.learn(wave)
             if wave > 2 and has_settled and self.likelihood.unknown(self.best) < LEARNT * self._means():
                 break
-        self.profiles, self.doubted = ends.checked(self, MOST_WAVES + 1)
+        self.ends = ends.checked(self, MOST_WAVES + 1)
 
     def wave(self, number):
         """More runs, in a new box; whether the box is no longer smaller."""
