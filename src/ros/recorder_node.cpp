@@ -294,7 +294,7 @@ void RecorderNode::finish_when_ready() {
 }
 
 void RecorderNode::finish_as_told(const std::string& warning) {
-  if (batch_ && test_.reason == names::kPhysicsDied) return interrupt(test_.reason);
+  if (batch_ && test_.reason == kPhysicsDied) return interrupt(test_.reason);
   finish(ended_by_from_name(test_.ended_by), test_.reason, warning);
 }
 

@@ -112,7 +112,7 @@ void UtmNode::on_specimen(const SpecimenInfo::ConstPtr& specimen) {
 void UtmNode::on_gone(const ros::SingleSubscriberPublisher& subscriber) {
   if (active() && subscriber.getSubscriberName() == node_.resolveName(names::kKnotNode)) {
     physics_died_ = true;
-    physics_failed(names::kPhysicsDied);
+    physics_failed(kPhysicsDied);
   }
 }
 

@@ -12,6 +12,9 @@ namespace knot_utm {
 /// about 15 ms for each, and the machine answers nobody meanwhile.
 inline constexpr int kMostInBatch = 1000;
 
+/// The reason that utm_node gives for the end of a test in which knot_node died. The specimen is not to blame for it.
+inline constexpr char kPhysicsDied[] = "knot_node died during the test";
+
 /// Which specimen of a batch a test takes. utm_node sets it as a parameter before the first command of each test, and
 /// the other nodes read it when that command arrives.
 struct BatchPlace {

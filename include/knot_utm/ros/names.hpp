@@ -52,9 +52,6 @@ inline constexpr char kFolderOfTest[] = "test/folder";  ///< set by recorder_nod
 inline constexpr char kExitCodes[] = "test/exit_codes";
 inline constexpr char kRecordedTest[] = "test/recorded";  ///< set by recorder_node: the last test that it completed
 
-/// The reason that utm_node gives for the end of a test in which knot_node died
-inline constexpr char kPhysicsDied[] = "knot_node died during the test";
-
 // Frames
 inline constexpr char kWorldFrame[] = "world";
 inline constexpr char kBaseFrame[] = "utm_base";
