@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <fstream>
 
+#include "knot_utm/analysis/statistics.hpp"
+#include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/study/specimens.hpp"
