@@ -7,14 +7,13 @@
 namespace knot_utm {
 namespace {
 
-/// Of a rod that `auto` makes longer than usual. What `auto` gave is told by its value, as no file keeps the word.
+/// Of a rod that `auto` makes longer than usual.
 std::string longer_than_usual(const Method& method) {
   const Knot& knot = knot_of(method.specimen);
   const double h = method.material.radius, length = method.specimen.length;
   const SpecimenOptions usual = knot.defaults(h);
-  SpecimenOptions suited = usual;
-  knot.suit(method.specimen, method.machine.roller_diameter, h, suited);
-  if (!knot.has("length") || length <= usual.length || length != suited.length) return "";
+  const bool automatic = method.automatic.count("specimen.length") > 0;
+  if (!knot.has("length") || length <= usual.length || !automatic) return "";
   const double end_to_end = method.specimen.end_to_end;
   return "specimen.length: auto is " + short_number(length) + " m, more than its usual " + short_number(usual.length) +
          " m, because specimen.end_to_end is " + short_number(end_to_end) + " m: the length of rod in the knot, " +

@@ -121,7 +121,7 @@ std::vector<std::string> specimen_folders(const std::string& folder) {
   std::error_code error;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     const std::string name = entry.path().filename().string();
-    const bool numbered = name.rfind(kSpecimen, 0) == 0 && name.size() > std::strlen(kSpecimen) &&
+    const bool numbered = name.rfind(kSpecimen, 0) == 0 && name.size() >= std::strlen(kSpecimen) + 3 &&
                           name.find_first_not_of("0123456789", std::strlen(kSpecimen)) == std::string::npos;
     if (numbered && entry.is_directory(error)) found.push_back(entry.path().string());
   }

@@ -33,8 +33,10 @@ BatchPlace batch_place(const ros::NodeHandle& node) {
   };
   // Without it nobody knows which specimen is meant: the test is then not taken for one that stands alone.
   if (!set || set->getType() != XmlRpc::XmlRpcValue::TypeStruct)
-    throw InvalidInput::sentence(name, "",
-                                 "the parameter " + name + ", which utm_node sets before each test, is not there");
+    throw InvalidInput::sentence(
+        name, "",
+        "cannot read the parameter " + name +
+            ", which utm_node sets before each test: it is not there, or the ROS master does not answer");
   const BatchPlace place{number(kNumber), number(kCount)};
   if (place.number >= 1 && place.number <= place.count && place.count <= kMostInBatch) return place;
   throw InvalidInput(name, place.text(), "the place that utm_node sets");

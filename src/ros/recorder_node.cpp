@@ -115,8 +115,10 @@ void RecorderNode::begin_run(const Crosshead& first) {
   std::string recorded;
   node_.getParam(names::kRecordedTest, recorded);
   completed_before_ = !test_id_.empty() && recorded == test_id_;
-  if (completed_before_) return;
+  completed_folder_ = completed_before_ ? told_folder(names::kFolderOfTest, test_id_) : "";
   begin_batch(id_of_test(run + 1 - static_cast<std::uint32_t>(place_.number)));
+  if (!place_.alone()) take_up_specimen();
+  if (completed_before_) return;
   // That of a specimen is known even where the recorder before died between making it and telling it.
   const std::string before = batch_ ? batch_->folder_of(place_.number) : told_folder(names::kFolderOfTest, test_id_);
   if (!before.empty()) {
@@ -134,18 +136,32 @@ void RecorderNode::begin_run(const Crosshead& first) {
   watch(claimed.folder);
 }
 
+/// What a recorder that died has left to do of a specimen whose result is complete.
+void RecorderNode::take_up_specimen() {
+  completed_folder_ = specimen_folder(batch_folder_, place_.number);
+  if (!batch_) {
+    completed_before_ = true;  // the whole batch is
+  } else if (completed_before_ || has_complete_result(completed_folder_)) {
+    completed_before_ = conclude_specimen();  // it may have died before its tables were written
+  }
+}
+
 void RecorderNode::begin_batch(const std::string& id) {
   if (!place_.alone() && batch_ && batch_id_ == id) return;
   batch_.reset();
   batch_id_ = id;
+  batch_folder_.clear();
   if (place_.alone()) return;
   const Method method = method_of_batch(setup_.method, place_.count);
   const std::string before = told_folder(names::kFolderOfBatch, id);
   if (!before.empty()) {
+    batch_folder_ = before;
+    if (!holds_unfinished_run(before)) return;
     batch_.emplace(RecordedBatch::go_on(method, {before, JournalWriter::go_on(before, kPatienceWithKeeper)}));
     return;
   }
   batch_.emplace(RecordedBatch::begin(method, claim(setup_.out, method, "")));
+  batch_folder_ = batch_->folder();
   if (!id.empty()) tell_master(names::kFolderOfBatch, id + " " + batch_->folder());
 }
 
@@ -300,6 +316,9 @@ void RecorderNode::finish_as_told(const std::string& warning) {
 
 void RecorderNode::finish_early() {
   if (test_.state == TestStatus::ENDED && test_.run == run_number_) {
+    const bool all = run_->next > test_.sequence;
+    if (!all && batch_) return interrupt("the last records of the test never arrived");
+    if (!all) run_->dropped += test_.sequence + 1 - run_->next;
     finish_as_told("");
   } else if (!master_answers()) {
     // Its launch then ends the nodes in any order: that of the machine may be gone before this one.
@@ -426,7 +445,8 @@ void RecorderNode::publish_status() {
     status.bag_messages = run_->bag.messages();
     status.directory = run_->folder;
   }
-  if (batch_) status.batch = batch_->folder();
+  if (!run_ && completed_before_) status.directory = completed_folder_;
+  status.batch = batch_folder_;
   published_ = status;
   published_at_ = Clock::now();
   status_.publish(status);

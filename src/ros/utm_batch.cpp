@@ -80,7 +80,13 @@ void UtmNode::stop() {
 }
 
 bool UtmNode::another_follows() const {
-  return batch_.specimen + 1 < batch_.methods.size() && !batch_.stopped && !physics_died_ && !recorder_failed_;
+  const bool ends = batch_.stopped || batch_.cut_off || physics_died_ || recorder_failed_;
+  return batch_.specimen + 1 < batch_.methods.size() && !ends;
+}
+
+std::size_t UtmNode::tested() const {
+  // Where one of these failed, the present specimen is left to be tested again.
+  return batch_.outcomes.size() - (physics_died_ || recorder_failed_ ? 1 : 0);
 }
 
 void UtmNode::see_to_the_next() {
@@ -90,17 +96,20 @@ void UtmNode::see_to_the_next() {
   if (another_follows()) {
     if (start(batch_.specimen + 1)) return;
     ROS_ERROR("the ROS master does not answer");
-    batch_.stopped = true;
+    batch_.cut_off = true;
   }
-  if (batch_.outcomes.size() < batch_.methods.size())
-    ROS_WARN("the batch ended after %zu of %zu specimens", batch_.outcomes.size(), batch_.methods.size());
-  if (batch_.outcomes.size() < batch_.methods.size() && !batch_directory_.empty())
-    ROS_WARN("once the launch has ended, the others can be tested by: %s", command_to_resume(batch_directory_).c_str());
+  if (tested() < batch_.methods.size()) {
+    ROS_WARN("the batch ended after %zu of %zu specimens", tested(), batch_.methods.size());
+    if (!batch_directory_.empty())
+      ROS_WARN("once the launch has ended, the others can be tested by: %s",
+               command_to_resume(batch_directory_).c_str());
+  }
   finish_goal();
 }
 
 bool UtmNode::failed() const {
-  return recorder_failed_ || physics_died_ || (program_ && program_->failed() && batch_.good_tests == 0);
+  return recorder_failed_ || physics_died_ || batch_.cut_off ||
+         (program_ && program_->failed() && batch_.good_tests == 0);
 }
 
 }  // namespace knot_utm

@@ -110,10 +110,9 @@ void UtmNode::on_specimen(const SpecimenInfo::ConstPtr& specimen) {
 }
 
 void UtmNode::on_gone(const ros::SingleSubscriberPublisher& subscriber) {
-  if (active() && subscriber.getSubscriberName() == node_.resolveName(names::kKnotNode)) {
-    physics_died_ = true;
-    physics_failed(kPhysicsDied);
-  }
+  if (subscriber.getSubscriberName() != node_.resolveName(names::kKnotNode)) return;
+  if (active() || (state_ == State::kEnded && another_follows())) physics_died_ = true;
+  if (active()) physics_failed(kPhysicsDied);
 }
 
 void UtmNode::physics_failed(const std::string& why) {

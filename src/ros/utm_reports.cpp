@@ -102,7 +102,7 @@ void UtmNode::finish_goal() {
   result.tests = batch_.outcomes;
   std::string text = "ended by " + last.ended_by + (last.reason.empty() ? "" : ": " + last.reason);
   if (batch_.methods.size() > 1)
-    text = "tested " + std::to_string(batch_.outcomes.size()) + " of " + std::to_string(batch_.methods.size()) +
+    text = "tested " + std::to_string(tested()) + " of " + std::to_string(batch_.methods.size()) +
            " specimens; the last test " + text;
   const bool by_operator = batch_.stopped || program_->ended_by() == EndedBy::kOperator;
   run_test_.finish(failed()      ? GoalEnd::kAborted

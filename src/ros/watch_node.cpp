@@ -82,8 +82,9 @@ int WatchNode::spin() {
 }
 
 void WatchNode::on_recorder(const RecorderStatus::ConstPtr& status) {
+  if (status->run == 0) return;  // a recorder that was started anew knows nothing yet
   batch_ = status->batch;
-  if (status->run > 0) folder_ = one_line(batch_.empty() ? status->directory : batch_);
+  folder_ = one_line(batch_.empty() ? status->directory : batch_);
 }
 
 void WatchNode::tell_unfinished_batch() const {

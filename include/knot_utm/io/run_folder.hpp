@@ -33,7 +33,8 @@ std::string specimen_folder(const std::string& folder, int number);
 std::vector<std::string> specimen_folders(const std::string& folder);
 
 /// Whether the folder contains something that a run there would overwrite or remove: results, a method, a report, a
-/// comparison, or the folder of a specimen. `holds_run` also counts a journal, which a run has from its beginning until its results are complete.
+/// comparison, or the folder of a specimen. `holds_run` also counts a journal, which a run has from its beginning until
+/// its results are complete.
 bool holds_results(const std::string& folder);
 bool holds_run(const std::string& folder);
 /// Whether the folder holds a run that is still going on, was cut off or was interrupted.

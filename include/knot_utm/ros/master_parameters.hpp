@@ -7,7 +7,7 @@
 
 namespace knot_utm {
 
-/// Parameters of the ROS master, which is not waited for: roscpp's own functions wait for ever for a master that died.
+/// Parameters of the ROS master, which is not waited for: roscpp's own setParam waits for ever for a master that died.
 /// `name`: resolved.
 
 /// False where the master does not answer.

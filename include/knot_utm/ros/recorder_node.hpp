@@ -38,7 +38,8 @@ class RecorderNode {
  public:
   RecorderNode(const ros::NodeHandle& node, MethodSetup setup, Keeper& keeper);
 
-  /// Runs until ROS is shut down. A test that has not ended then, or whose machine died, is closed with the reason.
+  /// Runs until ROS is shut down. A test that has not ended then, or whose machine died, is closed with the reason; in
+  /// a batch it is left to be tested again.
   /// Returns the exit code: 1 where something could not be written.
   int spin();
 
@@ -73,6 +74,7 @@ class RecorderNode {
 
   void begin_run(const Crosshead& first);
   void begin_batch(const std::string& id);
+  void take_up_specimen();
   bool conclude_specimen();                         ///< writes the tables of the batch; false where that failed
   std::string id_of_test(std::uint32_t run) const;  ///< unique among all machines; empty: not known
   /// The folder that an earlier recorder told by this parameter for this id; empty: none.
@@ -106,9 +108,11 @@ class RecorderNode {
   std::string test_id_;                 ///< unique id of the test that is being written; empty: not known
   BatchPlace place_;                    ///< of the test that is being written
   std::optional<RecordedBatch> batch_;  ///< empty: the test stands alone
+  std::string batch_folder_;            ///< empty: the test stands alone
   std::string batch_id_;                ///< id of the first test of the batch
   std::unique_ptr<Run> run_;            ///< null before the first record
   bool completed_before_ = false;       ///< an earlier recorder has completed the test
+  std::string completed_folder_;        ///< folder of that test
   TestStatus test_;                     ///< the latest
   double waited_ = 0.0;                 ///< time spent waiting for messages while this process was running [s]
   std::optional<double> machine_died_;  ///< value of `waited_` when the machine died [s]

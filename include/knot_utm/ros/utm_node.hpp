@@ -43,7 +43,8 @@ struct UtmOptions {
 /// it does where the simulation gives up. A slow simulation is waited for.
 ///
 /// The specimens of a batch are tested one after the other, each when all of the one before is recorded. A batch ends
-/// early where an operator stops it, the connection to the simulation breaks, or the recorder fails. Where the
+/// early where an operator stops it, the connection to the simulation breaks, the recorder fails, or the master does
+/// not answer. Where the
 /// simulation gives up on a specimen, the next one is tested.
 class UtmNode {
  public:
@@ -55,7 +56,7 @@ class UtmNode {
   UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOptions& options);
 
   /// Runs until ROS is shut down or, with `exit_at_end`, until the test or the batch has ended. Returns the exit code
-  /// of the node: 1 where the simulation failed on all specimens, or the recorder failed.
+  /// of the node: 1 where the simulation failed on all specimens or died, or the recorder failed.
   int spin();
 
  private:
@@ -69,6 +70,7 @@ class UtmNode {
     std::size_t specimen = 0;           ///< index of the present one
     int good_tests = 0;                 ///< number of tests in which the simulation did not fail
     bool stopped = false;               ///< by an operator
+    bool cut_off = false;               ///< because the ROS master did not answer
   };
 
   void on_specimen(const SpecimenInfo::ConstPtr& specimen);
@@ -89,6 +91,7 @@ class UtmNode {
   std::string start_if_possible(std::uint32_t count);  ///< returns why it cannot; empty: the test runs
   bool start(std::size_t specimen);  ///< starts a test; false, and changes nothing, where the master does not answer
   void stop();                       ///< stops the test and its batch
+  std::size_t tested() const;        ///< number of specimens of the batch that have been tested
   bool another_follows() const;      ///< whether another test of the batch follows the present one
   void see_to_the_next();            ///< once a test is recorded: starts the next one, or ends the batch
   bool failed() const;

@@ -53,7 +53,7 @@ class BatchTable {
   std::vector<Rejected> rejected_;
 };
 
-/// The file that a batch has once a test of it has ended.
+/// The file that a batch has once all its tests have ended; under ROS, once the first has.
 std::string statistics_file(const std::string& folder);
 
 }  // namespace knot_utm
