@@ -150,7 +150,14 @@ class Launch:
             return 0
 
     def wait_for_rows(self, rows):
-        wait_for('%d rows; the console: %s' % (rows, self.console()), lambda: self.rows() >= rows)
+        def are_there():
+            ended = self.process.poll() is not None
+            if self.rows() >= rows:
+                return True
+            if ended:
+                raise AssertionError('it ended before it had %d rows; the console: %s' % (rows, self.console()))
+            return False
+        wait_for('%d rows' % rows, are_there)
 
     def end(self, timeout=LAST_RESORT):
         """Waits for it to end by itself. Returns its exit code."""
