@@ -78,11 +78,11 @@ void check_fisherman(const FishermanShape& shape) {
   if (!(shape.looseness >= 3.9 && shape.looseness <= 8.0)) {
     throw InvalidInput("specimen.looseness", text(shape.looseness), "3.9 to 8 radii of the rod");
   }
-  if (!(shape.tail >= 2.0 * shape.radius && shape.tail <= 10.0)) {
-    throw InvalidInput("specimen.tail", text(shape.tail), text(2.0 * shape.radius) + " to 10 m");
+  if (!(shape.tail >= 2.0 * shape.radius && shape.tail <= 2.0)) {
+    throw InvalidInput("specimen.tail", text(shape.tail), text(2.0 * shape.radius) + " to 2 m");
   }
-  if (!(shape.end_to_end > 0.0 && shape.end_to_end <= 100.0)) {
-    throw InvalidInput("specimen.end_to_end", text(shape.end_to_end), "above 0 and at most 100 m");
+  if (!(shape.end_to_end > 0.0 && shape.end_to_end <= 20.0)) {
+    throw InvalidInput("specimen.end_to_end", text(shape.end_to_end), "above 0 and at most 20 m");
   }
 }
 
@@ -106,9 +106,9 @@ double narrowest_loop(const Coil& coil, double h) { return 0.5 * (coil.radius + 
 /// Distance of a rod on a roller from the roller's axis.
 double distance_on_roller(const FishermanShape& shape, const Coil& coil) {
   const double rolled = shape.roller_radius + shape.radius;
-  if (!(rolled >= narrowest_loop(coil, shape.radius) && shape.roller_radius <= 10.0)) {
+  if (!(rolled >= narrowest_loop(coil, shape.radius) && shape.roller_radius <= 0.5)) {
     throw InvalidInput("machine.roller_diameter", text(2.0 * shape.roller_radius),
-                       text(coil.radius + 0.5 * shape.radius) + " to 20 m");
+                       text(coil.radius + 0.5 * shape.radius) + " to 1 m");
   }
   return rolled;
 }
