@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "../tools/progress_line.hpp"
 #include "clock_pace.hpp"
 #include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/run_folder.hpp"
@@ -40,6 +41,7 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOpt
     : node_(node),
       method_(method),
       options_(options),
+      progress_(std::make_unique<ProgressLine>(false)),
       factor_(std::numeric_limits<double>::quiet_NaN()),
       run_test_(node, {[this](std::uint32_t count) { return start_if_possible(count); }, [this] { stop(); }}),
       diagnostics_(node) {
@@ -72,6 +74,8 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOpt
   method_text_.publish(text);
   publish_status();
 }
+
+UtmNode::~UtmNode() = default;
 
 int UtmNode::spin() {
   while (ros::ok()) {
@@ -136,6 +140,7 @@ void UtmNode::on_state(const KnotState::ConstPtr& answer) {
   take_reading();
   max_penetration_ = std::max(max_penetration_, sample_.max_penetration);
   waiting_ = false;
+  progress_->show(sample_, *program_, seconds_since(run_began_));
   now_ = state.header.stamp;
   publish_clock(false);
   if (joint_states_.getNumSubscribers() > 0) joint_states_.publish(to_joint_state(command_, sample_, now_));
@@ -217,6 +222,7 @@ void UtmNode::resend() {
 
 void UtmNode::end() {
   state_ = State::kEnded;
+  progress_->end();
   if (program_->reason().empty()) {
     ROS_INFO("the test ended by %s", ended_by_name(program_->ended_by()));
   } else {

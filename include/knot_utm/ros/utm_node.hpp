@@ -14,6 +14,7 @@
 
 #include <chrono>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,6 +27,8 @@
 #include "knot_utm/ros/run_test_server.hpp"
 
 namespace knot_utm {
+
+class ProgressLine;
 
 /// How the machine runs its tests.
 struct UtmOptions {
@@ -54,6 +57,7 @@ class UtmNode {
   static constexpr std::uint64_t kWindow = 128;
 
   UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOptions& options);
+  ~UtmNode();
 
   /// Runs until ROS is shut down or, with `exit_at_end`, until the test or the batch has ended. Returns the exit code
   /// of the node: 1 where the simulation failed on all specimens or died, or the recorder failed.
@@ -137,6 +141,8 @@ class UtmNode {
   ros::Time now_;                ///< time on /clock
   TopicWarning odd_specimen_{names::kSpecimen};
 
+  std::unique_ptr<ProgressLine> progress_;  ///< on the terminal of the launch
+  Clock::time_point run_began_;
   Clock::time_point due_;   ///< time at which the next command may be sent
   Clock::time_point sent_;  ///< time at which a command was last sent, or sent again
   Clock::time_point clock_published_;
