@@ -20,6 +20,6 @@ int main(int argc, char** argv) {
   return knot_utm::run_node(argc, argv, "recorder_node", kHelp, [&] {
     knot_utm::Keeper keeper;
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, "recorder_node");
-    return knot_utm::RecorderNode(node, knot_utm::read_test_setup(node), keeper).spin();
+    return knot_utm::RecorderNode(node, knot_utm::read_test_setup(node).out, keeper).spin();
   });
 }

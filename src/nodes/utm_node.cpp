@@ -30,6 +30,6 @@ int main(int argc, char** argv) {
       throw knot_utm::InvalidInput("real_time_factor", std::to_string(options.real_time_factor),
                                    "0 (as fast as possible) or more");
     }
-    return knot_utm::UtmNode(node, knot_utm::read_test_setup(node).method, options).spin();
+    return knot_utm::UtmNode(node, knot_utm::read_test_setup(node), options).spin();
   });
 }

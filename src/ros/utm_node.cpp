@@ -37,13 +37,18 @@ steady_clock::duration to_duration(double seconds) {
 
 }  // namespace
 
-UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOptions& options)
+UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const UtmOptions& options)
     : node_(node),
-      method_(method),
+      launched_(launched),
       options_(options),
       progress_(std::make_unique<ProgressLine>(false)),
       factor_(std::numeric_limits<double>::quiet_NaN()),
-      run_test_(node, {[this](std::uint32_t count) { return start_if_possible(count); }, [this] { stop(); }}),
+      run_test_(node, {[this](std::uint32_t count) {
+                         StartTest::Request request;
+                         request.specimens = count;
+                         return start_if_possible(request);
+                       },
+                       [this] { stop(); }}),
       diagnostics_(node) {
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
   crosshead_ = node_.advertise<Crosshead>(names::kCrosshead, kQueue, ros::SubscriberStatusCallback(), gone);
@@ -63,15 +68,12 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOpt
   pause_ = node_.advertiseService(names::kPause, &UtmNode::on_pause, this);
   resume_ = node_.advertiseService(names::kResume, &UtmNode::on_resume, this);
   step_ = node_.advertiseService(names::kStep, &UtmNode::on_step, this);
-  diagnostics_.setHardwareIDf("%s", method_.machine.load_cell.name.c_str());
   diagnostics_.add("machine", this, &UtmNode::diagnose);
   pace_.setCallback([this](MachineConfig& wanted, std::uint32_t) { set_pace(wanted); });
   // No other machine of this computer's life has both.
   node_.setParam(names::kTestId,
                  std::to_string(getpid()) + "-" + std::to_string(steady_clock::now().time_since_epoch().count()));
-  std_msgs::String text;
-  text.data = method_file_text(method_);
-  method_text_.publish(text);
+  publish_method(launched_.method);
   publish_status();
 }
 
@@ -81,7 +83,7 @@ int UtmNode::spin() {
   while (ros::ok()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(wait_time()));
     if (options_.autostart && run_ == 0 && has_specimen_) {
-      const std::string why_not = start_if_possible(0);
+      const std::string why_not = start_if_possible({});
       if (!why_not.empty()) throw std::runtime_error(why_not);
     }
     if (may_advance()) advance();
@@ -240,6 +242,13 @@ void UtmNode::publish_clock(bool at_once) {
   rosgraph_msgs::Clock clock;
   clock.clock = std::max(now_, ros::TIME_MIN);
   clock_.publish(clock);
+}
+
+void UtmNode::publish_method(const Method& method) {
+  diagnostics_.setHardwareIDf("%s", method.machine.load_cell.name.c_str());
+  std_msgs::String text;
+  text.data = method_file_text(method);
+  method_text_.publish(text);
 }
 
 }  // namespace knot_utm

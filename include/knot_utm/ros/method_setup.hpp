@@ -1,17 +1,20 @@
 #pragma once
 
+#include <knot_utm/StartTest.h>
 #include <ros/node_handle.h>
 
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/program_runner.hpp"
 
 namespace knot_utm {
 
-/// The setup of a test from ROS parameters. All nodes of a test read the same parameters, relative to their namespace:
+/// What a test is to be, in words. A launch says it by parameters, relative to its namespace, and a request of
+/// utm/start_test by the fields of the same names:
 ///   test/method             a method file: a path, or one of test/shipped_methods, with or without ".yaml"
 ///   test/shipped_methods    folder of the methods that come with the package
 ///   test/material           replaces the method's material; empty: the method's own
@@ -21,12 +24,26 @@ namespace knot_utm {
 ///   test/working_directory  folder from which relative paths begin; empty: the node's own
 ///   test/data               record of an experiment, which is followed instead of the last pull; empty: none
 ///   test/out                folder of the files [out/NAME of the method]
-///   test/network            true: other machines may reach the nodes
+struct TestWords {
+  std::string method, shipped_methods, material, preload, working_directory, data, out;
+  std::vector<std::string> overrides;
+};
+
+/// The setup of a test. All nodes of a launch read the same parameters, and test/network: true lets other machines
+/// reach the nodes.
 struct MethodSetup {
+  TestWords words;
+  std::string file;  ///< of the method
   Method method;
   std::string out;   ///< absolute path
   std::string data;  ///< absolute path; empty: there is no record
 };
+
+/// Throws InvalidInput.
+MethodSetup set_up(const TestWords& words);
+
+/// The words of the launch with those that a request gives in their place.
+TestWords asked_for(TestWords launched, const StartTest::Request& request);
 
 /// Invalid input that another node of the same launch reports. The cause of a failure is thus printed once.
 struct SaidByAnother : InvalidInput {
