@@ -76,8 +76,12 @@ class RawTable {
   void tell(std::size_t readings, std::size_t specimens, const Tell& say) const {
     std::string line = file_ + ": " + std::to_string(readings) + " readings";
     if (specimens > 1) line += " of one of " + std::to_string(specimens) + " specimens";
-    for (std::size_t i = 0; i < columns_.size(); ++i)
-      if (columns_[i]) line += std::string(i == 0 ? ": " : ", ") + raw_quantities()[i].name + " is " + described(i);
+    const char* between = ": ";
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (!columns_[i]) continue;
+      line += std::string(between) + raw_quantities()[i].name + " is " + described(i);
+      between = ", ";
+    }
     if (!columns_[0]) line += "; no column of time";
     if (repeated_ > 0) line += "; rows left out that repeat the one before: " + std::to_string(repeated_);
     if (empty_ > 0) line += "; empty rows: " + std::to_string(empty_);
@@ -150,7 +154,10 @@ class RawTable {
   double si(std::size_t quantity, const RawColumn& column) const {
     const RawQuantity& of = raw_quantities()[quantity];
     const std::string unit = unit_of(quantity, column), own = text_of(options_.units, quantity);
-    const std::string allowed = of.allowed, key = own.empty() ? "the unit of " + (column.label.empty() ? "" : std::string("column ")) + name(quantity) : kUnitsOption;
+    const std::string allowed = of.allowed,
+                      key = own.empty()
+                                ? "the unit of " + (column.label.empty() ? "" : std::string("column ")) + name(quantity)
+                                : kUnitsOption;
     if (unit.empty()) throw InvalidInput::missing(key, allowed + ", by --units " + of.name + "=UNIT").in_file(file_);
     const std::optional<double> si = si_of(of, unit);
     if (!si && own.empty()) throw InvalidInput(file_, key, unit, allowed);
@@ -346,16 +353,18 @@ std::vector<CurveRow> read_raw_data(const std::string& content, const std::strin
       const auto [place, specimen] = chosen(tables, all, options.specimen, file);
       RawTable table(rows, place.head, place.end, specimen, options, file);
       std::vector<CurveRow> out = table.read();
+      std::string falling;
+      turn_signs(out, options.invert, file, [&](const std::string& line) { falling = line; });
       if (tell) table.tell(out.size(), all, tell);
-      turn_signs(out, options.invert, file, tell);
+      if (tell && !falling.empty()) tell(falling);
       return out;
     }
   }
   throw InvalidInput::sentence("names", "none",
-                               std::string("no row names the columns ") +
-                                   (options.needs_time ? "time, extension and load" : "extension and load") +
-                                   (nearest.empty() ? "; --columns takes their names or numbers"
-                                                    : "; " + nearest + "; --columns takes other names, or numbers"))
+                               std::string("no row names the columns ") + (options.needs_time ? "time, " : "") +
+                                   "extension and load" + (nearest.empty() ? "" : "; " + nearest) +
+                                   "; --columns takes other names, or numbers, such as --columns "
+                                   "time=1,extension=2,load=3")
       .in_file(file);
 }
 

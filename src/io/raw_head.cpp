@@ -38,20 +38,23 @@ std::optional<Name> name_before_unit(const RawQuantity& quantity, const std::str
   return Name{cell.substr(0, end + 1), unit};
 }
 
-/// A folded name without the number of a specimen or a channel: "c 1 load", "specimen 2: load", "load 1", "load (1)".
+/// A name without the number of a specimen or a channel: "C_1_load", "specimen 2: load", "load 1", "load (1)",
+/// "load.1".
 std::string without_number(const std::string& name) {
   constexpr const char* kDigits = "0123456789";
-  constexpr const char* kBetween = " .:-/()#";
+  constexpr const char* kBetween = " _.:-/#";
+  constexpr std::size_t kNone = std::string::npos, kLongest = 12;  // word before the number
   const std::size_t first = name.find_first_of(kDigits);
-  if (first == std::string::npos) return name;
-  const std::size_t behind = name.find_first_not_of(kDigits, first);
-  constexpr std::size_t kLongest = 12;  // word before the number
-  if (behind == std::string::npos || name.find_first_not_of(kBetween, behind) == std::string::npos) {
-    const std::size_t last = name.find_last_not_of(kBetween, first == 0 ? 0 : first - 1);
-    return first == 0 || last == std::string::npos ? name : name.substr(0, last + 1);
-  }
-  const std::size_t next = name.find_first_not_of(kBetween, behind);
-  return next == behind || first > kLongest ? name : name.substr(next);
+  if (first == kNone) return name;
+  const std::size_t behind = name.find_first_not_of(kDigits, first), next = name.find_first_not_of(kBetween, behind);
+  if (behind != kNone && next != kNone && next > behind && first <= kLongest) return name.substr(next);
+  const bool in_brackets = name.back() == ')';
+  std::size_t last = name.find_last_not_of(kDigits, name.size() - (in_brackets ? 2 : 1));
+  if (last == kNone || (in_brackets && (name[last] != '(' || last == 0)) || (!in_brackets && last + 1 == name.size()))
+    return name;
+  if (in_brackets) --last;
+  last = name.find_last_not_of(kBetween, last);
+  return last == kNone ? name : name.substr(0, last + 1);
 }
 
 std::optional<std::size_t> number_in(const std::string& given) {
@@ -77,8 +80,12 @@ std::optional<RawColumn> as_column(const RawQuantity& quantity, const std::strin
     if (place + 1 != *number) return std::nullopt;
     return out;
   }
-  std::vector<Name> readings{name_of(cell), Name{cell, std::nullopt}};
-  if (const auto other = name_before_unit(quantity, cell)) readings.push_back(*other);
+  std::vector<Name> readings;
+  for (const std::string& text : {cell, without_number(cell)}) {
+    readings.push_back(name_of(text));
+    readings.push_back({text, std::nullopt});
+    if (const auto other = name_before_unit(quantity, text)) readings.push_back(*other);
+  }
   for (const Name& name : readings) {
     const std::string whole = folded(name.name), base = without_number(whole);
     out.unit = name.unit;

@@ -77,7 +77,7 @@ void turn_signs(std::vector<CurveRow>& rows, Invert invert, const std::string& f
   if (rows.empty()) return;
   const Falling falling = what_falls(rows);
   if (invert == Invert::kWhatFalls && !falling.extension && !falling.load)
-    throw InvalidInput::sentence(kInvertOption, "falling",
+    throw InvalidInput::sentence("signs", "none falls",
                                  "--invert finds nothing that falls: --invert=load, --invert=extension or "
                                  "--invert=both turn what they name")
         .in_file(file);

@@ -80,6 +80,7 @@ std::string without_padding(std::string text) {
 std::string why_no_text(const std::string& bytes) {
   const auto begins = [&](std::string_view mark) { return bytes.compare(0, mark.size(), mark) == 0; };
   constexpr const char* kSave = ": save its table as CSV (comma-separated text) and give that file";
+  if (bytes.find_first_not_of(" \r\n\t") == std::string::npos) return "the file is empty";
   if (begins("PK\x03\x04"))
     return std::string("the file is a workbook (xlsx, ods) or another zip archive, and no text") + kSave;
   if (begins("\xD0\xCF\x11\xE0")) return std::string("the file is an old workbook (xls), and no text") + kSave;

@@ -86,7 +86,7 @@ std::vector<CurveRow> rows_of(const rosbag::Bag& bag, const std::string& file, i
         .in_file(file);
   const std::size_t index = wanted == 0 ? 0 : static_cast<std::size_t>(wanted - 1);
   if (index >= tests.size())
-    throw InvalidInput::sentence(kSpecimenOption, std::to_string(wanted),
+    throw InvalidInput::sentence("tests", std::to_string(wanted),
                                  "--specimen is " + std::to_string(wanted) + ", but the bag holds " + all +
                                      (tests.size() == 1 ? " test" : " tests"))
         .in_file(file);
