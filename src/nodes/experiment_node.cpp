@@ -21,7 +21,9 @@ int main(int argc, char** argv) {
     if (data.empty()) throw knot_utm::InvalidInput::missing("data", "the record of an experiment, data:=FILE");
     bool autostart = false;
     knot_utm::read_parameter(ros::NodeHandle("~"), "autostart", &autostart, "true or false");
-    knot_utm::ExperimentNode(node, data).spin(autostart);
+    std::string balance = "auto";
+    knot_utm::read_parameter(ros::NodeHandle("~"), "balance", &balance, "auto, true or false");
+    knot_utm::ExperimentNode(node, data, knot_utm::record_balance_named(balance)).spin(autostart);
     return 0;
   });
 }

@@ -3,6 +3,8 @@
 
 #include <filesystem>
 
+#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/record/ended_by.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
 
@@ -42,6 +44,8 @@ int main(int argc, char** argv) {
     // As every run has it beside its bag.
     const fs::path beside = method.empty() ? file.parent_path() / "method.yaml" : fs::path(base) / method;
     options.bag = file.string();
+    options.ended_by = knot_utm::result_of(file.parent_path().string(), "ended_by").value_or("");
+    if (options.ended_by == knot_utm::ended_by_name(knot_utm::EndedBy::kNotYet)) options.ended_by.clear();
     if (!fs::exists(file)) throw knot_utm::InvalidInput::cannot_read(options.bag);
     return knot_utm::ReplayNode(node, knot_utm::load_method(beside.string()), options).spin();
   });
