@@ -16,6 +16,21 @@ if(KNOT_UTM_ROS)
   find_package(catkin QUIET COMPONENTS message_generation ${message_packages} ${node_packages})
 endif()
 
+# Built on its own the devel space has the package's folder in share/, as an installed one has: of a source folder rosrun
+# leaves out all that lies in its build/, and finds the programs of every other folder that was built in.
+if(catkin_FOUND AND KNOT_UTM_INSTALLS_SETUP)
+  file(WRITE ${CATKIN_DEVEL_PREFIX}/.catkin "")
+  file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/share/knot_utm/msg)
+  foreach(part package.xml action cfg config launch panel report test)
+    file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${part} ${CATKIN_DEVEL_PREFIX}/share/knot_utm/${part} SYMBOLIC)
+  endforeach()
+  file(GLOB messages msg/*.msg)
+  foreach(message ${messages})
+    get_filename_component(name ${message} NAME)
+    file(CREATE_LINK ${message} ${CATKIN_DEVEL_PREFIX}/share/knot_utm/msg/${name} SYMBOLIC)
+  endforeach()
+endif()
+
 if(catkin_FOUND)
   add_message_files(DIRECTORY msg FILES
                     ColorBar.msg Crosshead.msg KnotRecord.msg KnotShape.msg KnotState.msg RecorderStatus.msg SpecimenInfo.msg

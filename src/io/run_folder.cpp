@@ -32,16 +32,6 @@ constexpr std::array<const char*, 10> kOld{"result.yaml",     "final_shape.csv",
                                            "saved.bag",       "report.html",     "report.pdf", kFailedStep,
                                            "statistics.yaml", "specimens.csv"};
 
-/// The value of a key in result.yaml, as it stands there.
-std::optional<std::string> result_of(const std::string& folder, const std::string& key) {
-  std::ifstream result(fs::path(folder) / "result.yaml");
-  const std::string begin = key + ": ";
-  for (std::string line; std::getline(result, line);) {
-    if (line.rfind(begin, 0) == 0) return line.substr(begin.size());
-  }
-  return std::nullopt;
-}
-
 /// What `compare --report` left; curves a.csv and b.csv without its comparison.yaml are somebody else's.
 void remove_comparison(const fs::path& folder) {
   std::error_code error;
@@ -61,12 +51,38 @@ std::string logo_beside(const Method& method) { return "logo" + fs::path(method.
 
 }  // namespace
 
+std::optional<std::string> result_of(const std::string& folder, const std::string& key) {
+  std::ifstream result(fs::path(folder) / "result.yaml");
+  const std::string begin = key + ": ";
+  for (std::string line; std::getline(result, line);) {
+    if (line.rfind(begin, 0) == 0) return line.substr(begin.size());
+  }
+  return std::nullopt;
+}
+
 void make_folder(const std::string& folder, const char* argument) {
   std::error_code error, other;
   fs::create_directories(folder, error);
   if (fs::is_directory(folder, other)) return;
   throw InvalidInput::sentence(argument, folder,
                                "cannot make the folder \"" + shown(folder) + "\": " + reason_of(error.value()));
+}
+
+void require_new_file(const char* argument, const std::string& file, const std::vector<std::string>& inputs,
+                      bool overwrite, const std::string& begins) {
+  std::error_code error;
+  const auto refuse = [&](const std::string& why) {
+    throw InvalidInput::sentence(argument, file, std::string(argument) + ": " + shown(file) + why);
+  };
+  for (const std::string& input : inputs)
+    if (fs::equivalent(file, input, error)) refuse(" is an input, and would be written over: give another name");
+  if (!fs::exists(fs::symlink_status(file, error))) return;
+  if (!overwrite) refuse(" exists already: give another name, or --overwrite");
+  if (begins.empty() || !fs::is_regular_file(file, error)) return;
+  std::ifstream in(file, std::ios::binary);
+  std::string head(begins.size(), '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (head != begins) refuse(" is a file of another kind, which --overwrite does not replace: give another name");
 }
 
 void make_run_folder(const std::string& folder) { make_folder(folder, "--out"); }

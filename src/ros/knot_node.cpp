@@ -155,7 +155,7 @@ void KnotNode::answer(const Crosshead& message) {
   for (const Sample& step : machine_.substeps()) {
     record->steps.push_back(to_message(step, message.run, test_stamp(start, step.time)));
   }
-  if (shape_is_due(command) || sample_.status == BenchStatus::kFailed) put_shape(*record);
+  if (shape_is_due(command, sample_) || sample_.status == BenchStatus::kFailed) put_shape(*record);
   const std::string& failed_step = machine_.failed_step();
   record->failed_step.assign(failed_step.begin(), failed_step.end());
   kept_.push_back(record);

@@ -165,6 +165,7 @@ ros::NodeHandle join_ros(int argc, char** argv, const char* name) {
   bool network = false;
   read_parameter(node, "test/network", &network, "true or false");
   if (!network) {
+    stay_on_loopback();
     require_loopback();
   } else if (name == std::string(names::kUtmNode)) {  // one of all that say it
     ROS_WARN("network:=true: ROS 1 has no authentication, so anyone who reaches this machine can command the test");
@@ -178,10 +179,21 @@ void leave_ros(const char* name, int code) {
   ros::shutdown();
 }
 
-bool asks_for_version(int argc, char** argv) {
-  if (argc != 2 || argv[1] != std::string("--version")) return false;
-  std::puts(version().c_str());
-  return true;
+std::optional<int> answer_words(int argc, char** argv, const char* name, const char* help) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.find(":=") != std::string::npos) continue;
+    if (word == "--version") {
+      std::puts(version().c_str());
+      return 0;
+    }
+    if (word == "--help" || word == "-h") {
+      std::printf("usage: rosrun knot_utm %s [NAME:=VALUE]...\n\n%s", name, help);
+      return 0;
+    }
+    return report_failure(name, ("it takes no \"" + shown(word) + "\" (" + name + " --help)").c_str(), 2);
+  }
+  return std::nullopt;
 }
 
 int report_failure(const char* name, const char* what, int code) {

@@ -334,7 +334,7 @@ void RecorderNode::finish_early() {
 
 void RecorderNode::cut_off(const std::string& why) {
   if (batch_) return interrupt(why);
-  finish(EndedBy::kOperator, why, "");
+  finish(EndedBy::kInterrupted, why, "");
 }
 
 void RecorderNode::write_results(EndedBy ended_by, const std::string& reason, const std::string& warning) {

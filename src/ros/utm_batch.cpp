@@ -91,6 +91,7 @@ bool UtmNode::start(std::size_t specimen) {
   max_penetration_ = 0.0;
   state_ = State::kRunning;
   due_ = steady_clock::now();
+  run_began_ = due_;
   factor_measured_ = due_;
   factor_time_ = 0.0;
   if (!place.alone()) ROS_INFO("%s is tested", place.text().c_str());

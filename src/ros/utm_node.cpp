@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "../tools/progress_line.hpp"
 #include "clock_pace.hpp"
 #include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/run_folder.hpp"
@@ -40,6 +41,7 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
     : node_(node),
       launched_(launched),
       options_(options),
+      progress_(std::make_unique<ProgressLine>(false)),
       factor_(std::numeric_limits<double>::quiet_NaN()),
       run_test_(node, {[this](std::uint32_t count) {
                          StartTest::Request request;
@@ -74,6 +76,8 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
   publish_method(launched_.method);
   publish_status();
 }
+
+UtmNode::~UtmNode() = default;
 
 int UtmNode::spin() {
   while (ros::ok()) {
@@ -138,6 +142,7 @@ void UtmNode::on_state(const KnotState::ConstPtr& answer) {
   take_reading();
   max_penetration_ = std::max(max_penetration_, sample_.max_penetration);
   waiting_ = false;
+  progress_->show(sample_, *program_, seconds_since(run_began_));
   now_ = state.header.stamp;
   publish_clock(false);
   if (joint_states_.getNumSubscribers() > 0) joint_states_.publish(to_joint_state(command_, sample_, now_));
@@ -219,6 +224,7 @@ void UtmNode::resend() {
 
 void UtmNode::end() {
   state_ = State::kEnded;
+  progress_->end();
   if (program_->reason().empty()) {
     ROS_INFO("the test ended by %s", ended_by_name(program_->ended_by()));
   } else {

@@ -3,6 +3,7 @@
 #include <knot_utm/StartTest.h>
 #include <ros/node_handle.h>
 
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -74,19 +75,21 @@ ros::NodeHandle join_ros(int argc, char** argv, const char* name);
 void leave_ros(const char* name, int code);
 
 /// Runs `body` as the main function of a node, and prints one line where it throws. Returns the exit code: 0 success, 1
-/// failure, 2 invalid input.
+/// failure, 2 invalid input. `help`: see `answer_words`.
 template <class Body>
-int run_node(int argc, char** argv, const char* name, Body body);
+int run_node(int argc, char** argv, const char* name, const char* help, Body body);
 
-/// For `run_node`: prints the version and returns true where --version is the only argument.
-bool asks_for_version(int argc, char** argv);
+/// For main functions, before anything of ROS is asked for: answers --help and --version, and refuses every other word
+/// that is not for ROS itself (NAME:=VALUE). Returns the exit code; nothing where the node is to run. `help`: what it
+/// prints below its usage line.
+std::optional<int> answer_words(int argc, char** argv, const char* name, const char* help);
 
 /// For `run_node`: prints one line on the console, whether or not ROS logging is available. Returns `code`.
 int report_failure(const char* name, const char* what, int code);
 
 template <class Body>
-int run_node(int argc, char** argv, const char* name, Body body) {
-  if (asks_for_version(argc, argv)) return 0;
+int run_node(int argc, char** argv, const char* name, const char* help, Body body) {
+  if (const std::optional<int> answered = answer_words(argc, argv, name, help)) return *answered;
   int code = 0;
   try {
     code = body();

@@ -1,6 +1,7 @@
 #pragma once
 
-/// All names that the nodes share. All of them except /clock are relative; the launch file chooses the namespace.
+/// All names that the nodes share. All of them except /clock are relative; the launch file chooses the namespace, and
+/// remaps /clock into it.
 namespace knot_utm::names {
 
 // Nodes. Each accepts messages of the rightful publisher only, by these names.
@@ -52,6 +53,9 @@ inline constexpr char kFolderOfTest[] = "test/folder";  ///< set by recorder_nod
 inline constexpr char kExitCodes[] = "test/exit_codes";
 inline constexpr char kRecordedTest[] = "test/recorded";  ///< set by recorder_node: the last test that it completed
 inline constexpr char kRobotDescription[] = "robot_description";  ///< set by knot_node: the machine as URDF
+
+// Parameters that the launch file sets
+inline constexpr char kSimTimeFound[] = "test/use_sim_time_found";  ///< what /use_sim_time was before the launch
 
 // Frames
 inline constexpr char kWorldFrame[] = "world";

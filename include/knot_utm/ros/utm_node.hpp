@@ -15,6 +15,7 @@
 
 #include <chrono>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -27,6 +28,8 @@
 #include "knot_utm/ros/run_test_server.hpp"
 
 namespace knot_utm {
+
+class ProgressLine;
 
 /// How the machine runs its tests.
 struct UtmOptions {
@@ -56,6 +59,7 @@ class UtmNode {
 
   /// `launched`: the setup of a test of which nothing else is asked.
   UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const UtmOptions& options);
+  ~UtmNode();
 
   /// Runs until ROS is shut down or, with `exit_at_end`, until the test or the batch has ended. Returns the exit code
   /// of the node: 1 where the simulation failed on all specimens or died, or the recorder failed.
@@ -143,6 +147,8 @@ class UtmNode {
   ros::Time now_;                ///< time on /clock
   TopicWarning odd_specimen_{names::kSpecimen};
 
+  std::unique_ptr<ProgressLine> progress_;  ///< on the terminal of the launch
+  Clock::time_point run_began_;
   Clock::time_point due_;   ///< time at which the next command may be sent
   Clock::time_point sent_;  ///< time at which a command was last sent, or sent again
   Clock::time_point clock_published_;
