@@ -35,29 +35,27 @@ class Side {
 
   bool has_zero() const { return has_zero_; }
   const std::vector<CurveRow>& rows() const { return curve_.rows; }
+  const std::optional<RawZero>& given() const { return given_; }
+
+  void keep_zero() const { note("the curve is one of knot_utm and keeps its own zero"); }
 
   void balance_at_rest(const Pull& other) {
-    const RawZero zero = zero_at_rest(rows(), other);
-    const std::string place = format_number(zero.load) + " N at " + format_number(zero.extension) + " m";
-    if (zero.readings > 1) {
-      note("zero is " + place + ", the mean of its " + std::to_string(zero.readings) +
-           " readings before the crosshead moves");
-    } else {
-      note("the record shows no rest before the pull, so its first reading, " + place +
-           ", is taken for zero; if the record was cut, say with --begins-at where it begins");
-    }
-    curve_.rows = balanced(rows(), zero);
+    given_ = zero_at_rest(rows(), other);
+    note(zero_words(*given_) +
+         (given_->readings > 1 ? "" : "; if the record was cut, say with --begins-at where it begins"));
+    curve_.rows = balanced(rows(), *given_);
     require_readings();
   }
 
   void balance_cut(double begins_at, const Pull& other) {
-    const std::optional<RawZero> zero = zero_of_cut(rows(), begins_at, other);
-    if (!zero)
+    given_ = zero_of_cut(rows(), begins_at, other);
+    if (!given_)
       throw InvalidInput::sentence("--begins-at", format_number(begins_at),
                                    "the other curve has no load at an extension of " + format_number(begins_at) + " m");
-    note("the first reading is taken to lie at an extension of " + format_number(begins_at) +
-         " m, where its load is set to that of the other curve");
-    curve_.rows = balanced(rows(), *zero);
+    note("the first reading, " + format_number(given_->load) + " N at " + format_number(given_->extension + begins_at) +
+         " m, is taken to lie at an extension of " + format_number(begins_at) +
+         " m, where its load is set to that of the other curve, " + format_number(given_->load_there) + " N");
+    curve_.rows = balanced(rows(), *given_);
   }
 
  private:
@@ -98,6 +96,7 @@ class Side {
   CurveOfFile curve_;
   const Tell& tell_;
   bool has_zero_;  // of its own
+  std::optional<RawZero> given_;
 };
 
 /// Raw data alone: a curve of ours has its zero.
@@ -107,6 +106,7 @@ void balance(const ZeroWanted& wanted, Side& a, Side& b, const Tell& tell) {
   Side& raw = a.has_zero() ? b : a;
   const Side& other = a.has_zero() ? a : b;
   const Pull beside = other.has_zero() ? pull_of(other.rows(), ExtensionOf::kMachine) : Pull();
+  if (other.has_zero() && !raw.has_zero()) other.keep_zero();
   if (wanted.begins_at) {
     if (a.has_zero() == b.has_zero())
       throw InvalidInput::sentence("--begins-at", format_number(*wanted.begins_at),
@@ -126,6 +126,7 @@ ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, const ZeroWanted& ze
   const ExtensionOf extension = both ? ExtensionOf::kSpecimen : ExtensionOf::kMachine;
   ComparedCurves out{pull_of(side_a.rows(), extension), pull_of(side_b.rows(), extension), {}};
   out.comparison = compare(out.a, out.b);
+  if (zero.balance) out.comparison.zeros = GivenZeros{side_a.given(), side_b.given()};
   if (!out.comparison.difference)
     throw InvalidInput::sentence("extensions", "none that both have",
                                  "the curves have no extension in common, so they cannot be compared");

@@ -33,16 +33,6 @@ constexpr std::array<const char*, 10> kOld{"result.yaml",     "final_shape.csv",
                                            "saved.bag",       "report.html",     "report.pdf", kFailedStep,
                                            "statistics.yaml", "specimens.csv"};
 
-/// The value of a key in result.yaml, as it stands there.
-std::optional<std::string> result_of(const std::string& folder, const std::string& key) {
-  std::ifstream result(fs::path(folder) / "result.yaml");
-  const std::string begin = key + ": ";
-  for (std::string line; std::getline(result, line);) {
-    if (line.rfind(begin, 0) == 0) return line.substr(begin.size());
-  }
-  return std::nullopt;
-}
-
 /// What `compare --report` left; curves a.csv and b.csv without its comparison.yaml are somebody else's.
 void remove_comparison(const fs::path& folder) {
   std::error_code error;
@@ -61,6 +51,15 @@ void put_copy(const fs::path& file, const fs::path& copy) {
 std::string logo_beside(const Method& method) { return "logo" + fs::path(method.report.logo).extension().string(); }
 
 }  // namespace
+
+std::optional<std::string> result_of(const std::string& folder, const std::string& key) {
+  std::ifstream result(fs::path(folder) / "result.yaml");
+  const std::string begin = key + ": ";
+  for (std::string line; std::getline(result, line);) {
+    if (line.rfind(begin, 0) == 0) return line.substr(begin.size());
+  }
+  return std::nullopt;
+}
 
 void make_folder(const std::string& folder, const char* argument) {
   std::error_code error, other;

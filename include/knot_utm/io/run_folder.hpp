@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,9 @@ inline constexpr const char* kInterrupted = "interrupted";
 
 /// Whether the folder has the result of a test that ended. A test that was interrupted has not ended.
 bool has_complete_result(const std::string& folder);
+
+/// The value of a key in the result.yaml of a folder, as it stands there; empty where there is none.
+std::optional<std::string> result_of(const std::string& folder, const std::string& key);
 /// Whether the folder has the result of a test that was interrupted.
 bool was_interrupted(const std::string& folder);
 
