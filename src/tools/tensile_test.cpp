@@ -219,6 +219,7 @@ int run(const Arguments& arguments) {
   const Method method = load_method(arguments.method, arguments.overrides);
   if (arguments.check) return check(method);
   if (arguments.list_keys) return list_keys(method);
+  if (arguments.overwrite) require_no_method_in(folder_of(arguments, method), arguments.method);
   if (method.specimens.count > 1) return run_all_specimens(arguments, method);
   if (!arguments.resume.empty()) require_resumable(arguments.resume);
   const HeadlessOutcome outcome = run_and_tell(arguments, method);

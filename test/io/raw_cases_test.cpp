@@ -303,6 +303,25 @@ TEST(RawCases, TheCrossheadCountsBesideAnExtensometer) {
   EXPECT_NEAR(same.rows.back().extension, 0.002, 1e-12);
 }
 
+TEST(RawCases, ASecondCellIsTold) {
+  const std::string text = "Time;Extension;Load 1;Load 2\ns;mm;N;N\n0;0;1;3\n1;1;2;6\n";
+  const Outcome out = of_text(text);
+  expect_reading(out.rows.at(1), {1, 1, 2});
+  EXPECT_THAT(out.told, Contains(HasSubstr("column 4 \"Load 2\" is not read; --columns load=4 would read it")));
+  expect_reading(of_text(text, columns("load=4")).rows.at(1), {1, 1, 6});
+  EXPECT_THAT(of_text(text, columns("extension=3,load=3")).refused, HasSubstr("another column for the extension"));
+}
+
+/// The shorter one has empty cells where the time goes on.
+TEST(RawCases, SpecimensOfOneTimeMayBeOfDifferentLength) {
+  const std::string text = "Time;Extension 1;Load 1;Extension 2;Load 2\ns;mm;N;mm;N\n0;0;1;0;2\n1;1;2;1;4\n2;2;3;;\n";
+  EXPECT_THAT(of_text(text, specimen(1)).rows, SizeIs(3));
+  const Outcome second = of_text(text, specimen(2));
+  ASSERT_THAT(second.rows, SizeIs(2));
+  expect_reading(second.rows.back(), {1, 1, 4});
+  EXPECT_THAT(second.told, Contains(HasSubstr("empty rows: 1")));
+}
+
 TEST(RawCases, SpecimensBelowEachOther) {
   const std::string text =
       "ASCII Export File Version:,3\nSample / Slot "
