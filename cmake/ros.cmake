@@ -24,10 +24,5 @@ foreach(source ${nodes})
   target_link_libraries(${name} PRIVATE knot_utm_ros)
 endforeach()
 
-# Listening on loopback only: for the nodes by the library above, for the programs of others that they are launched with
-# (rosout, rviz) preloaded, and for the ROS master by the environment.
-add_library(knot_utm_loopback SHARED src/ros/loopback_bind.cpp)
-target_link_libraries(knot_utm_loopback PRIVATE knot_utm_compiler)
-add_dependencies(programs knot_utm_loopback)
-install(TARGETS knot_utm_loopback LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+# ROS_HOSTNAME=localhost for whoever sources setup.bash: master, roslaunch and nodes in Python then listen on loopback only.
 catkin_add_env_hooks(60.knot_utm_loopback SHELLS sh DIRECTORY ${PROJECT_SOURCE_DIR}/cmake)

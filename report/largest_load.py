@@ -10,7 +10,8 @@ NEAR = 0.01  # of the pull: a largest load within this of its end was reached th
 # How a test ended that nobody and no program stopped.
 NOT_STOPPED = {"solver": "at the end of the test, where the physics gave up",
                "untangled": "at the end of the test, where the knot came undone",
-               "not yet": "at the end of what was recorded"}
+               "not yet": "at the end of what was recorded",
+               "interrupted": "where the test was cut off"}
 
 
 class LargestLoad:

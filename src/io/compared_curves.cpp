@@ -1,5 +1,6 @@
 #include "knot_utm/io/compared_curves.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -10,12 +11,13 @@
 namespace knot_utm {
 namespace {
 
-using Tell = std::function<void(const std::string& line)>;
-
+/// A curve without any times is one, too.
 void require_finite(const CurveOfFile& curve) {
+  const bool timed = has_its_zero(curve.rows) || (!curve.rows.empty() && std::isfinite(curve.rows.front().time));
   for (std::size_t i = 0; i < curve.rows.size(); ++i) {
     const CurveRow& row = curve.rows[i];
-    if (pulls(row.phase) && !(std::isfinite(row.time) && std::isfinite(row.extension) && std::isfinite(row.load)))
+    if (pulls(row.phase) &&
+        !((std::isfinite(row.time) || !timed) && std::isfinite(row.extension) && std::isfinite(row.load)))
       throw InvalidInput::sentence("reading", std::to_string(i + 1),
                                    "reading " + std::to_string(i + 1) + " has no time, no extension or no load")
           .in_file(curve.file);
@@ -28,6 +30,7 @@ class Side {
   Side(CurveOfFile curve, const Tell& tell) : curve_(std::move(curve)), tell_(tell), has_zero_(has_its_zero(rows())) {
     require_finite(curve_);
     require_readings();
+    if (!has_zero_) note_left_out();
   }
 
   bool has_zero() const { return has_zero_; }
@@ -58,11 +61,36 @@ class Side {
  private:
   void require_readings() const {
     const std::size_t readings = pull_of(rows()).size();
+    if (readings < 2 && !rows().empty() && what_falls(rows()).extension)
+      throw InvalidInput::sentence("extension", "falls",
+                                   "the extension falls from its first reading on, so that nothing is pulled: --invert "
+                                   "turns its sign")
+          .in_file(curve_.file);
     if (readings < 2)
       throw InvalidInput::sentence("pull", std::to_string(readings),
                                    "the pull has " + std::to_string(readings) + " readings, but must have at least 2")
           .in_file(curve_.file);
   }
+  /// A pull has only readings beyond all extensions before.
+  void note_left_out() const {
+    constexpr double kBehind = 0.01;  // of the way
+    const Pull pull = pull_of(rows());
+    const double behind = kBehind * (pull.back().extension - pull.front().extension);
+    std::size_t left_out = 0;
+    double farthest = pull.front().extension, most = 0.0;
+    for (const CurveRow& row : rows()) {
+      if (!pulls(row.phase)) continue;
+      farthest = std::max(farthest, row.extension);
+      if (farthest - row.extension <= behind) continue;
+      ++left_out;
+      most = std::max(most, farthest - row.extension);
+    }
+    if (left_out > 0)
+      note(std::to_string(left_out) + " of " + std::to_string(rows().size()) +
+           " readings are not compared, since they lie up to " + short_number(1e3 * most) +
+           " mm behind an extension that was reached before");
+  }
+
   void note(const std::string& words) const { tell_(curve_.file + ": " + words); }
 
   CurveOfFile curve_;

@@ -68,6 +68,23 @@ void make_folder(const std::string& folder, const char* argument) {
                                "cannot make the folder \"" + shown(folder) + "\": " + reason_of(error.value()));
 }
 
+void require_new_file(const char* argument, const std::string& file, const std::vector<std::string>& inputs,
+                      bool overwrite, const std::string& begins) {
+  std::error_code error;
+  const auto refuse = [&](const std::string& why) {
+    throw InvalidInput::sentence(argument, file, std::string(argument) + ": " + shown(file) + why);
+  };
+  for (const std::string& input : inputs)
+    if (fs::equivalent(file, input, error)) refuse(" is an input, and would be written over: give another name");
+  if (!fs::exists(fs::symlink_status(file, error))) return;
+  if (!overwrite) refuse(" exists already: give another name, or --overwrite");
+  if (begins.empty() || !fs::is_regular_file(file, error)) return;
+  std::ifstream in(file, std::ios::binary);
+  std::string head(begins.size(), '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (head != begins) refuse(" is a file of another kind, which --overwrite does not replace: give another name");
+}
+
 void make_run_folder(const std::string& folder) { make_folder(folder, "--out"); }
 
 std::string method_file_text(const Method& method) {

@@ -1,8 +1,8 @@
 #include "knot_utm/ros/experiment_node.hpp"
 
 #include <geometry_msgs/WrenchStamped.h>
+#include <knot_utm/StartTest.h>
 #include <ros/callback_queue.h>
-#include <std_srvs/Trigger.h>
 
 #include <utility>
 
@@ -50,7 +50,7 @@ ExperimentNode::ExperimentNode(const ros::NodeHandle& node, const std::string& f
       crosshead_(node_.advertise<Crosshead>(names::kExperimentCrosshead, kQueue)),
       commands_(subscribe_gated(node_, {names::kCrosshead, names::kUtmNode, kQueue, kLargest},
                                 &ExperimentNode::on_command, this)),
-      start_(node_.serviceClient<std_srvs::Trigger>(names::kStartTest)) {}
+      start_(node_.serviceClient<StartTest>(names::kStartTest)) {}
 
 void ExperimentNode::spin(bool autostart) {
   while (ros::ok()) {
@@ -60,9 +60,9 @@ void ExperimentNode::spin(bool autostart) {
 }
 
 void ExperimentNode::try_to_start() {
-  std_srvs::Trigger trigger;
+  StartTest start;
   // Until the physics is there too the machine refuses.
-  if (commands_.getNumPublishers() > 0 && start_.call(trigger) && trigger.response.success == 0)
+  if (commands_.getNumPublishers() > 0 && start_.call(start) && start.response.accepted == 0)
     ros::WallDuration(kLook).sleep();
 }
 

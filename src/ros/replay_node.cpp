@@ -16,7 +16,9 @@
 #include "bag_topics.hpp"
 #include "clock_pace.hpp"
 #include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/urdf.hpp"
 #include "knot_utm/ros/validate.hpp"
 
 namespace knot_utm {
@@ -83,6 +85,7 @@ ReplayNode::ReplayNode(const ros::NodeHandle& node, const Method& method, const 
   std_msgs::String text;
   text.data = method_yaml(method);
   method_.publish(text);
+  set_on_master(node_.resolveName(names::kRobotDescription), machine_urdf(method, machine_.lower_grip()));
   begin_ = Clock::now();
 }
 

@@ -15,6 +15,7 @@
 #include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/method_keys.hpp"
+#include "knot_utm/io/plausible_rod.hpp"
 #include "knot_utm/io/report.hpp"
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/shipped.hpp"
@@ -203,6 +204,7 @@ int check(const Method& method) {
   else
     draw_specimens(method);
   for (const std::string& warning : foreseen_warnings(method)) std::fprintf(stderr, "%s: %s\n", kTool, warning.c_str());
+  std::fprintf(stderr, "%s: the rod: %s\n", kTool, rod_in_words(method.material).c_str());
   std::fputs(method_yaml(method).c_str(), stdout);
   return kDone;
 }

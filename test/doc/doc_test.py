@@ -190,9 +190,19 @@ class Ros(unittest.TestCase):
             self.assertTrue(f"`{name}`" in self.page, name)
 
     def test_has_every_message(self):
-        for file in [*files("msg", ".msg"), *files("action", ".action")]:
+        for file in [*files("msg", ".msg"), *files("srv", ".srv"), *files("action", ".action")]:
             name = os.path.splitext(os.path.basename(file))[0]
             self.assertTrue(f"knot_utm/{name}`" in self.page, name)
+
+    def test_every_field_of_a_message_has_its_unit_above_it(self):
+        for file in [*files("msg", ".msg"), *files("srv", ".srv"), *files("action", ".action")]:
+            comment = ""
+            for line in text(file).splitlines():
+                if line.startswith("#"):
+                    comment = line
+                elif re.match(r"[\w/]+(\[\])? \w+$", line):
+                    self.assertRegex(comment, r"\[[^]]+\]|, in that unit$", f"{file}: {line}")
+                    comment = ""
 
     def test_has_every_dynamic_parameter(self):
         for file in files("cfg", ".cfg"):

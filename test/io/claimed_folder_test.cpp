@@ -42,6 +42,7 @@ TEST_F(ClaimedFolderOf, ARunIsTheNextFreeOneWhereSomethingWould) {
     const std::string asked = in(std::string(name) + "_is_there");
     fs::create_directories(asked);
     write_whole(asked + "/" + name, "measured");
+    EXPECT_EQ(free_folder(asked), asked + "-2") << name;
     EXPECT_EQ(claimed(asked), asked + "-2") << name;
     EXPECT_EQ(claimed(asked + "/"), asked + "-3") << name;
     EXPECT_EQ(read_whole(asked + "/" + name), "measured");

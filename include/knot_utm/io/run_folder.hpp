@@ -12,6 +12,12 @@ namespace knot_utm {
 /// done.
 void make_folder(const std::string& folder, const char* argument);
 
+/// Throws InvalidInput where the file that a command-line argument names must not be written: it is one of `inputs`,
+/// also by a link, or it exists and is not to be overwritten. If `begins` is given, only a file that begins so is
+/// overwritten, so that a slip of the hand does not replace a file of another kind.
+void require_new_file(const char* argument, const std::string& file, const std::vector<std::string>& inputs,
+                      bool overwrite, const std::string& begins = "");
+
 /// Makes the folder of a run. Throws InvalidInput (key "--out") where that cannot be done.
 void make_run_folder(const std::string& folder);
 
