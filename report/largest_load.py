@@ -31,7 +31,7 @@ def largest_load(run):
         row = int(np.argmin(np.abs(pulled["extension"] - broke)))  # where it parted the load is read, too
         return LargestLoad(pulled, row, "peak", f"where the rod parted, at {length(run, broke)}", True)
     place, end = float(rows["extension"][row]), float(pulled["extension"].max())
-    if end - place > NEAR * float(np.ptp(pulled["extension"])):
+    if row < len(rows) - 1 and end - place > NEAR * float(np.ptp(pulled["extension"])):
         return LargestLoad(rows, row, "peak", f"at an extension of {length(run, place)}", True)
     where = f"at {length(run, place)}, "
     if broke is not None:

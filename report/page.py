@@ -7,7 +7,7 @@ from html import escape
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from certificate import certificate, specification_checks, specification_verdict, verdict
-from comparison import READINGS, Comparison, run_beside
+from comparison import READINGS, Comparison
 from comparison_figures import overlay
 from curve_figures import course, force_extension
 from error_band import error_band
@@ -26,7 +26,6 @@ from shapes import series_of, shapes_at
 from style import LOOKS, embedded
 from turnable import turnable
 from typefaces import told, without_typeface
-from units import Units
 
 FILES = [
     ("curve.csv", "load, extension and knot distance at every reading of the load cell"),
@@ -176,18 +175,21 @@ def range_of_plateau(run):
 
 
 def report_on_comparison(folder, command, version):
-    comparison, units = Comparison(folder), Units()
+    comparison = Comparison(folder)
+    units = comparison.units
     rising = [name.upper() for name in ("a", "b") if comparison.ends_at_its_largest_load(name)]
     rows = [comparison_row(comparison, key, units) for key in READINGS if has_either(comparison.facts.get(key))]
-    length = units.length.scale
+    length, force = units.length.scale, units.force.scale
     return render("comparison.html.j2", {
         "title": "Comparison of two curves", "facts": comparison.facts,
         "curves": [overlay(comparison, look) for look in LOOKS], "rows": rows,
-        "rising": rising, "sides": [(name.upper(), printable(file), *side_facts(run_beside(file)))
+        "rising": rising, "sides": [(name.upper(), printable(file), *side_facts(comparison.runs[name], units))
                                     for name, file in comparison.files.items()],
         "unmeasured": [key for key in READINGS if key in comparison.facts and not has_either(comparison.facts[key])],
         "common": [shown(s, length) for s in comparison.facts["common_extension"]],
-        "rms": shown(comparison.number("rms_difference")), "largest": shown(comparison.number("largest_difference")),
+        "force": units.force.name, "length": units.length.name, "si": units.are_default,
+        "rms": shown(comparison.number("rms_difference"), force),
+        "largest": shown(comparison.number("largest_difference"), force),
         "share": percent(comparison.number("rms_difference_over_load")),
         "largest_at": shown(comparison.number("largest_difference_at"), length), "files": files_of(folder),
         "command": printable(command), "version": version, "folder": printable(folder)})
@@ -206,14 +208,13 @@ def comparison_row(comparison, key, units):
               for part in ("a", "b", "difference")), percent(both.get("relative")))
 
 
-def side_facts(beside):
+def side_facts(run, units):
     """What a curve is from, and what its run warns of."""
-    if beside is None:
+    if run is None:
         return "This curve is a file of its own: no run of knot_utm stands beside it.", []
-    method, result = beside
-    words = (f"This curve was simulated: {knot_of(method)}, {method['material'].get('name', 'own material')}, knot_utm "
-             f"{result.get('version')}, ended by {result.get('ended_by')}.")
-    return words, all_in_units(result.get("warnings") or [], Units())
+    words = (f"This curve was simulated: {knot_of(run.method)}, {run.method['material'].get('name', 'own material')}, knot_utm "
+             f"{run.result.get('version')}, ended by {run.result.get('ended_by')}.")
+    return words, all_in_units(run.result.get("warnings") or [], units)
 
 
 def files_of(folder):

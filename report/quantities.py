@@ -13,7 +13,7 @@ class Quantity:
 
 
 # How a unit of result_keys.csv is shown, where the page has one of its own for it.
-KINDS = {"N": "force", "m": "length", "N/m": "stiffness", "bytes": "memory", "-": "", "0 to 1": "", "of the radius": "",
+KINDS = {"N": "force", "m": "length", "N/m": "stiffness", "m/s": "speed", "bytes": "memory", "-": "", "0 to 1": "", "of the radius": "",
          "of the gauge length": "percent", "of the strength without a knot": "percent"}
 # Groups that are no table of results: what they hold has another place on the page.
 HEAD, BESIDE, CERTIFICATE = "head", "beside", "certificate"
@@ -61,7 +61,7 @@ def shown(value, scale=1.0, error=None):
     if isinstance(value, int) and scale == 1.0:
         return str(value)
     if isinstance(value, (int, float)):
-        return number(value * scale, None if error is None else error * scale) if abs(value) >= NOTHING else "0"
+        return "0" if abs(value) < NOTHING else number(value * scale, None if error is None else error * scale)
     if isinstance(value, dict):
         return ", ".join(f"{name.replace('_', ' ')} {shown(part)}" for name, part in value.items()) or "–"
     if isinstance(value, (list, tuple)):

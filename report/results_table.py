@@ -30,7 +30,7 @@ class Group:
 
 
 # What stands for no value where it is not null.
-NOTHING = {"break_place": "none", "cycles": 0}
+NOTHING = {"break_place": "none", "cycles": 0, "motion_pattern_confidence": 0}
 
 
 def has_value(result, key):

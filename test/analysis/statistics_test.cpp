@@ -49,7 +49,7 @@ TEST(Statistics, WhatIsConstantButForRoundingHasNoSpread) {
     EXPECT_EQ(s.n, same.size());
     EXPECT_EQ(*s.maximum, *std::max_element(same.begin(), same.end()));
   }
-  EXPECT_TRUE(statistics_of({31.0, 31.001}).sd);
+  EXPECT_TRUE(statistics_of({31.0, 31.01}).sd);
 }
 
 }  // namespace
