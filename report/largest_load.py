@@ -9,7 +9,7 @@ NEAR = 0.01  # of the pull: a largest load within this of its end was reached th
 
 # How a test ended that nobody and no program stopped.
 NOT_STOPPED = {"solver": "the physics gave up", "untangled": "the knot came undone", "operator": "the operator stopped the test",
-               "not yet": "the record ends"}
+               "not yet": "the record ends", "interrupted": "the test was cut off"}
 
 
 class LargestLoad:

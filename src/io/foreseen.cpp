@@ -1,5 +1,6 @@
 #include "knot_utm/io/foreseen.hpp"
 
+#include "knot_utm/io/plausible_rod.hpp"
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -98,6 +99,7 @@ std::vector<std::string> foreseen_warnings(const Method& method) {
   if (method.specimen.to_be_tied) all = tying_warnings(method.specimen, method.material, method.physics);
   if (const std::string longer = longer_than_usual(method); !longer.empty()) all.push_back(longer);
   add_never_reached(method, all);
+  for (const std::string& question : questions_about(method.material)) all.push_back(question);
   return all;
 }
 

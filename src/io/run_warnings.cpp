@@ -81,8 +81,8 @@ std::vector<std::string> events(const Results& results) {
                   short_number(*curve.force_after_jump) + " N, and later readings belong to a looser knot");
   if (slid_to_the_end(results) && results.true_plateau_force)
     all.push_back(
-        "the pull ended while the knots still slid: the plateau force is the mean up to there; where "
-        "the load rises, it is smaller than the mean up to the lock");
+        "the pull ended while the knots still slid. The plateau force is the mean of what was pulled; a longer pull "
+        "may give a larger one");
   if (results.roller_touched_at)
     all.push_back("a roller bore on a knot or its tail from an extension of " +
                   short_number(*results.roller_touched_at) + " m on");
@@ -114,13 +114,13 @@ std::string shaken(const Results& results, const RunFacts& facts) {
          " % of the largest one, where at rest they are the same: pull more slowly";
 }
 
-/// Knots that go on their way as they are let go are tied at another distance than was asked for.
+/// Knots that move as they are released are tied at another distance than was asked for.
 std::string knots_travelled(const Results& results, const RunFacts& facts) {
   constexpr double kFar = 0.05;  // of the distance, by choice: shipped methods are within 1e-3
   if (!results.tied_knot_distance || !(facts.knot_distance > 0.0)) return {};
   if (std::abs(*results.tied_knot_distance / facts.knot_distance - 1.0) <= kFar) return {};
-  return "the knots travelled as they were let go: they are " + short_number(*results.tied_knot_distance) +
-         " m apart, where specimen.knot_distance is " + short_number(facts.knot_distance) + " m";
+  return "the knots moved as they were released. They are " + short_number(*results.tied_knot_distance) +
+         " m apart instead of " + short_number(facts.knot_distance) + " m (specimen.knot_distance)";
 }
 
 /// Of a test that the machine ended too early. A solver that gave up and a knot that came undone say so themselves.

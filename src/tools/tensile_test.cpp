@@ -15,6 +15,7 @@
 #include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/method_keys.hpp"
+#include "knot_utm/io/plausible_rod.hpp"
 #include "knot_utm/io/report.hpp"
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/shipped.hpp"
@@ -203,6 +204,7 @@ int check(const Method& method) {
   else
     draw_specimens(method);
   for (const std::string& warning : foreseen_warnings(method)) std::fprintf(stderr, "%s: %s\n", kTool, warning.c_str());
+  std::fprintf(stderr, "%s: the rod: %s\n", kTool, rod_in_words(method.material).c_str());
   std::fputs(method_yaml(method).c_str(), stdout);
   return kDone;
 }
@@ -217,6 +219,7 @@ int run(const Arguments& arguments) {
   const Method method = load_method(arguments.method, arguments.overrides);
   if (arguments.check) return check(method);
   if (arguments.list_keys) return list_keys(method);
+  if (arguments.overwrite) require_no_method_in(folder_of(arguments, method), arguments.method);
   if (method.specimens.count > 1) return run_all_specimens(arguments, method);
   if (!arguments.resume.empty()) require_resumable(arguments.resume);
   const HeadlessOutcome outcome = run_and_tell(arguments, method);

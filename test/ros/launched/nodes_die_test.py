@@ -14,7 +14,7 @@ from dying import Dying
 class NodesDieTest(Dying):
 
     def test_machine(self):
-        self.dies('utm_node', 'operator', 'utm_node died before the test had ended')
+        self.dies('utm_node', 'interrupted', 'utm_node died before the test had ended')
 
     def test_physics(self):
         self.dies('knot_node', 'solver', 'knot_node died during the test')
@@ -24,7 +24,8 @@ class NodesDieTest(Dying):
             launch.wait_for_rows(3)
             os.kill(launch.process.pid, signal.SIGINT)
             launch.end()
-            self.assertEqual(launch.result('reason'), 'ROS was shut down before the test had ended')
+            self.assertEqual((launch.result('ended_by'), launch.result('reason')),
+                             ('interrupted', 'ROS was shut down before the test had ended'))
 
 
 if __name__ == '__main__':
