@@ -7,8 +7,8 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kStart =
-    0.01;  // of the whole extension, by choice: a jerk lasts as long as a wave takes to the far grip
+// Of the whole extension, by choice: a wave that the pull begins with has crossed the specimen by then.
+constexpr double kStart = 0.01;
 
 }  // namespace
 
