@@ -20,16 +20,18 @@ constexpr double kMany = 8.0;             // loads above this many of those of s
 constexpr double kSmall = 2.5;            // end of the axis of small loads, of the load of sliding
 
 // Lengths and places are in halves of the height of the picture.
-constexpr double kAhead = 0.3;          // of all of it, of the distance to the machine
-constexpr double kLetter = 0.038;       // height of the readings' letters; rviz sets lines 3.8 times that apart
-constexpr double kSmallLetter = 0.032;  // of those at the axes
-constexpr double kLine = 0.005;         // width of lines
-constexpr double kTextLeft = -1.08;     // middle of the readings
+constexpr double kAhead = 0.3;  // of all of it, of the distance to the machine
+// Each line is a text of its own: rviz sets the lines of one text 1 cm apart, however small the picture is.
+constexpr double kLetter = 0.042;            // height of the readings' letters
+constexpr double kSmallLetter = 0.032;       // of those at the axes
+constexpr double kLine = 0.005;              // width of lines
+constexpr double kText = -1.1;               // middle of the readings
+constexpr double kTop = 0.42, kRow = 0.092;  // of the readings
 
 struct Box2 {
   double left, right, low, high;
 };
-constexpr Box2 kAlone{0.92, 1.46, -0.4, 0.5}, kUpper{0.92, 1.46, 0.12, 0.72}, kLower{0.92, 1.46, -0.64, -0.04};
+constexpr Box2 kAlone{0.92, 1.46, -0.4, 0.5}, kUpper{0.92, 1.46, 0.14, 0.72}, kLower{0.92, 1.46, -0.64, -0.06};
 
 const std_msgs::ColorRGBA kWhite = color(0.95, 0.95, 0.95), kGrey = color(0.66, 0.68, 0.72);
 const std_msgs::ColorRGBA kFaint = color(0.36, 0.37, 0.42), kYellow = color(1.0, 0.77, 0.19);
@@ -182,23 +184,32 @@ double BagPanel::small_load() const {
   return *middle > 0.0 && largest > kMany * *middle ? axis_end(kSmall * *middle) : 0.0;
 }
 
-std::string BagPanel::text(const Sample& sample, const std::string& motion_pattern, const ColorScale& scale) const {
+std::vector<std::string> BagPanel::lines(const Sample& sample, const std::string& motion_pattern,
+                                         const ColorScale& scale) const {
   const bool parted = sample.status == BenchStatus::kBroken;
-  std::string out = title_ + short_text("\ntime %.1f s", sample.time) +
-                    "\nstate: " + condition_of(sample, motion_pattern) + "\nphase: " + phase_name(sample.phase) +
-                    "\nmotion pattern: " + motion_pattern + short_text("\nextension %.1f mm", 1e3 * sample.extension);
-  out +=
-      parted ? short_text("\nload at the break %.4g N", sample.highest_load) : short_text("\nload %.4g N", sample.load);
-  out += short_text("\nend-to-end distance %.1f mm", 1e3 * sample.end_to_end);
-  if (!std::isnan(sample.knot_distance)) out += short_text("\nknot distance %.1f mm", 1e3 * sample.knot_distance);
-  return out + (parted ? "\ngrey: tension not known" : short_text("\ncolours: grey 0, red %g N", scale.full()));
+  std::vector<std::string> out{
+      title_,
+      short_text("time %.1f s", sample.time),
+      "state: " + condition_of(sample, motion_pattern),
+      std::string("phase: ") + phase_name(sample.phase),
+      "motion pattern: " + motion_pattern,
+      short_text("extension %.1f mm", 1e3 * sample.extension),
+      parted ? short_text("load at the break %.4g N", sample.highest_load) : short_text("load %.4g N", sample.load),
+      short_text("end-to-end distance %.1f mm", 1e3 * sample.end_to_end)};
+  if (!std::isnan(sample.knot_distance)) out.push_back(short_text("knot distance %.1f mm", 1e3 * sample.knot_distance));
+  out.push_back(parted ? "grey: tension not known" : short_text("colours: grey 0, red %g N", scale.full()));
+  return out;
 }
 
 std::vector<Marker> BagPanel::draw(const Sample& sample, const std::string& motion_pattern, const ColorScale& scale,
                                    double distance) const {
   const Plane plane(distance);
-  std::vector<Marker> out{plane.text(0, text(sample, motion_pattern, scale), kLetter, kTextLeft, 0.0)};
-  out.back().color = kWhite;
+  std::vector<Marker> out;
+  for (const std::string& line : lines(sample, motion_pattern, scale)) {
+    const int row = static_cast<int>(out.size());
+    out.push_back(plane.text(row, line, kLetter, kText, kTop - kRow * row));
+    out.back().color = kWhite;
+  }
   double extension = 0.0, lowest = 0.0, highest = 0.0;
   for (const Point& point : points_) {
     extension = std::max(extension, point.extension);

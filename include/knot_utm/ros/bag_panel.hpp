@@ -37,7 +37,8 @@ class BagPanel {
     double extension, load;
     bool slides;
   };
-  std::string text(const Sample& sample, const std::string& motion_pattern, const ColorScale& scale) const;
+  std::vector<std::string> lines(const Sample& sample, const std::string& motion_pattern,
+                                 const ColorScale& scale) const;
   double small_load() const;  ///< where the axis of the small loads ends [N]; 0: there is none
 
   std::string title_;
