@@ -83,6 +83,8 @@ int run(Arguments arguments) {
   std::vector<std::string> told;  // nothing of it where there is nothing to compare
   const Tell note = [&](const std::string& line) { told.push_back(line); };
   CurveOfFile first = read(arguments.a, of_a, note), second = read(arguments.b, of_b, note);
+  if (arguments.raw.says_how() && has_its_zero(first.rows) && has_its_zero(second.rows))
+    note("both curves are of knot_utm, for which --columns, --units and --invert change nothing");
   const auto [a, b, comparison] = compare_curves(std::move(first), std::move(second), arguments.zero, note);
   for (const std::string& line : told) tell(line);
   const std::string yaml = comparison_yaml(comparison, arguments.a, arguments.b);
