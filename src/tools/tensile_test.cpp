@@ -101,6 +101,8 @@ void tell_end(const HeadlessOutcome& outcome, const Method& method, bool quiet) 
                 ended_by_name(*outcome.ended), results.simulated_time, results.simulated_time / outcome.wall_time,
                 folder);
   }
+  if (*outcome.ended == EndedBy::kBreak && outcome.failed)
+    std::fprintf(stderr, "%s: the test failed: %s; its results are in %s\n", kTool, outcome.reason.c_str(), folder);
   if (*outcome.ended == EndedBy::kUntangled)
     std::fprintf(stderr, "%s: the knot came undone: %s\n", kTool, what_keeps_a_knot(method).c_str());
   else if (results.untangled_at)
