@@ -9,6 +9,7 @@
 
 #include "config_library.hpp"
 #include "knot_utm/io/result_yaml.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_defaults.hpp"
@@ -194,7 +195,20 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
 }  // namespace
 
 Method load_method(const std::string& file, const std::vector<std::string>& overrides) {
-  return parse_method(read_text(file), file, overrides);
+  const std::string text = read_text(file);
+  try {
+    return parse_method(text, file, overrides);
+  } catch (const OutOfRange& wrong) {
+    if (wrong.file != file) throw;
+    throw narrowed(wrong, [&](const std::string& override) {
+      std::vector<std::string> with = overrides;
+      with.push_back(override);
+      const Method method = parse_method(text, file, with);
+      // Some values only laying the rod refuses; those of other sections would lay very many edges in vain.
+      if (wrong.key.rfind("specimen.", 0) == 0 || wrong.key == "machine.roller_diameter")
+        TestingMachine(method.specimen, method.material, method.machine, method.physics);
+    });
+  }
 }
 
 Method parse_method(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
@@ -231,6 +245,8 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     keep_own_keys(method);
     keep_automatic(noted, method);
     return method;
+  } catch (const OutOfRange&) {
+    throw;
   } catch (const InvalidInput& invalid) {
     throw invalid.in_file(file);
   } catch (const YAML::Exception& yaml) {

@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "knot_utm/io/cannot_write.hpp"
+#include "knot_utm/io/command_hint.hpp"
 #include "knot_utm/io/compared_curves.hpp"
 #include "knot_utm/io/curve_file.hpp"
 #include "knot_utm/io/report.hpp"
+#include "knot_utm/io/summary.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/curve_bag.hpp"
 #endif
@@ -25,6 +27,7 @@ struct Arguments {
   std::string a, b;
   ZeroWanted zero;
   bool overwrite = false;
+  bool yaml = false;  // prints all of it
   std::optional<double> tolerance;
   std::optional<std::string> report;  // a folder
   RawColumns columns;                 // of raw data
@@ -56,7 +59,7 @@ int run(const Arguments& arguments) {
       tell(*arguments.report + " holds another comparison or page, which stays as it is; this one is written to " +
            page);
   }
-  std::fputs(yaml.c_str(), stdout);
+  std::fputs(arguments.yaml ? yaml.c_str() : comparison_summary(comparison, arguments.a, arguments.b).c_str(), stdout);
   if (std::fflush(stdout) != 0) throw CannotWrite("standard output");
   std::vector<std::string> beyond;
   if (arguments.tolerance) beyond = beyond_tolerance(comparison, *arguments.tolerance);
@@ -73,7 +76,8 @@ int main(int argc, char** argv) {
     knot_utm::Arguments arguments;
     CLI::App app(
         "Compares two force-extension curves: curve.csv, a bag, or raw data that a testing machine exported. Prints "
-        "YAML.");
+        "the "
+        "main readings of both and their differences.");
     app.add_option("A", arguments.a, "the curve that B is compared with")->required();
     app.add_option("B", arguments.b, "the other curve")->required();
     CLI::Option* balance = app.add_flag("--balance", arguments.zero.balance,
@@ -87,6 +91,8 @@ int main(int argc, char** argv) {
     app.add_option("--report", arguments.report, "a folder to write the page to, report.html and report.pdf");
     app.add_flag("--overwrite", arguments.overwrite,
                  "write the page over another comparison, instead of to the next free folder, -2, -3, ...");
+    app.add_flag("--yaml", arguments.yaml,
+                 "print all readings as YAML instead, as comparison.yaml of --report has them");
     std::string columns;
     app.add_option(knot_utm::kColumnsOption, columns, knot_utm::kColumnsHelp);
     arguments.command = knot_utm::command_line(argc, argv);
