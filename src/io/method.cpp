@@ -192,6 +192,14 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   return method;
 }
 
+/// Whether a value of this key may be refused only as the rod is laid, which does not take long.
+bool is_soon_laid(const std::string& key, const SpecimenOptions& specimen) {
+  constexpr double kFewEdges = 2000.0;
+  const double length = std::max({specimen.length, specimen.end_to_end, specimen.knot_distance, specimen.tail});
+  const bool may_be = key.rfind("specimen.", 0) == 0 || key == "machine.roller_diameter";
+  return may_be && length < kFewEdges * specimen.edge_length;
+}
+
 }  // namespace
 
 Method load_method(const std::string& file, const std::vector<std::string>& overrides) {
@@ -204,8 +212,7 @@ Method load_method(const std::string& file, const std::vector<std::string>& over
       std::vector<std::string> with = overrides;
       with.push_back(override);
       const Method method = parse_method(text, file, with);
-      // Some values only laying the rod refuses; those of other sections would lay very many edges in vain.
-      if (wrong.key.rfind("specimen.", 0) == 0 || wrong.key == "machine.roller_diameter")
+      if (is_soon_laid(wrong.key, method.specimen))
         TestingMachine(method.specimen, method.material, method.machine, method.physics);
     });
   }

@@ -100,7 +100,7 @@ void check_tying(const SpecimenOptions& specimen, const Material& material) {
   const double preload = tying_load(specimen, material), least = least_preload(specimen, material);
   if (preload < least)
     throw InvalidInput("specimen.preload", short_number(preload),
-                       "at least " + least_text(least, 3) + " N for a rod with material.bending_stiffness " +
+                       "at least " + least_text(least) + " N for a rod with material.bending_stiffness " +
                            short_number(material.bending_stiffness) + " N m2, radius " + short_number(material.radius) +
                            " m and friction_coefficient " + short_number(material.friction_coefficient) +
                            ": a smaller one does not move the coils, which close only at " +

@@ -19,6 +19,7 @@ namespace {
 constexpr double kFineBeyondCoil = 3.0;   // of the strand that a coil holds [h]
 constexpr double kHalfOfCoil = 2.0;       // half the axial length of a coil of one winding [h]
 constexpr double kBeyondWindings = 0.25;  // of a turn, from where the standing part is to where the tail is
+constexpr double kLeastDistance = 12.0;   // of the two knots: room for the coils themselves [h]
 
 /// By which a coil of so many windings is longer, to either side of its middle: all of them have the pitch of one.
 double longer_coil(int windings, double h) { return kHalfOfCoil / (1.0 + kBeyondWindings) * (windings - 1) * h; }
@@ -134,7 +135,8 @@ double knot_height(const FishermanShape& shape, const Coil& coil, double rolled)
   }
   if (!(c >= c_min && c <= c_max)) {
     throw InvalidInput("specimen.knot_distance", text(shape.knot_distance),
-                       limits_text(2.0 * c_min + shape.outward_shift, 2.0 * c_max + shape.outward_shift) +
+                       limits_text(std::max(kLeastDistance * h, 2.0 * c_min + shape.outward_shift),
+                                   2.0 * c_max + shape.outward_shift) +
                            " m for this rod and these rollers");
   }
   return c;
@@ -359,9 +361,9 @@ double FishermanKnot::pull(const SpecimenOptions& specimen, double h) const {
 
 void FishermanKnot::check(const SpecimenOptions& specimen, double h) const {
   // Coarse: room for the coils themselves. The shape that is really laid judges itself.
-  if (specimen.knot_distance < 12.0 * h)
+  if (specimen.knot_distance < kLeastDistance * h)
     throw InvalidInput("specimen.knot_distance", format_number(specimen.knot_distance),
-                       "at least 12 radii, " + least_text(12.0 * h) + " m");
+                       "at least 12 radii, " + least_text(kLeastDistance * h) + " m");
   if (specimen.end_to_end < specimen.knot_distance + 12.0 * h)
     throw InvalidInput("specimen.end_to_end", format_number(specimen.end_to_end),
                        "at least knot_distance plus 12 radii, " + least_text(specimen.knot_distance + 12.0 * h) + " m");
