@@ -38,7 +38,7 @@ InvalidInput narrowed(const OutOfRange& wrong, const std::function<void(const st
     for (int i = 0; i < 2 && !value.empty(); ++i) {
       const std::string limit = limit_at(value);
       if (!limit.empty()) here += (here.empty() ? ", and here " : " and ") + limit;
-      value = last_number(limit);
+      value = limit.rfind("at ", 0) == 0 ? last_number(limit) : "";
     }
   }
   return {wrong.file, wrong.key, wrong.value, wrong.allowed + here};

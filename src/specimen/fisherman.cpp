@@ -133,12 +133,15 @@ double knot_height(const FishermanShape& shape, const Coil& coil, double rolled)
     throw InvalidInput("specimen.end_to_end", text(shape.end_to_end),
                        "at least " + least_text(2.0 * (c_min + middle - c_max)) + " m for this rod and these rollers");
   }
-  if (!(c >= c_min && c <= c_max)) {
+  if (!(c >= c_min)) {
+    const double least = std::max(kLeastDistance * h, 2.0 * c_min + shape.outward_shift);
     throw InvalidInput("specimen.knot_distance", text(shape.knot_distance),
-                       limits_text(std::max(kLeastDistance * h, 2.0 * c_min + shape.outward_shift),
-                                   2.0 * c_max + shape.outward_shift) +
-                           " m for this rod and these rollers");
+                       "at least " + least_text(least) + " m for this rod and these rollers");
   }
+  if (!(c <= c_max))
+    throw InvalidInput("specimen.end_to_end", text(shape.end_to_end),
+                       "at least " + least_text(shape.end_to_end + 2.0 * (c - c_max)) + " m for a knot_distance of " +
+                           text(shape.knot_distance) + " m, this rod and these rollers");
   return c;
 }
 

@@ -40,7 +40,7 @@ struct Tried {
       // Only laying the rod refuses some of these, which takes long where it has many edges.
       const SpecimenOptions& rod = method.specimen;
       const bool few_edges =
-          std::max({rod.length, rod.end_to_end, rod.knot_distance, rod.tail}) < 2000.0 * rod.edge_length;
+          std::max({rod.length, rod.end_to_end, rod.knot_distance, rod.tail}) < 8000.0 * rod.edge_length;
       if (few_edges && (key.rfind("specimen.", 0) == 0 || key == "machine.roller_diameter"))
         TestingMachine(method.specimen, method.material, method.machine, method.physics);
     } catch (const InvalidInput& invalid) {
@@ -80,7 +80,7 @@ struct Said {
     }
   }
 
-  double just_inside_low() const { return above_low ? low + step(low, kInside) : low; }
+  double just_inside_low() const { return above_low ? low + step(low, kOutside) : low; }
   double just_outside_low() const { return low - step(low, kOutside); }
   double just_inside_high() const { return below_high ? high - step(high, kInside) : high; }
   double just_outside_high() const { return high + step(high, kOutside); }
