@@ -5,7 +5,7 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kFallen = 0.9;    // of the force before
+constexpr double kLeft = 0.9;      // of the force before
 constexpr double kGivenUp = 0.02;  // of the stored energy
 constexpr double kPutIn = 0.5;     // work of the grips, of what is given up
 
@@ -28,7 +28,7 @@ std::vector<Moment> pulled(const std::vector<Sample>& samples) {
 
 bool snaps(const Moment& start, const Moment& before, const Moment& after) {
   const double given_up = before.stored - after.stored;
-  return after.force <= kFallen * before.force && given_up >= kGivenUp * before.stored &&
+  return after.force <= kLeft * before.force && given_up >= kGivenUp * before.stored &&
          after.work - before.work <= kPutIn * given_up && after.stored >= start.stored;
 }
 
