@@ -15,11 +15,9 @@
 #include "knot_utm/io/curve_file.hpp"
 #include "knot_utm/io/raw_zero.hpp"
 #include "knot_utm/io/report.hpp"
-<<<<<<< HEAD
 #include "knot_utm/io/run_folder.hpp"
-    =======
 #include "knot_utm/io/summary.hpp"
-    >>>>>>> hands
+>>>>>>> hands
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/curve_bag.hpp"
 #endif
@@ -118,36 +116,8 @@ int main(int argc, char** argv) {
   return knot_utm::run_tool(knot_utm::kTool, [&] {
     knot_utm::Arguments arguments;
     CLI::App app(
-<<<<<<< HEAD
         "Compares two force-extension curves: the folder of a run, curve.csv, a bag, or raw data that a testing "
-        "machine "
-        "exported. Prints YAML.");
-=======
-        "Compares two force-extension curves: curve.csv, a bag, or raw data that a testing machine exported. Prints "
-        "the "
-        "main readings of both and their differences.");
->>>>>>> hands
-    app.add_option("A", arguments.a, "the curve that B is compared with")->required();
-    app.add_option("B", arguments.b, "the other curve")->required();
-    CLI::Option* balance = app.add_flag("--balance", arguments.zero.balance,
-                                        "raw data: load and extension are zero where the crosshead begins to move");
-    app.add_option("--begins-at", arguments.zero.begins_at,
-                   "raw data that were cut: extension of their first reading; the load there is taken from the other "
-                   "curve [m]")
-        ->needs(balance);
-    app.add_option("--tolerance", arguments.tolerance, "end with exit code 1 where a relative difference is larger [-]")
-        ->check(CLI::NonNegativeNumber);
-    app.add_option("--report", arguments.report, "a folder to write the page to, report.html and report.pdf");
-    app.add_flag("--overwrite", arguments.overwrite,
-                 "write the page over another comparison, instead of to the next free folder, -2, -3, ...");
-<<<<<<< HEAD
-    arguments.raw.add_to(app, "which specimen of raw data, a bag or a batch with several, from 1; N,M for A and B");
-=======
-    app.add_flag("--yaml", arguments.yaml,
-                 "print all readings as YAML instead, as comparison.yaml of --report has them");
-    std::string columns;
-    app.add_option(knot_utm::kColumnsOption, columns, knot_utm::kColumnsHelp);
->>>>>>> hands
+        "machine exported. Prints the main readings of both and their differences.");
     arguments.command = knot_utm::command_line(argc, argv);
     if (const auto code = knot_utm::parse(app, knot_utm::kTool, argc, argv)) return *code;
     return knot_utm::run(arguments);
