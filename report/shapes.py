@@ -131,4 +131,4 @@ def series_of_bag(file):
 
 def shape_of(message, time):
     points = np.array([(point.x, point.y, point.z) for point in message.points])
-    return Shape(time, points, np.array(message.tension))
+    return Shape(time, points, known(np.array(message.tension)))

@@ -113,17 +113,14 @@ std::string last_line(const std::string& text) {
   return text.substr(begin, end + 1 - begin);
 }
 
-/// The lines that name the two files.
-std::string names_of(const std::string& yaml) { return yaml.substr(0, yaml.find('\n', yaml.find('\n') + 1)); }
+constexpr std::array<const char*, 5> kOfComparison{"comparison.yaml", "a.csv", "b.csv", "report.html", "report.pdf"};
 
-constexpr std::array<const char*, 3> kOfComparison{"comparison.yaml", "a.csv", "b.csv"};
-
-/// Whether something stands in the folder that a comparison would write over, but for what the same files left, or a
+/// Whether something stands in the folder that a comparison would write over, but for the very same comparison, or a
 /// run, whose page it would take.
 bool holds_another(const fs::path& folder, const std::string& yaml) {
   std::error_code error;
   const fs::path before = folder / kOfComparison.front();
-  if (fs::is_regular_file(before, error)) return names_of(read_whole(before.string())) != names_of(yaml);
+  if (fs::is_regular_file(before, error)) return read_whole(before.string()) != yaml;
   for (const char* name : {"a.csv", "b.csv", "report.html", "report.pdf", "result.yaml", "statistics.yaml", "journal"})
     if (fs::is_regular_file(folder / name, error)) return true;
   return false;

@@ -16,6 +16,7 @@
 #include "knot_utm/io/latest_link.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/method_keys.hpp"
+#include "knot_utm/io/plausible_rod.hpp"
 #include "knot_utm/io/report.hpp"
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/shipped.hpp"
@@ -105,7 +106,12 @@ void tell_end(const HeadlessOutcome& outcome, const Method& method, const std::s
       std::fprintf(stderr, "%s: the time step that failed can be looked at by: %s\n", kTool,
                    command_line({script_path("replay-step"), outcome.failed_step}).c_str());
   }
+<<<<<<< HEAD
+  if (*outcome.ended == EndedBy::kBreak && outcome.failed)
+    std::fprintf(stderr, "%s: the test failed: %s; its results are in %s\n", kTool, outcome.reason.c_str(), folder);
+=======
   if (!quiet) tell_summary(outcome.folder, "result.yaml", latest);
+>>>>>>> hands
   if (*outcome.ended == EndedBy::kUntangled)
     std::fprintf(stderr, "%s: the knot came undone: %s\n", kTool, what_keeps_a_knot(method).c_str());
   else if (results.untangled_at)
@@ -212,6 +218,7 @@ int check(const Method& method) {
   else
     draw_specimens(method);
   for (const std::string& warning : foreseen_warnings(method)) std::fprintf(stderr, "%s: %s\n", kTool, warning.c_str());
+  std::fprintf(stderr, "%s: the rod: %s\n", kTool, rod_in_words(method.material).c_str());
   std::fputs(method_yaml(method).c_str(), stdout);
   return kDone;
 }
@@ -230,6 +237,7 @@ int run(const Arguments& arguments) {
   const Method method = load_method(arguments.method, arguments.overrides);
   if (arguments.check) return check(method);
   if (arguments.list_keys) return list_keys(method);
+  if (arguments.overwrite) require_no_method_in(folder_of(arguments, method), arguments.method);
   if (method.specimens.count > 1) return run_all_specimens(arguments, method);
   if (!arguments.resume.empty()) require_resumable(arguments.resume);
   const HeadlessOutcome outcome = run_and_tell(arguments, method);

@@ -386,6 +386,13 @@ class Refused(Sweeps):
         write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{specimen.length: [0.2]}}\ndesign: star")
         self.refused("design is star")
 
+    def test_a_folder_with_a_table_of_another_kind(self):
+        os.makedirs(self.path("out"))
+        write(self.path("out/table.csv"), "mine")
+        write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{specimen.length: [0.2]}}")
+        self.assertIn("table.csv exists already and is not of a sweep", self.sweep("out", code=2))
+        self.assertEqual(os.listdir(self.path("out")), ["table.csv"])
+
     def test_no_study_and_no_place(self):
         self.study = self.path("absent.yaml")
         self.refused("no such file")

@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,26 @@
 
 namespace knot_utm {
 
+/// Whether the record gets its zero where its crosshead begins to move, as `compare --balance` does (io/raw_zero.hpp).
+enum class RecordBalance {
+  kAuto,  ///< raw data get it; a curve of ours has its own
+  kYes,   ///< the same, and says so where the record has its own
+  kNo     ///< the record is published as it was read
+};
+
+/// Reads "auto", "true" or "false". Throws InvalidInput.
+RecordBalance record_balance_named(const std::string& name);
+
+/// The readings of a record, with their zero. `tell` receives one line that says what was taken for zero.
+std::vector<CurveRow> record_with_zero(std::vector<CurveRow> rows, RecordBalance balance,
+                                       const std::function<void(const std::string& line)>& tell);
+
 /// Publishes the record of an experiment beside the test that follows it: measured load and extension, each at the test
 /// time at which the crosshead passes the reading.
 class ExperimentNode {
  public:
   /// `file`: curve.csv, or raw data of a testing machine. Throws InvalidInput.
-  ExperimentNode(const ros::NodeHandle& node, const std::string& file);
+  ExperimentNode(const ros::NodeHandle& node, const std::string& file, RecordBalance balance);
 
   /// Runs until ROS is shut down. With `autostart` it starts the test as soon as it can receive every command of it.
   void spin(bool autostart);
