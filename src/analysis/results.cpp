@@ -276,7 +276,8 @@ class Course {
   void add(const Sample& sample) {
     const bool recoils = at_break_.has_value();  // says nothing about the test
     if (sample.status == BenchStatus::kBroken && !recoils) {
-      results_.break_extension = sample.extension;
+      // What parts while it is tied or mounted has no extension yet.
+      if (!traits_of(sample.phase).ends_by_itself) results_.break_extension = sample.extension;
       at_break_ = sample;
     }
     motion_.add(sample);

@@ -107,12 +107,14 @@ std::string why_no_chord(const ResultSource& source) {
 }
 
 std::string why_no_break(const ResultSource& source) {
-  return source.results.break_extension ? "it did not break in a pull" : "the rod did not break";
+  if (source.results.break_extension) return "it did not break in a pull";
+  return source.results.break_place == BreakPlace::kNone ? "the rod did not break"
+                                                         : "the rod parted before it was pulled";
 }
 
 std::string why_no_efficiency(const ResultSource& source) {
   if (!source.facts.may_hold_a_knot) return "there is no knot";
-  if (!source.results.break_extension) return "the rod did not break";
+  if (!source.results.break_extension) return why_no_break(source);
   if (source.facts.material.breaking_force)
     return "not predicted: the rod parts where its tension is material.breaking_force, which was given";
   return of_the_pull(source, "the material has no breaking strain");
@@ -120,7 +122,7 @@ std::string why_no_efficiency(const ResultSource& source) {
 
 std::string why_no_hole(const ResultSource& source) {
   if (!source.facts.one_knot_in_a_strand) return "the specimen is no strand with one knot";
-  if (source.results.break_extension) return "the rod broke";
+  if (source.results.break_place != BreakPlace::kNone) return "the rod broke";
   if (!source.facts.ends_with_hold) return "the test does not end with a hold, in which a knot is measured";
   return source.results.knot_type == KnotType::kKept ? "no shape of the rod is known" : "the knot is another one";
 }

@@ -78,7 +78,7 @@ class RawTable {
   /// What was read, from which columns, and what was not.
   void tell(std::size_t readings, std::size_t specimens, const Tell& say) const {
     std::string line = file_ + ": " + std::to_string(readings) + " readings";
-    if (specimens > 1) line += " of one of " + std::to_string(specimens) + " specimens";
+    if (specimens > 1) line += " of specimen " + std::to_string(options_.specimen) + " of " + std::to_string(specimens);
     const char* between = ": ";
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       if (!columns_[i]) continue;

@@ -113,14 +113,6 @@ std::string last_line(const std::string& text) {
   return text.substr(begin, end + 1 - begin);
 }
 
-std::string quoted(const std::string& word) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
-  return out + "'";
-}
-
 constexpr std::array<const char*, 5> kOfComparison{"comparison.yaml", "a.csv", "b.csv", "report.html", "report.pdf"};
 
 /// Whether something stands in the folder that a comparison would write over, but for the very same comparison, or a
@@ -158,12 +150,6 @@ std::string pull_csv(const Pull& pull) {
 }
 
 }  // namespace
-
-std::string command_line(int argc, const char* const* argv) {
-  std::string line;
-  for (int i = 0; i < argc; ++i) line += (i == 0 ? "" : " ") + quoted(argv[i]);
-  return line;
-}
 
 void write_report(const std::string& folder, const std::string& command) {
   // -E, -s: what the user's own Python is made to find is not what Debian's packages were made for; -B: nothing is

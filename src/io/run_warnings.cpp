@@ -134,7 +134,7 @@ std::string ended_before_pull(const Results& results, const RunFacts& facts) {
 std::string stayed_loose(const Results& results, const RunFacts& facts) {
   constexpr double kClosed = 2.0;  // radius of a loop that lies on the strands in it [h]
   const double force = results.true_peak_force.value_or(0.0), h = facts.material.radius;
-  const bool whole = results.knot_type == KnotType::kKept && !results.break_extension;
+  const bool whole = results.knot_type == KnotType::kKept && results.break_place == BreakPlace::kNone;
   if (!facts.one_knot_in_a_strand || !whole || !(force > 0.0)) return {};
   const double radius = std::sqrt(facts.material.bending_stiffness / (2.0 * force));
   if (radius <= kClosed * h) return {};

@@ -175,7 +175,10 @@ TEST(Results, ARodThatPartsWhereNothingPullsHasABreakToo) {
     std::vector<Sample> early = {sample(phase, 0.0, 0.0), sample(phase, 0.005, 50.0), sample(phase, 0.005, 60.0)};
     early[1].status = early[2].status = BenchStatus::kBroken;
     results = analyse(early, EndedBy::kBreak);
-    EXPECT_EQ(results.break_extension, 0.005);
+    if (phase == Phase::kPreload)
+      EXPECT_EQ(results.break_extension, 0.005);
+    else
+      EXPECT_FALSE(results.break_extension) << "it was not pulled yet";
     EXPECT_EQ(results.true_peak_force, 50.0);
     EXPECT_FALSE(results.energy_to_break);
   }

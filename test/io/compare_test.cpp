@@ -50,7 +50,7 @@ class Compare : public OwnFolder {
     write_whole(file(name), text);
   }
   Answer compare(const std::string& a, const std::string& b, const std::string& more = "") const {
-    return answer_of(tool("compare", "'" + file(a) + "' '" + file(b) + "' " + more));
+    return answer_of(tool("compare", "'" + file(a) + "' '" + file(b) + "' --yaml " + more));
   }
 };
 

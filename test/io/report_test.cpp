@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "io/own_folder.hpp"
+#include "knot_utm/io/command_hint.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 
