@@ -67,10 +67,10 @@ std::optional<RawZero> zero_of_cut(const std::vector<CurveRow>& rows, double beg
 }
 
 std::string zero_words(const RawZero& zero) {
-  const std::string place = format_number(zero.load) + " N at " + format_number(zero.extension) + " m";
+  const std::string place = short_number(zero.load) + " N at " + short_number(zero.extension) + " m";
   std::string there;
   if (zero.load_there != 0.0)
-    there = "; its load there becomes " + format_number(zero.load_there) + " N, as that of the other curve";
+    there = "; its load there becomes " + short_number(zero.load_there) + " N, as that of the other curve";
   if (zero.readings > 1)
     return "zero is " + place + ", the mean of its " + std::to_string(zero.readings) +
            " readings before the crosshead moves" + there;
