@@ -247,6 +247,12 @@ class Course {
   const Sample* tied() const { return tied_ ? tied_ : pull_begin_; }
 
   void read_balances() const {
+    if (pull_begin_) {
+      // The recoil of parted ends is no part of the test: the grips' work belongs to the energy up to the break.
+      const Sample& end = at_break_ ? *at_break_ : samples_.back();
+      results_.energy = energy_between(before_pull_ ? *before_pull_ : *pull_begin_, end);
+      results_.kinetic_energy = end.kinetic_energy;
+    }
     if (energy_scale_ > 0.0) results_.energy_balance_error = energy_error_ / energy_scale_;
     if (motion_.pull().empty()) return;
     const double peak = std::max(peak_force(motion_.pull()), at_break_ ? at_break_->force_upper : 0.0);
@@ -270,7 +276,8 @@ class Course {
   void add(const Sample& sample) {
     const bool recoils = at_break_.has_value();  // says nothing about the test
     if (sample.status == BenchStatus::kBroken && !recoils) {
-      results_.break_extension = sample.extension;
+      // What parts while it is tied or mounted has no extension yet.
+      if (!traits_of(sample.phase).ends_by_itself) results_.break_extension = sample.extension;
       at_break_ = sample;
     }
     motion_.add(sample);
@@ -292,10 +299,7 @@ class Course {
   }
 
   void add_pull(const Sample& sample, bool recoils) {
-    if (!pull_begin_) {
-      pull_begin_ = &sample;
-      results_.energy = energy_between(before_pull_ ? *before_pull_ : sample, samples_.back());
-    }
+    if (!pull_begin_) pull_begin_ = &sample;
     if (recoils) return;
     keep_first(sample, sample.knots_force, 0.0, results_.first_contact_extension);
     keep_first(sample, sample.knot_on_roller, kTouch * std::abs(sample.force_upper), results_.roller_touched_at);
@@ -390,6 +394,7 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
   read_tied(course, results);
   read_curve(readings, course.at_break(), results);
   course.read_balances();
+  results.at_start = forces_at_start(samples);
   read_gauge_length(course, results);
   read_holds_and_cycles(samples, results);
   read_whole_pull(course, results);

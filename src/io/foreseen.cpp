@@ -2,6 +2,7 @@
 
 #include "knot_utm/io/plausible_rod.hpp"
 #include "knot_utm/machine/before_tying.hpp"
+#include "knot_utm/machine/grips.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
@@ -20,6 +21,24 @@ std::string longer_than_usual(const Method& method) {
          " m, because specimen.end_to_end is " + short_number(end_to_end) + " m: the length of rod in the knot, " +
          short_number(length - end_to_end) +
          " m, is the same for all larger values of end_to_end; set specimen.length where it should not be";
+}
+
+/// From here on L has no effect on a sliding force: with F_p = 50 N, e = 0.2 m and L = 0.25 m, which is 15.7 h more,
+/// polypropylene slides at 5.06 N, and with a longer loop at 6.60 N.
+constexpr double kClearOfRollers = 19.0;  // L - e [h]
+
+/// Of a loop whose knots are tied near its rollers.
+std::string near_the_rollers(const Method& method) {
+  const SpecimenOptions& specimen = method.specimen;
+  if (!specimen.to_be_tied || !rollers_hold(specimen, method.machine)) return "";
+  const double h = method.material.radius, clear = specimen.knot_distance + kClearOfRollers * h;
+  if (specimen.end_to_end >= clear) return "";
+  return "specimen.end_to_end is " + short_number(specimen.end_to_end) + " m, only " +
+         short_number((specimen.end_to_end - specimen.knot_distance) / h) +
+         " radii more than specimen.knot_distance, so the rollers are near the knots and change the sliding force, by "
+         "up to a quarter; it does not depend on the rollers from " +
+         short_number(kClearOfRollers) + " radii more on, which is a specimen.end_to_end of " + short_number(clear) +
+         " m";
 }
 
 std::string seconds(double time) { return short_number(time) + " s"; }
@@ -97,7 +116,8 @@ void add_never_reached(const Method& method, std::vector<std::string>& all) {
 std::vector<std::string> foreseen_warnings(const Method& method) {
   std::vector<std::string> all;
   if (method.specimen.to_be_tied) all = tying_warnings(method.specimen, method.material, method.physics);
-  if (const std::string longer = longer_than_usual(method); !longer.empty()) all.push_back(longer);
+  for (const std::string& found : {longer_than_usual(method), near_the_rollers(method)})
+    if (!found.empty()) all.push_back(found);
   add_never_reached(method, all);
   for (const std::string& question : questions_about(method.material)) all.push_back(question);
   return all;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "knot_utm/io/rest.hpp"
+
 namespace knot_utm {
 namespace {
 
@@ -32,7 +34,7 @@ bool slid_to_the_end(const Results& results) {
 }
 
 ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
-  if (!results.not_equilibrated.empty() || results.curve.jump_force || results.opened_when_mounted) return {};
+  if (!why_not_at_rest(results, facts).empty() || results.curve.jump_force || results.opened_when_mounted) return {};
   ReadingErrors out = facts.errors;
   if (out.plateau_force && results.true_plateau_force)
     *out.plateau_force *= hardly_closed(*results.true_plateau_force, facts.material);

@@ -1,6 +1,7 @@
 #include "knot_utm/io/null_reasons.hpp"
 
 #include "knot_utm/io/known_errors.hpp"
+#include "knot_utm/io/rest.hpp"
 #include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
@@ -44,7 +45,7 @@ std::string why_the_load_has_no_stiffness(const Results& results) {
 /// `no_reading`: why there is no reading that could be off; empty: there is one.
 std::string why_no_error(const ResultSource& source, const std::string& no_reading) {
   const Results& results = source.results;
-  if (!results.not_equilibrated.empty()) return "the specimen was not at rest before it was pulled";
+  if (!why_not_at_rest(results, source.facts).empty()) return "the specimen was not at rest as its pull began";
   if (results.curve.jump_force) return "a knot jumped open, which no convergence study covers";
   if (results.opened_when_mounted) return "a knot opened as the loop was mounted, which no convergence study covers";
   return no_reading.empty() ? "no convergence study covers this case" : no_reading;
@@ -106,18 +107,22 @@ std::string why_no_chord(const ResultSource& source) {
 }
 
 std::string why_no_break(const ResultSource& source) {
-  return source.results.break_extension ? "it did not break in a pull" : "the rod did not break";
+  if (source.results.break_extension) return "it did not break in a pull";
+  return source.results.break_place == BreakPlace::kNone ? "the rod did not break"
+                                                         : "the rod parted before it was pulled";
 }
 
 std::string why_no_efficiency(const ResultSource& source) {
   if (!source.facts.may_hold_a_knot) return "there is no knot";
-  if (!source.results.break_extension) return "the rod did not break";
-  return of_the_pull(source, "the material has no breaking force or strain");
+  if (!source.results.break_extension) return why_no_break(source);
+  if (source.facts.material.breaking_force)
+    return "not predicted: the rod parts where its tension is material.breaking_force, which was given";
+  return of_the_pull(source, "the material has no breaking strain");
 }
 
 std::string why_no_hole(const ResultSource& source) {
   if (!source.facts.one_knot_in_a_strand) return "the specimen is no strand with one knot";
-  if (source.results.break_extension) return "the rod broke";
+  if (source.results.break_place != BreakPlace::kNone) return "the rod broke";
   if (!source.facts.ends_with_hold) return "the test does not end with a hold, in which a knot is measured";
   return source.results.knot_type == KnotType::kKept ? "no shape of the rod is known" : "the knot is another one";
 }

@@ -39,6 +39,9 @@ class RawTable {
            const std::string& file)
       : rows_(rows), head_(std::move(head)), end_(end), specimen_(specimen), options_(options), file_(file) {
     columns_ = head_.of_specimen(specimen);
+    if (columns_[1]->place == columns_[2]->place)
+      throw InvalidInput(kColumnsOption, options.columns.extension + " and " + options.columns.load,
+                         "another column for the extension than for the load");
     while (head_.first < end_ && are_empty(cells(head_.first))) ++head_.first;
     find_units();
     find_decimals();
@@ -52,7 +55,7 @@ class RawTable {
     for (std::size_t i = head_.first; i < end_; ++i) {
       const Cells all = cells(i);
       const Cells own = wanted(all);
-      if (are_empty(own)) {
+      if (own[1].empty() && own[2].empty()) {
         ++empty_;
         continue;
       }
@@ -75,7 +78,7 @@ class RawTable {
   /// What was read, from which columns, and what was not.
   void tell(std::size_t readings, std::size_t specimens, const Tell& say) const {
     std::string line = file_ + ": " + std::to_string(readings) + " readings";
-    if (specimens > 1) line += " of one of " + std::to_string(specimens) + " specimens";
+    if (specimens > 1) line += " of specimen " + std::to_string(options_.specimen) + " of " + std::to_string(specimens);
     const char* between = ": ";
     for (std::size_t i = 0; i < columns_.size(); ++i) {
       if (!columns_[i]) continue;
@@ -185,7 +188,7 @@ class RawTable {
   /// Where what is called an extension goes another way than the crosshead, it is that of an extensometer.
   void prefer_crosshead() {
     constexpr double kAlike = 0.05;
-    std::vector<RawColumn> others = head_.other_extensions(specimen_);
+    std::vector<RawColumn> others = head_.others(1, specimen_);
     const std::optional<double> own = travel(*columns_[1]);
     for (RawColumn& other : others) {
       const std::optional<double> way = travel(other);
@@ -194,9 +197,14 @@ class RawTable {
     }
     for (const RawColumn& other : others)
       if (const auto way = travel(other))
-        notes_.push_back("column " + std::to_string(other.place + 1) + " \"" + shown(other.label) +
-                         "\", which goes over " + short_number(1e3 * *way) +
-                         " mm, is not read; --columns extension=" + std::to_string(other.place + 1) + " would read it");
+        note_unread(1, other, ", which goes over " + short_number(1e3 * *way) + " mm,");
+    for (const RawColumn& other : head_.others(2, specimen_)) note_unread(2, other, "");
+  }
+
+  void note_unread(std::size_t quantity, const RawColumn& column, const std::string& what) {
+    const std::string number = std::to_string(column.place + 1);
+    notes_.push_back("column " + number + " \"" + shown(column.label) + '"' + what + " is not read; --columns " +
+                     raw_quantities()[quantity].name + '=' + number + " would read it");
   }
 
   /// Whose cells have a name each: a decimal comma that is not in quotes would make two of one.

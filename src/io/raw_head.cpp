@@ -221,14 +221,13 @@ RawChoice RawHead::of_specimen(std::size_t specimen) const {
   return out;
 }
 
-std::vector<RawColumn> RawHead::other_extensions(std::size_t specimen) const {
+std::vector<RawColumn> RawHead::others(std::size_t quantity, std::size_t specimen) const {
+  const RawChoice own = of_specimen(specimen);
   std::vector<RawColumn> out;
-  std::vector<std::string> known{columns[kExtension].front().base};
-  for (const RawColumn& column : columns[kExtension]) {
-    if (std::find(known.begin(), known.end(), column.base) != known.end()) continue;
-    known.push_back(column.base);
-    const std::vector<RawColumn> all = alike(columns[kExtension], column.base);
-    if (all.size() == specimens()) out.push_back(all[specimen]);
+  for (const RawColumn& column : columns[quantity]) {
+    const std::vector<RawColumn> same = alike(columns[quantity], column.base);
+    const bool of_another = specimens() > 1 && same.size() == specimens() && same[specimen].place != column.place;
+    if (column.place != own[quantity]->place && !of_another) out.push_back(column);
   }
   return out;
 }

@@ -37,8 +37,8 @@ struct RawHead {
   std::size_t specimens() const;
   /// The columns of one of them, from 0.
   RawChoice of_specimen(std::size_t specimen) const;
-  /// Other columns that may have the extension of this specimen, one of each name.
-  std::vector<RawColumn> other_extensions(std::size_t specimen) const;
+  /// Columns that may have a quantity of this specimen beside the one that `of_specimen` gives.
+  std::vector<RawColumn> others(std::size_t quantity, std::size_t specimen) const;
 };
 
 /// The text for the unit of a quantity, of the three texts that a user gave.

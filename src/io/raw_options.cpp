@@ -76,11 +76,13 @@ Falling what_falls(const std::vector<CurveRow>& rows) {
 void turn_signs(std::vector<CurveRow>& rows, Invert invert, const std::string& file, const Tell& tell) {
   if (rows.empty()) return;
   const Falling falling = what_falls(rows);
-  if (invert == Invert::kWhatFalls && !falling.extension && !falling.load)
-    throw InvalidInput::sentence("signs", "none falls",
-                                 "--invert finds nothing that falls: --invert=load, --invert=extension or "
-                                 "--invert=both turn what they name")
-        .in_file(file);
+  if (invert == Invert::kWhatFalls && !falling.extension && !falling.load) {
+    if (tell)
+      tell(file +
+           ": nothing falls, and --invert turns nothing; --invert=load, --invert=extension or --invert=both turn "
+           "what they name");
+    return;
+  }
   if (invert == Invert::kNothing) {
     if (!tell || (!falling.extension && !falling.load)) return;
     std::string what;
@@ -89,8 +91,16 @@ void turn_signs(std::vector<CurveRow>& rows, Invert invert, const std::string& f
     return tell(file + ": " + what + ", as in compression or where the sign is another one: --invert turns it");
   }
   const bool all = invert == Invert::kBoth, found = invert == Invert::kWhatFalls;
-  if (all || invert == Invert::kExtension || (found && falling.extension)) turn(rows, &CurveRow::extension);
-  if (all || invert == Invert::kLoad || (found && falling.load)) turn(rows, &CurveRow::load);
+  std::string turned;
+  if (all || invert == Invert::kExtension || (found && falling.extension)) {
+    turn(rows, &CurveRow::extension);
+    turned = "extension";
+  }
+  if (all || invert == Invert::kLoad || (found && falling.load)) {
+    turn(rows, &CurveRow::load);
+    turned += turned.empty() ? "load" : " and load";
+  }
+  if (tell) tell(file + ": the sign of " + turned + " is turned");
 }
 
 }  // namespace knot_utm

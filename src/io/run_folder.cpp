@@ -21,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::string kResolved = "# Everything resolved: runs again to the same curve.\n";
 constexpr const char* kFailedStep = "failed_step.bin";
 constexpr const char* kSpecimen = "specimen_";  // and a number, the folder of one
 
@@ -91,7 +92,7 @@ std::string method_file_text(const Method& method) {
   Method own = method;
   if (knot_of(own.specimen).has("file")) own.specimen.file = "specimen.csv";
   if (!own.report.logo.empty()) own.report.logo = logo_beside(method);
-  return "# Everything resolved: runs again to the same curve.\n" + method_yaml(own);
+  return kResolved + method_yaml(own);
 }
 
 void require_no_record_in(const std::string& folder, const Method& method) {
@@ -101,6 +102,15 @@ void require_no_record_in(const std::string& folder, const Method& method) {
       throw InvalidInput::sentence("--out", folder,
                                    "the method follows " + shown(step.record) + ", which stands in the folder " +
                                        shown(folder) + " itself: choose another folder to write to");
+}
+
+void require_no_method_in(const std::string& folder, const std::string& method_file) {
+  std::error_code error;
+  const fs::path written = fs::path(folder) / "method.yaml";
+  if (!fs::equivalent(written, method_file, error) || read_whole(method_file).rfind(kResolved, 0) == 0) return;
+  throw InvalidInput::sentence(
+      "--out", folder,
+      "the run would write over its own method, " + shown(written.string()) + ": choose another folder to write to");
 }
 
 void begin_run_folder(const std::string& folder, const Method& method) {

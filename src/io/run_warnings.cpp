@@ -4,6 +4,7 @@
 
 #include "knot_utm/io/gravity_warnings.hpp"
 #include "knot_utm/io/known_errors.hpp"
+#include "knot_utm/io/rest.hpp"
 #include "knot_utm/io/speed_warnings.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/numeric/number.hpp"
@@ -14,6 +15,8 @@ namespace {
 /// Where energies miss the work by more, what Newton's method leaves unbalanced has a part in the forces too: seen
 /// where a loose loop pulls with far less than k_b/h^2, of which `physics.residual` is a fraction.
 constexpr double kUnbalanced = 0.01;
+
+constexpr double kForcesDiffer = 0.01;  // of the largest force, as scripts/bench asks for
 
 /// What became of the knot. Where it came undone, the console has a line of its own.
 std::vector<std::string> knot_warnings(const Results& results) {
@@ -92,7 +95,6 @@ std::vector<std::string> events(const Results& results) {
 }
 
 std::string accuracy_warning(const Results& results, const ReadingErrors& errors) {
-  if (!results.not_equilibrated.empty()) return results.not_equilibrated;
   constexpr double kUnsure = 0.1;
   if (!results.true_plateau_force || results.curve.jump_force || errors.plateau_force.value_or(0.0) <= kUnsure)
     return {};
@@ -102,6 +104,15 @@ std::string accuracy_warning(const Results& results, const ReadingErrors& errors
 }
 
 namespace {
+
+/// What moves while it is pulled, where it moves enough to be felt.
+std::string shaken(const Results& results, const RunFacts& facts) {
+  if (std::string moved = why_not_at_rest(results, facts); !moved.empty()) return moved;
+  if (!results.force_balance_error || !results.true_peak_force) return {};
+  if (*results.force_balance_error <= kForcesDiffer + facts.weight / *results.true_peak_force) return {};
+  return "the forces on the two grips differ by up to " + short_number(100.0 * *results.force_balance_error) +
+         " % of the largest one, where at rest they are the same: pull more slowly";
+}
 
 /// Knots that move as they are released are tied at another distance than was asked for.
 std::string knots_travelled(const Results& results, const RunFacts& facts) {
@@ -123,7 +134,7 @@ std::string ended_before_pull(const Results& results, const RunFacts& facts) {
 std::string stayed_loose(const Results& results, const RunFacts& facts) {
   constexpr double kClosed = 2.0;  // radius of a loop that lies on the strands in it [h]
   const double force = results.true_peak_force.value_or(0.0), h = facts.material.radius;
-  const bool whole = results.knot_type == KnotType::kKept && !results.break_extension;
+  const bool whole = results.knot_type == KnotType::kKept && results.break_place == BreakPlace::kNone;
   if (!facts.one_knot_in_a_strand || !whole || !(force > 0.0)) return {};
   const double radius = std::sqrt(facts.material.bending_stiffness / (2.0 * force));
   if (radius <= kClosed * h) return {};
@@ -146,6 +157,7 @@ std::vector<std::string> printed_warnings(const Results& results, const RunFacts
     all.insert(all.end(), more.begin(), more.end());
   if (const std::string travelled = knots_travelled(results, facts); !travelled.empty()) all.push_back(travelled);
   if (const std::string early = ended_before_pull(results, facts); !early.empty()) all.push_back(early);
+  if (const std::string moved = shaken(results, facts); !moved.empty()) all.push_back(moved);
   const std::string unsure = accuracy_warning(results, known_errors(results, facts));
   if (!unsure.empty()) all.push_back(unsure);
   if (!facts.margin.reason.empty()) all.push_back("no margin: " + facts.margin.reason);

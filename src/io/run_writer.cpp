@@ -10,6 +10,7 @@
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/speed_warnings.hpp"
 #include "knot_utm/machine/grips.hpp"
+#include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/scales.hpp"
@@ -29,7 +30,9 @@ std::string begin(const std::string& folder, const Method& method) {
 /// Of a loop around its rollers, by choice: half of the diameter of the default roller [h].
 constexpr double kLargestLoopTurn = 6.0;
 
-bool holds_its_knot(const Results& results) { return !results.break_extension && results.knot_type == KnotType::kKept; }
+bool holds_its_knot(const Results& results) {
+  return results.break_place == BreakPlace::kNone && results.knot_type == KnotType::kKept;
+}
 
 }  // namespace
 
@@ -59,7 +62,8 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
   if (method.analysis.margin)
     known_.margin.reason = "only tensile_test makes the runs for the margin: run method.yaml of this folder with it";
   known_.load_cell = method.machine.load_cell;
-  known_.inertia = inertia_factor(method.material, method.physics);
+  const Centreline centreline = specimen_centreline(method.specimen, method.material, method.machine, method.physics);
+  known_.inertia = inertia_factor(method.material, method.physics, slack_of(method.specimen, centreline));
   for (const std::string& warning : speed_warnings(method)) known_.warnings.push_back(warning);
   for (const ProgramStep& step : method.program)
     if (pulls(step.phase)) known_.pull_speed = std::max(known_.pull_speed, step.speed);

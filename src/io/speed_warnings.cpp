@@ -11,6 +11,7 @@ namespace knot_utm {
 namespace {
 
 constexpr double kFast = 0.01;           // share of F that is told
+constexpr double kHardlyAny = 1e-6;      // accelerated mass, by choice: a smaller one helps no more [own mass]
 constexpr double kTiedByDefault = 3.15;  // `program.tie.speed: auto` of src/io/method.cpp [radii/s]
 /// Here the plateaus of nylon and polypropylene are 1.1 and 0.3 % lower: config/tighten.yaml with
 /// program.tie.speed=0.029 [radii/s].
@@ -56,8 +57,9 @@ std::vector<std::string> speed_warnings(const RateShares& rate, double inertia) 
     all.push_back("drag makes up " + in_per_cent(by_drag) +
                   " of the force until the knots lock: choose a smaller physics.drag or pull more slowly");
   if (by_inertia > kFast)
-    all.push_back("inertia changes the force by " + in_per_cent(by_inertia) +
-                  " until the knots lock: pull more slowly");
+    all.push_back("inertia changes the force by " + in_per_cent(by_inertia) + " until the knots lock: " +
+                  (inertia > kHardlyAny ? "choose a physics.inertia much smaller than " + two_digits(inertia)
+                                        : std::string("pull more slowly")));
   else if (by_own > kFast)
     all.push_back("the simulation accelerates only " + two_digits(inertia) +
                   " of the rod's own mass (physics.inertia); all of it would change the force by " + about(by_own) +

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "knot_utm/specimen/scales.hpp"
 
@@ -115,6 +116,10 @@ void Grips::hold_far_side(const Points& position, double displacement) {
 /// To pins in the loop as it was drawn, by a fraction of what they widen: its near side is where it will be, its half
 /// circles are narrower and further out by as much as keeps its length.
 void Grips::narrow(double left, std::vector<Roller>& rollers) const {
+  if (!pins_.empty()) {
+    for (std::size_t i = 0; i < pins_.size(); ++i) widen(pins_[i], left, rollers[i]);
+    return;
+  }
   for (Roller& roller : rollers) {
     roller.radius -= left * (narrower_ + clearance_);
     roller.centre[0] += left * narrower_;
@@ -123,8 +128,17 @@ void Grips::narrow(double left, std::vector<Roller>& rollers) const {
   rollers[1].centre[2] += left * 0.5 * M_PI * narrower_;
 }
 
-void Grips::put_on(const Points& loop, double displacement, double radius) {
-  if (!on_rollers()) return;
+bool Grips::put_on(const Points& loop, double displacement, double radius) {
+  if (!on_rollers()) return true;
+  const std::vector<Roller> apart = rollers_;
+  if (comes_near(loop, displacement, radius)) return true;
+  rollers_ = apart;
+  lift_ = 0.0;
+  return put_on_pins(loop, displacement, radius);
+}
+
+/// Whether the loop then lies around both pins.
+bool Grips::comes_near(const Points& loop, double displacement, double radius) {
   const double step = 0.5 * kGap * radius, most = 0.25 * end_to_end(displacement);
   Boundary pins;
   const auto touches = [&](std::size_t pin) {
@@ -137,6 +151,21 @@ void Grips::put_on(const Points& loop, double displacement, double radius) {
   while (lift_ < most && touches(0)) lift_ += step;
   rollers_[1].centre[2] -= lift_;
   for (double drop = 0.0; drop < most && touches(1); drop += step) rollers_[1].centre[2] -= step;
+  return !touches(0) && !touches(1);
+}
+
+/// The upper roller comes so near that the loop, which is as long around the pins, is not longer around the rollers.
+bool Grips::put_on_pins(const Points& loop, double displacement, double radius) {
+  const double widest = rollers_[0].radius - narrower_ - clearance_;
+  std::vector<Pin> pins = pins_in(loop, widest, (1.0 + kGap) * radius);
+  if (pins.empty()) return false;
+  const double apart = pins[1].place[2] - pins[0].place[2],
+               wider = rollers_[0].radius + rollers_[1].radius - pins[0].radius - pins[1].radius,
+               left = apart - 0.5 * M_PI * wider;
+  if (left < rollers_[0].radius + rollers_[1].radius + 2.0 * radius) return false;
+  rollers_[1].centre[2] = rollers_[0].centre[2] + left - displacement;
+  pins_ = std::move(pins);
+  return true;
 }
 
 Vec3 Grips::lower() const {
@@ -175,8 +204,11 @@ double Grips::force_lower(const TimeStep& step) const {
 }
 
 void Grips::state(Archive& archive) {
-  archive.section("GRP2");  // "GRIP" had rollers that do not turn
+  archive.section("GRP3");  // "GRP2" had no pins of their own
   archive(lift_, holds_far_side_);
+  archive.list(pins_);
+  archive.require(pins_.empty() || pins_.size() == rollers_.size(), "pins of the rollers",
+                  std::to_string(pins_.size()));
   if (far_middle_) archive(far_middle_->place);
   for (Roller& roller : rollers_) archive(roller);
   bool turns = turning_from_.has_value();

@@ -16,6 +16,9 @@ constexpr double kRigid = 1.0 - 1e-6;   // gain of a frame that gives nothing
 constexpr double kLeastGain = 1e-3;     // of a frame that gives nearly all
 constexpr int kUndoneAnswers = 3;       // in a row: a strand that is thrown about may be taken for another knot once
 
+/// Whether the specimen is still being tied, released or mounted.
+bool is_made(Phase phase) { return traits_of(phase).ends_by_itself; }
+
 /// Of the crosshead as a step begins [m/s].
 double first_velocity(const ProgramStep& step) {
   switch (step.phase) {
@@ -84,7 +87,8 @@ void ProgramRunner::fail(std::string why) {
 }
 
 bool ProgramRunner::failed() const {
-  return ended_by_ == EndedBy::kSolver || (ended_by_ == EndedBy::kUntangled && !only_ties());
+  return ended_by_ == EndedBy::kSolver || (ended_by_ == EndedBy::kUntangled && !only_ties()) ||
+         (ended_by_ == EndedBy::kBreak && is_made(last_.phase));
 }
 
 Phase ProgramRunner::phase() const { return ended() ? Phase::kDone : last_.phase; }
@@ -164,7 +168,8 @@ bool ProgramRunner::end_by_alarm(const Sample& sample) {
   if (sample.status == BenchStatus::kFailed) {
     end(EndedBy::kSolver, sample.message.empty() ? phase + ": the physics gave up" : sample.message);
   } else if (sample.status == BenchStatus::kBroken) {
-    end(EndedBy::kBreak, sample.message);
+    end(EndedBy::kBreak,
+        is_made(last_.phase) ? phase + ": " + sample.message + ", before it was pulled" : sample.message);
   } else if (undone_answers_ == kUndoneAnswers && !only_ties()) {
     end(EndedBy::kUntangled, phase + ": the knot came undone");
   } else if (std::abs(sample.load) > limits_.load || std::abs(sample.force_upper) > limits_.load) {

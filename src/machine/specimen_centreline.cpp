@@ -16,4 +16,11 @@ Centreline specimen_centreline(const SpecimenOptions& specimen, const Material& 
   return knot_of(specimen).centreline(specimen, material, mounting);
 }
 
+double slack_of(const SpecimenOptions& specimen, const Centreline& centreline) {
+  const KnotDescription& knot = knot_of(specimen).about();
+  if (!knot.may_hold_a_knot() || knot.loop || centreline.closed) return 0.0;
+  const Points& x = centreline.points;
+  return centreline.length() - (x.col(x.cols() - 1) - x.col(0)).norm();
+}
+
 }  // namespace knot_utm

@@ -36,16 +36,17 @@ constexpr double kSettlingTime = 1.0;   // [s]
 constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
 
 constexpr double kNearBreak = 1e-3;      // steps are no shorter for a break that is near [longest step]
+constexpr double kAbsurd = 2.0;          // strength that a single step may not pass by so much [of it]
 constexpr double kRecoilTransits = 1.0;  // of the specimen, that the ends of a parted rod are followed for
 
 }  // namespace
 
 struct TestingMachine::Impl {
   SpecimenOptions specimen;
+  Centreline centreline;
   Material material;  // its density is that of the mass that is accelerated
   MachineOptions machine;
   PhysicsOptions physics;
-  Centreline centreline;
   Grips grips;
   Frame frame;
   std::unique_ptr<TimeStep> stepper;
@@ -78,10 +79,10 @@ struct TestingMachine::Impl {
   Impl(const SpecimenOptions& specimen_, const Material& material_, const MachineOptions& machine_,
        const PhysicsOptions& physics_)
       : specimen(specimen_),
-        material(as_it_moves(material_, physics_)),
+        centreline(specimen_centreline(specimen_, material_, machine_, physics_)),
+        material(as_it_moves(material_, physics_, slack_of(specimen_, centreline))),
         machine(machine_),
         physics(physics_),
-        centreline(specimen_centreline(specimen_, material_, machine_, physics_)),
         grips(specimen_, machine_, centreline, material),
         frame(machine_.stiffness, material, knot_of(specimen_).about().loop ? 2 : 1,
               grips.length_around(material_.radius)),
@@ -97,8 +98,9 @@ struct TestingMachine::Impl {
     const bool takes_set = specimen.to_be_tied && material.bending_set > 0.0;
     if (takes_set || bends_on_frames(material)) state.natural_curvature.setZero(2, nodes - 2);
     if (solves_for_twist(rod, state)) initialise_frames(&state);
-    const StepSettings settings = step_settings(specimen, material_, machine, physics);
-    gravity = settings.gravity;
+    StepSettings settings = step_settings(specimen, material, machine, physics);
+    // A weight is that of the rod's own mass.
+    gravity = settings.gravity = physics.gravity / inertia_factor(material_, physics, slack_of(specimen, centreline));
     stepper = TimeStep::make(rod, state, settings);
     const double bending_time = specimen_scales(material).own_time;
     StepControl::Options options;
@@ -203,13 +205,27 @@ struct TestingMachine::Impl {
   void watch_for_break(double dt) {
     if (!can_part(material) || parted()) return;
     const Exposure now = most_exposed(stepper->rod(), stepper->state());
-    if (now.fraction >= 1.0) {
+    if (now.fraction > kAbsurd && exposure < 1.0 / kAbsurd && control.counters().steps > 1) {
+      give_up_step(now, dt);
+    } else if (now.fraction >= 1.0) {
       part(now);
     } else if (now.fraction > exposure) {
       const double left = (1.0 - now.fraction) / (now.fraction - exposure) * dt;
       control.at_most(std::max(left, kNearBreak * tolerances(physics, specimen, material).longest_step));
     }
     exposure = now.fraction;
+  }
+
+  /// No rod parts in a step that takes it from a fraction of its strength to a multiple: that step is wrong.
+  void give_up_step(const Exposure& reached, double dt) {
+    std::ostringstream text;
+    text << "in a step of " << dt << " s, at t = " << time << " s, the "
+         << (reached.limit == BreakLimit::kForce ? "tension" : "strain") << " jumped to " << reached.value << ", "
+         << reached.fraction << " times what the rod bears, from less than " << 1.0 / kAbsurd
+         << " times that: the step is wrong, and the rod did not part";
+    status = BenchStatus::kFailed;
+    message = text.str();
+    control.halt();
   }
 
   void part(const Exposure& reached) {
@@ -240,13 +256,17 @@ struct TestingMachine::Impl {
     return rod.rest_length.head(edge).sum() + 0.5 * rod.rest_length[edge];
   }
 
+  /// Whether the loop cannot be tied or mounted.
+  bool give_up_loop() {
+    if (!loop || loop->gave_up().empty()) return false;
+    status = BenchStatus::kFailed;
+    message = loop->gave_up();
+    return true;
+  }
+
   void judge_phase() {
     if (parted()) return;
-    if (loop && !loop->not_tied().empty()) {
-      status = BenchStatus::kFailed;
-      message = loop->not_tied();
-      return;
-    }
+    if (give_up_loop()) return;
     if (!traits_of(phase).ends_by_itself || (loop && !loop->done(phase))) return;
     status = BenchStatus::kPhaseDone;
     if (phase == Phase::kMount || !loop || loop->not_equilibrated().empty()) return;
@@ -354,6 +374,10 @@ struct TestingMachine::Impl {
       return substeps.back();
     }
     if (command.step != step_index) enter_step(command);
+    if (give_up_loop()) {
+      substeps.push_back(read(command, time));
+      return substeps.back();
+    }
     stepper->set_drag(drag());
     if (command.balance) {
       cell.balance(grips.force_upper(*stepper), time);
@@ -364,9 +388,9 @@ struct TestingMachine::Impl {
     if (parted()) {
       gave_up = advance(command, {time, displacement}, recoil_end);
       if (!gave_up.empty()) message += "; the recoil of the broken ends could not be simulated to its end";
-    } else if (!gave_up.empty()) {
+    } else if (!gave_up.empty() || status == BenchStatus::kFailed) {
       status = BenchStatus::kFailed;
-      message = gave_up;
+      if (!gave_up.empty()) message = gave_up;
       failed_step = save_step(*stepper, boundary, time, control.last_tried());
     } else {
       if (!mounts()) displacement = command.displacement;

@@ -10,6 +10,9 @@ namespace {
 
 constexpr double kGripStretch = 2.4;  // of a tail's grip when it slips [h]
 constexpr double kTautLoad = 0.03;    // of a loop whose slack is taken up [k_b/h^2]
+constexpr const char* kNoRoom =
+    "mount: the loop as it was tied and released leaves no room for the rollers; choose a larger specimen.end_to_end, "
+    "a smaller specimen.preload or a smaller machine.roller_diameter";
 
 TyingRig::Options tying_options(const SpecimenOptions& specimen, const Material& material, double creep_speed) {
   TyingRig::Options out;
@@ -49,8 +52,8 @@ void TiedLoop::enter(const Command& command, const Place& now) {
 
 void TiedLoop::put_on(const Place& now) {
   rig_.put_on(stepper_, now.time);
-  grips_.put_on(stepper_.state().position.middleCols(rig_.loop_begin(), rig_.loop_end() - rig_.loop_begin() + 1),
-                now.grip, radius_);
+  const auto loop = stepper_.state().position.middleCols(rig_.loop_begin(), rig_.loop_end() - rig_.loop_begin() + 1);
+  if (!grips_.put_on(loop, now.grip, radius_)) not_mounted_ = kNoRoom;
 }
 
 void TiedLoop::leave(Phase phase, const Place& now) {

@@ -1,9 +1,8 @@
 #include "knot_utm/ros/batch_place.hpp"
 
-#include <array>
 #include <filesystem>
 
-#include "knot_utm/io/report.hpp"
+#include "knot_utm/io/command_hint.hpp"
 
 namespace knot_utm {
 std::string BatchPlace::text() const { return "specimen " + std::to_string(number) + " of " + std::to_string(count); }
@@ -16,8 +15,7 @@ Method method_of_batch(const Method& method, int count) {
 
 std::string command_to_resume(const std::string& batch) {
   const std::string tool = std::filesystem::read_symlink("/proc/self/exe").replace_filename("tensile_test").string();
-  const std::array<const char*, 3> words{tool.c_str(), "--resume", batch.c_str()};
-  return command_line(words.size(), words.data());
+  return command_line({tool, "--resume", batch});
 }
 
 }  // namespace knot_utm

@@ -96,7 +96,8 @@ void KnotNode::begin_specimen() {
   picture_.begin(machine_.state().position);
   shown_.begin();
   view_is_old_ = true;
-  set_on_master(node_.resolveName(names::kRobotDescription), machine_urdf(method_, machine_.lower_grip()));
+  set_on_master(node_.resolveName(names::kRobotDescription),
+                machine_urdf(method_, machine_.lower_grip(), machine_.upper_grip()));
 
   SpecimenInfo info;
   info.header.stamp = stamp_;

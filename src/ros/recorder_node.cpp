@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "knot_utm/io/claimed_folder.hpp"
+#include "knot_utm/io/command_hint.hpp"
+#include "knot_utm/io/latest_link.hpp"
 #include "knot_utm/io/recovery.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/conversions.hpp"
@@ -362,11 +364,13 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
   }
   const std::string failed_step = failed_step_file(run.folder);
   if (fs::exists(failed_step))
-    ROS_WARN("the time step that failed can be looked at by: scripts/replay-step %s", failed_step.c_str());
+    ROS_WARN("the time step that failed can be looked at by: %s",
+             command_line({script_path("replay-step"), failed_step}).c_str());
   if (run.dropped > 0)
     ROS_WARN("%llu commands of the test were not recorded", static_cast<unsigned long long>(run.dropped));
   ROS_INFO("%zu readings were written to %s", run.writer.rows(), run.folder.c_str());
   if (batch_ && !conclude_specimen()) return;
+  if (!batch_) point_latest_to(run.folder);
   run.complete = true;
 }
 
@@ -384,9 +388,11 @@ void RecorderNode::interrupt(const std::string& why) {
 
 bool RecorderNode::conclude_specimen() {
   try {
-    if (batch_->conclude(order_.place.number))
+    if (batch_->conclude(order_.place.number)) {
+      point_latest_to(batch_->folder());
       ROS_INFO("the statistics of all %d specimens were written to %s", order_.place.count,
                statistics_file(batch_->folder()).c_str());
+    }
     return true;
   } catch (const std::exception& error) {
     error_ = error.what();  // what was measured is in the folder of the specimen

@@ -85,7 +85,8 @@ ReplayNode::ReplayNode(const ros::NodeHandle& node, const Method& method, const 
   std_msgs::String text;
   text.data = method_yaml(method);
   method_.publish(text);
-  set_on_master(node_.resolveName(names::kRobotDescription), machine_urdf(method, machine_.lower_grip()));
+  set_on_master(node_.resolveName(names::kRobotDescription),
+                machine_urdf(method, machine_.lower_grip(), machine_.upper_grip()));
   begin_ = Clock::now();
 }
 

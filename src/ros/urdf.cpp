@@ -125,7 +125,7 @@ class Shapes {
 
 }  // namespace
 
-std::string machine_urdf(const Method& method, const Vec3& lower_grip) {
+std::string machine_urdf(const Method& method, const Vec3& lower_grip, const Vec3& upper_grip) {
   const Shapes shapes(method, lower_grip);
   const MachineOptions& machine = method.machine;
   const std::string moves = "    <axis xyz=\"0 0 1\"/>\n    <limit lower=\"" + format_number(-machine.travel) +
@@ -140,7 +140,7 @@ std::string machine_urdf(const Method& method, const Vec3& lower_grip) {
          joint("base", "fixed", names::kWorldFrame, names::kBaseFrame, Vec3::Zero()) +
          joint("lower_grip", "fixed", names::kBaseFrame, names::kLowerGripFrame, lower_grip) +
          joint(names::kCrossheadJoint, "prismatic", names::kBaseFrame, names::kCrossheadFrame, crosshead, moves) +
-         joint("upper_grip", "fixed", names::kCrossheadFrame, names::kUpperGripFrame, Vec3::Zero()) +
+         joint("upper_grip", "fixed", names::kCrossheadFrame, names::kUpperGripFrame, upper_grip - crosshead) +
          joint("load_cell", "fixed", names::kUpperGripFrame, names::kLoadCellFrame, Vec3::Zero()) + "</robot>\n";
 }
 

@@ -1,5 +1,6 @@
 #include "knot_utm/specimen/scales.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace knot_utm {
@@ -10,6 +11,9 @@ namespace {
 // and moves the plateaus by +5.5 and -0.1 %, 8e-4 s takes 4 and 17 % fewer and moves them by -3.6 and -0.5 %
 // (config/tighten.yaml with physics.inertia 0.0105 and 0.0367, 7.45 and 26.1).
 constexpr double kBendingTime = 2e-4;  // tau [s]
+// With 3.7 s, that of its own mass, a loose overhand in a rod of 4 m swings through its whole pull, with 0.8 s a tenth
+// of it; with 0.1 s its force is steady (doc/measured.md).
+constexpr double kSlackTime = 0.1;     // of a slack loop [s]
 constexpr double kFading = 3.0;        // of motion under the drag that brings a specimen to rest [1/s]
 constexpr double kRestSpeed = 0.0063;  // [radii/s]
 
@@ -25,14 +29,16 @@ SpecimenScales specimen_scales(const Material& material) {
   return out;
 }
 
-double inertia_factor(const Material& material, const PhysicsOptions& physics) {
-  const double h2 = material.radius * material.radius;  // no root, so that similar specimens have the same bits
-  const double mass = kBendingTime * kBendingTime * material.bending_stiffness / (h2 * h2);
-  return physics.inertia.value_or(mass / specimen_scales(material).mass);
+double inertia_factor(const Material& material, const PhysicsOptions& physics, double slack) {
+  // No root, so that similar specimens have the same bits.
+  const double h2 = material.radius * material.radius, loop = slack / (2.0 * M_PI), loop2 = loop * loop;
+  double mass = kBendingTime * kBendingTime * material.bending_stiffness / (h2 * h2);
+  if (loop > 0.0) mass = std::min(mass, kSlackTime * kSlackTime * material.bending_stiffness / (loop2 * loop2));
+  return physics.inertia.value_or(std::min(1.0, mass / specimen_scales(material).mass));
 }
 
-Material as_it_moves(Material material, const PhysicsOptions& physics) {
-  material.density *= inertia_factor(material, physics);
+Material as_it_moves(Material material, const PhysicsOptions& physics, double slack) {
+  material.density *= inertia_factor(material, physics, slack);
   return material;
 }
 

@@ -45,10 +45,14 @@ std::string word(const YAML::Node& results, const char* key) {
   return value.IsDefined() && value.IsScalar() ? value.Scalar() : "";
 }
 
-std::string why_rejected(const std::string& ended_by, const std::string& reason) {
+std::string why_rejected(const YAML::Node& results) {
+  const std::string ended_by = word(results, "ended_by"), reason = word(results, "reason");
   if (ended_by == ended_by_name(EndedBy::kSolver)) return "the physics gave up: " + reason;
   if (ended_by == ended_by_name(EndedBy::kUntangled)) return "the knot came undone before it was pulled";
   if (ended_by == ended_by_name(EndedBy::kOperator)) return "the operator stopped the test";
+  // Without an extension it parted before it was pulled; a fall of the load that ended the test leaves the rod whole.
+  const bool parted = parse_number(word(results, "break_arclength")).has_value();
+  if (parted && !parse_number(word(results, "break_extension"))) return reason;
   return "";
 }
 
@@ -65,7 +69,7 @@ void BatchTable::add(const DrawnSpecimen& specimen) {
     row.drawn.push_back(value);
   }
   for (const ResultKey* key : keys_of_table()) row.numbers.push_back(parse_number(word(results, key->name)));
-  const std::string why = why_rejected(row.ended_by, word(results, "reason"));
+  const std::string why = why_rejected(results);
   row.counts = why.empty();
   if (!row.counts) rejected_.push_back({specimen.number, why});
   rows_.push_back(std::move(row));

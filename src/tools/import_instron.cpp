@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/raw_data.hpp"
+#include "knot_utm/io/curve_file.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/curve_bag.hpp"
 #include "raw_words.hpp"
@@ -26,8 +26,7 @@ int main(int argc, char** argv) {
     knot_utm::require_new_file("BAG", bag, {raw_data}, overwrite, "#ROSBAG");
     std::vector<std::string> told;
     const std::vector<knot_utm::CurveRow> rows =
-        knot_utm::read_raw_data(knot_utm::read_input(raw_data), raw_data, words.options(),
-                                [&](const std::string& line) { told.push_back(line); });
+        knot_utm::read_curve_file(raw_data, words.options(), [&](const std::string& line) { told.push_back(line); });
     knot_utm::write_curve_bag(bag, rows);
     if (quiet) return static_cast<int>(knot_utm::kDone);
     for (const std::string& line : told) std::printf("%s\n", line.c_str());

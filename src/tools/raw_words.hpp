@@ -22,6 +22,9 @@ struct RawWords {
     app.add_flag(std::string(kInvertOption) + "{falling}", invert, kInvertHelp);
   }
 
+  /// Whether anything is said of columns, units or signs.
+  bool says_how() const { return !columns.empty() || !units.empty() || !invert.empty(); }
+
   /// For the first of `files` files, or for the second. Throws InvalidInput.
   RawOptions options(std::size_t file = 0, std::size_t files = 1) const {
     RawOptions out;

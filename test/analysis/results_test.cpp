@@ -175,7 +175,10 @@ TEST(Results, ARodThatPartsWhereNothingPullsHasABreakToo) {
     std::vector<Sample> early = {sample(phase, 0.0, 0.0), sample(phase, 0.005, 50.0), sample(phase, 0.005, 60.0)};
     early[1].status = early[2].status = BenchStatus::kBroken;
     results = analyse(early, EndedBy::kBreak);
-    EXPECT_EQ(results.break_extension, 0.005);
+    if (phase == Phase::kPreload)
+      EXPECT_EQ(results.break_extension, 0.005);
+    else
+      EXPECT_FALSE(results.break_extension) << "it was not pulled yet";
     EXPECT_EQ(results.true_peak_force, 50.0);
     EXPECT_FALSE(results.energy_to_break);
   }
@@ -287,6 +290,47 @@ TEST(Results, EnergyPartsAreThoseOfThePullAndWhatFollows) {
   EXPECT_NEAR(results.energy->reweighting, -0.05 * last, 1e-9);
   EXPECT_NEAR(results.energy->gap(), 0.0, 1e-9);
   EXPECT_NEAR(*results.energy_balance_error, 0.0, 1e-12);
+}
+
+/// A parted rod lets go of the grip: what it does to the grip then is no work of the test.
+TEST(Results, EnergyPartsEndAtTheBreak) {
+  std::vector<Sample> samples = Curve().samples();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    Sample& sample = samples[i];
+    if (i == 0) sample.kinetic_energy = 0.5;  // at rest later on
+    sample.grip_work = 0.5 * (i == 0 ? 0.0 : samples[i - 1].force_upper + sample.force_upper) *
+                           (i == 0 ? 0.0 : sample.extension - samples[i - 1].extension) +
+                       (i == 0 ? 0.0 : samples[i - 1].grip_work);
+  }
+  samples.back().status = BenchStatus::kBroken;
+  Sample recoil = samples.back();
+  recoil.time += 0.001;
+  recoil.force_upper = -100.0;
+  recoil.grip_work -= 1.64;
+  recoil.kinetic_energy = 19.5;
+  samples.push_back(recoil);
+  const Results results = analyse(samples, EndedBy::kBreak);
+  ASSERT_TRUE(results.energy && results.energy_to_break);
+  EXPECT_NEAR(results.energy->work, *results.energy_to_break, 1e-6 * *results.energy_to_break);
+  EXPECT_EQ(results.kinetic_energy, 0.0);  // not its change, which is negative
+  EXPECT_EQ(results.energy->kinetic, -0.5);
+}
+
+TEST(Results, ForcesAtStartAreThoseThatDifferMostInTheFirstHundredth) {
+  std::vector<Sample> samples = Curve().samples();
+  for (Sample& sample : samples) sample.force_lower = sample.force_upper;
+  EXPECT_EQ(analyse(samples, EndedBy::kExtension).at_start->difference(), 0.0);
+  samples.back().force_lower = 0.0;  // at the lock, say
+  EXPECT_EQ(analyse(samples, EndedBy::kExtension).at_start->difference(), 0.0);
+  Sample& jerk = samples[1];
+  jerk.extension = samples.front().extension + 0.009 * (samples.back().extension - samples.front().extension);
+  jerk.force_upper = 0.410;
+  jerk.force_lower = 0.067;
+  const GripForces found = *analyse(samples, EndedBy::kExtension).at_start;
+  EXPECT_EQ(found.upper, 0.410);
+  EXPECT_EQ(found.lower, 0.067);
+  for (Sample& sample : samples) sample.phase = Phase::kHold;
+  EXPECT_FALSE(analyse(samples, EndedBy::kExtension).at_start);
 }
 
 TEST(Results, MomentBalanceIsThatOfThePull) {

@@ -43,6 +43,16 @@ TEST(Foreseen, AnOverhandThatAutoMadeLongerThanUsual) {
   EXPECT_EQ(foreseen_warnings(again).size(), 1u);
 }
 
+TEST(Foreseen, KnotsThatAreTiedNearTheRollers) {
+  const std::vector<std::string> set{"material=polypropylene", "specimen.knot_distance=0.2", "specimen.end_to_end="};
+  EXPECT_THAT(warnings_of("tighten", {set[0], set[1], set[2] + "0.25"}),
+              ElementsAre(AllOf(HasSubstr("specimen.end_to_end is 0.25 m, only 15.7 radii more than"),
+                                HasSubstr("from 19 radii more on, which is a specimen.end_to_end of 0.26 m"))));
+  EXPECT_THAT(warnings_of("tighten", {set[0], set[1], set[2] + "0.261"}), IsEmpty());
+  EXPECT_THAT(warnings_of("tighten", {set[0], set[1], set[2] + "0.25", "machine.grips=nodes"}), IsEmpty())
+      << "there are no rollers";
+}
+
 TEST(Foreseen, AnExtensionBeyondTheTravelOfTheCrosshead) {
   EXPECT_THAT(warnings_of("straight", {"machine.travel=0.02", "program=[{pull: {until: {extension: 0.02}}}]"}),
               IsEmpty());

@@ -112,7 +112,7 @@ INSTANTIATE_TEST_SUITE_P(
     RawCases, EveryCase,
     testing::Values(
         Case{"side_by_side.csv", specimen(1), 9, {0, 0, 0.25}, {4, 2, 8.25}, "load is column 3 \"Load\" in N"},
-        Case{"side_by_side.csv", specimen(2), 9, {0, 0, 0.125}, {4, 2, 4.125}, "9 readings of one of 2 specimens"},
+        Case{"side_by_side.csv", specimen(2), 9, {0, 0, 0.125}, {4, 2, 4.125}, "9 readings of specimen 2 of 2"},
         Case{"disp_and_ext.csv",
              {},
              11,
@@ -130,7 +130,12 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"downwards.csv", {}, 12, {0.8, -794, 0.5}, {1.9, -795.8, 4.1}, "the extension falls from -794 to -796 mm"},
         Case{"neg_ext.csv", inverted(Invert::kWhatFalls), 10, {0, 0, 0.125}, {4.5, 2.25, 4.625}, "10 readings"},
         Case{"neg_load.csv", {}, 10, {0, 0, -0.125}, {4.5, 2.25, -4.625}, "the load falls from -0.125 to -4.62 N"},
-        Case{"neg_load.csv", inverted(Invert::kWhatFalls), 10, {0, 0, 0.125}, {4.5, 2.25, 4.625}, "10 readings"},
+        Case{"neg_load.csv",
+             inverted(Invert::kWhatFalls),
+             10,
+             {0, 0, 0.125},
+             {4.5, 2.25, 4.625},
+             "the sign of load is turned"},
         Case{"neg_load.csv", inverted(Invert::kBoth), 10, {0, 0, 0.125}, {4.5, -2.25, 4.625}, "10 readings"},
         Case{"headerless.csv",
              columns("time=1,extension=2,load=3", "time=min,extension=cm,load=daN"),
@@ -139,6 +144,12 @@ INSTANTIATE_TEST_SUITE_P(
              {330, 27.5, 56.25},
              "load is column 3 in daN"},
         Case{"no_time.csv", {}, 11, {kNone, 0, 0.125}, {kNone, 2.5, 5.125}, "no column of time"},
+        Case{"no_time.csv",
+             inverted(Invert::kWhatFalls),
+             11,
+             {kNone, 0, 0.125},
+             {kNone, 2.5, 5.125},
+             "nothing falls, and --invert turns nothing"},
         Case{"no_units.csv",
              units("time=s,extension=mm,load=N"),
              11,
@@ -198,7 +209,6 @@ INSTANTIATE_TEST_SUITE_P(
                 "the unit of column 1 is missing: give ms, s, "},
         Refusal{"headerless.csv", columns("time=1,extension=2,load=7"), "no row names the columns"},
         Refusal{"no_units.csv", {}, "the unit of column Time is missing: give ms, s, min or h, by --units time=UNIT"},
-        Refusal{"no_time.csv", inverted(Invert::kWhatFalls), "--invert finds nothing that falls"},
         Refusal{"book.xlsx", {}, "the file is a workbook (xlsx, ods) or another zip archive, and no text: save"},
         Refusal{"cr_only.csv", {}, "end with a carriage return alone, as on old Macs"}),
     [](const testing::TestParamInfo<Refusal>& of) { return "refusal_" + std::to_string(of.index); });
@@ -301,6 +311,25 @@ TEST(RawCases, TheCrossheadCountsBesideAnExtensometer) {
   const Outcome same =
       of_text("Time;Extension;Position;Load\ns;mm;mm;N\n0;0;250.0;1.5\n1;1.0;251.0;3.5\n2;2;252.0;5.5\n");
   EXPECT_NEAR(same.rows.back().extension, 0.002, 1e-12);
+}
+
+TEST(RawCases, ASecondCellIsTold) {
+  const std::string text = "Time;Extension;Load 1;Load 2\ns;mm;N;N\n0;0;1;3\n1;1;2;6\n";
+  const Outcome out = of_text(text);
+  expect_reading(out.rows.at(1), {1, 1, 2});
+  EXPECT_THAT(out.told, Contains(HasSubstr("column 4 \"Load 2\" is not read; --columns load=4 would read it")));
+  expect_reading(of_text(text, columns("load=4")).rows.at(1), {1, 1, 6});
+  EXPECT_THAT(of_text(text, columns("extension=3,load=3")).refused, HasSubstr("another column for the extension"));
+}
+
+/// The shorter one has empty cells where the time goes on.
+TEST(RawCases, SpecimensOfOneTimeMayBeOfDifferentLength) {
+  const std::string text = "Time;Extension 1;Load 1;Extension 2;Load 2\ns;mm;N;mm;N\n0;0;1;0;2\n1;1;2;1;4\n2;2;3;;\n";
+  EXPECT_THAT(of_text(text, specimen(1)).rows, SizeIs(3));
+  const Outcome second = of_text(text, specimen(2));
+  ASSERT_THAT(second.rows, SizeIs(2));
+  expect_reading(second.rows.back(), {1, 1, 4});
+  EXPECT_THAT(second.told, Contains(HasSubstr("empty rows: 1")));
 }
 
 TEST(RawCases, SpecimensBelowEachOther) {

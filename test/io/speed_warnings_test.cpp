@@ -21,6 +21,9 @@ TEST(SpeedWarnings, SayWhatShareSpeedHasInTheForce) {
   EXPECT_THAT(speed_warnings(RateShares{}, 1e-6), IsEmpty());
   EXPECT_THAT(speed_warnings(RateShares{0.5, 0.02, 0.0}, 1.0),
               ElementsAre(HasSubstr("drag makes up 50 % of the force"), HasSubstr("inertia changes the force by 2 %")));
+  EXPECT_THAT(speed_warnings(RateShares{0.0, 0.02, 0.0}, 0.5),
+              ElementsAre(HasSubstr("choose a physics.inertia much smaller than 0.5")));
+  EXPECT_THAT(speed_warnings(RateShares{0.0, 0.02, 0.0}, 1e-7), ElementsAre(HasSubstr("pull more slowly")));
   EXPECT_THAT(speed_warnings(RateShares{35.0, 0.0, 0.0}, 1.0), ElementsAre(HasSubstr("drag takes 35 times the work")));
 }
 

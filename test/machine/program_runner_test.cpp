@@ -104,12 +104,28 @@ TEST(ProgramRunner, UntilLoadAndUntilTime) {
   EXPECT_EQ(by_time.ended_by(), EndedBy::kProgram);
 }
 
+TEST(ProgramRunner, ARodThatPartsBeforeItIsPulledFailsTheTest) {
+  for (const Phase phase : {Phase::kTie, Phase::kRelease, Phase::kMount}) {
+    ProgramRunner program({step(phase), pull(0.1)}, 3.0, 0.1, {});
+    program.next(Sample());
+    Sample parted;
+    parted.sequence = program.last().sequence;
+    parted.status = BenchStatus::kBroken;
+    parted.message = "the rod parted";
+    program.next(parted);
+    EXPECT_EQ(program.ended_by(), EndedBy::kBreak);
+    EXPECT_TRUE(program.failed());
+    EXPECT_EQ(program.reason(), std::string(phase_name(phase)) + ": the rod parted, before it was pulled");
+  }
+}
+
 TEST(ProgramRunner, EndsByBreakOverloadTravelAndSolver) {
   FakeBench breaks;
   breaks.break_force = 3.0;
   ProgramRunner by_break({pull(0.1)}, 3.0, 0.1, {});
   run(breaks, by_break);
   EXPECT_EQ(by_break.ended_by(), EndedBy::kBreak);
+  EXPECT_FALSE(by_break.failed());
 
   ProgramRunner::Limits limits;
   limits.load = 3.0;

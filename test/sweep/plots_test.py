@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from head import ROOT
+from head import ROOT, write
 
 import numpy as np
 import pandas as pd
@@ -177,6 +177,13 @@ class Patterns(unittest.TestCase):
         self.assertGreater(hits / of, 0.85)
         hits, of = Neighbours(table, self.KEYS, np.random.default_rng(5).choice(["a", "b"], of)).hits()
         self.assertLess(abs(hits / of - 0.5), 0.15)
+
+    def test_a_refinement_replaces_none_that_is_there(self):
+        with tempfile.TemporaryDirectory() as folder:
+            stem = os.path.join(folder, "refined")
+            for name in ("refined.yaml", "refined-2.yaml", "refined-3.yaml"):
+                self.assertEqual(refining._free(stem), os.path.join(folder, name))
+                write(os.path.join(folder, name), "")
 
     def test_a_refinement_lies_at_the_border(self):
         chosen = refining.more_points(self.map(), self.KEYS, 64, 1, {"specimen.preload": "material.stretching_stiffness"})

@@ -10,6 +10,7 @@
 #include "knot_utm/analysis/elongations.hpp"
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/analysis/rate_shares.hpp"
+#include "knot_utm/analysis/start_of_pull.hpp"
 #include "knot_utm/record/ended_by.hpp"
 #include "knot_utm/record/sample.hpp"
 
@@ -98,6 +99,7 @@ struct Results {
   std::optional<double> untangled_at;    ///< time at which the knot came undone [s]; see MotionPatternTracker
   KnotType knot_type = KnotType::kKept;  ///< at the end of the test; see KnotWatch
   std::string not_equilibrated;          ///< empty: tying and release ended at rest; else what still moved
+  std::optional<GripForces> at_start;    ///< where they differ most as the pull begins (start_of_pull.hpp)
 
   double max_penetration = 0.0;  ///< largest overlap of the whole test [fraction of radius]
   /// largest difference of the forces on the two grips in the pull, over the peak force [-]
@@ -113,7 +115,8 @@ struct Results {
   /// largest size that any of these three reaches [-]. The losses are those by friction, by bends that yield, by drag,
   /// by the time integration and by changed contact weights, each computed by its own formula.
   std::optional<double> energy_balance_error;
-  std::optional<EnergyParts> energy;  ///< energy balance from the beginning of the pull to the end of the test
+  std::optional<EnergyParts> energy;     ///< balance from the beginning of the pull to the break or the end of the test
+  std::optional<double> kinetic_energy;  ///< at the break or the end of the test, where something was pulled [J]
 
   // The knot once it is tied and released. Where nothing is tied, these are readings at the beginning of the pull.
   std::optional<double> tied_knot_distance;  ///< e [m]

@@ -44,9 +44,9 @@ struct PowerFriction : FrictionLawDefaults {
     using Real = typename FrictionInput<Vector>::Real;
     const double over_scale = 1.0 / presliding;
     const ReturnMapping<Vector> y(over_scale * in.slip, linearisation);
-    const Real mu = coefficient_at(in.pressure);
+    const Real mu = coefficient_at(in.pressure), pressure = larger(in.pressure, Real{});
     // d(mu p)/dp = mu (1 + (n - 1) p/(p + p_0))
-    const Real by_pressure = mu * (1.0 + (exponent - 1.0) * in.pressure / (in.pressure + least()));
+    const Real by_pressure = mu * (1.0 + (exponent - 1.0) * pressure / (pressure + least()));
     return {y.z, mu, by_pressure * y.z, over_scale * mu, y.across, y.along, y.unit, y.unit};
   }
 
@@ -58,9 +58,12 @@ struct PowerFriction : FrictionLawDefaults {
   /// p_0 [N/m]
   double least() const { return 1e-3 * reference_pressure; }
 
+  /// The linear model of a contact asks for negative pressures, too, where strands have just been drawn apart
+  /// (ContactModel). There friction goes on in a straight line with the slope that it has at zero.
   template <typename Real>
   Real coefficient_at(const Real& pressure) const {
-    return coefficient * power((pressure + least()) / (reference_pressure + least()), exponent - 1.0);
+    const Real pressed = larger(pressure, Real{});
+    return coefficient * power((pressed + least()) / (reference_pressure + least()), exponent - 1.0);
   }
 };
 

@@ -53,8 +53,8 @@ struct Falling {
 };
 Falling what_falls(const std::vector<CurveRow>& rows);
 
-/// Turns the signs that are asked for. Where they are not, `tell` receives a line on what falls. Throws InvalidInput
-/// where what falls is to be turned and nothing does. `file`: name of the file in messages.
+/// Turns the signs that are asked for. `tell` receives a line on what was turned, or on what falls where nothing is
+/// asked for. `file`: name of the file in messages.
 void turn_signs(std::vector<CurveRow>& rows, Invert invert, const std::string& file, const Tell& tell);
 
 }  // namespace knot_utm

@@ -29,6 +29,10 @@ std::string method_file_text(const Method& method);
 /// its own input.
 void require_no_record_in(const std::string& folder, const Method& method);
 
+/// Throws InvalidInput (key "--out") where the method stands in the folder as method.yaml, and no run wrote it. The run
+/// would write over what somebody wrote by hand.
+void require_no_method_in(const std::string& folder, const std::string& method_file);
+
 /// Writes method.yaml and copies of the files that it names, specimen.csv and the logo, and removes the results of an
 /// earlier run or comparison. Throws InvalidInput (key "--out") where the folder cannot be written to or holds a record
 /// that is followed. Throws std::runtime_error where a copy cannot be written.

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "knot_utm/machine/loop_pins.hpp"
 #include "knot_utm/machine/options.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/time_step.hpp"
@@ -36,8 +37,9 @@ class Grips {
   void set(double displacement, double left, Boundary& boundary) const;
 
   /// Puts the loop, which was off the rollers until now, on them. They first come as near to each other as the loop
-  /// needs.
-  void put_on(const Points& loop, double displacement, double radius);
+  /// needs. A loop that lies across the rollers' places, as one that was much stretched while it was tied, is put on
+  /// over pins that begin where it leaves room. False: it leaves none, or too little for the rollers.
+  bool put_on(const Points& loop, double displacement, double radius);
 
   /// From now on the middle of the loop's far side is held half-way between the rollers, if the method says so.
   void hold_far_side(const Points& position, double displacement);
@@ -69,10 +71,13 @@ class Grips {
   bool on_posts() const { return !supports_.posts.empty(); }
   double half_way(double displacement) const;
   void narrow(double left, std::vector<Roller>& rollers) const;
+  bool comes_near(const Points& loop, double displacement, double radius);
+  bool put_on_pins(const Points& loop, double displacement, double radius);
 
   double narrower_ = 0.0;   // how much narrower than on the rollers the loop was drawn [m]
   double clearance_ = 0.0;  // of narrower pins in the loop [m]
   double lift_ = 0.0;       // of the lower one while the loop is put on [m]
+  std::vector<Pin> pins_;   // lower, upper; empty: the rollers' own places are free
   std::vector<FixedNode> lower_nodes_, upper_nodes_;
   std::vector<FixedTwist> held_frames_;
   std::vector<Roller> rollers_;  // lower, upper

@@ -72,7 +72,7 @@ class ProgramRunner {
 
   bool ended() const { return ended_by_ != EndedBy::kNotYet; }
   EndedBy ended_by() const { return ended_by_; }
-  /// Whether the test failed: the simulation gave up, or the knot came undone before it was pulled.
+  /// Whether the test failed: the simulation gave up, or the knot came undone or the rod parted before it was pulled.
   bool failed() const;
   const std::string& reason() const { return reason_; }  ///< one line where the test did not end as programmed
 

@@ -46,7 +46,8 @@ class TiedLoop {
 
   /// Whether a phase that ends by itself has ended: the loop is tied, released or mounted.
   bool done(Phase phase) const;
-  const std::string& not_tied() const { return rig_.not_tied(); }
+  /// Why the loop cannot be tied or mounted; empty: it can.
+  const std::string& gave_up() const { return not_mounted_.empty() ? rig_.not_tied() : not_mounted_; }
   const std::string& not_equilibrated() const { return rig_.not_equilibrated(); }
 
   /// For KnotWatch.
@@ -69,6 +70,7 @@ class TiedLoop {
   TyingRig rig_;
   KnotTouch touch_;
   TakeUp take_up_;
+  std::string not_mounted_;
 };
 
 }  // namespace knot_utm

@@ -11,9 +11,9 @@ import xmlrpc.client
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
-from launched import LAST_RESORT, METHOD, ROOT, Headless, Launch, children, free_port, wait_for, words
+from launched import FILES, LAST_RESORT, METHOD, ROOT, Launch, children, free_port, wait_for, words
 
-HOLD = 'program.hold.duration=%g'
+SHORT = "overrides:='program.hold.duration=1'"
 SCRIPT = [os.path.join(ROOT, 'scripts/tighten')]
 
 
@@ -58,9 +58,19 @@ class TwoLaunchesTest(unittest.TestCase):
         self.assertFalse(os.path.exists(launch.out))
         return said[0]
 
+    def assert_stops(self, namespace, launch):
+        """By its own operator and for no other reason, with all files."""
+        subprocess.run(['rosservice', 'call', namespace + '/utm/stop_test'], env=launch.environment, stdout=subprocess.DEVNULL,
+                       check=True)
+        launch.end()
+        self.assertEqual((launch.result('ended_by'), launch.result('reason')), ('operator', 'stopped by the operator'))
+        for name in FILES:
+            self.assertTrue(os.path.exists(os.path.join(launch.out, name)), name)
+        self.assertFalse(os.path.exists(os.path.join(launch.out, 'journal')))
+
     def test_second_is_refused_or_has_its_own_namespace(self):
         port = self.master()
-        with Launch('method:=' + METHOD, "overrides:='" + HOLD % 600 + "'", port=port) as first:
+        with Launch('method:=' + METHOD, port=port) as first:
             first.wait_for_rows(3)
             self.assertIn('joins the ROS master at %s, which it has not started' % first.uri, first.console())
             self.assertEqual(parameter(first.uri, '/use_sim_time'), True)
@@ -69,7 +79,7 @@ class TwoLaunchesTest(unittest.TestCase):
                     said = self.assert_refused(code, lines, second)
                     for part in (METHOD, 'files in ' + first.out, '-p %d' % (port + 1), 'namespace:='):
                         self.assertIn(part, said)
-            with Launch('method:=' + METHOD, "overrides:='" + HOLD % 1 + "'", 'namespace:=second', port=port) as second:
+            with Launch('method:=' + METHOD, 'namespace:=second', port=port) as second:
                 second.wait_for_rows(3)
                 self.assertEqual(publishers(first.uri, '/clock'), [['/utm_node']])
                 for topic in '/second/clock', '/second/utm/status':
@@ -77,27 +87,19 @@ class TwoLaunchesTest(unittest.TestCase):
                 self.assertEqual(publishers(first.uri, '/second/tf'), [['/second/knot_node']])
                 with Launch('method:=' + METHOD, 'namespace:=second', port=port) as third:
                     self.assertIn(' in /second on ', self.assert_refused(1, None, third))
-                second.end()
-                self.assertEqual(second.result('ended_by'), 'program', second.console())
-                with Headless(METHOD, HOLD % 1) as headless:
-                    self.assertEqual(headless.different(second.out), ([], []))
+                self.assert_stops('/second', second)
             self.assertEqual(parameter(first.uri, '/use_sim_time'), True)
             self.assertIsNone(parameter(first.uri, '/second/use_sim_time'))
-            with xmlrpc.client.ServerProxy(first.uri) as master:
-                node = master.lookupNode('/test', '/utm_node')[2]
-            self.assertNotEqual(node, '')
-            subprocess.run(['rosservice', 'call', '/utm/stop_test'], env=first.environment, stdout=subprocess.DEVNULL, check=True)
-            first.end()
-            self.assertEqual((first.result('ended_by'), first.result('reason')), ('operator', 'stopped by the operator'))
+            self.assertTrue(first.answers('utm_node'))
+            self.assert_stops('', first)
             self.assertIsNone(parameter(first.uri, '/use_sim_time'))
             self.assertIsNone(parameter(first.uri, '/test/use_sim_time_found'))
 
     def test_of_two_at_the_same_time_one_comes_first(self):
         port = free_port()
-        with Launch('method:=' + METHOD, "overrides:='" + HOLD % 1 + "'", port=port) as one, \
-                Launch('method:=' + METHOD, "overrides:='" + HOLD % 1 + "'", port=port) as other:
-            first, second = (other, one) if wait_for('an end', lambda: [x for x in (one, other) if x.process.poll()])[0] is one \
-                else (one, other)
+        with Launch('method:=' + METHOD, SHORT, port=port) as one, Launch('method:=' + METHOD, SHORT, port=port) as other:
+            wait_for('one that is refused', lambda: one.process.poll() or other.process.poll())
+            first, second = (other, one) if one.process.poll() else (one, other)
             self.assertIn('a test is being launched already', second.console())
             self.assertIn('-p %d' % (port + 1), second.console())
             first.end()
