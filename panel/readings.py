@@ -205,4 +205,5 @@ def number(value):
     """Four digits, without an exponent where they are enough."""
     if math.isnan(value):
         return '–'
+    value += 0.0  # no minus before a zero
     return '%.0f' % value if abs(value) >= 1e4 else '%.4g' % value

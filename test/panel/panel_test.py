@@ -51,6 +51,11 @@ class ReadingsTest(unittest.TestCase):
                                 'load': ('4.2', 'N'), 'knot distance': ('102.1', 'mm'),
                                 'end-to-end distance': ('280.1', 'mm')})
 
+    def test_has_no_minus_before_a_zero(self):
+        readings = Readings()
+        readings.take_state(1.0, state(load=-0.0))
+        self.assertIn(('load', '0', 'N'), readings.table())
+
     def test_says_locked_once_the_knots_have_locked(self):
         readings = Readings()
         readings.take_state(1.0, state(locked=True))
