@@ -87,7 +87,7 @@ std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double wa
 HiddenRod as_kept(const Pull& pull, const HiddenRod& hidden, double way, std::size_t begin) {
   HiddenRod out = hidden;
   for (std::size_t i = begin; i < out.size(); ++i)
-    for (std::size_t j = i; j <= last_within(pull, i, way, pull.back().extension); ++j)
+    for (std::size_t j = i, last = last_within(pull, i, way, pull.back().extension); j <= last; ++j)
       for (std::size_t k = 0; k < out[i].size(); ++k) out[i][k] = std::min(out[i][k], hidden[j].at(k));
   return out;
 }
@@ -115,13 +115,15 @@ double opened(const Pull& pull, const PullPoint& from, const PullPoint& to, doub
   return std::isfinite(known) ? known : let_out(pull, from, to) / kLetOut;
 }
 
-/// From the largest F between two points to the smallest within another `way` behind them.
-Drop fall_around(const Pull& pull, std::size_t i, std::size_t j, double way) {
-  const auto less = [](const PullPoint& a, const PullPoint& b) { return a.force < b.force; };
-  const auto point = [&](std::size_t k) { return pull.begin() + static_cast<std::ptrdiff_t>(k); };
-  const auto to = std::min_element(point(j), point(last_within(pull, j, way, pull.back().extension) + 1), less);
-  return {static_cast<std::size_t>(std::max_element(point(i), to, less) - pull.begin()),
-          static_cast<std::size_t>(to - pull.begin())};
+/// For every point from `begin` on where F is smallest within `way` behind it.
+std::vector<std::size_t> lowest_behind(const Pull& pull, double way, std::size_t begin) {
+  std::vector<std::size_t> out(pull.size());
+  for (std::size_t i = begin; i < pull.size(); ++i) {
+    out[i] = i;
+    for (std::size_t j = i + 1, last = last_within(pull, i, way, pull.back().extension); j <= last; ++j)
+      if (pull[j].force < pull[out[i]].force) out[i] = j;
+  }
+  return out;
 }
 
 /// Whether a knot holds so much more rod at one point from `begin` on than at another that it may have jumped; true
@@ -221,20 +223,26 @@ std::optional<Drop> jump(const Pull& pull, const HiddenRod& hidden, std::size_t 
   if (pull.empty() || !may_have_jumped(hidden, begin)) return std::nullopt;
   const double way = jump_way(pull);
   const HiddenRod kept = as_kept(pull, hidden, way, begin);
+  const std::vector<std::size_t> lowest = lowest_behind(pull, way, begin);
   double most = 1.0;
   std::optional<Drop> out;
   for (std::size_t i = begin; i < pull.size(); ++i) {
     const std::size_t last = last_within(pull, i, way, pull.back().extension);
+    std::size_t highest = i;
     for (std::size_t j = i + 1; j <= last; ++j) {
+      if (pull[j - 1].force > pull[highest].force) highest = j - 1;
+      const Drop fall{highest, lowest[j]};
+      if (fall.force(pull) < kFallen * std::abs(pull[highest].force)) continue;
       const double taken = hidden.empty() ? Sample::kNone : taken_in(hidden.front(), hidden[i], kept[j]);
-      const double much = opened(pull, pull[i], pull[j], taken);
-      if (!(much > most)) continue;
-      const Drop fall = fall_around(pull, i, j, way);
-      if (fall.force(pull) < kFallen * std::abs(pull[fall.from].force)) continue;
-      most = much;
-      out = fall;
+      if (const double much = opened(pull, pull[i], pull[j], taken); much > most) {
+        most = much;
+        out = fall;
+      }
     }
   }
+  if (!out) return out;
+  for (std::size_t k = out->from; k < out->to; ++k)
+    if (pull[k].force > pull[out->from].force) out->from = k;
   return out;
 }
 

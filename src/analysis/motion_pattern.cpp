@@ -123,9 +123,11 @@ void MotionPatternTracker::add_pulled(const Sample& sample) {
 /// Looks for a jump among the last points. It is one for good once the rod that the knot took in has stayed for as long
 /// as a jump asks for.
 void MotionPatternTracker::follow_jumps() {
-  constexpr double kWhole = 3.0;  // before, in and behind a jump
+  constexpr double kWhole = 3.0;   // before, in and behind a jump
+  constexpr double kOften = 0.25;  // of the way, so that short time steps cost no more than long ones
   const double way = jump_way(pull_), here = pull_.back().extension;
-  if (jumped_ || !(way > 0.0)) return;
+  if (jumped_ || !(way > 0.0) || here - jump_looked_for_ < kOften * way) return;
+  jump_looked_for_ = here;
   while (here - pull_[jump_begin_].extension > kWhole * way) ++jump_begin_;
   const std::optional<Drop> found = jump(pull_, hidden_, jump_begin_);
   jumped_ = found && here - pull_[found->to].extension > way;

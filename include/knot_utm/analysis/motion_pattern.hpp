@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 
 #include "knot_utm/analysis/curve_readings.hpp"
@@ -108,13 +109,14 @@ class MotionPatternTracker {
   HiddenRod hidden_;              ///< excess lengths at its points
   std::size_t window_begin_ = 0;  ///< first sample of the current window
   std::size_t jump_begin_ = 0;    ///< first sample among which a jump is looked for
-  double window_ = 0.0;           ///< width of a window [m]
-  double slope_ = 0.0;            ///< de/ds in the current window, NaN before the first is full
-  double centre_ = 0.0;           ///< mean extension of the current window [m]
-  double slid_ = 0.0;             ///< extension passed while sliding [m]
-  double first_sliding_ = 0.0;    ///< extension at which de/ds was first below -1 [m]
-  double last_sliding_ = 0.0;  ///< extension at which de/ds last rose through -1, or at which it was last below -1 [m]
-  double peak_ = 0.0;          ///< largest F [N]
+  double jump_looked_for_ = -std::numeric_limits<double>::infinity();  ///< extension of the last search [m]
+  double window_ = 0.0;                                                ///< width of a window [m]
+  double slope_ = 0.0;          ///< de/ds in the current window, NaN before the first is full
+  double centre_ = 0.0;         ///< mean extension of the current window [m]
+  double slid_ = 0.0;           ///< extension passed while sliding [m]
+  double first_sliding_ = 0.0;  ///< extension at which de/ds was first below -1 [m]
+  double last_sliding_ = 0.0;   ///< extension at which de/ds last rose through -1, or at which it was last below -1 [m]
+  double peak_ = 0.0;           ///< largest F [N]
   std::array<Excess, PerKnot::kMost> excess_;  ///< of each knot
   double tied_distance_ = Sample::kNone;       ///< e once the knots are tied and released [m]
   std::optional<double> type_lost_;            ///< time since which the knot type has been another one [s]
