@@ -1,27 +1,19 @@
-"""What other simulators took for the scene of bench/open_overhand.yaml, as it is on record. No figure is scaled to another
-machine: what was measured elsewhere is compared with what this program took there, where that is on record."""
+"""What other simulators took for the scene of bench/open_overhand.yaml, as it is on record: an independent measurement in which
+all programs ran on one machine, each at several steps, and all errors are against one tight reference."""
 from collections import namedtuple
 
-# `cost`: CPU seconds a simulated second; `error`: mean difference of the force from the same program's own default, whose
-# error nobody knows (None for the default itself, and where it was not recorded). A figure of ours: from our fine run.
+# `cost`: CPU seconds a simulated second; `error`: of the force, from the reference.
 Figure = namedtuple("Figure", ["cost", "error"])
-Occasion = namedtuple("Occasion", ["machine", "date", "edges", "peers", "ours", "ours_edges"])
 
-FIRST = Occasion("AMD EPYC, 2 cores", "2026-11-21", 300, {
-    "imc-der, step of 2.5 ms": Figure(3.82, None),
-    "imc-der, step x4": Figure(1.36, 0.03),
-    "imc-der, step x10, gives up at 98 %": Figure(0.73, 0.03),
-    "DisMech, its default step": Figure(2.08, None),
-    "DisMech, step x10, force doubled": Figure(0.18, 1.0),
-}, None, "")
-
-# The friction coefficient of both, 0.3, is this scene's; our run solved for twist at `physics.accuracy: normal`.
-SECOND = Occasion("an Intel machine, one core", "2026-11-22", 300, {
-    "imc-der, step of 2.5 ms": Figure(4.97, None),
-    "imc-der, step x4": Figure(2.06, None),
-    "DisMech, its default step": Figure(1.95, None),
-    "DisMech, step x4": Figure(0.48, 0.021),
-    "DisMech, step x10": Figure(0.21, 0.036),
-}, Figure(0.0212, 0.016), "300 as drawn, laid anew by edge_length")
-
-OCCASIONS = [FIRST, SECOND]
+MACHINE, DATE = "AMD EPYC (Zen 4), 2 cores", "2026-11-25"
+PEERS = {
+    "DisMech, step of 2.5 ms": Figure(3.37, 0.0050),
+    "DisMech, step of 10 ms": Figure(0.88, 0.0075),
+    "DisMech, step of 25 ms": Figure(0.38, 0.0117),
+    "DisMech, step of 0.1 s": Figure(0.107, 0.0175),
+    "DisMech, adaptive step of 0.2 s": Figure(0.071, 0.0209),
+    "DisMech, step of 0.4 s": Figure(0.083, 0.0274),
+    "imc-der, step of 2.5 ms": Figure(4.97, 0.0),
+    "imc-der, step of 10 ms": Figure(1.96, 0.0061),
+}
+OURS = {"draft": Figure(0.0105, 0.026), "normal": Figure(0.0140, 0.026), "fine": Figure(0.016, 0.026)}

@@ -116,8 +116,7 @@ def strips(file, groups, label):
 
 def work_precision(file, scenes):
     """Cost over error, one panel a scene. `scenes`: title -> {"points": {name: (error, cost)},
-    "others": the same, of other simulators, "costs": {name: cost} of those whose error is not known,
-    "target": cost or None}."""
+    "others": the same, of other simulators}."""
     figure, all_axes = plt.subplots(1, len(scenes), figsize=(5.6 * len(scenes), 6.8), squeeze=False)
     for axes, (title, scene) in zip(all_axes[0], scenes.items()):
         marked = [(name, point, "o") for name, point in scene["points"].items()]
@@ -125,14 +124,6 @@ def work_precision(file, scenes):
         for i, (name, (error, cost), marker) in enumerate(marked):
             if error and cost:  # none is known, or there is none to be seen
                 axes.plot([error], [cost], marker, color=plt.cm.tab20(i % 20), label=name)
-        for name, cost in scene.get("costs", {}).items():
-            axes.axhline(cost, color="tab:red", linewidth=0.8, linestyle="--")
-            axes.annotate(name, (0.02, cost), xycoords=("axes fraction", "data"), textcoords="offset points",
-                          xytext=(0, 2), fontsize="xx-small", color="tab:red")
-        if scene.get("target"):
-            axes.axhline(scene["target"], color="tab:green", linewidth=0.8)
-            axes.annotate("target", (0.02, scene["target"]), xycoords=("axes fraction", "data"),
-                          textcoords="offset points", xytext=(0, 2), fontsize="xx-small", color="tab:green")
         axes.set_xscale("log")
         axes.set_yscale("log")
         axes.margins(0.15)

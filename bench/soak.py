@@ -75,8 +75,9 @@ class Machine:
         import rospy
         from knot_utm.msg import Crosshead, RecorderStatus, TestStatus
         from rosgraph_msgs.msg import Clock
+        from knot_utm.srv import StartTest
         from std_srvs.srv import Trigger
-        self.rospy, self.trigger = rospy, Trigger
+        self.rospy, self.trigger, self.start = rospy, Trigger, StartTest
         rospy.init_node("soak", disable_signals=True)
         self.recorder, self.test, self.clock, self.clock_went_back = None, None, None, 0
         rospy.Subscriber("recorder/status", RecorderStatus, lambda m: setattr(self, "recorder", m), queue_size=1)
@@ -90,15 +91,15 @@ class Machine:
             self.clock_went_back += 1
         self.clock = message.clock
 
-    def call(self, service):
+    def call(self, service, kind):
         self.rospy.wait_for_service(service, timeout=60.0)
-        return self.rospy.ServiceProxy(service, self.trigger)()
+        return self.rospy.ServiceProxy(service, kind)()
 
     def run(self, number, look):
         """A test on a new specimen to its end; `look(samples so far)` now and then. Returns the recorder's last status
         and the machine's."""
-        self.call("knot/reset")
-        launched.wait_for("start", lambda: self.call("utm/start_test").success)
+        self.call("knot/reset", self.trigger)
+        launched.wait_for("start", lambda: self.call("utm/start_test", self.start).accepted)
         while True:
             said, ended = self.recorder, self.test
             if said is not None and said.run == number:

@@ -16,10 +16,26 @@ if(KNOT_UTM_ROS)
   find_package(catkin QUIET COMPONENTS message_generation ${message_packages} ${node_packages})
 endif()
 
+# Built on its own the devel space has the package's folder in share/, as an installed one has: of a source folder rosrun
+# leaves out all that lies in its build/, and finds the programs of every other folder that was built in.
+if(catkin_FOUND AND KNOT_UTM_INSTALLS_SETUP)
+  file(WRITE ${CATKIN_DEVEL_PREFIX}/.catkin "")
+  file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/share/knot_utm/msg)
+  foreach(part package.xml action cfg config launch panel report srv test)
+    file(CREATE_LINK ${PROJECT_SOURCE_DIR}/${part} ${CATKIN_DEVEL_PREFIX}/share/knot_utm/${part} SYMBOLIC)
+  endforeach()
+  file(GLOB messages msg/*.msg)
+  foreach(message ${messages})
+    get_filename_component(name ${message} NAME)
+    file(CREATE_LINK ${message} ${CATKIN_DEVEL_PREFIX}/share/knot_utm/msg/${name} SYMBOLIC)
+  endforeach()
+endif()
+
 if(catkin_FOUND)
   add_message_files(DIRECTORY msg FILES
                     ColorBar.msg Crosshead.msg KnotRecord.msg KnotShape.msg KnotState.msg RecorderStatus.msg SpecimenInfo.msg
                     TestOutcome.msg TestStatus.msg)
+  add_service_files(DIRECTORY srv FILES StartTest.srv)
   add_action_files(DIRECTORY action FILES RunTest.action)
   # The messages are in the Python package that python/ holds. In devel space its __init__.py stands for both; installed, there
   # is that of python/ only. catkin_python_setup() would do the same, but it installs to where CMAKE_INSTALL_PREFIX was when

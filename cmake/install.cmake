@@ -12,7 +12,8 @@ if(catkin_FOUND)
     endforeach()
     install(CODE "file(TOUCH \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/.catkin\")")
   endif()
-  install(DIRECTORY launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} FILES_MATCHING PATTERN "*.launch")
+  install(DIRECTORY launch DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} USE_SOURCE_PERMISSIONS
+          PATTERN "__pycache__" EXCLUDE)
 endif()
 
 # For find_package(knot_utm) of others: knot_utm::knot_utm, and the headers that are meant for them.

@@ -1,5 +1,5 @@
 # What writes and reads bags is a library of its own: a tool that has no more to do with ROS loads no more of it.
-set(bag_sources bag_topics bag_writer color_scale conversions curve_bag journal_bag knot_places markers run_bag
+set(bag_sources bag_panel bag_topics bag_writer color_scale conversions curve_bag journal_bag knot_places markers run_bag
                 machine_frames views)
 list(TRANSFORM bag_sources REPLACE "(.+)" "${PROJECT_SOURCE_DIR}/src/ros/\\1.cpp")
 add_library(knot_utm_bags ${bag_sources})
@@ -24,10 +24,5 @@ foreach(source ${nodes})
   target_link_libraries(${name} PRIVATE knot_utm_ros)
 endforeach()
 
-# Listening on loopback only: for the nodes by the library above, for the programs of others that they are launched with
-# (rosout, rviz) preloaded, and for the ROS master by the environment.
-add_library(knot_utm_loopback SHARED src/ros/loopback_bind.cpp)
-target_link_libraries(knot_utm_loopback PRIVATE knot_utm_compiler)
-add_dependencies(programs knot_utm_loopback)
-install(TARGETS knot_utm_loopback LIBRARY DESTINATION ${CATKIN_PACKAGE_LIB_DESTINATION})
+# ROS_HOSTNAME=localhost for whoever sources setup.bash: master, roslaunch and nodes in Python then listen on loopback only.
 catkin_add_env_hooks(60.knot_utm_loopback SHELLS sh DIRECTORY ${PROJECT_SOURCE_DIR}/cmake)

@@ -24,7 +24,7 @@ def led(match, page):
         return match.group()
     file, _, place = target.partition("#")
     file = os.path.normpath(os.path.join(os.path.dirname(page), file)) if file else page
-    is_page = file.endswith(".md") and os.path.dirname(file) in ("", "doc")
+    is_page = file.endswith(".md") and os.path.dirname(file) in ("", "doc", "doc/developers")
     return f"[{said}](#{label(file, place)})" if is_page else said
 
 

@@ -1,4 +1,5 @@
-"""The picture of the panel: readings as a table, the force-extension curve, and the colour bar of the rod."""
+"""The picture of the panel: readings as a table, the force-extension curve, and the colour bar of the rod. Where large
+loads hide those of sliding, the curve is drawn once more with these alone."""
 import math
 
 import numpy
@@ -10,8 +11,9 @@ UNPULLED = 0.01, 1.0  # ends of the axes before anything is pulled [m, N]
 WIDTH, HEIGHT, DPI = 430, 786, 100  # of the picture [px, px, px/in]
 BACKGROUND, FAINT, NAME, VALUE = '#26282e', '#4a4d55', '#a9adb7', '#f4f4f6'
 OURS, EARLIER, MEASURED = '#ffc531', '#8d7434', '#59d5f2'
-ROWS = 9  # of the table, at most
-TOP, ROW = 0.972, 0.0365  # of the table, in heights of the picture
+NOT_KNOWN = 'grey: of a rod that has parted no tension is known'
+ROWS = 10  # of the table, at most
+TOP, ROW = 0.976, 0.0342  # of the table, in heights of the picture
 LEFT, RIGHT, UNIT = 0.05, 0.84, 0.865  # where names begin, values end and units begin, in widths of the picture
 
 
@@ -24,6 +26,45 @@ def limit(value, of_nothing=1.0):
     return next(digit * power for digit in (1.0, 1.5, 2.0, 3.0, 5.0, 7.0, 10.0) if value <= digit * power * (1 + 1e-9))
 
 
+# Where axes stand in the picture, in its widths and heights: alone, and all loads above the small ones.
+ALONE, UPPER, LOWER = ([0.165, low, 0.785, high] for low, high in ((0.235, 0.365), (0.435, 0.165), (0.235, 0.175)))
+
+
+class Chart:
+    """Loads over the extension, of this test and of those beside it."""
+
+    def __init__(self, figure, name):
+        self.axes = figure.add_axes(ALONE, facecolor=BACKGROUND)
+        self.earlier, = self.axes.plot([], [], color=EARLIER, linewidth=1.2, animated=True, zorder=1)
+        self.measured, = self.axes.plot([], [], color=MEASURED, linewidth=1.4, animated=True, zorder=2)
+        self.curve, = self.axes.plot([], [], color=OURS, linewidth=1.8, animated=True, zorder=3)
+        self.now, = self.axes.plot([], [], 'o', color=OURS, markersize=6, animated=True, zorder=4)
+        self.axes.set_xlabel('extension [mm]', color=NAME, fontsize=10)
+        self.axes.set_ylabel(name, color=NAME, fontsize=10)
+        self.axes.yaxis.set_label_coords(-0.15, 0.5)
+        self.axes.ticklabel_format(axis='y', scilimits=(-2, 5))
+        self.axes.grid(color=FAINT, linewidth=0.6)
+        self.axes.xaxis.set_major_locator(MaxNLocator(6))
+        in_grey(self.axes)
+
+    def place(self, box, ticks, is_lowest):
+        self.axes.set_position(box)
+        self.axes.yaxis.set_major_locator(MaxNLocator(ticks))
+        self.axes.xaxis.label.set_visible(is_lowest)
+        self.axes.tick_params(labelbottom=is_lowest)
+
+    def draw(self, curve, measured, earlier):
+        for line, points in ((self.earlier, earlier), (self.measured, measured), (self.curve, curve), (self.now, curve[-1:])):
+            line.set_data(1e3 * points[:, 0], points[:, 1])
+            self.axes.draw_artist(line)
+
+
+def in_grey(axes):
+    axes.tick_params(colors=NAME, labelsize=9)
+    for spine in axes.spines.values():
+        spine.set_color(FAINT)
+
+
 class Drawing:
     """Draws readings again and again. What stays the same from picture to picture is drawn once."""
 
@@ -31,13 +72,9 @@ class Drawing:
         self.figure = Figure(figsize=(WIDTH / DPI, HEIGHT / DPI), dpi=DPI, facecolor=BACKGROUND)
         self.canvas = FigureCanvasAgg(self.figure)
         self._cells = [self._row(index) for index in range(ROWS)]
-        self._axes = self.figure.add_axes([0.165, 0.235, 0.785, 0.365], facecolor=BACKGROUND)
+        self._all, self._small = Chart(self.figure, 'load [N]'), Chart(self.figure, 'small loads [N]')
         self._bar = self.figure.add_axes([0.08, 0.075, 0.84, 0.026])
-        self._curve, = self._axes.plot([], [], color=OURS, linewidth=1.8, animated=True, zorder=3)
-        self._earlier, = self._axes.plot([], [], color=EARLIER, linewidth=1.2, animated=True, zorder=1)
-        self._now, = self._axes.plot([], [], 'o', color=OURS, markersize=6, animated=True, zorder=4)
-        self._measured, = self._axes.plot([], [], color=MEASURED, linewidth=1.4, animated=True, zorder=2)
-        self._style()
+        in_grey(self._bar)
         self._kept = None  # what the part that stays was drawn for
         self._background = None
 
@@ -47,34 +84,20 @@ class Drawing:
         return [self.figure.text(x, height, '', ha=side, va='center_baseline', color=color, fontsize=10.5,
                                  fontweight=weight, animated=True) for x, side, color, weight in places]
 
-    def _style(self):
-        self._axes.set_xlabel('extension [mm]', color=NAME, fontsize=10)
-        self._axes.set_ylabel('load [N]', color=NAME, fontsize=10)
-        self._axes.yaxis.set_label_coords(-0.15, 0.5)
-        self._axes.ticklabel_format(axis='y', scilimits=(-2, 5))
-        self._axes.grid(color=FAINT, linewidth=0.6)
-        self._axes.xaxis.set_major_locator(MaxNLocator(6))
-        self._axes.yaxis.set_major_locator(MaxNLocator(7))
-        for axes in (self._axes, self._bar):
-            axes.tick_params(colors=NAME, labelsize=9)
-            for spine in axes.spines.values():
-                spine.set_color(FAINT)
-
     def draw(self, readings):
         """The picture as an array of bytes: height, width, red green blue."""
         curve = numpy.array(readings.curve()).reshape(-1, 2)
         measured = numpy.array(readings.measured()).reshape(-1, 2)
         earlier = joined(readings.earlier())
-        beside = [line for line, points in ((self._earlier, earlier), (self._measured, measured)) if len(points) > 0]
-        self._draw_background(numpy.vstack([curve, measured, earlier]), beside, readings.bar)
+        lines = ((self._all.earlier, earlier), (self._all.measured, measured))
+        beside = [line for line, points in lines if len(points) > 0]
+        small = readings.small_load()
+        self._draw_background(numpy.vstack([curve, measured, earlier]), None if small is None else limit(small), beside,
+                              (readings.bar, readings.colours_are_known()))
         self.canvas.restore_region(self._background)
         self._fill_table(readings.table())
-        self._curve.set_data(1e3 * curve[:, 0], curve[:, 1])
-        self._now.set_data(1e3 * curve[-1:, 0], curve[-1:, 1])
-        self._measured.set_data(1e3 * measured[:, 0], measured[:, 1])
-        self._earlier.set_data(1e3 * earlier[:, 0], earlier[:, 1])
-        for artist in (self._earlier, self._measured, self._curve, self._now):
-            self._axes.draw_artist(artist)
+        for chart in self._charts(small is not None):
+            chart.draw(curve, measured, earlier)
         for cell in self.cells():
             self.figure.draw_artist(cell)
         return numpy.asarray(self.canvas.buffer_rgba())[:, :, :3]
@@ -84,9 +107,10 @@ class Drawing:
 
     def texts(self):
         """All texts of the picture that are to be read."""
-        axes = [text for axes in (self._axes, self._bar) for axis in (axes.xaxis, axes.yaxis)
+        charts = [chart.axes for chart in self._charts(self._small.axes.get_visible())]
+        axes = [text for axes in (*charts, self._bar) for axis in (axes.xaxis, axes.yaxis)
                 for text in (*axis.get_ticklabels(), axis.label, axis.get_offset_text()) if shown(axis, text)]
-        legend = self._axes.get_legend()
+        legend = self._all.axes.get_legend()
         return [text for text in (*self.cells(), *axes, self._bar.title, *(legend.get_texts() if legend else ()))
                 if text.get_visible() and text.get_text()]
 
@@ -96,35 +120,46 @@ class Drawing:
                 cell.set_text(text)
             row[1].set_x(RIGHT if index < len(table) and table[index][2] else 0.95)
 
-    def _draw_background(self, points, beside, bar):
-        """beside: the lines that are drawn beside the curve of this test."""
+    def _charts(self, two):
+        return (self._all, self._small) if two else (self._all,)
+
+    def _draw_background(self, points, small, beside, bar):
+        """small: where the axes of the small loads end [N]; None: there are none. beside: the lines that are drawn beside
+        the curve of this test. bar: the colour bar, and whether the colours mean anything."""
         points = points[~numpy.isnan(points).any(axis=1)]
         low, high = points.min(axis=0, initial=0.0), points.max(axis=0, initial=0.0)
         limits = [(-limit(-low[i]) if low[i] < -1e-3 * high[i] else 0.0, limit(high[i], UNPULLED[i]))
                   for i in (0, 1)]
-        keep = (limits, beside, bar)
+        keep = (limits, small, beside, bar)
         if keep == self._kept:
             return
         self._kept = keep
-        self._axes.set_xlim(1e3 * limits[0][0], 1e3 * limits[0][1])
-        self._axes.set_ylim(*limits[1])
+        self._all.place(ALONE if small is None else UPPER, 7 if small is None else 4, small is None)
+        self._small.place(LOWER, 4, True)
+        self._small.axes.set_visible(small is not None)
+        for chart in (self._all, self._small):
+            chart.axes.set_xlim(1e3 * limits[0][0], 1e3 * limits[0][1])
+        self._all.axes.set_ylim(*limits[1])
+        if small is not None:
+            self._small.axes.set_ylim(max(limits[1][0], -0.3 * small), small)
         self._draw_legend(beside)
-        self._draw_bar(bar)
+        self._draw_bar(*bar)
         self.canvas.draw()
         self._background = self.canvas.copy_from_bbox(self.figure.bbox)
 
     def _draw_legend(self, beside):
-        if self._axes.get_legend() is not None:
-            self._axes.get_legend().remove()
+        chart = self._all
+        if chart.axes.get_legend() is not None:
+            chart.axes.get_legend().remove()
         if not beside:
             return
-        names = {self._curve: 'simulated' if self._measured in beside else 'this test',
-                 self._earlier: 'earlier tests', self._measured: 'measured'}
-        lines = [self._curve, *beside]
-        self._axes.legend(lines, [names[line] for line in lines], loc='lower center', ncol=3, columnspacing=1.2,
+        names = {chart.curve: 'simulated' if chart.measured in beside else 'this test',
+                 chart.earlier: 'earlier tests', chart.measured: 'measured'}
+        lines = [chart.curve, *beside]
+        chart.axes.legend(lines, [names[line] for line in lines], loc='lower center', ncol=3, columnspacing=1.2,
                           bbox_to_anchor=(0.5, 1.0), frameon=False, labelcolor=NAME, fontsize=9)
 
-    def _draw_bar(self, bar):
+    def _draw_bar(self, bar, is_known):
         self._bar.clear()
         self._bar.set_visible(bar is not None)
         if bar is None:
@@ -133,7 +168,8 @@ class Drawing:
         self._bar.imshow(colors, aspect='auto', extent=(0.0, 1.0, 0.0, 1.0))
         self._bar.set_yticks([])
         self._bar.set_xticks(bar.places, ['%g' % tick for tick in bar.ticks])
-        self._bar.set_title('%s of the rod [%s]' % (bar.quantity, bar.unit), color=NAME, fontsize=10, pad=6)
+        title = '%s of the rod [%s]' % (bar.quantity, bar.unit) if is_known else NOT_KNOWN
+        self._bar.set_title(title, color=NAME, fontsize=10, pad=6)
 
 
 def joined(curves):

@@ -2,9 +2,26 @@
 of a record."""
 import collections
 import math
+import statistics
 
+# Phases before the zero of the pull (report/phases.csv, prepares): the balance is the zero.
+PREPARATION = {'', 'idle', 'tie', 'release', 'mount', 'preload', 'done'}
+BROKEN, FAILED = 3, 4  # status of a KnotState
+KEPT, CROSSED = 0, 2   # its knot_type
+PAUSED, ENDED = 2, 3               # of a TestStatus
+MANY = 8.0  # loads above this many of those of sliding hide them: these are shown again, alone
+ENDS = {'break': 'broke', 'untangled': 'came undone', 'solver': 'the physics gave up',
+        'operator': 'ended by the operator', 'program': 'ended with its program'}
 KEPT = 1000  # states that wait for the reading of the load cell of the same stamp, and the other way round
 CURVES = 20  # that are shown, this one among them
+
+# What the curve takes of a state. `zero`: its balance offset; `slides`: whether the knots slide.
+Place = collections.namedtuple('Place', 'run phase extension zero slides')
+
+
+def place_of(state):
+    slides = state.motion_pattern == 'sliding' and not state.locked
+    return Place(state.run, state.phase, state.extension, state.balance_offset, slides)
 
 
 class Pairs:
@@ -34,6 +51,7 @@ class Readings:
         self.material = ''
         self.knot = ''
         self.bar = None  # the colour bar, as the message has it
+        self._status = None  # of the test, as the message has it
         self._begin()
 
     def _begin(self):
@@ -45,9 +63,11 @@ class Readings:
 
     def _begin_test(self):
         self.load = math.nan
+        self.load_at_break = None
+        self._zero = None     # balance offset of the curve
+        self._sliding = []    # loads while the knots slid
         self._measured_pairs = Pairs()
         self._measured = []
-        self._measured_from = None  # its first extension, and ours at the same stamp
 
     def take_method(self, method):
         """method: the method of the test as a map."""
@@ -63,24 +83,42 @@ class Readings:
             self._begin_test()
         self.stamp = stamp
         self.state = state
-        self._take_point(self._pairs.add(0, stamp, (state.run, state.extension)))
+        if state.status == BROKEN:
+            self._take_break(state)
+        else:
+            self._take_point(self._pairs.add(0, stamp, place_of(state)))
+
+    def take_status(self, status):
+        """status: a TestStatus, or what has its fields."""
+        self._status = status
 
     def take_load(self, stamp, load):
         self.load = load
         self._take_point(self._pairs.add(1, stamp, load))
 
+    def _take_break(self, state):
+        """The largest load of the command in which the rod parts is that of the break; it has none behind that."""
+        if self.load_at_break is None:
+            self.load_at_break = state.highest_load
+            self._take_point((place_of(state), state.highest_load))
+
     def _take_point(self, point):
-        if point is None:
+        """Nothing that was read before the zero belongs to the curve: neither tying and mounting nor another zero."""
+        if point is None or point[0].phase in PREPARATION:
             return
-        (run, extension), load = point
-        self._curves.setdefault(run, []).append((extension, load))
+        place, load = point
+        if self.state is not None and place.run == self.state.run:
+            if place.zero != self._zero:
+                self._curves.pop(place.run, None)
+                self._sliding = []
+            self._zero = place.zero
+            if place.slides:
+                self._sliding.append(load)
+        self._curves.setdefault(place.run, []).append((place.extension, load))
         if len(self._curves) > CURVES:
             del self._curves[next(iter(self._curves))]
 
     def take_measured_extension(self, stamp, extension):
-        if self._measured_from is None:
-            ours = self.state.extension if self.state else 0.0
-            self._measured_from = (extension, ours)
         self._take_measured(self._measured_pairs.add(0, stamp, extension))
 
     def take_measured_load(self, stamp, load):
@@ -99,11 +137,40 @@ class Readings:
         return [list(points) for run, points in self._curves.items() if self.state and run != self.state.run]
 
     def measured(self):
-        """The same of the experiment. Its extension is that of the test where its record begins."""
-        if self._measured_from is None:
-            return []
-        first, ours = self._measured_from
-        return [(extension - first + ours, load) for extension, load in self._measured]
+        """The same of the experiment, as its topics have it."""
+        return list(self._measured)
+
+    def small_load(self):
+        """A load [N] up to which the loads are to be shown once more, because larger ones hide those of sliding; else
+        None."""
+        if not self._sliding:
+            return None
+        usual = statistics.median(self._sliding)
+        largest = max(load for _, load in self.curve())
+        return 2.5 * usual if 0.0 < MANY * usual < largest else None
+
+    def colours_are_known(self):
+        """What the colours of a rod show that has parted is not known, where it is a force."""
+        return self.load_at_break is None or self.bar is None or self.bar.quantity != 'tension'
+
+    def how_it_stands(self):
+        """The state of the test in words."""
+        state, status = self.state, self._status
+        is_of_this = status is not None and status.run == state.run
+        ended_by = status.ended_by if is_of_this and status.state == ENDED else None
+        words = []
+        if state.status == BROKEN:
+            words.append(ENDS['break'])
+        elif state.status == FAILED:
+            words.append(ENDS['solver'])
+        elif state.knot_type == CROSSED:
+            words.append('ran through itself')
+        elif state.motion_pattern == 'untangling':
+            words.append('a knot opened' if state.knot_type == KEPT else ENDS['untangled'])
+        if ended_by is not None:
+            end = ENDS.get(ended_by, 'ended by ' + ended_by if ended_by else 'ended')
+            words.append('ended' if end in words else end)
+        return ', '.join(words) or ('paused' if is_of_this and status.state == PAUSED else 'running')
 
     def table(self):
         """Rows of name, value and unit."""
@@ -115,13 +182,19 @@ class Readings:
             ('time', '%.1f' % state.time, 's'),
             ('material', self.material or '–', ''),
             ('knot', self.knot or '–', ''),
+            ('state', self.how_it_stands(), ''),
             ('phase', state.phase or '–', ''),
             ('motion pattern', pattern or '–', ''),
             ('extension', millimetres(state.extension), 'mm'),
-            ('load', number(state.load if math.isnan(self.load) else self.load), 'N'),
+            self._row_of_load(),
             ('knot distance', millimetres(state.knot_distance), 'mm'),
             ('end-to-end distance', millimetres(state.end_to_end), 'mm'),
         ]
+
+    def _row_of_load(self):
+        if self.load_at_break is not None:
+            return ('load at the break', number(self.load_at_break), 'N')
+        return ('load', number(self.state.load if math.isnan(self.load) else self.load), 'N')
 
 
 def millimetres(metres):
@@ -132,4 +205,5 @@ def number(value):
     """Four digits, without an exponent where they are enough."""
     if math.isnan(value):
         return '–'
+    value += 0.0  # no minus before a zero
     return '%.0f' % value if abs(value) >= 1e4 else '%.4g' % value

@@ -8,6 +8,7 @@ from failure import CannotReport
 from is_number import is_number
 from largest_load import largest_load
 from run import Run, numbers, read_table, read_yaml, texts_of
+from sentences import all_in_units, in_units
 from units import units_of
 
 # What stands in a row of specimens.csv before the readings, and behind what was drawn.
@@ -49,10 +50,10 @@ class Tested:
         pull = run.pull()
         self.number, self.pull = number, (pull["extension"], pull["load"])
         self.largest = largest_load(run)
-        self.warnings = run.result.get("warnings") or []
-        self.checks = certificate(run.result)
+        self.warnings = all_in_units(run.result.get("warnings") or [], run.units)
+        self.checks = certificate(run.result, run.has_knot())
         self.asked = specification_checks(run.method, run.result, run.units)
-        self.version = run.result.get("version")
+        self.version, self.given, self.not_predicted = run.result.get("version"), run.given_strength(), run.not_predicted()
 
 
 class Batch:
@@ -67,7 +68,7 @@ class Batch:
         for key in ("specimens", "rejected", "motion_pattern"):
             if key not in self.facts:
                 raise CannotReport(f"{file}: no key {key}")
-        self.reasons = {one["specimen"]: one["reason"] for one in self.facts["rejected"]}
+        self.reasons = {one["specimen"]: in_units(one["reason"], self.units) for one in self.facts["rejected"]}
         self.counted = [specimen for specimen in self.specimens if not specimen.rejected]
         self.tested = [Tested(one.number, Run(self.folder_of(one.number))) for one in self.counted]
 

@@ -17,7 +17,7 @@ def curves(batch, mean, look):
     figure, all_axes, tall = stacked(look, [2.7] + ([1.8] if closer else []))
     for axes in all_axes:
         draw(axes, pulls, mean, force.scale, length.scale)
-    all_axes[0].set_ylim(*load_limits(pulls, mean, force.scale))
+    all_axes[0].set_ylim(*load_limits(pulls, force.scale))
     all_axes[0].set_ylabel(f"load F [{force.name}]")
     place_legend(all_axes[0], look)
     if closer:
@@ -53,21 +53,18 @@ def draw(axes, pulls, mean, force, length):
     if mean is None:
         return
     s, middle = length * mean.extension, force * mean.mean
-    axes.fill_between(s, middle - force * mean.sd, middle + force * mean.sd, color=ORANGE, alpha=0.28, lw=0, zorder=3,
+    low, high = mean.about(mean.sd)
+    axes.fill_between(s, force * low, force * high, color=ORANGE, alpha=0.28, lw=0, zorder=3,
                       label="mean ± standard deviation")
     axes.plot(s, middle, color=ORANGE, lw=1.5, zorder=5, label="mean")
-    for sign, name in ((-1.0, "95 % interval of the mean"), (1.0, None)):
-        axes.plot(s, middle + sign * force * mean.half, color=INK, lw=0.7, ls=(0, (3, 2)), zorder=4, label=name)
+    for end, name in zip(mean.about(mean.half), ("95 % interval of the mean", None)):
+        axes.plot(s, force * end, color=INK, lw=0.7, ls=(0, (3, 2)), zorder=4, label=name)
     for end in (s[0], s[-1]):
         axes.axvline(end, color=GREY, lw=0.6, ls=":")
 
 
-def load_limits(pulls, mean, force):
-    """Of the curves and the band; the interval of few specimens may be many times as wide, and is cut off."""
-    lows, highs = [load.min() for _, load in pulls], [load.max() for _, load in pulls]
-    if mean is not None:
-        lows.append((mean.mean - mean.sd).min())
-        highs.append((mean.mean + mean.sd).max())
-    low, high = force * min(0.0, *lows), force * max(highs)
+def load_limits(pulls, force):
+    low = force * min(0.0, *(load.min() for _, load in pulls))
+    high = force * max(load.max() for _, load in pulls)
     room = 0.05 * ((high - low) or 1.0)
     return low - room if low < 0.0 else 0.0, high + room

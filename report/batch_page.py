@@ -29,6 +29,8 @@ def report_on_batch(folder, command, version):
         "headlines": headlines(batch),
         "count": len(batch.specimens), "counted": len(batch.counted), "rejected": list(batch.reasons.items()),
         "patterns": counts(batch, "motion_pattern"), "endings": counts(batch, "ended_by"),
+        "given": next((one.given for one in batch.tested if one.given), None),
+        "not_predicted": [key for one in batch.tested for key in one.not_predicted],
         "tested_by": batch.tested[0].version if batch.tested else None, "warnings": warnings(batch),
         "curve": [curves(batch, mean, look) for look in LOOKS] if any(len(one.pull[0]) for one in batch.tested) else None,
         "common": mean and [shown(s, length.scale) for s in (mean.extension[0], mean.extension[-1])], "length": length.name,
@@ -52,7 +54,8 @@ def headlines(batch):
     for key in main_keys(batch):
         statistics, unit = batch.statistics(key), batch.units.of(quantity_of(key).kind)
         half, variation = half_of(statistics), percent(statistics["cv"])
-        remark = f"CV {variation}, n = {statistics['n']}" if variation else f"n = {statistics['n']}"
+        n = f"n = {statistics['n']}"
+        remark = f"CV {variation}, {n}" if variation else f"constant, {n}" if statistics["n"] > 1 and not half else n
         found.append(Headline(short_label(means, key, largest), shown(statistics["mean"], unit.scale, half),
                               error_shown(half, unit.scale), unit.name, remark))
     return found

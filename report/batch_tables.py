@@ -2,7 +2,7 @@
 from certificate import Check
 from is_number import is_number
 from method_facts import label_of, place_of, sentence, unit_of
-from quantities import BESIDE, CERTIFICATE, GROUPS, TABLES, error_shown, number, percent, quantity_of
+from quantities import BESIDE, CERTIFICATE, GROUPS, TABLES, error_shown, percent, quantity_of, shown
 from results_table import NOTHING, labels_of, short_label
 
 WIDEST = 5  # readings beside each other: as many as a telephone has room for
@@ -40,10 +40,7 @@ class Column:
         self.error = max(spread, FINEST * abs(mean)) if spread else None
 
     def text(self, value):
-        scale = self.unit.scale
-        if not is_number(value):
-            return "none"
-        return number(value * scale, self.error * scale if self.error else None)
+        return shown(value, self.unit.scale, self.error) if is_number(value) else "none"
 
 
 class Table:
@@ -76,6 +73,8 @@ def statistic(batch, column, part):
     found = batch.statistics(column.key)
     if part == "n":
         return str(found["n"])
+    if part == "sd" and found["sd"] is None and found["n"] > 1:
+        return "constant"
     if part == "cv":
         return percent(found["cv"])
     return column.text(found[part]) if is_number(found[part]) else ""
@@ -112,7 +111,7 @@ class Row:
         half = half_of(found)
         self.key, self.label, self.unit, self.n = key, column.label, unit.name, found["n"]
         self.mean, self.cv = column.text(found["mean"]), percent(found["cv"])
-        self.sd = error_shown(found["sd"], unit.scale)
+        self.sd = error_shown(found["sd"], unit.scale) if found["sd"] is not None or self.n < 2 else "constant"
         self.half = error_shown(half, unit.scale)
 
 

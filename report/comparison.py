@@ -5,7 +5,8 @@ import numpy as np
 
 from failure import CannotReport
 from is_number import is_number
-from run import numbers, printable, read_columns, read_yaml
+from run import numbers, printable, read_columns, read_yaml, texts_of
+from units import Units, units_of
 
 READINGS = ("peak_force", "plateau_force", "plateau_force_low", "plateau_force_high", "plateau_force_slope",
             "breakaway_force", "largest_drop", "jump_force", "force_after_jump", "lock_extension_by_load",
@@ -31,14 +32,19 @@ class Comparison:
                 raise CannotReport(f"{os.path.join(folder, 'comparison.yaml')}: no key {key}")
         self.files = {name: str(self.facts[name]) for name in ("a", "b")}
         self.facts.update({name: printable(file) for name, file in self.files.items()})
+        self.runs = {name: run_beside(file) for name, file in self.files.items()}
+        asked = [units_of(run.report) for run in self.runs.values() if run]
+        self.units = next((units for units in asked if not units.are_default), Units())
 
     def number(self, key):
         value = self.facts.get(key)
         return value if is_number(value) else None
 
     def ends_at_its_largest_load(self, name):
-        """Whether the curve has no peak: its load was still rising where it ends."""
-        load = {"a": self.a, "b": self.b}[name].load
+        """Whether the curve has no peak: its load was still rising where it ends, and no rod parted there."""
+        load, run = {"a": self.a, "b": self.b}[name].load, self.runs[name]
+        if run and run.result.get("ended_by") == "break":
+            return False
         return int(np.argmax(load)) >= len(load) - 2
 
     def difference(self):
@@ -49,12 +55,21 @@ class Comparison:
         return s, np.interp(s, self.b.extension, self.b.load) - np.interp(s, self.a.extension, self.a.load)
 
 
+class Simulated:
+    """The run that a curve is from: its method, its result, and what its method says of reports."""
+
+    def __init__(self, folder):
+        method = os.path.join(folder, "method.yaml")
+        self.method, self.report = read_yaml(method), texts_of(method, "report")
+        self.result = read_yaml(os.path.join(folder, "result.yaml"))
+
+
 def run_beside(file):
-    """Method and result of the run that a curve is from; None where it is from none."""
+    """The run that a curve is from; None where it is from none."""
     folder = os.path.dirname(file) or "."
     if os.path.basename(file) not in ("curve.csv", "curve_full.csv", "test.bag", "saved.bag"):
         return None
     try:
-        return read_yaml(os.path.join(folder, "method.yaml")), read_yaml(os.path.join(folder, "result.yaml"))
+        return Simulated(folder)
     except CannotReport:
         return None

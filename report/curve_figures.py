@@ -47,7 +47,9 @@ def course(run, look):
     for name, a, b in phases_of(curve):
         axes.axvspan(time[a], time[b], color=PHASES.get(name, "#eeeeee"), lw=0, zorder=0)
     name_phases(axes, curve, look)
-    tested = ~np.isin(curve.phase, FORMING)
+    tested, broke = ~np.isin(curve.phase, FORMING), run.time_of_break()
+    if broke is not None:
+        tested &= time <= broke
     rows = few_points(curve["load"], curve["extension"])
     axes.plot(time[rows], force.scale * np.where(tested, curve["load"], np.nan)[rows], color=BLUE, lw=1.3)
     axes.set_xlabel("time [s]")
@@ -78,7 +80,7 @@ def name_phases(axes, curve, look):
 
 def force_extension(run, marks, look):
     """Load over extension; again where the load is small beside its peak; knot distance where there are two knots."""
-    tested = run.curve.tested()
+    tested = run.tested()
     closer = near_the_plateau(run)
     knots = tested.has_knot_distance()
     heights = [2.8] + ([1.7] if closer else []) + ([1.4] if knots else [])
@@ -103,9 +105,8 @@ def force_extension(run, marks, look):
 
 
 def extension_limits(run):
-    """All that is drawn, in the unit of the page. On a compliant frame that is the crosshead's extension too, and behind
-    a break, where the specimen has no extension of its own, that alone."""
-    tested = run.curve.tested()
+    """All that is drawn, in the unit of the page. On a compliant frame that is the crosshead's extension too."""
+    tested = run.tested()
     drawn = [tested["extension"]]
     if tested.has_compliant_frame():
         pull = run.pull()
@@ -118,7 +119,7 @@ def extension_limits(run):
 def near_the_plateau(run):
     """Loads to show once more: those of sliding, or up to a knot's jump, where they are small beside the peak; else
     None."""
-    return small_loads(run.value, run.curve.tested()["load"], run.units.force.scale)
+    return small_loads(run.value, run.tested()["load"], run.units.force.scale)
 
 
 def small_loads(value, load, scale):
@@ -132,7 +133,7 @@ def small_loads(value, load, scale):
 
 
 def draw_load(axes, run, marks):
-    tested, force, length = run.curve.tested(), run.units.force, run.units.length
+    tested, force, length = run.tested(), run.units.force, run.units.length
     draw_floor(axes, run, tested)
     draw_band(axes, run)
     for number, (name, a, b) in enumerate(phases_of(tested) if len(tested) else []):
@@ -141,7 +142,7 @@ def draw_load(axes, run, marks):
         rows = a + few_points(tested["extension"][a:b + 1], tested["load"][a:b + 1])
         axes.plot(length.scale * tested["extension"][rows], force.scale * tested["load"][rows], color=colour, lw=1.4,
                   label=name if first else None)
-    cell = run.readings.tested()
+    cell = run.tested(run.readings)
     if len(cell) <= FEW:
         axes.plot(length.scale * cell["extension"], force.scale * cell["load"], "o", ms=2.6, mfc="white", mec=BLUE,
                   mew=0.7, label="as the cell reads it")
@@ -189,7 +190,7 @@ def draw_plateau(axes, run):
 
 
 def draw_knot_distance(axes, run, marks):
-    tested, length = run.curve.tested(), run.units.length
+    tested, length = run.tested(), run.units.length
     s, e = length.scale * tested["extension"], length.scale * tested["knot_distance"]
     rows = few_points(s, e)
     axes.plot(s[rows], e[rows], color=VIOLET, lw=1.4, label="e")
@@ -202,7 +203,8 @@ def draw_knot_distance(axes, run, marks):
                   ls=(0, (4, 3)), label="de/ds = –2: rigid sliding")
         axes.legend(loc="lower left", borderpad=0.2)
     axes.set_ylabel(f"knot distance e [{length.name}]")
-    put_marks(axes, run, [(mark, float(np.interp(mark.time, tested["time"], e))) for mark in marks])
+    put_marks(axes, run, [(mark, float(np.interp(mark.time, tested["time"], e))) for mark in marks
+                          if np.isfinite(mark.load)])
 
 
 def put_marks(axes, run, places):
@@ -215,7 +217,7 @@ def put_marks(axes, run, places):
 
 
 def end_of_test(run):
-    return run.units.length.scale * float(run.curve.tested()["extension"].max())
+    return run.units.length.scale * float(run.tested()["extension"].max())
 
 
 def shade_motion(axes, run):

@@ -2,7 +2,7 @@
 """Writes the rod of a test for other programs: over time for ParaView, or as it lay at one time for slides and the web.
 
     export.py DIR --vtk OUT
-    export.py DIR --gltf OUT.glb [--color NAME] [--time SECONDS]
+    export.py DIR --gltf OUT.glb [--color NAME] [--time SECONDS] [--overwrite]
 
 DIR is the folder of a test. Its shapes over time are those of shapes.csv (tensile_test --shapes), else of test.bag; without
 them there is the final shape alone.
@@ -13,6 +13,7 @@ import sys
 
 from failure import CannotReport, in_one_line
 from make_report import OneLineParser
+from new_file import files_of, why_not
 
 PACKAGES = {"vtkmodules": "python3-vtk9", "numpy": "python3-numpy", "yaml": "python3-yaml",
             "matplotlib": "python3-matplotlib"}
@@ -28,6 +29,7 @@ def asked():
     parser.add_argument("--color", choices=NAMES, help="what the colours of the .glb show [tension]")
     parser.add_argument("--time", type=float, metavar="SECONDS",
                         help="of the test, for the .glb; the shape nearest to it is taken [the last one]")
+    parser.add_argument("--overwrite", action="store_true", help="write over a file that exists")
     found = parser.parse_args()
     if found.vtk is not None and (found.color or found.time is not None):
         parser.error("--color and --time belong to --gltf: the files of --vtk hold all values at all times")
@@ -35,6 +37,8 @@ def asked():
         parser.error(f"{found.folder}: no such folder")
     if found.gltf is not None and not found.gltf.endswith(".glb"):
         parser.error(f"--gltf {found.gltf}: the name of the file must end with .glb")
+    if found.gltf is not None and (why := why_not(found.gltf, files_of(found.folder), found.overwrite)):
+        parser.error(f"--gltf: {why}")
     if found.vtk is not None and os.path.exists(found.vtk) and not (os.path.isdir(found.vtk) and not os.listdir(found.vtk)):
         parser.error(f"--vtk {found.vtk}: is there already; give a new folder")
     return found

@@ -27,4 +27,4 @@ def end(key, side):
 
 
 def told(value):
-    return "not told" if value is None else number(value)
+    return "open" if value is None else number(value)

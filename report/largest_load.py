@@ -1,5 +1,5 @@
-"""Where the load was largest. It is a peak of the curve only where the load fell behind it: a test that was stopped
-while the load rose has a largest load, but no peak."""
+"""Where the load was largest: the place of the reading that peak_force of result.yaml is. It is a peak of the curve only
+where the load fell behind it: a test that was stopped while the load rose has a largest load, but no peak."""
 import numpy as np
 
 from quantities import shown
@@ -8,9 +8,8 @@ from run import PULLING
 NEAR = 0.01  # of the pull: a largest load within this of its end was reached there
 
 # How a test ended that nobody and no program stopped.
-NOT_STOPPED = {"solver": "at the end of the test, where the physics gave up",
-               "untangled": "at the end of the test, where the knot came undone",
-               "not yet": "at the end of what was recorded"}
+NOT_STOPPED = {"solver": "the physics gave up", "untangled": "the knot came undone", "operator": "the operator stopped the test",
+               "not yet": "the record ends", "interrupted": "the test was cut off"}
 
 
 class LargestLoad:
@@ -23,35 +22,35 @@ class LargestLoad:
 
 def largest_load(run):
     """None: nothing was pulled."""
-    tested = run.curve.tested()
-    pulled = tested.where(np.isin(tested.phase, PULLING))
-    if run.value("peak_force") is None or not len(pulled):
+    value, pulled, read = run.value("peak_force"), pulled_of(run.tested()), pulled_of(run.tested(run.readings))
+    if value is None or not len(pulled):
         return None
-    row = int(np.argmax(pulled["load"]))
-    if run.value("break_extension") is not None and is_near(pulled, row, run.value("break_extension")):
-        return LargestLoad(pulled, row, "peak", "where the rod parted", True)
-    if not is_near(pulled, row, float(pulled["extension"].max())):
-        return LargestLoad(pulled, row, "peak", f"at an extension of {length(run, pulled['extension'][row])}", True)
-    return LargestLoad(pulled, row, "largest load", end_of_pull(run, tested, pulled, row), False)
+    broke, rows = run.value("break_extension"), read if len(read) else pulled
+    row = int(np.argmax(rows["load"]))
+    if broke is not None and (value > rows["load"][row] or length(run, rows["extension"][row]) == length(run, broke)):
+        row = int(np.argmin(np.abs(pulled["extension"] - broke)))  # where it parted the load is read, too
+        return LargestLoad(pulled, row, "peak", f"where the rod parted, at {length(run, broke)}", True)
+    place, end = float(rows["extension"][row]), float(pulled["extension"].max())
+    if row < len(rows) - 1 and end - place > NEAR * float(np.ptp(pulled["extension"])):
+        return LargestLoad(rows, row, "peak", f"at an extension of {length(run, place)}", True)
+    where = f"at {length(run, place)}, "
+    if broke is not None:
+        return LargestLoad(rows, row, "peak", where + "before the rod parted", True)
+    if set(pulled.phase) == {"cycle"}:
+        return LargestLoad(rows, row, "largest load", where + "at the upper turning point of the cycles", False)
+    where += f"{'where' if length(run, place) == length(run, end) else 'before'} {end_of_pull(run, pulled)}"
+    return LargestLoad(rows, row, "largest load", where, False)
 
 
-def is_near(pulled, row, extension):
-    s = pulled["extension"]
-    return abs(float(s[row]) - extension) <= NEAR * float(np.ptp(s))
+def pulled_of(curve):
+    return curve.where(np.isin(curve.phase, PULLING))
 
 
-def end_of_pull(run, tested, pulled, row):
+def end_of_pull(run, pulled):
     """Why the load went no higher."""
-    place = length(run, pulled["extension"][row])
-    if len(set(pulled.phase)) == 1 and pulled.phase[0] == "cycle":
-        return "at the upper turning point of the cycles"
-    if tested["time"][-1] > pulled["time"][-1]:
-        return f"at the end of the pull, at {place}"
-    ended_by = run.result.get("ended_by")
-    if ended_by in NOT_STOPPED:
-        return NOT_STOPPED[ended_by]
-    stopped = "the operator stopped" if ended_by == "operator" else "was stopped"
-    return f"at the end of the test, which {stopped} at {place}"
+    if run.tested()["time"][-1] > pulled["time"][-1]:
+        return "the pull ended"
+    return NOT_STOPPED.get(run.result.get("ended_by"), "the test was stopped")
 
 
 def length(run, metres):

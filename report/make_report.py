@@ -43,7 +43,6 @@ def main():
 
 
 def make(folder, command, version):
-
     # The first is the newest where a folder holds two: `compare` takes no folder of a run, and tests take away what
     # older tests and comparisons left.
     kinds = {"result.yaml": "run", "comparison.yaml": "comparison", "statistics.yaml": "batch", "fit.yaml": "fit"}
@@ -53,10 +52,14 @@ def make(folder, command, version):
     import batch_page
     import fit_page
     import page
+    import typefaces
 
     makers = {"run": page.report_on_run, "comparison": page.report_on_comparison, "batch": batch_page.report_on_batch,
               "fit": fit_page.report_on_fit}
-    page.write(folder, makers[kind](folder, command, version))
+    html = makers[kind](folder, command, version)
+    page.write(folder, html)
+    if line := typefaces.told(typefaces.without_typeface(html)):
+        print("report:", line, file=sys.stderr)
 
 
 if __name__ == "__main__":

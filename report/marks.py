@@ -5,7 +5,8 @@ from largest_load import largest_load
 
 
 class Mark:
-    """`names`: what happened there; several where they fall together. Time [s], extension [m], load [N]."""
+    """`names`: what happened there; several where they fall together. Time [s], extension [m], load [N]; NaN: none is
+    known, behind a break."""
 
     def __init__(self, names, time, extension, load):
         self.names, self.time, self.extension, self.load = names, time, extension, load
@@ -22,7 +23,7 @@ def time_of_break(marks):
 
 def marks_of(run):
     """Start of the pull, a knot's jump, lock, largest load, break and end, in order of time; none where nothing was tested."""
-    tested = run.curve.tested()
+    tested = run.tested()
     if not len(tested):
         return []
     pull = run.pull()
@@ -34,13 +35,15 @@ def marks_of(run):
     if largest:
         found.append((largest.name, largest.rows, largest.row))
     found += reached(pull, "break", run.value("break_extension"))
-    found.append(("end of the test", tested, len(tested) - 1))
-    return together([Mark([name], rows["time"][i], rows["extension"][i], rows["load"][i]) for name, rows, i in found],
-                    0.01 * (tested["time"][-1] - tested["time"][0]), 0.05 * float(np.abs(tested["load"]).max()))
+    all_marks = [Mark([name], rows["time"][i], rows["extension"][i], rows["load"][i]) for name, rows, i in found]
+    all_marks.append(end_of(run.curve.tested()))
+    if run.time_of_break() is not None:
+        all_marks[-1].load = np.nan
+    return together(all_marks, 0.01 * (tested["time"][-1] - tested["time"][0]), 0.05 * float(np.abs(tested["load"]).max()))
 
 
 def end_of(curve):
-    """The mark of a test that ended before anything was pulled."""
+    """The mark at the end, and the only one of a test that ended before anything was pulled."""
     mark = Mark(["end of the test"], curve["time"][-1], curve["extension"][-1], curve["load"][-1])
     mark.letter = "a"
     return mark

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Makes a movie of a test, or of two side by side: the rod above its curve, which is drawn as far as the test has come.
 
-    movie.py RUN [RUN] [--out FILE.mp4] [--seconds S] [--rate FPS] [--color NAME]
+    movie.py RUN [RUN] [--out FILE.mp4] [--seconds S] [--rate FPS] [--color NAME] [--overwrite]
 
 RUN is the folder of a test with shapes.csv (tensile_test --shapes) or test.bag. Two tests are shown at the same time since
 their pull began, with the same colours and the same axes.
@@ -15,6 +15,7 @@ import sys
 
 from failure import CannotReport, in_one_line
 from make_report import PACKAGES, OneLineParser
+from new_file import files_of, why_not
 
 SIZE = (1920, 1080)
 NAMES = ("tension", "curvature", "twist", "contact_force")
@@ -27,6 +28,7 @@ def asked():
     parser.add_argument("--seconds", type=float, default=12.0, help="that the movie takes [12]")
     parser.add_argument("--rate", type=int, default=25, help="pictures a second [25]")
     parser.add_argument("--color", choices=NAMES, default="tension", help="what the colours show [tension]")
+    parser.add_argument("--overwrite", action="store_true", help="write over a file that exists")
     found = parser.parse_args()
     if len(found.runs) > 2:
         parser.error(f"{found.runs[2]}: two runs have room side by side")
@@ -35,6 +37,8 @@ def asked():
             parser.error(f"{folder}: no such folder")
     if not found.out.endswith(".mp4"):
         parser.error(f"--out {found.out}: the name of the file must end with .mp4")
+    if why := why_not(found.out, [file for folder in found.runs for file in files_of(folder)], found.overwrite):
+        parser.error(f"--out: {why}")
     if not 1 <= found.rate <= 120:
         parser.error(f"--rate {found.rate}: from 1 to 120 are allowed")
     if not 1.0 <= found.seconds * found.rate <= 1e5:

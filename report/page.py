@@ -2,11 +2,12 @@
 import logging
 import os
 import re
+from html import escape
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from certificate import certificate, specification_checks, specification_verdict, verdict
-from comparison import READINGS, Comparison, run_beside
+from comparison import READINGS, Comparison
 from comparison_figures import overlay
 from curve_figures import course, force_extension
 from error_band import error_band
@@ -16,14 +17,15 @@ from largest_load import largest_load
 from marks import end_of, marks_of, time_of_break
 from method_facts import knot_of, method_facts, program
 from is_number import is_number
-from quantities import error_shown, percent, quantity_of, shown, with_unit
+from quantities import error_shown, number, percent, quantity_of, shown, with_unit
 from results_table import results_table, short_label
 from rod_pictures import pictures
 from run import Run, printable
-from shapes import series_of, shapes_at
+from sentences import all_in_units, in_units
+from shapes import final_shape, series_of, shapes_at
 from style import LOOKS, embedded
 from turnable import turnable
-from units import Units
+from typefaces import told, without_typeface
 
 FILES = [
     ("curve.csv", "load, extension and knot distance at every reading of the load cell"),
@@ -58,12 +60,14 @@ def report_on_run(folder, command, version):
     run = Run(folder)
     marks = marks_of(run)
     largest = largest_load(run)
-    checks = certificate(run.result)
+    checks = certificate(run.result, run.has_knot())
     asked = specification_checks(run.method, run.result, run.units)
     words, good = verdict(checks)
-    results, unmeasured = results_table(run.result, run.units, words_of_largest(largest))
+    results, unmeasured = results_table(run, words_of_largest(largest))
+    told = {key: in_units(run.result[key], run.units) for key in ("reason",) if run.result.get(key)}
     return render("run.html.j2", {
-        **figures_of(run, marks), "marks": marks, "largest": largest, "run": run, "result": run.result,
+        **figures_of(run, marks), "marks": marks, "largest": largest, "run": run,
+        "result": {**run.result, **told, "warnings": all_in_units(run.result.get("warnings") or [], run.units)},
         "title": f"{knot_of(run.method)}, {run.method['material'].get('name', 'own material')}",
         "head": [*head_of(run.report), *particulars(run.report, run.method, run.value("gauge_length"), run.units)],
         "report": run.report, "logo": logo_of(run), "headlines": headlines(run, largest),
@@ -73,7 +77,8 @@ def report_on_run(folder, command, version):
         "asked": asked, "asked_verdict": specification_verdict(run.result, asked),
         "band": error_band(run, run.pull()) is not None, "floor": run.load_cell_floor(),
         "compliant": run.curve.has_compliant_frame(), "si": run.units.are_default,
-        "largest_load": with_unit(run.value("peak_force"), run.units.force),
+        "largest_load": with_unit(run.value("peak_force"), run.units.force), "between": between_readings(run),
+        "given": run.given_strength(), "not_predicted": run.not_predicted(),
         "files": files_of(folder), "command": printable(command), "version": version, "folder": printable(folder)})
 
 
@@ -86,7 +91,7 @@ def figures_of(run, marks):
         found["course"] = [course(run, look) for look in LOOKS]
         shown_at = marks or [end_of(run.curve)]
         series, found["note"] = series_of(run)
-        shapes = shapes_at(series, [mark.time for mark in shown_at], time_of_break(shown_at))
+        shapes = shapes_at(series, [mark.time for mark in shown_at], time_of_break(shown_at), final_shape(run))
         found["pictures"] = [pictures(run, shown_at[-len(shapes):], shapes, look) for look in LOOKS]
         found["turnable"] = turnable(run, series, marks)
     return found
@@ -97,6 +102,13 @@ def words_of_largest(largest):
     if largest is None:
         return "Largest load"
     return f"{'Peak force' if largest.is_peak else 'Largest load'}, {largest.where}"
+
+
+def between_readings(run):
+    """The largest load of the line that is drawn, where it is seen to be larger than the largest reading; else None."""
+    line, peak = run.tested()["load"].max(initial=0.0), run.value("peak_force")
+    texts = [with_unit(value, run.units.force) for value in (float(line), peak)]
+    return texts[0] if peak is not None and line > peak and texts[0] != texts[1] else None
 
 
 HEAD = (("specimen_id", "Specimen"), ("operator", "Operator"), ("customer", "Customer"), ("date", "Date"),
@@ -137,25 +149,47 @@ def headlines(run, largest):
         value, error = run.value(key), run.value(key + "_error")
         if value is not None:
             unit = run.units.of(quantity_of(key).kind)
-            remark = largest.where if key == "peak_force" and largest else ""
+            remark = largest.where if key == "peak_force" and largest else \
+                range_of_plateau(run) if key == "plateau_force" else ""
             found.append(Headline(short_label(run.result, key, largest), shown(value, unit.scale, error),
                                   error_shown(error, unit.scale), unit.name, remark))
     return found
 
 
+RISES = 0.5  # of a plateau's range, that its slope over the way accounts for
+
+
+def range_of_plateau(run):
+    """Where its force is not the same all along."""
+    low, high, slope = (run.value("plateau_force_" + name) for name in ("low", "high", "slope"))
+    if low is None or high is None:
+        return ""
+    unit = run.units.force
+    ends = [number(float(f"{end * unit.scale:.1e}")) for end in (low, high)]
+    if ends[0] == ends[1]:
+        return ""
+    end = run.value("lock_extension_by_load")
+    way = 0.5 * (end if end is not None else float(run.pull()["extension"][-1]))  # from 0.3 to 0.8
+    rises = slope is not None and slope * way > RISES * (high - low)
+    return f"{'rises from' if rises else 'between'} {ends[0]} {'to' if rises else 'and'} {ends[1]} {unit.name}"
+
+
 def report_on_comparison(folder, command, version):
-    comparison, units = Comparison(folder), Units()
+    comparison = Comparison(folder)
+    units = comparison.units
     rising = [name.upper() for name in ("a", "b") if comparison.ends_at_its_largest_load(name)]
     rows = [comparison_row(comparison, key, units) for key in READINGS if has_either(comparison.facts.get(key))]
-    length = units.length.scale
+    length, force = units.length.scale, units.force.scale
     return render("comparison.html.j2", {
         "title": "Comparison of two curves", "facts": comparison.facts,
         "curves": [overlay(comparison, look) for look in LOOKS], "rows": rows,
-        "rising": rising, "sides": [(name.upper(), printable(file), *side_facts(run_beside(file)))
+        "rising": rising, "sides": [(name.upper(), printable(file), *side_facts(comparison.runs[name], units))
                                     for name, file in comparison.files.items()],
         "unmeasured": [key for key in READINGS if key in comparison.facts and not has_either(comparison.facts[key])],
         "common": [shown(s, length) for s in comparison.facts["common_extension"]],
-        "rms": shown(comparison.number("rms_difference")), "largest": shown(comparison.number("largest_difference")),
+        "force": units.force.name, "length": units.length.name, "si": units.are_default,
+        "rms": shown(comparison.number("rms_difference"), force),
+        "largest": shown(comparison.number("largest_difference"), force),
         "share": percent(comparison.number("rms_difference_over_load")),
         "largest_at": shown(comparison.number("largest_difference_at"), length), "files": files_of(folder),
         "command": printable(command), "version": version, "folder": printable(folder)})
@@ -174,14 +208,13 @@ def comparison_row(comparison, key, units):
               for part in ("a", "b", "difference")), percent(both.get("relative")))
 
 
-def side_facts(beside):
+def side_facts(run, units):
     """What a curve is from, and what its run warns of."""
-    if beside is None:
+    if run is None:
         return "This curve is a file of its own: no run of knot_utm stands beside it.", []
-    method, result = beside
-    words = (f"This curve was simulated: {knot_of(method)}, {method['material'].get('name', 'own material')}, knot_utm "
-             f"{result.get('version')}, ended by {result.get('ended_by')}.")
-    return words, result.get("warnings") or []
+    words = (f"This curve was simulated: {knot_of(run.method)}, {run.method['material'].get('name', 'own material')}, knot_utm "
+             f"{run.result.get('version')}, ended by {run.result.get('ended_by')}.")
+    return words, all_in_units(run.result.get("warnings") or [], units)
 
 
 def files_of(folder):
@@ -190,10 +223,15 @@ def files_of(folder):
             if name.startswith("report.") or os.path.exists(os.path.join(folder, name))]
 
 
+PLACE_OF_LINE = "<!-- characters that cannot be shown -->"  # in base.html.j2
+
+
 def render(template, content):
     environment = Environment(loader=FileSystemLoader(os.path.dirname(os.path.abspath(__file__))), autoescape=True,
                               undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True)
-    return environment.get_template(template).render(content)
+    page = environment.get_template(template).render(content)
+    line = told(without_typeface(page))
+    return page.replace(PLACE_OF_LINE, f'<p class="box warnings">{escape(line)}</p>' if line else "", 1)
 
 
 def write(folder, html):

@@ -13,7 +13,7 @@ class Quantity:
 
 
 # How a unit of result_keys.csv is shown, where the page has one of its own for it.
-KINDS = {"N": "force", "m": "length", "N/m": "stiffness", "bytes": "memory", "-": "", "0 to 1": "", "of the radius": "",
+KINDS = {"N": "force", "m": "length", "N/m": "stiffness", "m/s": "speed", "bytes": "memory", "-": "", "0 to 1": "", "of the radius": "",
          "of the gauge length": "percent", "of the strength without a knot": "percent"}
 # Groups that are no table of results: what they hold has another place on the page.
 HEAD, BESIDE, CERTIFICATE = "head", "beside", "certificate"
@@ -49,6 +49,9 @@ def quantity_of(key):
     return Quantity(label)
 
 
+NOTHING = 1e-12  # of a reading in SI: what is smaller is rounding
+
+
 def shown(value, scale=1.0, error=None):
     """A value of any kind as text. A number has four digits, or as many as its error leaves meaningful."""
     if value is None:
@@ -58,7 +61,7 @@ def shown(value, scale=1.0, error=None):
     if isinstance(value, int) and scale == 1.0:
         return str(value)
     if isinstance(value, (int, float)):
-        return number(value * scale, None if error is None else error * scale)
+        return "0" if abs(value) < NOTHING else number(value * scale, None if error is None else error * scale)
     if isinstance(value, dict):
         return ", ".join(f"{name.replace('_', ' ')} {shown(part)}" for name, part in value.items()) or "–"
     if isinstance(value, (list, tuple)):
@@ -77,7 +80,7 @@ def number(value, error=None):
     if -3 < decimals <= 7 or (error is not None and decimals <= 7):
         text = f"{value:.{max(decimals, 0)}f}"
         text = text.rstrip("0").rstrip(".") if error is None and "." in text else text
-        return text.replace("-", "–")
+        return text.replace("-", "–" if float(text) else "")  # never "–0.00"
     mantissa, exponent = f"{value:.3e}".split("e")
     return f"{mantissa.rstrip('0').rstrip('.')} · 10{superscript(int(exponent))}".replace("-", "–")
 

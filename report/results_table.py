@@ -1,17 +1,20 @@
 """result.yaml as a table: every key that has a value has its place, also those that this file has never heard of."""
 from certificate import stiffness_name
 from quantities import CERTIFICATE, GROUPS, HEAD, TABLES, error_shown, quantity_of, shown
+from sentences import in_units
 
 
 class Row:
     """`keys`: of result.yaml, that this row shows: a reading, its numerical error, and the true force beside it."""
 
-    def __init__(self, result, key, units, label):
+    def __init__(self, result, key, units, label, value=None):
         quantity, error, true = quantity_of(key), result.get(key + "_error"), "true_" + key
         unit = units.of(quantity.kind)
-        self.label, self.is_text = label or quantity.label, isinstance(result[key], str)
+        self.label, self.is_text = label or quantity.label, isinstance(result[key], str) or value is not None
         self.keys = [name for name in (key, key + "_error", true) if name in result]
-        self.value, self.error = shown(result[key], unit.scale, error), error_shown(error, unit.scale)
+        self.value, self.error = value or shown(result[key], unit.scale, error), error_shown(error, unit.scale)
+        if isinstance(result[key], str):
+            self.value = in_units(self.value, units)
         self.true = shown(result[true], unit.scale, error) if result.get(true) is not None else ""
         self.unit = "" if isinstance(result[key], (str, bool, dict)) else unit.name
 
@@ -27,7 +30,7 @@ class Group:
 
 
 # What stands for no value where it is not null.
-NOTHING = {"break_place": "none", "cycles": 0}
+NOTHING = {"break_place": "none", "cycles": 0, "motion_pattern_confidence": 0}
 
 
 def has_value(result, key):
@@ -49,13 +52,15 @@ def short_label(result, key, largest):
     return name[:1].upper() + name[1:]
 
 
-def results_table(result, units, peak):
+def results_table(run, peak):
     """Groups of rows, those with a label first, and the keys of which this test has no value."""
-    labels = labels_of(result, peak)
+    result, units = run.result, run.units
+    labels, words = labels_of(result, peak), {key: "not predicted" for key in run.not_predicted()}
     placed = {*GROUPS[HEAD], *GROUPS[CERTIFICATE]}  # the page says them elsewhere
     groups = []
     for title in TABLES:
-        rows = [Row(result, key, units, labels.get(key)) for key in GROUPS[title] if has_value(result, key)]
+        rows = [Row(result, key, units, labels.get(key), words.get(key))
+                for key in GROUPS[title] if has_value(result, key) or key in words]
         groups.append(Group(title, rows))
         placed.update(key for row in rows for key in row.keys)
     folded = {name for key in result for name in (key + "_error", "true_" + key) if has_value(result, key)}

@@ -131,7 +131,9 @@ def frame(axes, box, size, lower):
 
 
 def label(axes, mark, shape, run):
-    at = float(np.interp(shape.time, run.curve["time"], run.curve["extension"]))
+    tested = run.tested()  # a zeroing lets the extension jump; before it a shape is where the test begins
+    curve = tested if len(tested) else run.curve
+    at = float(np.interp(shape.time, curve["time"], curve["extension"]))
     place = {"xy": (0.0, 1.0), "xycoords": "axes fraction", "textcoords": "offset points", "va": "baseline", "color": INK}
     axes.annotate(mark.letter, xytext=(3, -11), fontsize=USUAL + 2.0, weight="bold", **place)
     axes.annotate(f"{mark.title()}: s = {with_unit(at, run.units.length)}", xytext=(16, -11), fontsize=USUAL, **place)

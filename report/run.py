@@ -1,12 +1,14 @@
 """A test as tensile_test or the recorder left it in a folder."""
 import csv
 import os
+import re
 
 import numpy as np
 import yaml
 
 from failure import CannotReport
 from is_number import is_number
+from quantities import with_unit
 from units import units_of
 
 
@@ -64,6 +66,7 @@ class Run:
         self.report = texts_of(os.path.join(folder, "method.yaml"), "report")
         self.units = units_of(self.report)
         self.result = read_yaml(os.path.join(folder, "result.yaml"))
+        self.reasons = reasons_in(os.path.join(folder, "result.yaml"))
         self.readings = read_curve(os.path.join(folder, "curve.csv"))
         self.curve = read_curve(os.path.join(folder, "curve_full.csv"))
 
@@ -72,10 +75,41 @@ class Run:
         value = self.result.get(key)
         return value if is_number(value) else None
 
+    def has_knot(self):
+        return self.reasons.get("knot_efficiency") != "there is no knot"
+
+    def given_strength(self):
+        """The breaking force of the material with its unit, where the rod parted at it; else None. What is read at such a
+        break follows from it."""
+        force = self.method["material"].get("breaking_force")
+        parted = self.value("break_extension") is not None and "at a tension of" in (self.result.get("reason") or "")
+        return with_unit(force, self.units.force) if parted and is_number(force) else None
+
+    def not_predicted(self):
+        """Keys whose value would only repeat what was given."""
+        return [key for key, why in self.reasons.items() if why.startswith("not predicted")]
+
     def pull(self):
         """The pull, up to the break."""
         pull, broke = self.curve.pull(), self.value("break_extension")
         return pull if broke is None else pull.where(pull["extension"] <= broke)
+
+    def time_of_break(self):
+        """[s]; None: the rod is whole. Of the rows at the extension of the break it is the one behind which the load
+        falls."""
+        broke = self.value("break_extension")
+        if broke is None or not len(self.curve):
+            return None
+        load, away = self.curve["load"], np.abs(self.curve["extension"] - broke)
+        rows = np.flatnonzero(away <= np.nanmin(away) + 1e-9)
+        falls = load[rows] - load[np.minimum(rows + 1, len(load) - 1)]
+        return float(self.curve["time"][rows[np.argmax(falls)]])
+
+    def tested(self, curve=None):
+        """The rows of the test proper, up to the break: behind it no force is known. `curve`: the one of all time steps,
+        or `readings`."""
+        tested, broke = (self.curve if curve is None else curve).tested(), self.time_of_break()
+        return tested if broke is None else tested.where(tested["time"] <= broke)
 
     def offset(self):
         """True force less load [N]."""
@@ -110,6 +144,11 @@ def read_yaml(file, errors="strict"):
     if not isinstance(content, dict):
         raise CannotReport(f"{file}: a map is needed")
     return content
+
+
+def reasons_in(file):
+    """Why values of a file are null, by key, as the program says it behind them."""
+    return dict(re.findall(r"^(\w+): null  # (.*)$", read_text(file), re.MULTILINE))
 
 
 def texts_of(file, key):

@@ -2,11 +2,15 @@
 import base64
 import io
 import logging
+import warnings
 
 import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+import matplotlib.text  # noqa: E402
+
+from typefaces import further_families  # noqa: E402
 
 INK, GREY, FAINT = "#22303c", "#5f6e7b", "#d9e0e6"
 BLUE, ORANGE, GREEN, VIOLET, RED, GOLD = "#1f5f99", "#b95a15", "#2a7554", "#6d4a9c", "#a02020", "#806416"
@@ -36,6 +40,7 @@ LOOKS = (WIDE, NARROW)
 
 # A typeface that is not there is replaced by the next one: no news.
 logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
+warnings.filterwarnings("ignore", message="Glyph .* missing from")  # the page tells which
 plt.rcParams.update({
     "svg.hashsalt": "knot_utm", "svg.fonttype": "path",
     "font.family": ["Liberation Sans", "Arial", "DejaVu Sans"], "font.size": USUAL, "mathtext.fontset": "dejavusans",
@@ -64,6 +69,9 @@ def as_png(figure, dpi):
 
 
 def data_uri(figure, kind, **how):
+    for text in figure.findobj(matplotlib.text.Text):
+        if further := further_families(text.get_text()):
+            text.set_fontfamily([*plt.rcParams["font.family"], *further])
     out = io.BytesIO()
     figure.savefig(out, **how)
     plt.close(figure)

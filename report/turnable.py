@@ -78,7 +78,7 @@ def coloured(scale, shapes):
 
 def curve_of(run):
     """Load over extension in the units of the page; None: nothing was tested."""
-    tested = run.curve.tested()
+    tested = run.tested()
     if not len(tested):
         return None
     extension, load = run.units.length.scale * tested["extension"], run.units.force.scale * tested["load"]
@@ -98,11 +98,14 @@ def axis(values, label, most):
 
 
 def state(run, shape):
-    """What is said of a shape, and where it lies on the curve; None: the test proper has not begun."""
-    curve, tested = run.curve, run.curve.tested()
+    """What is said of a shape, and where it lies on the curve; None: the test proper has not begun, or the rod has
+    parted."""
+    curve, tested = run.curve, run.tested()
     phase = curve.phase[min(int(np.searchsorted(curve["time"], shape.time)), len(curve) - 1)]
     words, place = f"{phase}, {shape.time:.2f} s", None
-    if len(tested) and shape.time >= tested["time"][0]:
+    if len(tested) and shape.time > tested["time"][-1] and run.time_of_break() is not None:
+        words += ": the rod has parted"
+    elif len(tested) and shape.time >= tested["time"][0]:
         extension, load = (float(np.interp(shape.time, tested["time"], tested[name])) for name in ("extension", "load"))
         place = [run.units.length.scale * extension, run.units.force.scale * load]
         words += f": s = {with_unit(extension, run.units.length)}, F = {with_unit(load, run.units.force)}"

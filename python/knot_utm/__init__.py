@@ -3,20 +3,25 @@ over (sweep), the values with which a test produces a measured curve (fit). doc/
 import importlib
 import pkgutil
 
+from knot_utm import spelling
+
 # The messages of ROS are in the same package, elsewhere on the path: knot_utm.msg is theirs.
 __path__ = pkgutil.extend_path(__path__, __name__)
 
 # Which module has a name. It is imported when the name is first used: the messages alone need no pandas.
-_MODULES = {"Batch": "batches", "Interrupted": "errors", "Run": "runs", "WrongInput": "errors", "batch": "batches",
-            "fit": "finding", "read": "runs", "read_batch": "batches", "run": "runs", "sweep": "sweeping"}
+_MODULES = {"Batch": "batches", "Interrupted": "errors", "Run": "runs", "RunFailed": "errors", "RunWarning": "errors",
+            "WrongInput": "errors", "batch": "batches", "fit": "finding", "read": "runs", "read_batch": "batches", "run": "runs",
+            "sweep": "sweeping"}
 __all__ = list(_MODULES)
 
 
 def __getattr__(name):
+    if name == "__version__":
+        return importlib.import_module(f"{__name__}.tool").package_version()
     if name not in _MODULES:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}{spelling.hint(name, _MODULES)}")
     return getattr(importlib.import_module(f"{__name__}.{_MODULES[name]}"), name)
 
 
 def __dir__():
-    return sorted({*globals(), *_MODULES})
+    return sorted({*globals(), *_MODULES, "__version__"})

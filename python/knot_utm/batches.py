@@ -1,23 +1,27 @@
 """A batch: several specimens of one method, made and read."""
 import functools
 import os
+import warnings
 from dataclasses import dataclass
 
 import pandas as pd
 
 from knot_utm import tool
-from knot_utm.errors import WrongInput
+from knot_utm.errors import RunWarning, WrongInput
+from knot_utm.readings import Readings, shown
 from knot_utm.runs import make, read, read_table
 from knot_utm.yaml_text import load
 
 STATISTICS = "statistics.yaml"
 
 
-@dataclass(frozen=True)
-class Batch:
+@dataclass(frozen=True, eq=False, repr=False)
+class Batch(Readings):
     """What a batch left in its folder (doc/results.md). `statistics`: a row for each reading with mean, sd, cv, low, high,
     minimum, maximum and n over the specimens that count; `specimens`: a row for each of them with what was drawn, how it ended
-    and its readings. Both have their units in `.attrs["units"]`, by reading and column. `rejected`: {specimen: why}."""
+    and its readings. Both have their units in `.attrs["units"]`, by reading and column. `rejected`: {specimen: why}.
+
+    A batch is a dict of its statistics, too: batch["peak_force"]["mean"]."""
 
     folder: str
     method: dict
@@ -30,16 +34,42 @@ class Batch:
         """[Run] of all specimens, in order."""
         return [read(os.path.join(self.folder, f"specimen_{number:03d}")) for number in self.specimens.index]
 
+    @property
+    def _readings(self):
+        return self.statistics
 
-def batch(method, out, specimens=8, jobs=None, **overrides):
+    @property
+    def warnings(self):
+        """{specimen: [text]} of what the tests of specimens warned of, without those that had nothing to warn of."""
+        return {number: run.warnings for number, run in zip(self.specimens.index, self.runs) if run.warnings}
+
+    def plot(self, axes=None, **style):
+        """Draws load over extension of all specimens that count. Returns the axes of Matplotlib."""
+        for run, rejected in zip(self.runs, self.specimens["rejected"]):
+            if not rejected:
+                axes = run.plot(axes, **style)
+        return axes
+
+    def __repr__(self):
+        count = len(self.specimens)
+        peak = shown(self.statistics.loc["peak_force", "mean"], self.statistics.attrs["units"]["peak_force"])
+        return f"<Batch {self.folder}: {count - len(self.rejected)} of {count} specimens count, mean largest load {peak}>"
+
+
+def batch(method, out, specimens=8, jobs=None, overwrite=False, **overrides):
     """Tests so many specimens of a method's file, or of a shipped method by its name, and reads what they left in `out`.
 
     How they scatter, the method's key `specimens` says (doc/method.md). `jobs`: tests at a time, unless given as many as there are
-    cores; the numbers are the same. `overrides` and what it raises: as `run`."""
+    cores; the numbers are the same. `overwrite`, `overrides`, warnings and what it raises: as `run`; it raises RunFailed where no
+    specimen counts."""
     if specimens < 2:
         raise WrongInput(f"specimens is {specimens}, but a batch has at least 2: knot_utm.run tests one")
-    make(method, out, specimens, STATISTICS, overrides, *(["--jobs", str(jobs)] if jobs is not None else []))
-    return read_batch(out)
+    made = make(method, out, specimens, overrides, overwrite, *(["--jobs", str(jobs)] if jobs is not None else []))
+    left = read_batch(out) if made.has(STATISTICS) else None
+    for line in made.said if left else ():
+        warnings.warn(line, RunWarning, stacklevel=2)
+    made.require_success(left)
+    return left
 
 
 def read_batch(folder):

@@ -7,7 +7,7 @@ from knot_utm import method_keys, tool
 from knot_utm.errors import WrongInput
 from knot_utm.fitting.curves import is_own, read_other, read_own
 from knot_utm.fitting.errors import require_known
-from knot_utm.fitting.files import write_fit, write_report
+from knot_utm.fitting.files import WRITTEN, write_fit, write_report
 from knot_utm.fitting.keys import method_key, offset_key, parse_free
 from knot_utm.fitting.records import Record
 from knot_utm.fitting.runs import EXACT_CELL, Runs, read_model
@@ -19,21 +19,23 @@ from knot_utm.yaml_text import described, value_of
 WITHIN = 0.4321  # a place within a range, where a whole number is unlikely
 
 
-def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, command=None, report=True):
+def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, command=None, report=True, reading=(),
+        overwrite=False):
     """Finds the values of the free keys and returns them as fitting.verdict.Fitted.
 
     `measured`: a curve.csv, or what else `compare` reads; `free`: ["KEY" or "KEY=low:high"]; `settings`: {key: value} over the
     method; `also`: [(measured, {key: value})], more records and what is other for them; `out`: the folder for fit.yaml,
     method.yaml and, with `report`, report.html, unless given out/ and the name of the measured file; `command`: that the page
-    names. Raises WrongInput where it cannot be fitted, before anything is written; Interrupted where it was cut short."""
+    names; `reading`: options of `compare` with which raw data are read, such as ["--units", "load=lbf"]; `overwrite`: whether
+    another fit in the folder is replaced. Raises WrongInput where it cannot be fitted, before anything is written; Interrupted where it was cut short."""
     name = os.path.splitext(os.path.basename(os.fspath(measured)))[0]
     out = os.path.abspath(out or os.path.join("out", name + "_fit"))
-    _require_room(out)
     method = tool.find_method(os.fspath(method), os.getcwd())
+    _require_room(out, [os.fspath(measured), *(os.fspath(file) for file, _ in also), method], overwrite)
     asked = [(os.fspath(measured), dict(settings or {}))]
     asked += [(os.fspath(file), {**(settings or {}), **more}) for file, more in also]
     with Runs(jobs or len(os.sched_getaffinity(0))) as runs:
-        fitted = _Fit(runs, method, asked, [parse_free(word) for word in free]).go()
+        fitted = _Fit(runs, method, asked, [parse_free(word) for word in free], reading).go()
     write_fit(out, fitted, [fitted_method(method, given, fitted) for _, given in asked])
     if report:
         write_report(out, command or "knot_utm.fit in Python")
@@ -41,8 +43,9 @@ def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, com
 
 
 class _Fit:
-    def __init__(self, runs, method, asked, free):
+    def __init__(self, runs, method, asked, free, reading):
         self.runs = runs
+        self.reading = reading
         self.method = method
         if not free:
             raise WrongInput("--free is missing: say which keys may move")
@@ -84,7 +87,10 @@ class _Fit:
         records = []
         for (file, given), pull in zip(asked, pulls):
             folder = self.runs.whole(self.method, given, "--specimens", "1")
-            record = Record(file, pull or read_other(file, os.path.join(folder, "curve.csv")), given)
+            notes = []
+            if pull is None:
+                pull, notes = read_other(file, os.path.join(folder, "curve.csv"), self.reading)
+            record = Record(file, pull, given, notes)
             record.require_producible(read_model(folder))
             records.append(record)
             shutil.rmtree(folder)
@@ -145,9 +151,16 @@ def _require_keys(free, asked):
         method_keys.require_known(given, f"--also {file}: ")
 
 
-def _require_room(out):
+def _require_room(out, inputs, overwrite):
     if os.path.exists(os.path.join(out, "result.yaml")):
         raise WrongInput(f"{out} holds a run: choose another folder")
+    for file in (os.path.join(out, name) for name in WRITTEN):
+        if not os.path.exists(file):
+            continue
+        if any(os.path.exists(one) and os.path.samefile(file, one) for one in inputs):
+            raise WrongInput(f"{file} is an input, and would be written over: choose another folder")
+        if not overwrite:
+            raise WrongInput(f"{file} exists already: choose another folder, or --overwrite")
     try:
         os.makedirs(os.path.dirname(out), exist_ok=True)
         if os.path.exists(out) and not os.path.isdir(out):

@@ -13,6 +13,7 @@ from knot_utm.finding import fit
 from knot_utm.yaml_text import value_of
 
 PROGRAM = tool.program("fit")
+READING = ("columns", "units", "specimen")  # of raw data, as compare takes them
 
 
 def main(words):
@@ -21,7 +22,7 @@ def main(words):
     try:
         also = [(file, _settings(more, "--also")) for file, *more in asked.also]
         fitted = fit(asked.measured, asked.method, asked.free, asked.out, _settings(asked.set, "--set"), also, asked.jobs,
-                     shlex.join([PROGRAM, *words]), not asked.no_report)
+                     shlex.join([PROGRAM, *words]), not asked.no_report, _reading(asked), asked.overwrite)
     except WrongInput as wrong:
         return say(PROGRAM, wrong, 2)
     except KeyboardInterrupt:
@@ -50,12 +51,22 @@ def _settings(words, option):
     return found
 
 
+def _reading(asked):
+    """The options of `compare` for raw data."""
+    words = [f"--{name}={value}" for name in READING if (value := getattr(asked, name)) is not None]
+    return words + ([] if asked.invert is None else [f"--invert={asked.invert}"])
+
+
 def _arguments(words):
     parser = parser_of(PROGRAM, "measured", "method")
     parser.add_argument("--free", action="extend", nargs="+", default=[])
     parser.add_argument("--also", action="append", nargs="+", default=[])
     parser.add_argument("--set", action="append", default=[])
     parser.add_argument("--no-report", action="store_true")
+    parser.add_argument("--overwrite", action="store_true")
+    for name in READING:
+        parser.add_argument(f"--{name}")
+    parser.add_argument("--invert", nargs="?", const="falling")
     return parsed(parser, words)
 
 

@@ -15,15 +15,15 @@ CANDIDATES = 32  # times as many as are chosen
 
 def refine(study, out, runs, seed=1):
     """Makes a study of the runs of another one, whose sweep is in `out`, and as many more where the motion pattern of the nearest
-    runs is least certain. Returns the path of the study, `out`/refined.yaml. Raises WrongInput where it varies no two numbers."""
+    runs is least certain. Returns the path of the study, `out`/refined.yaml, or refined-2.yaml and so on where that is taken. Raises WrongInput where it varies no two numbers."""
     sweep = Sweep(study, out)
     table = sweep.table()
     numbers, words = axes.numbers_and_words(table, sweep.study.keys, sweep.study.cases)
     if len(numbers) < 2 or words or sweep.study.repeat > 1 or sweep.study.cases:
         raise WrongInput(f"{study}: refined are studies that vary two numbers or more, without words, for_each or repeat")
     chosen = more_points(table, numbers, runs, seed, sweep.study.below)
-    path = os.path.join(sweep.folder.path, "refined.yaml")
-    with open(path, "w", encoding="utf-8") as file:
+    path = _free(os.path.join(sweep.folder.path, "refined"))
+    with open(path, "x", encoding="utf-8") as file:
         yaml.safe_dump(_as_study(sweep, numbers, chosen), file, sort_keys=False, default_flow_style=None, width=120)
     return path
 
@@ -43,6 +43,14 @@ def more_points(table, numbers, count, seed, below=()):
         raise WrongInput(f"the pattern changes too seldom for {count} more runs: at most {np.count_nonzero(doubt)}")
     chosen = np.random.default_rng(seed).choice(len(candidates), count, replace=False, p=doubt / doubt.sum())
     return dict(zip(numbers, values[np.sort(chosen)].T))
+
+
+def _free(stem):
+    """The first name that is not taken: a refined study may be refined again."""
+    number = 1
+    while os.path.lexists(path := stem + (".yaml" if number == 1 else f"-{number}.yaml")):
+        number += 1
+    return path
 
 
 def _as_study(sweep, numbers, chosen):

@@ -1,6 +1,5 @@
 """The command line of a sweep; scripts/sweep has its words."""
 import os
-import shlex
 import sys
 
 from knot_utm import tool
@@ -26,7 +25,7 @@ def main(words):
     except WrongInput as wrong:
         return say(PROGRAM, wrong, 2)
     except (Interrupted, OSError) as error:
-        return say(PROGRAM, f"{error}; the same command goes on: {PROGRAM} {shlex.join(words)}", 1)
+        return say(PROGRAM, f"{error}; the same command goes on: {tool.command_to_paste('sweep', words)}", 1)
     except RuntimeError as error:
         return say(PROGRAM, error, 1)
     return 0

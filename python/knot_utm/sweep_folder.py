@@ -19,6 +19,7 @@ STATISTICS = "statistics.yaml"  # of a batch of specimens
 CURVE = "curve_full.csv"
 CURVE_COLUMNS = ("time", "extension", "load", "knot_distance", "phase")
 METHOD = "method.yaml"
+TABLES = ("table.csv", "table.h5")  # of all runs
 
 
 class SweepFolder:
@@ -27,6 +28,8 @@ class SweepFolder:
     def __init__(self, path):
         self.path = path
         self.runs = os.path.join(path, "runs")
+        if not os.path.isdir(self.runs) and (taken := [name for name in TABLES if os.path.lexists(os.path.join(path, name))]):
+            raise WrongInput(f"{os.path.join(path, taken[0])} exists already and is not of a sweep: choose another folder")
         self._tied = os.path.join(path, "tied")
 
     @contextlib.contextmanager

@@ -78,7 +78,7 @@ class Sweep:
                    for name in set(self.begun))
 
     def _work(self):
-        work = Work(self.study, self.folder, self.beginnings)
+        work = Work(self.study, self.folder, list(self.runs), self.beginnings)
         self.begun = work.begun
         return work
 

@@ -3,6 +3,8 @@ import csv
 import errno
 import functools
 import os
+import re
+import shlex
 import shutil
 import subprocess
 
@@ -40,13 +42,32 @@ def _folders_of_tools():
 
 
 def program(name):
-    """How a user calls a command of this package."""
-    return f"scripts/{name}" if IN_SOURCES else f"python3 -m knot_utm.{name}_command"
+    """How a user calls a command of this package from the current folder."""
+    if not IN_SOURCES:
+        return f"python3 -m knot_utm.{name}_command"
+    script = os.path.join(SHARE, "scripts", name)
+    near = os.path.relpath(script)
+    return script if near.startswith(os.pardir) else near
+
+
+def command_to_paste(name, words):
+    """The same with its words, as a shell reads it."""
+    called = program(name)
+    return " ".join([shlex.quote(called) if IN_SOURCES else called, shlex.join(words)])
 
 
 @functools.cache
 def version():
     return _said("--version").strip()
+
+
+def package_version():
+    """Of this package. An installation without ROS has no package.xml, so that its programs are asked."""
+    try:
+        with open(os.path.join(SHARE, "package.xml"), encoding="utf-8") as file:
+            return re.search(r"<version>\s*([^\s<]+)", file.read())[1]
+    except FileNotFoundError:
+        return version()
 
 
 @functools.cache
@@ -110,8 +131,12 @@ def key_units(method, settings):
 
 def said_by(stderr):
     """The last line that tensile_test said, without its name."""
-    lines = stderr.strip().splitlines()
-    return lines[-1].removeprefix("tensile_test: ") if lines else ""
+    return next(reversed(lines_of(stderr)), "")
+
+
+def lines_of(stderr):
+    """All lines that tensile_test said, without its name."""
+    return [line.removeprefix("tensile_test: ") for line in stderr.strip().splitlines()]
 
 
 def is_of_a_full_disk(said):

@@ -19,9 +19,9 @@ INTERRUPTED = "interrupted"  # the reason of a run that may go on
 class Work:
     """What is done for a study, until it is done or stopped."""
 
-    def __init__(self, study, folder, beginnings):
-        """`beginnings`: {run: (name, Beginning)} of the runs that share one."""
-        self.study, self.folder, self.beginnings = study, folder, beginnings
+    def __init__(self, study, folder, runs, beginnings):
+        """`runs`: the names of all; `beginnings`: {run: (name, Beginning)} of those that share one."""
+        self.study, self.folder, self.runs, self.beginnings = study, folder, runs, beginnings
         self.stopped = None  # why
         self.begun = []  # names of the beginnings that runs began with
         self._live = set()
@@ -53,7 +53,8 @@ class Work:
 
     def require_all(self):
         if self.stopped:
-            raise Interrupted(self.stopped)
+            done = sum(self.folder.is_done(run) for run in self.runs)
+            raise Interrupted(f"{self.stopped}, with {done:,} of {len(self.runs):,} runs done")
 
     def check(self, points, jobs):
         """Raises WrongInput where tensile_test would refuse one of them."""

@@ -19,6 +19,12 @@ ClaimedFolder claim_folder(const std::string& folder, const JournalHeader& heade
   }
 }
 
+std::string free_folder(const std::string& folder) {
+  int number = 1;
+  while (holds_run(numbered_folder(folder, number))) ++number;
+  return numbered_folder(folder, number);
+}
+
 std::string moved_notice(const std::string& asked, const std::string& used) {
   return asked + (holds_unfinished_run(asked) ? " holds a run that has not ended" : " holds a run already") +
          ", which stays as it is; this one is written to " + used;

@@ -35,6 +35,13 @@ std::optional<double> over(const std::optional<double>& value, const std::option
   return value && scale && *scale != 0.0 ? std::optional<double>(*value / std::abs(*scale)) : std::nullopt;
 }
 
+std::string zero_text(const std::optional<RawZero>& zero) {
+  if (!zero) return "own";
+  return "{extension: " + format_yaml_number(zero->extension) + ", load: " + format_yaml_number(zero->load) +
+         ", readings: " + std::to_string(zero->readings) + ", load_there: " + format_yaml_number(zero->load_there) +
+         "}";
+}
+
 std::string flow(const std::optional<double>& a, const std::optional<double>& b) {
   const auto text = [](const std::optional<double>& value) { return value ? format_yaml_number(*value) : "null"; };
   const std::optional<double> change = difference(a, b);
@@ -50,13 +57,17 @@ Comparison compare(const Pull& first, const Pull& second) {
   if (!knows(a) || !knows(b))
     for (Pull* pull : {&a, &b})
       for (PullPoint& point : *pull) point.borne = Sample::kNone;
-  return {curve_readings(a), curve_readings(b), curve_difference(a, b)};
+  return {curve_readings(a), curve_readings(b), curve_difference(a, b), std::nullopt};
 }
 
 std::string comparison_yaml(const Comparison& comparison, const std::string& file_a, const std::string& file_b) {
   YamlLines lines;
   lines.text("a", file_a);
   lines.text("b", file_b);
+  if (comparison.zeros) {
+    lines.word("zero_a", zero_text(comparison.zeros->a));
+    lines.word("zero_b", zero_text(comparison.zeros->b));
+  }
   if (comparison.difference) {
     const CurveDifference& d = *comparison.difference;
     lines.word("common_extension",

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <sstream>
 
 #include "knot_utm/io/raw_data.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "raw_cells.hpp"
+#include "raw_text.hpp"
 
 namespace knot_utm {
 namespace {
@@ -23,19 +26,46 @@ bool is_own(const std::string& content) {
   return time && phase;
 }
 
+/// A curve.csv as a spreadsheet saves it, with a byte order mark, quotes, other separators and a decimal comma, as it
+/// was before. Empty for any other text.
+std::optional<std::string> as_it_was(const std::string& content) {
+  if (!why_no_text(content).empty()) return std::nullopt;
+  const std::string text = meanings_of(content).front();
+  for (const char separator : {',', ';', '\t'}) {
+    std::istringstream rows(text);
+    std::string out;
+    for (std::string row; std::getline(rows, row) && (out.empty() || is_own(out));) {
+      Cells cells = split(row, separator);
+      if (are_empty(cells)) continue;
+      for (std::string& cell : cells)
+        if (separator != ',') std::replace(cell.begin(), cell.end(), ',', '.');
+      for (std::size_t i = 0; i < cells.size(); ++i) out += (i == 0 ? "" : ",") + cells[i];
+      out += '\n';
+    }
+    if (is_own(out)) return out;
+  }
+  return std::nullopt;
+}
+
 bool pulled(const CurveRow& row) { return pulls(row.phase); }
 
 }  // namespace
 
-std::vector<CurveRow> read_curve_file(const std::string& file, const RawColumns& columns) {
+std::vector<CurveRow> read_curve_file(const std::string& file, const RawOptions& options, const Tell& tell) {
   const std::string content = read_input(file);
-  if (!is_own(content)) return read_raw_data(content, file, columns);
-  std::istringstream in(content);
+  if (is_own(content)) {
+    std::istringstream in(content);
+    return read_curve(in, file);
+  }
+  const std::optional<std::string> own = as_it_was(content);
+  if (!own) return read_raw_data(content, file, options, tell);
+  if (tell) tell(file + ": read as a curve.csv that a spreadsheet saved anew");
+  std::istringstream in(*own);
   return read_curve(in, file);
 }
 
-std::vector<CurveRow> read_course(const std::string& file, const RawColumns& columns) {
-  std::vector<CurveRow> rows = read_curve_file(file, columns);
+std::vector<CurveRow> read_course(const std::string& file, const RawOptions& options) {
+  std::vector<CurveRow> rows = read_curve_file(file, options);
   const auto first = std::find_if(rows.begin(), rows.end(), pulled);
   if (first == rows.end()) return {};
   const auto begin = first == rows.begin() ? first : first - 1;

@@ -1,5 +1,6 @@
 #include "knot_utm/io/foreseen.hpp"
 
+#include "knot_utm/io/plausible_rod.hpp"
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/numeric/number.hpp"
@@ -118,6 +119,7 @@ std::vector<std::string> foreseen_warnings(const Method& method) {
   for (const std::string& found : {longer_than_usual(method), near_the_rollers(method)})
     if (!found.empty()) all.push_back(found);
   add_never_reached(method, all);
+  for (const std::string& question : questions_about(method.material)) all.push_back(question);
   return all;
 }
 

@@ -9,6 +9,7 @@
 
 #include "config_library.hpp"
 #include "knot_utm/io/result_yaml.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_defaults.hpp"
@@ -191,10 +192,30 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   return method;
 }
 
+/// Whether a value of this key may be refused only as the rod is laid, which does not take long.
+bool is_soon_laid(const std::string& key, const SpecimenOptions& specimen) {
+  constexpr double kFewEdges = 8000.0;
+  const double length = std::max({specimen.length, specimen.end_to_end, specimen.knot_distance, specimen.tail});
+  const bool may_be = key.rfind("specimen.", 0) == 0 || key == "machine.roller_diameter";
+  return may_be && length < kFewEdges * specimen.edge_length;
+}
+
 }  // namespace
 
 Method load_method(const std::string& file, const std::vector<std::string>& overrides) {
-  return parse_method(read_text(file), file, overrides);
+  const std::string text = read_text(file);
+  try {
+    return parse_method(text, file, overrides);
+  } catch (const OutOfRange& wrong) {
+    if (wrong.file != file) throw;
+    throw narrowed(wrong, [&](const std::string& override) {
+      std::vector<std::string> with = overrides;
+      with.push_back(override);
+      const Method method = parse_method(text, file, with);
+      if (is_soon_laid(wrong.key, method.specimen))
+        TestingMachine(method.specimen, method.material, method.machine, method.physics);
+    });
+  }
 }
 
 Method parse_method(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
@@ -231,6 +252,8 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     keep_own_keys(method);
     keep_automatic(noted, method);
     return method;
+  } catch (const OutOfRange&) {
+    throw;
   } catch (const InvalidInput& invalid) {
     throw invalid.in_file(file);
   } catch (const YAML::Exception& yaml) {

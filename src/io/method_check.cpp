@@ -13,6 +13,7 @@
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/step_settings.hpp"
+#include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -138,13 +139,13 @@ void check_specimen(const Method& m) {
   const SpecimenOptions& s = m.specimen;
   const double h = m.material.radius;
   if (knot_of(s).about().knots > 0 && s.edge_length > 2.0 * h) {
-    reject("specimen.edge_length", s.edge_length, "at most twice the radius, " + format_number(2.0 * h) + " m");
+    reject("specimen.edge_length", s.edge_length, "at most twice the radius, " + most_text(2.0 * h) + " m");
   }
   knot_of(s).check(s, h);
   const double apart = s.end_to_end - 2.0 * h;
   if (m.machine.grips == GripKind::kRollers && !(m.machine.roller_diameter < apart))
     reject("machine.roller_diameter", m.machine.roller_diameter,
-           "less than " + format_number(apart) + " m, specimen.end_to_end less the diameter of the rod");
+           "less than " + most_text(apart) + " m, specimen.end_to_end less the diameter of the rod");
   const std::optional<double>& breaking = m.material.breaking_force;
   if (s.to_be_tied && s.preload && breaking && *breaking <= *s.preload) {
     reject("material.breaking_force", *breaking,
@@ -251,8 +252,12 @@ void check_ends(const Method& m) {
 void check_pull(const Method& m, const ProgramStep& step, const std::string& key) {
   const std::optional<double> longest = knot_of(m.specimen).longest_pull(m.specimen, m.material.radius);
   if (!longest || step.phase != Phase::kPull || !step.until.extension || *step.until.extension <= *longest) return;
+  if (*longest <= 0.0)
+    reject("specimen.tail", m.specimen.tail,
+           "more than " + least_text(m.specimen.tail - *longest) +
+               " m, so that the rod's lower end does not lie on the post");
   reject(key + ".pull.until.extension", *step.until.extension,
-         "at most " + format_number(*longest) + " m, where the rod's lower end comes to the post: a longer " +
+         "at most " + most_text(*longest) + " m, where the rod's lower end comes to the post: a longer " +
              "specimen.tail allows more");
 }
 

@@ -61,9 +61,9 @@ void read_record(const std::filesystem::path& folder, const std::string& follow,
   if (!std::filesystem::is_regular_file(file, error)) throw InvalidInput::cannot_read(file.string(), key);
   step.record = file.string();
   step.recorded.clear();
-  RawColumns columns;
-  if (!step.columns.empty()) columns = parse_raw_columns(step.columns, follow + ".columns");
-  const std::vector<CurveRow> course = read_course(step.record, columns);
+  RawOptions options;
+  if (!step.columns.empty()) options.columns = parse_raw_columns(step.columns, follow + ".columns");
+  const std::vector<CurveRow> course = read_course(step.record, options);
   for (const CurveRow& row : course) {
     const RecordedPlace place{row.time - course.front().time, row.extension - course.front().extension};
     if (step.recorded.empty() || place.time > step.recorded.back().time) step.recorded.push_back(place);

@@ -18,6 +18,7 @@
 #include "knot_utm/numeric/number.hpp"
 #include "load_terms.hpp"
 #include "method_fields.hpp"
+#include "out_of_range.hpp"
 
 namespace knot_utm::fields {
 
@@ -154,7 +155,8 @@ class Reader {
     const std::optional<double> number = number_in(node);
     if (!number || !(*number >= static_cast<double>(min) && *number <= static_cast<double>(max)) ||
         *number != std::floor(*number)) {
-      fail(key, node, "a whole number from " + std::to_string(min) + " to " + std::to_string(max));
+      fail_range(key, node, "a whole number from " + std::to_string(min) + " to " + std::to_string(max),
+                 static_cast<double>(min), static_cast<double>(max));
     }
     value = static_cast<Integer>(*number);
   }
@@ -269,6 +271,11 @@ class Reader {
   }
 
  private:
+  [[noreturn]] void fail_range(const char* key, const YAML::Node& value, const std::string& allowed, double min,
+                               double max) const {
+    throw OutOfRange({file_, path_of(key), as_given(value), allowed}, min, max);
+  }
+
   static bool is_auto(const YAML::Node& node) { return node.IsScalar() && node.Scalar() == "auto"; }
 
   void note(const char* key) {
@@ -306,7 +313,8 @@ class Reader {
     const std::string or_word = or_term(range) + (word.empty() ? "" : ", or " + word);
     if (!number) fail(key, node, number_text(range) + or_word);
     // Written so that not-a-number fails.
-    if (!(*number >= range.min && *number <= range.max)) fail(key, node, range_text(range) + or_word);
+    if (!(*number >= range.min && *number <= range.max))
+      fail_range(key, node, range_text(range) + or_word, range.min, range.max);
     return *number;
   }
 

@@ -1,6 +1,7 @@
 #include "knot_utm/io/null_reasons.hpp"
 
 #include "knot_utm/io/known_errors.hpp"
+#include "knot_utm/io/rest.hpp"
 #include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
@@ -15,6 +16,8 @@ std::string of_the_pull(const ResultSource& source, const std::string& reason) {
 }
 
 std::string why_they_did_not_lock(const Results& results) {
+  if (results.knot_type == KnotType::kCrossed) return "the rod ran through itself";
+  if (results.untangled_at) return "the knot came undone";
   if (results.curve.jump_force)
     return "a knot jumped open at " + short_number(*results.curve.jump_force) +
            " N, and the load-extension curve after it is that of another knot";
@@ -25,7 +28,6 @@ std::string why_they_did_not_lock(const Results& results) {
     case MotionPattern::kStretching:
       return "the motion pattern is stretching";
     case MotionPattern::kUntangling:
-      return "the knot came undone";
     case MotionPattern::kNone:
       break;
   }
@@ -44,10 +46,12 @@ std::string why_the_load_has_no_stiffness(const Results& results) {
 /// `no_reading`: why there is no reading that could be off; empty: there is one.
 std::string why_no_error(const ResultSource& source, const std::string& no_reading) {
   const Results& results = source.results;
-  if (!results.not_equilibrated.empty()) return "the specimen was not at rest before it was pulled";
-  if (results.curve.jump_force) return "a knot jumped open, which no convergence study covers";
-  if (results.opened_when_mounted) return "a knot opened as the loop was mounted, which no convergence study covers";
-  return no_reading.empty() ? "no convergence study covers this case" : no_reading;
+  if (!why_not_at_rest(results, source.facts).empty())
+    return "unknown: the specimen was not at rest as its pull began";
+  if (results.curve.jump_force) return "unknown: a knot jumped open, which no convergence study covers";
+  if (results.opened_when_mounted)
+    return "unknown: a knot opened as the loop was mounted, which no convergence study covers";
+  return no_reading.empty() ? "unknown: no convergence study covers this case" : no_reading;
 }
 
 }  // namespace
@@ -101,6 +105,13 @@ std::string why_no_stiffness_error(const ResultSource& source) {
   return why_no_error(source, slides ? why_they_did_not_lock(source.results) : no_reading);
 }
 
+std::string why_no_peak_error(const ResultSource& source) { return why_no_error(source, why_not_pulled(source)); }
+
+std::string why_no_snap(const ResultSource& source) {
+  return of_the_pull(source,
+                     source.results.tied_knot_distance ? "a loop of two knots has jump_force" : "nothing snapped");
+}
+
 std::string why_no_chord(const ResultSource& source) {
   return of_the_pull(source, "the true force was never below a tenth of the peak");
 }
@@ -114,7 +125,9 @@ std::string why_no_break(const ResultSource& source) {
 std::string why_no_efficiency(const ResultSource& source) {
   if (!source.facts.may_hold_a_knot) return "there is no knot";
   if (!source.results.break_extension) return why_no_break(source);
-  return of_the_pull(source, "the material has no breaking force or strain");
+  if (source.facts.material.breaking_force)
+    return "not predicted: the rod parts where its tension is material.breaking_force, which was given";
+  return of_the_pull(source, "the material has no breaking strain");
 }
 
 std::string why_no_hole(const ResultSource& source) {

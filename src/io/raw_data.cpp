@@ -5,255 +5,140 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
-#include <string_view>
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/numeric/text_rows.hpp"
+#include "raw_cells.hpp"
+#include "raw_head.hpp"
 #include "raw_names.hpp"
 #include "raw_text.hpp"
 
 namespace knot_utm {
 namespace {
 
-using Cells = std::vector<std::string>;
+using Rows = std::vector<std::string>;
 
-// ---- cells ----------------------------------------------------------------------------------------------------------
-
-std::string trimmed(std::string_view text) {
-  constexpr const char* kBlank = " \t\r";
-  const std::size_t begin = text.find_first_not_of(kBlank);
-  if (begin == std::string_view::npos) return {};
-  return std::string(text.substr(begin, text.find_last_not_of(kBlank) + 1 - begin));
-}
-
-Cells split(const std::string& row, char separator) {
-  Cells cells(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    const bool twice = quoted && row[i] == '"' && i + 1 < row.size() && row[i + 1] == '"';
-    if (twice)
-      cells.back() += row[i++];
-    else if (row[i] == '"')
-      quoted = !quoted;
-    else if (row[i] == separator && !quoted)
-      cells.emplace_back();
-    else
-      cells.back() += row[i];
-  }
-  for (std::string& cell : cells) cell = trimmed(cell);
-  return cells;
-}
-
-// ---- names and units ------------------------------------------------------------------------------------------------
-
-/// What a user calls time, extension and load; empty where the known names are to do.
-using Names = std::array<std::string, 3>;
-
-std::optional<double> si_of(const RawQuantity& quantity, const std::string& unit) {
-  if (unit == "MN") return std::nullopt;  // mega is not milli
-  for (const RawUnit& known : quantity.units)
-    if (is_name(unit, known.name)) return known.si;
-  return std::nullopt;
-}
-
-/// "(mm)" or "[mm]" without its brackets; nothing where there are none.
-std::optional<std::string> bracketed(const std::string& text) {
-  if (text.size() < 2) return std::nullopt;
-  const char first = text.front(), last = text.back();
-  if (!((first == '(' && last == ')') || (first == '[' && last == ']'))) return std::nullopt;
-  return trimmed(std::string_view(text).substr(1, text.size() - 2));
-}
-
-/// A cell of the row of names: "Load (N)", or "Load" and no unit.
-struct Name {
-  std::string name;
-  std::optional<std::string> unit;
-};
-
-Name name_of(const std::string& cell) {
-  const std::size_t bracket = cell.find_last_of("([");
-  if (bracket != std::string::npos && bracket > 0) {
-    if (const auto unit = bracketed(cell.substr(bracket))) return {trimmed(cell.substr(0, bracket)), unit};
-  }
-  return {cell, std::nullopt};
-}
-
-/// "Time sec", "Force_kN" and "Force/kN", where what stands behind is a unit of the quantity.
-std::optional<Name> name_before_unit(const RawQuantity& quantity, const std::string& cell) {
-  constexpr const char* kBetween = " _/,";
-  const std::size_t between = cell.find_last_of(kBetween);
-  if (between == std::string::npos || between == 0) return std::nullopt;
-  const std::string unit = cell.substr(between + 1);
-  const std::size_t end = cell.find_last_not_of(kBetween, between);
-  if (end == std::string::npos || !si_of(quantity, unit)) return std::nullopt;
-  return Name{cell.substr(0, end + 1), unit};
-}
-
-/// Where a column stands and what its numbers are in.
-struct Column {
-  const RawQuantity* quantity;
-  std::size_t place;
-  std::string name;                 // as given
-  std::optional<std::string> unit;  // that behind the name
-};
-
-/// The cell, where it is of this name.
-std::optional<Column> column_named(const RawQuantity& quantity, const std::string& known, const std::string& cell,
-                                   std::size_t place) {
-  const Name name = name_of(cell);
-  if (is_name(name.name, known) || is_name(cell, known)) return Column{&quantity, place, visible(cell), name.unit};
-  const std::optional<Name> other = name_before_unit(quantity, cell);
-  if (other && is_name(other->name, known)) return Column{&quantity, place, visible(cell), other->unit};
-  return std::nullopt;
-}
-
-/// The one of the machine's own name; of two alike that with a unit of this quantity: the other may be a strain
-/// gauge's, "Displacement (Strain 1)".
-std::optional<Column> find(const RawQuantity& quantity, const std::string& given, const Cells& cells) {
-  std::vector<std::string> names = quantity.names;
-  if (!given.empty()) names = {given};
-  std::optional<Column> best;
-  for (const std::string& known : names) {
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const std::optional<Column> column = column_named(quantity, known, cells[i], i);
-      if (!column) continue;
-      if (!column->unit || si_of(quantity, *column->unit)) return column;
-      if (!best) best = column;
-    }
-  }
-  return best;
-}
-
-using Columns = std::array<Column, 3>;
-using Found = std::array<std::optional<Column>, 3>;
-
-Found columns_in(const Cells& cells, const Names& given) {
-  Found found;
-  for (std::size_t i = 0; i < found.size(); ++i) found[i] = find(raw_quantities()[i], given[i], cells);
-  return found;
-}
-
-std::optional<Columns> all_of(const Found& found) {
-  if (!std::all_of(found.begin(), found.end(), [](const auto& column) { return column.has_value(); }))
-    return std::nullopt;
-  return Columns{*found[0], *found[1], *found[2]};
-}
-
-/// A handful of the known names, those first that a cell nearly is.
-std::string some_of(const std::vector<std::string>& known, const Cells& cells) {
-  constexpr std::size_t kHandful = 4;
-  std::vector<std::string> some;
-  const auto add = [&](const std::string& name) {
-    const bool is_new = std::find(some.begin(), some.end(), name) == some.end();
-    if (!name.empty() && is_new && some.size() < kHandful) some.push_back(name);
-  };
-  for (const std::string& cell : cells) add(nearest_name(name_of(cell).name, known));
-  for (const std::string& name : known) add(name);
-  return listed(some, ", ") + " and " + std::to_string(known.size() - some.size()) + " others";
-}
-
-/// What the row does not name, and names that it might have, for the message.
-std::string missing_names(const Found& found, const Names& given, const Cells& cells) {
-  std::string out;
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    if (found[i]) continue;
-    out += (out.empty() ? "" : "; ") + std::string(raw_quantities()[i].name) + ", whose known names are ";
-    out += given[i].empty() ? some_of(raw_quantities()[i].names, cells) : '"' + shown(given[i]) + "\" alone";
-  }
-  return out;
-}
-
-// ---- numbers --------------------------------------------------------------------------------------------------------
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-bool has_digit(const std::string& cell) { return std::any_of(cell.begin(), cell.end(), is_digit); }
-
-/// 1,234,567 without its marks; what has none as it is; nothing where they stand elsewhere.
-std::optional<std::string> without_groups(const std::string& whole, char mark) {
-  const std::size_t first = whole.find(mark);
-  if (first == std::string::npos) return whole;
-  const std::size_t begin = whole[0] == '-' || whole[0] == '+' ? 1 : 0;
-  if (first == begin || first > begin + 3 || whole[begin] == '0' || (whole.size() - first) % 4 != 0)
-    return std::nullopt;
-  std::string out = whole.substr(0, begin);
-  for (std::size_t i = begin; i < whole.size(); ++i) {
-    const bool between = i >= first && (i - first) % 4 == 0;
-    if (between ? whole[i] != mark : !is_digit(whole[i])) return std::nullopt;
-    if (!between) out += whole[i];
-  }
-  return out;
-}
-
-/// The mark of decimals in a file: the first cell that tells it counts for all.
-class DecimalMark {
- public:
-  void look_at(const std::string& cell) {
-    if (is_told()) return;
-    const std::size_t point = cell.rfind('.'), comma = cell.rfind(',');
-    if (point != std::string::npos && comma != std::string::npos) {
-      told_ = point > comma ? '.' : ',';
-    } else if (point != comma) {
-      const char mark = point != std::string::npos ? '.' : ',';
-      const bool twice = std::count(cell.begin(), cell.end(), mark) > 1;
-      if (twice)
-        told_ = mark == '.' ? ',' : '.';
-      else if (!without_groups(cell, mark))
-        told_ = mark;
-      else if (unclear_.empty())
-        unclear_ = cell;
-    }
-  }
-
-  bool is_told() const { return told_.has_value(); }
-  char mark() const { return told_.value_or('.'); }
-  /// A number of three digits behind a mark, where none tells whether it is of decimals; else empty.
-  std::string unclear() const { return told_ ? std::string() : unclear_; }
-
- private:
-  std::optional<char> told_;
-  std::string unclear_;
-};
-
-std::optional<double> number(const std::string& cell, char mark) {
-  const std::size_t decimals = std::min(cell.find(mark), cell.size());
-  std::optional<std::string> text = without_groups(cell.substr(0, decimals), mark == '.' ? ',' : '.');
-  if (text) text = without_groups(*text, ' ');
-  if (!text) return std::nullopt;
-  if (decimals < cell.size()) *text += '.' + cell.substr(decimals + 1);
-  return has_digit(*text) ? parse_number(*text) : std::nullopt;
-}
-
-template <typename Iterator>
-bool are_empty(Iterator begin, Iterator end) {
-  return std::all_of(begin, end, [](const std::string& cell) { return cell.empty(); });
-}
-
-// ---- the file -------------------------------------------------------------------------------------------------------
-
-struct Row {
-  std::size_t number;  // in the file, from 1
-  std::string text;
-};
-
-std::vector<Row> rows_of(const std::string& meaning, const std::string& file) {
+Rows rows_of(const std::string& meaning, const std::string& file) {
   std::istringstream text(meaning);
   TextRows rows(text);
-  std::vector<Row> out;
-  while (rows.next()) out.push_back({rows.number(), rows.text()});
+  Rows out;
+  while (rows.next()) out.push_back(rows.text());
   if (!rows.fault().empty()) throw InvalidInput::sentence("rows", "too many", rows.fault()).in_file(file);
   return out;
 }
 
-/// The table in the file: what its columns are, and the cells of its rows.
+/// "row 7".
+std::string row_name(std::size_t index) { return "row " + std::to_string(index + 1); }
+
+/// One specimen of one table.
 class RawTable {
  public:
-  RawTable(const std::string& content, const std::string& file, const Names& names) : file_(file), given_(names) {
-    find_names(content);
+  RawTable(const Rows& rows, RawHead head, std::size_t end, std::size_t specimen, const RawOptions& options,
+           const std::string& file)
+      : rows_(rows), head_(std::move(head)), end_(end), specimen_(specimen), options_(options), file_(file) {
+    columns_ = head_.of_specimen(specimen);
+    if (columns_[1]->place == columns_[2]->place)
+      throw InvalidInput(kColumnsOption, options.columns.extension + " and " + options.columns.load,
+                         "another column for the extension than for the load");
+    while (head_.first < end_ && are_empty(cells(head_.first))) ++head_.first;
     find_units();
-    for (std::size_t i = next_; i < rows_.size() && !mark_.is_told(); ++i)
-      for (const std::string& cell : wanted(split(rows_[i].text, separator_))) mark_.look_at(cell);
+    find_decimals();
+    prefer_crosshead();
+    for (std::size_t i = 0; i < columns_.size(); ++i)
+      if (columns_[i]) si_[i] = si(i, *columns_[i]);
+  }
+
+  std::vector<CurveRow> read() {
+    std::vector<CurveRow> out;
+    for (std::size_t i = head_.first; i < end_; ++i) {
+      const Cells all = cells(i);
+      const Cells own = wanted(all);
+      if (own[1].empty() && own[2].empty()) {
+        ++empty_;
+        continue;
+      }
+      require_named(all, i);
+      const CurveRow row = row_of(own, i);
+      if (!out.empty() && row.time < out.back().time)
+        refuse(i, ": " + shown(name(0)) + " goes back to " + shown(own.front()));
+      if (!out.empty() && is_same(row, out.back())) {
+        ++repeated_;
+        continue;
+      }
+      out.push_back(row);
+      places_.push_back(i);
+    }
+    if (out.empty()) throw InvalidInput::sentence("rows", "none", "no row of numbers follows the names").in_file(file_);
+    leave_out_jumps(out);
+    return out;
+  }
+
+  /// What was read, from which columns, and what was not.
+  void tell(std::size_t readings, std::size_t specimens, const Tell& say) const {
+    std::string line = file_ + ": " + std::to_string(readings) + " readings";
+    if (specimens > 1) line += " of specimen " + std::to_string(options_.specimen) + " of " + std::to_string(specimens);
+    const char* between = ": ";
+    for (std::size_t i = 0; i < columns_.size(); ++i) {
+      if (!columns_[i]) continue;
+      line += std::string(between) + raw_quantities()[i].name + " is " + described(i);
+      between = ", ";
+    }
+    if (!columns_[0]) line += "; no column of time";
+    if (repeated_ > 0) line += "; rows left out that repeat the one before: " + std::to_string(repeated_);
+    if (empty_ > 0) line += "; empty rows: " + std::to_string(empty_);
+    say(line);
+    for (const auto& column : columns_)
+      if (column && column->base.rfind("compressi", 0) == 0)
+        say(file_ + ": \"" + shown(column->label) + "\" is the name of a test in compression; its sign is kept");
+    for (const std::string& note : notes_) say(file_ + ": " + note);
+  }
+
+ private:
+  Cells cells(std::size_t row) const { return split(rows_[row], head_.separator); }
+
+  Cells wanted(const Cells& cells) const {
+    Cells out(columns_.size());
+    for (std::size_t i = 0; i < out.size(); ++i)
+      if (columns_[i] && columns_[i]->place < cells.size()) out[i] = cells[columns_[i]->place];
+    return out;
+  }
+
+  std::string name(std::size_t quantity) const {
+    const RawColumn& column = *columns_[quantity];
+    return column.label.empty() ? "column " + std::to_string(column.place + 1) : column.label;
+  }
+
+  /// "column 2, "Extension (mm)"", and its unit where its name does not have it.
+  std::string described(std::size_t quantity) const {
+    const RawColumn& column = *columns_[quantity];
+    std::string out = "column " + std::to_string(column.place + 1);
+    if (!column.label.empty()) out += " \"" + shown(column.label) + '"';
+    if (!column.unit || !text_of(options_.units, quantity).empty()) out += " in " + shown(unit_of(quantity, column));
+    return out;
+  }
+
+  /// The row of units below the names, or else above them.
+  void find_units() {
+    if (head_.first < end_) {
+      const Cells below = wanted(cells(head_.first));
+      if (std::none_of(below.begin(), below.end(), has_digit)) {
+        below_ = cells(head_.first++);
+        return;
+      }
+    }
+    if (!head_.names_row || *head_.names_row == 0) return;
+    const Cells above = cells(*head_.names_row - 1);
+    const Cells own = wanted(above);
+    for (std::size_t i = 0; i < own.size(); ++i)
+      if (columns_[i] && !si_of(raw_quantities()[i], without_brackets(own[i]))) return;
+    below_ = above;
+  }
+
+  void find_decimals() {
+    for (std::size_t i = head_.first; i < end_ && !mark_.is_told(); ++i)
+      for (const std::string& cell : wanted(cells(i))) mark_.look_at(cell);
     if (!mark_.unclear().empty())
       throw InvalidInput::sentence("decimals", mark_.unclear(),
                                    "the number " + shown(mark_.unclear()) +
@@ -262,157 +147,233 @@ class RawTable {
           .in_file(file_);
   }
 
-  std::vector<CurveRow> read() const {
-    std::vector<CurveRow> out;
-    for (std::size_t i = next_; i < rows_.size(); ++i) {
-      const Cells all = split(rows_[i].text, separator_);
-      const std::array<std::string, 3> cells = wanted(all);
-      if (are_empty(cells.begin(), cells.end())) continue;
-      require_named(all, rows_[i].number);
-      if (!has_digit(cells[0]) && all_of(columns_in(all, given_)))
-        refuse(rows_[i].number, " names the columns once more, but the file must hold one table");
-      const CurveRow row = row_of(cells, rows_[i].number);
-      if (!out.empty() && row.time < out.back().time)
-        refuse(rows_[i].number, ": " + shown(columns_[0].name) + " goes back to " + shown(visible(cells[0])));
-      if (out.empty() || !is_same(row, out.back())) out.push_back(row);
-    }
-    if (out.empty()) throw InvalidInput::sentence("rows", "none", "no row of numbers follows the names").in_file(file_);
-    return out;
+  /// The unit of the column as the user or the file gives it; empty where nobody does.
+  std::string unit_of(std::size_t quantity, const RawColumn& column) const {
+    const std::string& own = text_of(options_.units, quantity);
+    if (!own.empty()) return own;
+    return column.unit.value_or(column.place < below_.size() ? without_brackets(below_[column.place]) : "");
   }
 
- private:
-  /// In the first of its meanings in which the file has them.
-  void find_names(const std::string& content) {
-    std::string nearest;
-    for (const std::string& meaning : meanings_of(content)) {
-      rows_ = rows_of(meaning, file_);
-      if (find_row_of_names()) return;
-      if (nearest.empty()) nearest = nearest_row();
-    }
-    throw InvalidInput::sentence("names", "none",
-                                 "no row names the columns time, extension and load" +
-                                     (nearest.empty() ? "" : "; " + nearest + "; other names are given by --columns"))
-        .in_file(file_);
-  }
-
-  bool find_row_of_names() {
-    for (next_ = 0; next_ < rows_.size(); ++next_)
-      for (const char separator : kSeparators) {
-        const Cells cells = split(rows_[next_].text, separator);
-        if (cells.size() < columns_.size()) continue;
-        if (const auto found = all_of(columns_in(cells, given_))) {
-          columns_ = *found;
-          separator_ = separator;
-          names_ = cells.size();
-          ++next_;
-          return true;
-        }
-      }
-    return false;
-  }
-
-  /// The first row that names the most columns, and which it does not name; of a file that names none, its first row of
-  /// words in three columns or more.
-  std::string nearest_row() const {
-    std::string out;
-    std::ptrdiff_t most = -1;
-    for (const Row& row : rows_)
-      for (const char separator : kSeparators) {
-        const Cells cells = split(row.text, separator);
-        if (cells.size() < columns_.size() || std::all_of(cells.begin(), cells.end(), has_digit)) continue;
-        const Found found = columns_in(cells, given_);
-        const auto named =
-            std::count_if(found.begin(), found.end(), [](const auto& column) { return column.has_value(); });
-        if (named <= most) continue;
-        most = named;
-        out = "row " + std::to_string(row.number) + " is \"" + shown(visible(row.text)) + "\" and does not name " +
-              missing_names(found, given_, cells);
-      }
-    return out;
-  }
-
-  /// Those behind the names, or of the row below them.
-  void find_units() {
-    const auto is_empty = [&](const Row& row) {
-      const Cells cells = split(row.text, separator_);
-      return are_empty(cells.begin(), cells.end());
-    };
-    while (next_ < rows_.size() && is_empty(rows_[next_])) ++next_;
-    std::array<std::string, 3> below;
-    if (next_ < rows_.size()) below = wanted(split(rows_[next_].text, separator_));
-    const bool has_units = std::none_of(below.begin(), below.end(), has_digit);
-    if (has_units) ++next_;
-    for (std::size_t i = 0; i < columns_.size(); ++i)
-      si_[i] = si(columns_[i], has_units ? bracketed(below[i]).value_or(below[i]) : "");
-  }
-
-  /// Whose cells have a name each: a decimal comma that is not in quotes would make two of one.
-  void require_named(const Cells& cells, std::size_t row) const {
-    const std::size_t named = std::min(names_, cells.size());
-    if (!are_empty(cells.begin() + static_cast<std::ptrdiff_t>(named), cells.end()))
-      refuse(row, " has " + std::to_string(cells.size()) + " cells, but must have " + std::to_string(names_) +
-                      " as there are names; a number with a decimal comma must stand in quotes");
-  }
-
-  double si(const Column& column, const std::string& below) const {
-    const std::string unit = column.unit.value_or(below);
-    const std::string key = "the unit of column " + column.name, allowed = column.quantity->allowed;
-    if (unit.empty()) throw InvalidInput::missing(key, allowed).in_file(file_);
-    const std::optional<double> si = si_of(*column.quantity, unit);
-    if (!si) throw InvalidInput(file_, key, unit, allowed);
-    if (!below.empty() && si_of(*column.quantity, below) != si)
+  double si(std::size_t quantity, const RawColumn& column) const {
+    const RawQuantity& of = raw_quantities()[quantity];
+    const std::string unit = unit_of(quantity, column), own = text_of(options_.units, quantity);
+    const std::string allowed = of.allowed,
+                      key = own.empty()
+                                ? "the unit of " + (column.label.empty() ? "" : std::string("column ")) + name(quantity)
+                                : kUnitsOption;
+    if (unit.empty()) throw InvalidInput::missing(key, allowed + ", by --units " + of.name + "=UNIT").in_file(file_);
+    const std::optional<double> si = si_of(of, unit);
+    if (!si && own.empty()) throw InvalidInput(file_, key, unit, allowed);
+    if (!si) throw InvalidInput(key, std::string(of.name) + '=' + unit, allowed);
+    const std::string below = column.place < below_.size() ? without_brackets(below_[column.place]) : "";
+    if (own.empty() && !below.empty() && si_of(of, below) != si)
       throw InvalidInput(file_, key, below + " below the name", "the same as in the name, " + unit);
     return *si;
   }
 
-  std::array<std::string, 3> wanted(const Cells& cells) const {
-    std::array<std::string, 3> out;
-    for (std::size_t i = 0; i < out.size(); ++i)
-      if (columns_[i].place < cells.size()) out[i] = cells[columns_[i].place];
-    return out;
+  /// How far a column of extension goes [m]; empty where it has no unit or no numbers.
+  std::optional<double> travel(const RawColumn& column) const {
+    const std::optional<double> si = si_of(raw_quantities()[1], unit_of(1, column));
+    std::optional<double> low, high;
+    for (std::size_t i = head_.first; si && i < end_; ++i) {
+      const Cells all = cells(i);
+      const auto value = column.place < all.size() ? number(all[column.place], mark_.mark()) : std::nullopt;
+      if (!value) continue;
+      low = std::min(low.value_or(*value), *value);
+      high = std::max(high.value_or(*value), *value);
+    }
+    return low ? std::optional<double>((*high - *low) * *si) : std::nullopt;
   }
 
-  CurveRow row_of(const std::array<std::string, 3>& cells, std::size_t row_number) const {
+  /// Where what is called an extension goes another way than the crosshead, it is that of an extensometer.
+  void prefer_crosshead() {
+    constexpr double kAlike = 0.05;
+    std::vector<RawColumn> others = head_.others(1, specimen_);
+    const std::optional<double> own = travel(*columns_[1]);
+    for (RawColumn& other : others) {
+      const std::optional<double> way = travel(other);
+      if (!own || !way || columns_[1]->of_machine || !other.of_machine) continue;
+      if (std::abs(*way - *own) > kAlike * std::max(*way, *own)) std::swap(*columns_[1], other);
+    }
+    for (const RawColumn& other : others)
+      if (const auto way = travel(other))
+        note_unread(1, other, ", which goes over " + short_number(1e3 * *way) + " mm,");
+    for (const RawColumn& other : head_.others(2, specimen_)) note_unread(2, other, "");
+  }
+
+  void note_unread(std::size_t quantity, const RawColumn& column, const std::string& what) {
+    const std::string number = std::to_string(column.place + 1);
+    notes_.push_back("column " + number + " \"" + shown(column.label) + '"' + what + " is not read; --columns " +
+                     raw_quantities()[quantity].name + '=' + number + " would read it");
+  }
+
+  /// Whose cells have a name each: a decimal comma that is not in quotes would make two of one.
+  void require_named(const Cells& all, std::size_t row) const {
+    const std::size_t named = std::min(head_.cells, all.size());
+    if (!are_empty(Cells(all.begin() + static_cast<std::ptrdiff_t>(named), all.end())))
+      refuse(row, " has " + std::to_string(all.size()) + " cells, but must have " + std::to_string(head_.cells) +
+                      " as there are names; a number with a decimal comma must stand in quotes");
+  }
+
+  CurveRow row_of(const Cells& own, std::size_t row_index) const {
     CurveRow row;
-    for (std::size_t i = 0; i < cells.size(); ++i) {
-      const double value = number(cells[i], mark_.mark()).value_or(Sample::kNone) * si_[i];
+    row.time = Sample::kNone;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      if (!columns_[i]) continue;
+      const double value = number(own[i], mark_.mark()).value_or(Sample::kNone) * si_[i];
       if (!std::isfinite(value))
-        refuse(row_number, ": " + shown(columns_[i].name) + " is \"" + shown(visible(cells[i])) +
-                               "\", but must be a number with \"" + mark_.mark() + "\" before its decimals");
-      row.*columns_[i].quantity->value = value;
+        refuse(row_index, ": " + shown(name(i)) + " is \"" + shown(own[i]) + "\", but must be a number with \"" +
+                              mark_.mark() + "\" before its decimals");
+      row.*raw_quantities()[i].value = value;
     }
     row.end_to_end = row.load_lower = Sample::kNone;
     row.phase = Phase::kPull;
     return row;
   }
 
+  /// Single readings whose extension lies far off those before and behind them, on the same side: no crosshead goes
+  /// there and back from one reading to the next.
+  void leave_out_jumps(std::vector<CurveRow>& rows) {
+    constexpr double kFar = 5.0;  // times the usual step
+    std::vector<double> steps;
+    for (std::size_t i = 1; i < rows.size(); ++i)
+      if (const double step = std::abs(rows[i].extension - rows[i - 1].extension); step > 0.0) steps.push_back(step);
+    if (steps.size() < 5) return;
+    std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
+    const double usual = steps[steps.size() / 2];
+    for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
+      const double before = rows[i].extension - rows[i - 1].extension,
+                   behind = rows[i].extension - rows[i + 1].extension;
+      if (before * behind <= 0.0 || std::min(std::abs(before), std::abs(behind)) <= kFar * usual) continue;
+      notes_.push_back(row_name(places_[i]) + ", whose extension of " + short_number(1e3 * rows[i].extension) +
+                       " mm lies far off the readings before and behind it, is left out");
+      rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(i));
+      places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(i));
+    }
+  }
+
   static bool is_same(const CurveRow& a, const CurveRow& b) {
-    return a.time == b.time && a.extension == b.extension && a.load == b.load;
+    const bool at_once = a.time == b.time || (std::isnan(a.time) && std::isnan(b.time));
+    return at_once && a.extension == b.extension && a.load == b.load;
   }
 
   /// `why` goes on with the sentence that begins with the row.
   [[noreturn]] void refuse(std::size_t row, const std::string& why) const {
-    const std::string key = "row " + std::to_string(row);
-    throw InvalidInput::sentence(key, why, key + why).in_file(file_);
+    throw InvalidInput::sentence(row_name(row), why, row_name(row) + why).in_file(file_);
   }
 
-  static constexpr std::array<char, 3> kSeparators{';', '\t', ','};
-
-  std::string file_;
-  Names given_;
-  std::vector<Row> rows_;
-  std::size_t next_ = 0;  // that has not been read yet
-  char separator_ = ',';
-  std::size_t names_ = 0;  // how many columns have one
-  Columns columns_;
+  const Rows& rows_;
+  RawHead head_;
+  std::size_t end_, specimen_;
+  const RawOptions& options_;
+  const std::string& file_;
+  RawChoice columns_;
+  Cells below_;  // the row of units
   std::array<double, 3> si_{};
   DecimalMark mark_;
+  std::vector<std::size_t> places_;  // rows of the readings
+  std::size_t empty_ = 0, repeated_ = 0;
+  std::vector<std::string> notes_;
 };
+
+/// A head and the end of its table.
+struct Place {
+  RawHead head;
+  std::size_t end;
+};
+
+/// Tables below each other, each with names of its own. Text between two of them belongs to none.
+std::vector<Place> tables_from(const Rows& rows, const RawHead& first, const RawOptions& options) {
+  std::vector<Place> out{{first, rows.size()}};
+  const bool with_time = !first.columns[0].empty();
+  for (std::size_t row = first.first; first.names_row && row < rows.size(); ++row) {
+    const std::size_t load = out.back().head.columns[2].front().place;
+    const Cells cells = split(rows[row], first.separator);
+    if (load < cells.size() && is_number(cells[load])) continue;
+    const auto head = head_in(rows[row], row, options.columns, with_time);
+    if (!head) continue;
+    std::size_t end = row;
+    const auto is_reading = [&](const std::string& text) {
+      const Cells own = split(text, out.back().head.separator);
+      return load < own.size() && is_number(own[load]);
+    };
+    while (end > out.back().head.first && !is_reading(rows[end - 1])) --end;
+    out.back().end = end;
+    out.push_back({*head, rows.size()});
+  }
+  return out;
+}
+
+/// "side by side", or "in tables that begin with rows 1, 45 and 90".
+std::string where(const std::vector<Place>& tables) {
+  if (tables.size() == 1) return "side by side";
+  std::vector<std::string> begins;
+  for (const Place& table : tables) begins.push_back(std::to_string(*table.head.names_row + 1));
+  return "in tables that begin with rows " + listed(begins, " and ");
+}
+
+/// The table and the place in it of the specimen that is asked for, from 0.
+std::pair<Place, std::size_t> chosen(const std::vector<Place>& tables, std::size_t all, int wanted,
+                                     const std::string& file) {
+  if (wanted == 0 && all > 1)
+    throw InvalidInput::sentence("specimens", std::to_string(all),
+                                 "the file holds " + std::to_string(all) + " specimens, " + where(tables) +
+                                     ": choose one by --specimen 1 to " + std::to_string(all))
+        .in_file(file);
+  std::size_t left = wanted == 0 ? 0 : static_cast<std::size_t>(wanted - 1);
+  for (const Place& table : tables) {
+    if (left < table.head.specimens()) return {table, left};
+    left -= table.head.specimens();
+  }
+  throw InvalidInput::sentence("specimens", std::to_string(wanted),
+                               "--specimen is " + std::to_string(wanted) + ", but the file holds " +
+                                   std::to_string(all) + (all == 1 ? " specimen" : " specimens"))
+      .in_file(file);
+}
+
+std::optional<RawHead> first_head(const Rows& rows, const RawColumns& given, bool with_time) {
+  if (auto head = head_by_numbers(rows, given, with_time)) return head;
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    if (auto head = head_in(rows[row], row, given, with_time)) return head;
+  return std::nullopt;
+}
 
 }  // namespace
 
-std::vector<CurveRow> read_raw_data(const std::string& content, const std::string& file, const RawColumns& columns) {
-  return RawTable(content, file, {columns.time, columns.extension, columns.load}).read();
+std::vector<CurveRow> read_raw_data(const std::string& content, const std::string& file, const RawOptions& options,
+                                    const Tell& tell) {
+  if (const std::string why = why_no_text(content); !why.empty())
+    throw InvalidInput::sentence("text", "none", why).in_file(file);
+  std::string nearest;
+  const std::vector<std::string> meanings = meanings_of(content);
+  for (const bool with_time : {true, false}) {
+    if (!with_time && (options.needs_time || !options.columns.time.empty())) break;
+    for (const std::string& meaning : meanings) {
+      const Rows rows = rows_of(meaning, file);
+      const auto head = first_head(rows, options.columns, with_time);
+      if (!head) {
+        if (nearest.empty()) nearest = nearest_head(rows, options.columns, options.needs_time);
+        continue;
+      }
+      const std::vector<Place> tables = tables_from(rows, *head, options);
+      std::size_t all = 0;
+      for (const Place& table : tables) all += table.head.specimens();
+      const auto [place, specimen] = chosen(tables, all, options.specimen, file);
+      RawTable table(rows, place.head, place.end, specimen, options, file);
+      std::vector<CurveRow> out = table.read();
+      std::string falling;
+      turn_signs(out, options.invert, file, [&](const std::string& line) { falling = line; });
+      if (tell) table.tell(out.size(), all, tell);
+      if (tell && !falling.empty()) tell(falling);
+      return out;
+    }
+  }
+  throw InvalidInput::sentence("names", "none",
+                               std::string("no row names the columns ") + (options.needs_time ? "time, " : "") +
+                                   "extension and load" + (nearest.empty() ? "" : "; " + nearest) +
+                                   "; --columns takes other names, or numbers, such as --columns "
+                                   "time=1,extension=2,load=3")
+      .in_file(file);
 }
 
 }  // namespace knot_utm

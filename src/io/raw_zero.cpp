@@ -4,6 +4,8 @@
 #include <cmath>
 #include <iterator>
 
+#include "knot_utm/numeric/number.hpp"
+
 namespace knot_utm {
 namespace {
 
@@ -52,7 +54,8 @@ RawZero zero_at_rest(const std::vector<CurveRow>& rows, const Pull& other) {
     ++zero.readings;
   }
   zero.extension = last.extension + extension / static_cast<double>(zero.readings);
-  zero.load = last.load + load / static_cast<double>(zero.readings) - load_at(other, 0.0).value_or(0.0);
+  zero.load = last.load + load / static_cast<double>(zero.readings);
+  zero.load_there = load_at(other, 0.0).value_or(0.0);
   return zero;
 }
 
@@ -60,7 +63,18 @@ std::optional<RawZero> zero_of_cut(const std::vector<CurveRow>& rows, double beg
   const CurveRow first = pulled(rows).front();
   const std::optional<double> load = load_at(other, begins_at);
   if (!load) return std::nullopt;
-  return RawZero{first.extension - begins_at, first.load - *load};
+  return RawZero{first.extension - begins_at, first.load, *load};
+}
+
+std::string zero_words(const RawZero& zero) {
+  const std::string place = short_number(zero.load) + " N at " + short_number(zero.extension) + " m";
+  std::string there;
+  if (zero.load_there != 0.0)
+    there = "; its load there becomes " + short_number(zero.load_there) + " N, as that of the other curve";
+  if (zero.readings > 1)
+    return "zero is " + place + ", the mean of its " + std::to_string(zero.readings) +
+           " readings before the crosshead moves" + there;
+  return "the record shows no rest before the pull, so its first reading, " + place + ", is taken for zero" + there;
 }
 
 std::vector<CurveRow> balanced(const std::vector<CurveRow>& rows, const RawZero& zero) {
@@ -68,7 +82,7 @@ std::vector<CurveRow> balanced(const std::vector<CurveRow>& rows, const RawZero&
   out.erase(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(zero.first));
   for (CurveRow& row : out) {
     row.extension -= zero.extension;
-    row.load -= zero.load;
+    row.load -= zero.load - zero.load_there;
   }
   return out;
 }

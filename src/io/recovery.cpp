@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "knot_utm/io/cannot_write.hpp"
+#include "knot_utm/io/command_hint.hpp"
 #include "knot_utm/io/run_folder.hpp"
 
 namespace knot_utm {
@@ -45,8 +46,8 @@ Method journalled_method(const std::string& folder, const JournalHeader& header)
 std::string how_to_recover(const std::string& folder) {
   std::error_code error;
   if (!fs::exists(journal_file(folder), error)) return "";
-  return "; what was recorded until then is in the journal, write it out with: recover " + folder +
-         " --out ANOTHER_FOLDER";
+  return "; what was recorded until then is in the journal, write it out with: " +
+         command_line({program_beside("recover"), folder, "--out", "ANOTHER_FOLDER"});
 }
 
 bool is_settled(const std::string& folder) {

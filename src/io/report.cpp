@@ -113,25 +113,14 @@ std::string last_line(const std::string& text) {
   return text.substr(begin, end + 1 - begin);
 }
 
-std::string quoted(const std::string& word) {
-  constexpr const char* kPlain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-./=:,+@%";
-  if (!word.empty() && word.find_first_not_of(kPlain) == std::string::npos) return word;
-  std::string out = "'";
-  for (const char c : word) out += c == '\'' ? "'\\''" : std::string(1, c);
-  return out + "'";
-}
+constexpr std::array<const char*, 5> kOfComparison{"comparison.yaml", "a.csv", "b.csv", "report.html", "report.pdf"};
 
-/// The lines that name the two files.
-std::string names_of(const std::string& yaml) { return yaml.substr(0, yaml.find('\n', yaml.find('\n') + 1)); }
-
-constexpr std::array<const char*, 3> kOfComparison{"comparison.yaml", "a.csv", "b.csv"};
-
-/// Whether something stands in the folder that a comparison would write over, but for what the same files left, or a
+/// Whether something stands in the folder that a comparison would write over, but for the very same comparison, or a
 /// run, whose page it would take.
 bool holds_another(const fs::path& folder, const std::string& yaml) {
   std::error_code error;
   const fs::path before = folder / kOfComparison.front();
-  if (fs::is_regular_file(before, error)) return names_of(read_whole(before.string())) != names_of(yaml);
+  if (fs::is_regular_file(before, error)) return read_whole(before.string()) != yaml;
   for (const char* name : {"a.csv", "b.csv", "report.html", "report.pdf", "result.yaml", "statistics.yaml", "journal"})
     if (fs::is_regular_file(folder / name, error)) return true;
   return false;
@@ -161,12 +150,6 @@ std::string pull_csv(const Pull& pull) {
 }
 
 }  // namespace
-
-std::string command_line(int argc, const char* const* argv) {
-  std::string line;
-  for (int i = 0; i < argc; ++i) line += (i == 0 ? "" : " ") + quoted(argv[i]);
-  return line;
-}
 
 void write_report(const std::string& folder, const std::string& command) {
   // -E, -s: what the user's own Python is made to find is not what Debian's packages were made for; -B: nothing is

@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "knot_utm/io/null_reasons.hpp"
+#include "knot_utm/io/rest.hpp"
 #include "knot_utm/io/run_warnings.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/straight_strength.hpp"
@@ -59,6 +60,7 @@ Number fraction_of(const Number& reading, const Number& fraction) {
 Number plateau_force_error(const Source& of) {
   return fraction_of(of.results.true_plateau_force, of.errors.plateau_force);
 }
+Number peak_force_error(const Source& of) { return fraction_of(of.results.true_peak_force, of.errors.peak_force); }
 Number lock_extension_error(const Source& of) {
   return fraction_of(of.results.lock_extension, of.errors.lock_extension);
 }
@@ -101,10 +103,12 @@ Number elongation(const Source& of) {
   return of.results.elongations ? Number((*of.results.elongations).*Part) : std::nullopt;
 }
 
-/// Of what as many straight rods would bear.
+/// Of what as many straight rods would bear. A breaking force parts a knotted rod at the tension of a straight one, so
+/// that it predicts nothing; a breaking strain is that of the outermost fibre, also where the knot bends it.
 Number knot_efficiency(const Source& of) {
   const Number strength = straight_strength(of.facts.material);
-  if (!of.facts.may_hold_a_knot || !of.results.break_extension || !of.results.true_peak_force || !strength)
+  if (!of.facts.may_hold_a_knot || !of.results.break_extension || !of.results.true_peak_force || !strength ||
+      of.facts.material.breaking_force)
     return std::nullopt;
   return *of.results.true_peak_force / (of.facts.strands * *strength);
 }
@@ -136,7 +140,7 @@ std::string no_plateau_because(const Source& of) { return of.results.curve.no_pl
 std::vector<std::string> warnings(const Source& of) { return all_warnings(of.results, of.facts); }
 std::vector<std::string> specification_failed(const Source& of) { return of.verdict.failed; }
 Flag specification_passed(const Source& of) { return of.verdict.passed; }
-Flag not_equilibrated(const Source& of) { return !of.results.not_equilibrated.empty(); }
+Flag not_equilibrated(const Source& of) { return !why_not_at_rest(of.results, of.facts).empty(); }
 Flag knot_type_preserved(const Source& of) { return of.results.knot_type == KnotType::kKept; }
 Count seed(const Source& of) { return of.facts.load_cell.seed; }
 Count peak_memory_of(const Source& of) { return of.facts.peak_memory > 0 ? Count(of.facts.peak_memory) : std::nullopt; }
@@ -175,8 +179,8 @@ constexpr ResultKey kKeys[] = {
     {"ended_by", "-", kHappened, "What ended the test", ended_by, kNoReason},
     {"reason", "-", kHead, "Why the test ended", reason, kNoReason},
     {"warnings", "-", kHead, "Warnings", warnings, kNoReason},
-    {"not_equilibrated", "-", kCertificate, "Whether the specimen was not at rest before it was pulled",
-     not_equilibrated, kNoReason},
+    {"not_equilibrated", "-", kCertificate, "Whether the specimen was not at rest as its pull began", not_equilibrated,
+     kNoReason},
 
     // The knots as they were tied.
     {"preload", "N", kKnots, "Pre-load by which each overhand was tied", fact<&F::preload>, "nothing was tied"},
@@ -220,6 +224,9 @@ constexpr ResultKey kKeys[] = {
     {"jump_force", "N", kCurve, "Force at which a knot jumped open", curve<&C::jump_force>, kNoJump},
     {"jump_extension", "m", kCurve, "Extension at which it jumped open", curve<&C::jump_extension>, kNoJump},
     {"force_after_jump", "N", kCurve, "Force that was left when it had jumped", curve<&C::force_after_jump>, kNoJump},
+    {"snap_extension", "m", kCurve, "Extension at which the knot snapped into another shape",
+     result<&R::snap_extension>, why_no_snap},
+    {"snap_drop", "N", kCurve, "Force by which the load fell as it snapped", result<&R::snap_drop>, why_no_snap},
 
     // Where the knots lock, and what the loop is like then.
     {"first_contact_extension", "m", kCurve, "Extension at which the two knots first touch each other",
@@ -235,6 +242,8 @@ constexpr ResultKey kKeys[] = {
     {"locked_stiffness_error", "N/m", kBeside, "Estimated numerical error of the locked stiffness",
      locked_stiffness_error, why_no_stiffness_error},
     {"peak_force", "N", kCurve, "Peak force", curve<&C::peak_force>, why_not_pulled},
+    {"peak_force_error", "N", kBeside, "Estimated numerical error of the peak force", peak_force_error,
+     why_no_peak_error},
 
     // Without what the balance has set to zero.
     {"true_plateau_force", "N", kBeside, "Plateau force, the true one", result<&R::true_plateau_force>, why_no_plateau},
@@ -278,13 +287,14 @@ constexpr ResultKey kKeys[] = {
     {"force_balance_error", "-", kCertificate,
      "Difference of the forces at both grips, as a share of the largest force", result<&R::force_balance_error>,
      why_not_pulled},
-    {"moment_balance_error", "-", kCertificate,
-     "Moment that the model leaves out, over the present force times the radius", moment_balance_error, why_not_pulled},
+    {"moment_balance_error", "-", kComputation,
+     "Moment of friction at the surfaces of strands that acts on their centrelines, over force times radius",
+     moment_balance_error, why_not_pulled},
 
     // Where the work went.
     {"work", "J", kEnergy, "Work of the grips", energy<&E::work>, why_not_pulled},
     {"stored_energy", "J", kEnergy, "Energy stored in rod and contacts", energy<&E::stored>, why_not_pulled},
-    {"kinetic_energy", "J", kEnergy, "Kinetic energy", energy<&E::kinetic>, why_not_pulled},
+    {"kinetic_energy", "J", kEnergy, "Kinetic energy at the end", result<&R::kinetic_energy>, why_not_pulled},
     {"friction_loss", "J", kEnergy, "Energy lost to friction", energy<&E::friction>, why_not_pulled},
     {"plastic_loss", "J", kEnergy, "Energy lost as bends yield", energy<&E::plastic>, why_not_pulled},
     {"drag_loss", "J", kEnergy, "Energy lost to drag", energy<&E::drag>, why_not_pulled},

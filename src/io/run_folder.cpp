@@ -21,6 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+const std::string kResolved = "# Everything resolved: runs again to the same curve.\n";
 constexpr const char* kFailedStep = "failed_step.bin";
 constexpr const char* kSpecimen = "specimen_";  // and a number, the folder of one
 
@@ -31,16 +32,6 @@ constexpr std::array<const char*, 5> kWritten{"method.yaml", "specimen.csv", "cu
 constexpr std::array<const char*, 10> kOld{"result.yaml",     "final_shape.csv", "shapes.csv", "test.bag",
                                            "saved.bag",       "report.html",     "report.pdf", kFailedStep,
                                            "statistics.yaml", "specimens.csv"};
-
-/// The value of a key in result.yaml, as it stands there.
-std::optional<std::string> result_of(const std::string& folder, const std::string& key) {
-  std::ifstream result(fs::path(folder) / "result.yaml");
-  const std::string begin = key + ": ";
-  for (std::string line; std::getline(result, line);) {
-    if (line.rfind(begin, 0) == 0) return line.substr(begin.size());
-  }
-  return std::nullopt;
-}
 
 /// What `compare --report` left; curves a.csv and b.csv without its comparison.yaml are somebody else's.
 void remove_comparison(const fs::path& folder) {
@@ -61,6 +52,15 @@ std::string logo_beside(const Method& method) { return "logo" + fs::path(method.
 
 }  // namespace
 
+std::optional<std::string> result_of(const std::string& folder, const std::string& key) {
+  std::ifstream result(fs::path(folder) / "result.yaml");
+  const std::string begin = key + ": ";
+  for (std::string line; std::getline(result, line);) {
+    if (line.rfind(begin, 0) == 0) return line.substr(begin.size());
+  }
+  return std::nullopt;
+}
+
 void make_folder(const std::string& folder, const char* argument) {
   std::error_code error, other;
   fs::create_directories(folder, error);
@@ -69,13 +69,30 @@ void make_folder(const std::string& folder, const char* argument) {
                                "cannot make the folder \"" + shown(folder) + "\": " + reason_of(error.value()));
 }
 
+void require_new_file(const char* argument, const std::string& file, const std::vector<std::string>& inputs,
+                      bool overwrite, const std::string& begins) {
+  std::error_code error;
+  const auto refuse = [&](const std::string& why) {
+    throw InvalidInput::sentence(argument, file, std::string(argument) + ": " + shown(file) + why);
+  };
+  for (const std::string& input : inputs)
+    if (fs::equivalent(file, input, error)) refuse(" is an input, and would be written over: give another name");
+  if (!fs::exists(fs::symlink_status(file, error))) return;
+  if (!overwrite) refuse(" exists already: give another name, or --overwrite");
+  if (begins.empty() || !fs::is_regular_file(file, error)) return;
+  std::ifstream in(file, std::ios::binary);
+  std::string head(begins.size(), '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (head != begins) refuse(" is a file of another kind, which --overwrite does not replace: give another name");
+}
+
 void make_run_folder(const std::string& folder) { make_folder(folder, "--out"); }
 
 std::string method_file_text(const Method& method) {
   Method own = method;
   if (knot_of(own.specimen).has("file")) own.specimen.file = "specimen.csv";
   if (!own.report.logo.empty()) own.report.logo = logo_beside(method);
-  return "# Everything resolved: runs again to the same curve.\n" + method_yaml(own);
+  return kResolved + method_yaml(own);
 }
 
 void require_no_record_in(const std::string& folder, const Method& method) {
@@ -85,6 +102,15 @@ void require_no_record_in(const std::string& folder, const Method& method) {
       throw InvalidInput::sentence("--out", folder,
                                    "the method follows " + shown(step.record) + ", which stands in the folder " +
                                        shown(folder) + " itself: choose another folder to write to");
+}
+
+void require_no_method_in(const std::string& folder, const std::string& method_file) {
+  std::error_code error;
+  const fs::path written = fs::path(folder) / "method.yaml";
+  if (!fs::equivalent(written, method_file, error) || read_whole(method_file).rfind(kResolved, 0) == 0) return;
+  throw InvalidInput::sentence(
+      "--out", folder,
+      "the run would write over its own method, " + shown(written.string()) + ": choose another folder to write to");
 }
 
 void begin_run_folder(const std::string& folder, const Method& method) {

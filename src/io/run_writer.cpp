@@ -81,8 +81,9 @@ void RunWriter::add(const Record& record) {
   }
   if (sample.status == BenchStatus::kFailed) return;
   const bool mounted = sample.phase != Phase::kIdle && !forms(sample.phase);
-  if (mounted && record.shape.cols() > 0 && sample.status != BenchStatus::kBroken) turn_.add(record.shape);
-  if (record.shape.cols() > 1)
+  const bool whole = sample.status != BenchStatus::kBroken;
+  if (mounted && record.shape.cols() > 0 && whole) turn_.add(record.shape);
+  if (record.shape.cols() > 1 && whole)
     length_ = (record.shape.rightCols(record.shape.cols() - 1) - record.shape.leftCols(record.shape.cols() - 1))
                   .colwise()
                   .norm()

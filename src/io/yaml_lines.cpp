@@ -23,7 +23,7 @@ std::string quoted(const std::string& value) {
 
 void YamlLines::number(const char* key, double value) {
   numbers_.emplace_back(key, std::isnan(value) ? std::nullopt : std::optional<double>(value));
-  word(key, std::isnan(value) ? "null" : format_yaml_number(value));
+  word(key, std::isnan(value) ? "null" : format_yaml_number(value == 0.0 ? 0.0 : value));  // never "-0"
 }
 
 void YamlLines::number(const char* key, const std::optional<double>& value) {

@@ -6,6 +6,7 @@
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
@@ -122,7 +123,7 @@ void check_tying(const SpecimenOptions& specimen, const Material& material) {
   const double preload = tying_load(specimen, material), least = least_preload(specimen, material);
   if (preload < least)
     throw InvalidInput("specimen.preload", short_number(preload),
-                       "at least " + short_number(least) + " N for a rod with material.bending_stiffness " +
+                       "at least " + least_text(least) + " N for a rod with material.bending_stiffness " +
                            short_number(material.bending_stiffness) + " N m2, radius " + short_number(material.radius) +
                            " m and friction_coefficient " + short_number(material.friction_coefficient) +
                            ": a smaller one does not move the coils, which close only at " +
@@ -131,7 +132,7 @@ void check_tying(const SpecimenOptions& specimen, const Material& material) {
   const double strain = strain_under(material, preload) + 1.0 / drawn_coil(specimen);
   if (material.breaking_strain && *material.breaking_strain <= strain)
     throw InvalidInput("material.breaking_strain", short_number(*material.breaking_strain),
-                       "more than " + short_number(strain) +
+                       "more than " + least_text(strain, 3) +
                            ", the strain of the outermost fibre in the loose coil from which a knot is tied");
 }
 

@@ -3,7 +3,7 @@
 #include "knot_utm/machine/accuracy.hpp"
 
 /// The tolerances behind `physics.accuracy`, and the constants of the errors that are reported beside readings. Each
-/// comment says which measurement gave the values. doc/measured.md lists these and all other constants that were
+/// comment says which measurement gave the values. doc/developers/measured.md lists these and all other constants that were
 /// measured or chosen.
 namespace knot_utm::measured {
 
@@ -27,7 +27,7 @@ inline constexpr double kTiedHard = 6.0, kShortestForHard = 4.0 / 3.0;
 
 // Relative errors at `normal` with edges of h/2.25 (for a solid rod, of h). They are meant to include 95 % of the
 // differences from `fine` with edges half as long, and to be hardly larger than that needs. They were chosen from the
-// draws of `scripts/bench readings` with seeds 21, 25 and 28 to 30. doc/benchmarks.md says how many of these draws, and
+// draws of `scripts/bench readings` with seeds 21, 25 and 28 to 30. doc/developers/benchmarks.md says how many of these draws, and
 // of others, they include.
 // two knots of the same handedness, and of opposite handedness
 inline constexpr double kPlateau = 0.043, kOppositePlateau = 0.067;

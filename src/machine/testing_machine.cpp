@@ -431,7 +431,10 @@ double TestingMachine::time() const { return impl_->time; }
 double TestingMachine::longest_step() const {
   return tolerances(impl_->physics, impl_->specimen, impl_->material).longest_step;
 }
-Eigen::VectorXd TestingMachine::tension() const { return impl_->stepper->tension(); }
+Eigen::VectorXd TestingMachine::tension() const {
+  if (impl_->parted()) return Eigen::VectorXd::Constant(rod().edges(), Sample::kNone);
+  return impl_->stepper->tension();
+}
 std::vector<ContactForce> TestingMachine::contact_forces() const {
   return impl_->knows_contacts() ? impl_->stepper->contact_forces() : std::vector<ContactForce>();
 }

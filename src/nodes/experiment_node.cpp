@@ -4,14 +4,27 @@
 #include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
 
+namespace {
+
+constexpr char kHelp[] = R"(Publishes an experiment's record beside the test that follows it.
+It is a part of: roslaunch knot_utm experiment.launch data:=FILE (doc/ros.md).
+
+  _autostart:=FLAG            starts the test [false]
+  _balance:=auto|true|false   whether the record gets a zero; auto: raw data do [auto]
+)";
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  return knot_utm::run_node(argc, argv, knot_utm::names::kExperimentNode, [&] {
+  return knot_utm::run_node(argc, argv, knot_utm::names::kExperimentNode, kHelp, [&] {
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, knot_utm::names::kExperimentNode);
     const std::string data = knot_utm::read_test_setup(node).data;
     if (data.empty()) throw knot_utm::InvalidInput::missing("data", "the record of an experiment, data:=FILE");
     bool autostart = false;
     knot_utm::read_parameter(ros::NodeHandle("~"), "autostart", &autostart, "true or false");
-    knot_utm::ExperimentNode(node, data).spin(autostart);
+    std::string balance = "auto";
+    knot_utm::read_parameter(ros::NodeHandle("~"), "balance", &balance, "auto, true or false");
+    knot_utm::ExperimentNode(node, data, knot_utm::record_balance_named(balance)).spin(autostart);
     return 0;
   });
 }

@@ -5,12 +5,21 @@
 
 #include "knot_utm/ros/method_setup.hpp"
 
+namespace {
+
+constexpr char kHelp[] = R"(Writes what a test measures: curve, result and bag.
+It is a part of: roslaunch knot_utm tighten.launch. It reads the test from the parameters test/..., which the launch
+file sets (doc/ros.md).
+)";
+
+}  // namespace
+
 int main(int argc, char** argv) {
   // A file as large as is allowed is an error like a full disk, which says what was being written.
   std::signal(SIGXFSZ, SIG_IGN);
-  return knot_utm::run_node(argc, argv, "recorder_node", [&] {
+  return knot_utm::run_node(argc, argv, "recorder_node", kHelp, [&] {
     knot_utm::Keeper keeper;
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, "recorder_node");
-    return knot_utm::RecorderNode(node, knot_utm::read_test_setup(node), keeper).spin();
+    return knot_utm::RecorderNode(node, knot_utm::read_test_setup(node).out, keeper).spin();
   });
 }

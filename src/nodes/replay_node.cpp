@@ -3,12 +3,30 @@
 
 #include <filesystem>
 
+#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/record/ended_by.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
 
+namespace {
+
+constexpr char kHelp[] = R"(Plays a recorded test without physics.
+It is a part of: roslaunch knot_utm replay.launch bag:=FILE (doc/ros.md).
+
+  _bag:=FILE                  the test.bag of a run
+  _method:=FILE               what was tested [method.yaml beside the bag]
+  _rate:=NUMBER               time of the test over wall-clock time; 0: as fast as possible [1]
+  _patience:=NUMBER           how long it waits for somebody to look [s] [5]
+  _exit_at_end:=FLAG          ends when the bag has ended [false]
+  _working_directory:=FOLDER  where relative paths begin [the present folder]
+  _marker_rate, _color_by     as of knot_node
+)";
+
+}  // namespace
+
 int main(int argc, char** argv) {
   namespace fs = std::filesystem;
-  return knot_utm::run_node(argc, argv, knot_utm::names::kReplayNode, [&] {
+  return knot_utm::run_node(argc, argv, knot_utm::names::kReplayNode, kHelp, [&] {
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, knot_utm::names::kReplayNode);
     const ros::NodeHandle own("~");
     std::string bag, method, base;
@@ -26,6 +44,8 @@ int main(int argc, char** argv) {
     // As every run has it beside its bag.
     const fs::path beside = method.empty() ? file.parent_path() / "method.yaml" : fs::path(base) / method;
     options.bag = file.string();
+    options.ended_by = knot_utm::result_of(file.parent_path().string(), "ended_by").value_or("");
+    if (options.ended_by == knot_utm::ended_by_name(knot_utm::EndedBy::kNotYet)) options.ended_by.clear();
     if (!fs::exists(file)) throw knot_utm::InvalidInput::cannot_read(options.bag);
     return knot_utm::ReplayNode(node, knot_utm::load_method(beside.string()), options).spin();
   });

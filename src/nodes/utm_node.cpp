@@ -3,8 +3,22 @@
 
 #include "knot_utm/ros/method_setup.hpp"
 
+namespace {
+
+constexpr char kHelp[] = R"(The machine: runs the test program against the physics of knot_node, one command at a time.
+It is a part of: roslaunch knot_utm tighten.launch. It reads the test from the parameters test/..., which the launch
+file sets (doc/ros.md).
+
+  _real_time_factor:=NUMBER   simulated time over wall-clock time; 1: as on the bench; 0: as fast as possible [1]
+  _autostart:=FLAG            starts the test when knot_node is there; false: utm/start_test starts it [true]
+  _record:=FLAG               waits for recorder_node [false]
+  _exit_at_end:=FLAG          ends when the test has ended [false]
+)";
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  return knot_utm::run_node(argc, argv, "utm_node", [&] {
+  return knot_utm::run_node(argc, argv, "utm_node", kHelp, [&] {
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, "utm_node");
     const ros::NodeHandle own("~");
     knot_utm::UtmOptions options;
@@ -16,6 +30,6 @@ int main(int argc, char** argv) {
       throw knot_utm::InvalidInput("real_time_factor", std::to_string(options.real_time_factor),
                                    "0 (as fast as possible) or more");
     }
-    return knot_utm::UtmNode(node, knot_utm::read_test_setup(node).method, options).spin();
+    return knot_utm::UtmNode(node, knot_utm::read_test_setup(node), options).spin();
   });
 }

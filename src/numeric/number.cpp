@@ -26,6 +26,7 @@ std::string format_yaml_number(double value) {
 
 std::string short_number(double value) {
   if (!std::isfinite(value)) return format_number(value);
+  if (value == 0.0) value = 0.0;  // never "-0"
   std::array<char, 32> text{};
   const std::to_chars_result end =
       std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);

@@ -5,7 +5,7 @@
 namespace knot_utm {
 namespace {
 
-constexpr ChoiceNames<EndedBy, 10> kEndNames{{{EndedBy::kNotYet, "not yet"},
+constexpr ChoiceNames<EndedBy, 11> kEndNames{{{EndedBy::kNotYet, "not yet"},
                                               {EndedBy::kBreak, "break"},
                                               {EndedBy::kExtension, "extension"},
                                               {EndedBy::kLoad, "load"},
@@ -14,7 +14,8 @@ constexpr ChoiceNames<EndedBy, 10> kEndNames{{{EndedBy::kNotYet, "not yet"},
                                               {EndedBy::kSolver, "solver"},
                                               {EndedBy::kProgram, "program"},
                                               {EndedBy::kTime, "time"},
-                                              {EndedBy::kUntangled, "untangled"}}};
+                                              {EndedBy::kUntangled, "untangled"},
+                                              {EndedBy::kInterrupted, "interrupted"}}};
 
 }  // namespace
 

@@ -3,8 +3,10 @@
 #include <ros/exception.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <map>
 #include <stdexcept>
+#include <utility>
 
 #include "bag_topics.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
@@ -24,22 +26,43 @@ void for_each(const rosbag::Bag& bag, const std::string& file, const std::string
   }
 }
 
-std::vector<CurveRow> rows_of(const rosbag::Bag& bag, const std::string& file) {
+/// A reading and the test that it belongs to, as its command numbers them.
+struct Reading {
+  CurveRow row;
+  std::uint32_t run = 0;
+};
+
+/// The readings of each test, one after the other. Tests of one number differ in that their time begins anew.
+std::vector<std::vector<CurveRow>> tests_of(const std::vector<Reading>& readings) {
+  std::vector<std::vector<CurveRow>> out;
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const bool goes_on = i > 0 && readings[i].run == readings[i - 1].run &&
+                         (out.back().size() < 2 || readings[i].row.time > out.back().front().time);
+    if (!goes_on) out.emplace_back();
+    out.back().push_back(readings[i].row);
+  }
+  return out;
+}
+
+std::vector<Reading> readings_of(const rosbag::Bag& bag, const std::string& file) {
   const std::string load_cell = required_topic(bag, file, names::kLoadCell);
   const std::string crosshead = required_topic(bag, file, names::kCrosshead);
   const std::string state = topic_named(bag, file, names::kKnotState);
-  std::map<ros::Time, CurveRow> at;
+  std::map<ros::Time, Reading> at;
   for_each<Crosshead>(bag, file, crosshead, [&](const Crosshead& message) {
     const Command command = from_message(message);
-    CurveRow& row = at[message.header.stamp];
+    Reading& reading = at[message.header.stamp];
+    reading.run = message.run;
+    CurveRow& row = reading.row;
     row.time = command.time;
     row.extension = command.displacement;
     row.phase = command.phase;
     row.end_to_end = row.load_lower = Sample::kNone;
   });
-  for_each<KnotState>(bag, file, state,
-                      [&](const KnotState& message) { at[message.header.stamp] = curve_row(from_message(message)); });
-  std::vector<CurveRow> out;
+  for_each<KnotState>(bag, file, state, [&](const KnotState& message) {
+    at[message.header.stamp] = {curve_row(from_message(message)), message.run};
+  });
+  std::vector<Reading> out;
   for_each<geometry_msgs::WrenchStamped>(bag, file, load_cell, [&](const geometry_msgs::WrenchStamped& message) {
     const auto found = at.find(message.header.stamp);
     if (found == at.end())
@@ -48,17 +71,34 @@ std::vector<CurveRow> rows_of(const rosbag::Bag& bag, const std::string& file) {
           "a reading on topic " + shown(load_cell) + " has no command with the same time stamp")
           .in_file(file);
     out.push_back(found->second);
-    out.back().load = message.wrench.force.z;
+    out.back().row.load = message.wrench.force.z;
   });
   return out;
 }
 
+std::vector<CurveRow> rows_of(const rosbag::Bag& bag, const std::string& file, int wanted) {
+  std::vector<std::vector<CurveRow>> tests = tests_of(readings_of(bag, file));
+  if (tests.empty() && wanted <= 1) return {};
+  const std::string all = std::to_string(tests.size());
+  if (wanted == 0 && tests.size() > 1)
+    throw InvalidInput::sentence("tests", all,
+                                 "the bag holds " + all + " tests: choose one by --specimen 1 to " + all)
+        .in_file(file);
+  const std::size_t index = wanted == 0 ? 0 : static_cast<std::size_t>(wanted - 1);
+  if (index >= tests.size())
+    throw InvalidInput::sentence("tests", std::to_string(wanted),
+                                 "--specimen is " + std::to_string(wanted) + ", but the bag holds " + all +
+                                     (tests.size() == 1 ? " test" : " tests"))
+        .in_file(file);
+  return std::move(tests[index]);
+}
+
 }  // namespace
 
-std::vector<CurveRow> read_curve_bag(const std::string& file) {
+std::vector<CurveRow> read_curve_bag(const std::string& file, int test) {
   try {
     const rosbag::Bag bag(file, rosbag::bagmode::Read);
-    return rows_of(bag, file);
+    return rows_of(bag, file, test);
   } catch (const ros::Exception& error) {
     throw no_bag(file, error.what());
   } catch (const std::invalid_argument& error) {

@@ -1,10 +1,14 @@
 #include "knot_utm/ros/experiment_node.hpp"
 
 #include <geometry_msgs/WrenchStamped.h>
+#include <knot_utm/StartTest.h>
 #include <ros/callback_queue.h>
-#include <std_srvs/Trigger.h>
+
+#include <utility>
 
 #include "knot_utm/io/curve_file.hpp"
+#include "knot_utm/io/raw_zero.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/program.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
@@ -19,14 +23,37 @@ constexpr std::uint32_t kLargest = 16 * 1024;  // message to this node [bytes]
 
 }  // namespace
 
-ExperimentNode::ExperimentNode(const ros::NodeHandle& node, const std::string& file)
+RecordBalance record_balance_named(const std::string& name) {
+  if (name == "auto") return RecordBalance::kAuto;
+  if (name == "true") return RecordBalance::kYes;
+  if (name == "false") return RecordBalance::kNo;
+  throw InvalidInput("balance", name, "auto, true or false");
+}
+
+std::vector<CurveRow> record_with_zero(std::vector<CurveRow> rows, RecordBalance balance,
+                                       const std::function<void(const std::string& line)>& tell) {
+  if (rows.empty() || balance == RecordBalance::kNo) return rows;
+  if (has_its_zero(rows)) {
+    if (balance == RecordBalance::kYes) tell("the record is a curve of knot_utm and keeps its own zero");
+    return rows;
+  }
+  const RawZero zero = zero_at_rest(rows);
+  tell(zero_words(zero));
+  return balanced(rows, zero);
+}
+
+ExperimentNode::ExperimentNode(const ros::NodeHandle& node, const std::string& file, RecordBalance balance)
     : node_(node),
       rows_(read_course(file)),
+      began_(rows_.empty() ? 0.0 : rows_.front().time),
       load_cell_(node_.advertise<geometry_msgs::WrenchStamped>(names::kExperimentLoad, kQueue)),
       crosshead_(node_.advertise<Crosshead>(names::kExperimentCrosshead, kQueue)),
       commands_(subscribe_gated(node_, {names::kCrosshead, names::kUtmNode, kQueue, kLargest},
                                 &ExperimentNode::on_command, this)),
-      start_(node_.serviceClient<std_srvs::Trigger>(names::kStartTest)) {}
+      start_(node_.serviceClient<StartTest>(names::kStartTest)) {
+  rows_ = record_with_zero(std::move(rows_), balance,
+                           [&](const std::string& line) { ROS_INFO("%s: %s", file.c_str(), line.c_str()); });
+}
 
 void ExperimentNode::spin(bool autostart) {
   while (ros::ok()) {
@@ -36,9 +63,9 @@ void ExperimentNode::spin(bool autostart) {
 }
 
 void ExperimentNode::try_to_start() {
-  std_srvs::Trigger trigger;
+  StartTest start;
   // Until the physics is there too the machine refuses.
-  if (commands_.getNumPublishers() > 0 && start_.call(trigger) && trigger.response.success == 0)
+  if (commands_.getNumPublishers() > 0 && start_.call(start) && start.response.accepted == 0)
     ros::WallDuration(kLook).sleep();
 }
 
@@ -52,7 +79,7 @@ void ExperimentNode::on_command(const Crosshead::ConstPtr& command) {
     return;
   }
   for (; next_ < rows_.size(); ++next_) {
-    const ros::Time stamp = begin_ + ros::Duration(rows_[next_].time - rows_.front().time);
+    const ros::Time stamp = begin_ + ros::Duration(rows_[next_].time - began_);
     if (stamp > command->header.stamp) break;
     publish(rows_[next_], stamp);
   }

@@ -9,7 +9,9 @@
 #include "knot_utm/io/run_warnings.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
+#include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/urdf.hpp"
 #include "knot_utm/study/specimens.hpp"
 
 namespace knot_utm {
@@ -38,7 +40,7 @@ TestingMachine make_bench(const Method& method) {
 
 KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
     : node_(node),
-      described_(method),
+      order_(order_of(method, "", {})),
       method_(method),
       machine_(make_bench(method)),
       frames_(machine_.lower_grip(), method.specimen.end_to_end),
@@ -70,10 +72,12 @@ KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
   begin_specimen();
 }
 
-void KnotNode::put_in(const BatchPlace& place) {
-  method_ = method_of_specimen(method_of_batch(described_, place.count), place.number);
-  place_ = place;
-  machine_ = make_bench(method_);
+void KnotNode::put_in(const TestOrder& order) {
+  const Method method = method_of_specimen(method_of(order), order.place.number);
+  machine_ = make_bench(method);
+  method_ = method;
+  order_ = order;
+  diagnostics_.setHardwareID(method_.material.name);
   frames_.begin(machine_.lower_grip(), method_.specimen.end_to_end);
   ScenePicture picture(method_.specimen, method_.machine, method_.material);
   picture.show_as(picture_);
@@ -92,6 +96,8 @@ void KnotNode::begin_specimen() {
   picture_.begin(machine_.state().position);
   shown_.begin();
   view_is_old_ = true;
+  set_on_master(node_.resolveName(names::kRobotDescription),
+                machine_urdf(method_, machine_.lower_grip(), machine_.upper_grip()));
 
   SpecimenInfo info;
   info.header.stamp = stamp_;
@@ -111,8 +117,8 @@ void KnotNode::on_command(const Crosshead::ConstPtr& command) {
   if (message.run != run_) {
     if (message.sequence != 0) return refuse(message, "the specimen was reset during the test");
     try {
-      const BatchPlace place = batch_place(node_);
-      if (next_ != 0 || !(place == place_)) put_in(place);
+      const TestOrder order = given_order(node_);
+      if (next_ != 0 || !order.same_specimen(order_)) put_in(order);
     } catch (const InvalidInput& invalid) {
       return refuse(message, invalid.what());
     }
@@ -149,7 +155,7 @@ void KnotNode::answer(const Crosshead& message) {
   for (const Sample& step : machine_.substeps()) {
     record->steps.push_back(to_message(step, message.run, test_stamp(start, step.time)));
   }
-  if (shape_is_due(command) || sample_.status == BenchStatus::kFailed) put_shape(*record);
+  if (shape_is_due(command, sample_) || sample_.status == BenchStatus::kFailed) put_shape(*record);
   const std::string& failed_step = machine_.failed_step();
   record->failed_step.assign(failed_step.begin(), failed_step.end());
   kept_.push_back(record);
@@ -201,7 +207,7 @@ void KnotNode::on_status(const TestStatus::ConstPtr& ended) {
 }
 
 bool KnotNode::on_reset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  put_in(place_);
+  put_in(order_);
   response.success = 1;
   response.message = "a new specimen";
   return true;

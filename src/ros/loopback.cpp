@@ -1,6 +1,7 @@
 #include "knot_utm/ros/loopback.hpp"
 
 #include <arpa/inet.h>
+#include <net/if.h>
 #include <netdb.h>
 #include <netinet/in.h>
 #include <ros/master.h>
@@ -15,6 +16,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "knot_utm/numeric/invalid_input.hpp"
 
@@ -30,7 +32,7 @@ InvalidInput reachable(const std::string& who, const std::string& address, const
                                     "), and ROS 1 has no authentication: " + remedy + ", or allow it by network:=true");
 }
 
-constexpr const char* kLocalhost = "set ROS_HOSTNAME=localhost";
+constexpr char kLoopbackDevice[] = "lo";
 
 bool is_loopback(const sockaddr_storage& address) {
   if (address.ss_family == AF_INET) {
@@ -62,21 +64,30 @@ bool names_loopback(const std::string& host) {
   return all;
 }
 
-/// Of the sockets that this process listens on, one that others reach; empty: none.
-std::string open_socket() {
+/// A socket of this process that listens on an address of more than this machine.
+struct OpenSocket {
+  int descriptor;
+  std::string address;
+};
+
+std::vector<OpenSocket> open_sockets() {
+  std::vector<OpenSocket> found;
   for (const fs::directory_entry& entry : fs::directory_iterator("/proc/self/fd")) {
     const int fd = std::atoi(entry.path().filename().c_str());
     int listens = 0;
     socklen_t length = sizeof listens;
     if (getsockopt(fd, SOL_SOCKET, SO_ACCEPTCONN, &listens, &length) != 0 || listens == 0) continue;
+    char device[IFNAMSIZ] = "";
+    length = sizeof device;
+    if (getsockopt(fd, SOL_SOCKET, SO_BINDTODEVICE, device, &length) == 0 && std::strcmp(device, kLoopbackDevice) == 0)
+      continue;
     sockaddr_storage address{};
     length = sizeof address;
     if (getsockname(fd, reinterpret_cast<sockaddr*>(&address), &length) != 0) continue;
-    if ((address.ss_family == AF_INET || address.ss_family == AF_INET6) && !is_loopback(address)) {
-      return text_of(address);
-    }
+    if ((address.ss_family == AF_INET || address.ss_family == AF_INET6) && !is_loopback(address))
+      found.push_back({fd, text_of(address)});
   }
-  return "";
+  return found;
 }
 
 /// An address of /proc/net/tcp or tcp6: words of 32 bits, each as this machine writes the number it makes.
@@ -123,11 +134,18 @@ void prefer_loopback() {
     setenv("ROS_HOSTNAME", "localhost", 1);
 }
 
+void stay_on_loopback() {
+  for (const OpenSocket& one : open_sockets())
+    setsockopt(one.descriptor, SOL_SOCKET, SO_BINDTODEVICE, kLoopbackDevice, sizeof kLoopbackDevice);
+}
+
 void require_loopback() {
   const std::string& host = ros::network::getHost();
-  if (!names_loopback(host)) throw reachable("this node", host, kLocalhost);
-  const std::string open = open_socket();
-  if (!open.empty()) throw reachable("a socket of this node", open, kLocalhost);
+  if (!names_loopback(host)) throw reachable("this node", host, "set ROS_HOSTNAME=localhost");
+  const std::vector<OpenSocket> open = open_sockets();
+  if (!open.empty())
+    throw reachable("a socket of this node", open.front().address,
+                    "run it on Linux 5.7 or later, which can prevent that");
   if (!names_loopback(ros::master::getHost()))
     throw reachable("the ROS master", ros::master::getURI(), "set ROS_MASTER_URI=http://localhost:11311");
   if (is_open_port(ros::master::getPort())) {

@@ -3,14 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <vector>
 
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
 #include "knot_utm/ros/color.hpp"
 #include "knot_utm/ros/names.hpp"
-#include "knot_utm/ros/views.hpp"
 
 namespace knot_utm {
 namespace {
@@ -46,12 +44,8 @@ constexpr double kLongestForce = 6.0;   // half of the line of a contact force a
 constexpr double kSphereDistance = 1.3;  // beyond which one is put between two [radius]
 constexpr int kMostBetween = 4;          // on an edge
 
-// The readings as text, in halves of the height of the picture
-constexpr double kTextAhead = 0.3;                  // of the distance to the machine
-constexpr double kTextHeight = 0.038;               // of letters; rviz sets lines 3.8 times that apart
-constexpr double kTextUp = 0.36, kTextLeft = 0.42;  // of its middle
-
 const std_msgs::ColorRGBA kInk = color(0.12, 0.12, 0.15);
+const std_msgs::ColorRGBA kUnknown = color(0.58, 0.6, 0.63);  // of what has no known value
 const std_msgs::ColorRGBA kContactColor = color(0.25, 0.85, 0.95);
 
 /// One ring of the tube at a node.
@@ -107,24 +101,6 @@ Marker body_marker(int id, const GripBody& body, const Vec3& grip, double radius
   m.scale.z = size.z();
   m.color = color(0.45, 0.47, 0.52);
   return m;
-}
-
-/// One reading a line: its name, its value and its unit.
-std::string reading_text(const SceneView& view, const ColorScale& scale) {
-  const Sample& sample = view.sample;
-  char text[512];
-  std::snprintf(text, sizeof text,
-                "time %.1f s\nphase: %s\nmotion pattern: %s\nextension %.1f mm\nload %.4g N\n"
-                "end-to-end distance %.1f mm\n",
-                sample.time, phase_name(sample.phase), view.motion_pattern.c_str(), 1e3 * sample.extension, sample.load,
-                1e3 * sample.end_to_end);
-  std::string out = text;
-  if (!std::isnan(sample.knot_distance)) {
-    std::snprintf(text, sizeof text, "knot distance %.1f mm\n", 1e3 * sample.knot_distance);
-    out += text;
-  }
-  std::snprintf(text, sizeof text, "colours: grey 0, red %g N", scale.full());
-  return out + text;
 }
 
 /// What one ring of triangles to the next is made of.
@@ -300,11 +276,12 @@ Eigen::Index ScenePicture::parted_edge(const Sample& sample) const {
 Colors ScenePicture::colors(const SceneView& view, Eigen::Index parted) const {
   const bool by_tension = color_by_ == ColorBy::kTension;
   Eigen::VectorXd value = by_tension ? tension_at_nodes(view.tension) : curvature_at_nodes(view.points, radius_);
-  value.conservativeResizeLike(Eigen::VectorXd::Zero(view.points.cols()));  // where no tension is known
-  if (parted >= 0 && !by_tension) value.segment(parted, 2).setZero();       // no bend is there any more
+  value.conservativeResizeLike(Eigen::VectorXd::Constant(view.points.cols(), Sample::kNone));
+  if (parted >= 0 && by_tension) value.setConstant(Sample::kNone);
+  if (parted >= 0 && !by_tension) value.segment(parted, 2).setZero();  // no bend is there any more
   Colors out;
   out.reserve(static_cast<std::size_t>(value.size()));
-  for (const double x : value) out.push_back(scale().color(x));
+  for (const double x : value) out.push_back(std::isfinite(x) ? scale().color(x) : kUnknown);
   return out;
 }
 
@@ -318,20 +295,6 @@ void ScenePicture::add_bodies(const SceneView& view, std::vector<Marker>& marker
   for (std::size_t i = 0; i < bodies_.size(); ++i)
     markers.push_back(
         body_marker(static_cast<int>(i), bodies_[i], bodies_[i].goes_up ? view.upper_grip : view.lower_grip, radius_));
-}
-
-Marker ScenePicture::reading_marker(const SceneView& view, const Vec3& eye) const {
-  Marker m = base_marker("reading", 0, Marker::TEXT_VIEW_FACING);
-  m.header.frame_id = names::kViewMachineFrame;
-  m.text = reading_text(view, tension_);
-  // In the upper left corner, nearer to the eye than anything else.
-  const double ahead = kTextAhead * (0.5 * (view.lower_grip + view.upper_grip) - eye).norm();
-  const double half_height = ahead * std::tan(0.5 * Camera::kFieldOfView);
-  m.scale.z = kTextHeight * half_height;
-  m.pose.position =
-      to_point(ahead * Camera::forwards() + half_height * (kTextUp * Camera::up() - kTextLeft * Camera::right()));
-  m.color = color(0.95, 0.95, 0.95);
-  return m;
 }
 
 namespace {
@@ -357,15 +320,13 @@ visualization_msgs::MarkerArray ScenePicture::draw(const SceneView& view, const 
   return stamped(std::move(markers), stamp);
 }
 
-visualization_msgs::MarkerArray ScenePicture::draw_small(const SceneView& view, const Vec3& eye,
-                                                         const ros::Time& stamp) const {
+visualization_msgs::MarkerArray ScenePicture::draw_small(const SceneView& view, const ros::Time& stamp) const {
   const Eigen::Index parted = parted_edge(view.sample);
   Colors shown = colors(view, std::min(parted, view.points.cols() - 2));
   for (const Eigen::Index node : gauge_)
     if (node < view.points.cols()) shown[static_cast<std::size_t>(node)] = kInk;
   std::vector<Marker> markers{spheres_marker(view.points, shown, radius_, parted)};
   add_bodies(view, markers);
-  markers.push_back(reading_marker(view, eye));
   return stamped(std::move(markers), stamp);
 }
 

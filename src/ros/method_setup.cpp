@@ -8,10 +8,12 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <utility>
 #include <vector>
 
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/io/shipped.hpp"
+#include "knot_utm/numeric/number.hpp"
 #include "knot_utm/ros/batch_place.hpp"
 #include "knot_utm/ros/loopback.hpp"
 #include "knot_utm/ros/master_parameters.hpp"
@@ -38,12 +40,10 @@ std::string text_parameter(const ros::NodeHandle& node, const std::string& name)
 }
 
 /// The launch file knows the package's own methods, wherever the package is installed.
-std::string method_file(const ros::NodeHandle& node, const fs::path& base) {
-  const std::string method = text_parameter(node, "test/method");
-  if (method.empty())
+std::string method_file(const TestWords& words, const fs::path& base) {
+  if (words.method.empty())
     throw InvalidInput::missing("method", "a method file, method:=FILE, or the name of a shipped method");
-  const std::string file = find_method(method, base.string(), {text_parameter(node, "test/shipped_methods")});
-  return fs::path(file).lexically_normal().string();
+  return fs::path(find_method(words.method, base.string(), {words.shipped_methods})).lexically_normal().string();
 }
 
 /// The override by which a program follows a record instead of its last pull.
@@ -75,41 +75,78 @@ bool another_says_it(const ros::NodeHandle& node) {
          node.hasParam(std::string(names::kExitCodes) + "/" + names::kUtmNode);
 }
 
+TestWords read_words(const ros::NodeHandle& node) {
+  TestWords words;
+  words.method = text_parameter(node, "test/method");
+  words.shipped_methods = text_parameter(node, "test/shipped_methods");
+  words.material = text_parameter(node, "test/material");
+  words.preload = text_parameter(node, "test/preload");
+  words.working_directory = text_parameter(node, "test/working_directory");
+  words.data = text_parameter(node, "test/data");
+  words.out = text_parameter(node, "test/out");
+  read_parameter(node, "test/overrides", &words.overrides, "a list of texts");
+  return words;
+}
+
+/// Without the overrides of this very key, which one that is given in another way would else not replace.
+void remove_overrides(std::vector<std::string>& overrides, const std::string& key) {
+  const auto is_of_key = [&](const std::string& override_) { return override_.rfind(key + "=", 0) == 0; };
+  overrides.erase(std::remove_if(overrides.begin(), overrides.end(), is_of_key), overrides.end());
+}
+
 MethodSetup read_parameters(const ros::NodeHandle& node) {
-  fs::path base = text_parameter(node, "test/working_directory");
-  if (base.empty()) base = fs::current_path();
-
-  std::vector<std::string> overrides;
-  const std::string material = text_parameter(node, "test/material");
-  const std::string preload = text_parameter(node, "test/preload");
-  if (!material.empty()) overrides.push_back("material=" + material);
-  if (!preload.empty()) overrides.push_back("specimen.preload=" + preload);
-  std::vector<std::string> more;
-  read_parameter(node, "test/overrides", &more, "a list of texts");
-  overrides.insert(overrides.end(), more.begin(), more.end());
-
-  MethodSetup setup;
-  const std::string file = method_file(node, base);
-  setup.method = load_method(file, overrides);
-  const std::string data = text_parameter(node, "test/data");
-  if (!data.empty()) {
-    setup.data = (base / data).lexically_normal().string();
-    overrides.push_back(following(setup.data, setup.method.program));
-    setup.method = load_method(file, overrides);
-  }
-  if (setup.method.specimens.count > 1 && !another_says_it(node)) check_specimens(setup.method, file);
-  // The folder's name below out/.
-  if (setup.method.name == "." || setup.method.name == "..") {
-    throw InvalidInput::sentence("method", file,
-                                 "the method file cannot be called \"" + shown(file) +
-                                     "\": its name without its ending is that of the folder to write to");
-  }
-  const std::string out = text_parameter(node, "test/out");
-  setup.out = (base / (out.empty() ? fs::path("out") / setup.method.name : fs::path(out))).lexically_normal().string();
+  const MethodSetup setup = set_up(read_words(node));
+  if (setup.method.specimens.count > 1 && !another_says_it(node)) check_specimens(setup.method, setup.file);
   return setup;
 }
 
 }  // namespace
+
+MethodSetup set_up(const TestWords& words) {
+  const fs::path base = words.working_directory.empty() ? fs::current_path() : fs::path(words.working_directory);
+  std::vector<std::string> overrides;
+  if (!words.material.empty()) overrides.push_back("material=" + words.material);
+  if (!words.preload.empty()) overrides.push_back("specimen.preload=" + words.preload);
+  overrides.insert(overrides.end(), words.overrides.begin(), words.overrides.end());
+
+  MethodSetup setup;
+  setup.words = words;
+  setup.file = method_file(words, base);
+  setup.method = load_method(setup.file, overrides);
+  if (!words.data.empty()) {
+    setup.data = (base / words.data).lexically_normal().string();
+    overrides.push_back(following(setup.data, setup.method.program));
+    setup.method = load_method(setup.file, overrides);
+  }
+  // The folder's name below out/.
+  const std::string& name = setup.method.name;
+  if (name == "." || name == "..") {
+    throw InvalidInput::sentence("method", setup.file,
+                                 "the method file cannot be called \"" + shown(setup.file) +
+                                     "\": its name without its ending is that of the folder to write to");
+  }
+  setup.out = (base / (words.out.empty() ? fs::path("out") / name : fs::path(words.out))).lexically_normal().string();
+  return setup;
+}
+
+TestWords asked_for(TestWords launched, const StartTest::Request& request) {
+  TestWords words = std::move(launched);
+  if (!request.method.empty()) words.method = request.method;
+  if (!request.overrides.empty()) {
+    words.overrides = request.overrides;
+    words.overrides.erase(std::remove(words.overrides.begin(), words.overrides.end(), ""), words.overrides.end());
+  }
+  const bool keeps_overrides = request.overrides.empty();
+  if (!request.material.empty()) {
+    words.material = request.material;
+    if (keeps_overrides) remove_overrides(words.overrides, "material");
+  }
+  if (request.preload != 0.0) {
+    words.preload = format_yaml_number(request.preload);
+    if (keeps_overrides) remove_overrides(words.overrides, "specimen.preload");
+  }
+  return words;
+}
 
 MethodSetup read_test_setup(const ros::NodeHandle& node) {
   try {
@@ -128,6 +165,7 @@ ros::NodeHandle join_ros(int argc, char** argv, const char* name) {
   bool network = false;
   read_parameter(node, "test/network", &network, "true or false");
   if (!network) {
+    stay_on_loopback();
     require_loopback();
   } else if (name == std::string(names::kUtmNode)) {  // one of all that say it
     ROS_WARN("network:=true: ROS 1 has no authentication, so anyone who reaches this machine can command the test");
@@ -141,10 +179,21 @@ void leave_ros(const char* name, int code) {
   ros::shutdown();
 }
 
-bool asks_for_version(int argc, char** argv) {
-  if (argc != 2 || argv[1] != std::string("--version")) return false;
-  std::puts(version().c_str());
-  return true;
+std::optional<int> answer_words(int argc, char** argv, const char* name, const char* help) {
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word.find(":=") != std::string::npos) continue;
+    if (word == "--version") {
+      std::puts(version().c_str());
+      return 0;
+    }
+    if (word == "--help" || word == "-h") {
+      std::printf("usage: rosrun knot_utm %s [NAME:=VALUE]...\n\n%s", name, help);
+      return 0;
+    }
+    return report_failure(name, ("it takes no \"" + shown(word) + "\" (" + name + " --help)").c_str(), 2);
+  }
+  return std::nullopt;
 }
 
 int report_failure(const char* name, const char* what, int code) {

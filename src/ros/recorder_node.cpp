@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "knot_utm/io/claimed_folder.hpp"
+#include "knot_utm/io/command_hint.hpp"
+#include "knot_utm/io/latest_link.hpp"
 #include "knot_utm/io/recovery.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/conversions.hpp"
@@ -56,8 +58,9 @@ RecorderNode::Run::Run(const std::string& folder_, const Method& method_, Journa
       writer(folder_, method),
       bag((fs::path(folder_) / "test.bag").string(), method) {}
 
-RecorderNode::RecorderNode(const ros::NodeHandle& node, MethodSetup setup, Keeper& keeper)
-    : node_(node), setup_(std::move(setup)), keeper_(keeper), diagnostics_(node) {
+RecorderNode::RecorderNode(const ros::NodeHandle& node, const std::string& out, Keeper& keeper)
+    : node_(node), keeper_(keeper), diagnostics_(node) {
+  order_.out = out;
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
   status_ = node_.advertise<RecorderStatus>(names::kRecorderStatus, 100, ros::SubscriberStatusCallback(), gone,
                                             ros::VoidConstPtr(), true);
@@ -110,17 +113,18 @@ void RecorderNode::begin_run(const Crosshead& first) {
   run_.reset();
   const std::uint32_t run = first.run;
   run_number_ = run;
-  place_ = batch_place(node_);
+  order_ = given_order(node_);
   test_id_ = id_of_test(run);
   std::string recorded;
   node_.getParam(names::kRecordedTest, recorded);
   completed_before_ = !test_id_.empty() && recorded == test_id_;
   completed_folder_ = completed_before_ ? told_folder(names::kFolderOfTest, test_id_) : "";
-  begin_batch(id_of_test(run + 1 - static_cast<std::uint32_t>(place_.number)));
-  if (!place_.alone()) take_up_specimen();
+  begin_batch(id_of_test(run + 1 - static_cast<std::uint32_t>(order_.place.number)));
+  if (!order_.place.alone()) take_up_specimen();
   if (completed_before_) return;
   // That of a specimen is known even where the recorder before died between making it and telling it.
-  const std::string before = batch_ ? batch_->folder_of(place_.number) : told_folder(names::kFolderOfTest, test_id_);
+  const std::string before =
+      batch_ ? batch_->folder_of(order_.place.number) : told_folder(names::kFolderOfTest, test_id_);
   if (!before.empty()) {
     if (go_on(before)) return;
     if (first.sequence > 0 && has_complete_result(before)) {
@@ -128,9 +132,9 @@ void RecorderNode::begin_run(const Crosshead& first) {
                                " holds a result, which the rest of the test would write over");
     }
   }
-  const Method method = batch_ ? batch_->method_of(place_.number) : method_of_batch(setup_.method, 1);
+  const Method method = batch_ ? batch_->method_of(order_.place.number) : method_of(order_);
   if (batch_ && holds_run(before)) throw std::runtime_error(before + " holds another run, which is not written over");
-  ClaimedFolder claimed = claim(batch_ ? before : setup_.out, method, test_id_);
+  ClaimedFolder claimed = claim(batch_ ? before : order_.out, method, test_id_);
   if (!test_id_.empty()) tell_master(names::kFolderOfTest, test_id_ + " " + claimed.folder);
   run_ = std::make_unique<Run>(claimed.folder, method, std::move(claimed.journal));
   watch(claimed.folder);
@@ -138,7 +142,7 @@ void RecorderNode::begin_run(const Crosshead& first) {
 
 /// What a recorder that died has left to do of a specimen whose result is complete.
 void RecorderNode::take_up_specimen() {
-  completed_folder_ = specimen_folder(batch_folder_, place_.number);
+  completed_folder_ = specimen_folder(batch_folder_, order_.place.number);
   if (!batch_) {
     completed_before_ = true;  // the whole batch is
   } else if (completed_before_ || has_complete_result(completed_folder_)) {
@@ -147,12 +151,12 @@ void RecorderNode::take_up_specimen() {
 }
 
 void RecorderNode::begin_batch(const std::string& id) {
-  if (!place_.alone() && batch_ && batch_id_ == id) return;
+  if (!order_.place.alone() && batch_ && batch_id_ == id) return;
   batch_.reset();
   batch_id_ = id;
   batch_folder_.clear();
-  if (place_.alone()) return;
-  const Method method = method_of_batch(setup_.method, place_.count);
+  if (order_.place.alone()) return;
+  const Method method = method_of(order_);
   const std::string before = told_folder(names::kFolderOfBatch, id);
   if (!before.empty()) {
     batch_folder_ = before;
@@ -160,7 +164,7 @@ void RecorderNode::begin_batch(const std::string& id) {
     batch_.emplace(RecordedBatch::go_on(method, {before, JournalWriter::go_on(before, kPatienceWithKeeper)}));
     return;
   }
-  batch_.emplace(RecordedBatch::begin(method, claim(setup_.out, method, "")));
+  batch_.emplace(RecordedBatch::begin(method, claim(order_.out, method, "")));
   batch_folder_ = batch_->folder();
   if (!id.empty()) tell_master(names::kFolderOfBatch, id + " " + batch_->folder());
 }
@@ -332,7 +336,7 @@ void RecorderNode::finish_early() {
 
 void RecorderNode::cut_off(const std::string& why) {
   if (batch_) return interrupt(why);
-  finish(EndedBy::kOperator, why, "");
+  finish(EndedBy::kInterrupted, why, "");
 }
 
 void RecorderNode::write_results(EndedBy ended_by, const std::string& reason, const std::string& warning) {
@@ -360,11 +364,13 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
   }
   const std::string failed_step = failed_step_file(run.folder);
   if (fs::exists(failed_step))
-    ROS_WARN("the time step that failed can be looked at by: scripts/replay-step %s", failed_step.c_str());
+    ROS_WARN("the time step that failed can be looked at by: %s",
+             command_line({script_path("replay-step"), failed_step}).c_str());
   if (run.dropped > 0)
     ROS_WARN("%llu commands of the test were not recorded", static_cast<unsigned long long>(run.dropped));
   ROS_INFO("%zu readings were written to %s", run.writer.rows(), run.folder.c_str());
   if (batch_ && !conclude_specimen()) return;
+  if (!batch_) point_latest_to(run.folder);
   run.complete = true;
 }
 
@@ -374,7 +380,7 @@ void RecorderNode::interrupt(const std::string& why) {
     write_results(EndedBy::kNotYet, kInterrupted, why);
     keeper_.release();
     run_->complete = true;
-    ROS_WARN("%s: %s is left to be tested again", why.c_str(), place_.text().c_str());
+    ROS_WARN("%s: %s is left to be tested again", why.c_str(), order_.place.text().c_str());
   } catch (const std::exception& error) {
     fail(error.what());
   }
@@ -382,9 +388,11 @@ void RecorderNode::interrupt(const std::string& why) {
 
 bool RecorderNode::conclude_specimen() {
   try {
-    if (batch_->conclude(place_.number))
-      ROS_INFO("the statistics of all %d specimens were written to %s", place_.count,
+    if (batch_->conclude(order_.place.number)) {
+      point_latest_to(batch_->folder());
+      ROS_INFO("the statistics of all %d specimens were written to %s", order_.place.count,
                statistics_file(batch_->folder()).c_str());
+    }
     return true;
   } catch (const std::exception& error) {
     error_ = error.what();  // what was measured is in the folder of the specimen
@@ -433,7 +441,7 @@ void RecorderNode::publish_status() {
   RecorderStatus status;
   status.run = run_number_;
   status.error = error_;
-  status.directory = setup_.out;
+  status.directory = order_.out;
   status.complete = static_cast<std::uint8_t>(is_complete());
   if (run_) {
     status.header.stamp = run_->stamp;

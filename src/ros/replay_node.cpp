@@ -16,7 +16,9 @@
 #include "bag_topics.hpp"
 #include "clock_pace.hpp"
 #include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/urdf.hpp"
 #include "knot_utm/ros/validate.hpp"
 
 namespace knot_utm {
@@ -41,7 +43,7 @@ void open(rosbag::Bag& bag, const std::string& file) {
 std::map<std::string, std::string> topics_of(const rosbag::Bag& bag, const std::string& file) {
   std::map<std::string, std::string> names;
   for (const char* name : {names::kKnotShape, names::kKnotState}) names[required_topic(bag, file, name)] = name;
-  for (const char* name : {names::kCrosshead, names::kJointStates, names::kLoadCell}) {
+  for (const char* name : {names::kCrosshead, names::kJointStates, names::kLoadCell, names::kTestStatus}) {
     const std::string topic = topic_named(bag, file, name);
     if (!topic.empty()) names[topic] = name;
   }
@@ -78,10 +80,13 @@ ReplayNode::ReplayNode(const ros::NodeHandle& node, const Method& method, const 
   publishers_[names::kKnotState] = node_.advertise<KnotState>(names::kKnotState, kQueue);
   publishers_[names::kCrosshead] = node_.advertise<Crosshead>(names::kCrosshead, kQueue);
   publishers_[names::kJointStates] = node_.advertise<sensor_msgs::JointState>(names::kJointStates, kQueue);
+  publishers_[names::kTestStatus] = node_.advertise<TestStatus>(names::kTestStatus, kQueue, true);
   publishers_[names::kLoadCell] = node_.advertise<geometry_msgs::WrenchStamped>(names::kLoadCell, kQueue);
   std_msgs::String text;
   text.data = method_yaml(method);
   method_.publish(text);
+  set_on_master(node_.resolveName(names::kRobotDescription),
+                machine_urdf(method, machine_.lower_grip(), machine_.upper_grip()));
   begin_ = Clock::now();
 }
 
@@ -91,6 +96,7 @@ int ReplayNode::spin() {
     if (!begun_ && (somebody_looks() || seconds_since(begin_) > options_.patience)) begin();
     if (begun_) play_what_is_due();
     if (seconds_since(clock_published_) > kIdleClockPeriod) publish_clock();
+    if (begun_ && next_ == view_->end() && !ended_) publish_end();
     if (options_.exit_at_end && next_ == view_->end()) {
       publish_clock();
       shown_.settle();
@@ -142,14 +148,27 @@ void ReplayNode::play(const rosbag::MessageInstance& instance) {
       throw InvalidInput::sentence(name, fault, "a message on " + name + " is not that of a test: " + shown(fault))
           .in_file(options_.bag);
     sample_ = from_message(*state);
+    run_ = state->run;
     motion_pattern_ = state->motion_pattern;
   } else if (name == names::kCrosshead) {
     replay<Crosshead>(instance);
   } else if (name == names::kJointStates) {
     replay<sensor_msgs::JointState>(instance);
+  } else if (name == names::kTestStatus) {
+    status_ = *replay<TestStatus>(instance);
   } else {
     replay<geometry_msgs::WrenchStamped>(instance);
   }
+}
+
+/// A bag is the same whether its test ran under ROS or not, and says "running" to its end.
+void ReplayNode::publish_end() {
+  ended_ = true;
+  status_.header.stamp = now_;
+  status_.run = run_;
+  status_.state = TestStatus::ENDED;
+  status_.ended_by = options_.ended_by;
+  publishers_.at(names::kTestStatus).publish(status_);
 }
 
 void ReplayNode::publish_clock() {

@@ -5,10 +5,12 @@
 #include <tf2_msgs/TFMessage.h>
 
 #include <cmath>
+#include <utility>
 
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 namespace {
@@ -32,6 +34,7 @@ RunBag::RunBag(const std::string& file, const Method& method)
       grips_(grips_of(method)),
       frames_(grips_.lower(), method.specimen.end_to_end),
       picture_(method.specimen, method.machine, method.material),
+      panel_((method.material.name.empty() ? "" : method.material.name + ", ") + knot_of(method.specimen).about().name),
       views_(method.specimen, method.machine, method.material) {}
 
 void RunBag::add(const Record& record) {
@@ -45,7 +48,7 @@ void RunBag::add(const Record& record) {
   KnotState state = to_message(sample, kRun, stamp);
   put_motion(motion_, state);
   bag_.write(names::kKnotState, stamp, state);
-  if (shape_is_due(command) && record.shape.cols() > 0) {
+  if (shape_is_due(command, sample) && record.shape.cols() > 0) {
     KnotShape message = to_message(record.shape, record.tension, radius_);
     message.header.stamp = stamp;
     message.run = kRun;
@@ -65,6 +68,7 @@ void RunBag::add_reading(const Sample& reading, const ros::Time& answered) {
   const ros::Time stamp = parted ? test_stamp(0.0, reading.time) : answered;
   if (parted) bag_.write(names::kKnotState, stamp, to_message(reading, kRun, stamp));
   bag_.write(names::kLoadCell, stamp, to_wrench(reading, stamp));
+  panel_.add(reading, motion_.pattern() == MotionPattern::kSliding && !motion_.lock_extension());
 }
 
 void RunBag::begin(const ros::Time& stamp, const Points& shape) {
@@ -101,7 +105,13 @@ void RunBag::add_picture(const Record& record, const ros::Time& stamp) {
   const std::vector<ContactForce> none_recorded;
   const std::string pattern = motion_.lock_extension() ? "locked" : motion_pattern_name(motion_.pattern());
   const SceneView view{record.shape, record.tension, none_recorded, grips_.lower(), upper_grip, sample, pattern};
-  bag_.write(names::kMarkers, stamp, picture_.draw_small(view, looks.machine.from, stamp));
+  visualization_msgs::MarkerArray markers = picture_.draw_small(view, stamp);
+  const double distance = (0.5 * (grips_.lower() + upper_grip) - looks.machine.from).norm();
+  for (visualization_msgs::Marker& marker : panel_.draw(sample, pattern, picture_.scale(), distance)) {
+    marker.header.stamp = stamp;
+    markers.markers.push_back(std::move(marker));
+  }
+  bag_.write(names::kMarkers, stamp, markers);
 }
 
 }  // namespace knot_utm

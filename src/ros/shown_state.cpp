@@ -1,6 +1,7 @@
 #include "knot_utm/ros/shown_state.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace knot_utm {
@@ -18,7 +19,9 @@ void ShownState::begin() {
 }
 
 void ShownState::add(Moment moment, Clock::time_point now) {
-  const bool goes_on = states_ > 0 && latest_.points.cols() == moment.points.cols();
+  // From a whole rod to one that has parted there is no way: the gap is there at once.
+  const bool parts = std::isfinite(latest_.sample.break_arclength) != std::isfinite(moment.sample.break_arclength);
+  const bool goes_on = states_ > 0 && latest_.points.cols() == moment.points.cols() && !parts;
   interval_ = goes_on ? std::clamp(seconds(now - arrived_), 0.0, kLongest) : 0.0;
   states_ = goes_on ? 2 : 1;
   before_ = std::move(latest_);

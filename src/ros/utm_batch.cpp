@@ -1,7 +1,10 @@
 // The tests of a batch, one after the other. A test that stands alone is a batch of one.
 #include <utility>
 
+#include "knot_utm/io/claimed_folder.hpp"
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/machine/accuracy.hpp"
+#include "knot_utm/ros/test_order.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 #include "knot_utm/study/specimens.hpp"
 
@@ -17,26 +20,48 @@ ProgramRunner program_of(const Method& method) {
   return make_program(method, tolerances(method.physics, method.specimen, method.material).longest_step);
 }
 
-std::vector<Method> methods_of_batch(const Method& method, int count) {
-  const Method batch = method_of_batch(method, count);
+std::vector<Method> methods_of_specimens(const Method& method) {
+  if (method.specimens.count == 1) check_fits(method);
   std::vector<Method> out;
-  for (int number = 1; number <= count; ++number) out.push_back(method_of_specimen(batch, number));
+  for (int number = 1; number <= method.specimens.count; ++number) out.push_back(method_of_specimen(method, number));
   return out;
 }
 
 }  // namespace
 
-std::string UtmNode::start_if_possible(std::uint32_t count) {
+UtmNode::Batch UtmNode::batch_of(const StartTest::Request& request) const {
+  Batch batch;
+  batch.setup = set_up(asked_for(launched_.words, request));
+  Method& method = batch.setup.method;
+  const std::uint32_t count =
+      request.specimens > 0 ? request.specimens : static_cast<std::uint32_t>(method.specimens.count);
+  if (count > static_cast<std::uint32_t>(kMostInBatch))
+    throw InvalidInput::sentence("specimens", std::to_string(count),
+                                 std::to_string(count) +
+                                     " specimens are asked for, but under ROS a batch may have at most " +
+                                     std::to_string(kMostInBatch));
+  method.specimens.count = static_cast<int>(count);
+  try {
+    batch.methods = methods_of_specimens(method);
+  } catch (const InvalidInput& invalid) {
+    throw invalid.in_file(batch.setup.file);
+  }
+  if (options_.record) {
+    require_no_record_in(batch.setup.out, method);
+    batch.folder = free_folder(batch.setup.out);
+  }
+  return batch;
+}
+
+std::string UtmNode::start_if_possible(const StartTest::Request& request) {
   // What is told in the same breath as this request: the last goal gets the result of its own test.
   if (state_ == State::kEnded && all_is_recorded()) see_to_the_next();
   if (active()) return "a test is running";
   if (!has_specimen_) return "there is no specimen yet";
   if (run_ > 0 && !all_is_recorded()) return "the last test is still being recorded";
-  if (count > static_cast<std::uint32_t>(kMostInBatch))
-    return "count is " + std::to_string(count) + ": it may be at most " + std::to_string(kMostInBatch);
   Batch batch;
   try {
-    batch.methods = methods_of_batch(method_, count > 0 ? static_cast<int>(count) : method_.specimens.count);
+    batch = batch_of(request);
   } catch (const InvalidInput& invalid) {
     return invalid.what();
   }
@@ -48,7 +73,8 @@ std::string UtmNode::start_if_possible(std::uint32_t count) {
 
 bool UtmNode::start(std::size_t specimen) {
   const BatchPlace place{static_cast<int>(specimen) + 1, static_cast<int>(batch_.methods.size())};
-  if (!set_batch_place(node_, place)) return false;
+  if (!give_order(node_, order_of(batch_.setup.method, batch_.setup.out, place))) return false;
+  if (specimen == 0) publish_method(batch_.setup.method);
   batch_.specimen = specimen;
   program_.emplace(program_of(batch_.methods[specimen]));
   if (run_ > 0) run_start_ = now_.toSec() + kGapBetweenTests;
@@ -65,6 +91,7 @@ bool UtmNode::start(std::size_t specimen) {
   max_penetration_ = 0.0;
   state_ = State::kRunning;
   due_ = steady_clock::now();
+  run_began_ = due_;
   factor_measured_ = due_;
   factor_time_ = 0.0;
   if (!place.alone()) ROS_INFO("%s is tested", place.text().c_str());

@@ -10,6 +10,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "../tools/progress_line.hpp"
 #include "clock_pace.hpp"
 #include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/run_folder.hpp"
@@ -36,12 +37,18 @@ steady_clock::duration to_duration(double seconds) {
 
 }  // namespace
 
-UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOptions& options)
+UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const UtmOptions& options)
     : node_(node),
-      method_(method),
+      launched_(launched),
       options_(options),
+      progress_(std::make_unique<ProgressLine>(false)),
       factor_(std::numeric_limits<double>::quiet_NaN()),
-      run_test_(node, {[this](std::uint32_t count) { return start_if_possible(count); }, [this] { stop(); }}),
+      run_test_(node, {[this](std::uint32_t count) {
+                         StartTest::Request request;
+                         request.specimens = count;
+                         return start_if_possible(request);
+                       },
+                       [this] { stop(); }}),
       diagnostics_(node) {
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
   crosshead_ = node_.advertise<Crosshead>(names::kCrosshead, kQueue, ros::SubscriberStatusCallback(), gone);
@@ -61,23 +68,22 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOpt
   pause_ = node_.advertiseService(names::kPause, &UtmNode::on_pause, this);
   resume_ = node_.advertiseService(names::kResume, &UtmNode::on_resume, this);
   step_ = node_.advertiseService(names::kStep, &UtmNode::on_step, this);
-  diagnostics_.setHardwareIDf("%s", method_.machine.load_cell.name.c_str());
   diagnostics_.add("machine", this, &UtmNode::diagnose);
   pace_.setCallback([this](MachineConfig& wanted, std::uint32_t) { set_pace(wanted); });
   // No other machine of this computer's life has both.
   node_.setParam(names::kTestId,
                  std::to_string(getpid()) + "-" + std::to_string(steady_clock::now().time_since_epoch().count()));
-  std_msgs::String text;
-  text.data = method_file_text(method_);
-  method_text_.publish(text);
+  publish_method(launched_.method);
   publish_status();
 }
+
+UtmNode::~UtmNode() = default;
 
 int UtmNode::spin() {
   while (ros::ok()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(wait_time()));
     if (options_.autostart && run_ == 0 && has_specimen_) {
-      const std::string why_not = start_if_possible(0);
+      const std::string why_not = start_if_possible({});
       if (!why_not.empty()) throw std::runtime_error(why_not);
     }
     if (may_advance()) advance();
@@ -136,6 +142,7 @@ void UtmNode::on_state(const KnotState::ConstPtr& answer) {
   take_reading();
   max_penetration_ = std::max(max_penetration_, sample_.max_penetration);
   waiting_ = false;
+  progress_->show(sample_, *program_, seconds_since(run_began_));
   now_ = state.header.stamp;
   publish_clock(false);
   if (joint_states_.getNumSubscribers() > 0) joint_states_.publish(to_joint_state(command_, sample_, now_));
@@ -217,6 +224,7 @@ void UtmNode::resend() {
 
 void UtmNode::end() {
   state_ = State::kEnded;
+  progress_->end();
   if (program_->reason().empty()) {
     ROS_INFO("the test ended by %s", ended_by_name(program_->ended_by()));
   } else {
@@ -234,6 +242,13 @@ void UtmNode::publish_clock(bool at_once) {
   rosgraph_msgs::Clock clock;
   clock.clock = std::max(now_, ros::TIME_MIN);
   clock_.publish(clock);
+}
+
+void UtmNode::publish_method(const Method& method) {
+  diagnostics_.setHardwareIDf("%s", method.machine.load_cell.name.c_str());
+  std_msgs::String text;
+  text.data = method_file_text(method);
+  method_text_.publish(text);
 }
 
 }  // namespace knot_utm

@@ -21,10 +21,12 @@ bool accept(std_srvs::Trigger::Response& response, const std::string& what) {
 
 }  // namespace
 
-bool UtmNode::on_start(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
-  const std::string why_not = start_if_possible(0);
-  if (!why_not.empty()) return refuse(response, why_not);
-  return accept(response, "test " + std::to_string(run_) + " is running");
+bool UtmNode::on_start(StartTest::Request& request, StartTest::Response& response) {
+  const std::string why_not = start_if_possible(request);
+  response.accepted = static_cast<std::uint8_t>(why_not.empty());
+  response.message = why_not.empty() ? "test " + std::to_string(run_) + " is running" : why_not;
+  if (why_not.empty()) response.folder = batch_.folder;
+  return true;
 }
 
 bool UtmNode::on_stop(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {

@@ -115,13 +115,15 @@ std::string fault_of_state(const KnotState& m, const std::string& prefix) {
   return check.text("motion_pattern", m.motion_pattern).fault();
 }
 
-std::string fault_of_shape(const KnotShape& m) {
+/// Of a rod that has parted no tension is known.
+std::string fault_of_shape(const KnotShape& m, bool parted) {
   const auto finite = [](const geometry_msgs::Point& p) {
     return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
   };
   const std::size_t edges = m.points.empty() ? 0 : m.points.size() - 1;
   const auto lost = std::find_if_not(m.points.begin(), m.points.end(), finite);
-  const auto torn = std::find_if_not(m.tension.begin(), m.tension.end(), [](double t) { return std::isfinite(t); });
+  const auto torn = std::find_if_not(m.tension.begin(), m.tension.end(),
+                                     [parted](double t) { return std::isfinite(t) || (parted && std::isnan(t)); });
   const auto finite_numbers = [] { return "finite numbers"; };
   return Check("shape.")
       .text("header.frame_id", m.header.frame_id)
@@ -194,7 +196,7 @@ std::string fault_of(const KnotRecord& m) {
           [&] { return std::to_string(m.answer.sequence); },
           [&] { return "that of the command, " + std::to_string(m.command.sequence); })
       .count("steps", m.steps.size(), 0, kMostSteps)
-      .part(fault_of_shape(m.shape))
+      .part(fault_of_shape(m.shape, m.answer.status == KnotState::BROKEN))
       .that(
           m.failed_step.empty() || m.answer.status == KnotState::FAILED, "failed_step",
           [&] { return std::to_string(m.failed_step.size()) + " bytes"; },

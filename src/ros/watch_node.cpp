@@ -2,7 +2,9 @@
 
 #include <XmlRpcClient.h>
 #include <XmlRpcValue.h>
+#include <ros/master.h>
 #include <ros/network.h>
+#include <ros/this_node.h>
 #include <unistd.h>
 
 #include <csignal>
@@ -57,6 +59,7 @@ WatchNode::WatchNode(const ros::NodeHandle& node, std::string verdict) : node_(n
 }
 
 bool WatchNode::find_launch() {
+  launch_ = getppid();
   // Several of them may use one master.
   std::map<std::string, std::string> servers;
   ros::param::get("/roslaunch/uris", servers);
@@ -65,7 +68,7 @@ bool WatchNode::find_launch() {
     if (!ros::network::splitURI(uri, host_, port)) continue;
     port_ = static_cast<int>(port);
     std::optional<XmlRpc::XmlRpcValue> pid = ask(host_, port_, "get_pid");
-    if (pid && pid->getType() == XmlRpc::XmlRpcValue::TypeInt && static_cast<int>(*pid) == getppid()) return true;
+    if (pid && pid->getType() == XmlRpc::XmlRpcValue::TypeInt && static_cast<int>(*pid) == launch_) return true;
   }
   return false;
 }
@@ -75,6 +78,11 @@ int WatchNode::spin() {
     ros::WallDuration(kLook).sleep();
     ros::spinOnce();
     if (ended_) continue;  // roslaunch ends this node, too
+    if (getppid() != launch_) {
+      ROS_ERROR("roslaunch died: the nodes of the test are shut down");
+      end_nodes();
+      break;
+    }
     if (const std::optional<Processes> processes = ask_launch()) look(*processes);
   }
   tell_unfinished_batch();
@@ -84,7 +92,9 @@ int WatchNode::spin() {
 void WatchNode::on_recorder(const RecorderStatus::ConstPtr& status) {
   if (status->run == 0) return;  // a recorder that was started anew knows nothing yet
   batch_ = status->batch;
+  const std::string before = folder_;
   folder_ = one_line(batch_.empty() ? status->directory : batch_);
+  if (folder_ != before && !over_) tell(std::nullopt);
 }
 
 void WatchNode::tell_unfinished_batch() const {
@@ -142,17 +152,32 @@ void WatchNode::test_is_over(int code, bool somebody_looks) {
   std::fflush(stdout);  // where this is no terminal it would be seen at the end only
 }
 
-void WatchNode::tell(int code) const {
+void WatchNode::tell(std::optional<int> code) const {
   if (verdict_.empty()) return;
   std::ofstream file(verdict_);
-  file << code << '\n' << folder_ << '\n';
+  if (code) file << *code;
+  file << '\n' << folder_ << '\n';
   file.close();
   if (!file) ROS_ERROR("cannot write %s", verdict_.c_str());
 }
 
 void WatchNode::end_launch() {
   ended_ = true;
-  kill(getppid(), SIGINT);
+  kill(launch_, SIGINT);
+}
+
+void WatchNode::end_nodes() const {
+  for (const auto& [node, parameter] : watched_) {
+    XmlRpc::XmlRpcValue request, response, uri;
+    request[0] = ros::this_node::getName();
+    request[1] = node;
+    std::string host;
+    std::uint32_t port = 0;
+    if (!ros::master::execute("lookupNode", request, response, uri, false)) continue;
+    if (!ros::network::splitURI(static_cast<std::string>(uri), host, port)) continue;
+    request[1] = "roslaunch died";
+    XmlRpc::XmlRpcClient(host.c_str(), static_cast<int>(port), "/").execute("shutdown", request, response);
+  }
 }
 
 }  // namespace knot_utm

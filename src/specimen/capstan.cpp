@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "shape_checks.hpp"
@@ -117,7 +118,7 @@ void CapstanSpecimen::check(const SpecimenOptions& specimen, double h) const {
   const double longest = bend_radius(specimen, h) / kFewestARadian;
   if (specimen.edge_length > longest)
     throw InvalidInput("specimen.edge_length", text(specimen.edge_length),
-                       "at most " + text(longest) + " m, half the radius of the bend around the post");
+                       "at most " + most_text(longest) + " m, half the radius of the bend around the post");
 }
 
 Centreline CapstanSpecimen::centreline(const SpecimenOptions& specimen, const Material& material,

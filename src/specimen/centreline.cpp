@@ -7,6 +7,7 @@
 
 #include "knot_utm/contact/tunnelling.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/specimen/polyline.hpp"
 #include "shape_checks.hpp"
 
@@ -56,7 +57,8 @@ Centreline straight(double length, double radius, double edge_length) {
   check_radius(radius);
   check_edge_length(edge_length, radius);
   if (!(length >= 4.0 * edge_length && length <= 100.0)) {
-    throw InvalidInput("specimen.length", text(length), text(4.0 * edge_length) + " to 100 m: at least four edges");
+    throw InvalidInput("specimen.length", text(length),
+                       limits_text(4.0 * edge_length, 100.0) + " m: at least four edges");
   }
   const auto edges = static_cast<Eigen::Index>(std::round(length / edge_length));
   Centreline centreline;

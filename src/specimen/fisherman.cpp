@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/scales.hpp"
@@ -18,6 +19,7 @@ namespace {
 constexpr double kFineBeyondCoil = 3.0;   // of the strand that a coil holds [h]
 constexpr double kHalfOfCoil = 2.0;       // half the axial length of a coil of one winding [h]
 constexpr double kBeyondWindings = 0.25;  // of a turn, from where the standing part is to where the tail is
+constexpr double kLeastDistance = 12.0;   // of the two knots: room for the coils themselves [h]
 
 /// By which a coil of so many windings is longer, to either side of its middle: all of them have the pitch of one.
 double longer_coil(int windings, double h) { return kHalfOfCoil / (1.0 + kBeyondWindings) * (windings - 1) * h; }
@@ -78,8 +80,9 @@ void check_fisherman(const FishermanShape& shape) {
   if (!(shape.looseness >= 3.9 && shape.looseness <= 8.0)) {
     throw InvalidInput("specimen.looseness", text(shape.looseness), "3.9 to 8 radii of the rod");
   }
-  if (!(shape.tail >= 2.0 * shape.radius && shape.tail <= 10.0)) {
-    throw InvalidInput("specimen.tail", text(shape.tail), text(2.0 * shape.radius) + " to 10 m");
+  if (!(shape.tail >= 2.0 * shape.radius)) {
+    throw InvalidInput("specimen.tail", text(shape.tail),
+                       "at least the diameter of the rod, " + least_text(2.0 * shape.radius) + " m");
   }
   if (!(shape.end_to_end > 0.0 && shape.end_to_end <= 100.0)) {
     throw InvalidInput("specimen.end_to_end", text(shape.end_to_end), "above 0 and at most 100 m");
@@ -106,9 +109,9 @@ double narrowest_loop(const Coil& coil, double h) { return 0.5 * (coil.radius + 
 /// Distance of a rod on a roller from the roller's axis.
 double distance_on_roller(const FishermanShape& shape, const Coil& coil) {
   const double rolled = shape.roller_radius + shape.radius;
-  if (!(rolled >= narrowest_loop(coil, shape.radius) && shape.roller_radius <= 10.0)) {
+  if (!(rolled >= narrowest_loop(coil, shape.radius))) {
     throw InvalidInput("machine.roller_diameter", text(2.0 * shape.roller_radius),
-                       text(coil.radius + 0.5 * shape.radius) + " to 20 m");
+                       "at least " + least_text(coil.radius + 0.5 * shape.radius) + " m for the coils of this rod");
   }
   return rolled;
 }
@@ -128,13 +131,17 @@ double knot_height(const FishermanShape& shape, const Coil& coil, double rolled)
   const double c_max = middle - std::max(strand_leaves(coil, h) + h, coil.outer + h + roller_reach);
   if (!(c_max > c_min)) {
     throw InvalidInput("specimen.end_to_end", text(shape.end_to_end),
-                       "at least " + text(2.0 * (c_min + middle - c_max)) + " m for this rod and these rollers");
+                       "at least " + least_text(2.0 * (c_min + middle - c_max)) + " m for this rod and these rollers");
   }
-  if (!(c >= c_min && c <= c_max)) {
+  if (!(c >= c_min)) {
+    const double least = std::max(kLeastDistance * h, 2.0 * c_min + shape.outward_shift);
     throw InvalidInput("specimen.knot_distance", text(shape.knot_distance),
-                       text(2.0 * c_min + shape.outward_shift) + " to " + text(2.0 * c_max + shape.outward_shift) +
-                           " m for this rod and these rollers");
+                       "at least " + least_text(least) + " m for this rod and these rollers");
   }
+  if (!(c <= c_max))
+    throw InvalidInput("specimen.end_to_end", text(shape.end_to_end),
+                       "at least " + least_text(shape.end_to_end + 2.0 * (c - c_max)) + " m for a knot_distance of " +
+                           text(shape.knot_distance) + " m, this rod and these rollers");
   return c;
 }
 
@@ -357,13 +364,12 @@ double FishermanKnot::pull(const SpecimenOptions& specimen, double h) const {
 
 void FishermanKnot::check(const SpecimenOptions& specimen, double h) const {
   // Coarse: room for the coils themselves. The shape that is really laid judges itself.
-  if (specimen.knot_distance < 12.0 * h)
+  if (specimen.knot_distance < kLeastDistance * h)
     throw InvalidInput("specimen.knot_distance", format_number(specimen.knot_distance),
-                       "at least 12 radii, " + format_number(12.0 * h) + " m");
+                       "at least 12 radii, " + least_text(kLeastDistance * h) + " m");
   if (specimen.end_to_end < specimen.knot_distance + 12.0 * h)
-    throw InvalidInput(
-        "specimen.end_to_end", format_number(specimen.end_to_end),
-        "at least knot_distance plus 12 radii, " + format_number(specimen.knot_distance + 12.0 * h) + " m");
+    throw InvalidInput("specimen.end_to_end", format_number(specimen.end_to_end),
+                       "at least knot_distance plus 12 radii, " + least_text(specimen.knot_distance + 12.0 * h) + " m");
 }
 
 Centreline FishermanKnot::centreline(const SpecimenOptions& specimen, const Material& material,

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "path.hpp"
@@ -120,9 +121,9 @@ double loop_of_right_length(const OverhandShape& shape, Try low, Try high, doubl
 double fitting_loop(const OverhandShape& shape, double spacing) {
   const double smallest = 2.5 * shape.radius;
   if (!(room(shape, smallest) > 0.0)) {
-    throw InvalidInput(
-        "specimen.end_to_end", text(shape.end_to_end),
-        "more than " + text(shape.end_to_end - room(shape, smallest)) + " m, the room that the smallest knot takes up");
+    throw InvalidInput("specimen.end_to_end", text(shape.end_to_end),
+                       "more than " + least_text(shape.end_to_end - room(shape, smallest)) +
+                           " m, the room that the smallest knot takes up");
   }
   const double shortest = rod_length(shape, smallest, spacing) - shape.end_to_end;
   const double largest = largest_loop(shape, smallest);
@@ -130,7 +131,7 @@ double fitting_loop(const OverhandShape& shape, double spacing) {
   if (!(shape.length - shape.end_to_end >= shortest) || shape.length - shape.end_to_end > longest) {
     throw InvalidInput(
         "specimen.end_to_end", text(shape.end_to_end),
-        "shorter than specimen.length by " + range_text(shortest, longest) + " m, for a knot of this rod");
+        "shorter than specimen.length by " + limits_text(shortest, longest) + " m, for a knot of this rod");
   }
   return loop_of_right_length(shape, {smallest, shortest + shape.end_to_end - shape.length},
                               {largest, longest + shape.end_to_end - shape.length}, spacing);

@@ -9,10 +9,6 @@ namespace knot_utm {
 /// A length for a message, with four digits.
 std::string text(double value);
 
-/// Two lengths for a message, the first not larger than the second, with four digits or as many more as distinguish
-/// them.
-std::string range_text(double low, double high);
-
 /// Throw InvalidInput where a rod of this radius [m] cannot be drawn, or cannot be drawn with edges of this length [m].
 void check_radius(double radius);
 void check_edge_length(double edge_length, double radius);

@@ -47,8 +47,10 @@ Centreline StraightRod::centreline(const SpecimenOptions& specimen, const Materi
   Centreline out = knot_utm::straight(specimen.length, material.radius, specimen.edge_length);
   if (!mounting.clamps) return out;
   // What the clamps hold is one edge more at each end.
+  const Eigen::Index nodes = out.points.cols() + 2;
   const double edge = out.length() / static_cast<double>(out.points.cols() - 1);
-  out = knot_utm::straight(specimen.length + 2.0 * edge, material.radius, edge);
+  out.points = Points::Zero(3, nodes);
+  out.points.row(2).setLinSpaced(0.0, specimen.length + 2.0 * edge);
   out.points.row(2).array() -= edge;
   return out;
 }

@@ -78,7 +78,7 @@ struct CheckedBench {
 /// All that is kept of the bench's last answer.
 void take(const Command& command, const Sample& answer, const TestingMachine& bench, bool shapes, double wall_time,
           Record& record) {
-  const bool shape = shape_is_due(command);
+  const bool shape = shape_is_due(command, answer);
   record.command = command;
   record.answer = answer;
   record.steps = bench.substeps();

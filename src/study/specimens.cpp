@@ -26,13 +26,12 @@ std::uint32_t noise_run(unsigned seed, int number) {
   return static_cast<std::uint32_t>(sequence_of(seed, static_cast<std::uint64_t>(number), kNoise)() >> 33) + 1;
 }
 
-/// Refused now, and not once others have been tested.
+}  // namespace
+
 void check_fits(const Method& method) {
   const TestingMachine machine(method.specimen, method.material, method.machine, method.physics);
   make_program(method, machine.longest_step());
 }
-
-}  // namespace
 
 DrawnSpecimen draw_specimen(const Method& method, int number) {
   const SpecimensOptions& specimens = method.specimens;

@@ -4,18 +4,22 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/io/command_hint.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 
 namespace knot_utm {
 
+/// The program as it was called, for a command that can be pasted.
+inline std::string program_called(const CLI::App& app) { return command_line({app.get_name()}); }
+
 /// The end of a message for an unknown option: "; did you mean --out?", or a reference to --help.
-inline std::string hint_at_option(const CLI::App& app, const std::string& tool, const std::string& given) {
+inline std::string hint_at_option(const CLI::App& app, const std::string& given) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
     for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
   const std::string nearest = nearest_name(given, names);
-  return nearest.empty() ? "; see " + tool + " --help" : "; did you mean " + nearest + "?";
+  return nearest.empty() ? "; see " + program_called(app) + " --help" : "; did you mean " + nearest + "?";
 }
 
 /// A sentence for an option whose value is missing, because the name of another option follows it. Empty where there is
@@ -36,9 +40,10 @@ inline std::string command_line_fault(const CLI::App& app, const std::string& to
   const std::vector<std::string> unknown = app.remaining();
   if (!unknown.empty() && unknown.front().rfind('-', 0) == 0) {
     const std::string given = shown(unknown.front().substr(0, unknown.front().find('=')));
-    return given + " is no option of " + tool + hint_at_option(app, tool, given);
+    return given + " is no option of " + tool + hint_at_option(app, given);
   }
-  if (!unknown.empty()) return "\"" + shown(unknown.front()) + "\" is one argument too many; see " + tool + " --help";
+  if (!unknown.empty())
+    return "\"" + shown(unknown.front()) + "\" is one argument too many; see " + program_called(app) + " --help";
   constexpr std::size_t kNone = std::string::npos;
   std::string said = shown(error.what());
   const std::string number = "Could not convert: ";  // --checkpoint = abc

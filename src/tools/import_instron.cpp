@@ -4,30 +4,34 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/raw_data.hpp"
+#include "knot_utm/io/curve_file.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/curve_bag.hpp"
+#include "raw_words.hpp"
 #include "tool.hpp"
 
 int main(int argc, char** argv) {
   constexpr const char* kTool = "import_instron";
   return knot_utm::run_tool(kTool, [&] {
-    std::string raw_data, bag, columns;
-    bool quiet = false;
+    std::string raw_data, bag;
+    knot_utm::RawWords words;
+    bool quiet = false, overwrite = false;
     CLI::App app("Writes the raw data of a testing machine into a bag, on the topics utm/crosshead and utm/load_cell.");
     app.add_option("RAW_DATA", raw_data, "the exported CSV")->required();
     app.add_option("BAG", bag, "the bag to be written")->required();
-    app.add_option(knot_utm::kColumnsOption, columns, knot_utm::kColumnsHelp);
+    words.add_to(app, "which specimen of a file with several, from 1");
+    app.add_flag("--overwrite", overwrite, "replace a bag that exists");
     app.add_flag("--quiet", quiet, "say only what went wrong");
     if (const auto code = knot_utm::parse(app, kTool, argc, argv)) return *code;
-    knot_utm::RawColumns names;
-    if (!columns.empty()) names = knot_utm::parse_raw_columns(columns, knot_utm::kColumnsOption);
+    knot_utm::require_new_file("BAG", bag, {raw_data}, overwrite, "#ROSBAG");
+    std::vector<std::string> told;
     const std::vector<knot_utm::CurveRow> rows =
-        knot_utm::read_raw_data(knot_utm::read_input(raw_data), raw_data, names);
+        knot_utm::read_curve_file(raw_data, words.options(), [&](const std::string& line) { told.push_back(line); });
     knot_utm::write_curve_bag(bag, rows);
-    if (!quiet)
-      std::printf("%zu readings over %g s were written to %s\n", rows.size(), rows.back().time - rows.front().time,
-                  bag.c_str());
+    if (quiet) return static_cast<int>(knot_utm::kDone);
+    for (const std::string& line : told) std::printf("%s\n", line.c_str());
+    std::printf("%zu readings over %g s were written to %s\n", rows.size(), rows.back().time - rows.front().time,
+                bag.c_str());
     return static_cast<int>(knot_utm::kDone);
   });
 }

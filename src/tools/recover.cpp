@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "knot_utm/io/command_hint.hpp"
 #include "knot_utm/io/recovery.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #ifdef KNOT_UTM_HAS_ROS
@@ -28,8 +29,8 @@ int run(const Arguments& arguments) {
     return kDone;
   }
   if (arguments.out.empty() && was_interrupted(arguments.folder)) {
-    std::printf("%s holds all that was measured until it was interrupted; tensile_test --resume goes on with it\n",
-                arguments.folder.c_str());
+    std::printf("%s holds all that was measured until it was interrupted; go on with: %s\n", arguments.folder.c_str(),
+                command_line({program_beside("tensile_test"), "--resume", arguments.folder}).c_str());
     return kDone;
   }
   Recovery recovery(arguments.folder, arguments.out.empty() ? arguments.folder : arguments.out);

@@ -1,6 +1,5 @@
 // One whole test without ROS: read the method, run it, write what came out.
 #include <CLI/CLI.hpp>
-#include <array>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -10,14 +9,19 @@
 #include <thread>
 #include <vector>
 
+#include "knot_utm/io/command_hint.hpp"
 #include "knot_utm/io/foreseen.hpp"
 #include "knot_utm/io/key_units.hpp"
 #include "knot_utm/io/knot_advice.hpp"
+#include "knot_utm/io/latest_link.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/method_keys.hpp"
+#include "knot_utm/io/plausible_rod.hpp"
 #include "knot_utm/io/report.hpp"
 #include "knot_utm/io/result_yaml.hpp"
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/shipped.hpp"
+#include "knot_utm/io/summary.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/study/batch.hpp"
@@ -56,6 +60,7 @@ struct Arguments {
   std::string resume;       // a folder; empty: a new test
   std::string begin_with;   // the folder of a run that stopped; empty: from the start
   std::string stop_before;  // a step of the program; empty: none
+  std::string show;         // a folder, of which the main readings are printed; no test
   int specimens = 0;        // 0: as many as the method says
   int jobs = 0;             // 0: as many as there are processors
   double checkpoint = 5.0;  // wall time between two [s]; 0: none
@@ -65,6 +70,7 @@ struct Arguments {
   bool shapes = false;
   bool check = false;      // no test
   bool list_keys = false;  // no test
+  std::string program;     // as it was called
   std::string command;     // the whole line
 };
 
@@ -79,32 +85,34 @@ std::string folder_of(const Arguments& arguments, const Method& method) {
   return arguments.out.empty() ? "out/" + method.name : arguments.out;
 }
 
-void tell_interruption(const HeadlessOutcome& outcome) {
-  const std::array<const char*, 3> go_on{kTool, "--resume", outcome.folder.c_str()};
+void tell_interruption(const Arguments& arguments, const HeadlessOutcome& outcome) {
   std::fprintf(stderr, "%s: the test was interrupted after %.1f s; what was measured is in %s; go on with: %s\n", kTool,
                outcome.results.simulated_time, outcome.folder.c_str(),
-               command_line(go_on.size(), go_on.data()).c_str());
+               command_line({arguments.program, "--resume", outcome.folder}).c_str());
 }
 
-void tell_end(const HeadlessOutcome& outcome, const Method& method, bool quiet) {
+/// The main readings, and where all of them are.
+void tell_summary(const std::string& folder, const char* file, const std::string& latest) {
+  std::printf("%sall results are in %s/%s%s\n", run_summary(folder).c_str(), folder.c_str(), file,
+              latest.empty() ? "" : (", and the folder is also " + latest).c_str());
+}
+
+void tell_end(const HeadlessOutcome& outcome, const Method& method, const std::string& latest, bool quiet) {
   const Results& results = outcome.results;
   const char* folder = outcome.folder.c_str();
   if (*outcome.ended == EndedBy::kSolver) {
     std::fprintf(stderr, "%s: the physics gave up: %s; what was measured until then is in %s\n", kTool,
                  outcome.reason.c_str(), folder);
     if (!outcome.failed_step.empty())
-      std::fprintf(stderr, "%s: the time step that failed can be looked at by: scripts/replay-step %s\n", kTool,
-                   outcome.failed_step.c_str());
-  } else if (!quiet) {
-    std::printf("the test ended by %s after %.1f s, at %.1f times real time; its results are in %s\n",
-                ended_by_name(*outcome.ended), results.simulated_time, results.simulated_time / outcome.wall_time,
-                folder);
+      std::fprintf(stderr, "%s: the time step that failed can be looked at by: %s\n", kTool,
+                   command_line({script_path("replay-step"), outcome.failed_step}).c_str());
   }
   if (*outcome.ended == EndedBy::kBreak && outcome.failed)
     std::fprintf(stderr, "%s: the test failed: %s; its results are in %s\n", kTool, outcome.reason.c_str(), folder);
+  if (!quiet) tell_summary(outcome.folder, "result.yaml", latest);
   if (*outcome.ended == EndedBy::kUntangled)
     std::fprintf(stderr, "%s: the knot came undone: %s\n", kTool, what_keeps_a_knot(method).c_str());
-  else if (results.untangled_at)
+  else if (results.untangled_at && results.knot_type != KnotType::kCrossed)
     std::fprintf(stderr, "%s: the knot came undone at %.1f s, while it was pulled: %s\n", kTool, *results.untangled_at,
                  what_keeps_a_knot(method).c_str());
 }
@@ -153,21 +161,20 @@ void tell_report(const Arguments& arguments, const std::string& folder) {
     std::printf("the report is in %s/report.html and %s/report.pdf\n", folder.c_str(), folder.c_str());
 }
 
-void tell_end(const BatchOutcome& outcome, bool quiet) {
+void tell_end(const Arguments& arguments, const BatchOutcome& outcome, int ended) {
   const char* folder = outcome.folder.c_str();
   if (outcome.interrupted) {
-    const std::array<const char*, 3> go_on{kTool, "--resume", folder};
-    std::fprintf(stderr, "%s: the batch was interrupted; what was measured is in %s; go on with: %s\n", kTool, folder,
-                 command_line(go_on.size(), go_on.data()).c_str());
+    std::fprintf(
+        stderr,
+        "%s: the batch was interrupted when %d of its %d specimens had been tested; what was measured is in %s; "
+        "go on with: %s\n",
+        kTool, ended, outcome.specimens, folder, command_line({arguments.program, "--resume", outcome.folder}).c_str());
     return;
   }
+  const std::string latest = point_latest_to(outcome.folder);
   for (const Rejected& one : outcome.rejected)
     std::fprintf(stderr, "%s: specimen %d is rejected: %s\n", kTool, one.specimen, one.reason.c_str());
-  if (!quiet)
-    std::printf(
-        "%d of %d specimens count; the statistics are in %s/statistics.yaml, all readings in "
-        "%s/specimens.csv\n",
-        outcome.specimens - static_cast<int>(outcome.rejected.size()), outcome.specimens, folder, folder);
+  if (!arguments.quiet) tell_summary(outcome.folder, "statistics.yaml and specimens.csv", latest);
 }
 
 int run_all_specimens(const Arguments& arguments, const Method& method) {
@@ -184,10 +191,14 @@ int run_all_specimens(const Arguments& arguments, const Method& method) {
     progress.end();
     std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
   };
-  options.progress = [&](int ended, int count) { progress.show(ended, count); };
+  int tested = 0;
+  options.progress = [&](int ended, int count) {
+    tested = ended;
+    progress.show(ended, count);
+  };
   const BatchOutcome outcome = run_batch(method, options);
   progress.end();
-  tell_end(outcome, arguments.quiet);
+  tell_end(arguments, outcome, tested);
   if (arguments.report && !outcome.interrupted) tell_report(arguments, outcome.folder);
   const bool none_counts = static_cast<int>(outcome.rejected.size()) == outcome.specimens;
   return outcome.interrupted || none_counts ? kFailed : kDone;
@@ -205,6 +216,7 @@ int check(const Method& method) {
   else
     draw_specimens(method);
   for (const std::string& warning : foreseen_warnings(method)) std::fprintf(stderr, "%s: %s\n", kTool, warning.c_str());
+  std::fprintf(stderr, "%s: the rod: %s\n", kTool, rod_in_words(method.material).c_str());
   std::fputs(method_yaml(method).c_str(), stdout);
   return kDone;
 }
@@ -216,22 +228,43 @@ int list_keys(const Method& method) {
 }
 
 int run(const Arguments& arguments) {
+  if (!arguments.show.empty()) {
+    std::fputs(run_summary(arguments.show).c_str(), stdout);
+    return kDone;
+  }
   const Method method = load_method(arguments.method, arguments.overrides);
   if (arguments.check) return check(method);
   if (arguments.list_keys) return list_keys(method);
+  if (arguments.overwrite) require_no_method_in(folder_of(arguments, method), arguments.method);
   if (method.specimens.count > 1) return run_all_specimens(arguments, method);
   if (!arguments.resume.empty()) require_resumable(arguments.resume);
   const HeadlessOutcome outcome = run_and_tell(arguments, method);
   const bool stopped = !outcome.ended && !arguments.stop_before.empty() && stop_asked == 0;
+  const std::string latest = stopped ? "" : point_latest_to(outcome.folder);
   if (outcome.ended)
-    tell_end(outcome, method, arguments.quiet);
+    tell_end(outcome, method, latest, arguments.quiet);
   else if (!stopped)
-    tell_interruption(outcome);
+    tell_interruption(arguments, outcome);
   else if (!arguments.quiet)
     std::printf("the test stopped before %s, after %.1f s; others can begin with %s\n", arguments.stop_before.c_str(),
                 outcome.results.simulated_time, outcome.folder.c_str());
   if (arguments.report) tell_report(arguments, outcome.folder);
   return stopped || (outcome.ended && !outcome.failed) ? kDone : kFailed;
+}
+
+/// --list, which prints what comes with the package, and does no more.
+void add_list(CLI::App& app) {
+  const auto print = [](const CLI::results_t& words) {
+    std::fputs(shipped_listing(words.front() == "all" ? "" : words.front()).c_str(), stdout);
+    throw CLI::Success();
+    return true;
+  };
+  app.add_option(
+         "--list", CLI::callback_t(print),
+         "say which methods, materials, knots, standards or studies come with the package, or with none of these "
+         "words which of all, and do no more")
+      ->expected(0, 1)
+      ->default_str("all");
 }
 
 /// An option that prints a table, and does no more.
@@ -246,6 +279,7 @@ void add_listing(CLI::App& app, const char* name, std::string (*table)(), const 
 /// Where the method stands and where the results go, once all words are read.
 void settle(Arguments& arguments) {
   if (arguments.specimens > 0) arguments.overrides.push_back("specimens.count=" + std::to_string(arguments.specimens));
+  if (!arguments.show.empty()) return;
   if (arguments.resume.empty()) {
     arguments.method = find_method(arguments.method);
     return;
@@ -299,12 +333,16 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
                                     "only say whether the test could be made: writes the method with every value");
   CLI::Option* list_keys = app.add_flag("--list-keys", arguments.list_keys,
                                         "only say which keys of the method are numbers, with their units");
+  CLI::Option* show = app.add_option("--show", arguments.show,
+                                     "only print the main readings of a test or a batch that is there: its folder");
   for (CLI::Option* one : {check, list_keys}) one->excludes(resume);
+  show->excludes(method)->excludes(resume);
+  add_list(app);
   add_listing(app, "--list-results", result_keys_csv, "say which keys result.yaml has, with unit, kind and meaning");
   add_listing(app, "--list-method-keys", method_keys_csv, "say which keys methods may have, with label and unit");
   add_listing(app, "--list-knots", knots_csv, "say which knots there are, and their keys");
   const std::optional<int> code = parse(app, kTool, argc, argv, [&] {
-    if (method->empty() && resume->empty()) throw CLI::RequiredError("METHOD");
+    if (method->empty() && resume->empty() && show->empty()) throw CLI::RequiredError("METHOD");
   });
   if (code) return code;
   settle(arguments);
@@ -317,6 +355,7 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
 int main(int argc, char** argv) {
   return knot_utm::run_tool(knot_utm::kTool, [&] {
     knot_utm::Arguments arguments;
+    arguments.program = argv[0];
     arguments.command = knot_utm::command_line(argc, argv);
     if (const std::optional<int> code = knot_utm::read_arguments(argc, argv, arguments)) return *code;
     knot_utm::set_signals();

@@ -61,6 +61,37 @@ TEST(Results, AJumpIsToldInBothForces) {
   EXPECT_NE(results.curve.no_plateau.find("jumped open"), std::string::npos);
 }
 
+/// The load of an overhand that inverts, its stored energy and the work of the grips, as config/overhand.yaml with
+/// three turns and mu = 0.1 has them: it rises, falls by half at once, and rises again.
+TEST(Results, AnOverhandThatInvertsSnaps) {
+  const auto pulled = [](double given_up, double end) {
+    std::vector<Sample> samples;
+    double work = 0.0;
+    for (int i = 0; i * 1e-3 < end; ++i) {
+      const double s = i * 1e-3;
+      Sample sample;
+      sample.phase = Phase::kPull;
+      sample.time = s / 6e-3;
+      sample.extension = s;
+      const bool behind = s > 0.16;
+      sample.force_upper = sample.force_lower = sample.load = 0.03 + 0.5 * s - (behind ? 0.05 : 0.0);
+      work += 1e-3 * sample.force_upper;
+      sample.grip_work = work;
+      sample.bending_energy = 1.5e-3 + 0.5 * work - (behind ? given_up : 0.0);
+      samples.push_back(sample);
+    }
+    return analyse(samples, EndedBy::kExtension);
+  };
+  for (const double end : {0.17, 0.3}) {
+    const Results results = pulled(1e-3, end);
+    ASSERT_TRUE(results.snap_extension && results.snap_drop) << end;
+    EXPECT_NEAR(*results.snap_extension, 0.16, 1.1e-3);
+    EXPECT_NEAR(*results.snap_drop, 0.05, 1e-3);
+  }
+  EXPECT_FALSE(pulled(0.0, 0.3).snap_extension) << "strands that stick and slip keep what the rod stores";
+  EXPECT_FALSE(pulled(0.1, 0.3).snap_extension) << "what was stored before the pull is a drawn shape's";
+}
+
 /// As behind a jump: what is pulled is not the knot that was tied.
 TEST(Results, AKnotThatOpenedAsTheLoopWasMountedHasNoReadings) {
   std::vector<Sample> samples = Curve().samples();
@@ -72,7 +103,8 @@ TEST(Results, AKnotThatOpenedAsTheLoopWasMountedHasNoReadings) {
   samples.insert(samples.begin(), tied);
   const Results results = analyse(samples, EndedBy::kExtension);
   ASSERT_TRUE(results.opened_when_mounted);
-  EXPECT_EQ(results.motion_pattern, MotionPattern::kSliding);
+  EXPECT_EQ(results.motion_pattern, MotionPattern::kUntangling) << "one event, one word";
+  EXPECT_FALSE(results.untangled_at);
   EXPECT_FALSE(results.curve.plateau_force || results.true_plateau_force || results.curve.lock_extension_by_load);
   EXPECT_FALSE(results.lock_extension || results.curve.locked_stiffness);
   EXPECT_NE(results.curve.no_plateau.find("opened as the loop was mounted"), std::string::npos);
@@ -290,6 +322,47 @@ TEST(Results, EnergyPartsAreThoseOfThePullAndWhatFollows) {
   EXPECT_NEAR(results.energy->reweighting, -0.05 * last, 1e-9);
   EXPECT_NEAR(results.energy->gap(), 0.0, 1e-9);
   EXPECT_NEAR(*results.energy_balance_error, 0.0, 1e-12);
+}
+
+/// A parted rod lets go of the grip: what it does to the grip then is no work of the test.
+TEST(Results, EnergyPartsEndAtTheBreak) {
+  std::vector<Sample> samples = Curve().samples();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    Sample& sample = samples[i];
+    if (i == 0) sample.kinetic_energy = 0.5;  // at rest later on
+    sample.grip_work = 0.5 * (i == 0 ? 0.0 : samples[i - 1].force_upper + sample.force_upper) *
+                           (i == 0 ? 0.0 : sample.extension - samples[i - 1].extension) +
+                       (i == 0 ? 0.0 : samples[i - 1].grip_work);
+  }
+  samples.back().status = BenchStatus::kBroken;
+  Sample recoil = samples.back();
+  recoil.time += 0.001;
+  recoil.force_upper = -100.0;
+  recoil.grip_work -= 1.64;
+  recoil.kinetic_energy = 19.5;
+  samples.push_back(recoil);
+  const Results results = analyse(samples, EndedBy::kBreak);
+  ASSERT_TRUE(results.energy && results.energy_to_break);
+  EXPECT_NEAR(results.energy->work, *results.energy_to_break, 1e-6 * *results.energy_to_break);
+  EXPECT_EQ(results.kinetic_energy, 0.0);  // not its change, which is negative
+  EXPECT_EQ(results.energy->kinetic, -0.5);
+}
+
+TEST(Results, ForcesAtStartAreThoseThatDifferMostInTheFirstHundredth) {
+  std::vector<Sample> samples = Curve().samples();
+  for (Sample& sample : samples) sample.force_lower = sample.force_upper;
+  EXPECT_EQ(analyse(samples, EndedBy::kExtension).at_start->difference(), 0.0);
+  samples.back().force_lower = 0.0;  // at the lock, say
+  EXPECT_EQ(analyse(samples, EndedBy::kExtension).at_start->difference(), 0.0);
+  Sample& jerk = samples[1];
+  jerk.extension = samples.front().extension + 0.009 * (samples.back().extension - samples.front().extension);
+  jerk.force_upper = 0.410;
+  jerk.force_lower = 0.067;
+  const GripForces found = *analyse(samples, EndedBy::kExtension).at_start;
+  EXPECT_EQ(found.upper, 0.410);
+  EXPECT_EQ(found.lower, 0.067);
+  for (Sample& sample : samples) sample.phase = Phase::kHold;
+  EXPECT_FALSE(analyse(samples, EndedBy::kExtension).at_start);
 }
 
 TEST(Results, MomentBalanceIsThatOfThePull) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace knot_utm {
@@ -36,6 +37,19 @@ TEST(Statistics, WhatTooFewReadingsDoNotTellIsNotSaid) {
   const Statistics about_zero = statistics_of({-1.0, 1.0});
   EXPECT_TRUE(about_zero.sd);
   EXPECT_FALSE(about_zero.cv);
+}
+
+TEST(Statistics, WhatIsConstantButForRoundingHasNoSpread) {
+  for (const std::vector<double>& same : {std::vector<double>{31.000374, 31.000419, 31.000331},
+                                          {-0.25, -0.25 * (1.0 + 1e-15)},
+                                          {1e-15, -3e-14},
+                                          {0.0, 0.0}}) {
+    const Statistics s = statistics_of(same);
+    EXPECT_FALSE(s.sd || s.cv || s.low || s.high) << same.front();
+    EXPECT_EQ(s.n, same.size());
+    EXPECT_EQ(*s.maximum, *std::max_element(same.begin(), same.end()));
+  }
+  EXPECT_TRUE(statistics_of({31.0, 31.01}).sd);
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ def files(folder, ending):
 
 
 def documents():
-    """README.md and every page of doc/."""
-    return ["README.md"] + sorted(os.path.relpath(page, ROOT) for page in glob.glob(os.path.join(ROOT, "doc/*.md")))
+    """README.md, every page of doc/, and those for who changes the code."""
+    return ["README.md"] + sorted(os.path.relpath(page, ROOT) for page in glob.glob(os.path.join(ROOT, "doc/**/*.md"), recursive=True))
 
 
 def prose(page):
@@ -68,7 +68,7 @@ class Design(unittest.TestCase):
             if line and not line.startswith("#"):
                 room, _, uses = line.partition(":")
                 table[room] = uses.split()
-        page = {room: cells[0][2] for room, cells in rows(text("doc/design.md")).items() if room in table}
+        page = {room: cells[0][2] for room, cells in rows(text("doc/developers/design.md")).items() if room in table}
         self.assertEqual({room: re.findall(r"\w+", cell) for room, cell in page.items()}, table)
 
 
@@ -119,9 +119,9 @@ class Method(unittest.TestCase):
 
 
 class Measured(unittest.TestCase):
-    """doc/measured.md against the code."""
+    """doc/developers/measured.md against the code."""
 
-    PAGE = text("doc/measured.md")
+    PAGE = text("doc/developers/measured.md")
     ROWS = [[cell.strip() for cell in line.strip("|").split("|")] for line in PAGE.splitlines() if line.startswith("| `")]
 
     def test_every_constant_has_the_value_of_the_code(self):
@@ -190,9 +190,19 @@ class Ros(unittest.TestCase):
             self.assertTrue(f"`{name}`" in self.page, name)
 
     def test_has_every_message(self):
-        for file in [*files("msg", ".msg"), *files("action", ".action")]:
+        for file in [*files("msg", ".msg"), *files("srv", ".srv"), *files("action", ".action")]:
             name = os.path.splitext(os.path.basename(file))[0]
             self.assertTrue(f"knot_utm/{name}`" in self.page, name)
+
+    def test_every_field_of_a_message_has_its_unit_above_it(self):
+        for file in [*files("msg", ".msg"), *files("srv", ".srv"), *files("action", ".action")]:
+            comment = ""
+            for line in text(file).splitlines():
+                if line.startswith("#"):
+                    comment = line
+                elif re.match(r"[\w/]+(\[\])? \w+$", line):
+                    self.assertRegex(comment, r"\[[^]]+\]|, in that unit$", f"{file}: {line}")
+                    comment = ""
 
     def test_has_every_dynamic_parameter(self):
         for file in files("cfg", ".cfg"):
@@ -354,7 +364,7 @@ class Documents(unittest.TestCase):
         tests = {f"{suite}.{name}" for file in files("test", "_test.cpp")
                  for suite, name in re.findall(r"^(?:(?:TYPED_)?TEST(?:_F|_P)?|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP)\((\w+),\s*(\w+)", text(file), re.MULTILINE)}
         launched = {name for file in files("test/ros", "_test.py") for name in re.findall(r"def (test_\w+)", text(file))}
-        named = re.findall(r"`(\w+)(\.\w+)?`", text("doc/reliability.md"))
+        named = re.findall(r"`(\w+)(\.\w+)?`", text("doc/developers/reliability.md"))
         for suite, name in named:
             if re.match(r"[A-Z]", suite) and name:
                 self.assertTrue(suite + name in tests, suite + name)
@@ -364,7 +374,7 @@ class Documents(unittest.TestCase):
 
     def test_tests_of_promises_are_there(self):
         tests = [os.path.basename(file) for file in [*files("test", ""), *files("src/tools", "")]]
-        for name in re.findall(r"`(\w+_test|\w+\.test)`", text("doc/reliability.md")):
+        for name in re.findall(r"`(\w+_test|\w+\.test)`", text("doc/developers/reliability.md")):
             self.assertTrue(any(file in (name, name + ".py", name + ".cpp") for file in tests), name)
 
 

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
-"""README.md: its command gives the numbers that it shows, its method runs, and its lines read the curve."""
+"""README.md: its command gives the numbers that it shows, its method runs, its lines read the curve, and the pictures are of
+this program."""
 import csv
+import glob
 import os
 import re
 import shlex
@@ -11,9 +13,11 @@ import unittest
 import numpy  # which the lines of the README use
 import pandas
 import yaml
+from PIL import Image
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../.."))
 TOOLS = os.environ["KNOT_UTM_TOOLS_DIR"]
+IMAGES = os.path.join(ROOT, "doc/images")
 UNITS = {"N": 1.0, "mm": 1e-3, "kN/m": 1e3}
 
 
@@ -42,6 +46,15 @@ def step(number):
     return 10.0 ** -len(number.partition(".")[2])
 
 
+def texts_of(picture):
+    with Image.open(picture) as image:
+        return dict(image.text)
+
+
+def pages():
+    return "\n".join(open(file, encoding="utf-8").read() for file in glob.glob(os.path.join(ROOT, "doc/**/*.md"), recursive=True))
+
+
 class Readme(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -57,14 +70,44 @@ class Readme(unittest.TestCase):
     def setUp(self):
         self.assertEqual(self.done.returncode, 0, self.done.stderr)
 
-    def test_numbers_are_those_that_come_out(self):
+    def result(self):
         with open(os.path.join(self.run_folder, "result.yaml"), encoding="utf-8") as text:
-            result = yaml.safe_load(text)
-        rows = re.findall(r"^\|.*\(`(\w+)`\) \| ([\d.]+) (\S+) \| ± ([\d.]+) (\S+) \|$", section("What comes out"), re.MULTILINE)
+            return yaml.safe_load(text)
+
+    @staticmethod
+    def rows():
+        """Of the table: key, value, unit, error, its unit."""
+        return re.findall(r"^\|.*\(`(\w+)`\) \| ([\d.]+) (\S+) \| ± ([\d.]+) (\S+) \|$", section("What comes out"), re.MULTILINE)
+
+    def test_numbers_are_those_that_come_out(self):
+        result, rows = self.result(), self.rows()
         self.assertEqual(len(rows), 3)
         for key, value, unit, error, error_unit in rows:
             self.assertAlmostEqual(float(value), result[key] / UNITS[unit], delta=step(value), msg=key)
             self.assertAlmostEqual(float(error), result[key + "_error"] / UNITS[error_unit], delta=step(error), msg=key)
+
+    def test_pictures_are_of_this_program(self):
+        """Each PNG carries what it was made of (report/picture_facts.py). The two of a test are of the run above."""
+        result, steps = self.result(), {key: step(value) * UNITS[unit] for key, value, unit, _, _ in self.rows()}
+        seen = set()
+        for name in sorted(os.listdir(IMAGES)):
+            facts = texts_of(os.path.join(IMAGES, name))
+            self.assertLessEqual({"version", "method", "command"}, set(facts), f"{name} does not say what it was made of")
+            self.assertIn(f"doc/images/{name}", facts["command"])
+            self.assertIn(facts["command"], pages(), f"{name}: no page has the command that made it")
+            for key in ("plateau_force", "lock_extension"):
+                if key in facts:
+                    seen.add(name)
+                    self.assertEqual(facts["method"], "fisherman, polypropylene")
+                    self.assertAlmostEqual(float(facts[key].split()[0]), result[key], delta=steps[key], msg=f"{name}: {key}")
+        self.assertEqual(seen, {"rviz.png", "tighten.png"})
+
+    def test_the_log_in_the_picture_rolls_as_the_program_has_it(self):
+        """As test/sim/surface_friction_test.cpp: half as far as the plank, or not at all."""
+        facts = texts_of(os.path.join(IMAGES, "rolling.png"))
+        for scene, share in (("surface", 0.5), ("centreline", 0.0)):
+            plank, log = (float(way) for way in re.findall(r"([\d.]+) h", facts[scene]))
+            self.assertAlmostEqual(log, share * plank, delta=0.01, msg=facts[scene])
 
     def test_method_runs(self):
         method = os.path.join(self.home.name, "method.yaml")

@@ -34,7 +34,7 @@ class Site(unittest.TestCase):
 
     def test_has_every_page(self):
         self.assertIn("index.html", self.pages)
-        for page in glob.glob(os.path.join(ROOT, "doc/*.md")):
+        for page in glob.glob(os.path.join(ROOT, "doc/**/*.md"), recursive=True):
             name = os.path.splitext(os.path.basename(page))[0]
             self.assertIn(f"page-{name}.html", self.pages)
 

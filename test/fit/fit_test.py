@@ -94,7 +94,8 @@ class Hidden(Fits):
         words = [self.straight(), "straight", "--free", STRETCH, "record.force_offset", "--out", self.path("fit")]
         self.command(*words, settings=PULLED)
         pages = [content(self.path("fit", name)) for name in ("report.html", "report.pdf")]
-        self.command(*words, settings=PULLED)
+        self.assertIn("fit.yaml exists already", self.command(*words, settings=PULLED, code=2))
+        self.command(*words, "--overwrite", settings=PULLED)
         self.assertEqual(pages, [content(self.path("fit", name)) for name in ("report.html", "report.pdf")], "the same bytes")
         for word in (f'data-key="{STRETCH}"', 'data-key="record.force_offset"', "The curve fits within the errors",
                      "record/curve.csv", f"{STRETCH}, record.force_offset", "curves.csv", "profiles.csv"):
@@ -134,8 +135,23 @@ class Hidden(Fits):
             file.write("Time,Extension,Load\n(s),(mm),(N)\n")
             for row in table.itertuples():
                 file.write(f"{row.time:.4f},{1e3 * row.extension + 3.0:.5f},{row.load + 5.0:.4f}\n")
-        fitted, _ = self.fit("fit", "raw.csv", "straight", "--free", STRETCH, settings=PULLED)
+        fitted, said = self.fit("fit", "raw.csv", "straight", "--free", STRETCH, settings=PULLED)
         self.assert_found(fitted[STRETCH], 6.1e4)
+        self.assertRegex(said, "raw.csv: [0-9]+ readings: time is column 1")
+        # The same in compression, as some machines sign it.
+        with open(self.path("raw.csv"), encoding="utf-8") as file:
+            head, rows = file.readlines()[:2], pd.read_csv(self.path("raw.csv"), skiprows=[1])
+        for name, column in (("load.csv", "Load"), ("extension.csv", "Extension")):
+            with open(self.path(name), "w", encoding="utf-8") as file:
+                file.writelines(head)
+                rows.assign(**{column: -rows[column]}).to_csv(file, index=False, header=False)
+            refused = self.command(name, "straight", "--free", STRETCH, settings=PULLED, code=2)
+            self.assertEqual(refused.count("\n"), 1, refused)
+            self.assertRegex(refused, f"{name}: .*--invert turns")
+        turned, _ = self.fit("turned", "load.csv", "straight", "--free", STRETCH, "--invert", settings=PULLED)
+        self.assertEqual(turned[STRETCH], fitted[STRETCH])
+        said = self.command("raw.csv", self.path("fit/method.yaml"), "--free", STRETCH, "--out", self.path("fit"), "--overwrite", code=2)
+        self.assertIn("method.yaml is an input, and would be written over", said)
 
 
 class Said(unittest.TestCase):

@@ -42,6 +42,7 @@ TEST_F(ClaimedFolderOf, ARunIsTheNextFreeOneWhereSomethingWould) {
     const std::string asked = in(std::string(name) + "_is_there");
     fs::create_directories(asked);
     write_whole(asked + "/" + name, "measured");
+    EXPECT_EQ(free_folder(asked), asked + "-2") << name;
     EXPECT_EQ(claimed(asked), asked + "-2") << name;
     EXPECT_EQ(claimed(asked + "/"), asked + "-3") << name;
     EXPECT_EQ(read_whole(asked + "/" + name), "measured");
@@ -139,6 +140,21 @@ TEST_F(KeptRun, AMethodThatComesWithThePackageIsKnownByItsName) {
   EXPECT_THAT(refused.text, AllOf(HasSubstr("strait"), HasSubstr("(astm_d2256_knotted, "),
                                   HasSubstr("overhand, straight, tighten, usp_881_knot_pull)")));
   EXPECT_FALSE(fs::exists(in("out")));
+}
+
+/// Comments and `auto` of it would be gone.
+TEST_F(ClaimedFolderOf, AMethodThatSomebodyWroteIsNotReplacedByItsRun) {
+  fs::create_directories(in("mine"));
+  const std::string mine = read_whole(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml");
+  write_whole(in("mine/method.yaml"), mine);
+  fs::create_symlink("mine/method.yaml", in("link.yaml"));
+  for (const char* method : {"mine/method.yaml", "link.yaml"}) {
+    const Answer answer =
+        answer_of(tool("tensile_test", "'" + in(method) + "' --overwrite --out '" + in("mine") + "'"));
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_THAT(answer.text, HasSubstr("the run would write over its own method"));
+  }
+  EXPECT_EQ(read_whole(in("mine/method.yaml")), mine);
 }
 
 }  // namespace

@@ -50,10 +50,38 @@ TEST(ComparedCurves, SayWhatIsTakenForZero) {
   Told told;
   const ComparedCurves compared = told.compare(ours(), raw(0.0, 5.0), {true, std::nullopt});
   EXPECT_NEAR(compared.comparison.difference->largest, 0.0, 1e-9);
-  EXPECT_THAT(told.lines, ElementsAre(HasSubstr("raw.csv: the record shows no rest before the pull")));
+  EXPECT_THAT(told.lines, ElementsAre(HasSubstr("ours.csv: the curve is one of knot_utm and keeps its own zero"),
+                                      HasSubstr("raw.csv: the record shows no rest before the pull")));
   Told of_ours;
   of_ours.compare(ours(), ours(), {true, std::nullopt});
   EXPECT_THAT(of_ours.lines, ElementsAre(HasSubstr("--balance changes nothing")));
+}
+
+/// Where the other curve does not begin at 0 N, the raw data get its load; what is said is what the file itself has.
+TEST(ComparedCurves, SayTheZeroOfEachFileFromItsOwnReadings) {
+  Told told;
+  CurveOfFile offset = ours();
+  for (CurveRow& row : offset.rows) row.load += 0.25;
+  CurveOfFile resting = raw(0.01, 5.0);
+  CurveRow rest = resting.rows.front();
+  for (const double more : {1.0, -1.0}) {
+    rest.time -= 1.0;
+    rest.load = 5.0 + more;
+    resting.rows.insert(resting.rows.begin(), rest);
+  }
+  const ComparedCurves compared = told.compare(offset, resting, {true, std::nullopt});
+  EXPECT_NEAR(compared.comparison.difference->largest, 0.0, 1e-9);
+  EXPECT_THAT(told.lines,
+              testing::Contains(HasSubstr("raw.csv: zero is 5 N at 0.01 m, the mean of its 3 readings before the "
+                                          "crosshead moves; its load there becomes 0.25 N")));
+  const std::string yaml = comparison_yaml(compared.comparison, "ours.csv", "raw.csv");
+  EXPECT_THAT(yaml, HasSubstr("zero_a: own\n"));
+  EXPECT_THAT(yaml, HasSubstr("zero_b: {extension: 0.01, load: 5, readings: 3, load_there: 0.25}\n"));
+  const ComparedCurves as_they_are = told.compare(offset, offset);
+  EXPECT_THAT(comparison_yaml(as_they_are.comparison, "a", "b"), testing::Not(HasSubstr("zero_")));
+  const ComparedCurves both = told.compare(resting, raw(0.01, 7.0), {true, std::nullopt});
+  EXPECT_EQ(both.comparison.zeros->a->load, 5.0);
+  EXPECT_EQ(both.comparison.zeros->b->load, 7.0);
 }
 
 TEST(ComparedCurves, OfACutRecordTheOtherOneTellsTheLoad) {

@@ -12,6 +12,7 @@ namespace knot_utm {
 namespace {
 
 using testing::AllOf;
+using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -81,11 +82,33 @@ TEST(Foreseen, AFractureOfARodThatNothingBreaks) {
   EXPECT_THAT(warnings_of("straight", {set[0], set[1], "ends.drop=0.5"}), IsEmpty());
 }
 
+TEST(Foreseen, NoShippedRodIsAskedAbout) {
+  for (const auto& entry : std::filesystem::directory_iterator(kConfig + "materials/"))
+    EXPECT_THAT(warnings_of("straight", {"material=" + entry.path().string(), "program=[{hold: {duration: 1}}]"}),
+                IsEmpty())
+        << entry.path();
+}
+
+TEST(Foreseen, SlipsOfUnitsAreAskedAbout) {
+  const auto asked = [](const std::string& key, const std::string& value) {
+    return warnings_of("straight", {"program=[{hold: {duration: 1}}]", "material." + key + "=" + value});
+  };
+  EXPECT_THAT(asked("density", "100"), ElementsAre(HasSubstr("material.density is 100 kg/m3, where cork has 200")));
+  EXPECT_THAT(asked("density", "1.15"), ElementsAre(HasSubstr("is it in kg/m3")));  // g/cm3
+  // E in MPa, and of the bending stiffness, too.
+  const std::vector<std::string> soft = asked("stretching_stiffness", "0.0734");
+  EXPECT_THAT(soft, Contains(HasSubstr("which is E = 2.32 kPa, where rubber has 1 MPa")));
+  EXPECT_THAT(asked("bending_stiffness", "4.31e-11"), ElementsAre(HasSubstr("of that of a solid rod")));
+  EXPECT_THAT(asked("bending_stiffness", "43.1"), ElementsAre(HasSubstr("is it in N m2?")));
+  EXPECT_THAT(asked("breaking_force", "2.5"), ElementsAre(HasSubstr("at a strain of 3.41e-05: is it in N?")));
+}
+
 TEST(Foreseen, CheckSaysIt) {
   const Answer answer = answer_of(tool("tensile_test", "straight --check --set machine.travel=0.001"));
   EXPECT_EQ(answer.code, 0);
   EXPECT_THAT(answer.text, HasSubstr("tensile_test: program."));
   EXPECT_THAT(answer.text, HasSubstr("which is never reached"));
+  EXPECT_THAT(answer.text, HasSubstr("tensile_test: the rod: 36.4 g/m at a diameter of 6.35 mm, E = 2.32 GPa"));
 }
 
 }  // namespace

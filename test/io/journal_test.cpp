@@ -88,7 +88,7 @@ Record record(std::uint64_t sequence) {
   r.command.read_cell = sequence % 2 == 0;
   r.answer = sample(sequence);
   r.steps = {sample(sequence), sample(sequence)};
-  if (shape_is_due(r.command)) {
+  if (shape_is_due(r.command, r.answer)) {
     r.shape = Points::Random(3, 5);
     r.tension = Eigen::VectorXd::Random(4);
   }

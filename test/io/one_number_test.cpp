@@ -30,7 +30,7 @@ class OneNumber : public OwnFolder {
     for (const char* file : {"/curve.csv", "/test.bag"}) {
       if (!std::filesystem::exists(folder() + file)) continue;  // without ROS there is no bag
       const std::string curve = "'" + folder() + file + "'";
-      const Answer answer = answer_of(tool("compare", curve + " " + curve + " --tolerance 0"));
+      const Answer answer = answer_of(tool("compare", curve + " " + curve + " --yaml --tolerance 0"));
       ASSERT_EQ(answer.code, 0) << answer.text;
       const YAML::Node said = YAML::Load(answer.text);
       for (const char* key : {"peak_force", "plateau_force", "plateau_force_low", "plateau_force_high",

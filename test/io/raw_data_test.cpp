@@ -72,11 +72,14 @@ std::string complaint_of(const std::string& text) {
 
 TEST(RawData, UnitsAreNeverGuessed) {
   EXPECT_EQ(complaint("no_unit.csv"),
-            "no_unit.csv: the unit of column Load is missing: give mN, cN, N, kN, gf, kgf or lbf");
+            "no_unit.csv: the unit of column Load is missing: give mN, cN, N, daN, kN, gf (g), kgf (kg, kp), lbf (lb), "
+            "ozf or "
+            "kip, by --units load=UNIT");
   EXPECT_EQ(complaint("unknown_unit.csv"),
-            "unknown_unit.csv: the unit of column Load is daN, but must be mN, cN, N, kN, gf, kgf or lbf");
+            "unknown_unit.csv: the unit of column Load is MPa, but must be mN, cN, N, daN, kN, gf (g), kgf (kg, kp), "
+            "lbf (lb), ozf or kip");
   EXPECT_EQ(complaint_of("Time,Extension,Load\n0,0,0\n"),
-            "raw.csv: the unit of column Time is missing: give ms, s, sec, min or h");
+            "raw.csv: the unit of column Time is missing: give ms, s, min or h, by --units time=UNIT");
   EXPECT_THAT(
       complaint_of("Time (s),Extension (mm),Load (N)\n(s),(cm),(N)\n0,0,0\n"),
       HasSubstr("the unit of column Extension (mm) is cm below the name, but must be the same as in the name, mm"));
@@ -91,8 +94,11 @@ TEST(RawData, WhatIsNotANumberIsNamedByRowAndColumn) {
   EXPECT_EQ(complaint("cut_off.csv"),
             "cut_off.csv: row 8: Load is \"\", but must be a number with \".\" before its decimals");
   EXPECT_EQ(complaint("goes_back.csv"), "goes_back.csv: row 8: Time goes back to 0.3");
-  EXPECT_EQ(complaint("no_names.csv"), "no_names.csv: no row names the columns time, extension and load");
-  EXPECT_EQ(complaint("empty"), "empty: no row names the columns time, extension and load");
+  EXPECT_EQ(
+      complaint("no_names.csv"),
+      "no_names.csv: no row names the columns time, extension and load; --columns takes other names, or numbers, such "
+      "as --columns time=1,extension=2,load=3");
+  EXPECT_EQ(complaint("empty"), "empty: the file is empty");
   EXPECT_THAT(complaint_of("Time,Extension,Load\n(s),(mm),(N)\n"), HasSubstr("no row of numbers follows the names"));
 }
 
@@ -135,9 +141,9 @@ TEST(RawData, EveryCellHasAName) {
   EXPECT_EQ(complaint_of(head + "0,10,0.5,,\n"), "none");
 }
 
-TEST(RawData, OfTwoTablesNoneIsRead) {
+TEST(RawData, OfTwoTablesNoneIsReadUnlessItIsChosen) {
   const std::string table = "Time,Extension,Load\n(s),(mm),(N)\n0,0,0\n";
-  EXPECT_THAT(complaint_of(table + table), HasSubstr("row 4 names the columns once more"));
+  EXPECT_THAT(complaint_of(table + table), HasSubstr("holds 2 specimens, in tables that begin with rows 1 and 4"));
 }
 
 TEST(RawData, ARowOfSeparatorsIsEmpty) {

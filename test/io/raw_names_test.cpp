@@ -70,9 +70,11 @@ INSTANTIATE_TEST_SUITE_P(
 
 constexpr const char* kOwnNames = "time=Zeitpunkt,extension=Weg, oben,load=Messwert 2";
 
-std::string complaint_of(const std::string& text, const RawColumns& columns = {}) {
+std::string complaint_of(const std::string& text, const char* columns = "") {
   try {
-    read_raw_data(text, "raw.csv", columns);
+    RawOptions options;
+    if (*columns != '\0') options.columns = parse_raw_columns(columns, "--columns");
+    read_raw_data(text, "raw.csv", options);
   } catch (const InvalidInput& invalid) {
     return invalid.what();
   }
@@ -81,10 +83,12 @@ std::string complaint_of(const std::string& text, const RawColumns& columns = {}
 
 TEST(RawNames, AUserMayNameTheColumns) {
   const std::string text = read_input(fixture("own_names.csv"));
-  const std::vector<CurveRow> rows = read_raw_data(text, "raw.csv", parse_raw_columns(kOwnNames, "--columns"));
+  RawOptions options;
+  options.columns = parse_raw_columns(kOwnNames, "--columns");
+  const std::vector<CurveRow> rows = read_raw_data(text, "raw.csv", options);
   ASSERT_EQ(rows.size(), 2u);
   expect_reading(rows.back(), {0.5, 2.25, 4.5});
-  EXPECT_EQ(complaint_of("Czas;Weg;Kraft\ns;mm;N\n0,5;1;1\n", parse_raw_columns("time=Czas", "--columns")), "none");
+  EXPECT_EQ(complaint_of("Czas;Weg;Kraft\ns;mm;N\n0,5;1;1\n", "time=Czas"), "none");
 }
 
 TEST(RawNames, ARefusalShowsTheRowAndTheNames) {
@@ -94,7 +98,7 @@ TEST(RawNames, ARefusalShowsTheRowAndTheNames) {
     EXPECT_THAT(complaint, HasSubstr(known));
   EXPECT_THAT(complaint, testing::Not(HasSubstr("load, whose"))) << "the load was found";
   EXPECT_LT(complaint.size(), 500u);
-  EXPECT_THAT(complaint_of("Time,Stroke,Force\ns,mm,N\n0,1,2\n", parse_raw_columns("load=Cell 3", "--columns")),
+  EXPECT_THAT(complaint_of("Time,Stroke,Force\ns,mm,N\n0,1,2\n", "load=Cell 3"),
               HasSubstr("load, whose known names are \"Cell 3\" alone"));
 }
 
@@ -112,7 +116,7 @@ TEST(RawNames, NamesOfColumnsAreOfAForm) {
 TEST(RawNames, CompareAndFollowTakeThem) {
   const std::string file = "'" + fixture("own_names.csv") + "'";
   EXPECT_EQ(answer_of(tool("compare", file + " " + file)).code, 2);
-  const Answer answer = answer_of(tool("compare", file + " " + file + " --columns '" + kOwnNames + "'"));
+  const Answer answer = answer_of(tool("compare", file + " " + file + " --yaml --columns '" + kOwnNames + "'"));
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("rms_difference: 0"));
   const Method method =

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "io/own_folder.hpp"
+#include "knot_utm/io/command_hint.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 
@@ -57,20 +58,23 @@ TEST_F(ReportIn, AComparisonReplacesNoRunAndNothingThatItCompares) {
   EXPECT_THROW(write_comparison(folder(), "", a_, a_, "x", file("./b.csv")), InvalidInput);
   EXPECT_EQ(read_whole(file("b.csv")), "measured");
   EXPECT_FALSE(fs::exists(file("a.csv")));
+  fs::create_hard_link(file("b.csv"), file("report.html"));
+  EXPECT_THROW(write_comparison(folder(), "", a_, a_, "x", file("b.csv"), true), InvalidInput);
   write_whole(file("result.yaml"), "");
   EXPECT_THROW(write_comparison(folder(), "", a_, a_, "x", "y"), InvalidInput);
   EXPECT_THROW(write_comparison(file("b.csv/below"), "", a_, a_, "x", "y"), InvalidInput);
   EXPECT_THROW(write_comparison("", "", a_, a_, "x", "y"), InvalidInput);
 }
 
-TEST_F(ReportIn, AnotherComparisonGoesBesideAndTheSameOneReplacesIt) {
+TEST_F(ReportIn, AnotherComparisonGoesBeside) {
   const auto compared = [&](const std::string& yaml) {
     return write_comparison(file("beside"), yaml, a_, a_, "x", "y");
   };
   EXPECT_EQ(compared("a: x\nb: y\nrms: 1\n"), file("beside"));
-  EXPECT_EQ(compared("a: x\nb: y\nrms: 2\n"), file("beside"));
-  EXPECT_EQ(compared("a: x\nb: z\nrms: 3\n"), file("beside-2"));
-  EXPECT_EQ(read_whole(file("beside/comparison.yaml")), "a: x\nb: y\nrms: 2\n");
+  EXPECT_EQ(compared("a: x\nb: y\nrms: 1\n"), file("beside")) << "to the byte";
+  EXPECT_EQ(compared("a: x\nb: y\nrms: 2\n"), file("beside-2")) << "of files that have changed since";
+  EXPECT_EQ(compared("a: x\nb: z\nrms: 3\n"), file("beside-3"));
+  EXPECT_EQ(read_whole(file("beside/comparison.yaml")), "a: x\nb: y\nrms: 1\n");
   EXPECT_EQ(write_comparison(file("beside"), "a: v\nb: w\n", a_, a_, "v", "w", true), file("beside"));
 
   fs::create_directories(file("mine"));

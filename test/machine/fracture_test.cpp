@@ -92,7 +92,7 @@ TEST(Fracture, TheEndsOfAStraightRodRecoil) {
   // The end's own half edge is lighter than the rest, and swings ahead by a third on a lattice; implicit steps damp it.
   EXPECT_GT(fastest, 0.9 * speed);
   EXPECT_LT(fastest, 1.4 * speed);
-  EXPECT_EQ(test.bench.tension()[static_cast<Eigen::Index>(at_break(test).break_arclength / 0.005)], 0.0);
+  EXPECT_TRUE(test.bench.tension().array().isNaN().all());  // results.md says that none is known
   EXPECT_LT(std::abs(test.samples.back().force_upper), 1.1 * kBreaking);
   const Results results = analyse(test.samples, test.program.ended_by());
   EXPECT_LT(*results.energy_balance_error, 1e-9);  // an identity of the steps, that which parts included

@@ -52,7 +52,7 @@ struct Overhand {
 };
 
 /// A similar rod of another size and stiffness. Its density is the same: what is accelerated follows from its bending.
-/// The unit of time is the second: doc/reliability.md says what is counted in seconds.
+/// The unit of time is the second: doc/developers/reliability.md says what is counted in seconds.
 Overhand scaled(Overhand overhand, double length, double force) {
   overhand.specimen.length *= length;
   overhand.specimen.end_to_end *= length;

@@ -191,7 +191,7 @@ class PageOfABatch(unittest.TestCase):
         self.assertEqual(tables_of(html)[0][0], ["Specimen", "Stiffness of the pull kN/in", "Largest load kN"])
         for unit in ("N", "mm", "N/mm", "mm/s"):
             self.assertNotRegex(re.sub(r'"data:[^"]*"', "", html), rf"\d {unit}\b(?! (?:s/)?m²)", unit)
-        for words in ("Specimen</span>0012<", ">Dr. Q.<", "all files are in SI units"):
+        for words in ("Specimen</span>0012<", ">Dr. Q.<", "All files are in SI units"):
             self.assertIn(words, html)
 
     def test_names_the_command_that_made_it_and_every_file(self):
@@ -228,6 +228,17 @@ class PageOfABatch(unittest.TestCase):
         one = {"mean": 2.5, "sd": 0.1, "cv": 0.04, "low": 2.4, "high": 2.6, "minimum": 2.0, "maximum": 3.0, "n": 2}
         html = html_of(changed(rods, "statistics.yaml", lambda facts: facts.update(loop_energy=one)))
         self.assertEqual(row_of(html, "loop_energy")[1:], ["2.50", "0.1", "0.1", "4 %", "2", "J"])
+
+
+    def test_gives_no_spread_of_what_is_constant(self):
+        same = {"mean": 31.000374, "sd": None, "cv": None, "low": None, "high": None, "minimum": 31.00033, "maximum": 31.00042, "n": 2}
+        html = html_of(changed(rods, "statistics.yaml", lambda facts: facts.update(peak_force=same)))
+        self.assertEqual(row_of(html, "peak_force")[1:], ["31", "", "constant", "", "2", "N"])
+        self.assertIn("constant, n = 2", html)
+        column = tables_of(html)[0]
+        place = column[0].index("Largest load N")
+        self.assertEqual([row[place] for row in column if row[0] in ("Mean", "Standard deviation", "Coefficient of variation")],
+                         ["31", "constant", ""])
 
 
 class CertificateOfABatch(unittest.TestCase):
@@ -329,10 +340,19 @@ class FiguresOfABatch(unittest.TestCase):
         mean = mean_curve([one.pull for one in Batch(folder).tested])
         drawn = {line.get_label(): line.get_xydata().T for line in axes.get_lines()}
         np.testing.assert_allclose(drawn["mean"], (mean.extension, 1e-3 * mean.mean))
-        np.testing.assert_allclose(drawn["95 % interval of the mean"], (mean.extension, 1e-3 * (mean.mean - mean.half)))
+        np.testing.assert_allclose(drawn["95 % interval of the mean"], (mean.extension, 1e-3 * mean.about(mean.half)[0]))
         band = axes.collections[0].get_paths()[0].vertices[:, 1]
-        np.testing.assert_allclose((band.min(), band.max()),
-                                   (1e-3 * (mean.mean - mean.sd).min(), 1e-3 * (mean.mean + mean.sd).max()))
+        low, high = mean.about(mean.sd)
+        np.testing.assert_allclose((band.min(), band.max()), (1e-3 * low.min(), 1e-3 * high.max()))
+
+    def test_never_show_a_mean_beyond_what_a_specimen_shows(self):
+        s = np.linspace(0.0, 0.1, 201)
+        mean = mean_curve([(s, np.where(s < lock, 5.0, 5.0 + 1e5 * (s - lock))) for lock in (0.05, 0.06, 0.08)])
+        self.assertLess((mean.mean - mean.sd).min(), 0.0)  # as the loads are not normally distributed there
+        for width in (mean.sd, mean.half):
+            low, high = mean.about(width)
+            self.assertGreaterEqual(low.min(), 5.0)
+            self.assertTrue((low <= mean.mean).all() and (mean.mean <= high).all() and (high <= mean.most).all())
 
     def test_show_small_loads_once_more(self):
         peaks = Batch(loops).mean("peak_force") / Batch(loops).mean("plateau_force")

@@ -173,10 +173,14 @@ class ForSlides(unittest.TestCase):
 class Refused(unittest.TestCase):
     def test_in_one_line_with_nothing_written(self):
         os.makedirs(out("full"))
+        os.symlink(os.path.join(broken, "result.yaml"), out("link.glb"))
+        open(out("full/a.glb"), "w", encoding="utf-8").close()
         with open(out("full/a"), "w", encoding="utf-8"):
             pass
         for arguments, words in (([broken], "--vtk"), ([out("none"), "--vtk", out("x")], "none: no such folder"),
                                  ([broken, "--gltf", out("x.obj")], "must end with .glb"),
+                                 ([broken, "--gltf", out("full/a.glb")], "exists already"),
+                                 ([broken, "--gltf", out("link.glb"), "--overwrite"], "is an input"),
                                  ([broken, "--vtk", out("full")], "is there already"),
                                  ([broken, "--vtk", out("x"), "--color", "tension"], "--color"),
                                  ([broken, "--gltf", out("x.glb"), "--color", "blue"], "blue"),

@@ -8,6 +8,7 @@ from types import SimpleNamespace
 
 from runs import ROOT, OfValues, a_pull, html_of, read, row_of, two_runs, write
 
+import matplotlib.figure
 import matplotlib.text
 import numpy as np
 
@@ -15,9 +16,11 @@ import curve_figures
 import error_band
 import largest_load
 import marks
+import page
 import rod_pictures
 import shapes
 import style
+import typefaces
 from few_points import few_points
 from run import Run
 
@@ -70,6 +73,53 @@ class ABrokenRod(unittest.TestCase):
         stretched = shapes.Shape(1.0, 3.0 * nodes, np.ones(9))
         self.assertEqual(shapes.pieces(parted, whole), [slice(0, 4), slice(4, 10)])
         self.assertEqual(shapes.pieces(stretched, whole), [slice(0, 10)])
+
+
+    def test_is_shown_parted_at_the_end_also_where_no_shape_was_recorded_behind_the_break(self):
+        nodes = np.zeros((3, 3))
+        series = shapes.Series([0.0, 0.9], lambda i: shapes.Shape([0.0, 0.9][i], nodes, np.ones(2)))
+        final = shapes.Shape(1.1, nodes)
+        found = shapes.shapes_at(series, [0.0, 1.0, 1.1], broke=1.0, final=final)
+        self.assertEqual([one.time for one in found], [0.0, 0.9, 1.1])
+        self.assertEqual([one.time for one in shapes.shapes_at(series, [0.0, 1.1], final=final)], [0.0, 0.9])
+
+    def test_has_no_load_behind_its_break(self):
+        s = np.minimum(np.linspace(0.0, 0.1, 101), 0.08)
+        run = OfValues(a_pull(s, np.where(np.arange(101) <= 80, 100.0 * s, -50.0)), break_extension=0.08, peak_force=8.0)
+        run.curve.columns["time"] = np.arange(101.0)
+        self.assertEqual(run.time_of_break(), 80.0)
+        self.assertEqual(run.tested()["load"].min(), 0.0)
+        end = marks.marks_of(run)[-1]
+        self.assertEqual((end.title(), np.isnan(end.load)), ("end of the test", True))
+
+
+class APlateau(unittest.TestCase):
+    def test_has_its_range_beside_it(self):
+        s = np.linspace(0.0, 0.1, 101)
+        for slope, words in ((60.0, "rises from 3.9 to 6.7 N"), (1.0, "between 3.9 and 6.7 N")):
+            run = OfValues(a_pull(s, s), plateau_force=5.0, plateau_force_low=3.92, plateau_force_high=6.73,
+                           plateau_force_slope=slope, lock_extension_by_load=0.084)
+            self.assertEqual(page.range_of_plateau(run), words)
+        level = OfValues(a_pull(s, s), plateau_force=5.0, plateau_force_low=4.999, plateau_force_high=5.001)
+        self.assertEqual(page.range_of_plateau(level), "")
+
+
+class Typefaces(unittest.TestCase):
+    def test_that_lack_a_character_are_told_of(self):
+        self.addCleanup(setattr, typefaces, "families_with", typefaces.families_with)
+        typefaces.families_with = lambda some: [] if set(some) & set("绳结") else ["DejaVu Sans"]
+        html = "<style>绳</style><p>Αλέξανδρος &#x7ED3; ü</p>"
+        self.assertEqual(typefaces.without_typeface(html), "结")
+        self.assertIn("No typeface of this machine has 结 (U+7ED3): the PDF and the figures", typefaces.told("结"))
+        self.assertEqual(typefaces.told(typefaces.without_typeface("<p>Αλέξανδρος</p>")), "")
+        self.assertEqual(typefaces.further_families("A 结 ☃"), ["DejaVu Sans"])
+
+    def test_of_a_figure_are_those_that_have_its_characters(self):
+        figure = matplotlib.figure.Figure()
+        name = figure.text(0.5, 0.5, "☃ in a curve")  # which Liberation Sans lacks
+        figure.text(0.1, 0.1, "plain")
+        style.as_svg(figure)
+        self.assertIn("DejaVu Sans", name.get_fontfamily())
 
 
 class APicture(unittest.TestCase):
@@ -166,26 +216,33 @@ class TheLargestLoad(unittest.TestCase):
 
     def test_is_a_peak_where_the_rod_parted(self):
         found = self.of(np.where(self.S < 0.0995, self.S, 0.0), ended_by="break", break_extension=0.0992)
-        self.assertEqual((found.is_peak, found.where), (True, "where the rod parted"))
+        self.assertEqual((found.is_peak, found.where), (True, "where the rod parted, at 99.2 mm"))
 
     def test_is_no_peak_where_the_test_was_stopped_while_the_load_rose(self):
-        for ended_by, where in (("extension", "which was stopped at 100 mm"), ("operator", "the operator stopped at"),
+        for ended_by, where in (("extension", "where the test was stopped"), ("operator", "where the operator stopped the test"),
                                 ("solver", "where the physics gave up")):
             found = self.of(self.S, ended_by=ended_by)
             self.assertEqual((found.is_peak, found.name), (False, "largest load"))
-            self.assertIn("at the end of the test, ", found.where)
-            self.assertIn(where, found.where)
+            self.assertEqual(found.where, "at 100 mm, " + where)
+
+    def test_is_where_the_load_cell_read_it(self):
+        run = OfValues(a_pull(self.S, self.S), peak_force=0.099, ended_by="extension")
+        run.readings = a_pull(self.S[:-1:3], self.S[:-1:3])  # the last reading is at 99 mm, the line ends at 100
+        found = largest_load.largest_load(run)
+        self.assertEqual(found.where, "at 99 mm, before the test was stopped")
+        self.assertEqual((found.rows["extension"][found.row], found.rows["load"][found.row]), (0.099, 0.099))
+        self.assertEqual(page.between_readings(run), "0.1 N")
 
     def test_is_no_peak_where_a_hold_follows_the_pull(self):
         held = a_pull(self.S, np.minimum(self.S, 0.05))
         held.phase[51:] = "hold"
         found = largest_load.largest_load(OfValues(held, peak_force=0.05, ended_by="time"))
-        self.assertEqual((found.is_peak, found.where), (False, "at the end of the pull, at 50 mm"))
+        self.assertEqual((found.is_peak, found.where), (False, "at 50 mm, where the pull ended"))
 
     def test_is_called_so_on_the_page(self):
         html = html_of(straight)
         self.assertIn("The curve has no peak: its largest load", html)
-        self.assertRegex(row_of(html, "peak_force")[0], "^Largest load, at the end of the test, which was stopped at")
+        self.assertRegex(row_of(html, "peak_force")[0], "^Largest load, at .* mm, (where|before) the test was stopped")
         self.assertNotRegex(re.sub(r'"data:[^"]*"', "", html), ">Peak")
 
 

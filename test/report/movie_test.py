@@ -50,6 +50,13 @@ class Movie(unittest.TestCase):
             ["ffprobe", "-v", "error", "-show_streams", "-of", "json", file], capture_output=True, check=True).stdout)["streams"][0]
         self.assertEqual((facts["codec_name"], facts["width"], facts["height"], facts["nb_frames"], facts["r_frame_rate"]),
                          ("h264", WIDE, HIGH, "3", "3/1"))
+        with open(file, "rb") as content:
+            before = content.read()
+        self.assertIn("both.mp4 exists already", movie(nylon, "--out", "both.mp4").stderr)
+        os.symlink(os.path.join(nylon, "shapes.csv"), os.path.join(folders.path, "link.mp4"))
+        self.assertIn("is an input", movie(nylon, "--out", "link.mp4", "--overwrite").stderr)
+        with open(file, "rb") as content:
+            self.assertEqual(content.read(), before)
         pictures = pictures_of(file)
         self.assertGreater(min(orange_rows(pictures[1])), 2000)
         for before, after in zip(pictures[:-1], pictures[1:]):

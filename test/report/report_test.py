@@ -69,7 +69,7 @@ class PageOfARun(unittest.TestCase):
                                      ("locked_stiffness", values[2], f"{force}/{length}")):
                 self.assertEqual([cell for cell in row_of(html, key)[1:] if cell], [value, unit])
             self.assertEqual(row_of(html, "break_extension", 1)[1], f"{values[1]} {length}")
-            self.assertIn("all files are in SI units", html)
+            self.assertIn("All files are in SI units", re.sub(r'"data:[^"]*"', "", html))
             for unit in ("N", "mm", "N/mm", "mm/s"):
                 self.assertNotRegex(re.sub(r'"data:[^"]*"', "", html), rf"\d {unit}\b(?! (?:s/)?m²)", unit)
 
@@ -185,6 +185,69 @@ class PageOfARun(unittest.TestCase):
         put_into(folder, "result.yaml", "warnings: []", 'warnings: ["a & b < c"]')
         html = html_of(folder)
         self.assertLess(html.index("<li>a &amp; b &lt; c</li>"), html.index("<h2>"))
+
+
+class NumbersOfThePage(unittest.TestCase):
+    """Each is that of result.yaml, and what stands beside each other is of one row of the curve."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.broken = folders.run("broken", [*STRAIGHT, "--set", "material.breaking_force=400"])
+
+    def check(self, folder, html):
+        run, units = Run(folder), Run(folder).units
+        rows = [row for row in re.findall(r'<tr><td class="what">.*?</tr>', html, re.DOTALL) if "<code>" in row]
+        self.assertGreater(len(rows), 20)
+        for row in rows:
+            key = re.search(r"<code>(\w+)</code>", row)[1]
+            cell = re.search(r'<td class="number figures">(.*?)</td>', row)
+            if not cell or not isinstance(run.result[key], float):
+                continue
+            number = cell[1].replace("–", "-").replace(" · 10", "e")
+            number = float(number.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789")))
+            value = run.result[key] * units.of(quantities.quantity_of(key).kind).scale
+            error = run.value(key + "_error")
+            digits = abs(value) * 6e-4 if error is None else max(0.06 * error * units.of(quantities.quantity_of(key).kind).scale, 1e-12)
+            self.assertAlmostEqual(number, value, delta=max(digits, quantities.NOTHING), msg=key)
+        self.assertNotRegex(re.sub(r'"data:[^"]*"', "", html), r">[-–]0(\.0+)?[ <]")
+
+    def test_are_those_of_the_result(self):
+        self.check(fisherman, page_of(fisherman))
+        self.check(self.broken, html_of(self.broken))
+
+    def test_of_the_largest_load_are_of_one_reading(self):
+        run = Run(fisherman)
+        shown = next(one for one in page.headlines(run, page.largest_load(run)) if one.label == "Largest load")
+        pulled = run.readings.where(run.readings.phase == "pull")
+        row = int(np.argmax(pulled["load"]))
+        self.assertEqual(shown.value, quantities.shown(float(pulled["load"][row])))
+        self.assertIn(f"at {quantities.shown(1e3 * float(pulled['extension'][row]))} mm", shown.remark)
+
+    def test_of_every_mark_are_of_one_row(self):
+        for folder in (fisherman, self.broken):
+            run = Run(folder)
+            places = {tuple(row) for curve in (run.curve, run.readings)
+                      for row in np.column_stack([curve[name] for name in ("time", "extension", "load")]).tolist()}
+            for mark in page.marks_of(run):
+                if not np.isnan(mark.load):
+                    self.assertIn((float(mark.time), float(mark.extension), float(mark.load)), places, mark.title())
+
+    def test_of_the_energies_fit_each_other_also_where_the_rod_broke(self):
+        for folder in (fisherman, self.broken):
+            of = Run(folder).value
+            self.assertGreaterEqual(of("kinetic_energy"), 0.0)
+            parts = sum(of(key) for key in ("stored_energy", "kinetic_energy", "friction_loss", "plastic_loss", "drag_loss",
+                                            "numerical_dissipation", "reweighting_loss"))
+            self.assertAlmostEqual(parts, of("work"), delta=1e-3 * of("work"))
+        self.assertAlmostEqual(of("work"), of("energy_to_break"), delta=1e-3 * of("work"))
+
+    def test_that_were_given_are_no_result(self):
+        html = html_of(self.broken)
+        self.assertIn("parted at the breaking force that was given, 400 N, which the peak force repeats", html)
+        folder = folders.copy(fisherman)
+        put_into(folder, "result.yaml", "knot_efficiency: null  # the rod did not break",
+                 "knot_efficiency: null  # not predicted: the breaking force was given")
+        self.assertEqual(row_of(html_of(folder), "knot_efficiency")[1], "not predicted")
 
 
 class Keys(unittest.TestCase):

@@ -6,14 +6,19 @@
 #include <std_msgs/String.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
 
+#include "io/command.hpp"
 #include "io/own_folder.hpp"
 #include "knot_utm/io/cannot_write.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/ros/bag_writer.hpp"
+#include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/run_bag.hpp"
 
 namespace knot_utm {
@@ -125,6 +130,34 @@ TEST_F(CurveBag, OfOtherFilesIsRefusedInOneLine) {
   EXPECT_THAT(complaint("strings.bag"), ContainsRegex("std_msgs/String .*, but must be knot_utm/Crosshead"));
 }
 
+/// One after the other into one bag, as several runs of one launch.
+TEST_F(CurveBag, OfSeveralTestsOneIsChosen) {
+  {
+    BagWriter bag(file("two.bag"));
+    for (std::uint32_t run = 1; run <= 2; ++run)
+      for (int i = 0; i < 3; ++i) {
+        Command command;
+        command.time = 0.5 * i;
+        command.displacement = 0.001 * i * run;
+        command.phase = Phase::kPull;
+        command.read_cell = true;
+        Sample sample;
+        sample.load = 10.0 * run + i;
+        const ros::Time stamp(100.0 * run + 0.5 * i);
+        bag.write(names::kCrosshead, stamp, to_message(command, run, stamp));
+        bag.write(names::kLoadCell, stamp, to_wrench(sample, stamp));
+      }
+    bag.close();
+  }
+  EXPECT_THAT(complaint("two.bag"), HasSubstr("two.bag: the bag holds 2 tests: choose one by --specimen 1 to 2"));
+  const std::vector<CurveRow> second = read_curve_bag(file("two.bag"), 2);
+  ASSERT_EQ(second.size(), 3u);
+  EXPECT_EQ(second[2].load, 22.0);
+  EXPECT_EQ(second[2].extension, 0.004);
+  EXPECT_EQ(read_curve_bag(file("two.bag"), 1)[2].load, 12.0);
+  EXPECT_THROW(read_curve_bag(file("two.bag"), 3), InvalidInput);
+}
+
 /// A file that may not grow stands for a disk that is full.
 TEST_F(CurveBag, WithoutRoomItIsSaidAndNothingDies) {
   const auto handler = std::signal(SIGXFSZ, SIG_IGN);
@@ -136,6 +169,35 @@ TEST_F(CurveBag, WithoutRoomItIsSaidAndNothingDies) {
   EXPECT_THROW(write_curve_bag(file("a.bag"), std::vector<CurveRow>(1000)), CannotWrite);
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, handler);
+}
+
+/// Of which two were written with one shell pattern: the second one is the bag.
+TEST_F(CurveBag, NoImportReplacesWhatItReadsOrAFileThatIsThere) {
+  const std::string data = "Time,Extension,Load\n(s),(mm),(N)\n0,0,1\n1,1,2\n";
+  for (const char* name : {"Specimen_RawData_1.csv", "Specimen_RawData_2.csv"}) write_whole(file(name), data);
+  const auto import = [&](const std::string& words) {
+    return answer_of("cd '" + folder() + "' && " + tool("import_instron", words));
+  };
+  std::filesystem::create_symlink("Specimen_RawData_1.csv", file("link.bag"));
+  std::filesystem::create_hard_link(file("Specimen_RawData_1.csv"), file("hard.bag"));
+  for (const auto& [words, why] : {std::pair<const char*, const char*>{"Specimen_RawData_*.csv", "exists already"},
+                                   {"Specimen_RawData_*.csv --overwrite", "is a file of another kind"},
+                                   {"Specimen_RawData_1.csv Specimen_RawData_1.csv --overwrite", "is an input"},
+                                   {"Specimen_RawData_1.csv link.bag --overwrite", "is an input"},
+                                   {"Specimen_RawData_1.csv hard.bag --overwrite", "is an input"}}) {
+    const Answer answer = import(words);
+    EXPECT_EQ(answer.code, 2) << words;
+    EXPECT_EQ(std::count(answer.text.begin(), answer.text.end(), '\n'), 1) << answer.text;
+    EXPECT_THAT(answer.text, HasSubstr(why)) << words;
+  }
+  for (const char* name : {"Specimen_RawData_1.csv", "Specimen_RawData_2.csv"}) EXPECT_EQ(read_whole(file(name)), data);
+  const Answer first = import("Specimen_RawData_1.csv new.bag");
+  EXPECT_EQ(first.code, 0) << first.text;
+  EXPECT_THAT(first.text, HasSubstr("Specimen_RawData_1.csv: 2 readings: time is column 1 \"Time\" in s"));
+  EXPECT_EQ(import("Specimen_RawData_1.csv new.bag").code, 2);
+  const Answer again = import("Specimen_RawData_1.csv new.bag --overwrite --units load=kN");
+  EXPECT_EQ(again.code, 0) << again.text;
+  EXPECT_EQ(read_curve_bag(file("new.bag")).back().load, 2000.0);
 }
 
 TEST_F(CurveBag, ThatCannotBeWrittenIsSaid) {

@@ -132,7 +132,7 @@ class KilledRecorderTest(unittest.TestCase):
         wait_until('the test runs', lambda: self.rows() >= 100)
         launch.kill('recorder_node', signal.SIGINT)
         self.assertIn('holds a result, which the rest of the test would write over', launch.end())
-        self.assertIn(b'ended_by: operator\n', content(self.out, 'result.yaml'))
+        self.assertIn(b'ended_by: interrupted\n', content(self.out, 'result.yaml'))
         self.assertGreaterEqual(self.rows(), 100)
         self.assert_beginning_of_headless()
 

@@ -4,7 +4,7 @@ import time
 import xmlrpc.client
 
 import rospy
-from std_srvs.srv import Trigger
+from knot_utm.srv import StartTest
 
 LAST_RESORT = 180.0  # [s] on a machine however busy: a test waits for what is to happen, not for time
 
@@ -59,15 +59,18 @@ def wait_for_connection(publisher, topic, subscriber):
     raise AssertionError('%s does not reach %s' % (topic, subscriber))
 
 
-def start_test():
-    """By the service, which refuses as long as the physics is not there."""
+def start_test(**fields):
+    """By the service, which refuses as long as the physics is not there. Returns its answer."""
     end = time.monotonic() + LAST_RESORT
-    while not call('utm/start_test', Trigger).success:
+    while True:
+        answer = call('utm/start_test', StartTest, **fields)
+        if answer.accepted:
+            return answer
         if time.monotonic() > end:
-            raise AssertionError('the test does not start')
+            raise AssertionError('the test does not start: ' + answer.message)
         time.sleep(0.05)
 
 
-def call(service, kind):
+def call(service, kind, **fields):
     rospy.wait_for_service(service, timeout=LAST_RESORT)
-    return rospy.ServiceProxy(service, kind)()
+    return rospy.ServiceProxy(service, kind)(**fields)

@@ -13,6 +13,7 @@ import rospy
 import rostest
 from geometry_msgs.msg import WrenchStamped
 from knot_utm.msg import KnotState, RecorderStatus, SpecimenInfo, TestStatus
+from knot_utm.srv import StartTest
 from node_test import LAST_RESORT, Latest, call, start_test
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
@@ -65,7 +66,7 @@ class OperatorTest(unittest.TestCase):
         self.state.wait('holds', lambda s: s.phase == 'hold')
         self.assertGreater(self.state.last.load, 1.0)
         self.load.wait('a reading', lambda w: w.wrench.force.z > 1.0)
-        self.assertFalse(call('utm/start_test', Trigger).success)
+        self.assertFalse(call('utm/start_test', StartTest).accepted)
 
     def test_3_balance(self):
         self.assertTrue(call('utm/balance', Trigger).success)
@@ -137,7 +138,7 @@ class OperatorTest(unittest.TestCase):
         before = self.state.last
         self.assertGreater(before.force_upper, 1.0)
         self.assertTrue(call('knot/reset', Trigger).success)
-        self.assertTrue(call('utm/start_test', Trigger).success)
+        self.assertTrue(call('utm/start_test', StartTest).accepted)
         self.state.wait('second test', lambda s: s.run == 2 and s.phase == 'pull')
         # The specimen is as it was before the first test, the clock is not.
         first, second = ([s for s in self.state.messages if s.run == run][0] for run in (1, 2))

@@ -102,6 +102,34 @@ TEST_F(TestBagTest, ShowsTheTestByItself) {
   }
 }
 
+std::string texts_of(const visualization_msgs::MarkerArray& markers) {
+  std::string all;
+  for (const auto& marker : markers.markers) all += marker.text + "\n";
+  return all;
+}
+
+/// The rod parts in a command at whose end the cell is not read: its shape and its picture are there all the same.
+TEST_F(TestBagTest, ARodThatPartsIsSeenToPart) {
+  RunBag bag(file("a.bag"), straight());
+  for (std::uint64_t i = 0; i < 2; ++i) add(bag, i);
+  Record broken = record(3);
+  broken.answer.status = BenchStatus::kBroken;
+  broken.answer.break_arclength = 0.02;
+  broken.answer.highest_load = 321.0;
+  broken.steps = {broken.answer};
+  broken.tension.setConstant(Sample::kNone);
+  ASSERT_FALSE(broken.command.read_cell);
+  bag.add(broken);
+  bag.close();
+  EXPECT_EQ(count(file("a.bag"), "/knot/shape"), 2u);
+  const rosbag::Bag read(file("a.bag"), rosbag::bagmode::Read);
+  std::string last;
+  for (const rosbag::MessageInstance& m : rosbag::View(read, rosbag::TopicQuery("/knot/markers")))
+    last = texts_of(*m.instantiate<visualization_msgs::MarkerArray>());
+  for (const char* words : {"state: broke", "load at the break 321 N", "tension not known"})
+    EXPECT_THAT(last, testing::HasSubstr(words));
+}
+
 /// One after the other what a run does, with a spring's records.
 void write_run(const std::string& folder, const Method& method, std::uint64_t records, bool end) {
   JournalWriter journal(folder, journal_header(method));

@@ -86,7 +86,7 @@ class BatchTest(unittest.TestCase):
 
     def test_3_more_than_a_batch_may_have(self):
         state, _, text = Goal(20000).wait()
-        self.assertEqual((state, text), (GoalStatus.REJECTED, 'count is 20000: it may be at most 1000'))
+        self.assertEqual((state, text), (GoalStatus.REJECTED, '20000 specimens are asked for, but under ROS a batch may have at most 1000'))
 
     def test_4_cancelled_in_the_midst(self):
         Client('utm_node', timeout=LAST_RESORT).update_configuration({'real_time_factor': 0.2})

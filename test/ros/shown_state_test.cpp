@@ -38,6 +38,17 @@ TEST(ShownState, GoesFromTheLastStateButOneToTheLast) {
   EXPECT_EQ(shown.at(wall(105.0)).sample.load, 1.0);
 }
 
+/// A stretched edge would be drawn across the gap, and tensions of a rod that has parted are none.
+TEST(ShownState, ARodPartsAtOnce) {
+  ShownState shown;
+  shown.add(moment(1.0, 0.0), wall(100.0));
+  Moment parted = moment(2.0, 1.0);
+  parted.sample.break_arclength = 0.1;
+  shown.add(parted, wall(100.4));
+  EXPECT_EQ(shown.at(wall(100.4)).points, Points::Ones(3, 4));
+  EXPECT_TRUE(shown.settled(wall(100.4)));
+}
+
 /// At 25 pictures a second and 3 states a second no two pictures are alike, and none goes back.
 TEST(ShownState, MovesWithEveryPicture) {
   ShownState shown;

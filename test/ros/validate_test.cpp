@@ -139,6 +139,14 @@ TEST(Validate, RecordThatDoesNotHoldTogether) {
               StartsWith("shape.points is not finite at point 2"));
   EXPECT_THAT(fault([](KnotRecord& m) { m.shape.tension[2] = kInf; }),
               StartsWith("shape.tension is not finite at edge 2"));
+  EXPECT_THAT(fault([](KnotRecord& m) { m.shape.tension[2] = kNan; }),
+              StartsWith("shape.tension is not finite at edge 2"));
+  // Of a rod that has parted none is known.
+  EXPECT_EQ(fault([](KnotRecord& m) {
+              m.answer.status = KnotState::BROKEN;
+              m.shape.tension[2] = kNan;
+            }),
+            "");
   EXPECT_THAT(fault([](KnotRecord& m) { m.failed_step.resize(9); }), StartsWith("failed_step is 9 bytes"));
 }
 

@@ -99,6 +99,17 @@ class TheScript(unittest.TestCase):
         self.assertIn("1 of 2 specimens did not break", done.stderr)
         self.assertEqual(self.run_script(one, one, "--key", "plateau_force").stderr, "")
 
+    def test_predicts_nothing_of_a_rod_that_parts_at_a_force_that_was_given(self):
+        one = self.batch("one", [("false", "break", 10, 1), ("false", "break", 12, 2)])
+        for material, predicted in (("{breaking_force: 31}", False), ("{breaking_strain: 0.2}", True)):
+            with open(os.path.join(one, "method.yaml"), "w", encoding="utf-8") as file:
+                file.write(f"material: {material}\n")
+            done = self.run_script(one, one)
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+            self.assertEqual("ratio: null  # not predicted: " in done.stdout, not predicted, material)
+            self.assertEqual(yaml.safe_load(done.stdout)["ratio"] is None, not predicted)
+            self.assertTrue(yaml.safe_load(self.run_script(one, one, "--key", "plateau_force").stdout)["ratio"])
+
     def test_what_is_wrong_is_named_in_one_line(self):
         good = self.batch("good", [("false", "break", 10, "nan"), ("false", "break", 12, -1)])
         few = self.batch("few", [("false", "break", 10, 1), ("true", "solver", 12, 2)])

@@ -111,8 +111,12 @@ class Material(unittest.TestCase):
     def run_script(self, measured):
         with open(self.path("measured.yaml"), "w", encoding="utf-8") as file:
             yaml.safe_dump(measured, file)
-        return subprocess.run([os.path.join(ROOT, "scripts/material"), self.path("measured.yaml"), "--out",
-                               self.path("rope.yaml")], capture_output=True, text=True, check=False)
+        return self.run_on(self.path("measured.yaml"), self.path("rope.yaml"), "--overwrite")
+
+    @staticmethod
+    def run_on(measured, out, *more):
+        return subprocess.run([os.path.join(ROOT, "scripts/material"), measured, "--out", out, *more], capture_output=True,
+                              text=True, check=False)
 
     def made(self, measured):
         done = self.run_script(measured)
@@ -153,8 +157,41 @@ class Material(unittest.TestCase):
             self.assertEqual(done.returncode, 2, done.stderr)
             self.assertIn(named, done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1)
+        self.assertIn("is it in degrees? 360 degrees are 6.283 rad",
+                      self.run_script({**good, "capstan": {**good["capstan"], "angle": [360, 5]}}).stderr)
         del good["weighed"]
         self.assertIn("missing: weighed", self.run_script(good).stderr)
+
+
+    def test_slips_of_units_are_asked_about(self):
+        good = Rod(1, 2e-4, False).measured
+        done = self.run_script(good)
+        self.assertRegex(done.stdout, r"rope.yaml: [0-9.]+ g/m at a diameter of [0-9.]+ mm, E = [0-9.e+-]+ GPa")
+        self.assertEqual(done.stderr, "")
+        def times(group, key, factor):
+            return {**good, group: {**good[group], key: [factor * number for number in good[group][key]]}}
+        for measured, asked in ((times("weighed", "mass", 1000), "is weighed.mass in kg"),
+                                (times("stretched", "elongation", 1e-3), "is stretched.mass in kg"),
+                                (times("weighed", "length", 100), "is weighed.mass in kg, and are")):
+            done = self.run_script(measured)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(asked, done.stderr)
+
+    def test_nothing_is_written_over(self):
+        self.run_script(Rod(1, 2e-4, False).measured)
+        measured, made = self.path("measured.yaml"), self.path("rope.yaml")
+        os.symlink(measured, self.path("link.yaml"))
+        os.link(measured, self.path("hard.yaml"))
+        with open(measured, "rb") as file:
+            before = file.read()
+        for out, more, why in ((made, (), "exists already"), (measured, ("--overwrite",), "is an input"),
+                               (self.path("link.yaml"), ("--overwrite",), "is an input"),
+                               (self.path("hard.yaml"), ("--overwrite",), "is an input")):
+            done = self.run_on(measured, out, *more)
+            self.assertEqual((done.returncode, done.stderr.count("\n")), (2, 1), done.stderr)
+            self.assertIn(why, done.stderr)
+        with open(measured, "rb") as file:
+            self.assertEqual(file.read(), before)
 
 
 class Example(unittest.TestCase):

@@ -13,7 +13,7 @@ SCRIPTS = sorted(name for name in os.listdir(os.path.join(ROOT, "scripts"))
                  if os.access(os.path.join(ROOT, "scripts", name), os.X_OK)
                  and os.path.isfile(os.path.join(ROOT, "scripts", name)))
 # Commands that a minimal Debian lacks, and set-up does not install.
-ABSENT = ("git", "ps", "pgrep", "pkill", "killall", "curl", "wget", "xauth", "ss", "ip", "netstat", "lsof", "file",
+ABSENT = ("git", "ps", "pgrep", "pkill", "killall", "curl", "wget", "xauth", "ip", "netstat", "lsof", "file",
           "unzip", "zip", "xz", "bc", "time", "hostname", "ping", "xdg-open", "xxd", "jq", "strace", "gdb", "rsync")
 
 
@@ -75,16 +75,23 @@ class Setup(unittest.TestCase):
     # Instead of what would change the machine.
     INSTEAD = r"""
         dpkg-query() { :; }
-        env() { :; }
+        env() {
+          case $* in
+            *" update") if [ -n "$LOCK" ] && mkdir "$LOCK" 2>/dev/null; then echo "E: Could not get lock $LOCK." >&2; return 100; fi ;;
+            *) printf "%s\n" pmstatus:g++:7.5:Preparing dlstatus:1:60.0:Retrieving "Unpacking g++" pmstatus:g++:100:Ready ;;
+          esac
+        }
+        sleep() { :; }
         id() { echo 0; }
         apt-get() { printf %s "$APT"; }
         getent() { return "$NO_LOCALHOST"; }
         tee() { sed "s|^|to $2: |" >&2; }
         . "$0/scripts/setup" """
 
-    def said(self, apt="", no_localhost=0):
+    def said(self, apt="", no_localhost=0, lock="", tests=""):
         done = run("/bin/bash", "-euc", self.INSTEAD, ROOT,
-                   env={**os.environ, "APT": apt, "NO_LOCALHOST": str(no_localhost), "DISPLAY": ""})
+                   env={**os.environ, "APT": apt, "NO_LOCALHOST": str(no_localhost), "DISPLAY": "", "LOCK": lock,
+                        "knot_utm_tests": tests})
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout, done.stderr
 
@@ -93,12 +100,26 @@ class Setup(unittest.TestCase):
                "2 upgraded, 424 newly installed, 0 to remove and 1 not upgraded.\nNeed to get 266 MB of archives.\n"
                "After this operation, 1,254 MB of additional disk space will be used.\n")
         said, _ = self.said(apt)
-        self.assertRegex(said, r"installing 424 Debian packages, the \d+ named below and what they need "
-                               r"\(266 MB to load, 1,254 MB on disk\)\n  g\+\+ .* rosbash ")
+        self.assertRegex(said, r"installing 424 Debian packages \(266 MB to load, 1,254 MB on disk\), those named below "
+                               r"and what they need:\n  g\+\+ .* rosbash ")
+        self.assertRegex(said, r"\nscripts/test will add 424 Debian packages \(266 MB to load, 1,254 MB on disk\): chromium .*ffmpeg")
+        self.assertNotIn("scripts/test will add", self.said(apt, tests="1")[0])
 
     def test_says_so_too_where_apt_says_it_otherwise(self):
         for apt in ("", "nothing that anybody knows\n"):
-            self.assertRegex(self.said(apt)[0], r"installing \d+ Debian packages, the \d+ named below and what they need\s")
+            self.assertRegex(self.said(apt)[0], r"installing \d+ Debian packages, those named below and what they need:\s")
+
+    def test_shows_that_it_works(self):
+        said = self.said()[0]
+        self.assertIn("\n  installing: 0 %\n  loading: 50 %\n  installing: 100 %\n", said)
+        self.assertNotIn("Unpacking", said)
+
+    def test_waits_for_another_program_that_installs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            said, errors = self.said(lock=os.path.join(folder, "lock"))
+        self.assertEqual(said.count("another program installs packages: waiting for it to end"), 1, said)
+        self.assertEqual(errors, "")
+        self.assertIn("installing: 100 %", said)
 
     def test_says_what_it_changes(self):
         said, changed = self.said(no_localhost=2)

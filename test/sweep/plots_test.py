@@ -8,7 +8,7 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from head import ROOT
+from head import ROOT, write
 
 import numpy as np
 import pandas as pd
@@ -27,7 +27,7 @@ def table_of(**columns):
     """A table with those columns, and with what all tables have."""
     count = len(next(iter(columns.values())))
     rest = {"motion_pattern": ["sliding"] * count, "ended_by": ["extension"] * count, "jump_force": [np.nan] * count,
-            "opened_when_mounted": [np.nan] * count, "run": [str(i) for i in range(count)]}
+            "opened_when_mounted": [np.nan] * count, "untangled_at": [np.nan] * count, "run": [str(i) for i in range(count)]}
     names = {"mu": "material.friction_coefficient", "preload": "specimen.preload", "e": "specimen.knot_distance",
              "k_s": "material.stretching_stiffness"}
     frame = pd.DataFrame({**rest, **{names.get(name, name): values for name, values in columns.items()}})
@@ -123,8 +123,10 @@ class Groups(unittest.TestCase):
 
 class Patterns(unittest.TestCase):
     def test_tell_apart_what_jumped_open_and_what_has_no_result(self):
-        table = table_of(motion_pattern=["sliding", "sliding", "stretching", "untangling", "none"],
+        # Earlier tables have another pattern where a knot opened.
+        table = table_of(motion_pattern=["sliding", "sliding", "untangling", "untangling", "none"],
                          jump_force=[np.nan, 0.1, np.nan, np.nan, np.nan], opened_when_mounted=[np.nan, np.nan, 0.01, 0.01, np.nan],
+                         untangled_at=[np.nan, np.nan, np.nan, 3.0, np.nan],
                          ended_by=["break", "extension", "extension", "untangled", "solver"])
         self.assertEqual(pattern_plots.outcomes(table), ["sliding", "jumped open", "jumped open", "untangling", "no result"])
 
@@ -177,6 +179,13 @@ class Patterns(unittest.TestCase):
         self.assertGreater(hits / of, 0.85)
         hits, of = Neighbours(table, self.KEYS, np.random.default_rng(5).choice(["a", "b"], of)).hits()
         self.assertLess(abs(hits / of - 0.5), 0.15)
+
+    def test_a_refinement_replaces_none_that_is_there(self):
+        with tempfile.TemporaryDirectory() as folder:
+            stem = os.path.join(folder, "refined")
+            for name in ("refined.yaml", "refined-2.yaml", "refined-3.yaml"):
+                self.assertEqual(refining._free(stem), os.path.join(folder, name))
+                write(os.path.join(folder, name), "")
 
     def test_a_refinement_lies_at_the_border(self):
         chosen = refining.more_points(self.map(), self.KEYS, 64, 1, {"specimen.preload": "material.stretching_stiffness"})

@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 """The Python package knot_utm: a run, a batch and a sweep made by it and read by it, and its place among the messages of ROS.
 Skipped, with exit code 77, where a module is not installed."""
+import copy
 import csv
 import io
 import os
@@ -11,11 +12,14 @@ import unittest
 
 from sweeps import CONFIG, LENGTHS, ROOT, Sweeps, content, write
 
+import matplotlib
 import numpy as np
 
 import knot_utm
 from knot_utm import tool
 from knot_utm.yaml_text import load
+
+matplotlib.use("Agg")  # with and without a display
 
 DRAFT = {"physics.accuracy": "draft"}
 
@@ -43,8 +47,47 @@ class Package(Sweeps):
         names, units, *values = rows(content(out, "curve.csv"))
         self.assertEqual(run.curve.attrs["units"], dict(zip(names, units)))
         self.assertEqual(list(run.curve["load"]), [float(row[names.index("load")]) for row in values])
-        with self.assertRaisesRegex(knot_utm.WrongInput, "holds a run already"):
+        with self.assertRaisesRegex(knot_utm.WrongInput, "holds a run already: choose another folder, or overwrite=True"):
             knot_utm.run("straight", out)
+        self.is_a_dict_of_its_readings(run)
+        self.is_drawn(run)
+        again = knot_utm.run("straight", out, overwrite=True, **DRAFT)
+        self.assertEqual(again.method["specimen"]["length"], 0.25)
+
+    def is_a_dict_of_its_readings(self, run):
+        self.assertEqual((list(run), len(run), list(run.values())), (list(run.results.index), len(run.results), list(run.results)))
+        self.assertEqual(dict(run.items())["peak_force"], run["peak_force"])
+        self.assertTrue("peak_force" in run and "peek_force" not in run)
+        self.assertEqual((run.get("peak_force"), run.get("peek_force", 3)), (run["peak_force"], 3))
+        with self.assertRaisesRegex(KeyError, "no reading 'peek_force'; did you mean peak_force?"):
+            run["peek_force"]
+        with self.assertRaisesRegex(AttributeError, "Run has no attribute 'result'; did you mean results?"):
+            run.result
+        with self.assertRaisesRegex(AttributeError, r"it is a reading: \['peak_force'\]"):
+            run.peak_force
+        self.assertEqual(copy.copy(run).folder, run.folder)
+        self.assertRegex(repr(run), rf"^<Run {re.escape(run.folder)}: ended by break, largest load 2\.?5\d* ?k?N?.*, 0 warnings>$")
+
+    def is_drawn(self, run):
+        pulled = run.curve[run.curve["phase"] == "pull"]
+        axes = run.plot(label="mine")
+        line, = axes.get_lines()
+        np.testing.assert_allclose(line.get_xdata(), 1e3 * pulled["extension"])
+        np.testing.assert_allclose(line.get_ydata(), pulled["load"])
+        self.assertEqual((line.get_label(), axes.get_xlabel(), axes.get_ylabel()), ("mine", "extension [mm]", "load [N]"))
+        self.assertIs(run.plot(axes), axes)
+
+    def test_what_it_warns_of_are_warnings_and_a_test_that_failed_raises(self):
+        # Nothing pulls the knot tight, so that it stays a loose loop.
+        loose = {**DRAFT, "program": [{"hold": {"duration": 1}}, {"pull": {"speed": 0.01, "until": {"extension": 0.001}}}]}
+        with self.assertWarnsRegex(knot_utm.RunWarning, "the knot was still loose") as caught:
+            run = knot_utm.run("overhand", self.path("loose"), **loose)
+        self.assertEqual(caught.filename, __file__, "the line is the caller's")
+        self.assertEqual([str(one.message) for one in caught.warnings], run.warnings)
+        with self.assertRaisesRegex(knot_utm.RunFailed, f"^{self.path('undone')}: the knot came undone: ") as raised:
+            knot_utm.run("tighten", self.path("undone"), **DRAFT, **{"material.friction_coefficient": 0.05})
+        self.assertEqual(raised.exception.run["ended_by"], "untangled")
+        self.assertEqual(knot_utm.read(self.path("undone"))["ended_by"], "untangled", "reading it raises nothing")
 
     def test_a_run_is_one_specimen_whatever_the_method_says(self):
         with open(os.path.join(CONFIG, "straight.yaml"), encoding="utf-8") as file:
@@ -80,6 +123,11 @@ class Package(Sweeps):
             self.assertIn(name, dir(knot_utm))
         with self.assertRaisesRegex(AttributeError, "no attribute 'pull'"):
             knot_utm.pull
+        with self.assertRaisesRegex(AttributeError, "no attribute 'red'; did you mean read?"):
+            knot_utm.red
+        with open(os.path.join(ROOT, "package.xml"), encoding="utf-8") as file:
+            self.assertIn(f"<version>{knot_utm.__version__}</version>", file.read())
+        self.assertEqual(tool.version(), knot_utm.__version__)
 
     def test_a_sweep_gives_its_table(self):
         table = knot_utm.sweep(self.study, self.path("out"), jobs=1)
@@ -126,7 +174,9 @@ class ABatch(Sweeps):
         self.assertTrue(again.statistics.equals(one.statistics))
 
     def test_tells_why_a_specimen_does_not_count(self):
-        batch = knot_utm.batch("tighten", self.path("out"), 2, **DRAFT, **{"material.friction_coefficient": 0.05})
+        with self.assertRaisesRegex(knot_utm.RunFailed, "came undone") as raised, self.assertWarns(knot_utm.RunWarning):
+            knot_utm.batch("tighten", self.path("out"), 2, **DRAFT, **{"material.friction_coefficient": 0.05})
+        batch = raised.exception.run
         self.assertEqual(list(batch.rejected), [1, 2])
         for number, why in batch.rejected.items():
             self.assertTrue(batch.specimens.loc[number, "rejected"])
@@ -137,6 +187,12 @@ class ABatch(Sweeps):
         self.batch("out", 2)
         with self.assertRaisesRegex(knot_utm.WrongInput, "holds a run already"):
             self.batch("out", 2)
+        again = self.batch("out", 2, overwrite=True)
+        self.assertRegex(repr(again), "^<Batch .*/out: 2 of 2 specimens count, mean largest load .* N>$")
+        self.assertEqual((len(again.plot().get_lines()), again.warnings), (2, {}))
+        self.assertEqual(again["peak_force"]["n"], 2)
+        with self.assertRaisesRegex(KeyError, "did you mean peak_force?"):
+            again["peek_force"]
         with self.assertRaisesRegex(knot_utm.WrongInput, "specimens is 1, but a batch has at least 2"):
             self.batch("other", 1)
         with self.assertRaisesRegex(knot_utm.WrongInput, "specimen.length"):
@@ -168,7 +224,7 @@ class Examples(Sweeps):
                                 f"8 specimens: {peak['mean']:.4g} N, from {peak['low']:.4g} to {peak['high']:.4g}"])
         self.assert_is_a_picture("out/curves.png")
         again = self.example("pull_a_batch.py", self.path("method.yaml"), "out", code=1)
-        self.assertRegex(again, r"^pull_a_batch: .*/out/one holds a run already: choose another folder\n$")
+        self.assertRegex(again, r"^pull_a_batch: .*/out/one holds a run already: choose another folder, or overwrite=True\n$")
 
     def test_a_sweep_is_drawn_and_a_hidden_value_found(self):
         *table, found = self.example("sweep_and_fit.py", "out").splitlines()

@@ -7,6 +7,7 @@ import json
 import os
 import re
 import resource
+import shlex
 import signal
 import subprocess
 import sys
@@ -203,7 +204,8 @@ class CutShort(Sweeps):
             _, said = process.communicate()
             self.assertEqual(held.read(), "", "the run in flight is stopped")
             self.assertEqual(process.returncode, 1)
-            self.assertIn(f"the same command goes on: scripts/sweep {self.study} --out {self.path(out)} --jobs 1\n", said)
+            goes_on = shlex.join([os.path.join(ROOT, "scripts/sweep"), self.study, "--out", self.path(out), "--jobs", "1"])
+            self.assertIn(f"it was interrupted, with 2 of 4 runs done; the same command goes on: {goes_on}\n", said)
             self.assertEqual([run[1] for run in rows(self.table(out))[2:]], [str(length) for length in LENGTHS[:2]])
             self.assertEqual(sorted(os.listdir(self.path(out, "runs"))), sorted(self.whole_runs(out)), "no remains")
             self.sweep(out)
@@ -214,7 +216,7 @@ class CutShort(Sweeps):
     def test_by_a_full_disk_goes_on_when_there_is_room(self):
         # As large as a file may become: enough for the method, too little for what is measured.
         said = self.sweep("out", code=1, limit=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000)))
-        self.assertRegex(said, r"cannot write \S+: file too large; the same command goes on: ")
+        self.assertRegex(said, r"cannot write \S+: file too large, with 0 of 4 runs done; the same command goes on: ")
         self.assertEqual(self.whole_runs("out"), [])
         self.sweep("out")
         self.sweep("whole")
@@ -383,6 +385,13 @@ class Refused(Sweeps):
     def test_a_wrong_study(self):
         write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{specimen.length: [0.2]}}\ndesign: star")
         self.refused("design is star")
+
+    def test_a_folder_with_a_table_of_another_kind(self):
+        os.makedirs(self.path("out"))
+        write(self.path("out/table.csv"), "mine")
+        write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{specimen.length: [0.2]}}")
+        self.assertIn("table.csv exists already and is not of a sweep", self.sweep("out", code=2))
+        self.assertEqual(os.listdir(self.path("out")), ["table.csv"])
 
     def test_no_study_and_no_place(self):
         self.study = self.path("absent.yaml")

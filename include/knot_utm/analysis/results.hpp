@@ -10,6 +10,7 @@
 #include "knot_utm/analysis/elongations.hpp"
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/analysis/rate_shares.hpp"
+#include "knot_utm/analysis/start_of_pull.hpp"
 #include "knot_utm/record/ended_by.hpp"
 #include "knot_utm/record/sample.hpp"
 
@@ -65,6 +66,10 @@ struct Results {
   std::optional<double> true_jump_force;
   std::optional<double> true_force_after_jump;
 
+  // Of a specimen that is no loop of two knots (snap.hpp).
+  std::optional<double> snap_extension;  ///< s at which it snapped into another shape [m]
+  std::optional<double> snap_drop;       ///< by how much F fell then [N]
+
   std::optional<double> plateau_slope;   ///< mean of de/ds over the plateau [-]; -2: rigid sliding
   std::optional<double> lock_extension;  ///< s_l, found from the knot distance: sliding became stretching there [m]
   std::optional<double> first_contact_extension;  ///< s at which the coils of the two knots first touch each other [m]
@@ -74,7 +79,7 @@ struct Results {
   std::optional<double> break_extension;  ///< s at which the rod parted [m]
   std::optional<double> break_arclength;  ///< arclength of the place where it parted, from the first node [m]
   BreakPlace break_place = BreakPlace::kNone;
-  /// "sliding then fracture", "stretching then fracture", "fracture" or "untangling"; empty: none
+  /// "sliding", "stretching" or "untangling then fracture", "fracture", or "untangling" (came undone); empty: none
   std::string failure_mode;
 
   // Readings of the pull. Its origin is the state from which it began (pull_readings.hpp).
@@ -98,6 +103,7 @@ struct Results {
   std::optional<double> untangled_at;    ///< time at which the knot came undone [s]; see MotionPatternTracker
   KnotType knot_type = KnotType::kKept;  ///< at the end of the test; see KnotWatch
   std::string not_equilibrated;          ///< empty: tying and release ended at rest; else what still moved
+  std::optional<GripForces> at_start;    ///< where they differ most as the pull begins (start_of_pull.hpp)
 
   double max_penetration = 0.0;  ///< largest overlap of the whole test [fraction of radius]
   /// largest difference of the forces on the two grips in the pull, over the peak force [-]
@@ -113,7 +119,8 @@ struct Results {
   /// largest size that any of these three reaches [-]. The losses are those by friction, by bends that yield, by drag,
   /// by the time integration and by changed contact weights, each computed by its own formula.
   std::optional<double> energy_balance_error;
-  std::optional<EnergyParts> energy;  ///< energy balance from the beginning of the pull to the end of the test
+  std::optional<EnergyParts> energy;     ///< balance from the beginning of the pull to the break or the end of the test
+  std::optional<double> kinetic_energy;  ///< at the break or the end of the test, where something was pulled [J]
 
   // The knot once it is tied and released. Where nothing is tied, these are readings at the beginning of the pull.
   std::optional<double> tied_knot_distance;  ///< e [m]

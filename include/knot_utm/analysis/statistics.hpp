@@ -18,7 +18,7 @@ namespace knot_utm {
 struct Statistics {
   std::size_t n = 0;
   std::optional<double> mean;           ///< empty: there is no reading
-  std::optional<double> sd, low, high;  ///< empty: there are fewer than two readings
+  std::optional<double> sd, low, high;  ///< empty: fewer than two readings, or all the same but for rounding
   std::optional<double> cv;             ///< empty also where the mean is zero
   std::optional<double> minimum, maximum;
 };

@@ -17,6 +17,9 @@ struct ClaimedFolder {
 /// does.
 ClaimedFolder claim_folder(const std::string& folder, const JournalHeader& header);
 
+/// The folder that claim_folder would use now.
+std::string free_folder(const std::string& folder);
+
 /// The notice for the user when a run goes to another folder than the one asked for.
 std::string moved_notice(const std::string& asked, const std::string& used);
 

@@ -1,12 +1,12 @@
 #pragma once
 
-#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "knot_utm/analysis/curve_row.hpp"
 #include "knot_utm/io/comparison.hpp"
+#include "knot_utm/io/raw_options.hpp"
 
 namespace knot_utm {
 
@@ -32,7 +32,6 @@ struct ComparedCurves {
 /// is of that kind, the travel of the crosshead is used for both. `tell` receives one line for each assumption that raw
 /// data make necessary. Throws InvalidInput where a reading of a pull is not finite, a pull has fewer than two
 /// readings, a zero cannot be found, or the two have no extension in common.
-ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, const ZeroWanted& zero,
-                              const std::function<void(const std::string& line)>& tell);
+ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, const ZeroWanted& zero, const Tell& tell);
 
 }  // namespace knot_utm

@@ -5,13 +5,20 @@
 #include <vector>
 
 #include "knot_utm/analysis/curve_difference.hpp"
+#include "knot_utm/io/raw_zero.hpp"
 
 namespace knot_utm {
+
+/// The zeros that the curves were given. Empty: the curve has its own.
+struct GivenZeros {
+  std::optional<RawZero> a, b;
+};
 
 /// The readings of two pulls, both read by the same code (curve_readings.hpp), and the difference of their forces.
 struct Comparison {
   CurveReadings a, b;
   std::optional<CurveDifference> difference;  ///< empty where they have no extension in common
+  std::optional<GivenZeros> zeros;            ///< empty where the curves were compared as they are
 };
 
 Comparison compare(const Pull& a, const Pull& b);

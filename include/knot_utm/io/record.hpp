@@ -36,7 +36,10 @@ struct Record {
 /// failed gives no row.
 const Sample* cell_reading(const Record& record);
 
-/// Whether the rod's shape is part of the record of a command: it is, at every reading of the load cell.
-inline bool shape_is_due(const Command& command) { return command.read_cell; }
+/// Whether the rod's shape is part of the record of a command: it is, at every reading of the load cell, and once the
+/// rod has parted.
+inline bool shape_is_due(const Command& command, const Sample& answer) {
+  return command.read_cell || answer.status == BenchStatus::kBroken;
+}
 
 }  // namespace knot_utm

@@ -6,9 +6,6 @@
 
 namespace knot_utm {
 
-/// The command line as one would type it in a shell, for the page that the command made.
-std::string command_line(int argc, const char* const* argv);
-
 /// Writes report.html and report.pdf into the folder of a run or of a comparison. They are made by the Python code in
 /// `report/`, run by /usr/bin/python3. `command`: the command that the page names as its origin. Throws
 /// std::runtime_error with one line where they cannot be made; nothing else in the folder changes.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,12 @@ namespace knot_utm {
 /// done.
 void make_folder(const std::string& folder, const char* argument);
 
+/// Throws InvalidInput where the file that a command-line argument names must not be written: it is one of `inputs`,
+/// also by a link, or it exists and is not to be overwritten. If `begins` is given, only a file that begins so is
+/// overwritten, so that a slip of the hand does not replace a file of another kind.
+void require_new_file(const char* argument, const std::string& file, const std::vector<std::string>& inputs,
+                      bool overwrite, const std::string& begins = "");
+
 /// Makes the folder of a run. Throws InvalidInput (key "--out") where that cannot be done.
 void make_run_folder(const std::string& folder);
 
@@ -21,6 +28,10 @@ std::string method_file_text(const Method& method);
 /// Throws InvalidInput (key "--out") where the folder holds a record that the method follows. The run would overwrite
 /// its own input.
 void require_no_record_in(const std::string& folder, const Method& method);
+
+/// Throws InvalidInput (key "--out") where the method stands in the folder as method.yaml, and no run wrote it. The run
+/// would write over what somebody wrote by hand.
+void require_no_method_in(const std::string& folder, const std::string& method_file);
 
 /// Writes method.yaml and copies of the files that it names, specimen.csv and the logo, and removes the results of an
 /// earlier run or comparison. Throws InvalidInput (key "--out") where the folder cannot be written to or holds a record
@@ -48,6 +59,9 @@ inline constexpr const char* kInterrupted = "interrupted";
 
 /// Whether the folder has the result of a test that ended. A test that was interrupted has not ended.
 bool has_complete_result(const std::string& folder);
+
+/// The value of a key in the result.yaml of a folder, as it stands there; empty where there is none.
+std::optional<std::string> result_of(const std::string& folder, const std::string& key);
 /// Whether the folder has the result of a test that was interrupted.
 bool was_interrupted(const std::string& folder);
 

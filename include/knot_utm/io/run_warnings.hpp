@@ -15,8 +15,7 @@ inline constexpr double kDeepContact = 0.05;
 /// Events of the pull, one line each: a knot that jumped open, a roller that touched a knot.
 std::vector<std::string> events(const Results& results);
 
-/// A warning, one line, where the specimen had not come to rest or the plateau force may be wrong by more than a tenth.
-/// Otherwise empty.
+/// A warning, one line, where the plateau force may be wrong by more than a tenth. Otherwise empty.
 std::string accuracy_warning(const Results& results, const ReadingErrors& errors);
 
 /// The warnings that are also printed on the console, one line each.

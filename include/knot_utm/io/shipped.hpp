@@ -16,4 +16,8 @@ std::vector<std::string> shipped_folders();
 std::string find_method(const std::string& method, const std::string& base = "",
                         const std::vector<std::string>& shipped = shipped_folders());
 
+/// What comes with the package of a kind (methods, materials, knots, standards or studies): a line for each, with its
+/// name and what it is. All kinds where `kind` is empty. Throws InvalidInput (key "--list") for any other word.
+std::string shipped_listing(const std::string& kind, const std::vector<std::string>& shipped = shipped_folders());
+
 }  // namespace knot_utm

@@ -43,7 +43,7 @@ class TestingMachine {
   double time() const;          ///< reached by the simulation [s]
   double longest_step() const;  ///< longest time step of the chosen accuracy [s]: the longest command period
 
-  /// Tension of each edge after the last accepted step, pull positive [N].
+  /// Tension of each edge after the last accepted step, pull positive [N]. NaN once the rod has parted.
   Eigen::VectorXd tension() const;
 
   /// Forces between the strands after the last accepted step; none before the first step, after a failure, and once the

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <ros/node_handle.h>
-
 #include <string>
 
 #include "knot_utm/io/method.hpp"
@@ -15,8 +13,7 @@ inline constexpr int kMostInBatch = 1000;
 /// The reason that utm_node gives for the end of a test in which knot_node died. The specimen is not to blame for it.
 inline constexpr char kPhysicsDied[] = "knot_node died during the test";
 
-/// Which specimen of a batch a test takes. utm_node sets it as a parameter before the first command of each test, and
-/// the other nodes read it when that command arrives.
+/// Which specimen of a batch a test takes.
 struct BatchPlace {
   int number = 1;  ///< of the specimen, from 1
   int count = 1;   ///< specimens of the batch; 1: the test stands alone
@@ -28,12 +25,6 @@ struct BatchPlace {
     return a.number == b.number && a.count == b.count;
   }
 };
-
-/// Sets the parameter. False where the ROS master does not answer.
-bool set_batch_place(const ros::NodeHandle& node, const BatchPlace& place);
-
-/// Reads the parameter. Throws InvalidInput where it is not there, or none that utm_node sets.
-BatchPlace batch_place(const ros::NodeHandle& node);
 
 /// The method of a batch of this many specimens.
 Method method_of_batch(const Method& method, int count);

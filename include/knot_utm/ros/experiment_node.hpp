@@ -4,6 +4,7 @@
 #include <ros/ros.h>
 
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -11,12 +12,27 @@
 
 namespace knot_utm {
 
+/// Whether the record gets its zero where its crosshead begins to move, as `compare --balance` does (io/raw_zero.hpp).
+enum class RecordBalance {
+  kAuto,  ///< raw data get it; a curve of ours has its own
+  kYes,   ///< the same, and says so where the record has its own
+  kNo     ///< the record is published as it was read
+};
+
+/// Reads "auto", "true" or "false". Throws InvalidInput.
+RecordBalance record_balance_named(const std::string& name);
+
+/// The readings of a record, from their zero on where they get one. `tell` receives one line that says what was taken
+/// for zero.
+std::vector<CurveRow> record_with_zero(std::vector<CurveRow> rows, RecordBalance balance,
+                                       const std::function<void(const std::string& line)>& tell);
+
 /// Publishes the record of an experiment beside the test that follows it: measured load and extension, each at the test
 /// time at which the crosshead passes the reading.
 class ExperimentNode {
  public:
   /// `file`: curve.csv, or raw data of a testing machine. Throws InvalidInput.
-  ExperimentNode(const ros::NodeHandle& node, const std::string& file);
+  ExperimentNode(const ros::NodeHandle& node, const std::string& file, RecordBalance balance);
 
   /// Runs until ROS is shut down. With `autostart` it starts the test as soon as it can receive every command of it.
   void spin(bool autostart);
@@ -28,6 +44,7 @@ class ExperimentNode {
 
   ros::NodeHandle node_;
   std::vector<CurveRow> rows_;  ///< readings of the record, from the first that pulls to the last
+  double began_;                ///< time of the first reading, whether it is published or lies before the zero [s]
   std::size_t next_ = 0;        ///< index of the next row to be published
   std::uint32_t run_ = 0;       ///< number of the test whose commands are followed
   std::uint64_t sequence_ = 0;  ///< sequence number of its latest command

@@ -14,10 +14,10 @@
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
-#include "knot_utm/ros/batch_place.hpp"
 #include "knot_utm/ros/frame_broadcaster.hpp"
 #include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/shown_state.hpp"
+#include "knot_utm/ros/test_order.hpp"
 #include "knot_utm/ros/validate.hpp"
 #include "knot_utm/ros/view_parameters.hpp"
 #include "knot_utm/ros/views.hpp"
@@ -26,7 +26,7 @@ namespace knot_utm {
 
 /// The simulation as a node. It answers each command with the state of the same sequence number and stamp. A command
 /// that it has already answered gets the same answer again, so that a lost message never repeats a step. Command 0 of a
-/// new test begins with a new specimen, drawn as the test's place in its batch says (batch_place.hpp). A command out of
+/// new test begins with a new specimen, which is that of the test's order (test_order.hpp). A command out of
 /// order (as when the specimen was reset during a test), or one that no program can give, is answered with a failure.
 /// Only commands of the machine's node are accepted.
 class KnotNode {
@@ -44,7 +44,7 @@ class KnotNode {
   void on_view_timer(const ros::SteadyTimerEvent& event);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  void put_in(const BatchPlace& place);  ///< puts in a new specimen
+  void put_in(const TestOrder& order);  ///< puts in a new specimen; throws InvalidInput, and then the last one stays
   void begin_specimen();
   CrossheadLimits limits() const;
   void answer(const Crosshead& message);
@@ -55,9 +55,8 @@ class KnotNode {
   void publish_markers();
 
   ros::NodeHandle node_;
-  Method described_;  ///< method of all specimens
-  BatchPlace place_;  ///< of the present specimen
-  Method method_;     ///< method of the present specimen
+  TestOrder order_;  ///< of the present specimen
+  Method method_;    ///< method of the present specimen
   TestingMachine machine_;
   std::uint32_t run_ = 0;                           ///< number of the present test; 0: there is none
   std::uint64_t next_ = 0;                          ///< sequence number of the next command

@@ -48,7 +48,7 @@ visualization_msgs::Marker contact_marker(const std::vector<ContactForce>& force
 /// Everything from which a picture of the test is drawn.
 struct SceneView {
   const Points& points;                       ///< nodes of the rod [m]
-  const Eigen::VectorXd& tension;             ///< of each edge [N]
+  const Eigen::VectorXd& tension;             ///< of each edge [N]; of a rod that has parted it is not shown
   const std::vector<ContactForce>& contacts;  ///< contact forces between the strands
   Vec3 lower_grip;                            ///< [m]
   Vec3 upper_grip;                            ///< [m]
@@ -76,16 +76,14 @@ class ScenePicture {
   /// The rod with its gauge marks, the forces between its strands, and the bodies that hold and support it.
   visualization_msgs::MarkerArray draw(const SceneView& view, const ros::Time& stamp) const;
 
-  /// A small picture for a bag: the rod as spheres, the bodies that hold and support it, and the readings as text. The
-  /// text stands at a fixed place in the picture of the camera at `eye`, in front of everything else.
-  visualization_msgs::MarkerArray draw_small(const SceneView& view, const Vec3& eye, const ros::Time& stamp) const;
+  /// A small picture for a bag: the rod as spheres, and the bodies that hold and support it.
+  visualization_msgs::MarkerArray draw_small(const SceneView& view, const ros::Time& stamp) const;
 
  private:
   Eigen::Index parted_edge(const Sample& sample) const;
   Colors colors(const SceneView& view, Eigen::Index parted) const;
   visualization_msgs::Marker rod_marker(const SceneView& view) const;
   void add_bodies(const SceneView& view, std::vector<visualization_msgs::Marker>& markers) const;
-  visualization_msgs::Marker reading_marker(const SceneView& view, const Vec3& eye) const;
 
   std::vector<GripBody> bodies_;
   double radius_;                    ///< of the rod [m]

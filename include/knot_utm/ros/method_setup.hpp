@@ -1,16 +1,20 @@
 #pragma once
 
+#include <knot_utm/StartTest.h>
 #include <ros/node_handle.h>
 
+#include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/program_runner.hpp"
 
 namespace knot_utm {
 
-/// The setup of a test from ROS parameters. All nodes of a test read the same parameters, relative to their namespace:
+/// What a test is to be, in words. A launch says it by parameters, relative to its namespace, and a request of
+/// utm/start_test by the fields of the same names:
 ///   test/method             a method file: a path, or one of test/shipped_methods, with or without ".yaml"
 ///   test/shipped_methods    folder of the methods that come with the package
 ///   test/material           replaces the method's material; empty: the method's own
@@ -20,12 +24,26 @@ namespace knot_utm {
 ///   test/working_directory  folder from which relative paths begin; empty: the node's own
 ///   test/data               record of an experiment, which is followed instead of the last pull; empty: none
 ///   test/out                folder of the files [out/NAME of the method]
-///   test/network            true: other machines may reach the nodes
+struct TestWords {
+  std::string method, shipped_methods, material, preload, working_directory, data, out;
+  std::vector<std::string> overrides;
+};
+
+/// The setup of a test. All nodes of a launch read the same parameters, and test/network: true lets other machines
+/// reach the nodes.
 struct MethodSetup {
+  TestWords words;
+  std::string file;  ///< of the method
   Method method;
   std::string out;   ///< absolute path
   std::string data;  ///< absolute path; empty: there is no record
 };
+
+/// Throws InvalidInput.
+MethodSetup set_up(const TestWords& words);
+
+/// The words of the launch with those that a request gives in their place.
+TestWords asked_for(TestWords launched, const StartTest::Request& request);
 
 /// Invalid input that another node of the same launch reports. The cause of a failure is thus printed once.
 struct SaidByAnother : InvalidInput {
@@ -57,19 +75,21 @@ ros::NodeHandle join_ros(int argc, char** argv, const char* name);
 void leave_ros(const char* name, int code);
 
 /// Runs `body` as the main function of a node, and prints one line where it throws. Returns the exit code: 0 success, 1
-/// failure, 2 invalid input.
+/// failure, 2 invalid input. `help`: see `answer_words`.
 template <class Body>
-int run_node(int argc, char** argv, const char* name, Body body);
+int run_node(int argc, char** argv, const char* name, const char* help, Body body);
 
-/// For `run_node`: prints the version and returns true where --version is the only argument.
-bool asks_for_version(int argc, char** argv);
+/// For main functions, before anything of ROS is asked for: answers --help and --version, and refuses every other word
+/// that is not for ROS itself (NAME:=VALUE). Returns the exit code; nothing where the node is to run. `help`: what it
+/// prints below its usage line.
+std::optional<int> answer_words(int argc, char** argv, const char* name, const char* help);
 
 /// For `run_node`: prints one line on the console, whether or not ROS logging is available. Returns `code`.
 int report_failure(const char* name, const char* what, int code);
 
 template <class Body>
-int run_node(int argc, char** argv, const char* name, Body body) {
-  if (asks_for_version(argc, argv)) return 0;
+int run_node(int argc, char** argv, const char* name, const char* help, Body body) {
+  if (const std::optional<int> answered = answer_words(argc, argv, name, help)) return *answered;
   int code = 0;
   try {
     code = body();

@@ -1,6 +1,7 @@
 #pragma once
 
-/// All names that the nodes share. All of them except /clock are relative; the launch file chooses the namespace.
+/// All names that the nodes share. All of them except /clock are relative; the launch file chooses the namespace, and
+/// remaps /clock into it.
 namespace knot_utm::names {
 
 // Nodes. Each accepts messages of the rightful publisher only, by these names.
@@ -28,8 +29,8 @@ inline constexpr char kRecorderStatus[] = "recorder/status";       ///< Recorder
 inline constexpr char kExperimentLoad[] = "experiment/load_cell";  ///< geometry_msgs/WrenchStamped, as measured
 inline constexpr char kExperimentCrosshead[] = "experiment/crosshead";  ///< Crosshead, as measured
 
-// Services, all of them std_srvs/Trigger
-inline constexpr char kStartTest[] = "utm/start_test";
+// Services, all others of them std_srvs/Trigger
+inline constexpr char kStartTest[] = "utm/start_test";  ///< StartTest
 inline constexpr char kStopTest[] = "utm/stop_test";
 inline constexpr char kBalance[] = "utm/balance";
 inline constexpr char kPause[] = "utm/pause";
@@ -43,14 +44,18 @@ inline constexpr char kRunTest[] = "utm/run_test";  ///< RunTest: a test or a ba
 
 // Parameters that the nodes set
 inline constexpr char kTestId[] = "test/id";  ///< set by utm_node: identifies this utm_node among all others
-/// set by utm_node: which specimen of which number of specimens a test takes, {number: 2, count: 8}
-inline constexpr char kBatchPlace[] = "test/specimen";
+/// set by utm_node: what a test is, {name: ..., method: ..., out: ..., number: 2, count: 8} (test_order.hpp)
+inline constexpr char kTestOrder[] = "test/order";
 /// set by recorder_node: the id of a batch's first test, a space, the batch's folder
 inline constexpr char kFolderOfBatch[] = "test/batch_folder";
 inline constexpr char kFolderOfTest[] = "test/folder";  ///< set by recorder_node: a test's id, a space, its folder
 /// set by each node, below this name; -1: it runs, or was killed
 inline constexpr char kExitCodes[] = "test/exit_codes";
 inline constexpr char kRecordedTest[] = "test/recorded";  ///< set by recorder_node: the last test that it completed
+inline constexpr char kRobotDescription[] = "robot_description";  ///< set by knot_node: the machine as URDF
+
+// Parameters that the launch file sets
+inline constexpr char kSimTimeFound[] = "test/use_sim_time_found";  ///< what /use_sim_time was before the launch
 
 // Frames
 inline constexpr char kWorldFrame[] = "world";

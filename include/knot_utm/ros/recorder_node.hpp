@@ -15,13 +15,12 @@
 
 #include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/run_writer.hpp"
-#include "knot_utm/ros/batch_place.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/keeper.hpp"
-#include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/recorded_batch.hpp"
 #include "knot_utm/ros/run_bag.hpp"
+#include "knot_utm/ros/test_order.hpp"
 
 namespace knot_utm {
 
@@ -36,7 +35,8 @@ namespace knot_utm {
 /// same as those of one recorder.
 class RecorderNode {
  public:
-  RecorderNode(const ros::NodeHandle& node, MethodSetup setup, Keeper& keeper);
+  /// `out`: the folder that is told before the first test.
+  RecorderNode(const ros::NodeHandle& node, const std::string& out, Keeper& keeper);
 
   /// Runs until ROS is shut down. A test that has not ended then, or whose machine died, is closed with the reason; in
   /// a batch it is left to be tested again.
@@ -102,11 +102,10 @@ class RecorderNode {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle node_;
-  MethodSetup setup_;
   Keeper& keeper_;
   std::uint32_t run_number_ = 0;
   std::string test_id_;                 ///< unique id of the test that is being written; empty: not known
-  BatchPlace place_;                    ///< of the test that is being written
+  TestOrder order_;                     ///< of the test that is being written
   std::optional<RecordedBatch> batch_;  ///< empty: the test stands alone
   std::string batch_folder_;            ///< empty: the test stands alone
   std::string batch_id_;                ///< id of the first test of the batch

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <knot_utm/KnotShape.h>
+#include <knot_utm/TestStatus.h>
 #include <ros/ros.h>
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -25,6 +26,7 @@ namespace knot_utm {
 struct ReplayOptions {
   std::string bag;           ///< a test.bag
   double rate = 1.0;         ///< test time over wall time; 0: as fast as possible
+  std::string ended_by;      ///< how the test ended, as result.yaml names it; empty: not known
   bool exit_at_end = false;  ///< `spin` returns at the end of the bag
   double patience = 5.0;     ///< longest wall time to wait for a viewer of the pictures before beginning [s]
 };
@@ -52,6 +54,7 @@ class ReplayNode {
   template <class Message>
   boost::shared_ptr<Message> replay(const rosbag::MessageInstance& instance);
   void publish_clock();
+  void publish_end();
   void on_view_timer(const ros::SteadyTimerEvent& event);
   void show(const KnotShape& shape);
 
@@ -70,6 +73,9 @@ class ReplayNode {
   ros::Time start_;  ///< time of the first message of the bag
   ros::Time now_;    ///< time of the last message that was published
   Clock::time_point begin_, clock_published_;
+  TestStatus status_;  ///< the latest of the bag
+  bool ended_ = false;
+  std::uint32_t run_ = 1;  ///< number of the test in the bag
   Sample sample_;
   std::string motion_pattern_;
   bool picture_is_old_ = false;

@@ -7,6 +7,7 @@
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/record.hpp"
 #include "knot_utm/machine/grips.hpp"
+#include "knot_utm/ros/bag_panel.hpp"
 #include "knot_utm/ros/bag_writer.hpp"
 #include "knot_utm/ros/machine_frames.hpp"
 #include "knot_utm/ros/markers.hpp"
@@ -20,7 +21,7 @@ namespace knot_utm {
 /// parts, and the bag has a knot/state for that step, too.
 ///
 /// `rosbag play` and rviz can show the bag while nothing else runs. For this it contains utm/method, knot/colors and
-/// all frames on /tf, and at every reading knot/markers (small ones, ScenePicture::draw_small). utm/status is included
+/// all frames on /tf, and at every reading knot/markers (ScenePicture::draw_small and BagPanel). utm/status is included
 /// without the fields that depend on wall time.
 class RunBag {
  public:
@@ -44,6 +45,7 @@ class RunBag {
   Grips grips_;
   MachineFrames frames_;
   ScenePicture picture_;
+  BagPanel panel_;
   Views views_;
   bool begun_ = false;
   bool broken_ = false;

@@ -7,6 +7,7 @@
 #include <knot_utm/MachineConfig.h>
 #include <knot_utm/RecorderStatus.h>
 #include <knot_utm/SpecimenInfo.h>
+#include <knot_utm/StartTest.h>
 #include <knot_utm/TestOutcome.h>
 #include <knot_utm/TestStatus.h>
 #include <ros/ros.h>
@@ -14,18 +15,21 @@
 
 #include <chrono>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/ros/batch_place.hpp"
 #include "knot_utm/ros/gate.hpp"
+#include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/run_test_server.hpp"
 
 namespace knot_utm {
+
+class ProgressLine;
 
 /// How the machine runs its tests.
 struct UtmOptions {
@@ -53,7 +57,9 @@ class UtmNode {
   /// simulation keeps.
   static constexpr std::uint64_t kWindow = 128;
 
-  UtmNode(const ros::NodeHandle& node, const Method& method, const UtmOptions& options);
+  /// `launched`: the setup of a test of which nothing else is asked.
+  UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const UtmOptions& options);
+  ~UtmNode();
 
   /// Runs until ROS is shut down or, with `exit_at_end`, until the test or the batch has ended. Returns the exit code
   /// of the node: 1 where the simulation failed on all specimens or died, or the recorder failed.
@@ -65,7 +71,9 @@ class UtmNode {
 
   /// Tests of several specimens, one after the other. A test that stands alone is a batch of one.
   struct Batch {
+    MethodSetup setup;                  ///< of all specimens
     std::vector<Method> methods;        ///< of the specimens
+    std::string folder;                 ///< that will be written; empty: none
     std::vector<TestOutcome> outcomes;  ///< of the tests that have ended and are recorded
     std::size_t specimen = 0;           ///< index of the present one
     int good_tests = 0;                 ///< number of tests in which the simulation did not fail
@@ -77,7 +85,7 @@ class UtmNode {
   void on_state(const KnotState::ConstPtr& answer);
   void on_recorder(const RecorderStatus::ConstPtr& recorded);
   void on_gone(const ros::SingleSubscriberPublisher& subscriber);
-  bool on_start(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
+  bool on_start(StartTest::Request& request, StartTest::Response& response);
   bool on_stop(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_balance(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
   bool on_pause(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
@@ -88,7 +96,8 @@ class UtmNode {
   bool recorder_keeps_up() const;
   bool all_is_recorded() const;
   bool may_advance() const;
-  std::string start_if_possible(std::uint32_t count);  ///< returns why it cannot; empty: the test runs
+  std::string start_if_possible(const StartTest::Request& request);  ///< returns why it cannot; empty: the test runs
+  Batch batch_of(const StartTest::Request& request) const;           ///< throws InvalidInput
   bool start(std::size_t specimen);  ///< starts a test; false, and changes nothing, where the master does not answer
   void stop();                       ///< stops the test and its batch
   std::size_t tested() const;        ///< number of specimens of the batch that have been tested
@@ -103,6 +112,7 @@ class UtmNode {
   void physics_failed(const std::string& why);  ///< ends the test with this reason
   void end();
   void publish_clock(bool at_once);
+  void publish_method(const Method& method);
   void publish_status();
   void report_to_goal(const TestStatus& status);
   TestOutcome outcome() const;
@@ -112,7 +122,7 @@ class UtmNode {
   double wait_time() const;  ///< wall time until the next action that no message triggers [s]
 
   ros::NodeHandle node_;
-  Method method_;
+  MethodSetup launched_;
   UtmOptions options_;
   bool has_specimen_ = false;  ///< whether the simulation holds one
   bool physics_died_ = false;  ///< during this test
@@ -137,6 +147,8 @@ class UtmNode {
   ros::Time now_;                ///< time on /clock
   TopicWarning odd_specimen_{names::kSpecimen};
 
+  std::unique_ptr<ProgressLine> progress_;  ///< on the terminal of the launch
+  Clock::time_point run_began_;
   Clock::time_point due_;   ///< time at which the next command may be sent
   Clock::time_point sent_;  ///< time at which a command was last sent, or sent again
   Clock::time_point clock_published_;

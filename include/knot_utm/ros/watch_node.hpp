@@ -15,11 +15,12 @@ namespace knot_utm {
 /// - If the node that runs the test (utm_node or replay_node) has ended by itself, the test is over. The launch ends as
 ///   soon as nobody views the picture, that is, when rviz is closed where it was started.
 /// - If another node has ended, or one was ended by a signal or by invalid input, the launch ends at once.
+/// - If roslaunch itself was killed, the nodes of the test are shut down, because nobody else would do it.
 /// The watched nodes are the names below the parameter test/exit_codes, where each node sets its exit code (run_node).
 class WatchNode {
  public:
-  /// `verdict`: a file to which the exit code of the test is written and, in a second line, the recorder's folder.
-  /// Empty: none.
+  /// `verdict`: a file to which the exit code of the test is written and, in a second line, the recorder's folder. The
+  /// first line is empty until the test is over. Empty: none.
   WatchNode(const ros::NodeHandle& node, std::string verdict);
 
   /// Runs until ROS is shut down.
@@ -35,9 +36,10 @@ class WatchNode {
   std::optional<int> exit_code(const std::string& node) const;
   void look(const Processes& processes);
   void test_is_over(int code, bool somebody_looks);
-  void tell(int code) const;
+  void tell(std::optional<int> code) const;
   void tell_unfinished_batch() const;
   void end_launch();
+  void end_nodes() const;
 
   ros::NodeHandle node_;
   std::string verdict_;
@@ -45,6 +47,7 @@ class WatchNode {
   std::string batch_;   ///< folder of the batch; empty: the test stands alone
   std::string host_;    ///< host of roslaunch's own server
   int port_ = 0;
+  pid_t launch_ = 0;                            ///< process of roslaunch
   std::map<std::string, std::string> watched_;  ///< node -> its parameter, both full names
   bool over_ = false;                           ///< whether the test is over
   bool ended_ = false;                          ///< whether roslaunch was asked to end

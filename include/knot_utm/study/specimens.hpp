@@ -15,6 +15,10 @@ struct DrawnSpecimen {
   Method method;                                      ///< method of this specimen alone
 };
 
+/// Throws InvalidInput where the specimen cannot be made, or the machine cannot hold it. The test itself would say so,
+/// too, but only once it begins.
+void check_fits(const Method& method);
+
 /// Draws the values of one specimen of a method, as `Method::specimens` says. They depend only on the seed, the number
 /// of the specimen (from 1) and the key, so neither a larger count nor a further key changes them. All specimens are
 /// tested with one load cell, whose noise is different for each. Throws InvalidInput where the drawn method would be

@@ -80,22 +80,24 @@ def read_own(file):
     return _known(file, pull_of_table(table))
 
 
-def read_other(file, curve_file):
-    """Of what else `compare` reads, raw data and bags. It sets them to zero beside the curve of a run, and leaves the pull beside
-    its page. Raises WrongInput."""
+def read_other(file, curve_file, reading=()):
+    """The pull of what else `compare` reads, raw data and bags, and what it says of them. It sets them to zero beside the curve of a
+    run, and leaves the pull beside its page. `reading`: its options for raw data. Raises WrongInput."""
     compare = os.path.join(os.path.dirname(tool.tensile_test()), "compare")
     if not os.access(compare, os.X_OK):
         raise WrongInput(f"{compare} is not there, which reads such files as {file}: scripts/build compare makes it")
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "beside")
-        done = subprocess.run([compare, file, curve_file, "--balance", "--report", out], check=False, text=True,
+        done = subprocess.run([compare, file, curve_file, "--balance", "--report", out, *reading], check=False, text=True,
                               errors="replace", stdin=subprocess.DEVNULL, capture_output=True)
         table = os.path.join(out, "a.csv")
         if not os.path.exists(table):
             said = tool.said_by(done.stderr).removeprefix("compare: ")
             raise WrongInput(said or f"{file}: compare cannot read it")
         read = pd.read_csv(table, skiprows=[1])
-    return _known(file, Pull(read["extension"].to_numpy(float), read["load"].to_numpy(float)) if len(read) > 1 else None)
+    pull = Pull(read["extension"].to_numpy(float), read["load"].to_numpy(float)) if len(read) > 1 else None
+    lines = [line.removeprefix("compare: ") for line in done.stderr.splitlines()]
+    return _known(file, pull), [line for line in lines if line.startswith(f"{file}: ")]
 
 
 def _known(file, pull):

@@ -9,6 +9,7 @@ import yaml
 from knot_utm import tool
 from knot_utm.fitting.verdict import short
 
+WRITTEN = ("fit.yaml", "curves.csv", "profiles.csv", "method.yaml", "method_2.yaml", "report.html", "report.pdf")
 PYTHON = "/usr/bin/python3"  # Debian's, which has Debian's packages
 
 

@@ -12,8 +12,9 @@ BROKEN = 0.02    # the same of one whose rod parted: beyond it the curve goes on
 class Record:
     """One measured curve, and what is set over the method that is to produce it."""
 
-    def __init__(self, name, pull, settings):
-        self.name, self.settings = name, settings
+    def __init__(self, name, pull, settings, notes=()):
+        """`notes`: what was said of it when it was read."""
+        self.name, self.settings, self.notes = name, settings, notes
         self.extension, self.load = pull.extension, pull.load
         self._bin()
 
@@ -48,6 +49,10 @@ class Record:
         if model.pull is None:
             raise WrongInput(f"{self.name}: the method as it stands leaves no curve: "
                              f"{model.result.get('reason') or 'its run failed'}")
+        measured, simulated = (float(max(load, key=abs)) for load in (self.load, model.pull.load))
+        if measured * simulated < 0.0:
+            raise WrongInput(f"{self.name}: the measured load goes to {measured:.4g} N, and the method's to {simulated:.4g} N: one of "
+                             "them has another sign, as in compression: --invert turns that of the record")
         end, most = float(model.pull.extension[-1]), float(np.max(np.abs(model.pull.load)))
         for measured, simulated, words in ((self.range, end, "an extension of {:.4g} m, and the method's pull to {:.4g} m"),
                                            (self.largest_load, most, "a load of {:.4g} N, and the method's to {:.4g} N")):

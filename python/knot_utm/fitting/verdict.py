@@ -66,6 +66,7 @@ def judge(search):
     rms = float(np.sqrt(sum(((record.measured - simulated)**2).sum() for record, simulated, _ in curves) / means))
     probability = float(stats.chi2.sf(chi_square, degrees))
     notes = _notes(keys, best, found, matrix)
+    notes += [note for case in search.cases for note in case.record.notes]
     for case in search.cases:
         unlike = int(case.unlike(search.low, search.high).sum())
         for count, words in ((sum(case.lost), "left no whole curve"), (unlike, "left loads of quite another size, as where knots open")):

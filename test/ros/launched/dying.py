@@ -18,6 +18,7 @@ class Dying(unittest.TestCase):
             os.kill(launch.pid(victim), signal.SIGKILL)
             self.assertEqual(launch.end(), 1)
             console = launch.console()
+            self.assertIn('files are in %s\n' % launch.out, console)
             # Once, and not what ended for that reason.
             self.assertEqual(console.count('process has died'), 1, console)
             self.assertRegex(console, r'\[%s(-\d+)?\] (has died!\n)?process has died \[.*exit code -9' % victim)

@@ -2,13 +2,12 @@
 """A second test into the same folder leaves the first one as it is; a knot that comes undone is no success."""
 import os
 import shutil
-import subprocess
 import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
-from launched import METHOD, ROOT, TOOL, Launch
+from launched import METHOD, ROOT, Launch
 
 SCRIPT = [os.path.join(ROOT, 'scripts/tighten')]
 SHORT = "overrides:='program.hold.duration=0.1'"
@@ -36,7 +35,8 @@ class KeptTest(unittest.TestCase):
             self.assertEqual(content(launch.out, 'result.yaml'), before)
             self.assertEqual(content(launch.out, 'curve.csv'), content(launch.out + '-2', 'curve.csv'))
             self.assertIn(launch.out + ' holds a run already', launch.console())
-            self.assertIn('\n%s-2/result.yaml:\n' % launch.out, launch.console())
+            self.assertIn('\nthe test ended by ', launch.console())
+            self.assertLess(len(launch.console().partition('\nthe test ended by ')[2].splitlines()), 11)
 
     def test_a_knot_that_comes_undone(self):
         for program, code in ('', 1), (", 'program=[{tie: {}}, {release: {}}]'", 0):
@@ -45,16 +45,6 @@ class KeptTest(unittest.TestCase):
                 self.assertEqual(launch.end(), code, launch.console())
                 self.assertEqual(launch.result('ended_by'), 'untangled')
                 self.assertIn('a higher specimen.preload (now 20 N; auto is 50 N)', launch.console())
-
-    def test_nodes_tell_their_version_without_ros(self):
-        version = subprocess.run([TOOL, '--version'], check=True, stdout=subprocess.PIPE).stdout
-        for source in os.listdir(os.path.join(ROOT, 'src/nodes')):
-            name = source.split('.')[0]
-            if name == 'keeper':  # takes no arguments: the recorder starts it
-                continue
-            node = os.path.join(os.path.dirname(TOOL), name)
-            said = subprocess.run([node, '--version'], check=True, stdout=subprocess.PIPE).stdout
-            self.assertEqual(said, version, name)
 
 
 if __name__ == '__main__':

@@ -17,7 +17,7 @@ HOLD = 'program.hold.duration=10'
 class MasterDiesTest(Dying):
 
     def test_master_of_the_launch(self):
-        self.dies('master', 'operator', 'the ROS master died before the test had ended')
+        self.dies('master', 'interrupted', 'the ROS master died before the test had ended')
 
     def test_master_that_was_there_before(self):
         # Nobody watches it, and the nodes do not need it any more: the test goes on to its end.

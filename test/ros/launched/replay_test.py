@@ -59,7 +59,8 @@ class ReplayTest(unittest.TestCase):
             # Not before: they take the master's address when they are loaded.
             import rosbag
             import rospy
-            from knot_utm.msg import Crosshead, KnotShape, KnotState
+            import yaml
+            from knot_utm.msg import Crosshead, KnotShape, KnotState, TestStatus
             from node_test import Latest
             from rosgraph_msgs.msg import Clock
             from sensor_msgs.msg import Image
@@ -68,16 +69,22 @@ class ReplayTest(unittest.TestCase):
             heard = {'/knot/state': Latest('knot/state', KnotState), '/knot/shape': Latest('knot/shape', KnotShape),
                      '/utm/crosshead': Latest('utm/crosshead', Crosshead)}
             clock = Latest('/clock', Clock)
+            status = Latest('utm/status', TestStatus)
             panel = subprocess.Popen([os.path.join(ROOT, 'panel/panel_node')],
                                      env=dict(os.environ, ROS_LOG_DIR=replay.log))
             self.addCleanup(panel.wait, LAST_RESORT)
             self.addCleanup(panel.terminate)
             panels = Latest('view/panel', Image)
             empty = panels.wait('the panel before anything is played', lambda _: True)
-            for latest in [*heard.values(), clock]:
+            for latest in [*heard.values(), clock, status]:
                 wait_for('a connection', lambda one=latest: one.connected())
             pictures = Latest('knot/markers', MarkerArray)  # the last one: it begins when somebody looks
             self.assertEqual(replay.process.wait(LAST_RESORT), 0, replay.console())
+
+            with open(run.folder + '/result.yaml', encoding='utf-8') as text:
+                ended_by = yaml.safe_load(text)['ended_by']
+            self.assertEqual((status.last.state, status.last.ended_by), (TestStatus.ENDED, ended_by))
+            self.assertEqual({message.state for message in status.messages[:-1]}, {TestStatus.RUNNING})
 
             shown = panels.wait('the panel', lambda image: image.data != empty.data)
             self.assertEqual((shown.encoding, len(shown.data)), ('rgb8', 3 * shown.width * shown.height))

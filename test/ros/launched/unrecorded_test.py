@@ -28,6 +28,7 @@ class UnrecordedTest(unittest.TestCase):
     def test_ended_as_programmed(self):
         console = self.ends(0, METHOD, SHORT)
         self.assertEqual(console.count('the test ended by program'), 1)
+        self.assertIn('scripts/tighten: nothing was written, because of record:=false', console)
         self.assertIn('[utm_node-3] process has finished cleanly', console)
         for word in ('died', 'REQUIRED', 'ERROR', 'Shutdown errors'):
             self.assertNotIn(word, console)
@@ -37,6 +38,7 @@ class UnrecordedTest(unittest.TestCase):
 
     def test_wrong_input(self):
         console = self.ends(2, 'nosuch.yaml')
+        self.assertIn('scripts/tighten: nothing was written', console)
         self.assertIn('nosuch.yaml', console)
         self.assertNotIn('REQUIRED', console)
 

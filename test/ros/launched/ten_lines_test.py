@@ -1,0 +1,128 @@
+#!/usr/bin/python3
+"""doc/ros_in_ten_lines.md, to the letter, in shells that know nothing else: in a folder with a blank in its name, and where a
+Python that knows nothing of ROS stands first on the path."""
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import unittest
+import xmlrpc.client
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
+
+from launched import LAST_RESORT, ROOT, children, free_port, wait_for
+
+PROGRAMS = ['knot_node', 'utm_node', 'recorder_node', 'watch_node', 'experiment_node', 'replay_node', 'keeper', 'panel_node',
+            'tensile_test', 'compare']
+
+
+def blocks():
+    """The indented blocks of the page, each a list of lines."""
+    with open(os.path.join(ROOT, 'doc/ros_in_ten_lines.md'), encoding='utf-8') as file:
+        return [block.replace('    ', '').strip().split('\n') for block in re.findall(r'(?:^    .+\n?)+', file.read(), re.MULTILINE)]
+
+
+class Shell:
+    """A bare one, which runs the lines one after the other; what it says goes to a file."""
+
+    def __init__(self, folder, uri, name):
+        path = os.path.join(folder, 'pyenv') + ':/usr/bin:/bin'
+        environment = {'HOME': folder, 'PATH': path, 'ROS_MASTER_URI': uri}
+        self.file = os.path.join(folder, name)
+        with open(self.file, 'wb') as said:
+            self.process = subprocess.Popen(['/bin/bash'], cwd=folder, env=environment, stdin=subprocess.PIPE, stdout=said,
+                                            stderr=subprocess.STDOUT, universal_newlines=True)
+
+    def run(self, lines, name):
+        """Waits until all of them have ended; returns what they said."""
+        begin = len(self.said())
+        for line in lines:
+            self.process.stdin.write('%s </dev/null || echo failed: %s\n' % (line, line.split()[0]))
+        self.process.stdin.write('echo end of %s\n' % name)
+        self.process.stdin.flush()
+        wait_for(name, lambda: 'end of ' + name in self.said())
+        return self.said()[begin:]
+
+    def begin(self, lines):
+        self.process.stdin.write('\n'.join(lines) + '\n')
+        self.process.stdin.flush()
+
+    def said(self):
+        with open(self.file, encoding='utf-8', errors='replace') as file:
+            return file.read()
+
+
+class TenLinesTest(unittest.TestCase):
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix='a folder ')
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+        os.symlink(os.path.join(ROOT, 'build'), os.path.join(self.folder, 'build'))
+        os.mkdir(os.path.join(self.folder, 'pyenv'))
+        for name in 'python', 'python3':
+            shim = os.path.join(self.folder, 'pyenv', name)
+            with open(shim, 'w', encoding='utf-8') as file:
+                file.write('#!/bin/sh\necho "this Python knows nothing of ROS" >&2\nexit 1\n')
+            os.chmod(shim, 0o755)
+        self.uri = 'http://localhost:%d' % free_port()
+
+    def shell(self, name):
+        shell = Shell(self.folder, self.uri, name)
+        self.addCleanup(self.leave, shell.process)
+        return shell
+
+    def leave(self, shell):
+        for running in children(shell.pid):
+            os.kill(running, signal.SIGINT)  # as Ctrl-C does
+        shell.stdin.close()
+        shell.wait(LAST_RESORT)
+
+    def answers(self, node):
+        try:
+            with xmlrpc.client.ServerProxy(self.uri) as master:
+                return master.lookupNode('/test', node)[0] == 1
+        except OSError:
+            return False
+
+    def test_lines(self):
+        launch, ask, read, core, play = blocks()
+        self.assertEqual(len({*launch, *ask, *read, *core, *play}), 10)
+        first, second = self.shell('first'), self.shell('second')
+        first.begin(launch + ['echo the launch has ended'])
+        # As whoever types them sees that the test runs.
+        wait_for('the test', lambda: self.answers('/utm_node') and 'holds a run' not in first.said())
+        said = second.run(ask, 'the questions')
+        for part in ('progress: ', 'message: "the test is paused"', 'message: "the test goes on"'):
+            self.assertIn(part, said)
+        wait_for('the end', lambda: 'the launch has ended' in first.said())
+        self.assertRegex(first.said(), r'readings were written to .*/out/tighten')
+        for word in ('ERROR', 'has died', 'ld.so', 'knows nothing'):
+            self.assertNotIn(word, first.said())
+        said += second.run(read, 'the readings')
+        self.assertRegex(said, r'topics: +/knot/colors|/knot/state')
+        self.assertIn('plateau', said)
+        first.begin(['roscore() { command roscore -p %s; }' % self.uri.rsplit(':', 1)[1]])  # else its port is always the same
+        first.begin(core)
+        wait_for('the master', lambda: self.answers('/rosout'))
+        said += second.run(play, 'the bag')
+        self.assertIn('[RUNNING]', said)
+        for word in ('failed: ', 'rror', 'not executable', 'knows nothing'):
+            self.assertNotIn(word, said)
+
+    def test_programs_answer_without_a_master(self):
+        shell = self.shell('third')
+        shell.run(['source build/devel/setup.bash'], 'the environment')
+        for name in PROGRAMS:
+            said = shell.run(['rosrun knot_utm %s --version' % name, 'rosrun knot_utm %s --help' % name], name)
+            self.assertRegex(said, r'(?i)^\d+\.\d+\.\d+\n(.*\n)*usage: ', name)
+            self.assertNotIn('failed', said)
+            said = shell.run(['rosrun knot_utm %s --nonsense; test $? = 2' % name], name + ' refuses')
+            self.assertNotIn('failed', said, name)
+            self.assertIn('--nonsense', said)
+
+
+if __name__ == '__main__':
+    unittest.main()
