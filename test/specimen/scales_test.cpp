@@ -51,6 +51,11 @@ TEST(SpecimenScales, NoMoreThanTheRodsOwnMassIsAccelerated) {
   light.density *= 1e-3;
   EXPECT_EQ(inertia_factor(light, {}, 0.0), 1.0);
   EXPECT_LT(inertia_factor(nylon(), {}, 0.0), 1.0);
+  // Tied, a thread whose own mass no step is short enough for has that of 2e-6 s.
+  Material thread = nylon();
+  thread.density *= 1e-6;
+  EXPECT_NEAR(specimen_scales(as_it_moves(thread, {}, 0.0)).own_time, 2e-6, 1e-15);
+  EXPECT_EQ(inertia_factor(thread, {}, 1e-3), 1.0) << "drawn";
 }
 
 TEST(SpecimenScales, ASlackLoopSpringsFast) {
