@@ -12,7 +12,7 @@ namespace {
 // (config/tighten.yaml with physics.inertia 0.0105 and 0.0367, 7.45 and 26.1).
 constexpr double kBendingTime = 2e-4;  // tau [s]
 // With 3.7 s, that of its own mass, a loose overhand in a rod of 4 m swings through its whole pull, with 0.8 s a tenth
-// of it; with 0.1 s its force is steady (doc/measured.md).
+// of it; with 0.1 s its force is steady (doc/developers/measured.md).
 constexpr double kSlackTime = 0.1;  // of a slack loop [s]
 // Loops of a thread with 2e-7 s could not be tied with their own mass: no step was short enough. With 2e-6 s they can.
 constexpr double kShortestTime = 2e-6;  // tau of what is tied [s]
