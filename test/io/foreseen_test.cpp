@@ -94,7 +94,7 @@ TEST(Foreseen, SlipsOfUnitsAreAskedAbout) {
     return warnings_of("straight", {"program=[{hold: {duration: 1}}]", "material." + key + "=" + value});
   };
   EXPECT_THAT(asked("density", "100"), ElementsAre(HasSubstr("material.density is 100 kg/m3, where cork has 200")));
-  EXPECT_THAT(asked("density", "1.15"), ElementsAre(HasSubstr("is it in kg/m3")));  // g/cm3
+  EXPECT_THAT(asked("density", "20000"), ElementsAre(HasSubstr("is it in kg/m3")));
   // E in MPa, and of the bending stiffness, too.
   const std::vector<std::string> soft = asked("stretching_stiffness", "0.0734");
   EXPECT_THAT(soft, Contains(HasSubstr("which is E = 2.32 kPa, where rubber has 1 MPa")));
