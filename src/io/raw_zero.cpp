@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <utility>
 
 #include "knot_utm/numeric/number.hpp"
 
@@ -67,19 +66,11 @@ std::optional<RawZero> zero_of_cut(const std::vector<CurveRow>& rows, double beg
   return RawZero{first.extension - begins_at, first.load, *load};
 }
 
-std::vector<CurveRow> with_zero(std::vector<CurveRow> rows, const RawZero& zero) {
-  for (CurveRow& row : rows) {
-    row.extension -= zero.extension;
-    row.load -= zero.load - zero.load_there;
-  }
-  return rows;
-}
-
 std::string zero_words(const RawZero& zero) {
-  const std::string place = format_number(zero.load) + " N at " + format_number(zero.extension) + " m";
+  const std::string place = short_number(zero.load) + " N at " + short_number(zero.extension) + " m";
   std::string there;
   if (zero.load_there != 0.0)
-    there = "; its load there becomes " + format_number(zero.load_there) + " N, as that of the other curve";
+    there = "; its load there becomes " + short_number(zero.load_there) + " N, as that of the other curve";
   if (zero.readings > 1)
     return "zero is " + place + ", the mean of its " + std::to_string(zero.readings) +
            " readings before the crosshead moves" + there;
@@ -89,7 +80,11 @@ std::string zero_words(const RawZero& zero) {
 std::vector<CurveRow> balanced(const std::vector<CurveRow>& rows, const RawZero& zero) {
   std::vector<CurveRow> out = pulled(rows);
   out.erase(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(zero.first));
-  return with_zero(std::move(out), zero);
+  for (CurveRow& row : out) {
+    row.extension -= zero.extension;
+    row.load -= zero.load - zero.load_there;
+  }
+  return out;
 }
 
 }  // namespace knot_utm

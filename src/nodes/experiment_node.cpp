@@ -10,6 +10,7 @@ constexpr char kHelp[] = R"(Publishes an experiment's record beside the test tha
 It is a part of: roslaunch knot_utm experiment.launch data:=FILE (doc/ros.md).
 
   _autostart:=FLAG            starts the test [false]
+  _balance:=auto|true|false   whether the record gets a zero; auto: raw data do [auto]
 )";
 
 }  // namespace

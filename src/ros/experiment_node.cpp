@@ -39,18 +39,21 @@ std::vector<CurveRow> record_with_zero(std::vector<CurveRow> rows, RecordBalance
   }
   const RawZero zero = zero_at_rest(rows);
   tell(zero_words(zero));
-  return with_zero(std::move(rows), zero);
+  return balanced(rows, zero);
 }
 
 ExperimentNode::ExperimentNode(const ros::NodeHandle& node, const std::string& file, RecordBalance balance)
     : node_(node),
-      rows_(record_with_zero(read_course(file), balance,
-                             [&](const std::string& line) { ROS_INFO("%s: %s", file.c_str(), line.c_str()); })),
+      rows_(read_course(file)),
+      began_(rows_.empty() ? 0.0 : rows_.front().time),
       load_cell_(node_.advertise<geometry_msgs::WrenchStamped>(names::kExperimentLoad, kQueue)),
       crosshead_(node_.advertise<Crosshead>(names::kExperimentCrosshead, kQueue)),
       commands_(subscribe_gated(node_, {names::kCrosshead, names::kUtmNode, kQueue, kLargest},
                                 &ExperimentNode::on_command, this)),
-      start_(node_.serviceClient<StartTest>(names::kStartTest)) {}
+      start_(node_.serviceClient<StartTest>(names::kStartTest)) {
+  rows_ = record_with_zero(std::move(rows_), balance,
+                           [&](const std::string& line) { ROS_INFO("%s: %s", file.c_str(), line.c_str()); });
+}
 
 void ExperimentNode::spin(bool autostart) {
   while (ros::ok()) {
@@ -76,7 +79,7 @@ void ExperimentNode::on_command(const Crosshead::ConstPtr& command) {
     return;
   }
   for (; next_ < rows_.size(); ++next_) {
-    const ros::Time stamp = begin_ + ros::Duration(rows_[next_].time - rows_.front().time);
+    const ros::Time stamp = begin_ + ros::Duration(rows_[next_].time - began_);
     if (stamp > command->header.stamp) break;
     publish(rows_[next_], stamp);
   }

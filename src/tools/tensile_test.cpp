@@ -19,6 +19,7 @@
 #include "knot_utm/io/plausible_rod.hpp"
 #include "knot_utm/io/report.hpp"
 #include "knot_utm/io/result_yaml.hpp"
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/io/summary.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
@@ -106,15 +107,12 @@ void tell_end(const HeadlessOutcome& outcome, const Method& method, const std::s
       std::fprintf(stderr, "%s: the time step that failed can be looked at by: %s\n", kTool,
                    command_line({script_path("replay-step"), outcome.failed_step}).c_str());
   }
-<<<<<<< HEAD
   if (*outcome.ended == EndedBy::kBreak && outcome.failed)
     std::fprintf(stderr, "%s: the test failed: %s; its results are in %s\n", kTool, outcome.reason.c_str(), folder);
-=======
   if (!quiet) tell_summary(outcome.folder, "result.yaml", latest);
->>>>>>> hands
   if (*outcome.ended == EndedBy::kUntangled)
     std::fprintf(stderr, "%s: the knot came undone: %s\n", kTool, what_keeps_a_knot(method).c_str());
-  else if (results.untangled_at)
+  else if (results.untangled_at && results.knot_type != KnotType::kCrossed)
     std::fprintf(stderr, "%s: the knot came undone at %.1f s, while it was pulled: %s\n", kTool, *results.untangled_at,
                  what_keeps_a_knot(method).c_str());
 }

@@ -36,9 +36,6 @@ RawZero zero_at_rest(const std::vector<CurveRow>& rows, const Pull& other = {});
 /// contain that extension.
 std::optional<RawZero> zero_of_cut(const std::vector<CurveRow>& rows, double begins_at, const Pull& other);
 
-/// The rows with the zero subtracted.
-std::vector<CurveRow> with_zero(std::vector<CurveRow> rows, const RawZero& zero);
-
 /// What was taken for zero, in words: "zero is 3.2 N at 0.0101 m, the mean of its 21 readings before the crosshead
 /// moves".
 std::string zero_words(const RawZero& zero);

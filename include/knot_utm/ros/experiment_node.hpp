@@ -22,7 +22,8 @@ enum class RecordBalance {
 /// Reads "auto", "true" or "false". Throws InvalidInput.
 RecordBalance record_balance_named(const std::string& name);
 
-/// The readings of a record, with their zero. `tell` receives one line that says what was taken for zero.
+/// The readings of a record, from their zero on where they get one. `tell` receives one line that says what was taken
+/// for zero.
 std::vector<CurveRow> record_with_zero(std::vector<CurveRow> rows, RecordBalance balance,
                                        const std::function<void(const std::string& line)>& tell);
 
@@ -43,6 +44,7 @@ class ExperimentNode {
 
   ros::NodeHandle node_;
   std::vector<CurveRow> rows_;  ///< readings of the record, from the first that pulls to the last
+  double began_;                ///< time of the first reading, whether it is published or lies before the zero [s]
   std::size_t next_ = 0;        ///< index of the next row to be published
   std::uint32_t run_ = 0;       ///< number of the test whose commands are followed
   std::uint64_t sequence_ = 0;  ///< sequence number of its latest command
