@@ -19,6 +19,7 @@
 #include "knot_utm/io/plausible_rod.hpp"
 #include "knot_utm/io/report.hpp"
 #include "knot_utm/io/result_yaml.hpp"
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/io/summary.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
