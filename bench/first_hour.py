@@ -137,24 +137,42 @@ class Walk:
         blocks = re.findall(r"(?:^    .*\n|^\n(?=    ))+", self.text("doc/tutorial.md"), re.MULTILINE)
         commands = [re.sub(r"^    ", "", block, flags=re.MULTILINE).strip() for block in blocks if block.strip()]
         expect(len(commands) == 5, f"the tutorial has {len(commands)} commands, not five")
-        # The first one gets and builds the package; the last one opens a browser.
-        for command in commands[1:-1]:
-            self.run("/bin/bash", "-ec", command)
+        # The first one gets and builds the package; the last one opens a browser. Who tries another rod follows it again.
         page = commands[-1].split()[-1]
-        self.has(page, size=10000)
+        for run, friction in (("mine", "0.6 "), ("mine-2", "0.7 ")):
+            for command in commands[1:-1]:
+                self.run("/bin/bash", "-ec", command.replace("friction_coefficient: 0.6 ", f"friction_coefficient: {friction}"))
+            self.has(page, size=10000)
+            peak = self.result(f"out/{run}", "peak_force")
+            expect(f"b: {peak}," in self.text("out/beside/comparison.yaml"), f"out/beside does not compare out/{run}")
         return f"{self.reading('out/mine')}; {page} has {os.path.getsize(self.path(page)) // 1000} kB"
+
+    @step("what comes with the package")
+    def lists(self):
+        said = self.tool("tensile_test", "--list")
+        for folder, ending in (("config", ".yaml"), ("config/materials", ".yaml"), ("config/standards", ".yaml"),
+                               ("config/studies", ".yaml")):
+            for name in os.listdir(self.path(folder)):
+                stem, found = os.path.splitext(name)
+                expect(found != ending or re.search(rf"(?m)^{re.escape(stem)} +\S", said), f"--list has no {folder}/{name}")
+        expect(self.tool("tensile_test", "--list", "knots") in said, "--list knots says something else")
+        return f"{len(said.splitlines())} lines"
 
     @step("a live test with ROS")
     def live(self):
         said = self.run("scripts/tighten", "real_time_factor:=0", "rviz:=false", "out:=out/live", "-p", str(self.port))
         for word in ("has died", "REQUIRED", "ERROR"):
             expect(word not in said, f"the console says {word!r} of a success")
-        expect("motion_pattern" in said, "the result is not printed")
+        end = said.partition("the test ended by ")[2]
+        expect("plateau force" in end and len(end.splitlines()) <= 11, "the result is not printed in ten lines")
+        expect(os.path.samefile(self.path("out/latest"), self.path("out/live")), "out/latest is another run")
         return self.reading("out/live")
 
     @step("the same test without ROS")
     def headless(self):
-        self.tool("tensile_test", "tighten", "--quiet", "--out", "out/headless")
+        said = self.tool("tensile_test", "tighten", "--out", "out/headless")
+        expect(len(said.splitlines()) <= 10 and "null" not in said, f"the end is no ten lines: {one_line(said)}")
+        expect(os.path.samefile(self.path("out/latest"), self.path("out/headless")), "out/latest is another run")
         self.same("out/live", "out/headless")
         return "its curves and its last shape are those of the live test, byte for byte"
 
@@ -208,6 +226,43 @@ class Walk:
             expect(said.count("\n") == 1, f"not one line: {one_line(said)}")
         expect(not os.path.exists(self.path("out/wrong")), "something was written")
         return script.strip()
+
+    @step("a value that a message allows")
+    def allowed(self):
+        key = "specimen.edge_length"
+        said = self.tool("tensile_test", "tighten", "--check", "--set", f"{key}=7", code=2)
+        low, high = re.search(r"and here (\S+) to (\S+) m", said).groups()
+        for value in (low, high):
+            self.tool("tensile_test", "tighten", "--check", "--set", f"{key}={value}")
+        for value in (0.95 * float(low), 1.05 * float(high)):
+            self.tool("tensile_test", "tighten", "--check", "--set", f"{key}={value}", code=2)
+        return said.strip()
+
+    @step("Python")
+    def python(self):
+        self.environment["PYTHONPATH"] = self.path("python") + os.pathsep + self.environment.get("PYTHONPATH", "")
+        asks = ("import warnings, knot_utm; warnings.simplefilter('error');"
+                "run = knot_utm.run('straight', 'out/python', overwrite=True, **{'physics.accuracy': 'draft'});"
+                "print(run, dict(run)['peak_force'], knot_utm.__version__)")
+        for _ in range(2):
+            said = self.run("/usr/bin/python3", "-Bc", asks)
+        expect(said.startswith("<Run ") and said.count("\n") == 1, one_line(said))
+        return said.strip()
+
+    @step("Ctrl-C in a sweep, and on by what it says")
+    def interrupted_sweep(self):
+        with open(self.path("a study.yaml"), "w", encoding="utf-8") as study:
+            study.write("method: straight\nvary: {physics.accuracy: [draft], specimen.length: {from: 0.1, to: 0.5, steps: 40}}\n")
+        process = self.start("scripts/sweep", "a study.yaml", "--jobs", "1", "--out", "out/a sweep")
+        runs = self.path("out/a sweep/runs")
+        launched.wait_for("some runs are done", lambda: process.poll() is not None or (
+            os.path.isdir(runs) and len([name for name in os.listdir(runs) if not name.startswith(".")]) > 2))
+        os.kill(process.pid, signal.SIGINT)
+        code, said = self.end(process)
+        told = re.search(r"it was interrupted, with \d+ of 40 runs done; the same command goes on: (.*)$", said, re.MULTILINE)
+        expect(code == 1 and told, f"exit code {code}: {one_line(said)}")
+        expect("40 runs, 0 of which failed" in self.run("/bin/bash", "-c", told[1]), "it did not go on")
+        return told[0]
 
     @step("the same folder twice")
     def twice(self):

@@ -146,7 +146,7 @@ def over_theory(run, eps):
         return None
     h = material["radius"]
     length, wanted = run.method["specimen"]["length"], 2.0 * math.pi * h / eps ** 2
-    force = [f for f, l in zip(pull["load_lower"], pull["end_to_end"]) if abs(length - l - wanted) < 0.01 * wanted]
+    force = [f for f, l in zip(pull["lower_force"], pull["end_to_end"]) if abs(length - l - wanted) < 0.01 * wanted]
     law = 0.5 * eps ** 4 + material["friction_coefficient"] * SIGMA * eps ** 3
     return sum(force) / len(force) * h ** 2 / (law * material["bending_stiffness"]) if force else None
 

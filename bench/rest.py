@@ -67,11 +67,11 @@ class Hold:
 
     def __init__(self, run):
         pull, hold = run.phase("pull"), run.phase("hold")
-        held = bool(pull.get("load_lower")) and bool(hold.get("load_lower"))
-        self.before = pull["load_lower"][-1] if held else None
+        held = bool(pull.get("lower_force")) and bool(hold.get("lower_force"))
+        self.before = pull["lower_force"][-1] if held else None
         self.distance_before = pull["knot_distance"][-1] if held else None
         self.times = [time - pull["time"][-1] for time in hold["time"]] if held else []
-        self.forces = hold["load_lower"] if held else []
+        self.forces = hold["lower_force"] if held else []
         self.distances = hold["knot_distance"] if held else []
 
     def force_at(self, seconds):

@@ -159,9 +159,13 @@ class Run:
         return len(self.shape["x"]) if self.shape else None
 
     def phase(self, name):
-        """Rows of curve_full.csv in a phase, as columns."""
+        """Rows of curve_full.csv in a phase, as columns, and with them the true force on the lower grip."""
         rows = [i for i, phase in enumerate(self.curve.get("phase", [])) if phase == name]
-        return {key: [column[i] for i in rows] for key, column in self.curve.items()}
+        columns = {key: [column[i] for i in rows] for key, column in self.curve.items()}
+        if "load_lower" in columns:
+            balanced = columns.get("balance_offset", [0.0] * len(rows))
+            columns["lower_force"] = [load + offset for load, offset in zip(columns["load_lower"], balanced)]
+        return columns
 
     def slope_of_knot_distance(self):
         """de/ds: what result.yaml says of knots that slide, else by least squares over the whole pull."""

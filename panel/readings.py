@@ -6,7 +6,8 @@ import statistics
 
 # Phases before the zero of the pull (report/phases.csv, prepares): the balance is the zero.
 PREPARATION = {'', 'idle', 'tie', 'release', 'mount', 'preload', 'done'}
-BROKEN, FAILED, CROSSED = 3, 4, 2  # of a KnotState
+BROKEN, FAILED = 3, 4  # status of a KnotState
+KEPT, CROSSED = 0, 2   # its knot_type
 PAUSED, ENDED = 2, 3               # of a TestStatus
 MANY = 8.0  # loads above this many of those of sliding hide them: these are shown again, alone
 ENDS = {'break': 'broke', 'untangled': 'came undone', 'solver': 'the physics gave up',
@@ -165,7 +166,7 @@ class Readings:
         elif state.knot_type == CROSSED:
             words.append('ran through itself')
         elif state.motion_pattern == 'untangling':
-            words.append(ENDS['untangled'])
+            words.append('a knot opened' if state.knot_type == KEPT else ENDS['untangled'])
         if ended_by is not None:
             end = ENDS.get(ended_by, 'ended by ' + ended_by if ended_by else 'ended')
             words.append('ended' if end in words else end)

@@ -96,7 +96,7 @@ class OneTest:
     def __init__(self, folder):
         self.run = run = Run(folder)
         series, note = series_of(run)
-        self.tested = run.curve.tested()
+        self.tested = run.tested()
         if note or len(series) < 2:
             raise CannotReport(f"{folder}: it has no shapes over time; tensile_test --shapes keeps them")
         if not len(self.tested):
@@ -143,6 +143,9 @@ class OneTest:
         said = f"{phase}, {shape.time:.1f} s"
         if shape.time < self.begin:
             return said
+        broke = self.run.time_of_break()
+        if broke is not None and shape.time > broke:
+            return said + ":  the rod has parted"
         return said + f":  s = {with_unit(extension, units.length)},  F = {with_unit(load, units.force)}"
 
 

@@ -22,7 +22,7 @@ from results_table import results_table, short_label
 from rod_pictures import pictures
 from run import Run, printable
 from sentences import all_in_units, in_units
-from shapes import series_of, shapes_at
+from shapes import final_shape, series_of, shapes_at
 from style import LOOKS, embedded
 from turnable import turnable
 from typefaces import told, without_typeface
@@ -91,7 +91,7 @@ def figures_of(run, marks):
         found["course"] = [course(run, look) for look in LOOKS]
         shown_at = marks or [end_of(run.curve)]
         series, found["note"] = series_of(run)
-        shapes = shapes_at(series, [mark.time for mark in shown_at], time_of_break(shown_at))
+        shapes = shapes_at(series, [mark.time for mark in shown_at], time_of_break(shown_at), final_shape(run))
         found["pictures"] = [pictures(run, shown_at[-len(shapes):], shapes, look) for look in LOOKS]
         found["turnable"] = turnable(run, series, marks)
     return found

@@ -64,10 +64,13 @@ def series_of(run):
     return only_the_final(run), f"test.bag cannot be read, so only the final shape is shown, without tensions: {why}"
 
 
-def shapes_at(series, times, broke=None):
+def shapes_at(series, times, broke=None, final=None):
     """The shape nearest to each time, in the order of `times`, or the only one that there is. Of a time before the rod
-    `broke` a shape that is from before that."""
-    return [series.shape(0)] if len(series) == 1 else [series.at(time, broke) for time in times]
+    `broke` a shape that is from before that, of a later one the `final` shape where none is from behind it."""
+    if len(series) == 1:
+        return [series.shape(0)]
+    found = [series.at(time, broke) for time in times]
+    return [final if broke is not None and final and shape.time <= broke < time else shape for shape, time in zip(found, times)]
 
 
 def only_the_final(run):

@@ -82,7 +82,7 @@ class Made:
         """Raises RunFailed with what it left, where it failed."""
         if self.code == 0 and left is not None:
             return
-        told = [line for line in self.said if line.startswith(("the physics gave up", "the knot came undone"))]
+        told = [line for line in self.said if line.startswith(("the physics gave up", "the test failed", "the knot came undone"))]
         why = next(reversed(told or self.said), f"tensile_test ended with {self.code}")
         raise RunFailed(f"{self.out}: {why}", left)
 

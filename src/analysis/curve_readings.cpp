@@ -19,7 +19,7 @@ constexpr double kLevel = 0.5;                            // change of a plateau
 constexpr double kProportional = 1.0 / 1.1;               // ... and that of a force in proportion to s
 constexpr double kSliding = -2.0, kOffSliding = 0.5;      // de/ds of rigid sliding, and how far off it a plateau's is
 constexpr double kSudden = 0.05;                          // of the way to the lock
-constexpr double kTakenIn = 0.125, kStill = 1.5;          // of the first excess length; times F
+constexpr double kTakenIn = 0.125, kFallen = 0.1;         // of the first excess length; of F
 constexpr double kLetOut = 0.05, kLetGo = 0.5;            // of the first e; of F
 constexpr int kFewestForDrops = 20;                       // readings on the way to the lock
 
@@ -84,9 +84,9 @@ std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double wa
 
 /// At every point the least that each knot holds of the rod from there over `way`: a tail that whips past has a knot
 /// take in rod for a moment, a knot that opens keeps it.
-HiddenRod as_kept(const Pull& pull, const HiddenRod& hidden, double way) {
+HiddenRod as_kept(const Pull& pull, const HiddenRod& hidden, double way, std::size_t begin) {
   HiddenRod out = hidden;
-  for (std::size_t i = 0; i < out.size(); ++i)
+  for (std::size_t i = begin; i < out.size(); ++i)
     for (std::size_t j = i; j <= last_within(pull, i, way, pull.back().extension); ++j)
       for (std::size_t k = 0; k < out[i].size(); ++k) out[i][k] = std::min(out[i][k], hidden[j].at(k));
   return out;
@@ -109,11 +109,32 @@ double let_out(const Pull& pull, const PullPoint& from, const PullPoint& to) {
 }
 
 /// How much a knot opened from one point to another, by the share of rod that it has `taken` in, over the least that is
-/// a jump: 0 where F grew by half, as in a lock; NaN: nothing tells.
+/// a jump. NaN: nothing tells.
 double opened(const Pull& pull, const PullPoint& from, const PullPoint& to, double taken) {
   const double known = taken / kTakenIn;
-  if (!std::isfinite(known)) return let_out(pull, from, to) / kLetOut;
-  return to.force > kStill * from.force ? 0.0 : known;
+  return std::isfinite(known) ? known : let_out(pull, from, to) / kLetOut;
+}
+
+/// From the largest F between two points to the smallest within another `way` behind them.
+Drop fall_around(const Pull& pull, std::size_t i, std::size_t j, double way) {
+  const auto less = [](const PullPoint& a, const PullPoint& b) { return a.force < b.force; };
+  const auto point = [&](std::size_t k) { return pull.begin() + static_cast<std::ptrdiff_t>(k); };
+  const auto to = std::min_element(point(j), point(last_within(pull, j, way, pull.back().extension) + 1), less);
+  return {static_cast<std::size_t>(std::max_element(point(i), to, less) - pull.begin()),
+          static_cast<std::size_t>(to - pull.begin())};
+}
+
+/// Whether a knot holds so much more rod at one point from `begin` on than at another that it may have jumped; true
+/// where that is not known.
+bool may_have_jumped(const HiddenRod& hidden, std::size_t begin) {
+  if (hidden.empty()) return true;
+  for (std::size_t k = 0; k < hidden.front().size(); ++k) {
+    const auto less = [k](const PerKnot& a, const PerKnot& b) { return a.at(k) < b.at(k); };
+    const auto [least, most] =
+        std::minmax_element(hidden.begin() + static_cast<std::ptrdiff_t>(begin), hidden.end(), less);
+    if (!(most->at(k) - least->at(k) < kTakenIn * hidden.front().at(k))) return true;
+  }
+  return false;
 }
 
 std::string text(const char* format, double a, double b = 0.0) {
@@ -194,29 +215,26 @@ std::optional<Drop> largest_drop(const Pull& pull, double end) {
   return largest_drop(pull, {pull.front().extension, end}, sudden(pull, end));
 }
 
-std::optional<Drop> jump(const Pull& pull, const HiddenRod& hidden) {
-  if (pull.empty()) return std::nullopt;
-  const auto less = [&](const PullPoint& a, const PullPoint& b) { return a.force < b.force; };
-  const auto point = [&](std::size_t i) { return pull.begin() + static_cast<std::ptrdiff_t>(i); };
-  const double first = pull.front().knot_distance, end = pull.back().extension;
-  const double at_once = kSudden * first / std::abs(kSliding);  // knots have met after half of e at the latest
-  const HiddenRod kept = as_kept(pull, hidden, at_once);
+double jump_way(const Pull& pull) { return kSudden * pull.front().knot_distance / std::abs(kSliding); }
+
+std::optional<Drop> jump(const Pull& pull, const HiddenRod& hidden, std::size_t begin) {
+  if (pull.empty() || !may_have_jumped(hidden, begin)) return std::nullopt;
+  const double way = jump_way(pull);
+  const HiddenRod kept = as_kept(pull, hidden, way, begin);
   double most = 1.0;
   std::optional<Drop> out;
-  for (std::size_t i = 0; i < pull.size(); ++i) {
-    const std::size_t last = last_within(pull, i, at_once, end);
+  for (std::size_t i = begin; i < pull.size(); ++i) {
+    const std::size_t last = last_within(pull, i, way, pull.back().extension);
     for (std::size_t j = i + 1; j <= last; ++j) {
       const double taken = hidden.empty() ? Sample::kNone : taken_in(hidden.front(), hidden[i], kept[j]);
-      if (const double much = opened(pull, pull[i], pull[j], taken); much > most) {
-        most = much;
-        out = Drop{i, j};
-      }
+      const double much = opened(pull, pull[i], pull[j], taken);
+      if (!(much > most)) continue;
+      const Drop fall = fall_around(pull, i, j, way);
+      if (fall.force(pull) < kFallen * std::abs(pull[fall.from].force)) continue;
+      most = much;
+      out = fall;
     }
   }
-  if (!out) return std::nullopt;
-  const std::size_t left = last_within(pull, out->to, at_once, end);
-  out->to = static_cast<std::size_t>(std::min_element(point(out->to), point(left + 1), less) - pull.begin());
-  out->from = static_cast<std::size_t>(std::max_element(point(out->from), point(out->to), less) - pull.begin());
   return out;
 }
 
@@ -261,6 +279,8 @@ std::string why_no_plateau(const Pull& borne, const CurveReadings& found) {
   if (!level) return "the pull has too few readings";
   if (std::string few = why_too_few(borne, found.slides_to); !few.empty()) return few;
   if (found.jumped) return "a knot jumped open";
+  if (!(level->force > 0.0))
+    return text("the rod is not pulled: from 0.3 to 0.8 of the way the mean of the load is %.2g N", level->force);
   const std::string interrupted = why_interrupted(borne, found.slides_to, level->force);
   return interrupted.empty() ? why_not_level(*level, found.rises_at.has_value()) : interrupted;
 }

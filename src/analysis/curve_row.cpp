@@ -15,11 +15,11 @@ constexpr double kSameZero = 1e-9;  // far above rounding, far below what anybod
 PullPoint point_of(const CurveRow& row, ExtensionOf extension) {
   const double s = extension == ExtensionOf::kMachine ? row.extension : own_extension(row);
   PullPoint point{row.time, s, row.knot_distance, row.load};
-  point.borne = row.load_lower;
+  point.borne = row.load_lower + row.balance_offset;
   return point;
 }
 
-/// From where the pull began. Nothing balances the force on the lower grip.
+/// From where the pull began. What the rod bears there does not depend on a balance.
 PullPoint origin_of(const CurveRow& before, const CurveRow& first, ExtensionOf extension) {
   PullPoint origin = point_of(before, extension);
   if (balanced_between(before, first)) origin.extension = origin.force = 0.0;
@@ -61,7 +61,8 @@ CurveRow curve_row(const Sample& sample) {
   row.load = sample.load;
   row.knot_distance = sample.knot_distance;
   row.end_to_end = sample.end_to_end;
-  row.load_lower = sample.force_lower;
+  row.load_lower = sample.force_lower - sample.balance_offset;
+  row.balance_offset = sample.balance_offset;
   row.phase = sample.phase;
   row.excess_length = sample.excess_length;
   return row;

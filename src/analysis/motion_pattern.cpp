@@ -19,8 +19,8 @@ constexpr double kTurnover = -1.0;      // de/ds between sliding (-2) and stretc
 constexpr double kLeastSliding = 0.15;  // of all extension
 constexpr double kLevel = 2.0;          // times the mean load of the way on which the knots slid
 constexpr double kGone = 0.05;          // of the largest load
-constexpr double kOpened = 1.5;         // times the tied excess length
 constexpr double kVanished = 0.25;      // of the tied excess length
+constexpr double kOpened = 0.05;        // of e, as where a knot jumps open while it is pulled
 
 /// Least-squares line y(s) through the samples from `begin` to `end`, each weighted by the extension it stands for.
 struct Line {
@@ -87,8 +87,9 @@ void MotionPatternTracker::add(const Sample& sample) {
     add_tied(sample);
 }
 
-/// The end of tying sets the mark; a release that lets the knot open does not move it.
+/// The end of tying sets the mark of the excess length; a release that lets the knot open does not move it.
 void MotionPatternTracker::add_tied(const Sample& sample) {
+  tied_distance_ = sample.knot_distance;
   for (std::size_t k = 0; k < sample.excess_length.size(); ++k) {
     const double excess = sample.excess_length[k];
     double& tied = excess_[k].tied;
@@ -104,24 +105,30 @@ void MotionPatternTracker::add_pulled(const Sample& sample) {
     Excess& knot = excess_[k];
     if (!std::isfinite(knot.tied)) knot.tied = excess;
     knot.last = excess;
-    if (!(knot.largest > excess)) knot.largest = excess;
   }
   if (!pull_.empty() && sample.extension <= pull_.back().extension) return;
   const double before = pull_.empty() ? sample.extension : pull_.back().extension;
   pull_.push_back({sample.time, sample.extension, sample.knot_distance, sample.force_upper, sample.normal_force});
+  hidden_.push_back(sample.excess_length);
   if (pull_.size() == 1) {
     window_ = kWindow * sample.knot_distance;
     slope_ = Sample::kNone;
   }
 
   peak_ = std::max(peak_, sample.force_upper);
-  if (sample.force_upper >= kGone * peak_ || broken_) {
-    gone_since_.reset();
-  } else if (!gone_since_) {
-    gone_since_ = sample.time;
-    gone_extension_ = sample.extension;
-  }
   follow_slope(sample.extension, before);
+  follow_jumps();
+}
+
+/// Looks for a jump among the last points. It is one for good once the rod that the knot took in has stayed for as long
+/// as a jump asks for.
+void MotionPatternTracker::follow_jumps() {
+  constexpr double kWhole = 3.0;  // before, in and behind a jump
+  const double way = jump_way(pull_), here = pull_.back().extension;
+  if (jumped_ || !(way > 0.0)) return;
+  while (here - pull_[jump_begin_].extension > kWhole * way) ++jump_begin_;
+  const std::optional<Drop> found = jump(pull_, hidden_, jump_begin_);
+  jumped_ = found && here - pull_[found->to].extension > way;
 }
 
 /// de/ds over the last window, and how far and where the knots last slid.
@@ -145,26 +152,22 @@ void MotionPatternTracker::follow_slope(double extension, double before) {
   }
 }
 
-bool MotionPatternTracker::opened() const {
-  return std::any_of(excess_.begin(), excess_.end(),
-                     [](const Excess& knot) { return knot.largest > kOpened * knot.tied; });
-}
-
 bool MotionPatternTracker::vanished() const {
   return std::any_of(excess_.begin(), excess_.end(),
                      [](const Excess& knot) { return knot.last < kVanished * knot.tied; });
 }
 
-bool MotionPatternTracker::load_gone() const {
-  if (!gone_since_ || pull_.back().extension - gone_extension_ < window_) return false;
-  const bool known =
-      std::any_of(excess_.begin(), excess_.end(), [](const Excess& knot) { return std::isfinite(knot.largest); });
-  return !known || opened();
-}
-
 bool MotionPatternTracker::knot_lost() const {
   return type_lost_ && (crossed_ || pull_.empty() || borne_ < kGone * peak_ || vanished());
 }
+
+std::optional<double> MotionPatternTracker::opened_when_mounted() const {
+  if (pull_.empty()) return {};
+  const double nearer = tied_distance_ - pull_.front().knot_distance;
+  return nearer > kOpened * tied_distance_ ? std::optional<double>(nearer) : std::nullopt;
+}
+
+bool MotionPatternTracker::untangles() const { return knot_lost() || jumped_ || opened_when_mounted(); }
 
 bool MotionPatternTracker::slid() const {
   const PullPoint &start = pull_.front(), &first = point_at(first_sliding_), &last = point_at(last_sliding_);
@@ -188,13 +191,13 @@ double MotionPatternTracker::mean_between(const PullPoint& first, const PullPoin
 }
 
 MotionPattern MotionPatternTracker::pattern() const {
-  if (knot_lost() || load_gone()) return MotionPattern::kUntangling;
+  if (untangles()) return MotionPattern::kUntangling;
   if (pull_.empty() || !std::isfinite(slope_)) return MotionPattern::kNone;
   return slid() ? MotionPattern::kSliding : MotionPattern::kStretching;
 }
 
 MotionPattern MotionPatternTracker::current() const {
-  if (knot_lost() || load_gone()) return MotionPattern::kUntangling;
+  if (untangles()) return MotionPattern::kUntangling;
   if (pull_.empty() || !std::isfinite(slope_)) return MotionPattern::kNone;
   return slope_ < kTurnover ? MotionPattern::kSliding : MotionPattern::kStretching;
 }
@@ -204,19 +207,12 @@ std::optional<double> MotionPatternTracker::lock_extension() const {
   return last_sliding_;
 }
 
-std::optional<double> MotionPatternTracker::untangled_at() const {
-  if (knot_lost()) return type_lost_;
-  if (load_gone()) return gone_since_;
-  return {};
-}
+std::optional<double> MotionPatternTracker::untangled_at() const { return knot_lost() ? type_lost_ : std::nullopt; }
 
 double MotionPatternTracker::confidence() const {
   const MotionPattern found = pattern();
   if (found == MotionPattern::kNone) return 0.0;
-  if (found == MotionPattern::kUntangling) {
-    if (knot_lost()) return 1.0;
-    return opened() ? 0.75 : 0.5;
-  }
+  if (found == MotionPattern::kUntangling) return knot_lost() ? 1.0 : 0.75;
   const bool sliding = found == MotionPattern::kSliding;
   const Range whole = {pull_.front().extension, pull_.back().extension};
   const Range part = sliding ? plateau_range(pull_, lock_extension().value_or(whole.high)) : whole;

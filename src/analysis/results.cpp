@@ -6,6 +6,7 @@
 #include "knot_utm/analysis/curve_row.hpp"
 #include "knot_utm/analysis/cycles.hpp"
 #include "knot_utm/analysis/pull_readings.hpp"
+#include "knot_utm/analysis/snap.hpp"
 
 namespace knot_utm {
 namespace {
@@ -23,9 +24,11 @@ double fastest_node_while_sliding(const std::vector<Sample>& samples, std::optio
 }
 
 std::string failure_mode(const Results& results) {
-  if (results.untangled_at || results.motion_pattern == MotionPattern::kUntangling) return "untangling";
+  if (results.untangled_at) return "untangling";
   if (results.ended_by != EndedBy::kBreak) return "";
   switch (results.motion_pattern) {
+    case MotionPattern::kUntangling:
+      return "untangling then fracture";
     case MotionPattern::kSliding:
       return "sliding then fracture";
     case MotionPattern::kStretching:
@@ -156,23 +159,23 @@ void drop_plateau(const std::string& why, CurveReadings& curve) {
 
 /// A level force is a sliding force only where knots slide.
 void drop_what_does_not_slide(MotionPattern pattern, CurveReadings& curve) {
-  if (pattern == MotionPattern::kUntangling) {
-    drop_plateau("the knot came undone", curve);  // what is left without a knot is no sliding force
-  } else if (curve.plateau_force && pattern == MotionPattern::kStretching) {
+  if (curve.plateau_force && pattern == MotionPattern::kStretching) {
     drop_plateau("the load is level, but the knots do not slide: they stretch", curve);
   } else if (curve.plateau_force && pattern == MotionPattern::kNone) {
     drop_plateau("the load is level, but only two knots that slide towards each other have a plateau", curve);
   }
 }
 
-/// What opened before the pull slides and locks as another knot, looser than the one that was tied.
+/// What is pulled without a knot, or with one that opened before, has no sliding force of the knot that was tied.
 void drop_what_an_opened_knot_has_none_of(Results& results) {
-  if (results.curve.plateau_force) drop_plateau("a knot opened as the loop was mounted", results.curve);
-  results.lock_extension.reset();
+  if (results.knot_type == KnotType::kCrossed)
+    drop_plateau("the rod ran through itself", results.curve);
+  else if (results.untangled_at)
+    drop_plateau("the knot came undone", results.curve);
+  else if (results.opened_when_mounted)
+    drop_plateau("a knot opened as the loop was mounted", results.curve);
   results.curve.locked_stiffness.reset();
 }
-
-constexpr double kOpened = 0.05;  // of e, as where a knot jumps open while it is pulled
 
 // A tail that brushes along a roller bears less [of the true force].
 constexpr double kTouch = 0.05;
@@ -182,12 +185,17 @@ void keep_first(const Sample& sample, double force, double least, std::optional<
   if (!first && force > least) first = sample.extension;
 }
 
+/// What the loads alone tell.
+void read_loads(const std::vector<Sample>& readings, Results& results) {
+  const std::vector<CurveRow> rows = rows_of(readings);
+  results.curve = curve_readings(pull_of(rows), hidden_rod_of(rows));
+}
+
+/// What loads and the motion of the knots tell together.
 void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>& at_break, Results& results) {
   const std::vector<CurveRow> rows = rows_of(readings);
   const Pull pull = pull_of(rows), true_pull = true_pull_of(rows, readings);
-  results.curve = curve_readings(pull, hidden_rod_of(rows));
   if (const std::optional<Drop>& jumped = results.curve.jumped) {
-    results.lock_extension.reset();  // what comes after it is another knot
     results.true_jump_force = true_pull[jumped->from].force;
     results.true_force_after_jump = true_pull[jumped->to].force;
   }
@@ -197,11 +205,9 @@ void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>
     results.true_peak_force = std::max(results.true_peak_force, std::optional<double>(at_break->force_upper));
   }
   const bool locked = results.lock_extension || results.curve.rises_at;
-  if (results.motion_pattern == MotionPattern::kUntangling ||
-      (results.motion_pattern == MotionPattern::kSliding && !locked))
-    results.curve.locked_stiffness.reset();
+  if (results.motion_pattern == MotionPattern::kSliding && !locked) results.curve.locked_stiffness.reset();
   drop_what_does_not_slide(results.motion_pattern, results.curve);
-  if (results.opened_when_mounted) drop_what_an_opened_knot_has_none_of(results);
+  if (results.motion_pattern == MotionPattern::kUntangling) drop_what_an_opened_knot_has_none_of(results);
   if (!results.curve.plateau_force) return;
   const double end = results.curve.slides_to;
   results.true_plateau_force = plateau(true_pull, end)->force;
@@ -239,6 +245,7 @@ class Course {
     for (const Sample& sample : samples) add(sample);
   }
 
+  MotionPatternTracker& motion() { return motion_; }
   const MotionPatternTracker& motion() const { return motion_; }
   const std::optional<Sample>& at_break() const { return at_break_; }
   const Sample* before_pull() const { return before_pull_; }
@@ -322,7 +329,9 @@ class Course {
   const Sample* tied_ = nullptr;
 };
 
-void read_motion(const std::vector<Sample>& samples, const MotionPatternTracker& motion, Results& results) {
+void read_motion(const std::vector<Sample>& samples, MotionPatternTracker& motion, Results& results) {
+  motion.set_jumped(results.curve.jumped.has_value());
+  results.opened_when_mounted = motion.opened_when_mounted();
   results.motion_pattern = motion.pattern();
   results.motion_pattern_confidence = motion.confidence();
   results.lock_extension = motion.lock_extension();
@@ -330,6 +339,14 @@ void read_motion(const std::vector<Sample>& samples, const MotionPatternTracker&
   results.untangled_at = motion.untangled_at();
   results.rate = rate_shares(samples, results.lock_extension, results.untangled_at);
   results.failure_mode = failure_mode(results);
+}
+
+void read_snap(const std::vector<Sample>& samples, Results& results) {
+  if (std::isfinite(samples.back().knot_distance)) return;  // knots jump open, and do not snap
+  const std::optional<Snap> found = snap(samples);
+  if (!found) return;
+  results.snap_extension = found->extension;
+  results.snap_drop = found->drop;
 }
 
 void read_end(const Sample& last, Results& results) {
@@ -366,9 +383,6 @@ void read_tied(const Course& course, Results& results) {
   if (!tied) return;
   results.tied_excess_length = tied->excess_length;
   results.tied_knot_distance = known(tied->knot_distance);
-  if (!pull_begin) return;
-  const double nearer = tied->knot_distance - pull_begin->knot_distance;
-  if (nearer > kOpened * tied->knot_distance) results.opened_when_mounted = nearer;
 }
 
 void read_whole_pull(const Course& course, Results& results) {
@@ -388,10 +402,12 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
   Results results;
   results.ended_by = ended_by;
   if (samples.empty()) return results;
-  const Course course(samples, results);
+  Course course(samples, results);
   read_end(samples.back(), results);
+  read_loads(readings, results);
   read_motion(samples, course.motion(), results);
   read_tied(course, results);
+  read_snap(samples, results);
   read_curve(readings, course.at_break(), results);
   course.read_balances();
   results.at_start = forces_at_start(samples);

@@ -29,7 +29,12 @@ constexpr std::array<Column, 6> kColumns{{{"time", sample_unit("time"), &CurveRo
                                           {"load_lower", sample_unit("force_lower"), &CurveRow::load_lower}}};
 constexpr const char* kPhase = "phase";
 constexpr const char* kPhaseUnit = sample_unit(kPhase);
+constexpr Column kBalance = {"balance_offset", sample_unit("balance_offset"), &CurveRow::balance_offset};
 constexpr Column kCorrected = {"corrected_extension", sample_unit("extension"), &CurveRow::corrected_extension};
+
+std::vector<Column> behind_the_phase(bool compliant_frame) {
+  return compliant_frame ? std::vector<Column>{kBalance, kCorrected} : std::vector<Column>{kBalance};
+}
 
 void open(std::ofstream& out, const std::string& file) {
   out.open(file, std::ios::binary | std::ios::trunc);
@@ -75,9 +80,9 @@ CurveWriter::CurveWriter(const std::string& file, bool compliant_frame)
   }
   names += kPhase;
   units += kPhaseUnit;
-  if (compliant_frame_) {
-    names += std::string(",") + kCorrected.name;
-    units += std::string(",") + kCorrected.unit;
+  for (const Column& column : behind_the_phase(compliant_frame)) {
+    names += std::string(",") + column.name;
+    units += std::string(",") + column.unit;
   }
   out_ << names << '\n' << units << '\n' << std::flush;
 }
@@ -87,7 +92,7 @@ void CurveWriter::write(const CurveRow& row) {
   // Adding zero turns -0 into 0.
   for (const Column& column : kColumns) line += format_number(row.*column.value + 0.0) + ',';
   line += phase_name(row.phase);
-  if (compliant_frame_) line += ',' + format_number(row.corrected_extension + 0.0);
+  for (const Column& column : behind_the_phase(compliant_frame_)) line += ',' + format_number(row.*column.value + 0.0);
   out_ << line << '\n' << std::flush;
   if (!out_) throw CannotWrite(file_);
   ++rows_;
@@ -111,7 +116,8 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
   const std::vector<std::string_view> names = cells(head[0]);
   const std::vector<std::string_view> units = cells(head[1]);
   std::vector<Column> columns(kColumns.begin(), kColumns.end());
-  if (std::find(names.begin(), names.end(), kCorrected.name) != names.end()) columns.push_back(kCorrected);
+  for (const Column& column : {kBalance, kCorrected})
+    if (std::find(names.begin(), names.end(), column.name) != names.end()) columns.push_back(column);
   std::vector<std::size_t> places;
   for (const Column& column : columns) places.push_back(place(file, names, units, column.name, column.unit));
   const std::size_t phase_place = place(file, names, units, kPhase, kPhaseUnit);

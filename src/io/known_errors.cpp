@@ -27,6 +27,18 @@ double noise_of_stiffness(const Results& results, double noise) {
   return std::abs(1.96 * 0.67 * std::sqrt(36.0 / part->points) * noise / (part->width / 3.0) / part->stiffness);
 }
 
+/// Of the largest load. Where the rod parts in a knot, friction in the knot decides at which load, as it decides the
+/// plateau; so it does where knots slide to the end. Behind a lock the load depends on where the lock is, and how steep
+/// it rises.
+std::optional<double> error_of_peak(const Results& results, const ReadingErrors& errors) {
+  if (!results.true_peak_force || results.motion_pattern == MotionPattern::kUntangling) return {};
+  if (results.break_place == BreakPlace::kKnot || slid_to_the_end(results)) return errors.plateau_force;
+  if (!errors.locked_stiffness || !results.curve.locked_stiffness) return {};
+  if (results.break_extension || !results.lock_extension || !errors.lock_extension) return errors.locked_stiffness;
+  const double off = *errors.lock_extension * *results.lock_extension * *results.curve.locked_stiffness;
+  return *errors.locked_stiffness + std::abs(off / *results.true_peak_force);
+}
+
 }  // namespace
 
 bool slid_to_the_end(const Results& results) {
@@ -44,6 +56,7 @@ ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
   const double speed = results.rate.drag.value_or(0.0) + results.rate.inertia.value_or(0.0);
   for (std::optional<double>* error : {&out.plateau_force, &out.locked_stiffness})
     if (*error) **error += speed;
+  out.peak_force = error_of_peak(results, out);
   if (out.locked_stiffness) *out.locked_stiffness += noise_of_stiffness(results, facts.load_cell.noise);
   return out;
 }

@@ -194,7 +194,7 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
 
 /// Whether a value of this key may be refused only as the rod is laid, which does not take long.
 bool is_soon_laid(const std::string& key, const SpecimenOptions& specimen) {
-  constexpr double kFewEdges = 2000.0;
+  constexpr double kFewEdges = 8000.0;
   const double length = std::max({specimen.length, specimen.end_to_end, specimen.knot_distance, specimen.tail});
   const bool may_be = key.rfind("specimen.", 0) == 0 || key == "machine.roller_diameter";
   return may_be && length < kFewEdges * specimen.edge_length;

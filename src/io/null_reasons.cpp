@@ -16,6 +16,8 @@ std::string of_the_pull(const ResultSource& source, const std::string& reason) {
 }
 
 std::string why_they_did_not_lock(const Results& results) {
+  if (results.knot_type == KnotType::kCrossed) return "the rod ran through itself";
+  if (results.untangled_at) return "the knot came undone";
   if (results.curve.jump_force)
     return "a knot jumped open at " + short_number(*results.curve.jump_force) +
            " N, and the load-extension curve after it is that of another knot";
@@ -26,7 +28,6 @@ std::string why_they_did_not_lock(const Results& results) {
     case MotionPattern::kStretching:
       return "the motion pattern is stretching";
     case MotionPattern::kUntangling:
-      return "the knot came undone";
     case MotionPattern::kNone:
       break;
   }
@@ -45,10 +46,12 @@ std::string why_the_load_has_no_stiffness(const Results& results) {
 /// `no_reading`: why there is no reading that could be off; empty: there is one.
 std::string why_no_error(const ResultSource& source, const std::string& no_reading) {
   const Results& results = source.results;
-  if (!why_not_at_rest(results, source.facts).empty()) return "the specimen was not at rest as its pull began";
-  if (results.curve.jump_force) return "a knot jumped open, which no convergence study covers";
-  if (results.opened_when_mounted) return "a knot opened as the loop was mounted, which no convergence study covers";
-  return no_reading.empty() ? "no convergence study covers this case" : no_reading;
+  if (!why_not_at_rest(results, source.facts).empty())
+    return "unknown: the specimen was not at rest as its pull began";
+  if (results.curve.jump_force) return "unknown: a knot jumped open, which no convergence study covers";
+  if (results.opened_when_mounted)
+    return "unknown: a knot opened as the loop was mounted, which no convergence study covers";
+  return no_reading.empty() ? "unknown: no convergence study covers this case" : no_reading;
 }
 
 }  // namespace
@@ -100,6 +103,13 @@ std::string why_no_stiffness_error(const ResultSource& source) {
   const std::string no_reading = why_no_stiffness(source);
   const bool slides = no_reading.empty() && slid_to_the_end(source.results);
   return why_no_error(source, slides ? why_they_did_not_lock(source.results) : no_reading);
+}
+
+std::string why_no_peak_error(const ResultSource& source) { return why_no_error(source, why_not_pulled(source)); }
+
+std::string why_no_snap(const ResultSource& source) {
+  return of_the_pull(source,
+                     source.results.tied_knot_distance ? "a loop of two knots has jump_force" : "nothing snapped");
 }
 
 std::string why_no_chord(const ResultSource& source) {

@@ -60,6 +60,7 @@ Number fraction_of(const Number& reading, const Number& fraction) {
 Number plateau_force_error(const Source& of) {
   return fraction_of(of.results.true_plateau_force, of.errors.plateau_force);
 }
+Number peak_force_error(const Source& of) { return fraction_of(of.results.true_peak_force, of.errors.peak_force); }
 Number lock_extension_error(const Source& of) {
   return fraction_of(of.results.lock_extension, of.errors.lock_extension);
 }
@@ -223,6 +224,9 @@ constexpr ResultKey kKeys[] = {
     {"jump_force", "N", kCurve, "Force at which a knot jumped open", curve<&C::jump_force>, kNoJump},
     {"jump_extension", "m", kCurve, "Extension at which it jumped open", curve<&C::jump_extension>, kNoJump},
     {"force_after_jump", "N", kCurve, "Force that was left when it had jumped", curve<&C::force_after_jump>, kNoJump},
+    {"snap_extension", "m", kCurve, "Extension at which the knot snapped into another shape",
+     result<&R::snap_extension>, why_no_snap},
+    {"snap_drop", "N", kCurve, "Force by which the load fell as it snapped", result<&R::snap_drop>, why_no_snap},
 
     // Where the knots lock, and what the loop is like then.
     {"first_contact_extension", "m", kCurve, "Extension at which the two knots first touch each other",
@@ -238,6 +242,8 @@ constexpr ResultKey kKeys[] = {
     {"locked_stiffness_error", "N/m", kBeside, "Estimated numerical error of the locked stiffness",
      locked_stiffness_error, why_no_stiffness_error},
     {"peak_force", "N", kCurve, "Peak force", curve<&C::peak_force>, why_not_pulled},
+    {"peak_force_error", "N", kBeside, "Estimated numerical error of the peak force", peak_force_error,
+     why_no_peak_error},
 
     // Without what the balance has set to zero.
     {"true_plateau_force", "N", kBeside, "Plateau force, the true one", result<&R::true_plateau_force>, why_no_plateau},

@@ -79,6 +79,10 @@ std::vector<std::string> events(const Results& results) {
     all.push_back("a knot jumped open at an extension of " + short_number(*curve.jump_extension) +
                   " m: the load went from " + short_number(*curve.jump_force) + " N to " +
                   short_number(*curve.force_after_jump) + " N, and later readings belong to a looser knot");
+  if (results.snap_extension)
+    all.push_back("the specimen snapped into another shape at an extension of " +
+                  short_number(*results.snap_extension) + " m, where the load fell by " +
+                  short_number(*results.snap_drop) + " N at once");
   if (slid_to_the_end(results) && results.true_plateau_force)
     all.push_back(
         "the pull ended while the knots still slid. The plateau force is the mean of what was pulled; a longer pull "

@@ -68,7 +68,9 @@ std::vector<std::string> speed_warnings(const RateShares& rate, double inertia) 
 }
 
 std::vector<std::string> snap_warnings(const Results& results, double pull_speed) {
-  if (results.curve.jump_force || !(pull_speed > 0.0) || !(results.fastest_node > kSnaps * pull_speed)) return {};
+  if (results.curve.jump_force || results.snap_extension || !(pull_speed > 0.0) ||
+      !(results.fastest_node > kSnaps * pull_speed))
+    return {};
   return {"something let go at once before the knots locked: a node moved at " + short_number(results.fastest_node) +
           " m/s, " + short_number(results.fastest_node / pull_speed) +
           " times as fast as the pull; how far the load falls then depends on inertia and on the frame"};

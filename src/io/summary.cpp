@@ -114,11 +114,14 @@ class ResultFile {
 
   std::string word(const std::string& key) const { return word_in(root_[key]); }
   std::optional<double> number(const std::string& key) const { return parse_number(word(key)); }
-  std::size_t count(const std::string& key) const { return root_[key].IsSequence() ? root_[key].size() : 0; }
+  std::size_t count(const std::string& key) const {
+    const YAML::Node list = root_[key];
+    return list.IsDefined() && list.IsSequence() ? list.size() : 0;
+  }
   /// One of the statistics of a reading.
   std::optional<double> statistic(const std::string& key, const char* which) const {
     const YAML::Node of = root_[key];
-    return of.IsMap() ? parse_number(word_in(of[which])) : std::nullopt;
+    return of.IsDefined() && of.IsMap() ? parse_number(word_in(of[which])) : std::nullopt;
   }
 
  private:

@@ -149,7 +149,8 @@ std::string condition_of(const Sample& sample, const std::string& motion_pattern
   if (sample.status == BenchStatus::kBroken) return "broke";
   if (sample.status == BenchStatus::kFailed) return "the physics gave up";
   if (sample.knot_type == KnotType::kCrossed) return "ran through itself";
-  return motion_pattern == "untangling" ? "came undone" : "running";
+  if (motion_pattern != "untangling") return "running";
+  return sample.knot_type == KnotType::kKept ? "a knot opened" : "came undone";
 }
 
 void BagPanel::add(const Sample& reading, bool slides) {

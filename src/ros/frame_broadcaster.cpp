@@ -1,10 +1,21 @@
 #include "knot_utm/ros/frame_broadcaster.hpp"
 
 #include <algorithm>
+#include <cstdint>
 
 namespace knot_utm {
+namespace {
+
+constexpr char kFrames[] = "/tf";  // where tf2 listens
+constexpr std::uint32_t kQueue = 100;
+
+}  // namespace
 
 FrameBroadcaster::FrameBroadcaster(const Vec3& lower_grip, double end_to_end) : frames_(lower_grip, end_to_end) {
+  moving_ = ros::NodeHandle().advertise<tf2_msgs::TFMessage>(kFrames, kQueue,
+                                                             [this](const ros::SingleSubscriberPublisher& late) {
+                                                               if (!last_.transforms.empty()) late.publish(last_);
+                                                             });
   fixed_.sendTransform(frames_.fixed(ros::TIME_MIN));
 }
 
@@ -17,14 +28,17 @@ void FrameBroadcaster::publish(const ros::Time& stamp, double displacement, cons
                                const Looks* looks) {
   const ros::Time valid = std::max(stamp, ros::TIME_MIN);
   if (valid <= published_ && looks == nullptr) return;
-  Transforms transforms;
-  if (valid > published_) transforms = frames_.moving(valid, displacement, upper_grip);
+  tf2_msgs::TFMessage message;
+  if (valid > published_) {
+    message.transforms = frames_.moving(valid, displacement, upper_grip);
+    last_ = message;
+  }
   published_ = std::max(valid, published_);
   if (looks != nullptr) {
     for (const geometry_msgs::TransformStamped& look : MachineFrames::of_looks(published_, *looks))
-      transforms.push_back(look);
+      message.transforms.push_back(look);
   }
-  moving_.sendTransform(transforms);
+  moving_.publish(message);
 }
 
 }  // namespace knot_utm

@@ -16,7 +16,10 @@ KnotType KnotWatch::follow(const Points& points) {
   if (for_good) return type_;
   if ((points - last_).colwise().squaredNorm().maxCoeff() < radius_ * radius_) return type_;
   try {
-    type_ = read(points).same_knot(start_) ? KnotType::kKept : KnotType::kChanged;
+    const LoopTopology::Reading now = read(points);
+    // Without a knot there is none to be lost: how the ends are joined may still make one of an arch or a helix.
+    const bool unknotted = !loop_ && start_.polynomial == KnotPolynomial{1};
+    type_ = unknotted || now.same_knot(start_) ? KnotType::kKept : KnotType::kChanged;
   } catch (const std::runtime_error&) {
     type_ = KnotType::kCrossed;
   }

@@ -112,7 +112,7 @@ void tell_end(const HeadlessOutcome& outcome, const Method& method, const std::s
   if (!quiet) tell_summary(outcome.folder, "result.yaml", latest);
   if (*outcome.ended == EndedBy::kUntangled)
     std::fprintf(stderr, "%s: the knot came undone: %s\n", kTool, what_keeps_a_knot(method).c_str());
-  else if (results.untangled_at)
+  else if (results.untangled_at && results.knot_type != KnotType::kCrossed)
     std::fprintf(stderr, "%s: the knot came undone at %.1f s, while it was pulled: %s\n", kTool, *results.untangled_at,
                  what_keeps_a_knot(method).c_str());
 }

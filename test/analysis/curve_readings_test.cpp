@@ -163,10 +163,11 @@ TEST(CurveReadings, AKnotThatTakesInRodAtOnceJumpedOpen) {
     }
     return curve_readings(out, hidden);
   };
-  EXPECT_TRUE(slips(0.0225, 0.95).jump_force) << "28 % of what it held";
-  EXPECT_TRUE(slips(0.0225, 1.1).jump_force) << "loose coils that hardly bear anything";
+  EXPECT_TRUE(slips(0.0225, 0.88).jump_force) << "28 % of what it held";
+  EXPECT_FALSE(slips(0.0225, 0.95).jump_force) << "the load hardly falls";
+  EXPECT_FALSE(slips(0.0225, 1.1).jump_force) << "the load rises";
   EXPECT_FALSE(slips(0.0225, 2.0).jump_force) << "it locks";
-  EXPECT_FALSE(slips(0.0048, 0.95).jump_force) << "6 %";
+  EXPECT_FALSE(slips(0.0048, 0.5).jump_force) << "6 %";
   EXPECT_FALSE(slips(0.0, 0.1).jump_force);
   EXPECT_TRUE(slips(Sample::kNone, 0.4).jump_force);
   EXPECT_FALSE(slips(Sample::kNone, 0.95).jump_force)
@@ -176,9 +177,10 @@ TEST(CurveReadings, AKnotThatTakesInRodAtOnceJumpedOpen) {
 /// The knot's rod is counted to the tail's end, which comes nearer and goes away again.
 TEST(CurveReadings, ATailThatWhipsPastIsNoJump) {
   const auto whips = [](double until) {
-    const Pull out = with_knots(pull(sliding), 0.0);
+    Pull out = with_knots(pull(sliding), 0.0);
     HiddenRod hidden;
-    for (const PullPoint& point : out) {
+    for (PullPoint& point : out) {
+      if (point.extension > 0.03) point.force *= 0.5;
       const bool near = point.extension > 0.03 && point.extension < until;
       hidden.push_back({0.08, 0.08 + (near ? 0.0225 : 0.0)});
     }

@@ -40,26 +40,35 @@ class Tutorial(unittest.TestCase):
             for name in ("DISPLAY", "WAYLAND_DISPLAY", "XDG_CURRENT_DESKTOP"):
                 environment.pop(name, None)
             with_build = f'git() {{ {CLONE} && ln -s "{ROOT}/build" knot_utm/build; }}'
-            done = subprocess.run(["/bin/bash", "-ec", "\n".join([with_build] + commands())], cwd=home, env=environment,
-                                  stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                                  text=True, check=False)
-            self.assertEqual(done.returncode, 0, done.stdout)
-            self.is_what_it_says(os.path.join(home, "knot_utm"), opened)
+            clone = os.path.join(home, "knot_utm")
+            self.follow([with_build] + commands(), home, environment)
+            self.is_what_it_says(clone, opened, "mine")
+            # Once more in the same clone, with a rod that is another one: what follows is read of the new run.
+            again = [commands()[1].replace("friction_coefficient: 0.6 ", "friction_coefficient: 0.7 ")] + commands()[2:]
+            self.assertNotEqual(again[0], commands()[1])
+            self.follow(again, clone, environment)
+            self.is_what_it_says(clone, opened, "mine-2")
 
-    def is_what_it_says(self, clone, opened):
+    def follow(self, lines, folder, environment):
+        done = subprocess.run(["/bin/bash", "-ec", "\n".join(lines)], cwd=folder, env=environment, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
+        self.assertEqual(done.returncode, 0, done.stdout)
+
+    def is_what_it_says(self, clone, opened, run):
         with open(opened, encoding="utf-8") as name:
             page = os.path.join(clone, name.read().replace("file://", ""))
         self.assertTrue(os.path.samefile(page, os.path.join(clone, "out/beside/report.html")))
-        for folder in ("mine", "beside"):
+        for folder in (run, "beside"):
             for ending in ("html", "pdf"):
                 self.assertGreater(os.path.getsize(os.path.join(clone, "out", folder, f"report.{ending}")), 10000)
-        with open(os.path.join(clone, "out/mine/result.yaml"), encoding="utf-8") as text:
+        with open(os.path.join(clone, "out", run, "result.yaml"), encoding="utf-8") as text:
             result = yaml.safe_load(text)
         self.assertEqual((result["warnings"], result["ended_by"]), ([], "load"))
         with open(os.path.join(clone, "out/beside/comparison.yaml"), encoding="utf-8") as text:
             comparison = yaml.safe_load(text)
         for key in ("peak_force", "plateau_force", "lock_extension_by_load", "locked_stiffness"):
             self.assertIsNotNone(comparison[key]["difference"], key)
+        self.assertEqual(comparison["peak_force"]["b"], result["peak_force"], "the comparison is of this run")
 
 
 class Sample(unittest.TestCase):

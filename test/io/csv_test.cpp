@@ -44,13 +44,14 @@ TEST_F(Csv, CurveIsExactlyAsPromised) {
   sample.load = 2.5;
   sample.end_to_end = 0.26;
   sample.force_lower = 2.0;
+  sample.balance_offset = 0.25;
   sample.phase = Phase::kPull;
   writer.write(sample);
   // Read while the writer is still open: a killed run keeps its rows.
   EXPECT_EQ(text(),
-            "time,extension,load,knot_distance,end_to_end,load_lower,phase\n"
-            "s,m,N,m,m,N,-\n"
-            "0.3333333333333333,0.01,2.5,nan,0.26,2,pull\n");
+            "time,extension,load,knot_distance,end_to_end,load_lower,phase,balance_offset\n"
+            "s,m,N,m,m,N,-,N\n"
+            "0.3333333333333333,0.01,2.5,nan,0.26,1.75,pull,0.25\n");
   EXPECT_EQ(writer.rows(), 1u);
 }
 
@@ -74,6 +75,28 @@ TEST_F(Csv, CurveReadsBackToTheSameBits) {
   EXPECT_EQ(rows[1].phase, Phase::kHold);
 }
 
+/// What judges a curve needs the force that the rod bears: both loads are balanced, by an amount that stands beside
+/// them. Files of earlier versions have a true load_lower, and no such column.
+TEST_F(Csv, TheTrueForceIsTheBalancedOneAndItsOffset) {
+  Sample sample;
+  sample.phase = Phase::kPull;
+  sample.load = 2.0;
+  sample.force_upper = sample.force_lower = 5.0;
+  sample.balance_offset = 3.0;
+  {
+    CurveWriter writer(path_);
+    writer.write(sample);
+  }
+  const Pull pull = pull_of(read_curve(path_));
+  ASSERT_EQ(pull.size(), 1u);
+  EXPECT_EQ(read_curve(path_)[0].load, read_curve(path_)[0].load_lower);
+  EXPECT_EQ(pull[0].force, 2.0);
+  EXPECT_EQ(pull[0].borne, 5.0);
+  std::ofstream(path_) << "time,extension,load,knot_distance,end_to_end,load_lower,phase\ns,m,N,m,m,N,-\n"
+                          "0,0,2,nan,1,5,pull\n";
+  EXPECT_EQ(pull_of(read_curve(path_)).at(0).borne, 5.0);
+}
+
 TEST_F(Csv, OfACompliantFrameTheCorrectedExtensionIsTheLastColumn) {
   Sample sample;
   sample.extension = 0.01;
@@ -82,9 +105,9 @@ TEST_F(Csv, OfACompliantFrameTheCorrectedExtensionIsTheLastColumn) {
   CurveWriter writer(path_, true);
   writer.write(sample);
   EXPECT_EQ(text(),
-            "time,extension,load,knot_distance,end_to_end,load_lower,phase,corrected_extension\n"
-            "s,m,N,m,m,N,-,m\n"
-            "0,0.0125,0,nan,0,0,pull,0.01\n");
+            "time,extension,load,knot_distance,end_to_end,load_lower,phase,balance_offset,corrected_extension\n"
+            "s,m,N,m,m,N,-,N,m\n"
+            "0,0.0125,0,nan,0,0,pull,0,0.01\n");
   const std::vector<CurveRow> rows = read_curve(path_);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].extension, 0.0125);

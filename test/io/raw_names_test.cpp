@@ -116,7 +116,7 @@ TEST(RawNames, NamesOfColumnsAreOfAForm) {
 TEST(RawNames, CompareAndFollowTakeThem) {
   const std::string file = "'" + fixture("own_names.csv") + "'";
   EXPECT_EQ(answer_of(tool("compare", file + " " + file)).code, 2);
-  const Answer answer = answer_of(tool("compare", file + " " + file + " --columns '" + kOwnNames + "'"));
+  const Answer answer = answer_of(tool("compare", file + " " + file + " --yaml --columns '" + kOwnNames + "'"));
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("rms_difference: 0"));
   const Method method =

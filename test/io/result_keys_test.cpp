@@ -51,6 +51,29 @@ TEST(ResultKeys, SayByHowMuchAKnotOpenedAsItWasMounted) {
   EXPECT_THAT(result_yaml(results, RunFacts()), testing::HasSubstr("opened_when_mounted: 0.0125\n"));
 }
 
+/// A load behind a lock depends on where the lock is, one at which a knot breaks on friction; of other kinds nothing is
+/// known, and words say so.
+TEST(ResultKeys, SayHowFarThePeakMayBeOff) {
+  Results results;
+  RunFacts facts;
+  const auto said = [&](const std::string& value) { return testing::HasSubstr("peak_force_error: " + value + "\n"); };
+  EXPECT_THAT(result_yaml(results, facts), said("null  # nothing was pulled"));
+  results.true_peak_force = results.curve.peak_force = 1000.0;
+  EXPECT_THAT(result_yaml(results, facts), said("null  # unknown: no convergence study covers this case"));
+  facts.errors = {0.05, 0.01, 0.02, {}};
+  results.motion_pattern = MotionPattern::kSliding;
+  EXPECT_THAT(result_yaml(results, facts), said("50")) << "it still slides";
+  results.lock_extension = 0.1;
+  results.curve.locked_stiffness = 2e4;
+  EXPECT_THAT(result_yaml(results, facts), said("40"));
+  results.break_extension = 0.15;
+  EXPECT_THAT(result_yaml(results, facts), said("20"));
+  results.break_place = BreakPlace::kKnot;
+  EXPECT_THAT(result_yaml(results, facts), said("50"));
+  results.motion_pattern = MotionPattern::kUntangling;
+  EXPECT_THAT(result_yaml(results, facts), said("null  # unknown: no convergence study covers this case"));
+}
+
 TEST(ResultKeys, SayTheForceOverTheDeadLoadAtTheOtherEnd) {
   Results results;
   RunFacts facts;

@@ -65,12 +65,18 @@ TEST(KnotAdvice, NamesKeysThatHaveAnEffect) {
   EXPECT_EQ(what_keeps_a_knot(method),
             "a higher specimen.preload (now 20 N; auto is 50 N) or a higher material.friction_coefficient (now 0.3) "
             "may keep it");
+  // A tail that is longer than by default is not it; one that is shorter may slip out of its coil.
+  EXPECT_THAT(what_keeps_a_knot(method), Not(HasSubstr("specimen.tail")));
   method.specimen.preload = 60.0;
   EXPECT_THAT(what_keeps_a_knot(method), HasSubstr("(now 60 N)"));
   method.specimen.to_be_tied = false;
   EXPECT_EQ(what_keeps_a_knot(method), "a higher material.friction_coefficient (now 0.3) may keep it");
   method.specimen.knot = knot_named("overhand");
   EXPECT_THAT(what_keeps_a_knot(method), HasSubstr("a larger specimen.end_to_end"));
+  method.specimen.knot = knot_named("multiple_fisherman");
+  method.specimen.turns = 2;
+  method.specimen.tail = 0.02;
+  EXPECT_THAT(what_keeps_a_knot(method), HasSubstr("a longer specimen.tail (now 0.02 m; auto is 0.06 m) or a higher "));
 }
 
 }  // namespace

@@ -151,8 +151,9 @@ class ReadingsTest(unittest.TestCase):
                 (dict(status=BROKEN), None, 'broke'),
                 (dict(status=BROKEN), status(state=ENDED, ended_by='break'), 'broke, ended'),
                 ({}, status(state=ENDED, ended_by='break'), 'broke'),  # the load fell, the rod is whole
-                (dict(motion_pattern='untangling'), None, 'came undone'),
-                (dict(motion_pattern='untangling'), status(state=ENDED, ended_by='travel'), 'came undone, ended by travel'),
+                (dict(motion_pattern='untangling'), None, 'a knot opened'),
+                (dict(motion_pattern='untangling', knot_type=1), None, 'came undone'),
+                (dict(motion_pattern='untangling', knot_type=1), status(state=ENDED, ended_by='travel'), 'came undone, ended by travel'),
                 ({}, status(state=ENDED, ended_by='untangled'), 'came undone'),
                 (dict(knot_type=CROSSED), None, 'ran through itself'),
                 (dict(status=FAILED), status(state=ENDED, ended_by='solver'), 'the physics gave up, ended')):

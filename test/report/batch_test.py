@@ -230,6 +230,17 @@ class PageOfABatch(unittest.TestCase):
         self.assertEqual(row_of(html, "loop_energy")[1:], ["2.50", "0.1", "0.1", "4 %", "2", "J"])
 
 
+    def test_gives_no_spread_of_what_is_constant(self):
+        same = {"mean": 31.000374, "sd": None, "cv": None, "low": None, "high": None, "minimum": 31.00033, "maximum": 31.00042, "n": 2}
+        html = html_of(changed(rods, "statistics.yaml", lambda facts: facts.update(peak_force=same)))
+        self.assertEqual(row_of(html, "peak_force")[1:], ["31", "", "constant", "", "2", "N"])
+        self.assertIn("constant, n = 2", html)
+        column = tables_of(html)[0]
+        place = column[0].index("Largest load N")
+        self.assertEqual([row[place] for row in column if row[0] in ("Mean", "Standard deviation", "Coefficient of variation")],
+                         ["31", "constant", ""])
+
+
 class CertificateOfABatch(unittest.TestCase):
     def test_counts_the_specimens_that_keep_a_limit(self):
         good, bad = Check("deep", ["a"], "1", "at most 2", True), Check("deep", ["a"], "3", "at most 2", False)

@@ -75,6 +75,14 @@ class ABrokenRod(unittest.TestCase):
         self.assertEqual(shapes.pieces(stretched, whole), [slice(0, 10)])
 
 
+    def test_is_shown_parted_at_the_end_also_where_no_shape_was_recorded_behind_the_break(self):
+        nodes = np.zeros((3, 3))
+        series = shapes.Series([0.0, 0.9], lambda i: shapes.Shape([0.0, 0.9][i], nodes, np.ones(2)))
+        final = shapes.Shape(1.1, nodes)
+        found = shapes.shapes_at(series, [0.0, 1.0, 1.1], broke=1.0, final=final)
+        self.assertEqual([one.time for one in found], [0.0, 0.9, 1.1])
+        self.assertEqual([one.time for one in shapes.shapes_at(series, [0.0, 1.1], final=final)], [0.0, 0.9])
+
     def test_has_no_load_behind_its_break(self):
         s = np.minimum(np.linspace(0.0, 0.1, 101), 0.08)
         run = OfValues(a_pull(s, np.where(np.arange(101) <= 80, 100.0 * s, -50.0)), break_extension=0.08, peak_force=8.0)

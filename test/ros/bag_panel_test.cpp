@@ -69,6 +69,8 @@ TEST_F(BagPanelTest, SaysEachReadingWithItsNameAndUnit) {
 
 TEST_F(BagPanelTest, SaysHowTheTestStands) {
   Sample sample = reading(0.1, 480.0);
+  EXPECT_EQ(condition_of(sample, "untangling"), "a knot opened");
+  sample.knot_type = KnotType::kChanged;
   EXPECT_EQ(condition_of(sample, "untangling"), "came undone");
   sample.knot_type = KnotType::kCrossed;
   EXPECT_EQ(condition_of(sample, "sliding"), "ran through itself");

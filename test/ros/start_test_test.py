@@ -116,6 +116,12 @@ class StartTestTest(unittest.TestCase):
         return {link.get('name'): [2.0 * float(c.get('radius')) for c in link.iter('cylinder')]
                 for link in robot.findall('link') if link.get('name').endswith('_grip')}
 
+    def test_0_who_comes_late_sees_where_the_machine_stands(self):
+        self.frames.wait('the first frames', lambda m: True)  # no others come before a test
+        said = subprocess.run(['rostopic', 'echo', '-n', '1', '/tf'], check=True, timeout=LAST_RESORT,
+                              stdout=subprocess.PIPE, universal_newlines=True).stdout
+        self.assertIn('child_frame_id: "upper_grip"', said)
+
     def test_1_another_method_than_the_launched_one(self):
         self.assertEqual(self.rollers(), {'lower_grip': [], 'upper_grip': []})  # clamps
         answer = start_test(method='tighten', material='nylon', preload=60.0, overrides=KNOT)

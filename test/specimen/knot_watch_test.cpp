@@ -41,6 +41,14 @@ TEST(KnotWatch, AnOverhandIsLostOnceItIsStraightAndStaysLost) {
   EXPECT_EQ(watch.follow(start), KnotType::kChanged);
 }
 
+/// An arch, a helix or a hairpin has no knot: whatever its ends are joined to, none comes undone.
+TEST(KnotWatch, ARodWithoutAKnotHasNoneToLose) {
+  const Points knotted = open_overhand().points;
+  KnotWatch watch({}, false, kRadius, straightened(knotted, 0.99));
+  EXPECT_EQ(watch.follow(knotted), KnotType::kKept);
+  EXPECT_EQ(watch.follow(straightened(knotted, 0.99)), KnotType::kKept);
+}
+
 TEST(KnotWatch, ReadsOnlyWhereSomethingHasMoved) {
   const Points start = open_overhand().points;
   KnotWatch watch({}, false, kRadius, start);

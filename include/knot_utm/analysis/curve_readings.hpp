@@ -76,21 +76,24 @@ std::optional<Drop> largest_drop(const Pull& pull, double end);
 /// A knot that jumped open, as the fall of F that goes with it. Empty where no knot jumped open, and where the pull
 /// does not have the readings by which this could be told.
 ///
-/// A knot jumps open if it takes in rod at once. "At once" means within an extension of e_0/40, where e_0 is the first
-/// knot distance; that is a twentieth of e_0/2, the extension by which knots that slide have met. Two criteria are
-/// used:
+/// A knot jumps open if it takes in rod at once and F falls. "At once" means within jump_way(). Two criteria are used:
 ///
-/// - Where the excess lengths are known, a knot must take in, and keep over another e_0/40, at least an eighth of the
-///   excess length that it had when the pull began. F must not grow by half or more meanwhile, as it does at a lock. In
-///   simulations, the knots that jumped open took in 28 to 46 %, and all others at most 8 %.
+/// - Where the excess lengths are known, a knot must take in, and keep over another jump_way(), at least an eighth of
+///   the excess length that it had when the pull began, and F must fall by a tenth or more. Knots of a stretchy loop
+///   take in as much under a load that rises, and have not jumped.
 /// - Where they are not known, F must fall to a half or less, and the knots must come nearer to each other by more than
 ///   sliding explains. Sliding alone brings them nearer by twice the growth of s; the rest must exceed e_0/20. In
 ///   simulations this rest was 6 to 65 % of e_0 for knots that jumped open, and at most 4 % for others, whose knots
 ///   nested into each other. Stretchy strands come nearer by up to 15 % as a knot slips, but F then falls little.
 ///
-/// The result reaches from the largest F of the jump to the smallest F within another e_0/40 after it. No lock is
-/// required, because a load that rises to its breakaway and then falls shows a false lock.
-std::optional<Drop> jump(const Pull& pull, const HiddenRod& hidden = {});
+/// The result reaches from the largest F of the jump to the smallest F within another jump_way() after it. No lock is
+/// required, because a load that rises to its breakaway and then falls shows a false lock. Only points from the index
+/// `begin` on are looked at.
+std::optional<Drop> jump(const Pull& pull, const HiddenRod& hidden = {}, std::size_t begin = 0);
+
+/// The extension within which a knot jumps open: e_0/40, where e_0 is the first knot distance. That is a twentieth of
+/// e_0/2, the extension by which knots that slide have met [m]. NaN where there are no two knots.
+double jump_way(const Pull& pull);
 
 /// The part of F(s) in which the locked knots carry the load. It consists of the peak and of the points before it, from
 /// s = `from` on, back to the first that is below half of the peak. It has at least three points, even if some of them

@@ -16,11 +16,12 @@ struct CurveRow {
   double load = 0.0;                     ///< [N]
   double knot_distance = Sample::kNone;  ///< e [m]; NaN: there are no two knots
   double end_to_end = 0.0;               ///< L [m]; NaN: not known, as in a measured curve
-  double load_lower = Sample::kNone;     ///< force on the lower grip [N]; NaN: not known, as in a measured curve
+  double load_lower = Sample::kNone;     ///< on the lower grip, balanced as `load` is [N]; NaN: not known, as measured
   Phase phase = Phase::kIdle;
   /// s, on a compliant frame [m]; NaN: the frame is rigid, or s is not known
   double corrected_extension = Sample::kNone;
-  PerKnot excess_length{};  ///< of each knot [m]; not a column of curve.csv
+  double balance_offset = 0.0;  ///< by which the true force is larger than both loads [N]
+  PerKnot excess_length{};      ///< of each knot [m]; not a column of curve.csv
 };
 
 CurveRow curve_row(const Sample& sample);
@@ -35,7 +36,7 @@ enum class ExtensionOf { kSpecimen, kMachine };
 /// The pull of a test: the rows of phases that pull (pulls(phase)) whose extension is larger than in all of them
 /// before. The row before the first of them is put in front as the origin, if its extension is smaller. If load and
 /// extension were balanced between the two, the origin is s = 0 and F = 0. The force that the rod bears is taken from
-/// the lower grip, whose reading is never balanced.
+/// the lower grip, whose true force is load_lower + balance_offset.
 Pull pull_of(const std::vector<CurveRow>& rows, ExtensionOf extension = ExtensionOf::kSpecimen);
 /// The excess lengths of the knots at the points of that pull.
 HiddenRod hidden_rod_of(const std::vector<CurveRow>& rows, ExtensionOf extension = ExtensionOf::kSpecimen);

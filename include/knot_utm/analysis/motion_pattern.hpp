@@ -13,7 +13,7 @@ enum class MotionPattern {
   kNone,        ///< nothing was pulled yet, or there are no two knots
   kSliding,     ///< the knots slide towards each other under a low, steady load; they may lock later
   kStretching,  ///< the knots hold from the start: e and the load grow
-  kUntangling   ///< a knot came undone, or opened after breakaway and no longer carries load
+  kUntangling   ///< a knot came undone, jumped open, or had opened as the loop was mounted
 };
 
 const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding", ... as in result.yaml
@@ -35,8 +35,11 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 ///               (a) the knot type has changed and, in addition, F was below 5 % of its largest value when last pulled
 ///                   or held, or nothing has been pulled yet, or the excess length of a knot is below a quarter of its
 ///                   tied value, or the rod has passed through itself;
-///               (b) F has been below 5 % of its largest value over a window and, where excess lengths are known,
-///                   one of them has grown beyond 1.5 times its tied value
+///               (b) a knot jumped open (jump of curve_readings.hpp);
+///               (c) between release and pull the knots came nearer to each other by more than a twentieth of e: a
+///                   knot opened as the loop was mounted.
+///               Of these only (a) is called "came undone". All of them are events: whatever is pulled afterwards is
+///               another knot, and how it moves does not change the pattern
 ///   sliding     both of these hold:
 ///               (a) de/ds < -1 over at least one window, and over 15 % of all extension;
 ///               (b) until de/ds was last below -1, the knots came nearer to each other by more than s grew. This is
@@ -57,11 +60,14 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 ///               of F with s
 ///   contact     the same of the sum of the normal forces between strands
 ///
-/// For untangling the confidence is 1 if the knot type shows it, 0.75 if load and excess length show it, and 0.5 if the
-/// load alone does.
+/// For untangling the confidence is 1 if the knot type shows it, else 0.75.
 class MotionPatternTracker {
  public:
   void add(const Sample& sample);
+
+  /// Takes this verdict on jumps in place of its own, which it finds from all time steps: readings of a load cell may
+  /// be further apart.
+  void set_jumped(bool jumped) { jumped_ = jumped; }
 
   MotionPattern pattern() const;  ///< pattern of the whole test so far
   MotionPattern current() const;  ///< pattern of the last window alone, for live displays
@@ -71,9 +77,11 @@ class MotionPatternTracker {
   /// until stretching has gone on for a whole window.
   std::optional<double> lock_extension() const;
 
-  /// Time at which the knot came undone [s]: the time at which its type changed or, where the load alone shows it, the
-  /// time at which F fell below 5 % of its largest value. Empty where the knot did not come undone.
+  /// Time at which the knot came undone [s]: the time at which its type changed. Empty where it did not come undone.
   std::optional<double> untangled_at() const;
+
+  /// By how much the knots came nearer to each other between release and pull, where a knot opened meanwhile [m].
+  std::optional<double> opened_when_mounted() const;
 
   /// The samples of the pull that count.
   const Pull& pull() const { return pull_; }
@@ -82,8 +90,7 @@ class MotionPatternTracker {
   /// Excess length of a knot [m]. NaN: not known, or there is no such knot.
   struct Excess {
     double tied = Sample::kNone;
-    double last = Sample::kNone;     ///< last value of the pull
-    double largest = Sample::kNone;  ///< largest value of the pull
+    double last = Sample::kNone;  ///< last value of the pull
   };
 
   void add_tied(const Sample& sample);
@@ -92,13 +99,15 @@ class MotionPatternTracker {
   bool slid() const;
   const PullPoint& point_at(double extension) const;
   double mean_between(const PullPoint& first, const PullPoint& last) const;
-  bool opened() const;
+  void follow_jumps();
   bool vanished() const;
   bool knot_lost() const;
-  bool load_gone() const;
+  bool untangles() const;
 
   Pull pull_;
+  HiddenRod hidden_;              ///< excess lengths at its points
   std::size_t window_begin_ = 0;  ///< first sample of the current window
+  std::size_t jump_begin_ = 0;    ///< first sample among which a jump is looked for
   double window_ = 0.0;           ///< width of a window [m]
   double slope_ = 0.0;            ///< de/ds in the current window, NaN before the first is full
   double centre_ = 0.0;           ///< mean extension of the current window [m]
@@ -107,11 +116,11 @@ class MotionPatternTracker {
   double last_sliding_ = 0.0;  ///< extension at which de/ds last rose through -1, or at which it was last below -1 [m]
   double peak_ = 0.0;          ///< largest F [N]
   std::array<Excess, PerKnot::kMost> excess_;  ///< of each knot
-  std::optional<double> gone_since_;           ///< time since which F has been below 5 % of its largest value [s]
-  double gone_extension_ = 0.0;                ///< extension at that time [m]
+  double tied_distance_ = Sample::kNone;       ///< e once the knots are tied and released [m]
   std::optional<double> type_lost_;            ///< time since which the knot type has been another one [s]
   double borne_ = 0.0;                         ///< F of the last sample of a pull or a hold [N]
   bool crossed_ = false;                       ///< the rod has passed through itself
+  bool jumped_ = false;                        ///< a knot jumped open
   bool broken_ = false;
 };
 

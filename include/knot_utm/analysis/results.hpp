@@ -66,6 +66,10 @@ struct Results {
   std::optional<double> true_jump_force;
   std::optional<double> true_force_after_jump;
 
+  // Of a specimen that is no loop of two knots (snap.hpp).
+  std::optional<double> snap_extension;  ///< s at which it snapped into another shape [m]
+  std::optional<double> snap_drop;       ///< by how much F fell then [N]
+
   std::optional<double> plateau_slope;   ///< mean of de/ds over the plateau [-]; -2: rigid sliding
   std::optional<double> lock_extension;  ///< s_l, found from the knot distance: sliding became stretching there [m]
   std::optional<double> first_contact_extension;  ///< s at which the coils of the two knots first touch each other [m]
@@ -75,7 +79,7 @@ struct Results {
   std::optional<double> break_extension;  ///< s at which the rod parted [m]
   std::optional<double> break_arclength;  ///< arclength of the place where it parted, from the first node [m]
   BreakPlace break_place = BreakPlace::kNone;
-  /// "sliding then fracture", "stretching then fracture", "fracture" or "untangling"; empty: none
+  /// "sliding", "stretching" or "untangling then fracture", "fracture", or "untangling" (came undone); empty: none
   std::string failure_mode;
 
   // Readings of the pull. Its origin is the state from which it began (pull_readings.hpp).

@@ -12,8 +12,8 @@ bool slid_to_the_end(const Results& results);
 
 /// Bounds on the errors of the readings of this test, relative to the readings. They consist of the effects of mesh and
 /// tolerances (`RunFacts::errors`) and, for forces and their slopes, of those of drag, inertia and the noise of the
-/// load cell. They are empty where the specimen had not come to rest or a knot opened, since no convergence study
-/// covers these cases.
+/// load cell. That of the peak force follows from the others. They are empty where the specimen had not come to rest or
+/// a knot opened, since no convergence study covers these cases.
 ReadingErrors known_errors(const Results& results, const RunFacts& facts);
 
 }  // namespace knot_utm

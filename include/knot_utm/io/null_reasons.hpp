@@ -21,6 +21,8 @@ std::string why_no_lock_error(const ResultSource& source);
 std::string why_no_lock_by_load(const ResultSource& source);
 std::string why_no_stiffness(const ResultSource& source);
 std::string why_no_stiffness_error(const ResultSource& source);
+std::string why_no_peak_error(const ResultSource& source);
+std::string why_no_snap(const ResultSource& source);
 std::string why_no_chord(const ResultSource& source);
 std::string why_no_efficiency(const ResultSource& source);
 std::string why_no_hole(const ResultSource& source);

@@ -29,6 +29,7 @@ struct ReadingErrors {
   std::optional<double> plateau_force;
   std::optional<double> lock_extension;
   std::optional<double> locked_stiffness;
+  std::optional<double> peak_force = std::nullopt;  ///< follows from the others (known_errors.hpp)
 };
 
 /// Each error is meant to contain 95 % of the differences from a run at `fine` with edges half as long as at `normal`.

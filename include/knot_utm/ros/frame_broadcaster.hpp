@@ -1,17 +1,23 @@
 #pragma once
 
-#include <ros/time.h>
+#include <ros/ros.h>
+#include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <tf2_ros/transform_broadcaster.h>
 
 #include "knot_utm/ros/machine_frames.hpp"
 
 namespace knot_utm {
 
-/// Publishes the frames of a test on /tf and /tf_static.
+/// Publishes the frames of a test on /tf and /tf_static. Whoever subscribes late gets the last moving frames: before a
+/// test and after it nothing moves, and no others come.
 class FrameBroadcaster {
  public:
   FrameBroadcaster(const Vec3& lower_grip, double end_to_end);
+  ~FrameBroadcaster() = default;
+  FrameBroadcaster(const FrameBroadcaster&) = delete;
+  FrameBroadcaster& operator=(const FrameBroadcaster&) = delete;
+  FrameBroadcaster(FrameBroadcaster&&) = delete;
+  FrameBroadcaster& operator=(FrameBroadcaster&&) = delete;
 
   /// Begins a new specimen, whose grips may have other places.
   void begin(const Vec3& lower_grip, double end_to_end);
@@ -23,7 +29,8 @@ class FrameBroadcaster {
  private:
   MachineFrames frames_;
   ros::Time published_;
-  tf2_ros::TransformBroadcaster moving_;
+  tf2_msgs::TFMessage last_;  ///< the moving frames at that time
+  ros::Publisher moving_;
   tf2_ros::StaticTransformBroadcaster fixed_;
 };
 

@@ -16,6 +16,8 @@ namespace knot_utm {
 /// reading may be wrong, and so it is judged together with the load (MotionPatternTracker). Any other rod that has lost
 /// its knot once, or has run through itself, keeps that result.
 ///
+/// A rod that began without a knot keeps its type: there is none that could be lost.
+///
 /// For a fisherman's loop the reading is that of LoopTopology. For any other rod it is the Alexander polynomial of the
 /// rod closed far beyond its ends, or by joining its ends where they coincide.
 class KnotWatch {

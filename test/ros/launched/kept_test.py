@@ -35,7 +35,8 @@ class KeptTest(unittest.TestCase):
             self.assertEqual(content(launch.out, 'result.yaml'), before)
             self.assertEqual(content(launch.out, 'curve.csv'), content(launch.out + '-2', 'curve.csv'))
             self.assertIn(launch.out + ' holds a run already', launch.console())
-            self.assertIn('\n%s-2/result.yaml:\n' % launch.out, launch.console())
+            self.assertIn('\nthe test ended by ', launch.console())
+            self.assertLess(len(launch.console().partition('\nthe test ended by ')[2].splitlines()), 11)
 
     def test_a_knot_that_comes_undone(self):
         for program, code in ('', 1), (", 'program=[{tie: {}}, {release: {}}]'", 0):
