@@ -60,7 +60,7 @@ Overhand scaled(Overhand overhand, double length, double force) {
   overhand.way *= length;
   overhand.machine.travel *= length;
   overhand.material.radius *= length;
-  overhand.material.density *= force / (length * length);
+  overhand.material.density *= force / (length * length * length * length);  // tau is the same
   overhand.material.stretching_stiffness *= force;
   overhand.material.bending_stiffness *= force * length * length;
   overhand.material.twisting_stiffness *= force * length * length;
