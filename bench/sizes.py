@@ -48,8 +48,9 @@ def report(runner, materials):
                   "`config/tighten.yaml`, and at the end of them `config/overhand.yaml`, with rods that have the groups "
                   "k_s h²/k_b, k_t/k_b, μ and F_p h²/k_b of a shipped material, its density, and any other diameter "
                   "and F_0 = k_b/h²; every length and speed is the default. The first column has the shipped diameter "
-                  "and stiffness, and the others are compared with it. The own bending time is h² √(ρ A/k_b). With its "
-                  "own mass (`--set physics.inertia=1`) each rod would be another specimen. Readings of speeds are means over "
+                  "and stiffness, and the others are compared with it. The own bending time is h² √(ρ A/k_b). The mass "
+                  "that is accelerated is that of a bending time of 2e-4 s; with its own mass, which light rods have by "
+                  "default, each would be another specimen. Readings of speeds are means over "
                   f"{STARTS} starts, whose knots are tied 0.37 mm further apart from one to the next. A speed that moves the "
                   "plateau by more than a gate allows must have been warned of.",
                   tables, lambda file: plots.ratios(file, curves, "F_0 [N]", "reading / that of the first column",
@@ -153,4 +154,5 @@ def settings_of(shipped, diameter, force):
     forces, lengths = force / bending_force(shipped), diameter / 2.0 / shipped["radius"]
     scales = {"radius": lengths, "stretching_stiffness": forces, "tying_preload": forces,
               "bending_stiffness": forces * lengths ** 2, "twisting_stiffness": forces * lengths ** 2}
-    return {"material": {key: value * scales.get(key, 1.0) for key, value in shipped.items()}}
+    return {"material": {key: value * scales.get(key, 1.0) for key, value in shipped.items()},
+            "physics.inertia": (2e-4 / own_time(shipped, diameter, force)) ** 2}

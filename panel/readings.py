@@ -12,7 +12,7 @@ PAUSED, ENDED = 2, 3               # of a TestStatus
 MANY = 8.0  # loads above this many of those of sliding hide them: these are shown again, alone
 ENDS = {'break': 'broke', 'untangled': 'came undone', 'solver': 'the physics gave up',
         'operator': 'ended by the operator', 'program': 'ended with its program'}
-KEPT = 1000  # states that wait for the reading of the load cell of the same stamp, and the other way round
+MOST_WAITING = 1000  # states that wait for the reading of the load cell of the same stamp, and the other way round
 CURVES = 20  # that are shown, this one among them
 
 # What the curve takes of a state. `zero`: its balance offset; `slides`: whether the knots slide.
@@ -38,7 +38,7 @@ class Pairs:
             return (value, other) if which == 0 else (other, value)
         self._waiting[which][stamp] = value
         self._order.append((which, stamp))
-        while len(self._order) > KEPT:
+        while len(self._order) > MOST_WAITING:
             old_which, old_stamp = self._order.popleft()
             self._waiting[old_which].pop(old_stamp, None)
         return None

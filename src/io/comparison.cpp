@@ -42,6 +42,12 @@ std::string zero_text(const std::optional<RawZero>& zero) {
          "}";
 }
 
+/// With three digits, unless these are those of the limit.
+std::string beside_limit(double value, double limit) {
+  const std::string text = short_number(value);
+  return parse_number(text) && std::abs(*parse_number(text)) > limit ? text : format_number(value);
+}
+
 std::string flow(const std::optional<double>& a, const std::optional<double>& b) {
   const auto text = [](const std::optional<double>& value) { return value ? format_yaml_number(*value) : "null"; };
   const std::optional<double> change = difference(a, b);
@@ -86,8 +92,8 @@ std::vector<std::string> beyond_tolerance(const Comparison& comparison, double t
   std::vector<std::string> out;
   const auto hold = [&](const std::string& name, double relative) {
     if (!(std::abs(relative) <= tolerance))
-      out.push_back(name + ": the relative difference is " + format_number(relative) + ", but must be within " +
-                    format_number(tolerance));
+      out.push_back(name + ": the relative difference is " + beside_limit(relative, tolerance) +
+                    ", but must be within " + format_number(tolerance));
   };
   if (comparison.difference && comparison.difference->rms > 0.0)
     hold("rms_difference_over_load", comparison.difference->rms / comparison.difference->load);

@@ -46,8 +46,7 @@ std::string why_the_load_has_no_stiffness(const Results& results) {
 /// `no_reading`: why there is no reading that could be off; empty: there is one.
 std::string why_no_error(const ResultSource& source, const std::string& no_reading) {
   const Results& results = source.results;
-  if (!why_not_at_rest(results, source.facts).empty())
-    return "unknown: the specimen was not at rest as its pull began";
+  if (!why_not_at_rest(results, source.facts).empty()) return "unknown: the specimen was not at rest as its pull began";
   if (results.curve.jump_force) return "unknown: a knot jumped open, which no convergence study covers";
   if (results.opened_when_mounted)
     return "unknown: a knot opened as the loop was mounted, which no convergence study covers";

@@ -50,7 +50,7 @@ std::vector<std::string> questions_about(const Material& material) {
         " N, which is E = " + pascals(stretched) +
         ", where rubber has 1 MPa, nylon 2 GPa and steel 200 GPa: is it E times the cross-section, in Pa times "
         "m2, and material.radius in m?");
-  if (bent < kLeastBending || bent > kMostBending)
+  else if (bent < kLeastBending || bent > kMostBending)
     all.push_back("material.bending_stiffness is " + short_number(material.bending_stiffness) + " N m2, which is " +
                   short_number(bent) +
                   " of that of a solid rod that stretches alike, where ropes have 0.0001 to 1: is it in N m2?");

@@ -160,7 +160,9 @@ std::string run_lines(const ResultFile& result) {
   std::size_t rows = 0;
   for (const SummaryRow& row : kRows) {
     const std::optional<double> value = result.number(row.key);
-    const std::string none = std::string(row.key) == "plateau_force" ? result.word("no_plateau_because") : "";
+    // Nobody misses a plateau of a rod without two knots.
+    const bool missed = std::string(row.key) == "plateau_force" && (pattern != "none" || result.number("jump_force"));
+    const std::string none = missed ? result.word("no_plateau_because") : "";
     if (!value && (none.empty() || none == "null")) continue;
     if (rows++ == kMostRows) break;
     const double error = result.number(row.error).value_or(0.0);

@@ -21,7 +21,11 @@ constexpr double kSharpestBend = 0.5;  // of a tied knot, 1/kClosed [1/h]
 constexpr double kCoarsestEdge =
     0.9;  // of a rope whose knots slide as with finer ones [h]: bench/before_tying.py --study meshes
 constexpr double kMostStretch = 2.0;  // strain by a pre-load up to which a law of tension was ever measured [-]
-constexpr double kMuchStretch = 0.2;  // by choice: no shipped rope is stretched by a tenth of it as it is tied [-]
+// Pink VPS was tied and mounted with a linear law up to a strain of 4.8 (4.8 k_s) and with a neo-Hookean one up to 5.6
+// (2.2 k_s); at 6 and 6.8 the tail grips came to the end of their way first (config/tighten.yaml with material=pink_vps
+// and specimen.preload= at draft).
+constexpr double kLargestStrain = 5.0;  // by a pre-load [-]
+constexpr double kMuchStretch = 0.2;    // by choice: no shipped rope is stretched by a tenth of it as it is tied [-]
 // Of ropes that were tied with 2 to 8 k_b/h^2, 41 of 43 opened or jumped open with a friction of 0.3 to 0.5, and 5 of
 // 111 with more; of those with 20 to 60 k_b/h^2, 12 of 34 did (bench/results/studies/pattern_map.csv.gz, the Sobol
 // sequence).
@@ -96,6 +100,25 @@ double coil_radius(const Material& material, double preload) {
   return kClosed * material.radius * std::sqrt(closing_preload(material) / preload);
 }
 
+namespace {
+
+double tension_at(const Material& material, double strain) {
+  const StretchedEdge edge{material.stretching_stiffness, 1.0, 1.0 + strain};
+  return std::visit([&](const auto& law) { return law.respond(edge).tension; }, stretching_law_of(material));
+}
+
+void check_stretch(double preload, const Material& material) {
+  const double largest = tension_at(material, kLargestStrain);
+  if (preload <= largest) return;
+  throw InvalidInput("specimen.preload", short_number(preload),
+                     "at most " + short_number(largest) + " N for a rod with material.stretching_stiffness " +
+                         short_number(material.stretching_stiffness) + " N and material.stretching_law: " +
+                         StretchingRegistry::entry(material.stretching.law).name + ", which stretches it to " +
+                         short_number(1.0 + kLargestStrain) + " times its length: a larger one cannot be tied");
+}
+
+}  // namespace
+
 void check_tying(const SpecimenOptions& specimen, const Material& material) {
   const double preload = tying_load(specimen, material), least = least_preload(specimen, material);
   if (preload < least)
@@ -105,6 +128,7 @@ void check_tying(const SpecimenOptions& specimen, const Material& material) {
                            " m and friction_coefficient " + short_number(material.friction_coefficient) +
                            ": a smaller one does not move the coils, which close only at " +
                            short_number(closing_preload(material)) + " N");
+  check_stretch(preload, material);
   const double strain = strain_under(material, preload) + 1.0 / drawn_coil(specimen);
   if (material.breaking_strain && *material.breaking_strain <= strain)
     throw InvalidInput("material.breaking_strain", short_number(*material.breaking_strain),

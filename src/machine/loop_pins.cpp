@@ -9,9 +9,10 @@ namespace knot_utm {
 
 namespace {
 
-constexpr int kPlaces = 100;            // in the length of the loop, at which a pin is tried
-constexpr double kNarrowestPin = 0.05;  // of the widest
-constexpr double kNarrower = 0.8;       // each next radius that is tried
+constexpr int kPlaces = 100;               // in the length of the loop, at which a pin is tried
+constexpr double kNarrowestPin = 0.05;     // of the widest
+constexpr double kNearestToMiddle = 0.25;  // further in are the knots [length of the loop]
+constexpr double kNarrower = 0.8;          // each next radius that is tried
 
 /// The loop as it is seen along the pins.
 class Outline {
@@ -49,7 +50,7 @@ class Outline {
 /// The pin of the given radius that stands furthest out in the upper half (sense 1) or in the lower one (-1).
 std::optional<Pin> furthest_out(const Outline& loop, double sense, double radius, double clearance) {
   const double step = loop.height() / kPlaces;
-  for (double out = 0.5 * loop.height(); out > 0.0; out -= step) {
+  for (double out = 0.5 * loop.height(); out > kNearestToMiddle * loop.height(); out -= step) {
     const double z = loop.middle() + sense * out;
     std::optional<Pin> best;
     double most = radius + clearance;

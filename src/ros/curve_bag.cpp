@@ -81,8 +81,7 @@ std::vector<CurveRow> rows_of(const rosbag::Bag& bag, const std::string& file, i
   if (tests.empty() && wanted <= 1) return {};
   const std::string all = std::to_string(tests.size());
   if (wanted == 0 && tests.size() > 1)
-    throw InvalidInput::sentence("tests", all,
-                                 "the bag holds " + all + " tests: choose one by --specimen 1 to " + all)
+    throw InvalidInput::sentence("tests", all, "the bag holds " + all + " tests: choose one by --specimen 1 to " + all)
         .in_file(file);
   const std::size_t index = wanted == 0 ? 0 : static_cast<std::size_t>(wanted - 1);
   if (index >= tests.size())

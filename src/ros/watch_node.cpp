@@ -85,6 +85,10 @@ int WatchNode::spin() {
     }
     if (const std::optional<Processes> processes = ask_launch()) look(*processes);
   }
+  if (folder_.empty() && !over_) {
+    folder_ = told_folder();
+    tell(std::nullopt);
+  }
   tell_unfinished_batch();
   return 0;
 }
@@ -95,6 +99,20 @@ void WatchNode::on_recorder(const RecorderStatus::ConstPtr& status) {
   const std::string before = folder_;
   folder_ = one_line(batch_.empty() ? status->directory : batch_);
   if (folder_ != before && !over_) tell(std::nullopt);
+}
+
+/// What the recorder told the master, for a launch that was cut off before the recorder's first message came.
+std::string WatchNode::told_folder() const {
+  const auto text = [this](const char* parameter) {
+    std::optional<XmlRpc::XmlRpcValue> value = get_from_master(node_.resolveName(parameter));
+    return value && value->getType() == XmlRpc::XmlRpcValue::TypeString ? static_cast<std::string>(*value) : "";
+  };
+  const std::string id = text(names::kTestId);
+  for (const char* parameter : {names::kFolderOfBatch, names::kFolderOfTest}) {
+    const std::string told = text(parameter);
+    if (!id.empty() && told.rfind(id + "/", 0) == 0) return one_line(told.substr(told.find(' ') + 1));
+  }
+  return "";
 }
 
 void WatchNode::tell_unfinished_batch() const {

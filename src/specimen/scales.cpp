@@ -12,10 +12,12 @@ namespace {
 // (config/tighten.yaml with physics.inertia 0.0105 and 0.0367, 7.45 and 26.1).
 constexpr double kBendingTime = 2e-4;  // tau [s]
 // With 3.7 s, that of its own mass, a loose overhand in a rod of 4 m swings through its whole pull, with 0.8 s a tenth
-// of it; with 0.1 s its force is steady (doc/measured.md).
-constexpr double kSlackTime = 0.1;     // of a slack loop [s]
-constexpr double kFading = 3.0;        // of motion under the drag that brings a specimen to rest [1/s]
-constexpr double kRestSpeed = 0.0063;  // [radii/s]
+// of it; with 0.1 s its force is steady (doc/developers/measured.md).
+constexpr double kSlackTime = 0.1;  // of a slack loop [s]
+// Loops of a thread with 2e-7 s could not be tied with their own mass: no step was short enough. With 2e-6 s they can.
+constexpr double kShortestTime = 2e-6;  // tau of what is tied [s]
+constexpr double kFading = 3.0;         // of motion under the drag that brings a specimen to rest [1/s]
+constexpr double kRestSpeed = 0.0063;   // [radii/s]
 
 }  // namespace
 
@@ -32,9 +34,16 @@ SpecimenScales specimen_scales(const Material& material) {
 double inertia_factor(const Material& material, const PhysicsOptions& physics, double slack) {
   // No root, so that similar specimens have the same bits.
   const double h2 = material.radius * material.radius, loop = slack / (2.0 * M_PI), loop2 = loop * loop;
-  double mass = kBendingTime * kBendingTime * material.bending_stiffness / (h2 * h2);
-  if (loop > 0.0) mass = std::min(mass, kSlackTime * kSlackTime * material.bending_stiffness / (loop2 * loop2));
-  return physics.inertia.value_or(std::min(1.0, mass / specimen_scales(material).mass));
+  const double own = specimen_scales(material).mass;
+  const auto mass_of = [&](double time, double length2) {
+    return time * time * material.bending_stiffness / (length2 * length2);
+  };
+  double mass = mass_of(kBendingTime, h2), most = own;
+  if (loop > 0.0)
+    mass = std::min(mass, mass_of(kSlackTime, loop2));
+  else
+    most = std::max(own, mass_of(kShortestTime, h2));
+  return physics.inertia.value_or(std::min(mass, most) / own);
 }
 
 Material as_it_moves(Material material, const PhysicsOptions& physics, double slack) {

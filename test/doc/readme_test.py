@@ -4,6 +4,7 @@ this program."""
 import csv
 import glob
 import os
+import pathlib
 import re
 import shlex
 import subprocess
@@ -52,7 +53,8 @@ def texts_of(picture):
 
 
 def pages():
-    return "\n".join(open(file, encoding="utf-8").read() for file in glob.glob(os.path.join(ROOT, "doc/**/*.md"), recursive=True))
+    files = glob.glob(os.path.join(ROOT, "doc/**/*.md"), recursive=True)
+    return "\n".join(pathlib.Path(file).read_text(encoding="utf-8") for file in files)
 
 
 class Readme(unittest.TestCase):

@@ -12,7 +12,6 @@ namespace knot_utm {
 namespace {
 
 using testing::AllOf;
-using testing::Contains;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -94,10 +93,10 @@ TEST(Foreseen, SlipsOfUnitsAreAskedAbout) {
     return warnings_of("straight", {"program=[{hold: {duration: 1}}]", "material." + key + "=" + value});
   };
   EXPECT_THAT(asked("density", "100"), ElementsAre(HasSubstr("material.density is 100 kg/m3, where cork has 200")));
-  EXPECT_THAT(asked("density", "1.15"), ElementsAre(HasSubstr("is it in kg/m3")));  // g/cm3
-  // E in MPa, and of the bending stiffness, too.
-  const std::vector<std::string> soft = asked("stretching_stiffness", "0.0734");
-  EXPECT_THAT(soft, Contains(HasSubstr("which is E = 2.32 kPa, where rubber has 1 MPa")));
+  EXPECT_THAT(asked("density", "20000"), ElementsAre(HasSubstr("is it in kg/m3")));
+  // E in MPa; that it would then also bend too stiffly needs no word.
+  EXPECT_THAT(asked("stretching_stiffness", "0.0734"),
+              ElementsAre(HasSubstr("which is E = 2.32 kPa, where rubber has 1 MPa")));
   EXPECT_THAT(asked("bending_stiffness", "4.31e-11"), ElementsAre(HasSubstr("of that of a solid rod")));
   EXPECT_THAT(asked("bending_stiffness", "43.1"), ElementsAre(HasSubstr("is it in N m2?")));
   EXPECT_THAT(asked("breaking_force", "2.5"), ElementsAre(HasSubstr("at a strain of 3.41e-05: is it in N?")));

@@ -47,6 +47,18 @@ TEST(BeforeTying, NothingIsSaidOfTheShippedRope) {
   EXPECT_THAT(loop.warnings(), IsEmpty());
 }
 
+TEST(BeforeTying, APreloadThatStretchesTheRodToMoreThanSixTimesItsLengthIsRefused) {
+  for (const auto& [law, largest] : {std::pair(0, 5.0), std::pair(1, (6.0 - 1.0 / 36.0) / 3.0)}) {
+    Loop loop;
+    loop.material = pink_vps();
+    loop.material.stretching.law = static_cast<StretchingLaw>(law);
+    loop.specimen.preload = 0.999 * largest * loop.material.stretching_stiffness;
+    EXPECT_EQ(loop.refused(), "") << law;
+    loop.specimen.preload = 1.001 * largest * loop.material.stretching_stiffness;
+    EXPECT_EQ(loop.refused(), "specimen.preload") << law;
+  }
+}
+
 TEST(BeforeTying, WithoutFrictionACoilClosesAtAnEighthOfTheBendingForce) {
   Loop loop;
   loop.material.friction_coefficient = 0.0;

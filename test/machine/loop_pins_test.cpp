@@ -22,9 +22,7 @@ Points points_of(const std::vector<Vec3>& corners) {
   return out;
 }
 
-double room(const Points& loop, const Pin& pin) {
-  return (loop.colwise() - pin.place).colwise().norm().minCoeff();
-}
+double room(const Points& loop, const Pin& pin) { return (loop.colwise() - pin.place).colwise().norm().minCoeff(); }
 
 TEST(LoopPins, StandAtTheEndsOfALoopThatIsWideEnough) {
   const Points loop = points_of({{0, 0, 0}, {4, 0, 0}, {4, 0, 20}, {0, 0, 20}});

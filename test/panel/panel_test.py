@@ -11,7 +11,7 @@ import unittest
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../panel'))
 
 from drawing import HEIGHT, WIDTH, Drawing, limit
-from readings import BROKEN, CROSSED, CURVES, ENDED, FAILED, KEPT, PAUSED, PREPARATION, Readings
+from readings import BROKEN, CROSSED, CURVES, ENDED, FAILED, MOST_WAITING, PAUSED, PREPARATION, Readings
 
 
 def state(**fields):
@@ -72,7 +72,7 @@ class ReadingsTest(unittest.TestCase):
 
     def test_what_finds_no_partner_is_forgotten(self):
         readings = Readings()
-        for i in range(3 * KEPT):
+        for i in range(3 * MOST_WAITING):
             readings.take_load(i, 1.0)
         readings.take_state(0.0, state())
         self.assertEqual(readings.curve(), [])

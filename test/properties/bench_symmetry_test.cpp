@@ -51,7 +51,7 @@ struct Overhand {
   }
 };
 
-/// A similar rod of another size and stiffness. Its density is the same: what is accelerated follows from its bending.
+/// A similar rod of another size and stiffness, whose own mass is similar, too.
 /// The unit of time is the second: doc/developers/reliability.md says what is counted in seconds.
 Overhand scaled(Overhand overhand, double length, double force) {
   overhand.specimen.length *= length;
@@ -60,6 +60,7 @@ Overhand scaled(Overhand overhand, double length, double force) {
   overhand.way *= length;
   overhand.machine.travel *= length;
   overhand.material.radius *= length;
+  overhand.material.density *= force / (length * length * length * length);  // tau is the same
   overhand.material.stretching_stiffness *= force;
   overhand.material.bending_stiffness *= force * length * length;
   overhand.material.twisting_stiffness *= force * length * length;

@@ -21,12 +21,12 @@ class PageOfAComparison(unittest.TestCase):
 
     def test_has_what_compare_prints(self):
         out = os.path.join(folders.path, "comparison")
-        done = self.compare(out, "--tolerance", "1")
+        done = self.compare(out, "--tolerance", "1", "--yaml")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.assertEqual(read(out, "comparison.yaml"), done.stdout)
         html = page_of(out)
         self.assertEqual(set(yaml.safe_load(done.stdout)) - keys_on(html), set())
-        self.assertTrue(command_of(html).endswith(f"curve_full.csv --report {out} --tolerance 1"), command_of(html))
+        self.assertTrue(command_of(html).endswith(f"curve_full.csv --report {out} --tolerance 1 --yaml"), command_of(html))
         self.assertIn("simulated: Straight rod, nylon", html)
         self.assertIn("Forces are in N and lengths in mm", html)
         self.assertIn("Curve A ends at its largest load", html)

@@ -59,7 +59,8 @@ class PageOfARun(unittest.TestCase):
         self.assertEqual([cell for cell in row_of(html_of(folder), "plateau_force")[1:] if cell], ["4.25", "5.5", "N"])
 
     def test_has_every_number_in_the_units_of_its_method(self):
-        result = {"peak_force": 444.82216152605, "true_peak_force": None, "break_extension": 0.0254, "locked_stiffness": 175.126835,
+        result = {"peak_force": 444.82216152605, "true_peak_force": None, "peak_force_error": None,
+                  "break_extension": 0.0254, "locked_stiffness": 175.126835,
                   "locked_stiffness_error": None}
         for asked, force, length, values in (("units: {force: lbf, length: in}", "lbf", "in", ("100", "1", "1")),
                                              ("units: {force: kN, length: m}", "kN", "m", ("0.4448", "0.0254", "0.1751"))):
@@ -220,7 +221,7 @@ class NumbersOfThePage(unittest.TestCase):
         shown = next(one for one in page.headlines(run, page.largest_load(run)) if one.label == "Largest load")
         pulled = run.readings.where(run.readings.phase == "pull")
         row = int(np.argmax(pulled["load"]))
-        self.assertEqual(shown.value, quantities.shown(float(pulled["load"][row])))
+        self.assertEqual(shown.value, quantities.shown(float(pulled["load"][row]), 1.0, run.value("peak_force_error")))
         self.assertIn(f"at {quantities.shown(1e3 * float(pulled['extension'][row]))} mm", shown.remark)
 
     def test_of_every_mark_are_of_one_row(self):

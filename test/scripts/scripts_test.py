@@ -13,7 +13,7 @@ SCRIPTS = sorted(name for name in os.listdir(os.path.join(ROOT, "scripts"))
                  if os.access(os.path.join(ROOT, "scripts", name), os.X_OK)
                  and os.path.isfile(os.path.join(ROOT, "scripts", name)))
 # Commands that a minimal Debian lacks, and set-up does not install.
-ABSENT = ("git", "ps", "pgrep", "pkill", "killall", "curl", "wget", "xauth", "ss", "ip", "netstat", "lsof", "file",
+ABSENT = ("git", "ps", "pgrep", "pkill", "killall", "curl", "wget", "xauth", "ip", "netstat", "lsof", "file",
           "unzip", "zip", "xz", "bc", "time", "hostname", "ping", "xdg-open", "xxd", "jq", "strace", "gdb", "rsync")
 
 

@@ -137,7 +137,7 @@ class Package(Sweeps):
 
 
 class ABatch(Sweeps):
-    SCATTER = {"specimens.scatter": {"specimen.length": {"normal": 0.1}}}
+    SCATTER = {"specimens.scatter": {"specimen.length": {"normal": 0.1}, "material.breaking_force": {"normal": 0.1}}}
 
     def batch(self, out, specimens=4, **overrides):
         return knot_utm.batch("straight", self.path(out), specimens, **DRAFT, **self.SCATTER, **overrides)
@@ -217,7 +217,7 @@ class Examples(Sweeps):
 
     def test_a_batch_is_pulled_and_its_mean_curve_drawn(self):
         with open(os.path.join(CONFIG, "straight.yaml"), encoding="utf-8") as file:
-            method = file.read() + "physics: {accuracy: draft}\nspecimens: {scatter: {specimen.length: {normal: 0.1}}}\n"
+            method = file.read() + "physics: {accuracy: draft}\nspecimens: {scatter: {material.breaking_force: {normal: 0.1}}}\n"
         said = self.example("pull_a_batch.py", write(self.path("method.yaml"), method), "out").splitlines()
         peak = load(self.path("out/batch/statistics.yaml"))["peak_force"]
         self.assertEqual(said, [f"one test: {load(self.path('out/one/result.yaml'))['peak_force']:.4g} N",

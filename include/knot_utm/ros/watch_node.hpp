@@ -37,6 +37,7 @@ class WatchNode {
   void look(const Processes& processes);
   void test_is_over(int code, bool somebody_looks);
   void tell(std::optional<int> code) const;
+  std::string told_folder() const;
   void tell_unfinished_batch() const;
   void end_launch();
   void end_nodes() const;

@@ -3,6 +3,7 @@
 Python that knows nothing of ROS stands first on the path."""
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
@@ -11,7 +12,7 @@ import xmlrpc.client
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
-from launched import LAST_RESORT, ROOT, free_port, wait_for
+from launched import LAST_RESORT, ROOT, children, free_port, wait_for
 
 PROGRAMS = ['knot_node', 'utm_node', 'recorder_node', 'watch_node', 'experiment_node', 'replay_node', 'keeper', 'panel_node',
             'tensile_test', 'compare']
@@ -20,7 +21,7 @@ PROGRAMS = ['knot_node', 'utm_node', 'recorder_node', 'watch_node', 'experiment_
 def blocks():
     """The indented blocks of the page, each a list of lines."""
     with open(os.path.join(ROOT, 'doc/ros_in_ten_lines.md'), encoding='utf-8') as file:
-        return [block.replace('    ', '').split('\n') for block in re.findall(r'(?:^    .+\n?)+', file.read(), re.MULTILINE)]
+        return [block.replace('    ', '').strip().split('\n') for block in re.findall(r'(?:^    .+\n?)+', file.read(), re.MULTILINE)]
 
 
 class Shell:
@@ -70,9 +71,14 @@ class TenLinesTest(unittest.TestCase):
 
     def shell(self, name):
         shell = Shell(self.folder, self.uri, name)
-        self.addCleanup(shell.process.wait, LAST_RESORT)
-        self.addCleanup(shell.process.stdin.close)
+        self.addCleanup(self.leave, shell.process)
         return shell
+
+    def leave(self, shell):
+        for running in children(shell.pid):
+            os.kill(running, signal.SIGINT)  # as Ctrl-C does
+        shell.stdin.close()
+        shell.wait(LAST_RESORT)
 
     def answers(self, node):
         try:
@@ -98,14 +104,13 @@ class TenLinesTest(unittest.TestCase):
         said += second.run(read, 'the readings')
         self.assertRegex(said, r'topics: +/knot/colors|/knot/state')
         self.assertIn('plateau', said)
+        first.begin(['roscore() { command roscore -p %s; }' % self.uri.rsplit(':', 1)[1]])  # else its port is always the same
         first.begin(core)
         wait_for('the master', lambda: self.answers('/rosout'))
         said += second.run(play, 'the bag')
         self.assertIn('[RUNNING]', said)
         for word in ('failed: ', 'rror', 'not executable', 'knows nothing'):
             self.assertNotIn(word, said)
-        os.kill(first.process.pid, 0)
-        subprocess.run(['pkill', '-INT', '-P', str(first.process.pid)], check=True)  # Ctrl-C
 
     def test_programs_answer_without_a_master(self):
         shell = self.shell('third')
