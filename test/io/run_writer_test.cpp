@@ -84,7 +84,7 @@ TEST_F(RunFolder, HoldsTheInnerDiameterOfAKnotThatIsWhole) {
   EXPECT_GT(hole, 4.0 * method.material.radius);  // it is drawn loose
   EXPECT_EQ(written("knot_inner_diameter").as<double>(), hole);
   EXPECT_DOUBLE_EQ(written("knotability").as<double>(), hole / (2.0 * method.material.radius));
-  results.break_extension = 0.1;
+  results.break_place = BreakPlace::kStrand;
   EXPECT_TRUE(written("knotability").IsNull());
 }
 
@@ -492,6 +492,7 @@ TEST(ResultYaml, AStiffnessOfTooFewReadingsIsNoneAndSaysSo) {
               HasSubstr("locked_stiffness: null  # the lock does not show in the load\n"));
   results.curve.rises_at = 0.05;
   results.motion_pattern = MotionPattern::kUntangling;
+  results.untangled_at = 3.0;
   EXPECT_THAT(result_yaml(results, RunFacts()), HasSubstr("locked_stiffness: null  # the knot came undone\n"));
 }
 

@@ -74,6 +74,7 @@ TEST(KnotAdvice, NamesKeysThatHaveAnEffect) {
   method.specimen.knot = knot_named("overhand");
   EXPECT_THAT(what_keeps_a_knot(method), HasSubstr("a larger specimen.end_to_end"));
   method.specimen.knot = knot_named("multiple_fisherman");
+  method.material.radius = 3.175e-3;
   method.specimen.turns = 2;
   method.specimen.tail = 0.02;
   EXPECT_THAT(what_keeps_a_knot(method), HasSubstr("a longer specimen.tail (now 0.02 m; auto is 0.06 m) or a higher "));
