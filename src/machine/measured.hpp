@@ -3,8 +3,8 @@
 #include "knot_utm/machine/accuracy.hpp"
 
 /// The tolerances behind `physics.accuracy`, and the constants of the errors that are reported beside readings. Each
-/// comment says which measurement gave the values. doc/developers/measured.md lists these and all other constants that were
-/// measured or chosen.
+/// comment says which measurement gave the values. doc/developers/measured.md lists these and all other constants that
+/// were measured or chosen.
 namespace knot_utm::measured {
 
 // Longest step [s], residual [k_b/h^2], contact tolerance [h], presliding displacement [h], refinement [-].
@@ -27,9 +27,8 @@ inline constexpr double kTiedHard = 6.0, kShortestForHard = 4.0 / 3.0;
 
 // Relative errors at `normal` with edges of h/2.25 (for a solid rod, of h). They are meant to include 95 % of the
 // differences from `fine` with edges half as long, and to be hardly larger than that needs. They were chosen from the
-// draws of `scripts/bench readings` with seeds 21, 25 and 28 to 30. doc/developers/benchmarks.md says how many of these draws, and
-// of others, they include.
-// two knots of the same handedness, and of opposite handedness
+// draws of `scripts/bench readings` with seeds 21, 25 and 28 to 30. doc/developers/benchmarks.md says how many of these
+// draws, and of others, they include. two knots of the same handedness, and of opposite handedness
 inline constexpr double kPlateau = 0.043, kOppositePlateau = 0.067;
 // Below this mu the error grows as the knots come nearer to opening.
 inline constexpr double kSlippery = 0.65, kOppositeSlippery = 0.45, kLeastFriction = 0.1;

@@ -125,8 +125,11 @@ TEST(MotionPattern, UntanglingWhereAKnotJumpsOpenHoweverLongIsPulled) {
   MotionPatternTracker live;
   for (const Sample& sample : jumps(1e-3, 0.06)) {
     live.add(sample);
-    if (sample.extension < 0.0299) EXPECT_NE(live.pattern(), MotionPattern::kUntangling);
-    if (sample.extension > 0.04) EXPECT_EQ(live.pattern(), MotionPattern::kUntangling) << sample.extension;
+    if (sample.extension < 0.0299) {
+      EXPECT_NE(live.pattern(), MotionPattern::kUntangling);
+    } else if (sample.extension > 0.04) {
+      EXPECT_EQ(live.pattern(), MotionPattern::kUntangling) << sample.extension;
+    }
   }
   // A low load alone, in knots that did not open, is a slide after a high breakaway; one that rises is no jump.
   EXPECT_EQ(analyse(jumps(1e-3, 0.0), EndedBy::kExtension).motion_pattern, MotionPattern::kSliding);

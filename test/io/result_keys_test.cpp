@@ -160,7 +160,7 @@ TEST(ResultKeys, SayHowWideAHoleAKnotKeeps) {
   EXPECT_THAT(result_yaml(results, facts), said("null  # no shape"));
   results.knot_type = KnotType::kChanged;
   EXPECT_THAT(result_yaml(results, facts), said("null  # the knot is another one"));
-  results.break_extension = 0.1;
+  results.break_place = BreakPlace::kStrand;
   EXPECT_THAT(result_yaml(results, facts), said("null  # the rod broke"));
 }
 

@@ -11,8 +11,8 @@ namespace knot_utm {
 /// its only joint that moves is the one in utm/joint_states. Grips have the size that the method gives them; base,
 /// columns, crosshead and load cell are drawn in proportion to them.
 ///
-/// `lower_grip`, `upper_grip`: where the grips stand before the test [m]. The upper grip is fixed to the crosshead there.
-/// On mounting it is let down onto the loop, and a compliant frame gives way: only its frame shows that.
+/// `lower_grip`, `upper_grip`: where the grips stand before the test [m]. The upper grip is fixed to the crosshead
+/// there. On mounting it is let down onto the loop, and a compliant frame gives way: only its frame shows that.
 std::string machine_urdf(const Method& method, const Vec3& lower_grip, const Vec3& upper_grip);
 
 }  // namespace knot_utm
