@@ -28,10 +28,14 @@ double noise_of_stiffness(const Results& results, double noise) {
 }
 
 /// Of the largest load. Where the rod parts in a knot, friction in the knot decides at which load, as it decides the
-/// plateau; so it does where knots slide to the end. Behind a lock the load depends on where the lock is, and how steep
-/// it rises.
-std::optional<double> error_of_peak(const Results& results, const ReadingErrors& errors) {
+/// plateau; so it does where knots slide to the end. A straight strand parts at the force that was given. Behind a lock
+/// the load depends on where the lock is, and how steep it rises.
+std::optional<double> error_of_peak(const Results& results, const RunFacts& facts, const ReadingErrors& errors) {
   if (!results.true_peak_force || results.motion_pattern == MotionPattern::kUntangling) return {};
+  constexpr double kBreakOfAStrand =
+      2e-3;  // twice the scatter of the largest load where nylon's loop parts in a strand
+  const bool in_a_strand = results.break_place == BreakPlace::kStrand || results.break_place == BreakPlace::kGrip;
+  if (in_a_strand && facts.material.breaking_force) return kBreakOfAStrand;
   if (results.break_place == BreakPlace::kKnot || slid_to_the_end(results)) return errors.plateau_force;
   if (!errors.locked_stiffness || !results.curve.locked_stiffness) return {};
   if (results.break_extension || !results.lock_extension || !errors.lock_extension) return errors.locked_stiffness;
@@ -56,7 +60,7 @@ ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
   const double speed = results.rate.drag.value_or(0.0) + results.rate.inertia.value_or(0.0);
   for (std::optional<double>* error : {&out.plateau_force, &out.locked_stiffness})
     if (*error) **error += speed;
-  out.peak_force = error_of_peak(results, out);
+  out.peak_force = error_of_peak(results, facts, out);
   if (out.locked_stiffness) *out.locked_stiffness += noise_of_stiffness(results, facts.load_cell.noise);
   return out;
 }

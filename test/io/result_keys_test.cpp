@@ -68,6 +68,9 @@ TEST(ResultKeys, SayHowFarThePeakMayBeOff) {
   EXPECT_THAT(result_yaml(results, facts), said("40"));
   results.break_extension = 0.15;
   EXPECT_THAT(result_yaml(results, facts), said("20"));
+  results.break_place = BreakPlace::kStrand;
+  facts.material.breaking_force = 500.0;
+  EXPECT_THAT(result_yaml(results, facts), said("2")) << "the load at which it parts was given";
   results.break_place = BreakPlace::kKnot;
   EXPECT_THAT(result_yaml(results, facts), said("50"));
   results.motion_pattern = MotionPattern::kUntangling;
