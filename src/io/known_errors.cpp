@@ -32,8 +32,7 @@ double noise_of_stiffness(const Results& results, double noise) {
 /// the load depends on where the lock is, and how steep it rises.
 std::optional<double> error_of_peak(const Results& results, const RunFacts& facts, const ReadingErrors& errors) {
   if (!results.true_peak_force || results.motion_pattern == MotionPattern::kUntangling) return {};
-  constexpr double kBreakOfAStrand =
-      2e-3;  // twice the scatter of the largest load where nylon's loop parts in a strand
+  constexpr double kBreakOfAStrand = 2e-3;  // twice the scatter of nylon's loop
   const bool in_a_strand = results.break_place == BreakPlace::kStrand || results.break_place == BreakPlace::kGrip;
   if (in_a_strand && facts.material.breaking_force) return kBreakOfAStrand;
   if (results.break_place == BreakPlace::kKnot || slid_to_the_end(results)) return errors.plateau_force;

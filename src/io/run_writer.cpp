@@ -27,6 +27,13 @@ std::string begin(const std::string& folder, const Method& method) {
   return folder;
 }
 
+/// Of the accelerated mass over the rod's own. The shape may lie in the folder of the run, which does not keep it
+/// there.
+double inertia_of(const Method& method) {
+  const Centreline centreline = specimen_centreline(method.specimen, method.material, method.machine, method.physics);
+  return inertia_factor(method.material, method.physics, slack_of(method.specimen, centreline));
+}
+
 /// Of a loop around its rollers, by choice: half of the diameter of the default roller [h].
 constexpr double kLargestLoopTurn = 6.0;
 
@@ -36,7 +43,9 @@ bool holds_its_knot(const Results& results) {
 
 }  // namespace
 
-RunWriter::RunWriter(const std::string& folder, const Method& method)
+RunWriter::RunWriter(const std::string& folder, const Method& method) : RunWriter(folder, method, inertia_of(method)) {}
+
+RunWriter::RunWriter(const std::string& folder, const Method& method, double inertia)
     : folder_(begin(folder, method)),
       curve_((fs::path(folder) / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
       full_curve_((fs::path(folder) / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)) {
@@ -62,8 +71,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
   if (method.analysis.margin)
     known_.margin.reason = "only tensile_test makes the runs for the margin: run method.yaml of this folder with it";
   known_.load_cell = method.machine.load_cell;
-  const Centreline centreline = specimen_centreline(method.specimen, method.material, method.machine, method.physics);
-  known_.inertia = inertia_factor(method.material, method.physics, slack_of(method.specimen, centreline));
+  known_.inertia = inertia;
   for (const std::string& warning : speed_warnings(method)) known_.warnings.push_back(warning);
   for (const ProgramStep& step : method.program)
     if (pulls(step.phase)) known_.pull_speed = std::max(known_.pull_speed, step.speed);

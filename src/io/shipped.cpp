@@ -107,7 +107,8 @@ std::vector<std::string> shipped_folders() {
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
   if (!error)
-    folders.push_back((executable.parent_path() / ".." / ".." / "share" / "knot_utm" / "config").lexically_normal());
+    folders.push_back(
+        fs::weakly_canonical(executable.parent_path() / ".." / ".." / "share" / "knot_utm" / "config", error));
   folders.emplace_back(KNOT_UTM_CONFIG_DIR);
   return folders;
 }

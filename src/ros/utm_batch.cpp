@@ -4,7 +4,7 @@
 #include "knot_utm/io/claimed_folder.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/machine/accuracy.hpp"
-#include "knot_utm/ros/test_order.hpp"
+#include "knot_utm/ros/order_of_test.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 #include "knot_utm/study/specimens.hpp"
 

@@ -95,7 +95,8 @@ class Hidden(Fits):
         self.command(*words, settings=PULLED)
         pages = [content(self.path("fit", name)) for name in ("report.html", "report.pdf")]
         self.assertIn("fit.yaml exists already", self.command(*words, settings=PULLED, code=2))
-        self.command(*words, "--overwrite", settings=PULLED)
+        os.remove(self.path("fit", "fit.yaml"))
+        self.command(*words, settings=PULLED)
         self.assertEqual(pages, [content(self.path("fit", name)) for name in ("report.html", "report.pdf")], "the same bytes")
         for word in (f'data-key="{STRETCH}"', 'data-key="record.force_offset"', "The curve fits within the errors",
                      "record/curve.csv", f"{STRETCH}, record.force_offset", "curves.csv", "profiles.csv"):

@@ -269,7 +269,7 @@ TEST_F(BadFile, RollersThatTouchEachOther) {
                               "specimen: {knot: fisherman, knot_distance: 0.12, end_to_end: 0.22, tail: 0.04}\n"
                               "material: nylon\nmachine: {roller_diameter: 0.3}\n"
                               "program: [tie: {}, release: {}, mount: {}, pull: {until: {extension: 0.08}}]\n")),
-              HasSubstr("rollers.yaml: machine.roller_diameter is 0.3, but must be less than 0.21365 m"));
+              HasSubstr("rollers.yaml: machine.roller_diameter is 0.3, but must be less than 0.2136 m"));
 }
 
 TEST_F(BadFile, AWrongMaterialFileIsNamedItself) {

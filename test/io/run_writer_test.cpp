@@ -254,8 +254,9 @@ TEST_F(RunFolder, AnUnfinishedRunHasNoResultOfAnEarlierOne) {
 }
 
 TEST_F(RunFolder, ARunMayTestTheShapeThatTheLastOneLeftThere) {
-  run(load_method(kConfig + "straight.yaml"));
-  const std::string shape = text_of(folder_ / "final_shape.csv");
+  fs::create_directories(folder_);
+  const std::string shape = "x,y,z\nm,m,m\n0,0,0\n0,0,0.1\n0,0,0.2\n";
+  std::ofstream(folder_ / "final_shape.csv") << shape;
   Method method = load_method(kConfig + "from_file.yaml");
   method.specimen.file = (folder_ / "final_shape.csv").string();
   RunWriter writer(folder_.string(), method);

@@ -114,7 +114,7 @@ TEST_F(Said, AnOverhandDoesNotSlide) {
 }
 
 TEST_F(Said, WhatGravityMayDo) {
-  run("--set material=polypropylene --set 'physics.gravity=[9.81, 0, 0]'");
+  run("--set material=polypropylene --set 'physics.gravity=[-9.81, 0, 0]'");
   EXPECT_THAT(said_, HasSubstr("the rod weighs 0.3"));
   EXPECT_THAT(said_, HasSubstr("% of the sliding force"));
   run("--overwrite --set material=polypropylene --set 'physics.gravity=[0, 9.81, 0]' --set 'program=[{tie: {}}, "

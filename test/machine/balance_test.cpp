@@ -34,6 +34,7 @@ struct Machine {
     physics.accuracy = Accuracy::kDraft;
     physics.residual = 1e-8;
     physics.gravity = {1.0, 0.0, -9.81};
+    physics.inertia = 1.6;  // a loose overhand would have less, and swing faster than the bound below is good for
   }
 };
 

@@ -183,7 +183,7 @@ TEST(FishermanLoop, RefusesWhatDoesNotFitTheMachine) {
   shape.knot_distance = 0.02;
   EXPECT_EQ(refused_key(shape), "specimen.knot_distance");
   shape.knot_distance = 0.22;
-  EXPECT_EQ(refused_key(shape), "specimen.knot_distance");
+  EXPECT_EQ(refused_key(shape), "specimen.end_to_end");
   shape = {};
   shape.end_to_end = 0.05;
   EXPECT_EQ(refused_key(shape), "specimen.end_to_end");
@@ -214,7 +214,7 @@ TEST(FishermanLoop, IsRefusedInTheDistanceThatWasAskedFor) {
   } catch (const InvalidInput& error) {
     EXPECT_EQ(error.key, "specimen.knot_distance");
     EXPECT_EQ(error.value, "0.06");
-    shape.knot_distance = std::stod(error.allowed) + 1e-4;  // it begins with the smallest one, rounded
+    shape.knot_distance = std::stod(error.allowed.substr(std::string("at least ").size())) + 1e-4;  // it is rounded
   }
   EXPECT_EQ(refused_key(shape), "");
 }

@@ -44,6 +44,8 @@ class RunWriter {
   std::size_t full_rows() const { return full_curve_.rows(); }  ///< rows of curve_full.csv
 
  private:
+  RunWriter(const std::string& folder, const Method& method, double inertia);
+
   std::string folder_;
   RunFacts known_;
   std::vector<Sample> samples_;              ///< all accepted time steps; the last one of a command is its answer

@@ -18,9 +18,9 @@
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/keeper.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/order_of_test.hpp"
 #include "knot_utm/ros/recorded_batch.hpp"
 #include "knot_utm/ros/run_bag.hpp"
-#include "knot_utm/ros/test_order.hpp"
 
 namespace knot_utm {
 

@@ -1,4 +1,4 @@
-#include "knot_utm/ros/test_order.hpp"
+#include "knot_utm/ros/order_of_test.hpp"
 
 #include <optional>
 

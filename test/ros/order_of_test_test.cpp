@@ -1,5 +1,5 @@
 // What a test is, from the words of a launch and of a request to the order that all nodes read.
-#include "knot_utm/ros/test_order.hpp"
+#include "knot_utm/ros/order_of_test.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
