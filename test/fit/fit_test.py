@@ -95,7 +95,8 @@ class Hidden(Fits):
         self.command(*words, settings=PULLED)
         pages = [content(self.path("fit", name)) for name in ("report.html", "report.pdf")]
         self.assertIn("fit.yaml exists already", self.command(*words, settings=PULLED, code=2))
-        os.remove(self.path("fit", "fit.yaml"))
+        for file in filter(os.path.isfile, [self.path("fit", name) for name in os.listdir(self.path("fit"))]):
+            os.remove(file)
         self.command(*words, settings=PULLED)
         self.assertEqual(pages, [content(self.path("fit", name)) for name in ("report.html", "report.pdf")], "the same bytes")
         for word in (f'data-key="{STRETCH}"', 'data-key="record.force_offset"', "The curve fits within the errors",
