@@ -255,7 +255,7 @@ TEST_F(RunFolder, AnUnfinishedRunHasNoResultOfAnEarlierOne) {
 
 TEST_F(RunFolder, ARunMayTestTheShapeThatTheLastOneLeftThere) {
   fs::create_directories(folder_);
-  const std::string shape = "x,y,z\nm,m,m\n0,0,0\n0,0,0.1\n0,0,0.2\n";
+  const std::string shape = "x,y,z\nm,m,m\n0,0,0\n0,0,0.1\n0,0,0.2\n0,0,0.3\n";
   std::ofstream(folder_ / "final_shape.csv") << shape;
   Method method = load_method(kConfig + "from_file.yaml");
   method.specimen.file = (folder_ / "final_shape.csv").string();
