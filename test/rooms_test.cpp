@@ -86,6 +86,12 @@ TEST(Rooms, NoFileOfTheProgramBeginsAsATestDoes) {
       EXPECT_NE(entry.path().filename().string().rfind("test_", 0), 0u) << entry.path();
 }
 
+TEST(Rooms, NoFileReachesIntoAnotherRoom) {
+  std::vector<std::string> all = core_rooms();
+  all.insert(all.end(), {"ros", "nodes", "tools"});
+  EXPECT_THAT(offenders(std::regex(R"(^\s*#\s*include\s*"\.\.)"), all), testing::IsEmpty());
+}
+
 TEST(Rooms, NoCoreFileIncludesRos) {
   EXPECT_THAT(offenders(std::regex(R"(^\s*#\s*include\s*[<"](knot_utm/)?(ros|rosbag|tf2[a-z_]*|actionlib)/)")),
               testing::IsEmpty());

@@ -283,6 +283,7 @@ std::string why_too_few(const Pull& pull, double end) {
 
 /// Of the force that the rod bears; empty: there is a plateau.
 std::string why_no_plateau(const Pull& borne, const CurveReadings& found) {
+  if (!(peak_force(borne) > 0.0)) return "the specimen was never in tension";
   const std::optional<Plateau> level = plateau(borne, found.slides_to);
   if (!level) return "the pull has too few readings";
   if (std::string few = why_too_few(borne, found.slides_to); !few.empty()) return few;
@@ -334,7 +335,7 @@ CurveReadings curve_readings(const Pull& pull, const HiddenRod& hidden) {
   out.rises_at = lock_by_load(borne);
   out.slides_to = out.rises_at.value_or(pull.back().extension);
   out.jumped = jump(borne, hidden);
-  out.peak_force = peak_force(pull);
+  if (const double peak = peak_force(pull); peak > 0.0) out.peak_force = peak;
   const std::optional<Drop> fall = largest_drop(borne, out.slides_to);
   if (!has_few_for_drops(borne, out.slides_to)) out.largest_drop = fall ? fall->force(borne) : 0.0;
   if (fall) out.largest_drop_at = pull[fall->from].extension;

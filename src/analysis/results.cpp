@@ -61,7 +61,7 @@ Pull with_ends(const Pull& pull, const std::optional<Sample>& origin, const std:
 
 void read_pull(const Pull& pull, Results& results) {
   if (!results.break_extension) results.steady_force = steady_force(pull);
-  results.energy_to_peak = energy_to_peak(pull);
+  if (!results.only_compressed) results.energy_to_peak = energy_to_peak(pull);
   if (results.break_extension) results.energy_to_break = energy(pull);
   results.chord_stiffness = chord_stiffness(pull);
   results.secant_stiffness = secant_stiffness(pull);
@@ -191,6 +191,8 @@ void read_loads(const std::vector<Sample>& readings, Results& results) {
   results.curve = curve_readings(pull_of(rows), hidden_rod_of(rows));
 }
 
+std::optional<double> tensile(double force) { return force > 0.0 ? std::optional<double>(force) : std::nullopt; }
+
 /// What loads and the motion of the knots tell together.
 void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>& at_break, Results& results) {
   const std::vector<CurveRow> rows = rows_of(readings);
@@ -199,11 +201,12 @@ void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>
     results.true_jump_force = true_pull[jumped->from].force;
     results.true_force_after_jump = true_pull[jumped->to].force;
   }
-  if (!pull.empty()) results.true_peak_force = peak_force(true_pull);
+  if (!pull.empty()) results.true_peak_force = tensile(peak_force(true_pull));
   if (at_break) {  // wherever it was: nothing is less than none
-    results.curve.peak_force = std::max(results.curve.peak_force, std::optional<double>(at_break->load));
-    results.true_peak_force = std::max(results.true_peak_force, std::optional<double>(at_break->force_upper));
+    results.curve.peak_force = std::max(results.curve.peak_force, tensile(at_break->load));
+    results.true_peak_force = std::max(results.true_peak_force, tensile(at_break->force_upper));
   }
+  results.only_compressed = !pull.empty() && !results.true_peak_force;
   const bool locked = results.lock_extension || results.curve.rises_at;
   if (results.motion_pattern == MotionPattern::kSliding && !locked) results.curve.locked_stiffness.reset();
   drop_what_does_not_slide(results.motion_pattern, results.curve);

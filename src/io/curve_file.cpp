@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <optional>
 #include <sstream>
+#include <system_error>
 
 #include "knot_utm/io/raw_data.hpp"
 #include "knot_utm/io/run_folder.hpp"
@@ -51,6 +53,23 @@ bool pulled(const CurveRow& row) { return pulls(row.phase); }
 
 }  // namespace
 
+std::string curve_file_of(const std::string& given, const RawOptions& options) {
+  std::error_code error;
+  const std::filesystem::path folder(given);
+  if (!std::filesystem::is_directory(folder, error)) return given;
+  if (std::filesystem::exists(folder / "curve.csv", error)) return (folder / "curve.csv").string();
+  const std::size_t specimens = specimen_folders(given).size();
+  if (specimens == 0)
+    throw InvalidInput::sentence("folder", given, "the folder has no curve.csv, so it is not that of a run")
+        .in_file(given);
+  if (options.specimen < 1 || static_cast<std::size_t>(options.specimen) > specimens)
+    throw InvalidInput::sentence("specimens", std::to_string(options.specimen),
+                                 "the folder holds " + std::to_string(specimens) + " specimens: choose one by " +
+                                     options.spelling.option("specimen", "1 to ") + std::to_string(specimens))
+        .in_file(given);
+  return (std::filesystem::path(specimen_folder(given, options.specimen)) / "curve.csv").string();
+}
+
 std::vector<CurveRow> read_curve_file(const std::string& file, const RawOptions& options, const Tell& tell) {
   const std::string content = read_input(file);
   if (is_own(content)) {
@@ -64,8 +83,8 @@ std::vector<CurveRow> read_curve_file(const std::string& file, const RawOptions&
   return read_curve(in, file);
 }
 
-std::vector<CurveRow> read_course(const std::string& file, const RawOptions& options) {
-  std::vector<CurveRow> rows = read_curve_file(file, options);
+std::vector<CurveRow> read_course(const std::string& file, const RawOptions& options, const Tell& tell) {
+  std::vector<CurveRow> rows = read_curve_file(file, options, tell);
   const auto first = std::find_if(rows.begin(), rows.end(), pulled);
   if (first == rows.end()) return {};
   const auto begin = first == rows.begin() ? first : first - 1;

@@ -180,7 +180,10 @@ void step(Fields& f, ProgramStep& o, double way = 0.0) {
       break;
     case Phase::kFollow:
       f.text("record", o.record);
-      f.text("columns", o.columns);
+      f.text("columns", o.words.columns);
+      f.text("units", o.words.units);
+      f.text("specimen", o.words.specimen);
+      f.text("invert", o.words.invert);
       break;
     case Phase::kPull:
       f.scaled_number("speed", o.speed, kSpeeds);

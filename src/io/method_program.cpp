@@ -55,15 +55,16 @@ Program read_program(const YAML::Node& node, const std::string& file, const fiel
 
 void read_record(const std::filesystem::path& folder, const std::string& follow, ProgramStep& step) {
   const std::string key = follow + ".record";
-  std::error_code error;
-  const std::filesystem::path file = std::filesystem::absolute(folder / step.record).lexically_normal();
   if (step.record.empty()) throw InvalidInput::missing(key, "a curve.csv, or raw data of a testing machine");
-  if (!std::filesystem::is_regular_file(file, error)) throw InvalidInput::cannot_read(file.string(), key);
-  step.record = file.string();
+  const RawOptions options = raw_options(step.words, {follow + ".", ": "});
+  const std::filesystem::path given = std::filesystem::absolute(folder / step.record).lexically_normal();
+  step.record = curve_file_of(given.string(), options);
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(step.record, error)) throw InvalidInput::cannot_read(step.record, key);
   step.recorded.clear();
-  RawOptions options;
-  if (!step.columns.empty()) options.columns = parse_raw_columns(step.columns, follow + ".columns");
-  const std::vector<CurveRow> course = read_course(step.record, options);
+  step.read.clear();
+  const std::vector<CurveRow> course =
+      read_course(step.record, options, [&](const std::string& line) { step.read.push_back(line); });
   for (const CurveRow& row : course) {
     const RecordedPlace place{row.time - course.front().time, row.extension - course.front().extension};
     if (step.recorded.empty() || place.time > step.recorded.back().time) step.recorded.push_back(place);

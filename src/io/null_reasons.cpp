@@ -56,7 +56,12 @@ std::string why_no_error(const ResultSource& source, const std::string& no_readi
 }  // namespace
 
 std::string why_not_pulled(const ResultSource& source) {
-  return source.results.true_peak_force ? "" : "nothing was pulled";
+  if (source.results.true_peak_force) return "";
+  return source.results.only_compressed ? "the specimen was never in tension" : "nothing was pulled";
+}
+
+std::string why_no_peak(const ResultSource& source) {
+  return of_the_pull(source, source.results.curve.peak_force ? "" : "the load never rose above its balanced zero");
 }
 
 std::string why_no_margin(const ResultSource& source) {
@@ -104,7 +109,7 @@ std::string why_no_stiffness_error(const ResultSource& source) {
   return why_no_error(source, slides ? why_they_did_not_lock(source.results) : no_reading);
 }
 
-std::string why_no_peak_error(const ResultSource& source) { return why_no_error(source, why_not_pulled(source)); }
+std::string why_no_peak_error(const ResultSource& source) { return why_no_error(source, why_no_peak(source)); }
 
 std::string why_no_snap(const ResultSource& source) {
   return of_the_pull(source,

@@ -40,7 +40,7 @@ class RawTable {
       : rows_(rows), head_(std::move(head)), end_(end), specimen_(specimen), options_(options), file_(file) {
     columns_ = head_.of_specimen(specimen);
     if (columns_[1]->place == columns_[2]->place)
-      throw InvalidInput(kColumnsOption, options.columns.extension + " and " + options.columns.load,
+      throw InvalidInput(options.spelling.option("columns"), options.columns.extension + " and " + options.columns.load,
                          "another column for the extension than for the load");
     while (head_.first < end_ && are_empty(cells(head_.first))) ++head_.first;
     find_units();
@@ -160,8 +160,11 @@ class RawTable {
     const std::string allowed = of.allowed,
                       key = own.empty()
                                 ? "the unit of " + (column.label.empty() ? "" : std::string("column ")) + name(quantity)
-                                : kUnitsOption;
-    if (unit.empty()) throw InvalidInput::missing(key, allowed + ", by --units " + of.name + "=UNIT").in_file(file_);
+                                : options_.spelling.option("units");
+    if (unit.empty())
+      throw InvalidInput::missing(key,
+                                  allowed + ", by " + options_.spelling.option("units", std::string(of.name) + "=UNIT"))
+          .in_file(file_);
     const std::optional<double> si = si_of(of, unit);
     if (!si && own.empty()) throw InvalidInput(file_, key, unit, allowed);
     if (!si) throw InvalidInput(key, std::string(of.name) + '=' + unit, allowed);
@@ -203,8 +206,9 @@ class RawTable {
 
   void note_unread(std::size_t quantity, const RawColumn& column, const std::string& what) {
     const std::string number = std::to_string(column.place + 1);
-    notes_.push_back("column " + number + " \"" + shown(column.label) + '"' + what + " is not read; --columns " +
-                     raw_quantities()[quantity].name + '=' + number + " would read it");
+    notes_.push_back("column " + number + " \"" + shown(column.label) + '"' + what + " is not read; " +
+                     options_.spelling.option("columns", std::string(raw_quantities()[quantity].name) + '=' + number) +
+                     " would read it");
   }
 
   /// Whose cells have a name each: a decimal comma that is not in quotes would make two of one.
@@ -313,12 +317,14 @@ std::string where(const std::vector<Place>& tables) {
 }
 
 /// The table and the place in it of the specimen that is asked for, from 0.
-std::pair<Place, std::size_t> chosen(const std::vector<Place>& tables, std::size_t all, int wanted,
+std::pair<Place, std::size_t> chosen(const std::vector<Place>& tables, std::size_t all, const RawOptions& options,
                                      const std::string& file) {
+  const int wanted = options.specimen;
+  const RawSpelling& spelling = options.spelling;
   if (wanted == 0 && all > 1)
     throw InvalidInput::sentence("specimens", std::to_string(all),
                                  "the file holds " + std::to_string(all) + " specimens, " + where(tables) +
-                                     ": choose one by --specimen 1 to " + std::to_string(all))
+                                     ": choose one by " + spelling.option("specimen", "1 to ") + std::to_string(all))
         .in_file(file);
   std::size_t left = wanted == 0 ? 0 : static_cast<std::size_t>(wanted - 1);
   for (const Place& table : tables) {
@@ -326,7 +332,7 @@ std::pair<Place, std::size_t> chosen(const std::vector<Place>& tables, std::size
     left -= table.head.specimens();
   }
   throw InvalidInput::sentence("specimens", std::to_string(wanted),
-                               "--specimen is " + std::to_string(wanted) + ", but the file holds " +
+                               spelling.option("specimen") + " is " + std::to_string(wanted) + ", but the file holds " +
                                    std::to_string(all) + (all == 1 ? " specimen" : " specimens"))
       .in_file(file);
 }
@@ -358,11 +364,11 @@ std::vector<CurveRow> read_raw_data(const std::string& content, const std::strin
       const std::vector<Place> tables = tables_from(rows, *head, options);
       std::size_t all = 0;
       for (const Place& table : tables) all += table.head.specimens();
-      const auto [place, specimen] = chosen(tables, all, options.specimen, file);
+      const auto [place, specimen] = chosen(tables, all, options, file);
       RawTable table(rows, place.head, place.end, specimen, options, file);
       std::vector<CurveRow> out = table.read();
       std::string falling;
-      turn_signs(out, options.invert, file, [&](const std::string& line) { falling = line; });
+      turn_signs(out, options, file, [&](const std::string& line) { falling = line; });
       if (tell) table.tell(out.size(), all, tell);
       if (tell && !falling.empty()) tell(falling);
       return out;
@@ -370,9 +376,9 @@ std::vector<CurveRow> read_raw_data(const std::string& content, const std::strin
   }
   throw InvalidInput::sentence("names", "none",
                                std::string("no row names the columns ") + (options.needs_time ? "time, " : "") +
-                                   "extension and load" + (nearest.empty() ? "" : "; " + nearest) +
-                                   "; --columns takes other names, or numbers, such as --columns "
-                                   "time=1,extension=2,load=3")
+                                   "extension and load" + (nearest.empty() ? "" : "; " + nearest) + "; " +
+                                   options.spelling.option("columns") + " takes other names, or numbers, such as " +
+                                   options.spelling.option("columns", "time=1,extension=2,load=3"))
       .in_file(file);
 }
 

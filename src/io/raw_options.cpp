@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "knot_utm/numeric/invalid_input.hpp"
@@ -24,7 +25,40 @@ void turn(std::vector<CurveRow>& rows, double CurveRow::*value) {
   for (CurveRow& row : rows) row.*value = -(row.*value);
 }
 
+int parse_specimen(const std::string& text, const RawSpelling& spelling, std::size_t file, std::size_t files) {
+  const std::size_t comma = text.find(',');
+  const std::string own = comma == std::string::npos ? text
+                          : file == 0                ? text.substr(0, comma)
+                                                     : text.substr(comma + 1);
+  const std::optional<double> number = parse_number(own);
+  constexpr int kMost = 100000;
+  if ((comma != std::string::npos && files < 2) || !number || !(*number >= 1 && *number <= kMost) ||
+      *number != std::floor(*number))
+    throw InvalidInput(spelling.option("specimen"), text,
+                       files < 2 ? "a number from 1 on" : "a number from 1 on, or one for each file: 1,2");
+  return static_cast<int>(*number);
+}
+
 }  // namespace
+
+std::string RawSpelling::invert(const std::string& what) const {
+  if (between != " ") return option("invert", what.empty() ? "falling" : what);
+  return option("invert") + (what.empty() ? "" : '=' + what);  // a flag
+}
+
+bool says_how(const RecordWords& words) {
+  return !words.columns.empty() || !words.units.empty() || !words.invert.empty();
+}
+
+RawOptions raw_options(const RecordWords& words, const RawSpelling& spelling, std::size_t file, std::size_t files) {
+  RawOptions out;
+  out.spelling = spelling;
+  if (!words.columns.empty()) out.columns = parse_raw_columns(words.columns, spelling.option("columns"));
+  if (!words.units.empty()) out.units = parse_raw_columns(words.units, spelling.option("units"));
+  if (!words.invert.empty()) out.invert = parse_invert(words.invert, spelling.option("invert"));
+  if (!words.specimen.empty()) out.specimen = parse_specimen(words.specimen, spelling, file, files);
+  return out;
+}
 
 RawColumns parse_raw_columns(const std::string& text, const std::string& key) {
   constexpr const char* kForm = "time=NAME,extension=NAME,load=NAME, or one or two of these";
@@ -51,14 +85,14 @@ RawColumns parse_raw_columns(const std::string& text, const std::string& key) {
   return out;
 }
 
-Invert parse_invert(const std::string& text) {
+Invert parse_invert(const std::string& text, const std::string& key) {
   constexpr std::array<std::pair<const char*, Invert>, 4> kWords{{{"falling", Invert::kWhatFalls},
                                                                   {"extension", Invert::kExtension},
                                                                   {"load", Invert::kLoad},
                                                                   {"both", Invert::kBoth}}};
   for (const auto& [word, invert] : kWords)
     if (text == word) return invert;
-  throw InvalidInput(kInvertOption, text, "extension, load or both, or stand alone");
+  throw InvalidInput(key, text, "falling, extension, load or both");
 }
 
 Falling what_falls(const std::vector<CurveRow>& rows) {
@@ -73,14 +107,15 @@ Falling what_falls(const std::vector<CurveRow>& rows) {
   return {falls(&CurveRow::extension), falls(&CurveRow::load)};
 }
 
-void turn_signs(std::vector<CurveRow>& rows, Invert invert, const std::string& file, const Tell& tell) {
+void turn_signs(std::vector<CurveRow>& rows, const RawOptions& options, const std::string& file, const Tell& tell) {
   if (rows.empty()) return;
+  const Invert invert = options.invert;
+  const auto said = [&](const char* what) { return options.spelling.invert(what); };
   const Falling falling = what_falls(rows);
   if (invert == Invert::kWhatFalls && !falling.extension && !falling.load) {
     if (tell)
-      tell(file +
-           ": nothing falls, and --invert turns nothing; --invert=load, --invert=extension or --invert=both turn "
-           "what they name");
+      tell(file + ": nothing falls, and " + said("") + " turns nothing; " + said("load") + ", " + said("extension") +
+           " or " + said("both") + " turn what they name");
     return;
   }
   if (invert == Invert::kNothing) {
@@ -88,7 +123,7 @@ void turn_signs(std::vector<CurveRow>& rows, Invert invert, const std::string& f
     std::string what;
     if (falling.extension) what = fall(rows, &CurveRow::extension, "extension", 1e-3, "mm");
     if (falling.load) what += (what.empty() ? "" : ", and ") + fall(rows, &CurveRow::load, "load", 1.0, "N");
-    return tell(file + ": " + what + ", as in compression or where the sign is another one: --invert turns it");
+    return tell(file + ": " + what + ", as in compression or where the sign is another one: " + said("") + " turns it");
   }
   const bool all = invert == Invert::kBoth, found = invert == Invert::kWhatFalls;
   std::string turned;

@@ -241,7 +241,7 @@ constexpr ResultKey kKeys[] = {
     {"locked_stiffness", "N/m", kCurve, "Locked stiffness", curve<&C::locked_stiffness>, why_no_stiffness},
     {"locked_stiffness_error", "N/m", kBeside, "Estimated numerical error of the locked stiffness",
      locked_stiffness_error, why_no_stiffness_error},
-    {"peak_force", "N", kCurve, "Peak force", curve<&C::peak_force>, why_not_pulled},
+    {"peak_force", "N", kCurve, "Peak force", curve<&C::peak_force>, why_no_peak},
     {"peak_force_error", "N", kBeside, "Estimated numerical error of the peak force", peak_force_error,
      why_no_peak_error},
 

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "knot_utm/record/phase.hpp"
+#include "knot_utm/ros/base_marker.hpp"
 #include "knot_utm/ros/color.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/views.hpp"
@@ -57,39 +58,29 @@ class Plane {
       : ahead_(kAhead * distance), half_height_(ahead_ * std::tan(0.5 * Camera::kFieldOfView)) {}
 
   Marker text(int id, const std::string& words, double letter, double x, double y) const {
-    Marker m = marker(id, "reading", Marker::TEXT_VIEW_FACING, kGrey);
+    Marker m = base_marker(names::kViewMachineFrame, "reading", id, Marker::TEXT_VIEW_FACING);
+    m.color = kGrey;
     m.scale.z = letter * half_height_;
     m.pose.position = at(x, y);
     m.text = words;
     return m;
   }
   Marker lines(int id, const char* ns, const std_msgs::ColorRGBA& c) const {
-    Marker m = marker(id, ns, Marker::LINE_LIST, c);
+    Marker m = base_marker(names::kViewMachineFrame, ns, id, Marker::LINE_LIST);
+    m.color = c;
     m.scale.x = kLine * half_height_;
     return m;
   }
   geometry_msgs::Point at(double x, double y) const {
-    const Vec3 place = ahead_ * Camera::forwards() + half_height_ * (x * Camera::right() + y * Camera::up());
-    geometry_msgs::Point point;
-    point.x = place.x();
-    point.y = place.y();
-    point.z = place.z();
-    return point;
+    return to_point(ahead_ * Camera::forwards() + half_height_ * (x * Camera::right() + y * Camera::up()));
+  }
+  /// The same place in the picture, before what is drawn there by `at`.
+  geometry_msgs::Point before(double x, double y) const {
+    constexpr double kNearer = 0.99;
+    return to_point(kNearer * (ahead_ * Camera::forwards() + half_height_ * (x * Camera::right() + y * Camera::up())));
   }
 
  private:
-  static Marker marker(int id, const char* ns, int type, const std_msgs::ColorRGBA& c) {
-    Marker m;
-    m.header.frame_id = names::kViewMachineFrame;
-    m.ns = ns;
-    m.id = id;
-    m.type = type;
-    m.action = Marker::ADD;
-    m.pose.orientation.w = 1.0;
-    m.color = c;
-    return m;
-  }
-
   double ahead_, half_height_;
 };
 
@@ -137,8 +128,8 @@ void add_curve(const Plane& plane, const Axes& axes, int id, const Points& point
     const auto &a = points[i - 1], &b = points[i];
     if (std::min(a.load, b.load) > axes.load || std::max(a.load, b.load) < axes.lowest_load) continue;
     for (const double t : inside(axes, a.load, b.load))
-      curve.points.push_back(plane.at(axes.x(std::max(0.0, a.extension + t * (b.extension - a.extension))),
-                                      axes.y(a.load + t * (b.load - a.load))));
+      curve.points.push_back(plane.before(axes.x(std::max(0.0, a.extension + t * (b.extension - a.extension))),
+                                          axes.y(a.load + t * (b.load - a.load))));
   }
   if (!curve.points.empty()) out.push_back(curve);
 }

@@ -6,7 +6,6 @@
 
 #include <utility>
 
-#include "knot_utm/io/curve_file.hpp"
 #include "knot_utm/io/raw_zero.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/program.hpp"
@@ -30,8 +29,7 @@ RecordBalance record_balance_named(const std::string& name) {
   throw InvalidInput("balance", name, "auto, true or false");
 }
 
-std::vector<CurveRow> record_with_zero(std::vector<CurveRow> rows, RecordBalance balance,
-                                       const std::function<void(const std::string& line)>& tell) {
+std::vector<CurveRow> record_with_zero(std::vector<CurveRow> rows, RecordBalance balance, const Tell& tell) {
   if (rows.empty() || balance == RecordBalance::kNo) return rows;
   if (has_its_zero(rows)) {
     if (balance == RecordBalance::kYes) tell("the record is a curve of knot_utm and keeps its own zero");
@@ -42,18 +40,16 @@ std::vector<CurveRow> record_with_zero(std::vector<CurveRow> rows, RecordBalance
   return balanced(rows, zero);
 }
 
-ExperimentNode::ExperimentNode(const ros::NodeHandle& node, const std::string& file, RecordBalance balance)
+ExperimentNode::ExperimentNode(const ros::NodeHandle& node, std::vector<CurveRow> rows, RecordBalance balance,
+                               const Tell& tell)
     : node_(node),
-      rows_(read_course(file)),
-      began_(rows_.empty() ? 0.0 : rows_.front().time),
+      began_(rows.empty() ? 0.0 : rows.front().time),
+      rows_(record_with_zero(std::move(rows), balance, tell)),
       load_cell_(node_.advertise<geometry_msgs::WrenchStamped>(names::kExperimentLoad, kQueue)),
       crosshead_(node_.advertise<Crosshead>(names::kExperimentCrosshead, kQueue)),
       commands_(subscribe_gated(node_, {names::kCrosshead, names::kUtmNode, kQueue, kLargest},
                                 &ExperimentNode::on_command, this)),
-      start_(node_.serviceClient<StartTest>(names::kStartTest)) {
-  rows_ = record_with_zero(std::move(rows_), balance,
-                           [&](const std::string& line) { ROS_INFO("%s: %s", file.c_str(), line.c_str()); });
-}
+      start_(node_.serviceClient<StartTest>(names::kStartTest)) {}
 
 void ExperimentNode::spin(bool autostart) {
   while (ros::ok()) {

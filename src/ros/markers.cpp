@@ -7,6 +7,7 @@
 
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
+#include "knot_utm/ros/base_marker.hpp"
 #include "knot_utm/ros/color.hpp"
 #include "knot_utm/ros/names.hpp"
 
@@ -16,14 +17,6 @@ namespace {
 using visualization_msgs::Marker;
 
 constexpr double kPi = 3.14159265358979323846;
-
-geometry_msgs::Point to_point(const Vec3& v) {
-  geometry_msgs::Point point;
-  point.x = v.x();
-  point.y = v.y();
-  point.z = v.z();
-  return point;
-}
 
 /// rviz does not light triangles that have colours of their own, so the light is put into the colours: one lamp, and
 /// soft enough that no side is black (half-Lambert).
@@ -71,20 +64,9 @@ std::vector<Ring> rings_of(const Points& points) {
   return rings;
 }
 
-Marker base_marker(const char* ns, int id, int type) {
-  Marker m;
-  m.header.frame_id = names::kBaseFrame;
-  m.ns = ns;
-  m.id = id;
-  m.type = type;
-  m.action = Marker::ADD;
-  m.pose.orientation.w = 1.0;
-  return m;
-}
-
 Marker body_marker(int id, const GripBody& body, const Vec3& grip, double radius) {
   const bool cylinder = body.cylinder_radius > 0.0;
-  Marker m = base_marker("grips", id, cylinder ? Marker::CYLINDER : Marker::CUBE);
+  Marker m = base_marker(names::kBaseFrame, "grips", id, cylinder ? Marker::CYLINDER : Marker::CUBE);
   m.pose.position = to_point(grip + body.from_grip);
   Vec3 size = 2.0 * body.half_box(radius);
   if (cylinder) {
@@ -153,7 +135,7 @@ class Tube {
 };
 
 Marker triangles(const char* ns) {
-  Marker m = base_marker(ns, 0, Marker::TRIANGLE_LIST);
+  Marker m = base_marker(names::kBaseFrame, ns, 0, Marker::TRIANGLE_LIST);
   m.scale.x = m.scale.y = m.scale.z = 1.0;
   m.color = color(1.0, 1.0, 1.0);
   return m;
@@ -218,7 +200,7 @@ Marker tube_marker(const Points& points, const Colors& colors, double radius, co
 }
 
 Marker spheres_marker(const Points& points, const Colors& colors, double radius, Eigen::Index parted) {
-  Marker m = base_marker("rod", 0, Marker::SPHERE_LIST);
+  Marker m = base_marker(names::kBaseFrame, "rod", 0, Marker::SPHERE_LIST);
   m.scale.x = m.scale.y = m.scale.z = 2.0 * radius;
   m.color = color(1.0, 1.0, 1.0);
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
@@ -237,7 +219,7 @@ Marker spheres_marker(const Points& points, const Colors& colors, double radius,
 }
 
 Marker contact_marker(const std::vector<ContactForce>& forces, double radius, const ColorScale& scale, double longest) {
-  Marker m = base_marker("contact_forces", 0, Marker::LINE_LIST);
+  Marker m = base_marker(names::kBaseFrame, "contact_forces", 0, Marker::LINE_LIST);
   m.scale.x = 0.35 * radius;
   m.color = kContactColor;
   m.points.reserve(2 * forces.size());

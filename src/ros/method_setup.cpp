@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "knot_utm/io/curve_file.hpp"
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/numeric/number.hpp"
@@ -47,17 +48,36 @@ std::string method_file(const TestWords& words, const fs::path& base) {
 }
 
 /// The override by which a program follows a record instead of its last pull.
-std::string following(const std::string& data, const Program& program) {
+std::string following(const std::string& data, const RecordWords& words, const Program& program) {
   const auto pull = std::find_if(program.rbegin(), program.rend(),
                                  [](const ProgramStep& step) { return step.phase == Phase::kPull; });
   if (pull == program.rend())
     throw InvalidInput::sentence(
         "data", data,
         "the method cannot follow " + shown(data) + ": no step of its program is a pull, which it would replace");
-  std::string quoted;
-  for (const char c : data) quoted += c == '\'' ? "''" : std::string(1, c);
-  return "program." + std::to_string(program.rend() - pull - 1) + "={follow: {record: '" + quoted + "'}}";
+  const auto key = [](const char* name, const std::string& value) {
+    std::string quoted;
+    for (const char c : value) quoted += c == '\'' ? "''" : std::string(1, c);
+    return std::string(name) + ": '" + quoted + '\'';
+  };
+  return "program." + std::to_string(program.rend() - pull - 1) + "={follow: {" + key("record", data) + ", " +
+         key("columns", words.columns) + ", " + key("units", words.units) + ", " + key("specimen", words.specimen) +
+         ", " + key("invert", words.invert) + "}}";
 }
+
+/// An override that cannot be read is called what a launch calls it.
+Method load(const std::string& file, const std::vector<std::string>& overrides) {
+  try {
+    return load_method(file, overrides);
+  } catch (const InvalidInput& invalid) {
+    const std::string option = "--set", said = invalid.what();
+    if (invalid.key != option || said.rfind(option, 0) != 0) throw;
+    throw InvalidInput::sentence("overrides", invalid.value, "overrides:" + said.substr(option.size()));
+  }
+}
+
+/// How a launch gives them.
+RawOptions options_of(const RecordWords& words) { return raw_options(words, {"", ":="}); }
 
 /// Refused now, and not once others have been tested.
 void check_specimens(const Method& method, const std::string& file) {
@@ -83,6 +103,8 @@ TestWords read_words(const ros::NodeHandle& node) {
   words.preload = text_parameter(node, "test/preload");
   words.working_directory = text_parameter(node, "test/working_directory");
   words.data = text_parameter(node, "test/data");
+  words.record = {text_parameter(node, "test/columns"), text_parameter(node, "test/units"),
+                  text_parameter(node, "test/specimen"), text_parameter(node, "test/invert")};
   words.out = text_parameter(node, "test/out");
   read_parameter(node, "test/overrides", &words.overrides, "a list of texts");
   return words;
@@ -112,11 +134,12 @@ MethodSetup set_up(const TestWords& words) {
   MethodSetup setup;
   setup.words = words;
   setup.file = method_file(words, base);
-  setup.method = load_method(setup.file, overrides);
+  setup.method = load(setup.file, overrides);
   if (!words.data.empty()) {
-    setup.data = (base / words.data).lexically_normal().string();
-    overrides.push_back(following(setup.data, setup.method.program));
-    setup.method = load_method(setup.file, overrides);
+    setup.data = curve_file_of((base / words.data).lexically_normal().string(), options_of(words.record));
+    setup.read_data();  // said in the words of the launch, where it cannot be read
+    overrides.push_back(following(setup.data, words.record, setup.method.program));
+    setup.method = load(setup.file, overrides);
   }
   // The folder's name below out/.
   const std::string& name = setup.method.name;
@@ -127,6 +150,10 @@ MethodSetup set_up(const TestWords& words) {
   }
   setup.out = (base / (words.out.empty() ? fs::path("out") / name : fs::path(words.out))).lexically_normal().string();
   return setup;
+}
+
+std::vector<CurveRow> MethodSetup::read_data(const Tell& tell) const {
+  return read_course(data, options_of(words.record), tell);
 }
 
 TestWords asked_for(TestWords launched, const StartTest::Request& request) {

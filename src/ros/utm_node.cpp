@@ -10,9 +10,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "../tools/progress_line.hpp"
 #include "clock_pace.hpp"
 #include "knot_utm/io/knot_advice.hpp"
+#include "knot_utm/io/progress_line.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/validate.hpp"
@@ -41,7 +41,7 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
     : node_(node),
       launched_(launched),
       options_(options),
-      progress_(std::make_unique<ProgressLine>(false)),
+      progress_(std::make_unique<ProgressLine>(stderr)),
       factor_(std::numeric_limits<double>::quiet_NaN()),
       run_test_(node, {[this](std::uint32_t count) {
                          StartTest::Request request;

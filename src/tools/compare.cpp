@@ -2,10 +2,8 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -15,7 +13,6 @@
 #include "knot_utm/io/curve_file.hpp"
 #include "knot_utm/io/raw_zero.hpp"
 #include "knot_utm/io/report.hpp"
-#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/summary.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/curve_bag.hpp"
@@ -41,29 +38,11 @@ struct Arguments {
 
 void tell(const std::string& line) { std::fprintf(stderr, "%s: %s\n", kTool, line.c_str()); }
 
-/// The file of the curve that a word of the command line names: itself, or that of the run in the folder.
-std::string curve_of(const std::string& given, int specimen) {
-  std::error_code error;
-  const std::filesystem::path folder(given);
-  if (!std::filesystem::is_directory(folder, error)) return given;
-  const std::size_t specimens = specimen_folders(given).size();
-  if (std::filesystem::exists(folder / "curve.csv", error)) return (folder / "curve.csv").string();
-  if (specimens == 0)
-    throw InvalidInput::sentence("folder", given, "the folder has no curve.csv, so it is not that of a run")
-        .in_file(given);
-  if (specimen < 1 || static_cast<std::size_t>(specimen) > specimens)
-    throw InvalidInput::sentence("specimens", std::to_string(specimen),
-                                 "the folder holds " + std::to_string(specimens) +
-                                     " specimens: choose one by --specimen 1 to " + std::to_string(specimens))
-        .in_file(given);
-  return (std::filesystem::path(specimen_folder(given, specimen)) / "curve.csv").string();
-}
-
 CurveOfFile read_bag([[maybe_unused]] const RawOptions& options, const std::string& file,
                      [[maybe_unused]] const Tell& told) {
 #ifdef KNOT_UTM_HAS_ROS
   CurveOfFile out{file, read_curve_bag(file, options.specimen)};
-  if (!has_its_zero(out.rows)) turn_signs(out.rows, options.invert, file, told);
+  if (!has_its_zero(out.rows)) turn_signs(out.rows, options, file, told);
   return out;
 #else
   throw InvalidInput::sentence("file", file, "cannot read a bag: this program was built without ROS").in_file(file);
@@ -80,13 +59,13 @@ CurveOfFile read(const std::string& file, RawOptions options, const Tell& told) 
 int run(Arguments arguments) {
   if (arguments.tolerance && !std::isfinite(*arguments.tolerance))
     throw InvalidInput("--tolerance", std::to_string(*arguments.tolerance), "a finite number of at least 0");
-  const RawOptions of_a = arguments.raw.options(0, 2), of_b = arguments.raw.options(1, 2);
-  arguments.a = curve_of(arguments.a, of_a.specimen);
-  arguments.b = curve_of(arguments.b, of_b.specimen);
+  const RawOptions of_a = raw_options(arguments.raw, {}, 0, 2), of_b = raw_options(arguments.raw, {}, 1, 2);
+  arguments.a = curve_file_of(arguments.a, of_a);
+  arguments.b = curve_file_of(arguments.b, of_b);
   std::vector<std::string> told;  // nothing of it where there is nothing to compare
   const Tell note = [&](const std::string& line) { told.push_back(line); };
   CurveOfFile first = read(arguments.a, of_a, note), second = read(arguments.b, of_b, note);
-  if (arguments.raw.says_how() && has_its_zero(first.rows) && has_its_zero(second.rows))
+  if (says_how(arguments.raw) && has_its_zero(first.rows) && has_its_zero(second.rows))
     note("both curves are of knot_utm, for which --columns, --units and --invert change nothing");
   const auto [a, b, comparison] = compare_curves(std::move(first), std::move(second), arguments.zero, note);
   for (const std::string& line : told) tell(line);

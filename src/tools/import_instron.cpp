@@ -25,8 +25,8 @@ int main(int argc, char** argv) {
     if (const auto code = knot_utm::parse(app, kTool, argc, argv)) return *code;
     knot_utm::require_new_file("BAG", bag, {raw_data}, overwrite, "#ROSBAG");
     std::vector<std::string> told;
-    const std::vector<knot_utm::CurveRow> rows =
-        knot_utm::read_curve_file(raw_data, words.options(), [&](const std::string& line) { told.push_back(line); });
+    const std::vector<knot_utm::CurveRow> rows = knot_utm::read_curve_file(
+        raw_data, knot_utm::raw_options(words), [&](const std::string& line) { told.push_back(line); });
     knot_utm::write_curve_bag(bag, rows);
     if (quiet) return static_cast<int>(knot_utm::kDone);
     for (const std::string& line : told) std::printf("%s\n", line.c_str());

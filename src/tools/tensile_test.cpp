@@ -17,6 +17,7 @@
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/method_keys.hpp"
 #include "knot_utm/io/plausible_rod.hpp"
+#include "knot_utm/io/progress_line.hpp"
 #include "knot_utm/io/report.hpp"
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/run_folder.hpp"
@@ -30,7 +31,6 @@
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/run_bag.hpp"
 #endif
-#include "progress_line.hpp"
 #include "tool.hpp"
 
 namespace knot_utm {
@@ -132,7 +132,7 @@ std::optional<int> step_to_stop_before(const Arguments& arguments, const Method&
 }
 
 HeadlessOutcome run_and_tell(const Arguments& arguments, const Method& method) {
-  ProgressLine progress(arguments.quiet);
+  ProgressLine progress(arguments.quiet ? nullptr : stderr);
   HeadlessOptions options;
   options.folder = folder_of(arguments, method);
   options.resume = !arguments.resume.empty();
@@ -185,7 +185,7 @@ int run_all_specimens(const Arguments& arguments, const Method& method) {
   options.overwrite = arguments.overwrite;
   options.shapes = arguments.shapes;
   options.checkpoint_period = arguments.checkpoint;
-  ProgressLine progress(arguments.quiet);
+  ProgressLine progress(arguments.quiet ? nullptr : stderr);
   options.interrupted = [] { return stop_asked != 0; };
   options.notice = [&](const std::string& line) {
     progress.end();
@@ -233,6 +233,9 @@ int run(const Arguments& arguments) {
     return kDone;
   }
   const Method method = load_method(arguments.method, arguments.overrides);
+  if (!arguments.quiet)
+    for (const ProgramStep& step : method.program)
+      for (const std::string& line : step.read) std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
   if (arguments.check) return check(method);
   if (arguments.list_keys) return list_keys(method);
   if (arguments.overwrite) require_no_method_in(folder_of(arguments, method), arguments.method);

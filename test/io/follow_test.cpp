@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -14,6 +15,8 @@
 #include "io/own_folder.hpp"
 #include "knot_utm/io/csv.hpp"
 #include "knot_utm/io/curve_file.hpp"
+#include "knot_utm/io/method.hpp"
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 
 namespace knot_utm {
@@ -21,6 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
+using testing::Not;
 
 class Follow : public OwnFolder {
  protected:
@@ -45,6 +49,13 @@ class Follow : public OwnFolder {
     while (i + 1 < rows.size() && rows[i].time < time) ++i;
     const CurveRow &a = rows[i - 1], &b = rows[i];
     return a.extension + (time - a.time) / (b.time - a.time) * (b.extension - a.extension);
+  }
+
+  /// A method that follows a file of test/io/raw.
+  static Method following(const std::string& file, const std::string& keys) {
+    const std::string source = KNOT_UTM_SOURCE_DIR;
+    return load_method(source + "/config/straight.yaml",
+                       {"program=[{follow: {record: '" + source + "/test/io/raw/" + file + "', " + keys + "}}]"});
   }
 
   static std::string refusal(const std::string& rows) {
@@ -108,6 +119,68 @@ TEST_F(Follow, ARecordWithTwoZerosOrATimeThatGoesBackIsRefused) {
   EXPECT_EQ(refusal(start + "2,0.002,2,nan,0.252,2,pull\n3,0,0,nan,0.252,0,balance\n"), "") << "behind the last pull";
 }
 
+/// Raw data of others, which `compare` reads by its options, are read by the same words in the step.
+TEST_F(Follow, ARecordIsReadAsTheStepSays) {
+  struct Case {
+    const char *file, *keys;
+    RecordedPlace last;  // [s], [m]
+    const char* told;
+  };
+  for (const Case& one : {Case{"side_by_side.csv", "specimen: 2", {4.0, 2e-3}, "9 readings of specimen 2 of 2"},
+                          Case{"no_units.csv", "units: 'time=min,extension=in,load=lbf'", {300.0, 0.0635}, "in in"},
+                          Case{"headerless.csv",
+                               "columns: 'time=1,extension=2,load=3', units: 'time=s,extension=cm,load=N'",
+                               {5.5, 2.75e-2},
+                               "load is column 3 in N"},
+                          Case{"neg_ext.csv", "invert: falling", {4.5, 2.25e-3}, "the sign of extension"},
+                          Case{"neg_load.csv", "invert: both", {4.5, -2.25e-3}, "the sign of extension and load"}}) {
+    const Method method = following(one.file, one.keys);
+    const ProgramStep& step = method.program.front();
+    EXPECT_NEAR(step.recorded.back().time, one.last.time, 1e-9) << one.file;
+    EXPECT_NEAR(step.recorded.back().displacement, one.last.displacement, 1e-12) << one.file;
+    EXPECT_THAT(step.read, testing::Contains(HasSubstr(one.told))) << one.file;
+    // Resolved, it says the same.
+    std::ofstream(in("method.yaml")) << method_yaml(method);
+    EXPECT_EQ(load_method(in("method.yaml")).program.front().recorded.back().displacement,
+              step.recorded.back().displacement);
+  }
+}
+
+TEST_F(Follow, WhatCannotBeReadIsSaidInTheWordsOfAMethod) {
+  const std::string key = "program.0.follow.";
+  const std::vector<std::array<std::string, 3>> cases{
+      {"side_by_side.csv", "", "2 specimens, side by side: choose one by " + key + "specimen: 1 to 2"},
+      {"side_by_side.csv", "specimen: 3", key + "specimen is 3, but the file holds 2 specimens"},
+      {"side_by_side.csv", "specimen: both", key + "specimen is both, but must be a number from 1 on"},
+      {"no_units.csv", "", "give ms, s, min or h, by " + key + "units: time=UNIT"},
+      {"headerless.csv", "", "such as " + key + "columns: time=1,extension=2,load=3"},
+      {"extenso.csv", "units: load=MPa", key + "units is load=MPa, but must be"},
+      {"neg_load.csv", "invert: up", key + "invert is up, but must be falling, extension, load or both"},
+      {"no_time.csv", "", "no row names the columns time, extension and load"}};
+  for (const auto& [file, keys, why] : cases) {
+    try {
+      following(file, keys);
+      ADD_FAILURE() << file << ' ' << keys;
+    } catch (const InvalidInput& invalid) {
+      EXPECT_THAT(invalid.what(), HasSubstr(why));
+      EXPECT_THAT(invalid.what(), Not(HasSubstr("--")));
+    }
+  }
+}
+
+/// The largest load is one of tension; where there is none, that is said.
+TEST_F(Follow, ARecordOfCompressionHasNoPeak) {
+  std::ofstream(in("record.csv")) << "Time (s),Extension (mm),Load (N)\n0,0,0\n1,-0.1,-10\n2,-0.2,-20\n";
+  const Answer answer = test("[{follow: {record: " + in("record.csv") + "}}]", "compressed");
+  ASSERT_EQ(answer.code, 0) << answer.text;
+  const std::string result = read_whole(in("compressed/result.yaml"));
+  for (const char* key : {"peak_force", "true_peak_force", "energy_to_peak"})
+    EXPECT_THAT(result, HasSubstr("\n" + std::string(key) + ": null  # the specimen was never in tension\n"));
+  EXPECT_THAT(result, HasSubstr("\nno_plateau_because: \"the specimen was never in tension\"\n"));
+  EXPECT_THAT(result, HasSubstr("\nwarnings: []\n"));
+}
+
+/// The folder of a run stands for its curve.
 TEST_F(Follow, TheFolderOfTheRecordIsNotWrittenTo) {
   ASSERT_EQ(test("[{pull: {until: {extension: 0.002}}}]", "source").code, 0);
   const auto content = [&] {
@@ -119,7 +192,7 @@ TEST_F(Follow, TheFolderOfTheRecordIsNotWrittenTo) {
     return all;
   };
   const std::string before = content();
-  const Answer answer = test("[{follow: {record: " + in("source/curve.csv") + "}}]", "source/../source");
+  const Answer answer = test("[{follow: {record: " + in("source") + "}}]", "source/../source");
   EXPECT_EQ(answer.code, 2);
   EXPECT_THAT(answer.text, testing::AllOf(HasSubstr("the method follows "), HasSubstr("choose another folder"),
                                           HasSubstr("curve.csv")));

@@ -4,11 +4,15 @@ import csv
 import itertools
 import math
 import os
+import signal
+import subprocess
 import sys
+import tempfile
 import types
 import unittest
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../panel'))
+PANEL = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../panel')
+sys.path.insert(0, PANEL)
 
 from drawing import HEIGHT, WIDTH, Drawing, limit
 from readings import BROKEN, CROSSED, CURVES, ENDED, FAILED, MOST_WAITING, PAUSED, PREPARATION, Readings
@@ -267,6 +271,17 @@ class DrawingTest(unittest.TestCase):
         for value in (1e-5, 0.19, 0.99, 4.2, 95.3, 6352.0):
             self.assertLess(value, limit(value))
             self.assertLess(limit(value), 2.2 * value)
+
+
+class PanelNodeTest(unittest.TestCase):
+
+    def test_an_interrupt_while_it_loads_is_no_traceback(self):
+        with tempfile.TemporaryDirectory() as folder:
+            with open(os.path.join(folder, 'rospy.py'), 'w', encoding='utf-8') as file:
+                file.write('import os, signal\nos.kill(os.getpid(), signal.SIGINT)\n')
+            ended = subprocess.run([os.path.join(PANEL, 'panel_node')], env=dict(os.environ, PYTHONPATH=folder), check=False,
+                                   capture_output=True)
+            self.assertEqual((ended.returncode, ended.stdout, ended.stderr), (-signal.SIGINT, b'', b''))
 
 
 if __name__ == '__main__':

@@ -5,6 +5,7 @@
 #include "knot_utm/io/compared_curves.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/ros/experiment_node.hpp"
+#include "knot_utm/ros/method_setup.hpp"
 
 namespace knot_utm {
 namespace {
@@ -49,6 +50,33 @@ TEST(ExperimentRecord, RawDataHaveTheZeroOfCompare) {
     EXPECT_NEAR(found.back().extension, a.back().extension, 1e-12);
     for (const auto& zero : {comparison.zeros->a, comparison.zeros->b}) EXPECT_NEAR(zero->load, 10.5, 1e-12);
   }
+}
+
+/// A launch says how raw data are read, and is told in its own words what it must say.
+TEST(ExperimentRecord, IsReadAsTheLaunchSays) {
+  TestWords words;
+  words.method = "straight";
+  words.shipped_methods = KNOT_UTM_SOURCE_DIR "/config";
+  const auto with = [&](const char* data, const RecordWords& record) {
+    words.data = std::string(KNOT_UTM_SOURCE_DIR "/test/io/raw/") + data;
+    words.record = record;
+    return set_up(words);
+  };
+  const auto refusal = [&](const char* data, const RecordWords& record) -> std::string {
+    try {
+      with(data, record);
+    } catch (const InvalidInput& invalid) {
+      return invalid.what();
+    }
+    return "";
+  };
+  const MethodSetup setup = with("side_by_side.csv", {"", "load=kN", "2", "load"});
+  EXPECT_NEAR(setup.read_data().back().load, -4125.0, 1e-9);
+  EXPECT_NEAR(setup.method.program.back().recorded.back().time, 4.0, 1e-9);
+  EXPECT_THAT(refusal("side_by_side.csv", {}), HasSubstr("2 specimens, side by side: choose one by specimen:=1 to 2"));
+  EXPECT_THAT(refusal("no_units.csv", {}), HasSubstr("by units:=time=UNIT"));
+  EXPECT_THAT(refusal("headerless.csv", {}), HasSubstr("such as columns:=time=1,extension=2,load=3"));
+  EXPECT_THAT(refusal("extenso.csv", {"", "", "", "up"}), HasSubstr("invert is up, but must be falling, extension, "));
 }
 
 TEST(ExperimentRecord, IsLeftAsItIsWhereAskedAndWhereItHasItsZero) {

@@ -77,6 +77,19 @@ TEST(Setup, WritesBelowOutUnlessAFolderIsAskedFor) {
   EXPECT_EQ(set_up(words).out, "/tmp/here");
 }
 
+TEST(Setup, SaysOfAnOverrideWhatALaunchCallsIt) {
+  for (const char* wrong : {"x", "specimen.length=[1"}) {
+    TestWords words = launched();
+    words.overrides = {wrong};
+    try {
+      set_up(words);
+      ADD_FAILURE() << wrong;
+    } catch (const InvalidInput& invalid) {
+      EXPECT_EQ(std::string(invalid.what()).rfind("overrides: ", 0), 0u) << invalid.what();
+    }
+  }
+}
+
 /// The recorder writes the method that it reads in the order, and the physics steps it: to the last bit that of the
 /// machine.
 TEST(Order, HasTheWholeMethod) {

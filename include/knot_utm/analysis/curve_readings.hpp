@@ -118,7 +118,7 @@ struct CurveReadings {
   std::optional<double> rises_at;
   double slides_to = 0.0;      ///< s up to which the knots are taken to slide: `rises_at`, or the end of the pull [m]
   std::optional<Drop> jumped;  ///< the fall of F where a knot jumped open, as indices of points of the pull
-  std::optional<double> peak_force;  ///< largest F [N]
+  std::optional<double> peak_force;  ///< largest tensile F [N]; empty: F was never above zero
   /// Mean F of the plateau, before the lock or, in a pull without a lock, before its end [N].
   std::optional<double> plateau_force;
   std::optional<double> plateau_force_sd;        ///< standard deviation of F within the plateau [N]

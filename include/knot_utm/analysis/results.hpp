@@ -62,13 +62,15 @@ struct Results {
   // those of the load, apart from the errors of the cell.
   std::optional<double> true_plateau_force;
   std::optional<double> true_breakaway_force;
-  std::optional<double> true_peak_force;
+  std::optional<double> true_peak_force;  ///< empty where nothing was pulled, or only compressed
   std::optional<double> true_jump_force;
   std::optional<double> true_force_after_jump;
 
   // Of a specimen that is no loop of two knots (snap.hpp).
   std::optional<double> snap_extension;  ///< s at which it snapped into another shape [m]
   std::optional<double> snap_drop;       ///< by how much F fell then [N]
+
+  bool only_compressed = false;  ///< F was never above zero in the pull, which has readings
 
   std::optional<double> plateau_slope;   ///< mean of de/ds over the plateau [-]; -2: rigid sliding
   std::optional<double> lock_extension;  ///< s_l, found from the knot distance: sliding became stretching there [m]

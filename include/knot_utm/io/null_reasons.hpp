@@ -10,6 +10,7 @@ namespace knot_utm {
 // them. They are evaluated only for keys that have no value.
 
 std::string why_not_pulled(const ResultSource& source);  ///< empty: something was pulled
+std::string why_no_peak(const ResultSource& source);
 std::string why_no_margin(const ResultSource& source);
 std::string why_no_plateau(const ResultSource& source);
 std::string why_no_plateau_error(const ResultSource& source);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knot_utm/analysis/curve_row.hpp"
+#include "knot_utm/record/program.hpp"
 
 namespace knot_utm {
 
@@ -16,6 +17,18 @@ struct RawColumns {
 /// Whose sign is turned.
 enum class Invert { kNothing, kWhatFalls, kExtension, kLoad, kBoth };
 
+/// How options are given, for messages: "--units load=N" to a command, "units:=load=N" to a launch, and
+/// "program.0.follow.units: load=N" in a method.
+struct RawSpelling {
+  std::string before = "--", between = " ";
+
+  std::string option(const std::string& name) const { return before + name; }
+  std::string option(const std::string& name, const std::string& value) const {
+    return before + name + between + value;
+  }
+  std::string invert(const std::string& what) const;  ///< empty: what falls
+};
+
 /// What a user says about raw data of a testing machine.
 struct RawOptions {
   RawColumns columns = {};           ///< names of columns beside the known ones, or their numbers, from 1
@@ -23,19 +36,16 @@ struct RawOptions {
   int specimen = 0;                  ///< which one of several in one file, from 1; 0: there must be only one
   Invert invert = Invert::kNothing;  ///< the sign of what is turned
   bool needs_time = true;            ///< otherwise a file without a column of time has NaN for it
+  RawSpelling spelling = {};
 };
 
 /// Receives lines about what was read, which a user should see.
 using Tell = std::function<void(const std::string& line)>;
 
-/// The options of the tools, and their help texts.
-constexpr const char* kColumnsOption = "--columns";
+/// Help texts of the tools' options.
 constexpr const char* kColumnsHelp =
     "columns of raw data by name or number: time=NAME,extension=NAME,load=NAME, or one or two of these";
-constexpr const char* kUnitsOption = "--units";
 constexpr const char* kUnitsHelp = "units of raw data: time=s,extension=in,load=lbf, or one or two of these";
-constexpr const char* kSpecimenOption = "--specimen";
-constexpr const char* kInvertOption = "--invert";
 constexpr const char* kInvertHelp =
     "turn the sign of what falls in the pull, or, as --invert=load, --invert=extension or --invert=both, of these";
 
@@ -43,8 +53,15 @@ constexpr const char* kInvertHelp =
 /// contain commas. `key`: the option or key from which the text comes, for the message. Throws InvalidInput.
 RawColumns parse_raw_columns(const std::string& text, const std::string& key);
 
-/// Reads "falling", "extension", "load" or "both". Throws InvalidInput.
-Invert parse_invert(const std::string& text);
+/// Reads "falling", "extension", "load" or "both". `key`: as above. Throws InvalidInput.
+Invert parse_invert(const std::string& text, const std::string& key);
+
+/// Whether anything is said of columns, units or signs.
+bool says_how(const RecordWords& words);
+
+/// What the words mean for the file number `file` of `files`. Throws InvalidInput.
+RawOptions raw_options(const RecordWords& words, const RawSpelling& spelling = {}, std::size_t file = 0,
+                       std::size_t files = 1);
 
 /// Which of extension and load run downwards in a record: they fall further below their first value than they rise
 /// above it.
@@ -55,6 +72,6 @@ Falling what_falls(const std::vector<CurveRow>& rows);
 
 /// Turns the signs that are asked for. `tell` receives a line on what was turned, or on what falls where nothing is
 /// asked for. `file`: name of the file in messages.
-void turn_signs(std::vector<CurveRow>& rows, Invert invert, const std::string& file, const Tell& tell);
+void turn_signs(std::vector<CurveRow>& rows, const RawOptions& options, const std::string& file, const Tell& tell);
 
 }  // namespace knot_utm

@@ -29,6 +29,11 @@ struct RecordedPlace {
   double time = 0.0, displacement = 0.0;  ///< since the record began [s], [m]
 };
 
+/// How a user says that the raw data of a record are to be read (io/raw_options.hpp); empty where nothing is said.
+struct RecordWords {
+  std::string columns, units, specimen, invert;
+};
+
 /// One step of the test program.
 struct ProgramStep {
   Phase phase = Phase::kIdle;
@@ -45,8 +50,9 @@ struct ProgramStep {
   int cycles = 0;                                ///< cycle: so many; 0: until `until.time` is over
   double return_extension = 0.0;                 ///< return: to this extension [m]
   std::string record;                            ///< follow: the file of the record
-  std::string columns;                           ///< and how it names its columns, where that is not known
+  RecordWords words;                             ///< and how it is read
   std::vector<RecordedPlace> recorded;           ///< and what it says, times ascending from 0
+  std::vector<std::string> read;                 ///< and what of it was read, as a user should see
 };
 
 using Program = std::vector<ProgramStep>;

@@ -4,11 +4,10 @@
 #include <ros/ros.h>
 
 #include <cstddef>
-#include <functional>
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/csv.hpp"
+#include "knot_utm/io/raw_options.hpp"
 
 namespace knot_utm {
 
@@ -24,15 +23,14 @@ RecordBalance record_balance_named(const std::string& name);
 
 /// The readings of a record, from their zero on where they get one. `tell` receives one line that says what was taken
 /// for zero.
-std::vector<CurveRow> record_with_zero(std::vector<CurveRow> rows, RecordBalance balance,
-                                       const std::function<void(const std::string& line)>& tell);
+std::vector<CurveRow> record_with_zero(std::vector<CurveRow> rows, RecordBalance balance, const Tell& tell);
 
 /// Publishes the record of an experiment beside the test that follows it: measured load and extension, each at the test
 /// time at which the crosshead passes the reading.
 class ExperimentNode {
  public:
-  /// `file`: curve.csv, or raw data of a testing machine. Throws InvalidInput.
-  ExperimentNode(const ros::NodeHandle& node, const std::string& file, RecordBalance balance);
+  /// `rows`: the readings of the record. `tell`: see above.
+  ExperimentNode(const ros::NodeHandle& node, std::vector<CurveRow> rows, RecordBalance balance, const Tell& tell);
 
   /// Runs until ROS is shut down. With `autostart` it starts the test as soon as it can receive every command of it.
   void spin(bool autostart);
@@ -43,8 +41,8 @@ class ExperimentNode {
   void publish(const CurveRow& row, const ros::Time& stamp);
 
   ros::NodeHandle node_;
-  std::vector<CurveRow> rows_;  ///< readings of the record, from the first that pulls to the last
   double began_;                ///< time of the first reading, whether it is published or lies before the zero [s]
+  std::vector<CurveRow> rows_;  ///< readings of the record, from the first that pulls to the last
   std::size_t next_ = 0;        ///< index of the next row to be published
   std::uint32_t run_ = 0;       ///< number of the test whose commands are followed
   std::uint64_t sequence_ = 0;  ///< sequence number of its latest command

@@ -4,6 +4,8 @@
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include <cstdint>
+
 #include "knot_utm/ros/machine_frames.hpp"
 
 namespace knot_utm {
@@ -29,7 +31,8 @@ class FrameBroadcaster {
  private:
   MachineFrames frames_;
   ros::Time published_;
-  tf2_msgs::TFMessage last_;  ///< the moving frames at that time
+  tf2_msgs::TFMessage last_;   ///< the moving frames at that time
+  std::uint32_t reached_ = 0;  ///< number of subscribers that have them
   ros::Publisher moving_;
   tf2_ros::StaticTransformBroadcaster fixed_;
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/io/raw_options.hpp"
 #include "knot_utm/machine/program_runner.hpp"
 
 namespace knot_utm {
@@ -23,9 +24,12 @@ namespace knot_utm {
 ///                           equally many parts
 ///   test/working_directory  folder from which relative paths begin; empty: the node's own
 ///   test/data               record of an experiment, which is followed instead of the last pull; empty: none
+///   test/columns, test/units, test/specimen, test/invert
+///                           how its raw data are to be read, as the options of compare say it; empty: as they stand
 ///   test/out                folder of the files [out/NAME of the method]
 struct TestWords {
   std::string method, shipped_methods, material, preload, working_directory, data, out;
+  RecordWords record;
   std::vector<std::string> overrides;
 };
 
@@ -37,6 +41,9 @@ struct MethodSetup {
   Method method;
   std::string out;   ///< absolute path
   std::string data;  ///< absolute path; empty: there is no record
+
+  /// The readings of the record. `tell` receives what was read. Throws InvalidInput.
+  std::vector<CurveRow> read_data(const Tell& tell = nullptr) const;
 };
 
 /// Throws InvalidInput.

@@ -2,14 +2,18 @@
 """Two launches on one master: the second is refused, or has a namespace of its own; the first does not notice it. The launch
 leaves the master as it found it."""
 import os
+import runpy
 import signal
 import subprocess
 import sys
 import tempfile
+import types
 import unittest
+import unittest.mock as mock
 import xmlrpc.client
 
-sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
+for folder in 'bench', 'launch':
+    sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../..', folder))
 
 from launched import FILES, LAST_RESORT, METHOD, ROOT, Launch, children, free_port, wait_for, words
 
@@ -130,6 +134,55 @@ class TwoLaunchesTest(unittest.TestCase):
             self.assertIn("ROS_MASTER_URI is http://203.0.113.7:11311, which is not on this machine's loopback", said.stdout)
             if code == 2:
                 self.assertEqual(said.stdout.count('\n'), 1)
+
+
+class NoteOfALaunchTest(unittest.TestCase):
+    """Before a master knows of a launch, a file says so."""
+
+    def setUp(self):
+        self.check_master = types.SimpleNamespace(**runpy.run_path(os.path.join(ROOT, 'launch/check_master')))
+        home = tempfile.TemporaryDirectory()
+        self.addCleanup(home.cleanup)
+        self.folder = os.path.join(home.name, 'knot_utm_launches_%d' % os.getuid())
+        self.environment = {'XDG_RUNTIME_DIR': home.name, 'HOME': os.path.join(home.name, 'home')}
+
+    def refusal(self, roslaunch=os.getpid(), **environment):
+        """What a launch is refused with; None: it is noted."""
+        with mock.patch.dict(os.environ, {**self.environment, **environment}):
+            try:
+                self.check_master.reserve(self.check_master.Place(['-p', '11399']), roslaunch)
+            except self.check_master.Refused as why:
+                return str(why)
+            return None
+
+    def test_stands_in_a_folder_of_the_user_alone(self):
+        self.assertIsNone(self.refusal())
+        self.assertEqual(os.stat(self.folder).st_mode & 0o777, 0o700)
+        self.assertEqual(os.listdir(self.folder), ['localhost%3A11399'])
+        self.assertIsNone(self.refusal(), 'the same launch')
+        self.assertIn('being launched already', self.refusal(roslaunch=os.getppid()))
+
+    def test_stands_with_the_files_of_ros_where_the_machine_has_no_folder_of_the_user(self):
+        self.assertIsNone(self.refusal(XDG_RUNTIME_DIR='/dev/null'))
+        ours = os.path.join(self.environment['HOME'], '.ros', os.path.basename(self.folder))
+        self.assertEqual(os.listdir(ours), ['localhost%3A11399'])
+        self.assertIn('set XDG_RUNTIME_DIR', self.refusal(XDG_RUNTIME_DIR='/dev/null', HOME='/dev/null', ROS_HOME='/dev/null'))
+
+    def test_is_not_made_where_another_user_could_have_made_it(self):
+        os.mkdir(self.folder)
+        os.chmod(self.folder, 0o777)
+        self.assertIn('other users may write to this folder', self.refusal())
+        os.chmod(self.folder, 0o700)
+        victim = os.path.join(os.path.dirname(self.folder), 'victim')
+        with open(victim, 'w', encoding='utf-8') as file:
+            file.write('kept')
+        os.symlink(victim, os.path.join(self.folder, 'localhost%3A11399'))
+        self.assertIn('cannot note this launch in ' + self.folder, self.refusal())
+        with open(victim, encoding='utf-8') as file:
+            self.assertEqual(file.read(), 'kept')
+        os.rename(self.folder, self.folder + '.own')
+        os.symlink(self.folder + '.own', self.folder)
+        self.assertIn('cannot note this launch in ' + self.folder, self.refusal())
 
 
 if __name__ == '__main__':
