@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "knot_utm/io/curve_file.hpp"
+#include "knot_utm/io/raw_zero.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "method_reader.hpp"
@@ -65,6 +66,9 @@ void read_record(const std::filesystem::path& folder, const std::string& follow,
   step.read.clear();
   const std::vector<CurveRow> course =
       read_course(step.record, options, [&](const std::string& line) { step.read.push_back(line); });
+  if (says_how(step.words) && has_its_zero(course))
+    step.read.push_back(step.record +
+                        ": the curve is one of knot_utm, for which columns, units and invert change nothing");
   for (const CurveRow& row : course) {
     const RecordedPlace place{row.time - course.front().time, row.extension - course.front().extension};
     if (step.recorded.empty() || place.time > step.recorded.back().time) step.recorded.push_back(place);

@@ -87,6 +87,10 @@ std::string why_no_text(const std::string& bytes) {
   if (begins("%PDF")) return std::string("the file is a PDF, and no table of text") + kSave;
   if (begins("\x1F\x8B")) return "the file is compressed (gzip): unpack it first, for example by gunzip";
   if (begins("SQLite format 3")) return std::string("the file is a data base (SQLite), and no text") + kSave;
+  if (begins("#ROSBAG"))
+    return "the file is a bag, and no table of text: give the curve.csv of its run, or the raw data. compare reads a "
+           "bag "
+           "whose name ends in .bag";
   const std::string_view head = std::string_view(bytes).substr(0, 512);
   const std::size_t first = head.find_first_not_of(" \r\n\t\xEF\xBB\xBF");
   if (first != std::string_view::npos && head[first] == '<')

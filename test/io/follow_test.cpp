@@ -192,6 +192,10 @@ TEST_F(Follow, TheFolderOfTheRecordIsNotWrittenTo) {
     return all;
   };
   const std::string before = content();
+  const auto of_ours = load_method(KNOT_UTM_SOURCE_DIR "/config/straight.yaml",
+                                   {"program=[{follow: {record: " + in("source") + ", units: load=lbf}}]"});
+  EXPECT_THAT(of_ours.program.front().read,
+              testing::ElementsAre(HasSubstr("columns, units and invert change nothing")));
   const Answer answer = test("[{follow: {record: " + in("source") + "}}]", "source/../source");
   EXPECT_EQ(answer.code, 2);
   EXPECT_THAT(answer.text, testing::AllOf(HasSubstr("the method follows "), HasSubstr("choose another folder"),

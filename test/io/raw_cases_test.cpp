@@ -377,6 +377,7 @@ TEST(RawCases, WhatIsNoTextIsNamed) {
   for (const auto& [bytes, words] : {std::pair<std::string, const char*>{"\xD0\xCF\x11\xE0\xA1", "old workbook (xls)"},
                                      {"%PDF-1.7\n", "a PDF"},
                                      {"\x1F\x8B\x08", "compressed"},
+                                     {"#ROSBAG V2.0\n", "a bag, and no table of text"},
                                      {"<?xml version=\"1.0\"?>\n<Workbook>", "XML or HTML"}})
     EXPECT_THAT(of_text(bytes).refused, HasSubstr(words));
 }
