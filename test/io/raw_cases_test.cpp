@@ -281,6 +281,10 @@ TEST(RawCases, OldLineEndsAreSeenBesideALastOneOfAnotherKind) {
     EXPECT_EQ(of_text("Time (s),Extension (mm),Load (N)" + std::string(end) + "0,1,1.5" + end).refused, "");
 }
 
+TEST(RawCases, ABagIsCalledOne) {
+  EXPECT_THAT(of_text("#ROSBAG V2.0\n...").refused, HasSubstr("the file is a bag, and"));
+}
+
 TEST(RawCases, OneReadingIsOne) {
   EXPECT_THAT(of_text("Time (s),Extension (mm),Load (N)\n0,1,1.5\n").told, Contains(HasSubstr(": 1 reading: time is")));
 }

@@ -171,8 +171,8 @@ class Numbers(unittest.TestCase):
         said = ("parted 0.370498 m along at 2500.08 N (2 strands of 3 radii), from 44.48 to 4.448 N, at 0.0254 m/s, where k_b/h^2 is "
                 "-4.448 N; 175.1 N/m, 2e-05 m, 8 N/m², 5 mm and 1e-7 s")
         self.assertEqual(sentences.in_units(said, Units("lbf", "in")),
-                         "parted 14.59 in along at 562 lbf (2 strands of 3 radii), from 10 to 1 lbf, at 1 in/s, where k_b/h^2 is "
-                         "–1 lbf; 0.9998 lbf/in, 0.0007874 in, 8 N/m², 5 mm and 1e-7 s")
+                         "parted 14.59 in along at 562.0 lbf (2 strands of 3 radii), from 10.00 to 1.000 lbf, at 1 in/s, where k_b/h^2 is "
+                         "–1.000 lbf; 0.9998 lbf/in, 0.0007874 in, 8 N/m², 5 mm and 1e-7 s")
 
 
 if __name__ == "__main__":
