@@ -135,7 +135,7 @@ double longest_knot(const OverhandShape& shape, double spacing) {
                            " m, which the smallest knot and its ends take up");
   // The larger the distance, the more rod a knot may take up.
   double low = narrowest, high = widest;
-  for (int i = 0; i < 40 && high - low > 1e-4 * shape.radius; ++i) {
+  while (high - low > 1e-4 * high) {
     const double middle = 0.5 * (low + high);
     const bool fits = shape.length - middle <= longest_knot(with_end_to_end(shape, middle), spacing);
     (fits ? high : low) = middle;

@@ -7,7 +7,7 @@ import re
 import subprocess
 import unittest
 
-from runs import (FISHERMAN, ROOT, SCRIPT, STRAIGHT, command_of, html_of, keys_on, open_bytes, page_of, put_into, read, row_of,
+from runs import (FISHERMAN, ROOT, STRAIGHT, command_of, html_of, keys_on, open_bytes, page_of, put_into, read, row_of,
                   script, tool, two_runs, write)
 
 import numpy as np
@@ -257,15 +257,6 @@ class NumbersOfThePage(unittest.TestCase):
         self.assertIn("from the error of the stiffness of the pull in the table below", html)
         loop = html_of(folders.with_report(fisherman, plateau_force=None, no_plateau_because="the load is not level"))
         self.assertEqual(row_of(loop, "no_plateau_because")[1].strip(), "the load is not level")
-
-    def test_stand_on_the_first_sheet_with_the_curve(self):
-        """Also where a head stands above it."""
-        folder = folders.with_report(fisherman, report="operator: 山田太郎, customer: C, date: today")
-        run = subprocess.run([SCRIPT, folder], capture_output=True, text=True, check=False)
-        self.assertEqual(run.returncode, 0, run.stderr)
-        first = subprocess.run(["pdftotext", "-l", "1", os.path.join(folder, "report.pdf"), "-"], capture_output=True, text=True,
-                               check=True).stdout
-        self.assertIn("The line is the balanced load", first)
 
 
 class Keys(unittest.TestCase):

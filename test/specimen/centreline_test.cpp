@@ -288,7 +288,7 @@ TEST(Overhand, SaysWhichEndToEndDistancesFitItsLength) {
   const double shortest = std::stod(least.str(1));
   EXPECT_EQ(refusal(0.99 * shortest, 0.05)->key, "specimen.length");
   const std::regex range("([^ ]*) to ([^ ]*) m, for a knot in a rod of specimen.length, .* m");
-  for (const double length : {1.003 * shortest, 1.0, 3.0})
+  for (const double length : {1.003 * shortest, 1.0})
     for (const double wrong : {-0.2, 0.01, 0.99 * length}) {
       const auto invalid = refusal(length, wrong);
       ASSERT_TRUE(invalid) << length << ' ' << wrong;
