@@ -2,7 +2,7 @@
 from certificate import Check
 from is_number import is_number
 from method_facts import label_of, place_of, sentence, unit_of
-from quantities import BESIDE, CERTIFICATE, GROUPS, TABLES, error_shown, percent, quantity_of, shown
+from quantities import BESIDE, CERTIFICATE, GROUPS, TABLES, error_shown, is_rounding, percent, quantity_of, shown
 from results_table import NOTHING, labels_of, short_label
 
 WIDEST = 5  # readings beside each other: as many as a telephone has room for
@@ -110,6 +110,9 @@ class Row:
         column = Column(key, label or quantity.label, unit, found["mean"], found["sd"])
         half = half_of(found)
         self.key, self.label, self.unit, self.n = key, column.label, unit.name, found["n"]
+        if is_rounding(key, lambda one: (batch.statistics(one) or {}).get("mean")):
+            self.mean, self.cv, self.half, self.sd = "0", "", "", "constant" if self.n > 1 else ""
+            return
         self.mean, self.cv = column.text(found["mean"]), percent(found["cv"])
         self.sd = error_shown(found["sd"], unit.scale) if found["sd"] is not None or self.n < 2 else "constant"
         self.half = error_shown(half, unit.scale)

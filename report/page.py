@@ -6,7 +6,7 @@ from html import escape
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
-from certificate import certificate, specification_checks, specification_verdict, verdict
+from certificate import certificate, specification_checks, specification_verdict, stiffness_name, verdict
 from comparison import READINGS, Comparison
 from comparison_figures import overlay
 from curve_figures import course, force_extension
@@ -75,7 +75,7 @@ def report_on_run(folder, command, version):
         "gave_up": run.result.get("ended_by") == "solver", "results": results, "unmeasured": unmeasured,
         "checks": checks, "verdict": words, "good": good,
         "asked": asked, "asked_verdict": specification_verdict(run.result, asked),
-        "band": error_band(run, run.pull()) is not None, "floor": run.load_cell_floor(),
+        "band": words_of_band(run), "floor": run.load_cell_floor(),
         "compliant": run.curve.has_compliant_frame(), "si": run.units.are_default,
         "largest_load": with_unit(run.value("peak_force"), run.units.force), "between": between_readings(run),
         "given": run.given_strength(), "not_predicted": run.not_predicted(),
@@ -95,6 +95,15 @@ def figures_of(run, marks):
         found["pictures"] = [pictures(run, shown_at[-len(shapes):], shapes, look) for look in LOOKS]
         found["turnable"] = turnable(run, series, marks)
     return found
+
+
+def words_of_band(run):
+    """The readings whose errors it is made of; None: there is no band."""
+    if error_band(run, run.pull()) is None:
+        return None
+    names = {"plateau_force": "plateau force", "lock_extension": "lock extension", "locked_stiffness": stiffness_name(run.result)}
+    *first, last = [name for key, name in names.items() if run.value(key + "_error") is not None]
+    return " and ".join([", ".join(first), last] if first else [last])
 
 
 def words_of_largest(largest):
@@ -165,7 +174,7 @@ def range_of_plateau(run):
     if low is None or high is None:
         return ""
     unit = run.units.force
-    ends = [number(float(f"{end * unit.scale:.1e}")) for end in (low, high)]
+    ends = [number(end * unit.scale, end * unit.scale) for end in (low, high)]  # with two digits
     if ends[0] == ends[1]:
         return ""
     end = run.value("lock_extension_by_load")

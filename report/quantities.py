@@ -50,6 +50,16 @@ def quantity_of(key):
 
 
 NOTHING = 1e-12  # of a reading in SI: what is smaller is rounding
+# What is left of another reading, such as the elongation that an elastic rod keeps: below a millionth of it is none.
+LEFT_OF = {"hysteresis": "energy_to_peak", "elongation_residual": "elongation_total"}
+
+
+def is_rounding(key, value_of):
+    """`value_of`: the number of a key, or None."""
+    value, whole = value_of(key), value_of(LEFT_OF.get(key, key))
+    if not is_number(value):
+        return False
+    return abs(value) < NOTHING or (key in LEFT_OF and is_number(whole) and abs(value) < 1e-6 * abs(whole))
 
 
 def shown(value, scale=1.0, error=None):
@@ -74,15 +84,25 @@ def number(value, error=None):
         return "–"
     if value == 0.0:
         return "0"
-    decimals = 3 - math.floor(math.log10(abs(value)))
+    decimals = decimals_of(value, 4)
     if error is not None and is_number(error) and error > 0.0:
-        decimals = 1 - math.floor(math.log10(error))
+        decimals = decimals_of(error, 2)
     if -3 < decimals <= 7 or (error is not None and decimals <= 7):
         text = f"{value:.{max(decimals, 0)}f}"
-        text = text.rstrip("0").rstrip(".") if error is None and "." in text else text
+        text = without_zeros(text, value) if error is None else text
         return text.replace("-", "–" if float(text) else "")  # never "–0.00"
     mantissa, exponent = f"{value:.3e}".split("e")
-    return f"{mantissa.rstrip('0').rstrip('.')} · 10{superscript(int(exponent))}".replace("-", "–")
+    return f"{without_zeros(mantissa, value / 10.0 ** int(exponent))} · 10{superscript(int(exponent))}".replace("-", "–")
+
+
+def decimals_of(value, digits):
+    """Behind the point, where so many digits are given. A 9.97 of two digits is 10."""
+    return digits - 1 - int(f"{value:.{digits - 1}e}".split("e")[1])
+
+
+def without_zeros(text, value):
+    """Of what was given, such as 250 mm, the zeros at its end say nothing; of a reading of 103.04 mm that of 103.0 does."""
+    return text.rstrip("0").rstrip(".") if "." in text and math.isclose(float(text), value, rel_tol=1e-9) else text
 
 
 def superscript(exponent):
@@ -90,8 +110,11 @@ def superscript(exponent):
 
 
 def error_shown(error, scale):
-    """With two digits."""
-    return number(float(f"{error * scale:.1e}")) if is_number(error) else ""
+    """With two digits, of which a value beside it has the last one as its last one, too."""
+    if not is_number(error):
+        return ""
+    rounded = float(f"{error * scale:.1e}")
+    return number(rounded, rounded if 1e-4 <= rounded < 1e4 else None)
 
 
 def percent(share):

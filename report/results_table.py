@@ -1,6 +1,6 @@
 """result.yaml as a table: every key that has a value has its place, also those that this file has never heard of."""
 from certificate import stiffness_name
-from quantities import CERTIFICATE, GROUPS, HEAD, TABLES, error_shown, quantity_of, shown
+from quantities import CERTIFICATE, GROUPS, HEAD, TABLES, error_shown, is_rounding, quantity_of, shown
 from sentences import in_units
 
 
@@ -12,11 +12,15 @@ class Row:
         unit = units.of(quantity.kind)
         self.label, self.is_text = label or quantity.label, isinstance(result[key], str) or value is not None
         self.keys = [name for name in (key, key + "_error", true) if name in result]
-        self.value, self.error = value or shown(result[key], unit.scale, error), error_shown(error, unit.scale)
+        self.value, self.error = value or shown(self.reading(result, key), unit.scale, error), error_shown(error, unit.scale)
         if isinstance(result[key], str):
             self.value = in_units(self.value, units)
         self.true = shown(result[true], unit.scale, error) if result.get(true) is not None else ""
         self.unit = "" if isinstance(result[key], (str, bool, dict)) else unit.name
+
+    @staticmethod
+    def reading(result, key):
+        return 0.0 if is_rounding(key, result.get) else result[key]
 
 
 class Group:
@@ -33,7 +37,14 @@ class Group:
 NOTHING = {"break_place": "none", "cycles": 0, "motion_pattern_confidence": 0}
 
 
+def misses_plateau(result):
+    """Nobody misses that of a rod without two knots."""
+    return result.get("motion_pattern") != "none" or result.get("jump_force") is not None
+
+
 def has_value(result, key):
+    if key == "no_plateau_because" and not misses_plateau(result):
+        return False
     return key in result and result[key] is not None and result[key] != [] and NOTHING.get(key) != result[key]
 
 

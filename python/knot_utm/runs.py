@@ -41,7 +41,7 @@ class Run(Readings):
 
     def __repr__(self):
         peak = shown(self.results["peak_force"], self.results.attrs["units"]["peak_force"])
-        return f"<Run {self.folder}: ended by {self.results['ended_by']}, largest load {peak}, {len(self.warnings)} warnings>"
+        return f"<Run {self.folder}: ended by {self.results['ended_by']}, largest load {peak}, {len(self.warnings)} warning{'' if len(self.warnings) == 1 else 's'}>"
 
 
 def read(folder):

@@ -9,6 +9,7 @@ import shutil
 import subprocess
 
 import knot_utm
+from knot_utm import spelling
 from knot_utm.errors import WrongInput
 from knot_utm.yaml_text import text_of
 
@@ -89,8 +90,9 @@ def find_method(name, folder):
     for place in places:
         if os.path.isfile(place):
             return os.path.abspath(place)
+    known = [os.path.splitext(file)[0] for of in shipped for file in os.listdir(of) if file.endswith(".yaml")]
     raise WrongInput(f"method is {name}, but must be a file, from {folder}, or the name of a method that comes with the "
-                     "package")
+                     f"package{spelling.hint(name, known)}")
 
 
 def command(method, settings, out, *more):

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <deque>
 #include <tuple>
 
 #include "pull_integrals.hpp"
@@ -67,17 +68,28 @@ std::size_t last_within(const Pull& pull, std::size_t i, double way, double end)
 
 double sudden(const Pull& pull, double end) { return kSudden * (end - pull.front().extension); }
 
-/// The largest fall of F between two points of a range that are no further apart than `way`.
+/// The largest fall of F between two points of a range that are no further apart than `way`. A record may have a
+/// million readings: `low` holds the points ahead that may have the least F, in their order and with F rising.
 std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double way) {
   std::optional<Drop> out;
+  std::deque<std::size_t> low;
+  std::size_t seen = 0;  // up to there points have been put into `low`
   for (std::size_t i = 0; i < pull.size() && pull[i].extension <= range.high; ++i) {
     if (pull[i].extension < range.low) continue;
-    const std::size_t last = last_within(pull, i, way, range.high);
-    for (std::size_t j = i + 1; j <= last; ++j) {
-      const double fall = pull[i].force - pull[j].force, largest = out ? out->force(pull) : 0.0;
-      // Of those that are the same the last begins where F begins to fall.
-      if (fall > largest || (fall == largest && out && i > out->from)) out = Drop{i, j};
+    const auto within = [&](std::size_t j) {
+      return j < pull.size() && pull[j].extension <= range.high &&
+             (j == i + 1 || pull[j].extension - pull[i].extension <= way);
+    };
+    for (seen = std::max(seen, i); within(seen + 1);) {
+      ++seen;
+      while (!low.empty() && pull[low.back()].force > pull[seen].force) low.pop_back();
+      low.push_back(seen);
     }
+    while (!low.empty() && low.front() <= i) low.pop_front();
+    if (low.empty()) continue;
+    const Drop fall{i, low.front()};
+    // Of those that are the same the last begins where F begins to fall.
+    if (fall.force(pull) > 0.0 && (!out || fall.force(pull) >= out->force(pull))) out = fall;
   }
   return out;
 }

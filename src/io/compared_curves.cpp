@@ -68,7 +68,9 @@ class Side {
           .in_file(curve_.file);
     if (readings < 2)
       throw InvalidInput::sentence("pull", std::to_string(readings),
-                                   "the pull has " + std::to_string(readings) + " readings, but must have at least 2")
+                                   rows().size() == 1
+                                       ? "there is one reading, but must be at least two"
+                                       : "nothing is pulled: no reading has a larger extension than the first one")
           .in_file(curve_.file);
   }
   /// A pull has only readings beyond all extensions before.

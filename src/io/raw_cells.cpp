@@ -1,6 +1,7 @@
 #include "raw_cells.hpp"
 
 #include <algorithm>
+#include <cstring>
 
 #include "knot_utm/numeric/number.hpp"
 
@@ -36,7 +37,37 @@ Cells words(const std::string& row, const std::string& gap) {
   return out;
 }
 
+/// Whether a quote that begins a cell is not closed. An inch, as in "Extension (")", begins none.
+bool is_open(const std::string& row) {
+  constexpr const char* kBeforeCell = ",;|\t ";
+  bool open = false;
+  for (std::size_t i = 0; i < row.size(); ++i) {
+    if (row[i] != '"') continue;
+    const bool begins = i == 0 || std::strchr(kBeforeCell, row[i - 1]) != nullptr;
+    if (open && i + 1 < row.size() && row[i + 1] == '"')
+      ++i;
+    else
+      open = !open && begins;
+  }
+  return open;
+}
+
 }  // namespace
+
+void join_quoted(std::vector<std::string>& rows) {
+  constexpr std::size_t kMost = 8;  // lines behind the first one
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (!is_open(rows[i])) continue;
+    std::string whole = rows[i];
+    for (std::size_t j = i + 1; j < rows.size() && j <= i + kMost; ++j) {
+      whole += ' ' + trimmed(rows[j]);
+      if (is_open(whole)) continue;
+      rows[i] = whole;
+      for (std::size_t k = i + 1; k <= j; ++k) rows[k].clear();
+      break;
+    }
+  }
+}
 
 std::string trimmed(std::string_view text) {
   constexpr const char* kBlank = " \t\r";
@@ -59,7 +90,7 @@ Cells split(const std::string& row, char separator) {
     const bool twice = quoted && row[i] == '"' && i + 1 < row.size() && row[i + 1] == '"';
     if (twice)
       cells.back() += row[i++];
-    else if (row[i] == '"')
+    else if (row[i] == '"' && (quoted || trimmed(cells.back()).empty()))  // elsewhere it may be an inch
       quoted = !quoted;
     else if (row[i] == separator && !quoted)
       cells.emplace_back();

@@ -20,6 +20,10 @@ Cells split(const std::string& row, char separator);
 /// brackets belongs to the name before it.
 Cells split_names(const std::string& row);
 
+/// A cell in quotes may go over some lines, as names in spreadsheets do: they become the first of these rows, and the
+/// others are empty, so that all rows keep their numbers.
+void join_quoted(std::vector<std::string>& rows);
+
 std::string trimmed(std::string_view text);
 bool has_digit(const std::string& cell);
 bool are_empty(const Cells& cells);

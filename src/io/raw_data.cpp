@@ -25,6 +25,7 @@ Rows rows_of(const std::string& meaning, const std::string& file) {
   TextRows rows(text);
   Rows out;
   while (rows.next()) out.push_back(rows.text());
+  join_quoted(out);
   if (!rows.fault().empty()) throw InvalidInput::sentence("rows", "too many", rows.fault()).in_file(file);
   return out;
 }
@@ -77,7 +78,7 @@ class RawTable {
 
   /// What was read, from which columns, and what was not.
   void tell(std::size_t readings, std::size_t specimens, const Tell& say) const {
-    std::string line = file_ + ": " + std::to_string(readings) + " readings";
+    std::string line = file_ + ": " + std::to_string(readings) + (readings == 1 ? " reading" : " readings");
     if (specimens > 1) line += " of specimen " + std::to_string(options_.specimen) + " of " + std::to_string(specimens);
     const char* between = ": ";
     for (std::size_t i = 0; i < columns_.size(); ++i) {
@@ -139,11 +140,13 @@ class RawTable {
   void find_decimals() {
     for (std::size_t i = head_.first; i < end_ && !mark_.is_told(); ++i)
       for (const std::string& cell : wanted(cells(i))) mark_.look_at(cell);
-    if (!mark_.unclear().empty())
+    // Where commas separate the cells, a point is the mark of decimals.
+    const bool clear = head_.separator == ',' && mark_.unclear().find('.') != std::string::npos;
+    if (!mark_.unclear().empty() && !clear)
       throw InvalidInput::sentence("decimals", mark_.unclear(),
                                    "the number " + shown(mark_.unclear()) +
                                        " may have decimals or thousands behind its mark, and no other number of the "
-                                       "file tells which")
+                                       "file tells which: a zero more behind its decimals would")
           .in_file(file_);
   }
 

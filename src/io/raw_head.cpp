@@ -143,8 +143,15 @@ RawHead head_of(const Cells& names, std::size_t index, char separator, const Raw
   return head;
 }
 
+/// Some programs begin the row of names with the mark of a comment.
+std::string uncommented(const std::string& row) {
+  const std::size_t begin = row.find_first_not_of(' ');
+  if (begin == std::string::npos || (row[begin] != '#' && row[begin] != '%')) return row;
+  return row.substr(std::min(row.find_first_not_of("#% ", begin), row.size()));
+}
+
 Cells names_in(const std::string& row, char separator) {
-  return separator == ' ' ? split_names(row) : split(row, separator);
+  return separator == ' ' ? split_names(uncommented(row)) : split(uncommented(row), separator);
 }
 
 bool is_complete(const RawHead& head, bool with_time) {

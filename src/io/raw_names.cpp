@@ -27,7 +27,7 @@ constexpr const char* kTime =
 // What may be the travel of the crosshead or of an extensometer on the specimen.
 constexpr const char* kExtension =
     "extension;tensile extension;tensile displacement;compressive extension;compressive displacement;"  // English
-    "standard travel;deformation;"
+    "standard travel;deformation;ext;"
     "standardweg;verlängerung;verformung;"        // German
     "wydłużenie;droga standardowa;"               // Polish
     "course standard;allongement;"                // French

@@ -43,13 +43,24 @@ Letters normalised(const Letters& letters, const char* name, UNormalization2Mode
 
 /// Compatible letters as the plain ones, and some that Unicode does not call so.
 std::string plain(const Letters& letters) {
-  constexpr std::array<std::pair<char16_t, char16_t>, 7> kSigns{
-      {{0x2212, '-'}, {0x2019, '\''}, {0x2018, '\''}, {0x02BC, '\''}, {0x3010, '['}, {0x3011, ']'}, {0x2010, '-'}}};
+  constexpr std::array<std::pair<char16_t, char16_t>, 9> kSigns{{{0x066B, '.'},
+                                                                 {0x066C, '\''},
+                                                                 {0x2212, '-'},
+                                                                 {0x2019, '\''},
+                                                                 {0x2018, '\''},
+                                                                 {0x02BC, '\''},
+                                                                 {0x3010, '['},
+                                                                 {0x3011, ']'},
+                                                                 {0x2010, '-'}}};
   const Letters compatible = normalised(letters, "nfkc", UNORM2_COMPOSE);
   Letters out;
   for (std::int32_t i = 0; i < compatible.length(); ++i) {
     const char16_t c = compatible[i];
-    if (c == 0xFEFF || (c >= 0x200B && c <= 0x200F)) continue;  // marks without width
+    if (c == 0xFEFF || (c >= 0x200B && c <= 0x200F)) continue;         // marks without width
+    if (const std::int32_t digit = u_charDigitValue(c); digit >= 0) {  // of any script
+      out.append(static_cast<char16_t>(u'0' + digit));
+      continue;
+    }
     const auto sign = std::find_if(kSigns.begin(), kSigns.end(), [c](const auto& pair) { return pair.first == c; });
     out.append(sign != kSigns.end() ? sign->second : c);
   }
@@ -86,6 +97,7 @@ std::string why_no_text(const std::string& bytes) {
   if (begins("\xD0\xCF\x11\xE0")) return std::string("the file is an old workbook (xls), and no text") + kSave;
   if (begins("%PDF")) return std::string("the file is a PDF, and no table of text") + kSave;
   if (begins("\x1F\x8B")) return "the file is compressed (gzip): unpack it first, for example by gunzip";
+  if (begins("#ROSBAG")) return "the file is a bag, and no table of text";
   if (begins("SQLite format 3")) return std::string("the file is a data base (SQLite), and no text") + kSave;
   if (begins("#ROSBAG"))
     return "the file is a bag, and no table of text: give the curve.csv of its run, or the raw data. compare reads a "
@@ -95,8 +107,9 @@ std::string why_no_text(const std::string& bytes) {
   const std::size_t first = head.find_first_not_of(" \r\n\t\xEF\xBB\xBF");
   if (first != std::string_view::npos && head[first] == '<')
     return std::string("the file is XML or HTML, as some programs write for a workbook, and no table of text") + kSave;
-  if (bytes.find('\r') != std::string::npos && bytes.find('\n') == std::string::npos &&
-      bytes.find('\r') + 1 < bytes.size())
+  // A last line end of another kind, which an editor put there, changes nothing.
+  const auto ends = [&](char c) { return std::count(bytes.begin(), bytes.end(), c); };
+  if (ends('\r') > 2 * ends('\n') && bytes.find('\r') + 1 < bytes.size())
     return "the lines of the file end with a carriage return alone, as on old Macs: give it the usual line ends first, "
            "for example by tr '\\r' '\\n' <FILE >NEW_FILE";
   if (bytes.size() > (std::size_t{1} << 30))

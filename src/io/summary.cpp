@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <optional>
@@ -46,9 +47,13 @@ std::string with_decimals(double value, int decimals) {
   return text.data();
 }
 
-/// The place of the last of so many digits, counted behind the point.
+/// The place of the last of so many digits, counted behind the point. A 9.97 of two digits is 10.
 int decimals_of(double value, int digits) {
-  return value == 0.0 ? 0 : digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(value))));
+  if (value == 0.0) return 0;
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), "%.*e", digits - 1, value);
+  const char* exponent = std::strchr(text.data(), 'e');
+  return exponent ? digits - 1 - std::atoi(exponent + 1) : 0;
 }
 
 /// Beside a value an error that is smaller by this much is one of rounding.
@@ -62,6 +67,11 @@ std::string number_text(double value, double error) {
   if (!std::isfinite(value) || decimals > kMost) return short_number(value);
   const std::string text = with_decimals(value, decimals);
   return known ? text + kPlusMinus + with_decimals(error, decimals) : text;
+}
+
+/// Whether a loss is so small beside the energy of the pull that it says nothing: that of an elastic rod.
+bool is_rounding(const std::string& key, double value, const std::optional<double>& energy) {
+  return key == "hysteresis" && energy && std::abs(value) < kRounding * *energy;
 }
 
 /// "4.98 N" of "4.98 ± 0.24 N".
@@ -91,7 +101,7 @@ constexpr SummaryRow kRows[] = {
     {"lock_extension", "lock extension", "lock_extension_error"},
     {"locked_stiffness", "locked stiffness", "locked_stiffness_error"},
     {"force_ratio", "force ratio", ""},
-    {"peak_force", "largest load", ""},
+    {"peak_force", "largest load", "peak_force_error"},
     {"break_extension", "extension at break", ""},
     {"elongation_at_break", "elongation at break", ""},
     {"relaxation", "relaxation", ""},
@@ -122,6 +132,16 @@ class ResultFile {
   std::optional<double> statistic(const std::string& key, const char* which) const {
     const YAML::Node of = root_[key];
     return of.IsDefined() && of.IsMap() ? parse_number(word_in(of[which])) : std::nullopt;
+  }
+
+  /// The same number of every entry of a list.
+  std::vector<double> numbers(const std::string& list, const char* key) const {
+    std::vector<double> out;
+    const YAML::Node all = root_[list];
+    if (!all.IsDefined() || !all.IsSequence()) return out;
+    for (const YAML::Node& one : all)
+      if (const auto value = one.IsMap() ? parse_number(word_in(one[key])) : std::nullopt) out.push_back(*value);
+    return out;
   }
 
  private:
@@ -164,6 +184,7 @@ std::string run_lines(const ResultFile& result) {
     const bool missed = std::string(row.key) == "plateau_force" && (pattern != "none" || result.number("jump_force"));
     const std::string none = missed ? result.word("no_plateau_because") : "";
     if (!value && (none.empty() || none == "null")) continue;
+    if (value && is_rounding(row.key, *value, result.number("energy_to_peak"))) continue;
     if (rows++ == kMostRows) break;
     const double error = result.number(row.error).value_or(0.0);
     out += line_of(row.label, value ? reading_text(*value, unit_of(row.key), error) + beside(row.key, result, error)
@@ -178,19 +199,39 @@ std::string run_lines(const ResultFile& result) {
   return out;
 }
 
-std::string batch_lines(const ResultFile& result) {
+/// How many of the specimens that count meet the specification; empty where there is none.
+std::string batch_verdict(const ResultFile& batch, const std::string& folder) {
+  const std::vector<double> rejected = batch.numbers("rejected", "specimen");
+  std::size_t met = 0, not_met = 0;
+  for (const std::string& own : specimen_folders(folder)) {
+    const double number = *parse_number(own.substr(own.find_last_of('_') + 1));
+    if (std::find(rejected.begin(), rejected.end(), number) != rejected.end()) continue;
+    std::error_code error;
+    const fs::path file = fs::path(own) / "result.yaml";
+    if (number > batch.number("specimens").value_or(0.0) || !fs::is_regular_file(file, error)) continue;
+    const std::string passed = ResultFile(file.string()).word("specification_passed");
+    met += passed == "true";
+    not_met += passed == "false";
+  }
+  if (met + not_met == 0) return "";
+  return line_of("specification",
+                 "met by " + std::to_string(met) + " of " + std::to_string(met + not_met) + " specimens");
+}
+
+std::string batch_lines(const ResultFile& result, const std::string& folder) {
   const double all = result.number("specimens").value_or(0.0);
   const auto rejected = static_cast<double>(result.count("rejected"));
   std::string out = with_decimals(all - rejected, 0) + " of " + with_decimals(all, 0) + " specimens count\n";
   std::size_t rows = 0;
   for (const SummaryRow& row : kRows) {
     const std::optional<double> mean = result.statistic(row.key, "mean"), sd = result.statistic(row.key, "sd");
-    if (!mean || rows++ == kMostRows) continue;
+    if (!mean || is_rounding(row.key, *mean, result.statistic("energy_to_peak", "mean"))) continue;
+    if (rows++ == kMostRows) break;
     const double n = result.statistic(row.key, "n").value_or(0.0);
     out += line_of(row.label, reading_text(*mean, unit_of(row.key), sd.value_or(0.0)) + " (mean" +
                                   (sd ? " ± standard deviation" : "") + " of " + with_decimals(n, 0) + ")");
   }
-  return out;
+  return out + batch_verdict(result, folder);
 }
 
 /// A reading of both curves. Empty: neither has it.
@@ -206,7 +247,10 @@ std::string compared(const char* label, const std::optional<double>& a, const st
   std::string change = "-";
   if (a && b && *a != 0.0) {
     const double percent = 100.0 * (*b - *a) / std::abs(*a);
-    change = (percent > 0.0 ? "+" : "") + with_decimals(percent, std::abs(percent) < 10.0 ? 1 : 0) + " %";
+    if (std::abs(percent) < 0.05)
+      change = "0.0 %";  // without a sign
+    else
+      change = (percent > 0.0 ? "+" : "") + with_decimals(percent, std::abs(percent) < 10.0 ? 1 : 0) + " %";
   }
   return line_of(label, cell(a) + cell(b) + change);
 }
@@ -222,7 +266,7 @@ std::string reading_text(double value, const std::string& unit, double error) {
 std::string run_summary(const std::string& folder) {
   const fs::path batch = fs::path(folder) / "statistics.yaml";
   std::error_code error;
-  if (fs::is_regular_file(batch, error)) return batch_lines(ResultFile(batch.string()));
+  if (fs::is_regular_file(batch, error)) return batch_lines(ResultFile(batch.string()), folder);
   return run_lines(ResultFile((fs::path(folder) / "result.yaml").string()));
 }
 
@@ -239,9 +283,10 @@ std::string comparison_summary(const Comparison& comparison, const std::string& 
   if (!comparison.difference) return out;
   const CurveDifference& d = *comparison.difference;
   const std::string share = d.load > 0.0 ? " (" + with_decimals(100.0 * d.rms / d.load, 2) + " % of A's largest)" : "";
+  const auto apart = [&](double force) { return reading_text(force < kRounding * d.load ? 0.0 : force, "N"); };
   out += "from " + reading_text(d.common.low, "m") + " to " + reading_text(d.common.high, "m") +
-         ", which both have, the loads differ by " + reading_text(d.rms, "N") + share + " RMS, at most by " +
-         reading_text(std::abs(d.largest), "N") + " at " + reading_text(d.largest_at, "m") + "\n";
+         ", which both have, the loads differ by " + apart(d.rms) + share + " RMS, at most by " +
+         apart(std::abs(d.largest)) + " at " + reading_text(d.largest_at, "m") + "\n";
   return out;
 }
 

@@ -30,7 +30,14 @@ std::string short_number(double value) {
   std::array<char, 32> text{};
   const std::to_chars_result end =
       std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::general, 3);
-  return std::string(text.data(), end.ptr);
+  const std::string short_text(text.data(), end.ptr);
+  // "1970" is read more easily than "1.97e+03".
+  const double rounded = parse_number(short_text).value_or(value);
+  const bool plain = std::abs(rounded) >= 1e3 && std::abs(rounded) < 1e6;
+  if (!plain) return short_text;
+  const std::to_chars_result fixed =
+      std::to_chars(text.data(), text.data() + text.size(), rounded, std::chars_format::fixed);
+  return std::string(text.data(), fixed.ptr);
 }
 
 std::optional<double> parse_number(std::string_view text) {

@@ -70,9 +70,6 @@ void check_overhand(const OverhandShape& shape) {
   if (!(shape.length > 0.0 && shape.length <= 100.0)) {
     throw InvalidInput("specimen.length", text(shape.length), "above 0 and at most 100 m");
   }
-  if (!(shape.end_to_end > 0.0 && shape.end_to_end < shape.length)) {
-    throw InvalidInput("specimen.end_to_end", text(shape.end_to_end), "above 0 and less than specimen.length");
-  }
 }
 
 /// What a loop of some radius leaves between the grips, with straight tails of 4 h at both ends [m].
@@ -117,24 +114,50 @@ double loop_of_right_length(const OverhandShape& shape, Try low, Try high, doubl
   return loop_radius;
 }
 
+constexpr double kSmallestLoop = 2.5;  // its radius, in radii of the rod
+
+OverhandShape with_end_to_end(const OverhandShape& shape, double end_to_end) {
+  OverhandShape out = shape;
+  out.end_to_end = end_to_end;
+  return out;
+}
+
+/// By how much the rod is longer than its end-to-end distance where the loop is as large as that has room for [m].
+double longest_knot(const OverhandShape& shape, double spacing) {
+  return rod_length(shape, largest_loop(shape, kSmallestLoop * shape.radius), spacing) - shape.end_to_end;
+}
+
+/// The end-to-end distances that a rod of this length may have lie above `narrowest`; at `widest` its knot is smallest.
+[[noreturn]] void refuse_end_to_end(const OverhandShape& shape, double narrowest, double widest, double spacing) {
+  if (!(widest > narrowest))
+    throw InvalidInput("specimen.length", text(shape.length),
+                       "more than " + least_text(shape.length + narrowest - widest) +
+                           " m, which the smallest knot and its ends take up");
+  // The larger the distance, the more rod a knot may take up.
+  double low = narrowest, high = widest;
+  while (high - low > 1e-4 * high) {
+    const double middle = 0.5 * (low + high);
+    const bool fits = shape.length - middle <= longest_knot(with_end_to_end(shape, middle), spacing);
+    (fits ? high : low) = middle;
+  }
+  throw InvalidInput(
+      "specimen.end_to_end", text(shape.end_to_end),
+      limits_text(high, widest) + " m, for a knot in a rod of specimen.length, " + text(shape.length) + " m");
+}
+
 /// The radius of the loop with which the rod has its length.
 double fitting_loop(const OverhandShape& shape, double spacing) {
-  const double smallest = 2.5 * shape.radius;
-  if (!(room(shape, smallest) > 0.0)) {
-    throw InvalidInput("specimen.end_to_end", text(shape.end_to_end),
-                       "more than " + least_text(shape.end_to_end - room(shape, smallest)) +
-                           " m, the room that the smallest knot takes up");
-  }
-  const double shortest = rod_length(shape, smallest, spacing) - shape.end_to_end;
-  const double largest = largest_loop(shape, smallest);
-  const double longest = rod_length(shape, largest, spacing) - shape.end_to_end;
-  if (!(shape.length - shape.end_to_end >= shortest) || shape.length - shape.end_to_end > longest) {
-    throw InvalidInput(
-        "specimen.end_to_end", text(shape.end_to_end),
-        "shorter than specimen.length by " + limits_text(shortest, longest) + " m, for a knot of this rod");
-  }
+  const double smallest = kSmallestLoop * shape.radius;
+  if (!std::isfinite(shape.end_to_end)) throw InvalidInput("specimen.end_to_end", text(shape.end_to_end), "a number");
+  const double narrowest = -room(with_end_to_end(shape, 0.0), smallest);
+  const OverhandShape tight = with_end_to_end(shape, std::max(shape.end_to_end, narrowest));
+  const double shortest = rod_length(tight, smallest, spacing) - tight.end_to_end, widest = shape.length - shortest;
+  if (!(shape.end_to_end > narrowest && shape.end_to_end <= widest))
+    refuse_end_to_end(shape, narrowest, widest, spacing);
+  const double longest = longest_knot(shape, spacing);
+  if (shape.length - shape.end_to_end > longest) refuse_end_to_end(shape, narrowest, widest, spacing);
   return loop_of_right_length(shape, {smallest, shortest + shape.end_to_end - shape.length},
-                              {largest, longest + shape.end_to_end - shape.length}, spacing);
+                              {largest_loop(shape, smallest), longest + shape.end_to_end - shape.length}, spacing);
 }
 
 KnotDescription description() {

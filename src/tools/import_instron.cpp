@@ -30,8 +30,8 @@ int main(int argc, char** argv) {
     knot_utm::write_curve_bag(bag, rows);
     if (quiet) return static_cast<int>(knot_utm::kDone);
     for (const std::string& line : told) std::printf("%s\n", line.c_str());
-    std::printf("%zu readings over %g s were written to %s\n", rows.size(), rows.back().time - rows.front().time,
-                bag.c_str());
+    std::printf("%zu %s over %g s %s written to %s\n", rows.size(), rows.size() == 1 ? "reading" : "readings",
+                rows.back().time - rows.front().time, rows.size() == 1 ? "was" : "were", bag.c_str());
     return static_cast<int>(knot_utm::kDone);
   });
 }

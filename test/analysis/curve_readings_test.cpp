@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
+#include <random>
 
 #include "knot_utm/analysis/curve_difference.hpp"
 
@@ -264,6 +266,46 @@ TEST(CurveReadings, TheSameLinesByMorePointsAreTheSame) {
 TEST(CurveReadings, WhereTheSearchForALockCreepsThereIsNone) {
   // Twice the mean of s^1.1711 over its plateau is reached where that ends: the search hardly goes back.
   EXPECT_FALSE(curve_readings(pull([](double s) { return std::pow(s, 1.1712); }, 1.0, 20000)).lock_extension_by_load);
+}
+
+/// Also where falls are equal, and where points are further apart than a fall may be.
+TEST(CurveReadings, TheLargestDropIsThatOfAllPairs) {
+  std::mt19937 random(7);
+  for (int trial = 0; trial < 200; ++trial) {
+    Pull pull;
+    double s = 0.0;
+    for (int i = 0; i < 60; ++i) {
+      PullPoint point;
+      point.extension = s += 1e-4 * static_cast<double>(1 + random() % 40 * (random() % 4 == 0 ? 5 : 1));
+      point.force = static_cast<double>(random() % 6);
+      pull.push_back(point);
+    }
+    const double end = pull[55].extension, way = 0.05 * (end - pull.front().extension);
+    std::optional<Drop> expected;
+    for (std::size_t i = 0; i <= 55; ++i)
+      for (std::size_t j = i + 1; j <= 55 && (j == i + 1 || pull[j].extension - pull[i].extension <= way); ++j) {
+        const double fall = pull[i].force - pull[j].force, largest = expected ? expected->force(pull) : 0.0;
+        if (fall > largest || (fall == largest && expected && i > expected->from)) expected = Drop{i, j};
+      }
+    const std::optional<Drop> found = largest_drop(pull, end);
+    ASSERT_EQ(found.has_value(), expected.has_value()) << trial;
+    if (!found) continue;
+    EXPECT_EQ(found->from, expected->from) << trial;
+    EXPECT_EQ(found->to, expected->to) << trial;
+  }
+}
+
+/// A record of a million readings has its drop at once; by pairs it took hours.
+TEST(CurveReadings, ARecordMayHaveAMillionReadings) {
+  Pull pull(1'000'000);
+  for (std::size_t i = 0; i < pull.size(); ++i) {
+    pull[i].extension = 1e-8 * static_cast<double>(i);
+    pull[i].force = static_cast<double>(i) - (i >= 700'000 && i < 700'100 ? 5000.0 : 0.0);
+  }
+  const std::optional<Drop> drop = largest_drop(pull, pull.back().extension);
+  ASSERT_TRUE(drop);
+  EXPECT_EQ(drop->from, 699'999U);
+  EXPECT_EQ(drop->to, 700'000U);
 }
 
 TEST(CurveReadings, OfNothingThereAreNone) {

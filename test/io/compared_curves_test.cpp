@@ -100,6 +100,15 @@ TEST(ComparedCurves, AreRefusedWhereTheyCannotBeCompared) {
   CurveOfFile few = ours(), lost = ours();
   few.rows.resize(1);
   EXPECT_THROW(told.compare(few, ours()), InvalidInput);
+  CurveOfFile still = raw();
+  for (CurveRow& row : still.rows) row.extension = 0.01;
+  try {
+    told.compare(still, ours());
+    ADD_FAILURE() << "a record in which nothing is pulled has no curve";
+  } catch (const InvalidInput& invalid) {
+    EXPECT_THAT(invalid.what(),
+                HasSubstr("raw.csv: nothing is pulled: no reading has a larger extension than the first"));
+  }
   lost.rows[3].load = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(told.compare(ours(), lost), InvalidInput);
 }

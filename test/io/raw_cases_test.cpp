@@ -236,6 +236,59 @@ TEST(RawCases, ACurveThatASpreadsheetSavedIsTheCurve) {
   EXPECT_EQ(rows[4].end_to_end, 0.24602);
 }
 
+/// Forms that are no case of their own file: each has two readings, (0, 1, 1.5) and (1, 2, 2.5).
+TEST(RawCases, FormsThatAreReadAsTheyAreMeant) {
+  const std::string row = "Time (s),Extension (mm),Load (N)\n", numbers = "0,1,1.5\n1,2,2.5\n";
+  const std::vector<std::string> texts = {
+      "# " + row + numbers,  // as NumPy writes names
+      "% Time (s)\tExt (mm)\tLoad (N)\n0\t1\t1.5\n1\t2\t2.5\n",
+      "\"Time\n(s)\",\"Extension\r\n(mm)\",\"Load\n(N)\"\n" + numbers,  // line ends in names
+      row + "0.000,1.000,1.500\n1.000,2.000,2.500\n",
+      // Arabic digits and their mark of decimals
+      row + "\u0660,\u0661,\u0661\u066B\u0665\n\u0661,\u0662,\u0662\u066B\u0665\n"};
+  for (const std::string& text : texts) {
+    const Outcome out = of_text(text);
+    ASSERT_EQ(out.refused, "") << text;
+    ASSERT_THAT(out.rows, SizeIs(2)) << text;
+    expect_reading(out.rows.front(), {0, 1, 1.5});
+    expect_reading(out.rows.back(), {1, 2, 2.5});
+  }
+  const Outcome named = of_text("# time extension load\n0 1 1.5\n1 2 2.5\n", units("time=s,extension=mm,load=N"));
+  ASSERT_EQ(named.refused, "");
+  expect_reading(named.rows.back(), {1, 2, 2.5});
+  // All of it has three digits behind a point, which commas between cells tell to be decimals.
+  const Outcome clear = of_text(row + "1.000,1.000,1.500\n2.000,2.000,2.500\n");
+  ASSERT_EQ(clear.refused, "");
+  expect_reading(clear.rows.back(), {2, 2, 2.5});
+  const Outcome unclear = of_text("Time (s);Extension (mm);Load (N)\n1,000;1,000;1,500\n2,000;2,000;2,500\n");
+  EXPECT_THAT(unclear.refused, HasSubstr("tells which: a zero more behind its decimals would"));
+  EXPECT_EQ(of_text("Time (s);Extension (mm);Load (N)\n1,0000;1,000;1,500\n").refused, "");
+}
+
+/// A sign of inches is no quote, and rows keep their numbers behind names of several lines.
+TEST(RawCases, AQuoteThatIsNotClosedTakesNoOtherRow) {
+  const Outcome inches = of_text("Time (s),Extension (\"),Load (N)\n0,1,1.5\n1,2,2.5\n");
+  ASSERT_EQ(inches.refused, "");
+  expect_reading(inches.rows.back(), {1, 50.8, 2.5});
+  EXPECT_THAT(of_text("\"Time\n(s)\",\"Extension (mm)\",\"Load (N)\"\n0,1,2\n1,x,2\n").refused,
+              HasSubstr("row 4: Extension"));
+}
+
+TEST(RawCases, OldLineEndsAreSeenBesideALastOneOfAnotherKind) {
+  const std::string old = "Time (s),Extension (mm),Load (N)\r0,1,1.5\r1,2,2.5\r";
+  for (const char* last : {"", "\n"}) EXPECT_THAT(of_text(old + last).refused, HasSubstr("as on old Macs"));
+  for (const char* end : {"\r\n", "\r\r\n"})
+    EXPECT_EQ(of_text("Time (s),Extension (mm),Load (N)" + std::string(end) + "0,1,1.5" + end).refused, "");
+}
+
+TEST(RawCases, ABagIsCalledOne) {
+  EXPECT_THAT(of_text("#ROSBAG V2.0\n...").refused, HasSubstr("the file is a bag, and"));
+}
+
+TEST(RawCases, OneReadingIsOne) {
+  EXPECT_THAT(of_text("Time (s),Extension (mm),Load (N)\n0,1,1.5\n").told, Contains(HasSubstr(": 1 reading: time is")));
+}
+
 std::string utf16(const std::string& ascii, bool low_first) {
   std::string out;
   for (const char c : ascii) out += low_first ? std::string{c, '\0'} : std::string{'\0', c};

@@ -18,6 +18,7 @@ namespace knot_utm {
 namespace {
 
 using testing::AllOf;
+using testing::EndsWith;
 using testing::HasSubstr;
 using testing::Not;
 using testing::StartsWith;
@@ -35,6 +36,8 @@ TEST(ReadingText, HasThePrefixAndTheDigitsThatSuitIt) {
   EXPECT_EQ(reading_text(1.4, "-"), "1.400");
   EXPECT_EQ(reading_text(31.0, "N", 1e-14), "31.00 N") << "an error of rounding is none";
   EXPECT_EQ(reading_text(120.0, "N", 4000.0), "120 ± 4000 N");
+  EXPECT_EQ(reading_text(498.52, "N", 9.97), "499 ± 10 N") << "9.97 of two digits is 10";
+  EXPECT_EQ(reading_text(999.96, "N"), "1000 N");
 }
 
 class Summary : public OwnFolder {
@@ -89,6 +92,42 @@ TEST_F(Summary, OfABatchHasMeansAndScatter) {
             "  largest load          2.500 kN (mean ± standard deviation of 2)\n");
 }
 
+TEST_F(Summary, OfABatchSaysHowManyMeetTheSpecification) {
+  write("statistics.yaml",
+        "specimens: 4\nrejected:\n  - {specimen: 2, reason: \"it came undone\"}\n"
+        "peak_force: {mean: 3, sd: null, cv: null, low: null, high: null, minimum: 3, maximum: 3, n: 3}\n");
+  for (const auto& [number, passed] : {std::pair{1, "true"}, std::pair{2, "false"}, std::pair{3, "false"},
+                                       std::pair{4, "true"}, std::pair{5, "true"}}) {
+    std::filesystem::create_directories(specimen_folder(folder(), number));
+    write("specimen_00" + std::to_string(number) + "/result.yaml",
+          std::string("specification_passed: ") + passed + "\n");
+  }
+  EXPECT_THAT(run_summary(folder()), EndsWith("  specification         met by 2 of 3 specimens\n"))
+      << "2 is rejected, and 5 is not of this batch";
+}
+
+TEST_F(Summary, LeavesOutALossThatIsRounding) {
+  for (const auto& [loss, stands] : {std::pair{"4.08e-07", false}, std::pair{"0.02", true}}) {
+    write("result.yaml",
+          std::string("motion_pattern: none\nended_by: break\nenergy_to_peak: 17.02\nhysteresis: ") + loss + "\n");
+    EXPECT_EQ(run_summary(folder()).find("hysteresis") != std::string::npos, stands) << loss;
+  }
+}
+
+TEST(ComparisonSummary, ShowsNoRounding) {
+  Comparison same;
+  same.a.peak_force = 20.0;
+  same.b.peak_force = 20.0 - 1e-13;
+  same.difference = CurveDifference{};
+  same.difference->common = {0.0, 0.01};
+  same.difference->load = 20.0;
+  same.difference->rms = 1e-15;
+  same.difference->largest = -3e-15;
+  const std::string text = comparison_summary(same, "a", "b");
+  EXPECT_THAT(text, AllOf(HasSubstr("20.00 N         20.00 N         0.0 %\n"), HasSubstr("differ by 0 N (0.00 %"),
+                          HasSubstr("at most by 0 N at")));
+}
+
 TEST_F(Summary, OfWhatIsNoRunIsRefused) {
   EXPECT_THROW(run_summary(folder()), InvalidInput);
   for (const char* text : {"", "a: [", "[1, 2]"}) {
@@ -105,7 +144,7 @@ TEST_F(Summary, IsWhatTheToolsEndWith) {
     return answer.text;
   };
   const std::string ended = asked("tensile_test", "straight --set physics.accuracy=draft --out 'a run'");
-  EXPECT_THAT(ended, AllOf(HasSubstr("the test ended by break after "), HasSubstr("largest load          2.500 kN\n"),
+  EXPECT_THAT(ended, AllOf(HasSubstr("the test ended by break after "), HasSubstr("largest load          2.500"),
                            HasSubstr("all results are in a run/result.yaml\n")));
   EXPECT_LE(lines(ended), 10);
   EXPECT_EQ(asked("tensile_test", "--show 'a run'") + "all results are in a run/result.yaml\n", ended);

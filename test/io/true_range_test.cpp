@@ -137,9 +137,15 @@ TEST(TrueRange, OfALoopAndItsMachine) {
 
 TEST(TrueRange, OfEveryOtherKnot) {
   expect_true_ranges({shipped("double_fisherman"), {}}, {"specimen.turns", "specimen.tail"}, 2);
-  // The room for its knot follows from specimen.end_to_end and specimen.length together.
   expect_true_ranges({shipped("overhand"), {}},
                      {"specimen.edge_length", "specimen.refinement", "specimen.turns", "program."}, 4);
+  // The room for its knot follows from specimen.end_to_end and specimen.length together.
+  for (const char* length : {"0.6", "1"})
+    for (const char* turns : {"1", "2"})
+      expect_true_ranges({shipped("overhand"),
+                          {std::string("specimen.length=") + length, std::string("specimen.turns=") + turns,
+                           "specimen.edge_length=0.006", "specimen.refinement=1", "specimen.end_to_end=auto"}},
+                         {"specimen.end_to_end"}, 1);
   expect_true_ranges({shipped("straight"), {}}, kOfTheSpecimen, 3);
   expect_true_ranges({shipped("capstan"), {}}, kOfTheSpecimen, 6);
   expect_true_ranges({shipped("from_file"), {}}, kOfTheSpecimen, 2);

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace knot_utm {
 namespace {
@@ -30,6 +31,15 @@ TEST(Number, WhatIsNoOrdinaryNumber) {
   for (const char* text : {"", "1 N", "0,1", "0x10", "1e", "infinity", "--1", "+-1", "++1", "1.2.3"}) {
     EXPECT_FALSE(parse_number(text)) << text;
   }
+}
+
+TEST(Number, OfThreeDigitsIsPlainWherePeopleWriteItSo) {
+  for (const auto& [value, text] :
+       {std::pair{1000.5, "1000"}, std::pair{-1968.4, "-1970"}, std::pair{999.9, "1000"}, std::pair{123456.0, "123000"},
+        std::pair{1e5, "100000"}, std::pair{0.12345, "0.123"}, std::pair{1.5e6, "1.5e+06"}, std::pair{2e-7, "2e-07"},
+        std::pair{-0.0, "0"}})
+    EXPECT_EQ(short_number(value), text);
+  EXPECT_EQ(short_number(-kInfinity), "-inf");
 }
 
 }  // namespace

@@ -233,12 +233,17 @@ class PageOfABatch(unittest.TestCase):
     def test_gives_no_spread_of_what_is_constant(self):
         same = {"mean": 31.000374, "sd": None, "cv": None, "low": None, "high": None, "minimum": 31.00033, "maximum": 31.00042, "n": 2}
         html = html_of(changed(rods, "statistics.yaml", lambda facts: facts.update(peak_force=same)))
-        self.assertEqual(row_of(html, "peak_force")[1:], ["31", "", "constant", "", "2", "N"])
+        self.assertEqual(row_of(html, "peak_force")[1:], ["31.00", "", "constant", "", "2", "N"])
         self.assertIn("constant, n = 2", html)
         column = tables_of(html)[0]
         place = column[0].index("Largest load N")
         self.assertEqual([row[place] for row in column if row[0] in ("Mean", "Standard deviation", "Coefficient of variation")],
-                         ["31", "constant", ""])
+                         ["31.00", "constant", ""])
+
+    def test_gives_no_spread_of_what_is_rounding(self):
+        tiny = {"mean": 8.9e-13, "sd": 4.9e-14, "cv": 0.05, "low": 8.1e-13, "high": 9.7e-13, "minimum": 8e-13, "maximum": 9e-13, "n": 2}
+        html = html_of(changed(rods, "statistics.yaml", lambda facts: facts.update(inertia_share=tiny)))
+        self.assertEqual(row_of(html, "inertia_share")[1:], ["0", "", "constant", "", "2", ""])
 
 
 class CertificateOfABatch(unittest.TestCase):

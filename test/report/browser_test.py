@@ -83,7 +83,7 @@ USE = """<script>window.addEventListener("load", () => {
 def setUpModule():
     global folders, run, comparison, batch
     folders = Folders()
-    run = folders.run("run", FISHERMAN, "--report")
+    run = folders.run("run", FISHERMAN, "--report", "--set", "report={operator: 山田太郎, customer: C, date: today}")
     other = folders.run("other", [*FISHERMAN, "--set", "material.friction_coefficient=0.5"])
     comparison = os.path.join(folders.path, "comparison")
     done = tool("compare", f"{run}/curve.csv", f"{other}/curve.csv", "--report", comparison)
@@ -262,6 +262,7 @@ class OnPaper(unittest.TestCase):
         for words in ("Fisherman's knot, polypropylene", "Force and extension", "The rod at the marked points",
                       "Results", "Quality certificate", "What was tested, and how", "Where this page comes from", "--report"):
             self.assertIn(words, text)
+        self.assertIn("The line is the balanced load", text.split("\f")[0], "the head leaves no room for the curve on its sheet")
         lock = yaml.safe_load(read(run, "result.yaml"))["lock_extension_by_load"]
         self.assertRegex(text, rf"lock_extension_by_load\s+{in_mm(lock)}")
 

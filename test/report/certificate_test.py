@@ -148,6 +148,19 @@ class Numbers(unittest.TestCase):
         self.assertEqual(quantities.number(123456.7), "123457")
         self.assertEqual(quantities.number(5.55e-8), "5.55 · 10⁻⁸")
         self.assertEqual(quantities.shown(float("nan")), "–")
+        # Both end with the same digit, also where an error of 9.97 is one of 10.
+        for value, error, words in ((4985.24, 9.97, ("4985", "10")), (2500.06, 5.0002, ("2500.1", "5.0")), (0.001234, 9.96e-5, ("0.00123", "0.00010"))):
+            self.assertEqual((quantities.number(value, error), quantities.error_shown(error, 1.0)), words)
+
+    def test_keep_the_zeros_that_were_read_and_not_those_that_were_given(self):
+        self.assertEqual([quantities.number(value) for value in (103.0345, 34.6502, 1.6003e-7)], ["103.0", "34.65", "1.600 · 10⁻⁷"])
+        self.assertEqual([quantities.number(value) for value in (250.0, 0.3, 2.5e-8, 1e3 * 0.0254)], ["250", "0.3", "2.5 · 10⁻⁸", "25.4"])
+
+    def test_of_what_is_left_are_none_where_it_is_rounding(self):
+        of = {"hysteresis": 4e-7, "energy_to_peak": 17.0, "elongation_residual": 1e-3, "elongation_total": 0.016}.get
+        self.assertTrue(quantities.is_rounding("hysteresis", of))
+        self.assertFalse(quantities.is_rounding("elongation_residual", of))
+        self.assertFalse(quantities.is_rounding("energy_to_peak", of))
 
     def test_that_are_nothing_have_no_sign(self):
         for value, error in ((-0.0, None), (-2.2e-15, None), (-0.0004, 0.2)):
@@ -158,8 +171,8 @@ class Numbers(unittest.TestCase):
         said = ("parted 0.370498 m along at 2500.08 N (2 strands of 3 radii), from 44.48 to 4.448 N, at 0.0254 m/s, where k_b/h^2 is "
                 "-4.448 N; 175.1 N/m, 2e-05 m, 8 N/m², 5 mm and 1e-7 s")
         self.assertEqual(sentences.in_units(said, Units("lbf", "in")),
-                         "parted 14.59 in along at 562 lbf (2 strands of 3 radii), from 10 to 1 lbf, at 1 in/s, where k_b/h^2 is "
-                         "–1 lbf; 0.9998 lbf/in, 0.0007874 in, 8 N/m², 5 mm and 1e-7 s")
+                         "parted 14.59 in along at 562.0 lbf (2 strands of 3 radii), from 10.00 to 1.000 lbf, at 1 in/s, where k_b/h^2 is "
+                         "–1.000 lbf; 0.9998 lbf/in, 0.0007874 in, 8 N/m², 5 mm and 1e-7 s")
 
 
 if __name__ == "__main__":

@@ -251,6 +251,14 @@ class NumbersOfThePage(unittest.TestCase):
         self.assertEqual(row_of(html_of(folder), "knot_efficiency")[1], "not predicted")
 
 
+    def test_of_a_rod_without_two_knots_miss_no_plateau_and_no_lock(self):
+        html = html_of(straight)
+        self.assertNotIn("Why there is no plateau", html)
+        self.assertIn("from the error of the stiffness of the pull in the table below", html)
+        loop = html_of(folders.with_report(fisherman, plateau_force=None, no_plateau_because="the load is not level"))
+        self.assertEqual(row_of(loop, "no_plateau_because")[1].strip(), "the load is not level")
+
+
 class Keys(unittest.TestCase):
     def test_of_every_group_have_a_place_on_the_page(self):
         places = {*quantities.TABLES, quantities.HEAD, quantities.BESIDE, quantities.CERTIFICATE}

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <optional>
 #include <regex>
 #include <string>
 
@@ -265,31 +266,39 @@ TEST(Overhand, RefusesTooLittleOrTooMuchExcessLength) {
   EXPECT_THROW(overhand(shape), InvalidInput);
 }
 
-TEST(Overhand, SaysWhichExcessLengthFits) {
-  const auto refusal = [](double length, double end_to_end) {
+TEST(Overhand, SaysWhichEndToEndDistancesFitItsLength) {
+  const auto refusal = [](double length, double end_to_end) -> std::optional<InvalidInput> {
     OverhandShape shape;
     shape.length = length;
     shape.end_to_end = end_to_end;
     try {
       overhand(shape);
     } catch (const InvalidInput& invalid) {
-      return invalid.allowed;
+      return invalid;
     }
-    return std::string();
+    return std::nullopt;
   };
-  // What one takes from the text is right: the two ends of the range differ, and what lies between them fits.
-  const std::regex range("shorter than specimen.length by ([^ ]*) to ([^ ]*) m, for a knot of this rod");
-  for (const double above_least : {0.05, 1e-3, 1e-4}) {
-    std::smatch least, ends;
-    const std::string no_room = refusal(1.0, 0.01);
-    ASSERT_TRUE(std::regex_match(no_room, least, std::regex("more than ([^ ]*) m, the room that .*"))) << no_room;
-    const double end_to_end = std::stod(least.str(1)) + above_least;
-    const std::string text = refusal(1.0, end_to_end);
-    ASSERT_TRUE(std::regex_match(text, ends, range)) << text;
-    const double low = std::stod(ends.str(1)), high = std::stod(ends.str(2));
-    EXPECT_LT(low, high) << text;
-    EXPECT_EQ(refusal(end_to_end + 0.5 * (low + high), end_to_end), "") << text;
-  }
+  // What one takes from the text is right: a rod may be just longer than the shortest, and the ends of the range fit.
+  const auto short_rod = refusal(0.1, 0.05);
+  ASSERT_TRUE(short_rod);
+  EXPECT_EQ(short_rod->key, "specimen.length");
+  std::smatch least, ends;
+  ASSERT_TRUE(
+      std::regex_match(short_rod->allowed, least, std::regex("more than ([^ ]*) m, which the smallest knot .*")));
+  const double shortest = std::stod(least.str(1));
+  EXPECT_EQ(refusal(0.99 * shortest, 0.05)->key, "specimen.length");
+  const std::regex range("([^ ]*) to ([^ ]*) m, for a knot in a rod of specimen.length, .* m");
+  for (const double length : {1.003 * shortest, 1.0})
+    for (const double wrong : {-0.2, 0.01, 0.99 * length}) {
+      const auto invalid = refusal(length, wrong);
+      ASSERT_TRUE(invalid) << length << ' ' << wrong;
+      EXPECT_EQ(invalid->key, "specimen.end_to_end");
+      ASSERT_TRUE(std::regex_match(invalid->allowed, ends, range)) << invalid->what();
+      const double low = std::stod(ends.str(1)), high = std::stod(ends.str(2));
+      EXPECT_LT(low, high);
+      for (const double fits : {low, 0.5 * (low + high), high}) EXPECT_FALSE(refusal(length, fits)) << invalid->what();
+      for (const double outside : {low - 0.002, high + 0.002}) EXPECT_TRUE(refusal(length, outside)) << invalid->what();
+    }
 }
 
 TEST(Straight, LiesAlongTheLoadAxis) {

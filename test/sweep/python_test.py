@@ -101,7 +101,7 @@ class Package(Sweeps):
     def test_what_is_refused_raises(self):
         with self.assertRaisesRegex(knot_utm.WrongInput, "specimen.length is -1"):
             knot_utm.run("straight", self.path("run"), **{"specimen.length": -1})
-        with self.assertRaisesRegex(knot_utm.WrongInput, "method is strait"):
+        with self.assertRaisesRegex(knot_utm.WrongInput, r"method is strait, .*; did you mean straight\?"):
             knot_utm.run("strait", self.path("run"))
         with self.assertRaisesRegex(knot_utm.WrongInput, "no such file"):
             knot_utm.read(self.path("run"))
