@@ -12,6 +12,7 @@ from table import Report, Table, at_least, at_most, is_missing
 MATERIALS = []                     # each test draws its own
 SEED, COUNT, JOBS = 19, 40, 2
 HALVED = 4.5                       # twice the refinement of a rope at `normal`
+PRESLIDING, STEP = 5e-4, 0.025     # [h, s] of the fine run: a quarter of a rope's at `normal`, and a seventh
 TIED_HARD, FINEST = 6.0, 4 / 3     # pre-load [k_b/h^2] from which on `auto` has shorter edges, and by how much at most
 CPU_LIMIT = 300                    # [s]
 WITHIN = 0.95                      # of the true differences
@@ -38,7 +39,8 @@ def report(runner, _, seed=SEED, count=COUNT):
                   "0.2 to 0.9, pre-load 2 to 50 k_b/h² (of a solid rod not more than k_s, which doubles its length), "
                   "e from 0.11 to 0.19 m and L from where the coils clear the rollers to 2 m for the paper's radius, "
                   "three sizes, four kinds of rod. Each is run as it is by default and with "
-                  "`physics.accuracy=fine` and edges in the knots half as long. The true difference of a reading is "
+                  "`physics.accuracy=fine`, edges in the knots half as long, a presliding displacement of "
+                  f"{PRESLIDING:g} h and steps of {STEP:g} s at most. The true difference of a reading is "
                   "that between both; it is within where it is at most the error given. A reading that only one of "
                   "both has is not within, and neither is one without an error; one that neither has is. "
                   "Readings are in units of k_b/h², h and k_b/h³.", tables,
@@ -49,9 +51,10 @@ def report(runner, _, seed=SEED, count=COUNT):
 
 def fine_run(draw):
     """Edges in a rope's knots are half as long as by default, whatever its pre-load; those of a solid rod as in a
-    rope."""
+    rope. Presliding and steps are shorter than at `fine`, because both runs would share their error."""
     shorter = min(max((draw.preload / TIED_HARD) ** 0.25, 1.0), FINEST)
-    return {"physics.accuracy": "fine", "specimen.refinement": round(HALVED * shorter, 4)}
+    return {"physics.accuracy": "fine", "specimen.refinement": round(HALVED * shorter, 4),
+            "physics.friction.presliding": PRESLIDING, "physics.max_step": STEP}
 
 
 def run_all(runner, draws):

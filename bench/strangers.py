@@ -4,7 +4,7 @@ import math
 from draws import PAPER_RADIUS, Draw, significant
 
 SIZES = [0.0005, PAPER_RADIUS, 0.016]  # radii of a thread, of the paper's ropes and of a hawser [m]
-RODS = {"limp braid": (1e4, 5e4), "stiff braid": (1e3, 1e4), "cable": (60.0, 1e3), "solid": (4.0, 4.0)}  # k_s h^2/k_b
+RODS = {"limp braid": (1e4, 5e4), "stiff braid": (1e3, 1e4), "cable": (10.0, 1e3), "solid": (4.0, 4.0)}  # k_s h^2/k_b
 HARDEST = 50.0                         # pre-load [k_b/h^2]
 DISTANCE = (0.11, 0.19)                # e for the paper's radius [m]
 LONGEST_LOOP = 2.0                     # L for the paper's radius [m]

@@ -48,11 +48,15 @@ bool slid_to_the_end(const Results& results) {
   return results.motion_pattern == MotionPattern::kSliding && !results.lock_extension;
 }
 
+bool knots_hardly_closed(const Results& results, const RunFacts& facts) {
+  return facts.errors.plateau_force && results.true_plateau_force &&
+         hardly_closed(*results.true_plateau_force, facts.material);
+}
+
 ReadingErrors known_errors(const Results& results, const RunFacts& facts) {
   if (!why_not_at_rest(results, facts).empty() || results.curve.jump_force || results.opened_when_mounted) return {};
+  if (knots_hardly_closed(results, facts)) return {};
   ReadingErrors out = facts.errors;
-  if (out.plateau_force && results.true_plateau_force)
-    *out.plateau_force *= hardly_closed(*results.true_plateau_force, facts.material);
   // Studied are locks that the knots have come to, not loads that rise while they still slide.
   if (slid_to_the_end(results)) out.locked_stiffness.reset();
   if (out.locked_stiffness) *out.locked_stiffness += change_along_the_curve(results, out);

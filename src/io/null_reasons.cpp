@@ -50,6 +50,8 @@ std::string why_no_error(const ResultSource& source, const std::string& no_readi
   if (results.curve.jump_force) return "unknown: a knot jumped open, which no convergence study covers";
   if (results.opened_when_mounted)
     return "unknown: a knot opened as the loop was mounted, which no convergence study covers";
+  if (knots_hardly_closed(results, source.facts))
+    return "unknown: the knots were hardly closed, which no convergence study covers";
   return no_reading.empty() ? "unknown: no convergence study covers this case" : no_reading;
 }
 

@@ -102,9 +102,14 @@ std::string accuracy_warning(const Results& results, const ReadingErrors& errors
   constexpr double kUnsure = 0.1;
   if (!results.true_plateau_force || results.curve.jump_force || errors.plateau_force.value_or(0.0) <= kUnsure)
     return {};
-  return "the plateau force may be off by " + format_number(std::round(100.0 * *errors.plateau_force)) +
-         " %; choose a finer physics.accuracy, a higher specimen.refinement or a lower specimen.preload to reduce the "
-         "error";
+  const std::string off =
+      "the plateau force may be off by " + format_number(std::round(100.0 * *errors.plateau_force)) + " %; ";
+  if (errors.plateau_scatters)
+    return off +
+           "with two knots of opposite handedness it is one of a distribution, and small changes of the specimen or its "
+           "mesh move it by as much: test several specimens (--specimens 8) to see how it scatters";
+  return off +
+         "choose a finer physics.accuracy, a higher specimen.refinement or a lower specimen.preload to reduce the error";
 }
 
 namespace {

@@ -75,9 +75,9 @@ Tolerances tolerances(const PhysicsOptions& physics, const SpecimenOptions& spec
   return out;
 }
 
-double hardly_closed(double plateau_force, const Material& material) {
-  const double h = material.radius, closed = kHardlyClosed * material.bending_stiffness / (h * h);
-  return plateau_force >= closed ? 1.0 : std::pow(closed / plateau_force, 2);
+bool hardly_closed(double plateau_force, const Material& material) {
+  const double h = material.radius;
+  return plateau_force < kHardlyClosed * material.bending_stiffness / (h * h);
 }
 
 ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
@@ -99,9 +99,9 @@ ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& ma
   // Of knots: where a rope is tied hard its edges are shorter, and so is its error. The strands do not gain by that.
   const double coarse = coarseness(own, of(Accuracy::kNormal, solid), edge),
                of_strands = coarseness(own, of(Accuracy::kNormal, specimen, material), edge);
-  const double slippery =
-      (opposite ? kOppositeSlippery : kSlippery) / std::max(material.friction_coefficient, kLeastFriction);
-  out.plateau_force = coarse * (opposite ? kOppositePlateau : kPlateau) * std::max(1.0, slippery);
+  const double slippery = std::max(1.0, kSlippery / std::max(material.friction_coefficient, kLeastFriction));
+  out.plateau_force = coarse * (opposite ? kOppositePlateau : kPlateau * slippery);
+  out.plateau_scatters = opposite;
   out.lock_extension = coarse * (opposite ? kOppositeLock : kLock);
   out.locked_stiffness = of_strands * (solid ? kSolidsStiffnessOfKnots * h / specimen.end_to_end : kRopesStiffness);
   return out;

@@ -61,37 +61,57 @@ TEST(ReadingErrors, GrowWithEdgesAndTolerances) {
 }
 
 TEST(ReadingErrors, GrowWithSlipperiness) {
-  for (const Handedness hands : {Handedness::kSame, Handedness::kOpposite}) {
-    Loop rough, slippery;
-    rough.specimen.handedness = slippery.specimen.handedness = hands;
-    rough.material.friction_coefficient = 0.8;
-    slippery.material.friction_coefficient = 0.3;
-    EXPECT_GT(slippery.errors().plateau_force.value(), 1.4 * rough.errors().plateau_force.value());
-  }
+  Loop rough, slippery;
+  rough.material.friction_coefficient = 0.8;
+  slippery.material.friction_coefficient = 0.3;
+  EXPECT_GT(slippery.errors().plateau_force.value(), 2.0 * rough.errors().plateau_force.value());
 }
 
 TEST(ReadingErrors, OfOppositeHandsAreLarger) {
   Loop same, opposite;
   opposite.specimen.handedness = Handedness::kOpposite;
-  EXPECT_GT(opposite.errors().plateau_force.value(), 1.3 * same.errors().plateau_force.value());
-  EXPECT_GT(opposite.errors().lock_extension.value(), 2.0 * same.errors().lock_extension.value());
+  EXPECT_GT(opposite.errors().plateau_force.value(), 3.0 * same.errors().plateau_force.value());
+  EXPECT_GT(opposite.errors().lock_extension.value(), 3.0 * same.errors().lock_extension.value());
+}
+
+/// Small changes of the specimen or its mesh move such a plateau: a finer accuracy is no advice.
+TEST(ReadingErrors, OfOppositeHandsOfferSpecimens) {
+  Loop same, opposite;
+  opposite.specimen.handedness = Handedness::kOpposite;
+  same.material.friction_coefficient = 0.3;
+  const std::string of_same = accuracy_warning(plateau(), same.errors()),
+                    of_opposite = accuracy_warning(plateau(), opposite.errors());
+  EXPECT_NE(of_opposite.find("a distribution"), std::string::npos) << of_opposite;
+  EXPECT_NE(of_opposite.find("--specimens 8"), std::string::npos) << of_opposite;
+  EXPECT_NE(of_same.find("physics.accuracy"), std::string::npos) << of_same;
+  EXPECT_EQ(of_same.find("specimens"), std::string::npos) << of_same;
 }
 
 TEST(ReadingErrors, OfEdgesOfOneRadiusAtNormalIsThatOfTheStudy) {
   Loop loop;
   loop.specimen.edge_length = loop.material.radius;
-  EXPECT_DOUBLE_EQ(loop.errors().plateau_force.value(), 0.043);
-  loop.material.friction_coefficient = 0.325;
-  EXPECT_DOUBLE_EQ(loop.errors().plateau_force.value(), 0.086);
+  loop.material.friction_coefficient = 0.9;
+  EXPECT_DOUBLE_EQ(loop.errors().plateau_force.value(), 0.048);
+  loop.material.friction_coefficient = 0.4;
+  EXPECT_DOUBLE_EQ(loop.errors().plateau_force.value(), 0.096);
 }
 
-/// Below 0.55 k_b/h^2, with its square.
-TEST(ReadingErrors, OfKnotsThatAreHardlyClosedAreLarger) {
+/// The fractions of the sources: a quarter of the presliding displacement and of the longest step leave a quarter of 0.5.
+TEST(ReadingErrors, FallWithPreslidingAndStep) {
+  Loop plain, shorter;
+  const Tolerances own = plain.tolerances();
+  shorter.physics.max_step = own.longest_step / 4.0;
+  shorter.physics.friction.set("presliding", own.presliding / 4.0);
+  plain.specimen.edge_length = shorter.specimen.edge_length = plain.material.radius;
+  EXPECT_NEAR(*shorter.errors().plateau_force / *plain.errors().plateau_force, 0.5 + 0.5 / 4.0, 1e-12);
+}
+
+/// Below 0.15 k_b/h^2.
+TEST(ReadingErrors, OfKnotsThatAreHardlyClosedAreNotKnown) {
   const Material rod = Loop().material;
   const double force = rod.bending_stiffness / (rod.radius * rod.radius);
-  EXPECT_EQ(hardly_closed(2.0 * force, rod), 1.0);
-  EXPECT_NEAR(hardly_closed(0.5499 * force, rod), 1.0, 1e-3);
-  EXPECT_NEAR(hardly_closed(0.275 * force, rod), 4.0, 1e-9);
+  EXPECT_FALSE(hardly_closed(0.151 * force, rod));
+  EXPECT_TRUE(hardly_closed(0.149 * force, rod));
 }
 
 /// Nylon's edges are shorter, as it is tied hard, and its error is smaller with their square.
@@ -100,8 +120,8 @@ TEST(ReadingErrors, OfTheShippedMethodNeedNoWarning) {
   const ReadingErrors errors = reading_errors(shipped.specimen, shipped.material, shipped.machine, shipped.physics);
   EXPECT_NEAR(shipped.specimen.edge_length / shipped.material.radius, 1.008, 5e-4);
   const double edges = 1.008 * 2.25 / 3.0;
-  EXPECT_NEAR(errors.plateau_force.value(), (0.5 + 0.5 * edges * edges) * 0.043 * 0.65 / 0.46, 5e-5);
-  EXPECT_LT(errors.plateau_force.value(), 0.05);
+  EXPECT_NEAR(errors.plateau_force.value(), (0.6 + 0.4 * edges * edges) * 0.048 * 0.8 / 0.46, 5e-5);
+  EXPECT_LT(errors.plateau_force.value(), 0.075);
   EXPECT_EQ(accuracy_warning(plateau(), errors), "");
 }
 
