@@ -14,13 +14,15 @@ constexpr ChoiceNames<MotionPattern, 4> kPatternNames{{{MotionPattern::kNone, "n
                                                        {MotionPattern::kStretching, "stretching"},
                                                        {MotionPattern::kUntangling, "untangling"}}};
 
-constexpr double kWindow = 0.03;        // of the first knot distance
-constexpr double kTurnover = -1.0;      // de/ds between sliding (-2) and stretching (> 0)
-constexpr double kLeastSliding = 0.15;  // of all extension
-constexpr double kLevel = 2.0;          // times the mean load of the way on which the knots slid
-constexpr double kGone = 0.05;          // of the largest load
-constexpr double kVanished = 0.25;      // of the tied excess length
-constexpr double kOpened = 0.05;        // of e, as where a knot jumps open while it is pulled
+constexpr double kWindow = 0.03;  // of the first knot distance
+// de/ds between stretching (> 0) and sliding, which is twice this.
+constexpr double kTurnoverOnRollers = -1.0, kTurnoverBetweenNodes = -0.5;
+constexpr double kLeastSliding = 0.15;      // of all extension
+constexpr double kMuchSliding = 1.0 / 3.0;  // of all extension: whatever the load then does
+constexpr double kLevel = 2.0;              // times the mean load of the way on which the knots slid
+constexpr double kGone = 0.05;              // of the largest load
+constexpr double kVanished = 0.25;          // of the tied excess length
+constexpr double kOpened = 0.05;            // of e, as where a knot jumps open while it is pulled
 
 /// Least-squares line y(s) through the samples from `begin` to `end`, each weighted by the extension it stands for.
 struct Line {
@@ -69,6 +71,9 @@ double unit(double x) { return std::isfinite(x) ? std::clamp(x, 0.0, 1.0) : 0.0;
 }  // namespace
 
 const char* motion_pattern_name(MotionPattern pattern) { return name_of(kPatternNames, pattern); }
+
+MotionPatternTracker::MotionPatternTracker(bool on_rollers)
+    : turnover_(on_rollers ? kTurnoverOnRollers : kTurnoverBetweenNodes) {}
 
 void MotionPatternTracker::add(const Sample& sample) {
   if (sample.knot_type == KnotType::kKept)
@@ -144,12 +149,12 @@ void MotionPatternTracker::follow_slope(double extension, double before) {
   slope_ = line.slope;
   centre_ = line.mean_s;
   const double passed = first ? extension - pull_.front().extension : extension - before;
-  if (slope_ < kTurnover) {
+  if (slope_ < turnover_) {
     if (slid_ == 0.0) first_sliding_ = first ? pull_.front().extension : centre_;
     slid_ += passed;
     last_sliding_ = centre_;
-  } else if (!first && slope_before < kTurnover) {
-    const double t = (kTurnover - slope_before) / (slope_ - slope_before);
+  } else if (!first && slope_before < turnover_) {
+    const double t = (turnover_ - slope_before) / (slope_ - slope_before);
     last_sliding_ = centre_before + t * (centre_ - centre_before);
   }
 }
@@ -174,9 +179,11 @@ bool MotionPatternTracker::untangles() const { return knot_lost() || jumped_ || 
 bool MotionPatternTracker::slid() const {
   const PullPoint &start = pull_.front(), &first = point_at(first_sliding_), &last = point_at(last_sliding_);
   const auto came_nearer = [&](const PullPoint& from) {
-    return last.knot_distance - from.knot_distance < kTurnover * (last.extension - from.extension);
+    return last.knot_distance - from.knot_distance < turnover_ * (last.extension - from.extension);
   };
-  if (slid_ < window_ || slid_ < kLeastSliding * (pull_.back().extension - start.extension)) return false;
+  const double whole = pull_.back().extension - start.extension;
+  if (slid_ < window_ || slid_ < kLeastSliding * whole) return false;
+  if (slid_ > kMuchSliding * whole) return true;
   return came_nearer(start) || (came_nearer(first) && last.force < kLevel * mean_between(first, last));
 }
 
@@ -201,11 +208,11 @@ MotionPattern MotionPatternTracker::pattern() const {
 MotionPattern MotionPatternTracker::current() const {
   if (untangles()) return MotionPattern::kUntangling;
   if (pull_.empty() || !std::isfinite(slope_)) return MotionPattern::kNone;
-  return slope_ < kTurnover ? MotionPattern::kSliding : MotionPattern::kStretching;
+  return slope_ < turnover_ ? MotionPattern::kSliding : MotionPattern::kStretching;
 }
 
 std::optional<double> MotionPatternTracker::lock_extension() const {
-  if (pattern() != MotionPattern::kSliding || slope_ < kTurnover || centre_ - last_sliding_ < window_) return {};
+  if (pattern() != MotionPattern::kSliding || slope_ < turnover_ || centre_ - last_sliding_ < window_) return {};
   return last_sliding_;
 }
 
@@ -232,7 +239,7 @@ double MotionPatternTracker::confidence() const {
     return unit(1.0 - (std::max(0.0, line.slope) * line.width + line.deviation) / line.mean);
   };
   const double rate = fit(pull_, first, last, [](const PullPoint& p) { return p.knot_distance; }).slope;
-  double signs = sliding ? unit(1.0 - std::abs(rate + 2.0)) : unit(1.0 + rate);
+  double signs = sliding ? unit(1.0 - std::abs(rate / turnover_ - 2.0)) : unit(1.0 - rate / turnover_);
   signs += force_sign(fit(pull_, first, last, [](const PullPoint& p) { return p.force; }));
   const Line contact = fit(pull_, first, last, [](const PullPoint& p) { return p.normal_force; });
   if (!(contact.mean > 0.0)) return signs / 2.0;

@@ -244,7 +244,8 @@ constexpr double kBears = 0.5;  // fraction of the median force of a pull: what 
 /// One way through all samples, in order.
 class Course {
  public:
-  Course(const std::vector<Sample>& samples, Results& results) : samples_(samples), results_(results) {
+  Course(const std::vector<Sample>& samples, bool on_rollers, Results& results)
+      : samples_(samples), results_(results), motion_(on_rollers) {
     for (const Sample& sample : samples) add(sample);
   }
 
@@ -286,8 +287,9 @@ class Course {
   void add(const Sample& sample) {
     const bool recoils = at_break_.has_value();  // says nothing about the test
     if (sample.status == BenchStatus::kBroken && !recoils) {
-      // What parts while it is tied or mounted has no extension yet.
-      if (!traits_of(sample.phase).ends_by_itself) results_.break_extension = sample.extension;
+      // What parts while it is tied, mounted or balanced has no extension yet.
+      const bool made = traits_of(sample.phase).ends_by_itself || sample.phase == Phase::kBalance;
+      if (!made || pull_begin_) results_.break_extension = sample.extension;
       at_break_ = sample;
     }
     motion_.add(sample);
@@ -401,11 +403,12 @@ void read_whole_pull(const Course& course, Results& results) {
 
 Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) { return analyse(samples, samples, ended_by); }
 
-Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by) {
+Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by,
+                bool on_rollers) {
   Results results;
   results.ended_by = ended_by;
   if (samples.empty()) return results;
-  Course course(samples, results);
+  Course course(samples, on_rollers, results);
   read_end(samples.back(), results);
   read_loads(readings, results);
   read_motion(samples, course.motion(), results);

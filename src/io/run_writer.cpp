@@ -109,7 +109,9 @@ void RunWriter::add(const Record& record) {
   }
 }
 
-Results RunWriter::results(EndedBy ended_by) const { return analyse(samples_, readings_, ended_by); }
+Results RunWriter::results(EndedBy ended_by) const {
+  return analyse(samples_, readings_, ended_by, radius_on_rollers_.has_value());
+}
 
 RunFacts RunWriter::facts() const {
   RunFacts facts = known_;

@@ -25,18 +25,18 @@ double curvature(const RodProperties& rod, const Points& position, Eigen::Index 
 
 bool can_part(const Material& material) { return material.breaking_force || material.breaking_strain; }
 
-Exposure most_exposed(const RodProperties& rod, const RodState& state) {
+Exposure most_exposed(const RodProperties& rod, const Points& position) {
   const Material& material = rod.material;
   Exposure out;
   double bend_before = 0.0;
   for (Eigen::Index j = 0; j < rod.edges(); ++j) {
-    const StretchedEdge stretched = stretched_edge(rod, state.position, j);
+    const StretchedEdge stretched = stretched_edge(rod, position, j);
     const double tension = respond(rod, stretched).tension;
     Exposure edge;
     if (material.breaking_force)
       edge = {tension / *material.breaking_force, static_cast<int>(j), BreakLimit::kForce, tension};
     if (material.breaking_strain) {
-      const double bend = curvature(rod, state.position, j + 1);
+      const double bend = curvature(rod, position, j + 1);
       const double strain = stretched.stretch - 1.0 + material.radius * std::max(bend, bend_before);
       const double fraction = strain / *material.breaking_strain;
       if (fraction > edge.fraction) edge = {fraction, static_cast<int>(j), BreakLimit::kStrain, strain};

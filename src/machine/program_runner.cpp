@@ -16,9 +16,6 @@ constexpr double kRigid = 1.0 - 1e-6;   // gain of a frame that gives nothing
 constexpr double kLeastGain = 1e-3;     // of a frame that gives nearly all
 constexpr int kUndoneAnswers = 3;       // in a row: a strand that is thrown about may be taken for another knot once
 
-/// Whether the specimen is still being tied, released or mounted.
-bool is_made(Phase phase) { return traits_of(phase).ends_by_itself; }
-
 /// Of the crosshead as a step begins [m/s].
 double first_velocity(const ProgramStep& step) {
   switch (step.phase) {
@@ -88,7 +85,7 @@ void ProgramRunner::fail(std::string why) {
 
 bool ProgramRunner::failed() const {
   return ended_by_ == EndedBy::kSolver || (ended_by_ == EndedBy::kUntangled && !only_ties()) ||
-         (ended_by_ == EndedBy::kBreak && is_made(last_.phase));
+         (ended_by_ == EndedBy::kBreak && is_to_be_pulled());
 }
 
 Phase ProgramRunner::phase() const { return ended() ? Phase::kDone : last_.phase; }
@@ -168,8 +165,7 @@ bool ProgramRunner::end_by_alarm(const Sample& sample) {
   if (sample.status == BenchStatus::kFailed) {
     end(EndedBy::kSolver, sample.message.empty() ? phase + ": the physics gave up" : sample.message);
   } else if (sample.status == BenchStatus::kBroken) {
-    end(EndedBy::kBreak,
-        is_made(last_.phase) ? phase + ": " + sample.message + ", before it was pulled" : sample.message);
+    end(EndedBy::kBreak, is_to_be_pulled() ? phase + ": " + sample.message + ", before it was pulled" : sample.message);
   } else if (undone_answers_ == kUndoneAnswers && !only_ties()) {
     end(EndedBy::kUntangled, phase + ": the knot came undone");
   } else if (std::abs(sample.load) > limits_.load || std::abs(sample.force_upper) > limits_.load) {
@@ -190,11 +186,19 @@ bool ProgramRunner::only_ties() const {
   return std::all_of(program_.begin(), program_.end(), [](const ProgramStep& step) { return !moves(step.phase); });
 }
 
+bool ProgramRunner::was_pulled() const {
+  const auto next = program_.begin() + static_cast<std::ptrdiff_t>(step_) + 1;
+  return std::any_of(program_.begin(), next, [](const ProgramStep& step) { return pulls(step.phase); });
+}
+
+/// And was not yet, nor loaded. A rod that is only held may part under a weight: that is what such a test is for.
+bool ProgramRunner::is_to_be_pulled() const {
+  return last_.phase != Phase::kPreload && !was_pulled() && (traits_of(last_.phase).prepares || !only_ties());
+}
+
 /// Before anything has pulled at it.
 bool ProgramRunner::is_undone(const Sample& sample) const {
-  const auto here = program_.begin() + static_cast<std::ptrdiff_t>(step_) + 1;
-  return sample.knot_type == KnotType::kChanged &&
-         std::none_of(program_.begin(), here, [](const ProgramStep& step) { return pulls(step.phase); });
+  return sample.knot_type == KnotType::kChanged && !was_pulled();
 }
 
 std::string ProgramRunner::break_seen(const Sample& sample) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "knot_utm/machine/accuracy.hpp"
+#include "knot_utm/machine/break_watch.hpp"
 #include "knot_utm/machine/fracture.hpp"
 #include "knot_utm/machine/frame.hpp"
 #include "knot_utm/machine/grips.hpp"
@@ -36,7 +37,6 @@ constexpr double kSettlingTime = 1.0;   // [s]
 constexpr double kSettlingWave = 40.0;  // waves of this length relax in a tenth of it [h]
 
 constexpr double kNearBreak = 1e-3;      // steps are no shorter for a break that is near [longest step]
-constexpr double kAbsurd = 2.0;          // strength that a single step may not pass by so much [of it]
 constexpr double kRecoilTransits = 1.0;  // of the specimen, that the ends of a parted rod are followed for
 
 }  // namespace
@@ -52,8 +52,9 @@ struct TestingMachine::Impl {
   std::unique_ptr<TimeStep> stepper;
   StepControl control{StepControl::Options{}};
   LoadCell cell;
-  std::optional<TiedLoop> loop;    // where it is one
-  std::optional<KnotWatch> watch;  // where it is knotted
+  std::optional<BreakWatch> breaks;  // where the rod can part
+  std::optional<TiedLoop> loop;      // where it is one
+  std::optional<KnotWatch> watch;    // where it is knotted
   Boundary boundary;
 
   double time = 0.0;
@@ -61,7 +62,6 @@ struct TestingMachine::Impl {
   double grip = 0.0;          // of the upper grip, the same on a rigid frame [m]
   double grip_tried = 0.0;    // in the step that is being made
   double extension_zero = 0.0, raw_extension_zero = 0.0;
-  double exposure = 0.0;    // damage: fraction of the time to break that is used up
   double recoil_end = 0.0;  // of a rod that has just parted [s]
   BreakPlace break_place = BreakPlace::kNone;
   double travel_tried = 0.0;  // of the crosshead, in the step that is being made [m]
@@ -117,6 +117,7 @@ struct TestingMachine::Impl {
       watch.emplace(loop ? loop->standing_nodes() : std::vector<int>(), centreline.closed, material.radius,
                     centreline.points, centreline.windings());
     }
+    if (can_part(material)) watch_for_break(kNearBreak * options.longest);
     extension_zero = grips.end_to_end(grip);
     has_weight = !specimen.to_be_tied;
     apply_gravity();
@@ -201,30 +202,23 @@ struct TestingMachine::Impl {
   /// A step that could not be made leaves contacts that no accepted step has, of a recoil too.
   bool knows_contacts() const { return status != BenchStatus::kFailed && status != BenchStatus::kBroken; }
 
-  /// After an accepted step: does the rod part? The next step ends where at this pace it will.
-  void watch_for_break(double dt) {
-    if (!can_part(material) || parted()) return;
-    const Exposure now = most_exposed(stepper->rod(), stepper->state());
-    if (now.fraction > kAbsurd && exposure < 1.0 / kAbsurd && control.counters().steps > 1) {
-      give_up_step(now, dt);
-    } else if (now.fraction >= 1.0) {
-      part(now);
-    } else if (now.fraction > exposure) {
-      const double left = (1.0 - now.fraction) / (now.fraction - exposure) * dt;
-      control.at_most(std::max(left, kNearBreak * tolerances(physics, specimen, material).longest_step));
-    }
-    exposure = now.fraction;
+  void watch_for_break(double shortest) {
+    breaks.emplace(shortest);
+    stepper->refuse_by([this](const Points& end, double dt) {
+      if (parted()) return std::string();
+      const RodProperties& rod = stepper->rod();
+      return breaks->refuse(most_exposed(rod, stepper->state().position), most_exposed(rod, end), dt);
+    });
   }
 
-  /// No rod parts in a step that takes it from a fraction of its strength to a multiple: that step is wrong.
-  void give_up_step(const Exposure& reached, double dt) {
-    std::ostringstream text;
-    text << "in a step of " << dt << " s, at t = " << time << " s, the "
-         << (reached.limit == BreakLimit::kForce ? "tension" : "strain") << " jumped to " << reached.value << ", "
-         << reached.fraction << " times what the rod bears, from less than " << 1.0 / kAbsurd
-         << " times that: the step is wrong, and the rod did not part";
+  /// After an accepted step: does the rod part? The next step ends where at this pace it will.
+  void judge_break(double dt) {
+    if (!breaks || parted()) return;
+    const Exposure now = most_exposed(stepper->rod(), stepper->state().position);
+    if (!breaks->parts(now, dt)) return control.at_most(breaks->next());
+    message = not_by_tension(now, grips.force_upper(*stepper));
+    if (message.empty()) return part(now);
     status = BenchStatus::kFailed;
-    message = text.str();
     control.halt();
   }
 
@@ -319,12 +313,12 @@ struct TestingMachine::Impl {
   }
 
   void state(Archive& archive) {
-    archive.section("BNCL");  // "BNCK" had a loop's slack taken up, whatever the specimen was
+    archive.section("BNCM");  // "BNCL" had a fraction of the strength, whether the rod can part or not
     int parted_edge = stepper->parted_edge();
     archive.number("parted edge", parted_edge, -1, static_cast<int>(stepper->rod().edges()) - 1);
     if (archive.loads() && parted_edge >= 0) stepper->part(parted_edge);
     archive.choice("place of the break", break_place, BreakPlace::kGrip);
-    archive(exposure);
+    if (breaks) archive(*breaks);
     archive(time, displacement, grip, extension_zero, raw_extension_zero, step_index, has_weight, work, message);
     archive.choice("phase", phase, Phase::kDone);
     archive(pulled);
@@ -362,7 +356,7 @@ struct TestingMachine::Impl {
           grip = frame.rigid() ? displacement : grip_tried;
           work += stepper->work();
           if (loop) loop->follow(phase, {to, displacement, grip}, dt);
-          watch_for_break(dt);
+          judge_break(dt);
           substeps.push_back(read(command, to));
         });
   }

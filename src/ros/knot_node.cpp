@@ -92,7 +92,7 @@ void KnotNode::begin_specimen() {
   next_ = 0;
   kept_.clear();
   sample_ = Sample();
-  motion_ = MotionPatternTracker();
+  motion_ = MotionPatternTracker(rollers_hold(method_.specimen, method_.machine));
   picture_.begin(machine_.state().position);
   shown_.begin();
   view_is_old_ = true;

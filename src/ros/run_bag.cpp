@@ -35,7 +35,8 @@ RunBag::RunBag(const std::string& file, const Method& method)
       frames_(grips_.lower(), method.specimen.end_to_end),
       picture_(method.specimen, method.machine, method.material),
       panel_((method.material.name.empty() ? "" : method.material.name + ", ") + knot_of(method.specimen).about().name),
-      views_(method.specimen, method.machine, method.material) {}
+      views_(method.specimen, method.machine, method.material),
+      motion_(rollers_hold(method.specimen, method.machine)) {}
 
 void RunBag::add(const Record& record) {
   const Command& command = record.command;

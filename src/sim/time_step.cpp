@@ -39,6 +39,7 @@ class ImplicitStep final : public TimeStep {
       return summary;
     }
     examine(rod_, settings_, step, contacts(), tunnelling_, summary);
+    if (summary.accepted() && judge_) summary.reason = judge_(step.end, dt);
     if (summary.accepted())
       commit(step);
     else

@@ -237,6 +237,38 @@ TEST(MotionPattern, KnotsThatHeldFirstSlideWhereTheLoadThenStaysLevel) {
   EXPECT_EQ(with_load(150.0).motion_pattern, MotionPattern::kStretching) << "another strand bears the load";
 }
 
+/// The knots hold until s = 0.03 m, and then come nearer to each other at a rate, while the load grows with s.
+std::vector<Sample> sliding_under_a_growing_load(double rate, double grows) {
+  std::vector<Sample> samples = Curve().samples();
+  for (Sample& sample : samples) {
+    const double s = sample.extension, slid = std::max(0.0, s - 0.03);
+    sample.knot_distance = 0.15 + rate * slid;
+    sample.load = sample.force_upper = sample.force_lower = std::exp(std::min(s, 0.03) * 100.0) * (1.0 + grows * slid);
+  }
+  return samples;
+}
+
+/// No rod passes from side to side: knots that slide lengthen one side of the loop, and the other one is stretched.
+TEST(MotionPattern, RigidSlidingBetweenHeldNodesIsHalfAsFastAsOnRollers) {
+  const std::vector<Sample> slides = sliding_under_a_growing_load(-0.97, 1e4);
+  const Results held = analyse(slides, slides, EndedBy::kExtension, false);
+  EXPECT_EQ(held.motion_pattern, MotionPattern::kSliding);
+  EXPECT_FALSE(held.lock_extension) << "they slide to the end";
+  EXPECT_FALSE(held.curve.plateau_force) << "the load is that of the side that is stretched";
+  EXPECT_EQ(analyse(slides, EndedBy::kExtension).motion_pattern, MotionPattern::kStretching);
+  const std::vector<Sample> gives = sliding_under_a_growing_load(-0.4, 1e4);
+  EXPECT_EQ(analyse(gives, gives, EndedBy::kExtension, false).motion_pattern, MotionPattern::kStretching);
+}
+
+TEST(MotionPattern, KnotsThatComeNearerThroughMuchOfThePullSlideWhateverTheLoadDoes) {
+  std::vector<Sample> samples = sliding_under_a_growing_load(-1.2, 1e4);
+  for (Sample& sample : samples) sample.knot_distance += 0.9 * std::min(sample.extension, 0.03);
+  while (samples.back().extension > 0.09) samples.pop_back();  // e falls by 0.045 m of these
+  EXPECT_EQ(analyse(samples, EndedBy::kExtension).motion_pattern, MotionPattern::kSliding);
+  while (samples.back().extension > 0.04) samples.pop_back();
+  EXPECT_EQ(analyse(samples, EndedBy::kExtension).motion_pattern, MotionPattern::kStretching);
+}
+
 TEST(MotionPattern, NoneWithoutAPullOrWithoutTwoKnots) {
   EXPECT_EQ(analyse({}, EndedBy::kOperator).motion_pattern, MotionPattern::kNone);
   std::vector<Sample> samples = Curve().samples();

@@ -203,7 +203,7 @@ TEST(Results, ARodThatPartsWhereNothingPullsHasABreakToo) {
   results = analyse(held, EndedBy::kBreak);
   EXPECT_EQ(results.break_extension, 0.012);
   EXPECT_NEAR(*results.energy_to_break, 0.5 + 0.002 * (100.0 + 110.0) / 2.0, 1e-12);
-  for (const Phase phase : {Phase::kPreload, Phase::kMount}) {
+  for (const Phase phase : {Phase::kPreload, Phase::kMount, Phase::kBalance}) {
     std::vector<Sample> early = {sample(phase, 0.0, 0.0), sample(phase, 0.005, 50.0), sample(phase, 0.005, 60.0)};
     early[1].status = early[2].status = BenchStatus::kBroken;
     results = analyse(early, EndedBy::kBreak);

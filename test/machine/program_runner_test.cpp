@@ -105,7 +105,7 @@ TEST(ProgramRunner, UntilLoadAndUntilTime) {
 }
 
 TEST(ProgramRunner, ARodThatPartsBeforeItIsPulledFailsTheTest) {
-  for (const Phase phase : {Phase::kTie, Phase::kRelease, Phase::kMount}) {
+  for (const Phase phase : {Phase::kTie, Phase::kRelease, Phase::kMount, Phase::kBalance, Phase::kHold}) {
     ProgramRunner program({step(phase), pull(0.1)}, 3.0, 0.1, {});
     program.next(Sample());
     Sample parted;
@@ -117,6 +117,17 @@ TEST(ProgramRunner, ARodThatPartsBeforeItIsPulledFailsTheTest) {
     EXPECT_TRUE(program.failed());
     EXPECT_EQ(program.reason(), std::string(phase_name(phase)) + ": the rod parted, before it was pulled");
   }
+}
+
+TEST(ProgramRunner, ARodThatPartsWhileItIsOnlyHeldFailsNoTest) {
+  ProgramRunner program({step(Phase::kHold, 0.0033, 5.0)}, 3.0, 0.1, {});
+  program.next(Sample());
+  Sample parted;
+  parted.sequence = program.last().sequence;
+  parted.status = BenchStatus::kBroken;
+  program.next(parted);
+  EXPECT_EQ(program.ended_by(), EndedBy::kBreak);
+  EXPECT_FALSE(program.failed());
 }
 
 TEST(ProgramRunner, EndsByBreakOverloadTravelAndSolver) {

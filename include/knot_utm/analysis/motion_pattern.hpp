@@ -25,10 +25,12 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 /// reading of the load cell is shifted by its balance. Only samples of the pull count, up to a break. Of these only the
 /// ones count that reach a new largest s, because moving back tells nothing.
 ///
-/// Kinematics: knots that slide rigidly along the two strands give de/ds = -2 exactly. Strands that only stretch give
-/// de/ds = e/L > 0. de/ds is the slope of a least-squares line over the last window of s, whose width is 3 % of the
-/// first e. The limit between the two is de/ds = -1. The specimen **slides** in a window in which de/ds < -1. It has
-/// **locked** at the extension at which de/ds last rises through -1.
+/// Kinematics: knots that slide rigidly along the two strands give de/ds = -2 exactly where the loop lies on rollers,
+/// because what they let out is shared by its two sides. Between two held nodes no rod passes from side to side: it
+/// lengthens the side with the knots alone, and de/ds = -1. Strands that only stretch give de/ds = e/L > 0. de/ds is
+/// the slope of a least-squares line over the last window of s, whose width is 3 % of the first e. The limit q between
+/// the two is half of rigid sliding: -1 on rollers, -1/2 between held nodes. The specimen **slides** in a window in
+/// which de/ds < q. It has **locked** at the extension at which de/ds last rises through q.
 ///
 /// The pattern is decided in this order:
 ///
@@ -42,10 +44,12 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 ///               Of these only (a) is called "came undone". All of them are events: whatever is pulled afterwards is
 ///               another knot, and how it moves does not change the pattern
 ///   sliding     both of these hold:
-///               (a) de/ds < -1 over at least one window, and over 15 % of all extension;
-///               (b) until de/ds was last below -1, the knots came nearer to each other by more than s grew. This is
-///                   counted from the beginning of the pull or, where it does not hold there, from where sliding began;
-///                   then F at the end of sliding must be less than twice its mean since sliding began.
+///               (a) de/ds < q over at least one window, and over 15 % of all extension;
+///               (b) de/ds < q over a third of all extension; or, until de/ds was last below q, the knots came nearer
+///               to
+///                   each other by more than |q| times the growth of s. The latter is counted from the beginning of the
+///                   pull or, where it does not hold there, from where sliding began; then F at the end of sliding must
+///                   be less than twice its mean since sliding began.
 ///               If (b) fails, something other than the knots gave way
 ///   stretching  anything else
 ///
@@ -56,7 +60,7 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 /// Lines are least-squares lines whose points are weighted by extension. They are fitted over the part that decides:
 /// for sliding from 0.3 to 0.8 of the lock extension, for stretching over the whole pull.
 ///
-///   kinematics  sliding: 1 - |de/ds + 2|; stretching: 1 + de/ds
+///   kinematics  sliding: 1 - |(de/ds)/q - 2|; stretching: 1 - (de/ds)/q
 ///   load        sliding: 1 - (growth over the part + standard deviation from the line)/mean; stretching: correlation
 ///               of F with s
 ///   contact     the same of the sum of the normal forces between strands
@@ -64,6 +68,9 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 /// For untangling the confidence is 1 if the knot type shows it, else 0.75.
 class MotionPatternTracker {
  public:
+  /// `on_rollers`: rollers hold the loop, not two of its nodes.
+  explicit MotionPatternTracker(bool on_rollers = true);
+
   void add(const Sample& sample);
 
   /// Takes this verdict on jumps in place of its own, which it finds from all time steps: readings of a load cell may
@@ -105,6 +112,7 @@ class MotionPatternTracker {
   bool knot_lost() const;
   bool untangles() const;
 
+  double turnover_;  ///< q
   Pull pull_;
   HiddenRod hidden_;              ///< excess lengths at its points
   std::size_t window_begin_ = 0;  ///< first sample of the current window
@@ -114,8 +122,8 @@ class MotionPatternTracker {
   double slope_ = 0.0;          ///< de/ds in the current window, NaN before the first is full
   double centre_ = 0.0;         ///< mean extension of the current window [m]
   double slid_ = 0.0;           ///< extension passed while sliding [m]
-  double first_sliding_ = 0.0;  ///< extension at which de/ds was first below -1 [m]
-  double last_sliding_ = 0.0;   ///< extension at which de/ds last rose through -1, or at which it was last below -1 [m]
+  double first_sliding_ = 0.0;  ///< extension at which de/ds was first below q [m]
+  double last_sliding_ = 0.0;   ///< extension at which de/ds last rose through q, or at which it was last below q [m]
   double peak_ = 0.0;           ///< largest F [N]
   std::array<Excess, PerKnot::kMost> excess_;  ///< of each knot
   double tied_distance_ = Sample::kNone;       ///< e once the knots are tied and released [m]

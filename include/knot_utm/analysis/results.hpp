@@ -141,8 +141,9 @@ struct Results {
 };
 
 /// Evaluates a whole test. `samples` are all accepted time steps, and `readings` those of them that the load cell read.
-/// Readings after a break do not count.
-Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by);
+/// Readings after a break do not count. `on_rollers`: rollers hold the loop, not two of its nodes.
+Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by,
+                bool on_rollers = true);
 
 /// The same for a load cell that reads in every time step.
 Results analyse(const std::vector<Sample>& samples, EndedBy ended_by);

@@ -26,7 +26,7 @@ struct Exposure {
 
 bool can_part(const Material& material);  ///< it has a limit
 
-Exposure most_exposed(const RodProperties& rod, const RodState& state);
+Exposure most_exposed(const RodProperties& rod, const Points& position);
 
 /// Time that a wave of tension takes along a length [m] of the rod: length sqrt(rho pi h^2/k_s) [s].
 double transit_time(const Material& material, double length);

@@ -90,6 +90,8 @@ class ProgramRunner {
   void end(EndedBy by, std::string reason);
   bool end_by_alarm(const Sample& sample);
   bool only_ties() const;
+  bool was_pulled() const;
+  bool is_to_be_pulled() const;
   bool is_undone(const Sample& sample) const;
   std::string break_seen(const Sample& sample);
   EndedBy step_end(const Sample& sample);  ///< kNotYet: the step goes on

@@ -83,6 +83,10 @@ class TimeStep {
   void set_gravity(const Vec3& gravity) { settings_.gravity = gravity; }  ///< g [m/s^2]
   void set_drag(double per_length) { settings_.drag = per_length; }       ///< c [N s/m^2]
 
+  /// From now on a step that was solved is refused, and changes nothing, where `judge` returns a reason for the
+  /// positions and the length [s] that it would have.
+  void refuse_by(std::function<std::string(const Points& end, double dt)> judge) { judge_ = std::move(judge); }
+
   /// From now on `watcher` is called with every iterate; an empty one ends that.
   void watch(std::function<void(const Iterate&)> watcher) { watcher_ = std::move(watcher); }
 
@@ -120,6 +124,7 @@ class TimeStep {
   RodState state_;
   StepSettings settings_;
   std::function<void(const Iterate&)> watcher_;
+  std::function<std::string(const Points& end, double dt)> judge_;
   int parted_edge_ = -1;
 };
 
