@@ -115,21 +115,20 @@ int main(int argc, char** argv) {
     knot_utm::Arguments arguments;
     CLI::App app(
         "Compares two force-extension curves: the folder of a run, curve.csv, a bag, or raw data that a testing "
-        "machine "
-        "exported. Prints the main readings of both and their differences.");
+        "machine exported. Prints the main readings of both and their differences.");
     app.add_option("A", arguments.a, "the curve that B is compared with")->required();
     app.add_option("B", arguments.b, "the other curve")->required();
     CLI::Option* balance = app.add_flag("--balance", arguments.zero.balance,
                                         "raw data: load and extension are zero where the crosshead begins to move");
     app.add_option("--begins-at", arguments.zero.begins_at,
-                   "raw data that were cut: extension of their first reading; the load there is taken from the other "
-                   "curve [m]")
+                   "extension of the first reading of raw data that were cut [m]; the load there is taken from the "
+                   "other curve")
         ->needs(balance);
     app.add_option("--tolerance", arguments.tolerance, "end with exit code 1 where a relative difference is larger [-]")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--report", arguments.report, "a folder to write the page to, report.html and report.pdf");
     app.add_flag("--overwrite", arguments.overwrite,
-                 "write the page over another comparison, instead of to the next free folder, -2, -3, ...");
+                 "replace the comparison that the folder holds; else the next free folder is taken, -2, -3, ...");
     app.add_flag("--yaml", arguments.yaml,
                  "print all readings as YAML instead, as comparison.yaml of --report has them");
     arguments.raw.add_to(app, "which specimen of raw data, a bag or a batch with several, from 1; N,M for A and B");

@@ -261,8 +261,8 @@ void add_list(CLI::App& app) {
   };
   app.add_option(
          "--list", CLI::callback_t(print),
-         "say which methods, materials, knots, standards or studies come with the package, or with none of these "
-         "words which of all, and do no more")
+         "say which methods, materials, knots, standards and studies come with the package, or only those of the word "
+         "that follows, and do no more")
       ->expected(0, 1)
       ->default_str("all");
 }
@@ -302,10 +302,10 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::Option* out =
       app.add_option("--out", arguments.out, "the folder to write to; unless given, out/ and the method's name");
   CLI::Option* resume =
-      app.add_option("--resume", arguments.resume, "the folder of a test that was cut off, which goes on");
+      app.add_option("--resume", arguments.resume, "continue the test in this folder, which was cut off");
   CLI::Option* overwrite =
       app.add_flag("--overwrite", arguments.overwrite,
-                   "write over what the folder holds, instead of to the next free one, -2, -3, ...");
+                   "replace the run that the folder holds; else the next free folder is taken, -2, -3, ...");
   CLI::Option* specimens = app.add_option("--specimens", arguments.specimens,
                                           "how many specimens are tested, instead of what the method says")
                                ->check(CLI::Range(1, kMostSpecimens));
@@ -314,14 +314,13 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
       ->check(CLI::Range(1, kMostSpecimens));
   CLI::Option* begin_with = app.add_option(
       "--begin-with", arguments.begin_with,
-      "the folder of a test of the same specimen, stopped by --stop-before: this test begins where that one stopped");
+      "begin where the test in this folder stopped, which is one of the same specimen with --stop-before");
   CLI::Option* stop_before =
       app.add_option("--stop-before", arguments.stop_before,
-                     "a step of the program, before which the test stops; --resume or --begin-with goes on from there");
+                     "stop the test before this step of its program; --resume or --begin-with goes on from there");
   for (CLI::Option* one : {begin_with, stop_before}) one->excludes(specimens)->excludes(resume);
   resume->excludes(method)->excludes(set)->excludes(out)->excludes(overwrite)->excludes(specimens);
-  app.add_option("--checkpoint", arguments.checkpoint,
-                 "the time between two checkpoints, of the clock on the wall [s]; 0 for none")
+  app.add_option("--checkpoint", arguments.checkpoint, "the wall-clock time between two checkpoints [s]; 0 for none")
       ->check(CLI::NonNegativeNumber)
       ->capture_default_str();
   app.add_flag("--quiet", arguments.quiet, "say only what went wrong");
@@ -330,11 +329,11 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
       "--shapes", arguments.shapes,
       "also write shapes.csv, the rod at 60 to 120 readings of the load cell; a single test with --report does");
   CLI::Option* check = app.add_flag("--check", arguments.check,
-                                    "only say whether the test could be made: writes the method with every value");
+                                    "only say whether the test could be made, and print the method with every value");
   CLI::Option* list_keys = app.add_flag("--list-keys", arguments.list_keys,
                                         "only say which keys of the method are numbers, with their units");
-  CLI::Option* show = app.add_option("--show", arguments.show,
-                                     "only print the main readings of a test or a batch that is there: its folder");
+  CLI::Option* show =
+      app.add_option("--show", arguments.show, "only print the main readings of the test or batch in this folder");
   for (CLI::Option* one : {check, list_keys}) one->excludes(resume);
   show->excludes(method)->excludes(resume);
   add_list(app);

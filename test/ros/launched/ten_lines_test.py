@@ -80,6 +80,10 @@ class TenLinesTest(unittest.TestCase):
         shell.stdin.close()
         shell.wait(LAST_RESORT)
 
+    def serves(self, service):
+        with xmlrpc.client.ServerProxy(self.uri) as master:
+            return master.lookupService('/test', service)[0] == 1
+
     def answers(self, node):
         try:
             with xmlrpc.client.ServerProxy(self.uri) as master:
@@ -88,15 +92,14 @@ class TenLinesTest(unittest.TestCase):
             return False
 
     def test_lines(self):
-        launch, ask, read, core, play = blocks()
-        self.assertEqual(len({*launch, *ask, *read, *core, *play}), 10)
+        launch, ask, read, stay, start, core, play = blocks()
+        self.assertEqual(len({*launch, *ask, *read, *stay, *start, *core, *play}), 10)
         first, second = self.shell('first'), self.shell('second')
         first.begin(launch + ['echo the launch has ended'])
         # As whoever types them sees that the test runs.
         wait_for('the test', lambda: self.answers('/utm_node') and 'holds a run' not in first.said())
         said = second.run(ask, 'the questions')
-        for part in ('progress: ', 'message: "the test is paused"', 'message: "the test goes on"'):
-            self.assertIn(part, said)
+        self.assertIn('progress: ', said)
         wait_for('the end', lambda: 'the launch has ended' in first.said())
         self.assertRegex(first.said(), r'readings were written to .*/out/tighten')
         for word in ('ERROR', 'has died', 'ld.so', 'knows nothing'):
@@ -104,6 +107,7 @@ class TenLinesTest(unittest.TestCase):
         said += second.run(read, 'the readings')
         self.assertRegex(said, r'topics: +/knot/colors|/knot/state')
         self.assertIn('plateau', said)
+        said += self.nodes_that_stay(first, second, stay, start)
         first.begin(['roscore() { command roscore -p %s; }' % self.uri.rsplit(':', 1)[1]])  # else its port is always the same
         first.begin(core)
         wait_for('the master', lambda: self.answers('/rosout'))
@@ -111,6 +115,23 @@ class TenLinesTest(unittest.TestCase):
         self.assertIn('[RUNNING]', said)
         for word in ('failed: ', 'rror', 'not executable', 'knows nothing'):
             self.assertNotIn(word, said)
+
+    def nodes_that_stay(self, first, second, stay, start):
+        """Ends them by Ctrl-C once the test that was asked for is written; returns what the call said."""
+        first.begin(stay + ['echo the nodes have ended'])
+        wait_for('the service', lambda: self.answers('/recorder_node') and self.serves('/utm/start_test'))
+        said = second.run(start, 'the call')
+        for part in ('accepted: True', 'out/tighten-2'):
+            self.assertIn(part, said)
+        written = os.path.join(self.folder, 'out/tighten-2')
+        wait_for('the second test', lambda: 'result.yaml' in os.listdir(written) and 'journal' not in os.listdir(written))
+        with open(os.path.join(written, 'method.yaml'), encoding='utf-8') as file:
+            self.assertRegex(file.read(), r'preload: 70\n')
+        self.assertNotIn('the nodes have ended', first.said())
+        for running in children(first.process.pid):
+            os.kill(running, signal.SIGINT)
+        wait_for('the end of the nodes', lambda: 'the nodes have ended' in first.said())
+        return said
 
     def test_programs_answer_without_a_master(self):
         shell = self.shell('third')
