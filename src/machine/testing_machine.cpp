@@ -120,10 +120,13 @@ struct TestingMachine::Impl {
     if (can_part(material)) watch_for_break(kNearBreak * options.longest);
     extension_zero = grips.end_to_end(grip);
     has_weight = !specimen.to_be_tied;
-    apply_gravity();
   }
 
-  void apply_gravity() { stepper->set_gravity(has_weight ? gravity : Vec3::Zero()); }
+  /// A loop gets its weight as the rollers take it: all at once, it would swing, and its knots could jump open.
+  void apply_gravity(double at_time) {
+    const double part = !has_weight ? 0.0 : loop ? 1.0 - loop->left_to_put_on(at_time) : 1.0;
+    stepper->set_gravity(part * gravity);
+  }
 
   /// `auto`: where frames are held at two places, or the rod at rest is curved or twisted. A rod whose ends are free
   /// to turn has no twist where friction acts on its centreline; nor has one that stays straight.
@@ -154,6 +157,7 @@ struct TestingMachine::Impl {
                      : frame.grip_after(grip, travel, grips.force_upper(*stepper), held_length(from, to), to - from);
     grips.set(grip_tried, loop ? loop->left_to_put_on(to) : 0.0, boundary);
     grips.turn_rollers(to, boundary.rollers);
+    apply_gravity(to);
     boundary.grips.clear();
     boundary.extra_drag = drag_of_settling(to);
     if (loop) loop->hold(boundary, from, to);
@@ -179,7 +183,7 @@ struct TestingMachine::Impl {
   double drag() const {
     const KnotDescription& knot = knot_of(specimen).about();
     const bool drawn_knot = knot.may_hold_a_knot() && !knot.loop;
-    return physics.drag.value_or(pulled && drawn_knot ? 0.0 : drag_to_rest(material));
+    return physics.drag.value_or(pulled && drawn_knot ? 0.0 : drag_to_rest(material, knot.loop));
   }
 
   void enter_step(const Command& command) {
@@ -189,7 +193,6 @@ struct TestingMachine::Impl {
     if (pulled) grips.turn_rollers_from(time);
     status = BenchStatus::kRunning;
     has_weight |= !forms(phase) && phase != Phase::kHold;
-    apply_gravity();
     if (loop) loop->enter(command, place());
   }
 
@@ -330,9 +333,7 @@ struct TestingMachine::Impl {
     archive.same("knot", watch ? 1 : 0);
     if (loop) archive(*loop);
     if (watch) archive(*watch);
-    if (!archive.loads()) return;
-    substeps.clear();
-    apply_gravity();
+    if (archive.loads()) substeps.clear();
   }
 
   /// When and where the crosshead was.

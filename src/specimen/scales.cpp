@@ -14,10 +14,18 @@ constexpr double kBendingTime = 2e-4;  // tau [s]
 // With 3.7 s, that of its own mass, a loose overhand in a rod of 4 m swings through its whole pull, with 0.8 s a tenth
 // of it; with 0.1 s its force is steady (doc/developers/measured.md).
 constexpr double kSlackTime = 0.1;  // of a slack loop [s]
-// Loops of a thread with 2e-7 s could not be tied with their own mass: no step was short enough. With 2e-6 s they can.
-constexpr double kShortestTime = 2e-6;  // tau of what is tied [s]
+// Of a loop, whose drag is no less than that of this mass. A thread with tau = 1.9e-7 s, whose drag followed from its
+// own mass, coasted around its rollers at 80 m/s, in steps that led nowhere (doc/developers/measured.md).
+constexpr double kCoastingTime = 2e-5;  // tau [s]
 constexpr double kFading = 3.0;         // of motion under the drag that brings a specimen to rest [1/s]
 constexpr double kRestSpeed = 0.0063;   // [radii/s]
+
+/// Mass per length of a rod that a length bends in this time [kg/m]. No root, so that similar specimens have the same
+/// bits.
+double mass_of(double time, double length, const Material& material) {
+  const double length2 = length * length;
+  return time * time * material.bending_stiffness / (length2 * length2);
+}
 
 }  // namespace
 
@@ -32,18 +40,10 @@ SpecimenScales specimen_scales(const Material& material) {
 }
 
 double inertia_factor(const Material& material, const PhysicsOptions& physics, double slack) {
-  // No root, so that similar specimens have the same bits.
-  const double h2 = material.radius * material.radius, loop = slack / (2.0 * M_PI), loop2 = loop * loop;
-  const double own = specimen_scales(material).mass;
-  const auto mass_of = [&](double time, double length2) {
-    return time * time * material.bending_stiffness / (length2 * length2);
-  };
-  double mass = mass_of(kBendingTime, h2), most = own;
-  if (loop > 0.0)
-    mass = std::min(mass, mass_of(kSlackTime, loop2));
-  else
-    most = std::max(own, mass_of(kShortestTime, h2));
-  return physics.inertia.value_or(std::min(mass, most) / own);
+  const double loop = slack / (2.0 * M_PI), own = specimen_scales(material).mass;
+  double mass = mass_of(kBendingTime, material.radius, material);
+  if (loop > 0.0) mass = std::min(mass, mass_of(kSlackTime, loop, material));
+  return physics.inertia.value_or(std::min(mass, own) / own);
 }
 
 Material as_it_moves(Material material, const PhysicsOptions& physics, double slack) {
@@ -51,7 +51,10 @@ Material as_it_moves(Material material, const PhysicsOptions& physics, double sl
   return material;
 }
 
-double drag_to_rest(const Material& as_it_moves) { return kFading * specimen_scales(as_it_moves).mass; }
+double drag_to_rest(const Material& as_it_moves, bool loop) {
+  const double mass = specimen_scales(as_it_moves).mass;
+  return kFading * (loop ? std::max(mass, mass_of(kCoastingTime, as_it_moves.radius, as_it_moves)) : mass);
+}
 
 double settling_drag(const Material& material, double wave, double time) {
   return 0.1 * time * material.bending_stiffness * std::pow(2.0 * M_PI / wave, 4);

@@ -8,6 +8,7 @@
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
 namespace {
@@ -78,6 +79,19 @@ TEST(MethodDefaults, ADragThatIsSetStays) {
   const Method automatic = load_method(kConfig + "tighten.yaml", {"physics.drag=auto", "physics.inertia=auto"});
   EXPECT_FALSE(automatic.physics.drag);
   EXPECT_FALSE(automatic.physics.inertia);
+}
+
+TEST(MethodDefaults, NoShippedRodIsGivenMoreThanItsOwnMass) {
+  int rods = 0;
+  for (const auto& file : std::filesystem::directory_iterator(kConfig + "materials"))
+    for (const char* name : {"tighten", "overhand", "straight"}) {
+      const Method m = load_method(kConfig + name + ".yaml", {"material=" + file.path().stem().string()});
+      const double factor = inertia_factor(m.material, m.physics, slack_of(m.specimen, drawn(m)));
+      EXPECT_GT(factor, 0.0) << file.path() << " " << name;
+      EXPECT_LE(factor, 1.0) << file.path() << " " << name;
+      ++rods;
+    }
+  EXPECT_GE(rods, 33);
 }
 
 INSTANTIATE_TEST_SUITE_P(MethodDefaults, EveryRod, testing::Values(1e-5, 1.2e-4, 5e-4, 2e-3, 0.003175, 0.0125, 0.05));
