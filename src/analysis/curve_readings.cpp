@@ -160,7 +160,8 @@ std::string text(const char* format, double a, double b = 0.0) {
 /// Why the mean of F is no plateau; empty: it is.
 std::string why_not_level(const Plateau& level, bool locked) {
   if (std::abs(level.slope - kSliding) > kOffSliding)
-    return text("the knots do not slide steadily: de/ds is %.2f, where %.0f is sliding on rollers", level.slope, kSliding);
+    return text("the knots do not slide steadily: de/ds is %.2f, where %.0f is sliding on rollers", level.slope,
+                kSliding);
   const bool slides = locked || std::isfinite(level.slope);
   if (std::abs(level.rise) < (slides ? kProportional : kLevel) * level.force) return {};
   return text("the load is not level: from 0.3 to 0.8 of the way it changes by %.0f %% of its mean",

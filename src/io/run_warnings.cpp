@@ -106,10 +106,12 @@ std::string accuracy_warning(const Results& results, const ReadingErrors& errors
       "the plateau force may be off by " + format_number(std::round(100.0 * *errors.plateau_force)) + " %; ";
   if (errors.plateau_scatters)
     return off +
-           "with two knots of opposite handedness it is one of a distribution, and small changes of the specimen or its "
+           "with two knots of opposite handedness it is one of a distribution, and small changes of the specimen or "
+           "its "
            "mesh move it by as much: test several specimens (--specimens 8) to see how it scatters";
   return off +
-         "choose a finer physics.accuracy, a higher specimen.refinement or a lower specimen.preload to reduce the error";
+         "choose a finer physics.accuracy, a higher specimen.refinement or a lower specimen.preload to reduce the "
+         "error";
 }
 
 namespace {

@@ -26,8 +26,8 @@ inline constexpr Tolerances kStretchingFine{0.05, 1e-5, 0.01, 1e-3, 2.0};
 inline constexpr double kTiedHard = 6.0, kShortestForHard = 4.0 / 3.0;
 
 // Relative errors at `normal` with edges of h/2.25 (for a solid rod, of h). They are meant to include 95 % of the
-// differences from `fine` with edges half as long, a quarter of the presliding displacement and steps of 0.025 s at most.
-// They were chosen from loops that `scripts/bench readings` draws with seeds 41, 42, 44 and 46.
+// differences from `fine` with edges half as long, a quarter of the presliding displacement and steps of 0.025 s at
+// most. They were chosen from loops that `scripts/bench readings` draws with seeds 41, 42, 44 and 46.
 // doc/developers/benchmarks.md says how many of these draws, and of others, they include.
 // Two knots of the same handedness: nearly all plateaus are too low, and the more so the smaller mu is.
 inline constexpr double kPlateau = 0.048, kSlippery = 0.8, kLeastFriction = 0.1;
@@ -42,9 +42,10 @@ inline constexpr double kRopesStiffness = 0.010, kSolidsStiffnessOfKnots = 1.2;
 // an upper bound by judgement: the solution is exact except for the residual
 inline constexpr double kStraightStiffness = 1e-3;
 
-// Fraction of the error that each source contributes at `normal` with edges of one radius [-]; they sum to 1. For the same
-// draws each source by itself was reduced: edges to a half, contact tolerance to a half, presliding displacement and
-// longest step to a quarter, residual to a tenth. The mean changes of a plateau, extrapolated to nothing, gave these.
+// Fraction of the error that each source contributes at `normal` with edges of one radius [-]; they sum to 1. For the
+// same draws each source by itself was reduced: edges to a half, contact tolerance to a half, presliding displacement
+// and longest step to a quarter, residual to a tenth. The mean changes of a plateau, extrapolated to nothing, gave
+// these.
 inline constexpr double kFractionOfEdges = 0.4, kFractionOfContactTolerance = 0.05, kFractionOfPresliding = 0.3,
                         kFractionOfStep = 0.2, kFractionOfResidual = 0.05;
 

@@ -7,6 +7,7 @@
 #include <boost/make_shared.hpp>
 
 #include "knot_utm/io/run_warnings.hpp"
+#include "knot_utm/machine/grips.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/master_parameters.hpp"

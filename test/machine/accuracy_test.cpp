@@ -96,7 +96,8 @@ TEST(ReadingErrors, OfEdgesOfOneRadiusAtNormalIsThatOfTheStudy) {
   EXPECT_DOUBLE_EQ(loop.errors().plateau_force.value(), 0.096);
 }
 
-/// The fractions of the sources: a quarter of the presliding displacement and of the longest step leave a quarter of 0.5.
+/// The fractions of the sources: a quarter of the presliding displacement and of the longest step leave a quarter of
+/// 0.5.
 TEST(ReadingErrors, FallWithPreslidingAndStep) {
   Loop plain, shorter;
   const Tolerances own = plain.tolerances();

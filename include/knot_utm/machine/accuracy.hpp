@@ -34,17 +34,17 @@ struct ReadingErrors {
   bool plateau_scatters = false;
 };
 
-/// Each error is meant to contain 95 % of the differences from a run at `fine` with edges half as long, a quarter of the
-/// presliding displacement and shorter steps. Its size at `normal` was found over loops drawn at random (`scripts/bench
-/// readings`). It depends on the handedness of the knots, on friction and, for rods that stretch, on the length of the
-/// loop. Other edges and tolerances raise or lower it. The contribution of the edges is proportional to the square of
-/// their length. Those of contact tolerance, presliding displacement, longest step and residual are proportional to their
-/// values.
+/// Each error is meant to contain 95 % of the differences from a run at `fine` with edges half as long, a quarter of
+/// the presliding displacement and shorter steps. Its size at `normal` was found over loops drawn at random
+/// (`scripts/bench readings`). It depends on the handedness of the knots, on friction and, for rods that stretch, on
+/// the length of the loop. Other edges and tolerances raise or lower it. The contribution of the edges is proportional
+/// to the square of their length. Those of contact tolerance, presliding displacement, longest step and residual are
+/// proportional to their values.
 ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
                              const PhysicsOptions& physics);
 
-/// Whether knots slide under so small a force [N] that they are hardly closed. What the mesh then does to the readings is
-/// not known.
+/// Whether knots slide under so small a force [N] that they are hardly closed. What the mesh then does to the readings
+/// is not known.
 bool hardly_closed(double plateau_force, const Material& material);
 
 }  // namespace knot_utm
