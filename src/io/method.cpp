@@ -256,6 +256,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
   } catch (const OutOfRange&) {
     throw;
   } catch (const InvalidInput& invalid) {
+    if (invalid.key == option) throw;  // an override stands in no file
     throw invalid.in_file(file);
   } catch (const YAML::Exception& yaml) {
     throw InvalidInput::sentence("the file", yaml.msg, "the file is no method: " + yaml_fault(yaml)).in_file(file);
