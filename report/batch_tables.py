@@ -110,12 +110,22 @@ class Row:
         column = Column(key, label or quantity.label, unit, found["mean"], found["sd"])
         half = half_of(found)
         self.key, self.label, self.unit, self.n = key, column.label, unit.name, found["n"]
-        if is_rounding(key, lambda one: (batch.statistics(one) or {}).get("mean")):
+        if is_nothing(batch, key):
             self.mean, self.cv, self.half, self.sd = "0", "", "", "constant" if self.n > 1 else ""
             return
         self.mean, self.cv = column.text(found["mean"]), percent(found["cv"])
         self.sd = error_shown(found["sd"], unit.scale) if found["sd"] is not None or self.n < 2 else "constant"
         self.half = error_shown(half, unit.scale)
+
+
+def is_nothing(batch, key):
+    """Whether neither the mean nor the spread of the readings is more than rounding."""
+    def mean_of(one):
+        return (batch.statistics(one) or {}).get("mean")
+
+    spread = batch.statistics(key)["sd"]
+    return is_rounding(key, mean_of) and (
+        spread is None or is_rounding(key, lambda one: spread if one == key else mean_of(one)))
 
 
 def half_of(statistics):

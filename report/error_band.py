@@ -8,7 +8,7 @@ import numpy as np
 
 
 def error_band(run, pull):
-    """Lowest and highest load over the extensions of the pull, NaN where no error is known; None: nowhere."""
+    """Lowest and highest load over the extensions of the pull, NaN where no error is known. None where no error is known anywhere."""
     lock = run.value("lock_extension")
     sliding, locked = share(run, "plateau_force"), share(run, "locked_stiffness")
     shift = run.value("lock_extension_error") if lock is not None else 0.0

@@ -110,7 +110,7 @@ def superscript(exponent):
 
 
 def error_shown(error, scale):
-    """With two digits, of which a value beside it has the last one as its last one, too."""
+    """With two digits. A value beside it ends at the same decimal place."""
     if not is_number(error):
         return ""
     rounded = float(f"{error * scale:.1e}")

@@ -38,7 +38,7 @@ NOTHING = {"break_place": "none", "cycles": 0, "motion_pattern_confidence": 0}
 
 
 def misses_plateau(result):
-    """Nobody misses that of a rod without two knots."""
+    """Whether a page says why there is no plateau. A rod without two knots never has one, which needs no reason."""
     return result.get("motion_pattern") != "none" or result.get("jump_force") is not None
 
 

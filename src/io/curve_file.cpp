@@ -57,7 +57,14 @@ std::string curve_file_of(const std::string& given, const RawOptions& options) {
   std::error_code error;
   const std::filesystem::path folder(given);
   if (!std::filesystem::is_directory(folder, error)) return given;
-  if (std::filesystem::exists(folder / "curve.csv", error)) return (folder / "curve.csv").string();
+  if (std::filesystem::exists(folder / "curve.csv", error)) {
+    if (options.specimen > 1)
+      throw InvalidInput::sentence("specimens", std::to_string(options.specimen),
+                                   options.spelling.option("specimen") + " is " + std::to_string(options.specimen) +
+                                       ", but the folder is that of a single test")
+          .in_file(given);
+    return (folder / "curve.csv").string();
+  }
   const std::size_t specimens = specimen_folders(given).size();
   if (specimens == 0)
     throw InvalidInput::sentence("folder", given, "the folder has no curve.csv, so it is not that of a run")

@@ -202,23 +202,24 @@ bool is_soon_laid(const std::string& key, const SpecimenOptions& specimen) {
 
 }  // namespace
 
-Method load_method(const std::string& file, const std::vector<std::string>& overrides) {
+Method load_method(const std::string& file, const std::vector<std::string>& overrides, const std::string& option) {
   const std::string text = read_text(file);
   try {
-    return parse_method(text, file, overrides);
+    return parse_method(text, file, overrides, option);
   } catch (const OutOfRange& wrong) {
     if (wrong.file != file) throw;
     throw narrowed(wrong, [&](const std::string& override) {
       std::vector<std::string> with = overrides;
       with.push_back(override);
-      const Method method = parse_method(text, file, with);
+      const Method method = parse_method(text, file, with, option);
       if (is_soon_laid(wrong.key, method.specimen))
         TestingMachine(method.specimen, method.material, method.machine, method.physics);
     });
   }
 }
 
-Method parse_method(const std::string& text, const std::string& file, const std::vector<std::string>& overrides) {
+Method parse_method(const std::string& text, const std::string& file, const std::vector<std::string>& overrides,
+                    const std::string& option) {
   const fs::path path(file);
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   YAML::Node root = parse_yaml(text, file);
@@ -226,7 +227,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     const ConfigLibrary library(folder);
     if (!root.IsMap())
       throw InvalidInput("the file", as_given(root), "a map with the keys specimen, material, machine and program");
-    apply_overrides(root, overrides, library);
+    apply_overrides(root, overrides, option, library);
 
     std::vector<std::string> noted_first, noted;
     const Method first = read_method(root, file, library, nullptr, noted_first);
@@ -255,6 +256,7 @@ Method parse_method(const std::string& text, const std::string& file, const std:
   } catch (const OutOfRange&) {
     throw;
   } catch (const InvalidInput& invalid) {
+    if (invalid.key == option) throw;  // an override stands in no file
     throw invalid.in_file(file);
   } catch (const YAML::Exception& yaml) {
     throw InvalidInput::sentence("the file", yaml.msg, "the file is no method: " + yaml_fault(yaml)).in_file(file);

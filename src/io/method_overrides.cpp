@@ -28,7 +28,7 @@ std::vector<std::string> split(const std::string& path) {
 /// No key of a method has more parts.
 constexpr std::size_t kLongestPath = 8;
 
-/// One `--set`.
+/// One of them.
 struct Override {
   std::string key;
   std::vector<std::string> path;
@@ -38,11 +38,11 @@ struct Override {
   YAML::Node value() const { return YAML::Load(text); }
 };
 
-Override parse_override(const std::string& text) {
+Override parse_override(const std::string& text, const std::string& option) {
   const std::size_t equals = text.find('=');
   if (equals == 0 || equals == std::string::npos) {
     throw InvalidInput::sentence(
-        "--set", text, "--set \"" + shown(text) + "\" sets no key: write key=value, such as specimen.preload=20");
+        option, text, option + " \"" + shown(text) + "\" sets no key: write key=value, such as specimen.preload=20");
   }
   Override set;
   set.key = text.substr(0, equals);
@@ -50,14 +50,14 @@ Override parse_override(const std::string& text) {
   set.text = text.substr(equals + 1);
   if (set.path.size() > kLongestPath) {
     const std::string most = std::to_string(kLongestPath) + " parts";
-    throw InvalidInput::sentence("--set", text,
-                                 "--set " + shown(set.key) + ": no key of a method has more than " + most);
+    throw InvalidInput::sentence(option, text,
+                                 option + " " + shown(set.key) + ": no key of a method has more than " + most);
   }
   try {
     set.value();
   } catch (const YAML::Exception& yaml) {
-    throw InvalidInput::sentence("--set", text,
-                                 "--set " + shown(text) + ": the value is not YAML: " + yaml_fault(yaml));
+    throw InvalidInput::sentence(option, text,
+                                 option + " " + shown(text) + ": the value is not YAML: " + yaml_fault(yaml));
   }
   return set;
 }
@@ -153,10 +153,11 @@ YAML::Node value_at(const YAML::Node& root, const std::string& key) {
   return way.back();
 }
 
-void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides, const ConfigLibrary& library) {
+void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides, const std::string& option,
+                     const ConfigLibrary& library) {
   std::vector<Override> sets;
   sets.reserve(overrides.size());
-  for (const std::string& text : overrides) sets.push_back(parse_override(text));
+  for (const std::string& text : overrides) sets.push_back(parse_override(text, option));
   // A whole section is put in place before single keys inside it.
   std::stable_sort(sets.begin(), sets.end(),
                    [](const Override& a, const Override& b) { return a.path.size() < b.path.size(); });

@@ -9,10 +9,11 @@
 
 namespace knot_utm {
 
-/// Writes the values of `--set`, each "dotted.key=YAML", into the map of a method. A key inside a material or load cell
-/// that is given by name changes a copy of it. Overrides whose keys have fewer parts are applied first; others keep the
-/// order given. Throws InvalidInput where a key has no place in the map.
-void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides, const ConfigLibrary& library);
+/// Writes overrides, each "dotted.key=YAML", into the map of a method. `option`: what messages call them. A key inside
+/// a material or load cell that is given by name changes a copy of it. Overrides whose keys have fewer parts are
+/// applied first; others keep the order given. Throws InvalidInput where a key has no place in the map.
+void apply_overrides(YAML::Node root, const std::vector<std::string>& overrides, const std::string& option,
+                     const ConfigLibrary& library);
 
 /// The value at a dotted key; undefined where there is none.
 YAML::Node value_at(const YAML::Node& root, const std::string& key);

@@ -57,7 +57,8 @@ Program read_program(const YAML::Node& node, const std::string& file, const fiel
 void read_record(const std::filesystem::path& folder, const std::string& follow, ProgramStep& step) {
   const std::string key = follow + ".record";
   if (step.record.empty()) throw InvalidInput::missing(key, "a curve.csv, or raw data of a testing machine");
-  const RawOptions options = raw_options(step.words, {follow + ".", ": "});
+  const RawSpelling spelling{follow + ".", ": ", false};
+  const RawOptions options = raw_options(step.words, spelling);
   const std::filesystem::path given = std::filesystem::absolute(folder / step.record).lexically_normal();
   step.record = curve_file_of(given.string(), options);
   std::error_code error;
@@ -66,9 +67,9 @@ void read_record(const std::filesystem::path& folder, const std::string& follow,
   step.read.clear();
   const std::vector<CurveRow> course =
       read_course(step.record, options, [&](const std::string& line) { step.read.push_back(line); });
-  if (says_how(step.words) && has_its_zero(course))
-    step.read.push_back(step.record +
-                        ": the curve is one of knot_utm, for which columns, units and invert change nothing");
+  const std::string unused = without_effect(step.words, spelling, step.record != given.string());
+  if (!unused.empty() && has_its_zero(course))
+    step.read.push_back(step.record + ": the curve is one of knot_utm, for which " + unused);
   for (const CurveRow& row : course) {
     const RecordedPlace place{row.time - course.front().time, row.extension - course.front().extension};
     if (step.recorded.empty() || place.time > step.recorded.back().time) step.recorded.push_back(place);

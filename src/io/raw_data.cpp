@@ -248,15 +248,36 @@ class RawTable {
     if (steps.size() < 5) return;
     std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2), steps.end());
     const double usual = steps[steps.size() / 2];
+    std::vector<std::size_t> jumps;
     for (std::size_t i = 1; i + 1 < rows.size(); ++i) {
       const double before = rows[i].extension - rows[i - 1].extension,
                    behind = rows[i].extension - rows[i + 1].extension;
       if (before * behind <= 0.0 || std::min(std::abs(before), std::abs(behind)) <= kFar * usual) continue;
-      notes_.push_back(row_name(places_[i]) + ", whose extension of " + short_number(1e3 * rows[i].extension) +
-                       " mm lies far off the readings before and behind it, is left out");
-      rows.erase(rows.begin() + static_cast<std::ptrdiff_t>(i));
-      places_.erase(places_.begin() + static_cast<std::ptrdiff_t>(i));
+      jumps.push_back(i++);  // the one behind it lies far off this one only
     }
+    note_jumps(jumps, rows);
+    std::size_t kept = 0;
+    auto jump = jumps.begin();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      if (jump != jumps.end() && *jump == i) {
+        ++jump;
+      } else {
+        rows[kept++] = rows[i];
+      }
+    }
+    rows.resize(kept);
+  }
+
+  void note_jumps(const std::vector<std::size_t>& jumps, const std::vector<CurveRow>& rows) {
+    constexpr std::size_t kNamed = 5;
+    for (std::size_t i = 0; i < std::min(jumps.size(), kNamed); ++i)
+      notes_.push_back(row_name(places_[jumps[i]]) + ", whose extension of " +
+                       short_number(1e3 * rows[jumps[i]].extension) +
+                       " mm lies far off the readings before and behind it, is left out");
+    if (jumps.size() <= kNamed) return;
+    const std::size_t others = jumps.size() - kNamed;
+    notes_.push_back(std::to_string(others) + (others == 1 ? " other row is left out for the same reason"
+                                                           : " other rows are left out for the same reason"));
   }
 
   static bool is_same(const CurveRow& a, const CurveRow& b) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
@@ -42,12 +43,17 @@ int parse_specimen(const std::string& text, const RawSpelling& spelling, std::si
 }  // namespace
 
 std::string RawSpelling::invert(const std::string& what) const {
-  if (between != " ") return option("invert", what.empty() ? "falling" : what);
-  return option("invert") + (what.empty() ? "" : '=' + what);  // a flag
+  if (!invert_is_flag) return option("invert", what.empty() ? "falling" : what);
+  return option("invert") + (what.empty() ? "" : '=' + what);
 }
 
-bool says_how(const RecordWords& words) {
-  return !words.columns.empty() || !words.units.empty() || !words.invert.empty();
+std::string without_effect(const RecordWords& words, const RawSpelling& spelling, bool one_of_many) {
+  std::vector<std::string> given;
+  if (!words.columns.empty()) given.push_back(spelling.option("columns"));
+  if (!words.units.empty()) given.push_back(spelling.option("units"));
+  if (!words.invert.empty()) given.push_back(spelling.option("invert"));
+  if (!words.specimen.empty() && !one_of_many) given.push_back(spelling.option("specimen"));
+  return given.empty() ? "" : listed(given, " and ") + (given.size() == 1 ? " changes nothing" : " change nothing");
 }
 
 RawOptions raw_options(const RecordWords& words, const RawSpelling& spelling, std::size_t file, std::size_t files) {

@@ -97,7 +97,6 @@ std::string why_no_text(const std::string& bytes) {
   if (begins("\xD0\xCF\x11\xE0")) return std::string("the file is an old workbook (xls), and no text") + kSave;
   if (begins("%PDF")) return std::string("the file is a PDF, and no table of text") + kSave;
   if (begins("\x1F\x8B")) return "the file is compressed (gzip): unpack it first, for example by gunzip";
-  if (begins("#ROSBAG")) return "the file is a bag, and no table of text";
   if (begins("SQLite format 3")) return std::string("the file is a data base (SQLite), and no text") + kSave;
   if (begins("#ROSBAG"))
     return "the file is a bag, and no table of text: give the curve.csv of its run, or the raw data. compare reads a "

@@ -107,8 +107,7 @@ std::string accuracy_warning(const Results& results, const ReadingErrors& errors
   if (errors.plateau_scatters)
     return off +
            "with two knots of opposite handedness it is one of a distribution, and small changes of the specimen or "
-           "its "
-           "mesh move it by as much: test several specimens (--specimens 8) to see how it scatters";
+           "its mesh move it by as much: test several specimens (specimens.count: 8) to see how it scatters";
   return off +
          "choose a finer physics.accuracy, a higher specimen.refinement or a lower specimen.preload to reduce the "
          "error";

@@ -22,8 +22,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kPlusMinus = " ± ";
-
 /// A unit, and how many of it are one of the unit of result.yaml.
 struct ShownUnit {
   std::string name;
@@ -59,26 +57,33 @@ int decimals_of(double value, int digits) {
 /// Beside a value an error that is smaller by this much is one of rounding.
 constexpr double kRounding = 1e-6;
 
+/// The digits of a value and of its error, which is empty where there is none.
+struct Digits {
+  std::string value, error;
+};
+
 /// With four digits, or so that the last digit is the second one of the error.
-std::string number_text(double value, double error) {
+Digits digits_of(double value, double error) {
   constexpr int kMost = 9;  // behind the point; a value below that is written with an exponent
   const bool known = error > kRounding * std::abs(value);
   const int decimals = known ? decimals_of(error, 2) : decimals_of(value, 4);
-  if (!std::isfinite(value) || decimals > kMost) return short_number(value);
-  const std::string text = with_decimals(value, decimals);
-  return known ? text + kPlusMinus + with_decimals(error, decimals) : text;
+  if (!std::isfinite(value) || decimals > kMost) return {short_number(value), ""};
+  return {with_decimals(value, decimals), known ? with_decimals(error, decimals) : ""};
+}
+
+std::string with_unit(const std::string& number, const ShownUnit& unit) {
+  return unit.name.empty() ? number : number + " " + unit.name;
+}
+
+/// "4.98 N" where `reading_text` is "4.98 ± 0.24 N".
+std::string text_without_error(double value, const std::string& unit, double error) {
+  const ShownUnit shown = shown_unit(unit, std::abs(value));
+  return with_unit(digits_of(value * shown.scale, error * shown.scale).value, shown);
 }
 
 /// Whether a loss is so small beside the energy of the pull that it says nothing: that of an elastic rod.
 bool is_rounding(const std::string& key, double value, const std::optional<double>& energy) {
   return key == "hysteresis" && energy && std::abs(value) < kRounding * *energy;
-}
-
-/// "4.98 N" of "4.98 ± 0.24 N".
-std::string without_error(const std::string& text) {
-  const std::size_t begin = text.find(kPlusMinus);
-  if (begin == std::string::npos) return text;
-  return text.substr(0, begin) + text.substr(std::min(text.find(' ', begin + std::strlen(kPlusMinus)), text.size()));
 }
 
 /// A line that begins with the name of a reading.
@@ -158,7 +163,7 @@ std::string unit_of(const std::string& key) {
 /// What belongs to a reading and is no error.
 std::string beside(const std::string& key, const ResultFile& result, double error) {
   const auto reading = [&](const char* of) {
-    return without_error(reading_text(result.number(of).value_or(NAN), unit_of(of), error));
+    return text_without_error(result.number(of).value_or(NAN), unit_of(of), error);
   };
   if (key == "plateau_force" && result.number("plateau_force_low") && result.number("plateau_force_high"))
     return ", between " + reading("plateau_force_low") + " and " + reading("plateau_force_high");
@@ -225,7 +230,10 @@ std::string batch_lines(const ResultFile& result, const std::string& folder) {
   std::size_t rows = 0;
   for (const SummaryRow& row : kRows) {
     const std::optional<double> mean = result.statistic(row.key, "mean"), sd = result.statistic(row.key, "sd");
-    if (!mean || is_rounding(row.key, *mean, result.statistic("energy_to_peak", "mean"))) continue;
+    if (!mean) continue;
+    // Readings of both signs may have a mean of nothing.
+    const double largest = std::max(std::abs(*mean), sd.value_or(0.0));
+    if (is_rounding(row.key, largest, result.statistic("energy_to_peak", "mean"))) continue;
     if (rows++ == kMostRows) break;
     const double n = result.statistic(row.key, "n").value_or(0.0);
     out += line_of(row.label, reading_text(*mean, unit_of(row.key), sd.value_or(0.0)) + " (mean" +
@@ -259,8 +267,8 @@ std::string compared(const char* label, const std::optional<double>& a, const st
 
 std::string reading_text(double value, const std::string& unit, double error) {
   const ShownUnit shown = shown_unit(unit, std::abs(value));
-  const std::string number = number_text(value * shown.scale, error * shown.scale);
-  return shown.name.empty() ? number : number + " " + shown.name;
+  const Digits digits = digits_of(value * shown.scale, error * shown.scale);
+  return with_unit(digits.value + (digits.error.empty() ? "" : " ± " + digits.error), shown);
 }
 
 std::string run_summary(const std::string& folder) {

@@ -18,14 +18,15 @@ It is a part of: roslaunch knot_utm experiment.launch data:=FILE (doc/ros.md).
 int main(int argc, char** argv) {
   return knot_utm::run_node(argc, argv, knot_utm::names::kExperimentNode, kHelp, [&] {
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, knot_utm::names::kExperimentNode);
-    const knot_utm::MethodSetup setup = knot_utm::read_test_setup(node);
+    knot_utm::MethodSetup setup = knot_utm::read_test_setup(node);
     if (setup.data.empty()) throw knot_utm::InvalidInput::missing("data", "the record of an experiment, data:=FILE");
     bool autostart = false;
     knot_utm::read_parameter(ros::NodeHandle("~"), "autostart", &autostart, "true or false");
     std::string balance = "auto";
     knot_utm::read_parameter(ros::NodeHandle("~"), "balance", &balance, "auto, true or false");
     const auto tell = [](const std::string& line) { ROS_INFO("%s", line.c_str()); };
-    knot_utm::ExperimentNode(node, setup.read_data(tell), knot_utm::record_balance_named(balance),
+    for (const std::string& line : setup.told) tell(line);
+    knot_utm::ExperimentNode(node, std::move(setup.record), knot_utm::record_balance_named(balance),
                              [&](const std::string& line) { tell(setup.data + ": " + line); })
         .spin(autostart);
     return 0;

@@ -1,10 +1,9 @@
 #include "knot_utm/ros/batch_place.hpp"
 
-#include <filesystem>
-
 #include "knot_utm/io/command_hint.hpp"
 
 namespace knot_utm {
+
 std::string BatchPlace::text() const { return "specimen " + std::to_string(number) + " of " + std::to_string(count); }
 
 Method method_of_batch(const Method& method, int count) {
@@ -14,8 +13,7 @@ Method method_of_batch(const Method& method, int count) {
 }
 
 std::string command_to_resume(const std::string& batch) {
-  const std::string tool = std::filesystem::read_symlink("/proc/self/exe").replace_filename("tensile_test").string();
-  return command_line({tool, "--resume", batch});
+  return command_line({program_beside("tensile_test"), "--resume", batch});
 }
 
 }  // namespace knot_utm

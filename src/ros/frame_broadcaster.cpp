@@ -12,15 +12,10 @@ constexpr std::uint32_t kQueue = 100;
 }  // namespace
 
 FrameBroadcaster::FrameBroadcaster(const Vec3& lower_grip, double end_to_end) : frames_(lower_grip, end_to_end) {
-  // Whoever came before the last frames were published has them, although its coming is said only now.
-  const ros::SubscriberStatusCallback came = [this](const ros::SingleSubscriberPublisher& late) {
-    if (last_.transforms.empty() || reached_ >= moving_.getNumSubscribers()) return;
-    late.publish(last_);
-    ++reached_;
+  const ros::SubscriberStatusCallback came = [this](const ros::SingleSubscriberPublisher& subscriber) {
+    if (latecomers_.came() && !last_.transforms.empty()) subscriber.publish(last_);
   };
-  const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher&) {
-    if (reached_ > 0) --reached_;
-  };
+  const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher&) { latecomers_.gone(); };
   moving_ = ros::NodeHandle().advertise<tf2_msgs::TFMessage>(kFrames, kQueue, came, gone);
   fixed_.sendTransform(frames_.fixed(ros::TIME_MIN));
 }
@@ -38,7 +33,7 @@ void FrameBroadcaster::publish(const ros::Time& stamp, double displacement, cons
   if (valid > published_) {
     message.transforms = frames_.moving(valid, displacement, upper_grip);
     last_ = message;
-    reached_ = moving_.getNumSubscribers();
+    latecomers_.published(static_cast<int>(moving_.getNumSubscribers()));
   }
   published_ = std::max(valid, published_);
   if (looks != nullptr) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "knot_utm/io/curve_file.hpp"
+#include "knot_utm/io/raw_zero.hpp"
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/numeric/number.hpp"
@@ -65,19 +66,23 @@ std::string following(const std::string& data, const RecordWords& words, const P
          ", " + key("invert", words.invert) + "}}";
 }
 
-/// An override that cannot be read is called what a launch calls it.
+/// A method whose overrides are called what a launch calls them.
 Method load(const std::string& file, const std::vector<std::string>& overrides) {
-  try {
-    return load_method(file, overrides);
-  } catch (const InvalidInput& invalid) {
-    const std::string option = "--set", said = invalid.what();
-    if (invalid.key != option || said.rfind(option, 0) != 0) throw;
-    throw InvalidInput::sentence("overrides", invalid.value, "overrides:" + said.substr(option.size()));
-  }
+  return load_method(file, overrides, "overrides:");
 }
 
-/// How a launch gives them.
-RawOptions options_of(const RecordWords& words) { return raw_options(words, {"", ":="}); }
+/// Reads the record of the words. Where it cannot be read, that is said in the words of a launch.
+void read_record(const fs::path& base, MethodSetup& setup) {
+  const TestWords& words = setup.words;
+  const RawSpelling spelling{"", ":=", false};
+  const RawOptions options = raw_options(words.record, spelling);
+  const std::string given = (base / words.data).lexically_normal().string();
+  setup.data = curve_file_of(given, options);
+  setup.record = read_course(setup.data, options, [&](const std::string& line) { setup.told.push_back(line); });
+  const std::string unused = without_effect(words.record, spelling, setup.data != given);
+  if (!unused.empty() && has_its_zero(setup.record))
+    setup.told.push_back(setup.data + ": the curve is one of knot_utm, for which " + unused);
+}
 
 /// Refused now, and not once others have been tested.
 void check_specimens(const Method& method, const std::string& file) {
@@ -136,8 +141,7 @@ MethodSetup set_up(const TestWords& words) {
   setup.file = method_file(words, base);
   setup.method = load(setup.file, overrides);
   if (!words.data.empty()) {
-    setup.data = curve_file_of((base / words.data).lexically_normal().string(), options_of(words.record));
-    setup.read_data();  // said in the words of the launch, where it cannot be read
+    read_record(base, setup);
     overrides.push_back(following(setup.data, words.record, setup.method.program));
     setup.method = load(setup.file, overrides);
   }
@@ -150,10 +154,6 @@ MethodSetup set_up(const TestWords& words) {
   }
   setup.out = (base / (words.out.empty() ? fs::path("out") / name : fs::path(words.out))).lexically_normal().string();
   return setup;
-}
-
-std::vector<CurveRow> MethodSetup::read_data(const Tell& tell) const {
-  return read_course(data, options_of(words.record), tell);
 }
 
 TestWords asked_for(TestWords launched, const StartTest::Request& request) {

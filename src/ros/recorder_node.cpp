@@ -61,9 +61,9 @@ RecorderNode::Run::Run(const std::string& folder_, const Method& method_, Journa
 RecorderNode::RecorderNode(const ros::NodeHandle& node, const std::string& out, Keeper& keeper)
     : node_(node), keeper_(keeper), diagnostics_(node) {
   order_.out = out;
+  const ros::SubscriberStatusCallback come = [this](const ros::SingleSubscriberPublisher& s) { on_come(s); };
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
-  status_ = node_.advertise<RecorderStatus>(names::kRecorderStatus, 100, ros::SubscriberStatusCallback(), gone,
-                                            ros::VoidConstPtr(), true);
+  status_ = node_.advertise<RecorderStatus>(names::kRecorderStatus, 100, come, gone, ros::VoidConstPtr(), true);
   save_ = node_.advertiseService(names::kSave, &RecorderNode::on_save, this);
   records_ =
       subscribe_gated(node_, {names::kKnotRecord, names::kKnotNode, kQueue, kLargest}, &RecorderNode::on_record, this);
@@ -102,8 +102,14 @@ void RecorderNode::wait_for_messages() {
   waited_ += std::min(seconds_since(begin), kLongestPause);
 }
 
+void RecorderNode::on_come(const ros::SingleSubscriberPublisher& subscriber) {
+  if (subscriber.getSubscriberName() != node_.resolveName(names::kUtmNode)) return;
+  ++machines_;
+  machine_died_.reset();  // the connection was lost, and not the machine
+}
+
 void RecorderNode::on_gone(const ros::SingleSubscriberPublisher& subscriber) {
-  if (subscriber.getSubscriberName() == node_.resolveName(names::kUtmNode)) machine_died_ = waited_;
+  if (subscriber.getSubscriberName() == node_.resolveName(names::kUtmNode) && --machines_ == 0) machine_died_ = waited_;
 }
 
 void RecorderNode::begin_run(const Crosshead& first) {

@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,7 +18,7 @@
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/curve_bag.hpp"
 #endif
-#include "raw_words.hpp"
+#include "add_raw_options.hpp"
 #include "tool.hpp"
 
 namespace knot_utm {
@@ -32,7 +33,7 @@ struct Arguments {
   bool yaml = false;  // prints all of it
   std::optional<double> tolerance;
   std::optional<std::string> report;  // a folder
-  RawWords raw;                       // how raw data are read
+  RecordWords raw;                    // how raw data are read
   std::string command;                // the whole line
 };
 
@@ -49,10 +50,13 @@ CurveOfFile read_bag([[maybe_unused]] const RawOptions& options, const std::stri
 #endif
 }
 
+bool is_bag(const std::string& file) { return std::filesystem::path(file).extension() == ".bag"; }
+
+bool may_hold_several(const std::string& given) { return std::filesystem::is_directory(given) || is_bag(given); }
+
 CurveOfFile read(const std::string& file, RawOptions options, const Tell& told) {
   options.needs_time = false;
-  const std::size_t dot = file.rfind('.');
-  if (dot != std::string::npos && file.substr(dot) == ".bag") return read_bag(options, file, told);
+  if (is_bag(file)) return read_bag(options, file, told);
   return {file, read_curve_file(file, options, told)};
 }
 
@@ -60,13 +64,15 @@ int run(Arguments arguments) {
   if (arguments.tolerance && !std::isfinite(*arguments.tolerance))
     throw InvalidInput("--tolerance", std::to_string(*arguments.tolerance), "a finite number of at least 0");
   const RawOptions of_a = raw_options(arguments.raw, {}, 0, 2), of_b = raw_options(arguments.raw, {}, 1, 2);
+  const std::string unused =
+      without_effect(arguments.raw, {}, may_hold_several(arguments.a) || may_hold_several(arguments.b));
   arguments.a = curve_file_of(arguments.a, of_a);
   arguments.b = curve_file_of(arguments.b, of_b);
   std::vector<std::string> told;  // nothing of it where there is nothing to compare
   const Tell note = [&](const std::string& line) { told.push_back(line); };
   CurveOfFile first = read(arguments.a, of_a, note), second = read(arguments.b, of_b, note);
-  if (says_how(arguments.raw) && has_its_zero(first.rows) && has_its_zero(second.rows))
-    note("both curves are of knot_utm, for which --columns, --units and --invert change nothing");
+  if (!unused.empty() && has_its_zero(first.rows) && has_its_zero(second.rows))
+    note("both curves are of knot_utm, for which " + unused);
   const auto [a, b, comparison] = compare_curves(std::move(first), std::move(second), arguments.zero, note);
   for (const std::string& line : told) tell(line);
   const std::string yaml = comparison_yaml(comparison, arguments.a, arguments.b);
@@ -110,7 +116,8 @@ int main(int argc, char** argv) {
                  "replace the comparison that the folder holds; else the next free folder is taken, -2, -3, ...");
     app.add_flag("--yaml", arguments.yaml,
                  "print all readings as YAML instead, as comparison.yaml of --report has them");
-    arguments.raw.add_to(app, "which specimen of raw data, a bag or a batch with several, from 1; N,M for A and B");
+    knot_utm::add_raw_options(app, arguments.raw,
+                              "which specimen of raw data, a bag or a batch with several, from 1; N,M for A and B");
     arguments.command = knot_utm::command_line(argc, argv);
     if (const auto code = knot_utm::parse(app, knot_utm::kTool, argc, argv)) return *code;
     return knot_utm::run(arguments);

@@ -135,6 +135,14 @@ TEST_F(Compare, TakesTheFolderOfARun) {
   EXPECT_THAT(compare("batch", "batch", "--specimen 1,2").text, HasSubstr("peak_force: {a: 100, b: 200"));
   EXPECT_THAT(compare("run", "batch").text, HasSubstr("the folder holds 2 specimens: choose one by --specimen 1 to 2"));
   EXPECT_THAT(compare("run", ".").text, HasSubstr("has no curve.csv, so it is not that of a run"));
+  EXPECT_EQ(compare("run", "batch", "--specimen 2").code, 2);
+  EXPECT_THAT(compare("run", "batch", "--specimen 2").text,
+              HasSubstr("run: --specimen is 2, but the folder is that of a single test"));
+  EXPECT_THAT(compare("run", "batch", "--specimen 1,2").text, HasSubstr("peak_force: {a: 100, b: 200"));
+  EXPECT_THAT(compare("run", "batch", "--specimen 1,2").text, testing::Not(HasSubstr("nothing")));
+  EXPECT_THAT(compare("run", "run/curve.csv", "--units load=N").text, HasSubstr("for which --units changes nothing"));
+  EXPECT_THAT(compare("run/curve.csv", "run/curve.csv", "--specimen 3 --invert").text,
+              HasSubstr("both curves are of knot_utm, for which --invert and --specimen change nothing"));
   for (const char* wrong : {"0", "1,2,3", "a", "1.5"})
     EXPECT_EQ(compare("batch", "batch", std::string("--specimen ") + wrong).code, 2) << wrong;
 }

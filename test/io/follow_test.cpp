@@ -192,10 +192,23 @@ TEST_F(Follow, TheFolderOfTheRecordIsNotWrittenTo) {
     return all;
   };
   const std::string before = content();
-  const auto of_ours = load_method(KNOT_UTM_SOURCE_DIR "/config/straight.yaml",
-                                   {"program=[{follow: {record: " + in("source") + ", units: load=lbf}}]"});
-  EXPECT_THAT(of_ours.program.front().read,
-              testing::ElementsAre(HasSubstr("columns, units and invert change nothing")));
+  const auto of_ours = [&](const std::string& record) {
+    return load_method(KNOT_UTM_SOURCE_DIR "/config/straight.yaml",
+                       {"program=[{follow: {record: " + in(record) + "}}]"})
+        .program.front()
+        .read;
+  };
+  EXPECT_THAT(of_ours("source, units: load=lbf"),
+              testing::ElementsAre(HasSubstr("for which program.0.follow.units changes nothing")));
+  EXPECT_THAT(of_ours("source/curve.csv, specimen: 3, invert: load"),
+              testing::ElementsAre(HasSubstr("program.0.follow.invert and program.0.follow.specimen change nothing")));
+  EXPECT_THAT(of_ours("source, specimen: 1"), testing::IsEmpty());
+  try {
+    of_ours("source, specimen: 3");
+    ADD_FAILURE() << "there is no third one";
+  } catch (const InvalidInput& invalid) {
+    EXPECT_THAT(invalid.what(), HasSubstr("program.0.follow.specimen is 3, but the folder is that of a single test"));
+  }
   const Answer answer = test("[{follow: {record: " + in("source") + "}}]", "source/../source");
   EXPECT_EQ(answer.code, 2);
   EXPECT_THAT(answer.text, testing::AllOf(HasSubstr("the method follows "), HasSubstr("choose another folder"),

@@ -281,10 +281,6 @@ TEST(RawCases, OldLineEndsAreSeenBesideALastOneOfAnotherKind) {
     EXPECT_EQ(of_text("Time (s),Extension (mm),Load (N)" + std::string(end) + "0,1,1.5" + end).refused, "");
 }
 
-TEST(RawCases, ABagIsCalledOne) {
-  EXPECT_THAT(of_text("#ROSBAG V2.0\n...").refused, HasSubstr("the file is a bag, and"));
-}
-
 TEST(RawCases, OneReadingIsOne) {
   EXPECT_THAT(of_text("Time (s),Extension (mm),Load (N)\n0,1,1.5\n").told, Contains(HasSubstr(": 1 reading: time is")));
 }
@@ -426,11 +422,31 @@ TEST(RawCases, ASteppedMoveIsNoOutlier) {
   EXPECT_THAT(of_text(text).rows, SizeIs(20));
 }
 
+/// Of ten readings two, with one between them.
+TEST(RawCases, ManyOutliersAreCountedAndTheFirstOnesNamed) {
+  const auto outliers = [](int rows) {
+    std::string text = "Time,Extension,Load\ns,mm,N\n";
+    for (int i = 0; i < rows; ++i)
+      text += std::to_string(i) + "," + std::to_string(i % 10 == 1 || i % 10 == 3 ? -5000 : i) + "," +
+              std::to_string(i) + "\n";
+    return of_text(text);
+  };
+  const Outcome many = outliers(20001);
+  EXPECT_THAT(many.rows, SizeIs(16001));
+  for (const CurveRow& row : many.rows) ASSERT_EQ(row.load, std::round(1e3 * row.extension));
+  EXPECT_THAT(many.told, SizeIs(7)) << "the columns, five rows, and how many others";
+  EXPECT_EQ(many.told[5],
+            "raw.csv: row 24, whose extension of -5000 mm lies far off the readings before and behind it, is left out");
+  EXPECT_EQ(many.told[6], "raw.csv: 3995 other rows are left out for the same reason");
+  EXPECT_THAT(outliers(23).told, SizeIs(6)) << "all five are named";
+  EXPECT_THAT(outliers(31).told, Contains(HasSubstr(": 1 other row is left out")));
+}
+
 TEST(RawCases, WhatIsNoTextIsNamed) {
   for (const auto& [bytes, words] : {std::pair<std::string, const char*>{"\xD0\xCF\x11\xE0\xA1", "old workbook (xls)"},
                                      {"%PDF-1.7\n", "a PDF"},
                                      {"\x1F\x8B\x08", "compressed"},
-                                     {"#ROSBAG V2.0\n", "a bag, and no table of text"},
+                                     {"#ROSBAG V2.0\n", "a bag, and no table of text: give the curve.csv of its run"},
                                      {"<?xml version=\"1.0\"?>\n<Workbook>", "XML or HTML"}})
     EXPECT_THAT(of_text(bytes).refused, HasSubstr(words));
 }

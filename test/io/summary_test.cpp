@@ -114,6 +114,14 @@ TEST_F(Summary, LeavesOutALossThatIsRounding) {
   }
 }
 
+TEST_F(Summary, KeepsLossesOfBothSigns) {
+  for (const auto& [sd, stands] : {std::pair{"1e-9", false}, std::pair{"0.5", true}}) {
+    write("statistics.yaml", std::string("specimens: 2\nenergy_to_peak: {mean: 17.02, sd: null, n: 2}\n") +
+                                 "hysteresis: {mean: 1e-9, sd: " + sd + ", n: 2}\n");
+    EXPECT_EQ(run_summary(folder()).find("hysteresis") != std::string::npos, stands) << sd;
+  }
+}
+
 TEST(ComparisonSummary, ShowsNoRounding) {
   Comparison same;
   same.a.peak_force = 20.0;

@@ -82,7 +82,7 @@ TEST(ReadingErrors, OfOppositeHandsOfferSpecimens) {
   const std::string of_same = accuracy_warning(plateau(), same.errors()),
                     of_opposite = accuracy_warning(plateau(), opposite.errors());
   EXPECT_NE(of_opposite.find("a distribution"), std::string::npos) << of_opposite;
-  EXPECT_NE(of_opposite.find("--specimens 8"), std::string::npos) << of_opposite;
+  EXPECT_NE(of_opposite.find("specimens.count: 8"), std::string::npos) << of_opposite;
   EXPECT_NE(of_same.find("physics.accuracy"), std::string::npos) << of_same;
   EXPECT_EQ(of_same.find("specimens"), std::string::npos) << of_same;
 }

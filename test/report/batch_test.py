@@ -245,6 +245,12 @@ class PageOfABatch(unittest.TestCase):
         html = html_of(changed(rods, "statistics.yaml", lambda facts: facts.update(inertia_share=tiny)))
         self.assertEqual(row_of(html, "inertia_share")[1:], ["0", "", "constant", "", "2", ""])
 
+    def test_keeps_the_spread_of_readings_around_zero(self):
+        around = {"mean": 1e-13, "sd": 1.0, "cv": 1e13, "low": -9.0, "high": 9.0, "minimum": -0.7, "maximum": 0.7, "n": 2}
+        html = html_of(changed(rods, "statistics.yaml", lambda facts: facts.update(balance_offset=around)))
+        mean, half, sd = row_of(html, "balance_offset")[1:4]
+        self.assertEqual((mean, half, sd), ("0", "9.0", "1.0"))
+
 
 class CertificateOfABatch(unittest.TestCase):
     def test_counts_the_specimens_that_keep_a_limit(self):

@@ -71,7 +71,7 @@ TEST(StretchingLaws, AreMadeByTheirNumberInAMaterial) {
   Material material;
   EXPECT_TRUE(std::holds_alternative<LinearStretching>(stretching_law_of(material)));
   material.stretching.law = static_cast<knot_utm::StretchingLaw>(1);
-  EXPECT_STREQ(kStretchingLawNames[1], "neo_hookean");
+  EXPECT_STREQ(StretchingRegistry::kNames[1], "neo_hookean");
   EXPECT_TRUE(std::holds_alternative<NeoHookeanStretching>(stretching_law_of(material)));
 }
 

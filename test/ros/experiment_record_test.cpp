@@ -71,7 +71,8 @@ TEST(ExperimentRecord, IsReadAsTheLaunchSays) {
     return "";
   };
   const MethodSetup setup = with("side_by_side.csv", {"", "load=kN", "2", "load"});
-  EXPECT_NEAR(setup.read_data().back().load, -4125.0, 1e-9);
+  EXPECT_NEAR(setup.record.back().load, -4125.0, 1e-9);
+  EXPECT_THAT(setup.told, testing::Contains(HasSubstr("specimen 2 of 2")));
   EXPECT_NEAR(setup.method.program.back().recorded.back().time, 4.0, 1e-9);
   EXPECT_THAT(refusal("side_by_side.csv", {}), HasSubstr("2 specimens, side by side: choose one by specimen:=1 to 2"));
   EXPECT_THAT(refusal("no_units.csv", {}), HasSubstr("by units:=time=UNIT"));

@@ -140,7 +140,7 @@ INSTANTIATE_TEST_SUITE_P(Rods, CentrelineTermsOf,
                          testing::Combine(testing::Bool(), testing::Values(StretchingLaws(LinearStretching()),
                                                                            StretchingLaws(NeoHookeanStretching()))),
                          [](const testing::TestParamInfo<Case>& of) {
-                           return std::string(kStretchingLawNames[std::get<1>(of.param).index()]) +
+                           return std::string(StretchingRegistry::kNames[std::get<1>(of.param).index()]) +
                                   (std::get<0>(of.param) ? "_bending" : "_stretchingOnly");
                          });
 

@@ -49,13 +49,17 @@ struct Method {
 /// given by name changes a copy of it. Overrides whose keys have fewer parts are applied first; others keep the order
 /// given.
 ///
+/// `option`: what messages call an override.
+///
 /// Throws InvalidInput with one line that names file, key, value and what is allowed. Reasons are a file that is
 /// missing, longer than 64 KiB or not YAML, an unknown or repeated key, a value of the wrong type or out of range, and
 /// values that do not go together.
-Method load_method(const std::string& file, const std::vector<std::string>& overrides = {});
+Method load_method(const std::string& file, const std::vector<std::string>& overrides = {},
+                   const std::string& option = "--set");
 
 /// The same for the text of a method. `file`: the path of the text, or the path that it would have.
-Method parse_method(const std::string& text, const std::string& file, const std::vector<std::string>& overrides = {});
+Method parse_method(const std::string& text, const std::string& file, const std::vector<std::string>& overrides = {},
+                    const std::string& option = "--set");
 
 /// The method as YAML. `load_method` reads it back to the same method. It contains every value, so no other files are
 /// needed than `specimen.file`, `report.logo` and records that are followed.

@@ -21,6 +21,7 @@ enum class Invert { kNothing, kWhatFalls, kExtension, kLoad, kBoth };
 /// "program.0.follow.units: load=N" in a method.
 struct RawSpelling {
   std::string before = "--", between = " ";
+  bool invert_is_flag = true;  ///< "--invert" and "--invert=load"; otherwise it is spelt as the others are
 
   std::string option(const std::string& name) const { return before + name; }
   std::string option(const std::string& name, const std::string& value) const {
@@ -56,8 +57,9 @@ RawColumns parse_raw_columns(const std::string& text, const std::string& key);
 /// Reads "falling", "extension", "load" or "both". `key`: as above. Throws InvalidInput.
 Invert parse_invert(const std::string& text, const std::string& key);
 
-/// Whether anything is said of columns, units or signs.
-bool says_how(const RecordWords& words);
+/// Which of the words change nothing where the curve is one of ours, such as "--units and --specimen change nothing".
+/// Empty where none is given. `one_of_many`: a specimen was chosen from a batch or a bag, which that word does change.
+std::string without_effect(const RecordWords& words, const RawSpelling& spelling, bool one_of_many);
 
 /// What the words mean for the file number `file` of `files`. Throws InvalidInput.
 RawOptions raw_options(const RecordWords& words, const RawSpelling& spelling = {}, std::size_t file = 0,

@@ -13,8 +13,6 @@ using BendingLaws = std::variant<ElasticBending, PlasticBending>;
 
 using BendingRegistry = LawRegistry<BendingLaws>;
 
-inline constexpr auto kBendingLawNames = BendingRegistry::kNames;
-
 /// The law that a material names, with its parameters. Throws InvalidInput where one is missing.
 BendingLaws bending_law_of(const Material& material);
 

@@ -13,8 +13,6 @@ using StretchingLaws = std::variant<LinearStretching, NeoHookeanStretching>;
 
 using StretchingRegistry = LawRegistry<StretchingLaws>;
 
-inline constexpr auto kStretchingLawNames = StretchingRegistry::kNames;
-
 /// The law that a material names, with its parameters.
 inline StretchingLaws stretching_law_of(const Material& material) {
   return StretchingRegistry::of(material.stretching.law, material);

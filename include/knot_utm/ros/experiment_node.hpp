@@ -41,7 +41,9 @@ class ExperimentNode {
   void publish(const CurveRow& row, const ros::Time& stamp);
 
   ros::NodeHandle node_;
-  double began_;                ///< time of the first reading, whether it is published or lies before the zero [s]
+  /// Time of the first reading, whether it is published or lies before the zero [s]. Declared before `rows_`, which
+  /// takes the readings as it is made.
+  double began_;
   std::vector<CurveRow> rows_;  ///< readings of the record, from the first that pulls to the last
   std::size_t next_ = 0;        ///< index of the next row to be published
   std::uint32_t run_ = 0;       ///< number of the test whose commands are followed

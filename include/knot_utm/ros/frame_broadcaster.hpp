@@ -4,8 +4,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
-#include <cstdint>
-
+#include "knot_utm/ros/latecomers.hpp"
 #include "knot_utm/ros/machine_frames.hpp"
 
 namespace knot_utm {
@@ -31,8 +30,8 @@ class FrameBroadcaster {
  private:
   MachineFrames frames_;
   ros::Time published_;
-  tf2_msgs::TFMessage last_;   ///< the moving frames at that time
-  std::uint32_t reached_ = 0;  ///< number of subscribers that have them
+  tf2_msgs::TFMessage last_;  ///< the moving frames at that time
+  Latecomers latecomers_;
   ros::Publisher moving_;
   tf2_ros::StaticTransformBroadcaster fixed_;
 };

@@ -39,11 +39,10 @@ struct MethodSetup {
   TestWords words;
   std::string file;  ///< of the method
   Method method;
-  std::string out;   ///< absolute path
-  std::string data;  ///< absolute path; empty: there is no record
-
-  /// The readings of the record. `tell` receives what was read. Throws InvalidInput.
-  std::vector<CurveRow> read_data(const Tell& tell = nullptr) const;
+  std::string out;                ///< absolute path
+  std::string data;               ///< absolute path of the record; empty: there is none
+  std::vector<CurveRow> record;   ///< its readings
+  std::vector<std::string> told;  ///< what of it was read, as a user should see
 };
 
 /// Throws InvalidInput.

@@ -69,6 +69,7 @@ class RecorderNode {
 
   void on_record(const KnotRecord::ConstPtr& record);
   void on_status(const TestStatus::ConstPtr& status);
+  void on_come(const ros::SingleSubscriberPublisher& subscriber);
   void on_gone(const ros::SingleSubscriberPublisher& subscriber);
   bool on_save(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
 
@@ -114,7 +115,8 @@ class RecorderNode {
   std::string completed_folder_;        ///< folder of that test
   TestStatus test_;                     ///< the latest
   double waited_ = 0.0;                 ///< time spent waiting for messages while this process was running [s]
-  std::optional<double> machine_died_;  ///< value of `waited_` when the machine died [s]
+  int machines_ = 0;                    ///< number of connections to the machine: two while it connects anew
+  std::optional<double> machine_died_;  ///< value of `waited_` when the last of them was lost [s]
   TopicWarning odd_record_{names::kKnotRecord}, odd_status_{names::kTestStatus};
   std::string error_;
   RecorderStatus published_;

@@ -8,6 +8,8 @@ import sys
 import tempfile
 import unittest
 
+import yaml
+
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
 from launched import METHOD, ROOT, Launch
@@ -66,6 +68,18 @@ class ArgumentsTest(unittest.TestCase):
             with open(file, 'w', encoding='utf-8') as text:
                 text.write('<launch><arg name="mine"/><include file="$(find knot_utm)/launch/tighten.launch"/></launch>')
             subprocess.run(['roslaunch', '--dump-params', file, 'mine:=1'], stdout=subprocess.DEVNULL, check=True)
+
+    def test_both_launch_files_say_how_a_record_is_read(self):
+        for file in ('tighten.launch', 'experiment.launch'):
+            given = ['data:=x.csv', 'columns:=load=3', 'units:=load=lbf', 'specimen:=2', 'invert:=load']
+            check = subprocess.run([os.path.join(ROOT, 'launch/check_arguments'), file] + given, stderr=subprocess.PIPE,
+                                   stdout=subprocess.DEVNULL, universal_newlines=True, check=False)
+            self.assertEqual((check.returncode, check.stderr), (0, ''))
+            said = subprocess.run(['roslaunch', '--dump-params', 'knot_utm', file] + given, stdout=subprocess.PIPE,
+                                  universal_newlines=True, check=True).stdout
+            found = yaml.safe_load(said)
+            for name, _, value in (word.partition(':=') for word in given):
+                self.assertEqual(found['/test/' + name], value, file)
 
     def test_every_parameter_of_a_test_is_set_anew(self):
         # A master outlives a launch: what the one before has left there must not be taken for this one's.

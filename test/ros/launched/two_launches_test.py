@@ -72,6 +72,16 @@ class TwoLaunchesTest(unittest.TestCase):
             self.assertTrue(os.path.exists(os.path.join(launch.out, name)), name)
         self.assertFalse(os.path.exists(os.path.join(launch.out, 'journal')))
 
+    def test_a_port_at_which_a_master_runs_is_refused(self):
+        port = self.master()
+        uri = 'http://localhost:%d' % port
+        for environment, said in (('http://localhost:%d' % free_port(), 'a ROS master runs already at %s' % uri), (uri, '')):
+            check = subprocess.run([os.path.join(ROOT, 'launch/check_master'), 'tighten.launch', '--', '-p', str(port)],
+                                   env=dict(os.environ, ROS_MASTER_URI=environment), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, universal_newlines=True, check=False)
+            self.assertEqual((check.returncode, check.stderr.count('\n')), (2, 1) if said else (0, 0), check.stderr)
+            self.assertIn(said, check.stderr)
+
     def test_second_is_refused_or_has_its_own_namespace(self):
         port = self.master()
         with Launch('method:=' + METHOD, port=port) as first:
