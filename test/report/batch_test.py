@@ -227,7 +227,7 @@ class PageOfABatch(unittest.TestCase):
     def test_has_a_key_that_it_never_heard_of(self):
         one = {"mean": 2.5, "sd": 0.1, "cv": 0.04, "low": 2.4, "high": 2.6, "minimum": 2.0, "maximum": 3.0, "n": 2}
         html = html_of(changed(rods, "statistics.yaml", lambda facts: facts.update(loop_energy=one)))
-        self.assertEqual(row_of(html, "loop_energy")[1:], ["2.50", "0.1", "0.1", "4 %", "2", "J"])
+        self.assertEqual(row_of(html, "loop_energy")[1:], ["2.50", "0.10", "0.10", "4 %", "2", "J"])
 
 
     def test_gives_no_spread_of_what_is_constant(self):

@@ -75,7 +75,7 @@ class PageOfARun(unittest.TestCase):
         result = {"peak_force": 444.82216152605, "true_peak_force": None, "peak_force_error": None,
                   "break_extension": 0.0254, "locked_stiffness": 175.126835,
                   "locked_stiffness_error": None}
-        for asked, force, length, values in (("units: {force: lbf, length: in}", "lbf", "in", ("100", "1", "1")),
+        for asked, force, length, values in (("units: {force: lbf, length: in}", "lbf", "in", ("100", "1", "1.000")),
                                              ("units: {force: kN, length: m}", "kN", "m", ("0.4448", "0.0254", "0.1751"))):
             html = html_of(folders.with_report(straight, asked, "break_extension: {max: 0.0508}", specification_passed=True,
                                        **result))
