@@ -324,16 +324,13 @@ TEST(TestingMachine, ALoopHasNoWeightUntilTheRollersTakeIt) {
   command.phase = Phase::kMount;
   command.step = 2;
   const double begin = command.time;
-  for (const double behind : {0.1, 0.2, 0.3, 0.5, 0.8}) {
+  for (const double behind : {0.1, 0.3, 0.4, 0.7}) {  // the rollers take it from the third of these on
     ++command.sequence;
     command.time = begin + behind;
     light.respond(command);
     ASSERT_NE(heavy.respond(command).status, BenchStatus::kFailed);
     const double moved = (heavy.state().position - light.state().position).cwiseAbs().maxCoeff();
-    if (behind < 1.0 / 3.0)
-      EXPECT_EQ(moved, 0.0) << "it is being let go";
-    else if (behind > 0.7)
-      EXPECT_GT(moved, 0.0);
+    EXPECT_EQ(moved > 0.0, behind > 0.5) << behind;
   }
 }
 
