@@ -18,7 +18,7 @@ constexpr double kEarliestLock = 0.15;                    // of the pull
 constexpr std::ptrdiff_t kFewestReadings = 3;             // within a plateau
 constexpr double kLevel = 0.5;                            // change of a plateau over its mean ...
 constexpr double kProportional = 1.0 / 1.1;               // ... and that of a force in proportion to s
-constexpr double kOffSliding = 0.25;                      // of rigid sliding: so far off it de/ds of a plateau may be
+constexpr double kOffSliding = 0.5;                       // of de/ds from rigid sliding on rollers
 constexpr double kSudden = 0.05;                          // of the way to the lock
 constexpr double kTakenIn = 0.125, kFallen = 0.1;         // of the first excess length; of F
 constexpr double kLetOut = 0.05, kLetGo = 0.5;            // of the first e; of F
@@ -157,16 +157,14 @@ std::string text(const char* format, double a, double b = 0.0) {
   return line.data();
 }
 
-/// Why F is no sliding force, by the motion of the knots; empty: it may be one.
-std::string why_not_sliding(const Plateau& level, bool on_rollers) {
+/// Why F is no sliding force, by the motion of the knots, if there are two; empty: it may be one.
+std::string why_not_sliding(double slope, bool on_rollers) {
+  if (!std::isfinite(slope)) return {};
+  if (!on_rollers)
+    return "two nodes of the loop are held: the load is also that of the side without knots, which is stretched";
   const double sliding = rigid_sliding(on_rollers);
-  if (std::abs(level.slope - sliding) > kOffSliding * std::abs(sliding))
-    return text(on_rollers ? "the knots do not slide steadily: de/ds is %.2f, where %.0f is sliding on rollers"
-                           : "the knots do not slide steadily: de/ds is %.2f, where %.0f is sliding between held nodes",
-                level.slope, sliding);
-  if (!on_rollers && std::isfinite(level.slope))
-    return "two nodes of the loop are held: the load is that of the side that is stretched";
-  return {};
+  if (std::abs(slope - sliding) <= kOffSliding) return {};
+  return text("the knots do not slide steadily: de/ds is %.2f, where %.0f is sliding on rollers", slope, sliding);
 }
 
 /// Why the mean of F is no plateau; empty: it is.
@@ -315,7 +313,7 @@ std::string why_no_plateau(const Pull& borne, bool on_rollers, const CurveReadin
   if (!(level->force > 0.0))
     return text("the rod is not pulled: from 0.3 to 0.8 of the way the mean of the load is %.2g N", level->force);
   if (std::string falls = why_interrupted(borne, found.slides_to, level->force); !falls.empty()) return falls;
-  if (std::string held = why_not_sliding(*level, on_rollers); !held.empty()) return held;
+  if (std::string held = why_not_sliding(level->slope, on_rollers); !held.empty()) return held;
   return why_not_level(*level, found.rises_at.has_value());
 }
 

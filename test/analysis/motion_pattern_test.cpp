@@ -255,7 +255,8 @@ TEST(MotionPattern, RigidSlidingBetweenHeldNodesIsHalfAsFastAsOnRollers) {
   const Results held = analyse(slides, slides, EndedBy::kExtension, false);
   EXPECT_EQ(held.motion_pattern, MotionPattern::kSliding);
   EXPECT_FALSE(held.lock_extension) << "they slide to the end";
-  EXPECT_EQ(held.curve.no_plateau, "two nodes of the loop are held: the load is that of the side that is stretched");
+  EXPECT_EQ(held.curve.no_plateau,
+            "two nodes of the loop are held: the load is also that of the side without knots, which is stretched");
   EXPECT_EQ(on_rollers(slides, EndedBy::kExtension).motion_pattern, MotionPattern::kStretching);
   const std::vector<Sample> gives = sliding_under_a_growing_load(-0.4, 1e4);
   EXPECT_EQ(analyse(gives, gives, EndedBy::kExtension, false).motion_pattern, MotionPattern::kStretching);

@@ -152,10 +152,10 @@ struct CurveReadings {
 /// - F was read at least three times within the plateau range.
 /// - No knot jumped open. A knot that jumped open is another knot from then on, so it has no lock and no stiffness here
 ///   either.
-/// - Where e is known, rollers hold the loop. Between two held nodes knots that slide stretch one side of the loop, and
-///   F is mainly the load of that side.
-/// - Where e is known, the mean of de/ds differs from rigid_sliding(), which is -2, by at most 0.5. That is half the
-///   difference to -1, at which sliding ends.
+/// - Where e is known, rollers hold the loop. Between two held nodes the side without knots is stretched as far as the
+///   grips move, and F is also the load of that side.
+/// - Where e is known, the mean of de/ds differs from -2, the value of rigid sliding on rollers, by at most 0.5, half
+///   the difference to -1, at which sliding ends.
 /// - F does not fall suddenly by half of its mean or more. The mean would be one of two different levels.
 /// - F changes over the range by less than 10/11 of its mean, which is the change of a force proportional to s. Such a
 ///   force has no level of its own. Where neither a lock nor e shows that anything slides, the limit is half of the
