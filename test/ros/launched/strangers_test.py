@@ -40,6 +40,7 @@ def subscribe(uri, topic, read=0):
     node = xmlrpc.client.ServerProxy(master.lookupNode('/deaf', publisher)[2])
     _, host, port = node.requestTopic('/deaf', topic, [['TCPROS']])[2]
     connection = socket.create_connection((host, port))
+    connection.settimeout(LAST_RESORT)  # rospy has set a shorter one, which a busy machine may exceed
     fields = ['callerid=/deaf', 'topic=' + topic, 'md5sum=*', 'type=*']
     header = b''.join(struct.pack('<I', len(field)) + field.encode() for field in fields)
     connection.sendall(struct.pack('<I', len(header)) + header)
