@@ -6,6 +6,7 @@
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/shipped.hpp"
+#include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 
@@ -26,7 +27,8 @@ int main(int argc, char** argv) try {
       std::printf("%14.2f  %9.4g\n", 1e3 * sample.extension, sample.load);
   });
 
-  const knot_utm::Results results = knot_utm::analyse(steps, readings, program.ended_by());
+  const knot_utm::Results results =
+      knot_utm::analyse(steps, readings, program.ended_by(), knot_utm::rollers_hold(method.specimen, method.machine));
   std::printf("the test ended by %s\n", knot_utm::ended_by_name(program.ended_by()));
   if (results.curve.plateau_force)
     std::printf("plateau force: %.4g N\n", *results.curve.plateau_force);

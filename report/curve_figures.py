@@ -199,8 +199,9 @@ def draw_knot_distance(axes, run, marks):
     slid = run.result.get("motion_pattern") == "sliding" and run.value("jump_force") is None
     if lock is not None or slid:
         end = length.scale * lock if lock is not None else s[-1]
-        axes.plot([s[known[0]], end], [e[known[0]], e[known[0]] - 2.0 * (end - s[known[0]])], color=GREY, lw=0.9,
-                  ls=(0, (4, 3)), label="de/ds = –2: rigid sliding")
+        rigid = 2 if run.method["machine"]["grips"] == "rollers" else 1
+        axes.plot([s[known[0]], end], [e[known[0]], e[known[0]] - rigid * (end - s[known[0]])], color=GREY, lw=0.9,
+                  ls=(0, (4, 3)), label=f"de/ds = –{rigid}: rigid sliding")
         axes.legend(loc="lower left", borderpad=0.2)
     axes.set_ylabel(f"knot distance e [{length.name}]")
     put_marks(axes, run, [(mark, float(np.interp(mark.time, tested["time"], e))) for mark in marks

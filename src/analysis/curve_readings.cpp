@@ -18,7 +18,7 @@ constexpr double kEarliestLock = 0.15;                    // of the pull
 constexpr std::ptrdiff_t kFewestReadings = 3;             // within a plateau
 constexpr double kLevel = 0.5;                            // change of a plateau over its mean ...
 constexpr double kProportional = 1.0 / 1.1;               // ... and that of a force in proportion to s
-constexpr double kSliding = -2.0, kOffSliding = 0.5;      // de/ds of rigid sliding, and how far off it a plateau's is
+constexpr double kOffSliding = 0.5;                       // of de/ds from rigid sliding on rollers
 constexpr double kSudden = 0.05;                          // of the way to the lock
 constexpr double kTakenIn = 0.125, kFallen = 0.1;         // of the first excess length; of F
 constexpr double kLetOut = 0.05, kLetGo = 0.5;            // of the first e; of F
@@ -112,19 +112,19 @@ double taken_in(const PerKnot& first, const PerKnot& from, const PerKnot& to) {
   return most;
 }
 
-/// By which the knots came nearer to each other beyond what sliding can do, over the first e; 0 where F did not fall by
-/// half.
-double let_out(const Pull& pull, const PullPoint& from, const PullPoint& to) {
+/// By which the knots came nearer to each other beyond what `sliding`, de/ds, can do, over the first e; 0 where F did
+/// not fall by half.
+double let_out(const Pull& pull, const PullPoint& from, const PullPoint& to, double sliding) {
   if (to.force > kLetGo * from.force) return 0.0;
-  return (from.knot_distance - to.knot_distance + kSliding * (to.extension - from.extension)) /
+  return (from.knot_distance - to.knot_distance + sliding * (to.extension - from.extension)) /
          pull.front().knot_distance;
 }
 
 /// How much a knot opened from one point to another, by the share of rod that it has `taken` in, over the least that is
 /// a jump. NaN: nothing tells.
-double opened(const Pull& pull, const PullPoint& from, const PullPoint& to, double taken) {
+double opened(const Pull& pull, const PullPoint& from, const PullPoint& to, double taken, double sliding) {
   const double known = taken / kTakenIn;
-  return std::isfinite(known) ? known : let_out(pull, from, to) / kLetOut;
+  return std::isfinite(known) ? known : let_out(pull, from, to, sliding) / kLetOut;
 }
 
 /// For every point from `begin` on where F is smallest within `way` behind it.
@@ -157,11 +157,18 @@ std::string text(const char* format, double a, double b = 0.0) {
   return line.data();
 }
 
+/// Why F is no sliding force, by the motion of the knots, if there are two; empty: it may be one.
+std::string why_not_sliding(double slope, bool on_rollers) {
+  if (!std::isfinite(slope)) return {};
+  if (!on_rollers)
+    return "two nodes of the loop are held: the load is also that of the side without knots, which is stretched";
+  const double sliding = rigid_sliding(on_rollers);
+  if (std::abs(slope - sliding) <= kOffSliding) return {};
+  return text("the knots do not slide steadily: de/ds is %.2f, where %.0f is sliding on rollers", slope, sliding);
+}
+
 /// Why the mean of F is no plateau; empty: it is.
 std::string why_not_level(const Plateau& level, bool locked) {
-  if (std::abs(level.slope - kSliding) > kOffSliding)
-    return text("the knots do not slide steadily: de/ds is %.2f, where %.0f is sliding on rollers", level.slope,
-                kSliding);
   const bool slides = locked || std::isfinite(level.slope);
   if (std::abs(level.rise) < (slides ? kProportional : kLevel) * level.force) return {};
   return text("the load is not level: from 0.3 to 0.8 of the way it changes by %.0f %% of its mean",
@@ -230,9 +237,11 @@ std::optional<Drop> largest_drop(const Pull& pull, double end) {
   return largest_drop(pull, {pull.front().extension, end}, sudden(pull, end));
 }
 
-double jump_way(const Pull& pull) { return kSudden * pull.front().knot_distance / std::abs(kSliding); }
+double rigid_sliding(bool on_rollers) { return on_rollers ? -2.0 : -1.0; }
 
-std::optional<Drop> jump(const Pull& pull, const HiddenRod& hidden, std::size_t begin) {
+double jump_way(const Pull& pull) { return 0.5 * kSudden * pull.front().knot_distance; }
+
+std::optional<Drop> jump(const Pull& pull, bool on_rollers, const HiddenRod& hidden, std::size_t begin) {
   if (pull.empty() || !may_have_jumped(hidden, begin)) return std::nullopt;
   const double way = jump_way(pull);
   const HiddenRod kept = as_kept(pull, hidden, way, begin);
@@ -247,7 +256,7 @@ std::optional<Drop> jump(const Pull& pull, const HiddenRod& hidden, std::size_t 
       const Drop fall{highest, lowest[j]};
       if (fall.force(pull) < kFallen * std::abs(pull[highest].force)) continue;
       const double taken = hidden.empty() ? Sample::kNone : taken_in(hidden.front(), hidden[i], kept[j]);
-      if (const double much = opened(pull, pull[i], pull[j], taken); much > most) {
+      if (const double much = opened(pull, pull[i], pull[j], taken, rigid_sliding(on_rollers)); much > most) {
         most = much;
         out = fall;
       }
@@ -295,7 +304,7 @@ std::string why_too_few(const Pull& pull, double end) {
 }
 
 /// Of the force that the rod bears; empty: there is a plateau.
-std::string why_no_plateau(const Pull& borne, const CurveReadings& found) {
+std::string why_no_plateau(const Pull& borne, bool on_rollers, const CurveReadings& found) {
   if (!(peak_force(borne) > 0.0)) return "the specimen was never in tension";
   const std::optional<Plateau> level = plateau(borne, found.slides_to);
   if (!level) return "the pull has too few readings";
@@ -303,8 +312,9 @@ std::string why_no_plateau(const Pull& borne, const CurveReadings& found) {
   if (found.jumped) return "a knot jumped open";
   if (!(level->force > 0.0))
     return text("the rod is not pulled: from 0.3 to 0.8 of the way the mean of the load is %.2g N", level->force);
-  const std::string interrupted = why_interrupted(borne, found.slides_to, level->force);
-  return interrupted.empty() ? why_not_level(*level, found.rises_at.has_value()) : interrupted;
+  if (std::string falls = why_interrupted(borne, found.slides_to, level->force); !falls.empty()) return falls;
+  if (std::string held = why_not_sliding(level->slope, on_rollers); !held.empty()) return held;
+  return why_not_level(*level, found.rises_at.has_value());
 }
 
 /// What the rod bears.
@@ -340,14 +350,14 @@ void read_plateau(const Pull& pull, CurveReadings& out) {
 
 }  // namespace
 
-CurveReadings curve_readings(const Pull& pull, const HiddenRod& hidden) {
+CurveReadings curve_readings(const Pull& pull, bool on_rollers, const HiddenRod& hidden) {
   CurveReadings out;
   out.no_plateau = out.no_lock_by_load = "nothing was pulled";
   if (pull.empty()) return out;
   const Pull borne = borne_of(pull);
   out.rises_at = lock_by_load(borne);
   out.slides_to = out.rises_at.value_or(pull.back().extension);
-  out.jumped = jump(borne, hidden);
+  out.jumped = jump(borne, on_rollers, hidden);
   if (const double peak = peak_force(pull); peak > 0.0) out.peak_force = peak;
   const std::optional<Drop> fall = largest_drop(borne, out.slides_to);
   if (!has_few_for_drops(borne, out.slides_to)) out.largest_drop = fall ? fall->force(borne) : 0.0;
@@ -357,7 +367,7 @@ CurveReadings curve_readings(const Pull& pull, const HiddenRod& hidden) {
     out.jump_extension = pull[out.jumped->from].extension;
     out.force_after_jump = pull[out.jumped->to].force;
   }
-  out.no_plateau = why_no_plateau(borne, out);
+  out.no_plateau = why_no_plateau(borne, on_rollers, out);
   if (out.no_plateau.empty()) read_plateau(pull, out);
   out.no_lock_by_load = why_no_lock(borne, out);
   if (out.no_lock_by_load.empty()) out.lock_extension_by_load = out.rises_at;

@@ -14,9 +14,8 @@ constexpr ChoiceNames<MotionPattern, 4> kPatternNames{{{MotionPattern::kNone, "n
                                                        {MotionPattern::kStretching, "stretching"},
                                                        {MotionPattern::kUntangling, "untangling"}}};
 
-constexpr double kWindow = 0.03;  // of the first knot distance
-// de/ds between stretching (> 0) and sliding, which is twice this.
-constexpr double kTurnoverOnRollers = -1.0, kTurnoverBetweenNodes = -0.5;
+constexpr double kWindow = 0.03;            // of the first knot distance
+constexpr double kTurnover = 0.5;           // of rigid sliding: de/ds between sliding and stretching
 constexpr double kLeastSliding = 0.15;      // of all extension
 constexpr double kMuchSliding = 1.0 / 3.0;  // of all extension: whatever the load then does
 constexpr double kLevel = 2.0;              // times the mean load of the way on which the knots slid
@@ -73,7 +72,7 @@ double unit(double x) { return std::isfinite(x) ? std::clamp(x, 0.0, 1.0) : 0.0;
 const char* motion_pattern_name(MotionPattern pattern) { return name_of(kPatternNames, pattern); }
 
 MotionPatternTracker::MotionPatternTracker(bool on_rollers)
-    : turnover_(on_rollers ? kTurnoverOnRollers : kTurnoverBetweenNodes) {}
+    : on_rollers_(on_rollers), turnover_(kTurnover * rigid_sliding(on_rollers)) {}
 
 void MotionPatternTracker::add(const Sample& sample) {
   if (sample.knot_type == KnotType::kKept)
@@ -134,7 +133,7 @@ void MotionPatternTracker::follow_jumps() {
   if (jumped_ || !(way > 0.0) || here - jump_looked_for_ < kOften * way) return;
   jump_looked_for_ = here;
   while (here - pull_[jump_begin_].extension > kWhole * way) ++jump_begin_;
-  const std::optional<Drop> found = jump(pull_, hidden_, jump_begin_);
+  const std::optional<Drop> found = jump(pull_, on_rollers_, hidden_, jump_begin_);
   jumped_ = found && here - pull_[found->to].extension > way;
 }
 

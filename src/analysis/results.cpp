@@ -61,7 +61,7 @@ Pull with_ends(const Pull& pull, const std::optional<Sample>& origin, const std:
 
 void read_pull(const Pull& pull, Results& results) {
   if (!results.break_extension) results.steady_force = steady_force(pull);
-  if (!results.only_compressed) results.energy_to_peak = energy_to_peak(pull);
+  if (!results.never_in_tension) results.energy_to_peak = energy_to_peak(pull);
   if (results.break_extension) results.energy_to_break = energy(pull);
   results.chord_stiffness = chord_stiffness(pull);
   results.secant_stiffness = secant_stiffness(pull);
@@ -186,9 +186,9 @@ void keep_first(const Sample& sample, double force, double least, std::optional<
 }
 
 /// What the loads alone tell.
-void read_loads(const std::vector<Sample>& readings, Results& results) {
+void read_loads(const std::vector<Sample>& readings, bool on_rollers, Results& results) {
   const std::vector<CurveRow> rows = rows_of(readings);
-  results.curve = curve_readings(pull_of(rows), hidden_rod_of(rows));
+  results.curve = curve_readings(pull_of(rows), on_rollers, hidden_rod_of(rows));
 }
 
 std::optional<double> tensile(double force) { return force > 0.0 ? std::optional<double>(force) : std::nullopt; }
@@ -206,7 +206,7 @@ void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>
     results.curve.peak_force = std::max(results.curve.peak_force, tensile(at_break->load));
     results.true_peak_force = std::max(results.true_peak_force, tensile(at_break->force_upper));
   }
-  results.only_compressed = !pull.empty() && !results.true_peak_force;
+  results.never_in_tension = !pull.empty() && !results.true_peak_force;
   const bool locked = results.lock_extension || results.curve.rises_at;
   if (results.motion_pattern == MotionPattern::kSliding && !locked) results.curve.locked_stiffness.reset();
   drop_what_does_not_slide(results.motion_pattern, results.curve);
@@ -287,11 +287,11 @@ class Course {
   void add(const Sample& sample) {
     const bool recoils = at_break_.has_value();  // says nothing about the test
     if (sample.status == BenchStatus::kBroken && !recoils) {
-      // What parts while it is tied, mounted or balanced has no extension yet.
-      const bool made = traits_of(sample.phase).ends_by_itself || sample.phase == Phase::kBalance;
-      if (!made || pull_begin_) results_.break_extension = sample.extension;
+      if (loaded_ || loads(sample)) results_.break_extension = sample.extension;
       at_break_ = sample;
     }
+    loaded_ |= loads(sample);
+    before_ = &sample;
     motion_.add(sample);
     if (!recoils) results_.max_penetration = std::max(results_.max_penetration, sample.max_penetration);
     if (sample.status == BenchStatus::kNotEquilibrated) results_.not_equilibrated = sample.message;
@@ -301,6 +301,12 @@ class Course {
       add_pull(sample, recoils);
     else if (!pull_begin_)
       before_pull_ = &sample;
+  }
+
+  /// Whether the crosshead puts a load on the specimen. In a hold it moves only where a load is kept.
+  bool loads(const Sample& sample) const {
+    return pulls(sample.phase) || sample.phase == Phase::kPreload ||
+           (sample.phase == Phase::kHold && before_ && sample.displacement != before_->displacement);
   }
 
   void add_energies(const Sample& sample) {
@@ -328,7 +334,9 @@ class Course {
   };
   std::vector<Load> loads_;  // of the pull
   double energy_error_ = 0.0, energy_scale_ = 0.0;
+  bool loaded_ = false;  // something has put a load on the specimen
   std::optional<Sample> at_break_;
+  const Sample* before_ = nullptr;
   const Sample* before_pull_ = nullptr;
   const Sample* pull_begin_ = nullptr;
   const Sample* tied_ = nullptr;
@@ -401,8 +409,6 @@ void read_whole_pull(const Course& course, Results& results) {
 
 }  // namespace
 
-Results analyse(const std::vector<Sample>& samples, EndedBy ended_by) { return analyse(samples, samples, ended_by); }
-
 Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by,
                 bool on_rollers) {
   Results results;
@@ -410,7 +416,7 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
   if (samples.empty()) return results;
   Course course(samples, on_rollers, results);
   read_end(samples.back(), results);
-  read_loads(readings, results);
+  read_loads(readings, on_rollers, results);
   read_motion(samples, course.motion(), results);
   read_tied(course, results);
   read_snap(samples, results);

@@ -63,7 +63,9 @@ Comparison compare(const Pull& first, const Pull& second) {
   if (!knows(a) || !knows(b))
     for (Pull* pull : {&a, &b})
       for (PullPoint& point : *pull) point.borne = Sample::kNone;
-  return {curve_readings(a), curve_readings(b), curve_difference(a, b), std::nullopt};
+  // A curve does not say what holds a loop; one between held nodes would have no plateau by either rule.
+  constexpr bool kOnRollers = true;
+  return {curve_readings(a, kOnRollers), curve_readings(b, kOnRollers), curve_difference(a, b), std::nullopt};
 }
 
 std::string comparison_yaml(const Comparison& comparison, const std::string& file_a, const std::string& file_b) {

@@ -59,7 +59,7 @@ std::string why_no_error(const ResultSource& source, const std::string& no_readi
 
 std::string why_not_pulled(const ResultSource& source) {
   if (source.results.true_peak_force) return "";
-  return source.results.only_compressed ? "the specimen was never in tension" : "nothing was pulled";
+  return source.results.never_in_tension ? "the specimen was never in tension" : "nothing was pulled";
 }
 
 std::string why_no_peak(const ResultSource& source) {
@@ -125,7 +125,7 @@ std::string why_no_chord(const ResultSource& source) {
 std::string why_no_break(const ResultSource& source) {
   if (source.results.break_extension) return "it did not break in a pull";
   return source.results.break_place == BreakPlace::kNone ? "the rod did not break"
-                                                         : "the rod parted before it was pulled";
+                                                         : "the rod parted before anything pulled it";
 }
 
 std::string why_no_efficiency(const ResultSource& source) {

@@ -135,7 +135,7 @@ std::string knots_travelled(const Results& results, const RunFacts& facts) {
 
 /// Of a test that the machine ended too early. A solver that gave up and a knot that came undone say so themselves.
 std::string ended_before_pull(const Results& results, const RunFacts& facts) {
-  if (results.true_peak_force || results.only_compressed || results.ended_by != EndedBy::kTravel) return {};
+  if (results.true_peak_force || results.never_in_tension || results.ended_by != EndedBy::kTravel) return {};
   return "the test ended before anything was pulled: " + facts.reason;
 }
 

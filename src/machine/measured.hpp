@@ -36,8 +36,10 @@ inline constexpr double kPlateau = 0.048, kSlippery = 0.8, kLeastFriction = 0.1;
 inline constexpr double kOppositePlateau = 0.25;
 // Knots that slide under a smaller force than this [k_b/h^2] are hardly closed, and their errors are not known.
 inline constexpr double kHardlyClosed = 0.15;
+// The lock extension, with two knots of the same handedness and of opposite handedness.
 inline constexpr double kLock = 0.014, kOppositeLock = 0.045;
-// The error of the stiffness of a solid rod comes from its knots, whose part in the length of the loop is h/L.
+// The locked stiffness of a rope, and that of a solid rod. The latter is multiplied by h over the distance of the
+// grips, because the error arises in the knots, which are the smaller a part of a loop the longer it is.
 inline constexpr double kRopesStiffness = 0.010, kSolidsStiffnessOfKnots = 1.2;
 // an upper bound by judgement: the solution is exact except for the residual
 inline constexpr double kStraightStiffness = 1e-3;

@@ -16,6 +16,11 @@ constexpr double kRigid = 1.0 - 1e-6;   // gain of a frame that gives nothing
 constexpr double kLeastGain = 1e-3;     // of a frame that gives nearly all
 constexpr int kUndoneAnswers = 3;       // in a row: a strand that is thrown about may be taken for another knot once
 
+/// Whether the step puts a load on the specimen.
+bool loads(const ProgramStep& step) {
+  return pulls(step.phase) || step.phase == Phase::kPreload || (step.hold_load && step.held_load.value_or(0.0) > 0.0);
+}
+
 /// Of the crosshead as a step begins [m/s].
 double first_velocity(const ProgramStep& step) {
   switch (step.phase) {
@@ -85,7 +90,7 @@ void ProgramRunner::fail(std::string why) {
 
 bool ProgramRunner::failed() const {
   return ended_by_ == EndedBy::kSolver || (ended_by_ == EndedBy::kUntangled && !only_ties()) ||
-         (ended_by_ == EndedBy::kBreak && is_to_be_pulled());
+         (ended_by_ == EndedBy::kBreak && parts_too_early());
 }
 
 Phase ProgramRunner::phase() const { return ended() ? Phase::kDone : last_.phase; }
@@ -165,7 +170,7 @@ bool ProgramRunner::end_by_alarm(const Sample& sample) {
   if (sample.status == BenchStatus::kFailed) {
     end(EndedBy::kSolver, sample.message.empty() ? phase + ": the physics gave up" : sample.message);
   } else if (sample.status == BenchStatus::kBroken) {
-    end(EndedBy::kBreak, is_to_be_pulled() ? phase + ": " + sample.message + ", before it was pulled" : sample.message);
+    end(EndedBy::kBreak, parts_too_early() ? phase + ": " + sample.message + kTooEarly : sample.message);
   } else if (undone_answers_ == kUndoneAnswers && !only_ties()) {
     end(EndedBy::kUntangled, phase + ": the knot came undone");
   } else if (std::abs(sample.load) > limits_.load || std::abs(sample.force_upper) > limits_.load) {
@@ -191,12 +196,15 @@ bool ProgramRunner::was_pulled() const {
   return std::any_of(program_.begin(), next, [](const ProgramStep& step) { return pulls(step.phase); });
 }
 
-/// And was not yet, nor loaded. A rod that is only held may part under a weight: that is what such a test is for.
-bool ProgramRunner::is_to_be_pulled() const {
-  return last_.phase != Phase::kPreload && !was_pulled() && (traits_of(last_.phase).prepares || !only_ties());
+/// Whether a rod that parts now does so before the program has loaded it, in a step that prepares it or in one that a
+/// load would follow. A rod that is held to the end may part under its own weight: such a test waits for that.
+bool ProgramRunner::parts_too_early() const {
+  const auto next = program_.begin() + static_cast<std::ptrdiff_t>(step_) + 1;
+  const bool loaded = std::any_of(program_.begin(), next, loads);
+  return !loaded && (traits_of(last_.phase).prepares || std::any_of(next, program_.end(), loads));
 }
 
-/// Before anything has pulled at it.
+/// Whether the knot is gone before a step has pulled it.
 bool ProgramRunner::is_undone(const Sample& sample) const {
   return sample.knot_type == KnotType::kChanged && !was_pulled();
 }

@@ -53,6 +53,7 @@ struct TestingMachine::Impl {
   StepControl control{StepControl::Options{}};
   LoadCell cell;
   std::optional<BreakWatch> breaks;  // where the rod can part
+  bool refused = false;              // by it, the step that was tried last, though it was solved
   std::optional<TiedLoop> loop;      // where it is one
   std::optional<KnotWatch> watch;    // where it is knotted
   Boundary boundary;
@@ -124,7 +125,7 @@ struct TestingMachine::Impl {
 
   /// A loop gets its weight as the rollers take it: all at once, it would swing, and its knots could jump open.
   void apply_gravity(double at_time) {
-    const double part = !has_weight ? 0.0 : loop ? 1.0 - loop->left_to_put_on(at_time) : 1.0;
+    const double part = !has_weight ? 0.0 : loop ? loop->weight_borne(at_time) : 1.0;
     stepper->set_gravity(part * gravity);
   }
 
@@ -151,6 +152,7 @@ struct TestingMachine::Impl {
     const double travel = mounts() ? displacement + loop->mounting_velocity(command.speed) * (to - from)
                                    : start_displacement + fraction * (command.displacement - start_displacement);
     travel_tried = travel;
+    refused = false;
     // Of what was last accepted alone: a step that is tried again at another length begins from the same.
     grip_tried = frame.rigid()
                      ? travel
@@ -206,11 +208,11 @@ struct TestingMachine::Impl {
   bool knows_contacts() const { return status != BenchStatus::kFailed && status != BenchStatus::kBroken; }
 
   void watch_for_break(double shortest) {
-    breaks.emplace(shortest);
+    breaks.emplace(shortest, most_exposed(stepper->rod(), stepper->state().position));
     stepper->refuse_by([this](const Points& end, double dt) {
-      if (parted()) return std::string();
-      const RodProperties& rod = stepper->rod();
-      return breaks->refuse(most_exposed(rod, stepper->state().position), most_exposed(rod, end), dt);
+      const std::string why = parted() ? "" : breaks->refuse(most_exposed(stepper->rod(), end), dt);
+      refused = !why.empty();
+      return why;
     });
   }
 
@@ -218,8 +220,8 @@ struct TestingMachine::Impl {
   void judge_break(double dt) {
     if (!breaks || parted()) return;
     const Exposure now = most_exposed(stepper->rod(), stepper->state().position);
-    if (!breaks->parts(now, dt)) return control.at_most(breaks->next());
-    message = not_by_tension(now, grips.force_upper(*stepper));
+    if (!breaks->judge(now, dt)) return control.at_most(breaks->next());
+    message = not_by_tension(now, grips.force_upper(*stepper), grips.force_lower(*stepper));
     if (message.empty()) return part(now);
     status = BenchStatus::kFailed;
     control.halt();
@@ -385,8 +387,11 @@ struct TestingMachine::Impl {
       if (!gave_up.empty()) message += "; the recoil of the broken ends could not be simulated to its end";
     } else if (!gave_up.empty() || status == BenchStatus::kFailed) {
       status = BenchStatus::kFailed;
-      if (!gave_up.empty()) message = gave_up;
-      failed_step = save_step(*stepper, boundary, time, control.last_tried());
+      if (!gave_up.empty()) {
+        message = gave_up;
+        // A step that was solved, and then refused as one that no rod makes, would be made when it is tried again.
+        if (!refused) failed_step = save_step(*stepper, boundary, time, control.last_tried());
+      }
     } else {
       if (!mounts()) displacement = command.displacement;
       if (frame.rigid()) grip = displacement;

@@ -44,6 +44,7 @@ KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
       order_(order_of(method, "", {})),
       method_(method),
       machine_(make_bench(method)),
+      motion_(rollers_hold(method.specimen, method.machine)),
       frames_(machine_.lower_grip(), method.specimen.end_to_end),
       picture_(method.specimen, method.machine, method.material),
       views_(method.specimen, method.machine, method.material),

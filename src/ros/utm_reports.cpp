@@ -2,6 +2,7 @@
 #include <limits>
 
 #include "knot_utm/analysis/results.hpp"
+#include "knot_utm/machine/grips.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 
@@ -75,7 +76,8 @@ TestOutcome UtmNode::outcome() const {
   out.motion_pattern = motion_pattern_;
   out.time = sample_.time;
   out.extension = sample_.extension;
-  const Results results = analyse(readings_, ended_by);
+  const Method& method = batch_.methods[batch_.specimen];
+  const Results results = analyse(readings_, readings_, ended_by, rollers_hold(method.specimen, method.machine));
   out.peak_force = results.curve.peak_force.value_or(Sample::kNone);
   out.true_peak_force = results.true_peak_force.value_or(Sample::kNone);
   out.balance_offset = results.balance_offset.value_or(Sample::kNone);

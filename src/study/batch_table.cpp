@@ -11,6 +11,7 @@
 #include "knot_utm/io/key_units.hpp"
 #include "knot_utm/io/result_keys.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
@@ -45,15 +46,16 @@ std::string word(const YAML::Node& results, const char* key) {
   return value.IsDefined() && value.IsScalar() ? value.Scalar() : "";
 }
 
+bool ends_with(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
 std::string why_rejected(const YAML::Node& results) {
   const std::string ended_by = word(results, "ended_by"), reason = word(results, "reason");
   if (ended_by == ended_by_name(EndedBy::kSolver)) return "the physics gave up: " + reason;
   if (ended_by == ended_by_name(EndedBy::kUntangled)) return "the knot came undone before it was pulled";
   if (ended_by == ended_by_name(EndedBy::kOperator)) return "the operator stopped the test";
-  // Without an extension it parted before it was pulled; a fall of the load that ended the test leaves the rod whole.
-  const bool parted = parse_number(word(results, "break_arclength")).has_value();
-  if (parted && !parse_number(word(results, "break_extension"))) return reason;
-  return "";
+  return ends_with(reason, ProgramRunner::kTooEarly) ? reason : "";
 }
 
 std::string csv_number(const std::optional<double>& value) { return value ? format_number(*value) : "nan"; }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knot_utm/analysis/results.hpp"
+#include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
@@ -59,7 +60,7 @@ struct ShortTests {
     if (!program.ended()) return Outcome::kInterrupted;
     if (program.ended_by() == EndedBy::kUntangled) return Outcome::kOpened;
     if (program.ended_by() == EndedBy::kSolver) return Outcome::kFailed;
-    const Results results = analyse(samples, program.ended_by());
+    const Results results = analyse(samples, samples, program.ended_by(), rollers_hold(now.specimen, now.machine));
     const bool opened = results.curve.jump_force || results.untangled_at || results.opened_when_mounted;
     return opened ? Outcome::kOpened : Outcome::kHeld;
   }

@@ -12,6 +12,11 @@
 namespace knot_utm {
 namespace {
 
+/// Of a loop on rollers.
+CurveReadings curve_readings(const Pull& pull, const HiddenRod& hidden = {}) {
+  return curve_readings(pull, true, hidden);
+}
+
 Pull pull(const std::function<double(double)>& force, double end = 0.12, int points = 1200) {
   Pull out;
   for (int i = 0; i <= points; ++i) {
@@ -249,6 +254,20 @@ TEST(CurveReadings, AMeanOverKnotsThatHoldIsNone) {
   EXPECT_FALSE(readings.lock_extension_by_load) << "what did not slide does not lock";
   EXPECT_FALSE(readings.plateau_force);
   EXPECT_NE(readings.no_plateau.find("de/ds is -1.00"), std::string::npos) << readings.no_plateau;
+}
+
+TEST(CurveReadings, ALoopBetweenHeldNodesHasNoPlateauHoweverItsKnotsMove) {
+  for (const double rate : {-0.97, 0.04, -2.0})
+    EXPECT_EQ(curve_readings(with_knots(pull(sliding), 0.0, rate), false).no_plateau,
+              "two nodes of the loop are held: the load is also that of the side without knots, which is stretched");
+  EXPECT_EQ(curve_readings(pull(sliding), false).no_plateau, "") << "a strand without two knots has no such side";
+}
+
+/// A knot lets out just a twentieth of e_0 at once, beside what sliding between held nodes takes from e.
+TEST(CurveReadings, AKnotThatJumpsOpenDoesMoreThanSliding) {
+  const Pull jumps = with_knots(pull(sliding), 0.01005, -1.0);
+  EXPECT_TRUE(curve_readings(jumps, false).jump_force);
+  EXPECT_FALSE(curve_readings(jumps, true).jump_force);
 }
 
 TEST(CurveReadings, TheSameLinesByMorePointsAreTheSame) {

@@ -31,7 +31,7 @@ class Cycled {
     constexpr int kSteps = 50;
     for (int i = 1; i <= kSteps; ++i) add(phase, from + (to - from) * i / kSteps);
   }
-  Results results() const { return analyse(samples, EndedBy::kProgram); }
+  Results results() const { return analyse(samples, samples, EndedBy::kProgram, false); }
 
   double left = 0.0;  ///< [m]
   std::vector<Sample> samples;

@@ -5,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "knot_utm/analysis/results.hpp"
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm::made_up {
@@ -51,5 +52,10 @@ struct Curve {
     return result;
   }
 };
+
+/// The results of a loop on rollers, whose load cell reads in every time step.
+inline Results on_rollers(const std::vector<Sample>& samples, EndedBy ended_by) {
+  return analyse(samples, samples, ended_by, true);
+}
 
 }  // namespace knot_utm::made_up

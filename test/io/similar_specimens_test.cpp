@@ -9,6 +9,7 @@
 
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 
@@ -50,7 +51,7 @@ Ended run(const Size& size) {
     samples.insert(samples.end(), bench.substeps().begin(), bench.substeps().end());
     out.last = sample;
   });
-  out.results = analyse(samples, program.ended_by());
+  out.results = analyse(samples, samples, program.ended_by(), rollers_hold(out.method.specimen, out.method.machine));
   return out;
 }
 

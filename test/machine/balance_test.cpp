@@ -9,6 +9,7 @@
 
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/machine/accuracy.hpp"
+#include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "rod/materials.hpp"
@@ -73,7 +74,8 @@ TEST_P(SmallPull, ClosesToNewtonsTolerance) {
       scale = std::max({scale, std::abs(parts.work), std::abs(parts.losses())});
     }
   }
-  const Results results = analyse(samples, EndedBy::kExtension);
+  const Results results =
+      analyse(samples, samples, EndedBy::kExtension, rollers_hold(GetParam().specimen, GetParam().machine));
   ASSERT_TRUE(results.energy);
   EXPECT_GT(results.energy->work, 0.0);
   EXPECT_LT(std::abs(results.energy->gap()), bound);

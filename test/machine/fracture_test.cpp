@@ -106,7 +106,7 @@ TEST(Fracture, TheEndsOfAStraightRodRecoil) {
   EXPECT_LT(fastest, 1.4 * speed);
   EXPECT_TRUE(test.bench.tension().array().isNaN().all());  // results.md says that none is known
   EXPECT_LT(std::abs(test.samples.back().force_upper), 1.1 * kBreaking);
-  const Results results = analyse(test.samples, test.program.ended_by());
+  const Results results = analyse(test.samples, test.samples, test.program.ended_by(), false);
   EXPECT_LT(*results.energy_balance_error, 1e-9);  // an identity of the steps, that which parts included
   EXPECT_EQ(results.failure_mode, "fracture");
   EXPECT_EQ(results.break_place, BreakPlace::kGrip);  // where all edges bear the same, the first one does
@@ -152,7 +152,7 @@ TEST_P(FractureOfAnOverhand, EndsTheTestAndChangesNothingBefore) {
   EXPECT_THAT(broken.program.reason(), testing::Not(testing::HasSubstr("recoil")));
   EXPECT_LT(at_break(broken).extension, 0.05);
   EXPECT_TRUE(broken.bench.state().position.allFinite());
-  const Results results = analyse(broken.samples, broken.program.ended_by());
+  const Results results = analyse(broken.samples, broken.samples, broken.program.ended_by(), false);
   EXPECT_LT(*results.energy_balance_error, 1e-3);  // as that of the whole overhand: the residual of loose knots
 }
 

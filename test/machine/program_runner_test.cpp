@@ -104,30 +104,61 @@ TEST(ProgramRunner, UntilLoadAndUntilTime) {
   EXPECT_EQ(by_time.ended_by(), EndedBy::kProgram);
 }
 
-TEST(ProgramRunner, ARodThatPartsBeforeItIsPulledFailsTheTest) {
-  for (const Phase phase : {Phase::kTie, Phase::kRelease, Phase::kMount, Phase::kBalance, Phase::kHold}) {
-    ProgramRunner program({step(phase), pull(0.1)}, 3.0, 0.1, {});
-    program.next(Sample());
-    Sample parted;
-    parted.sequence = program.last().sequence;
-    parted.status = BenchStatus::kBroken;
-    parted.message = "the rod parted";
-    program.next(parted);
-    EXPECT_EQ(program.ended_by(), EndedBy::kBreak);
-    EXPECT_TRUE(program.failed());
-    EXPECT_EQ(program.reason(), std::string(phase_name(phase)) + ": the rod parted, before it was pulled");
+/// Answers the commands of a program until one of its last step, in which the rod parts.
+ProgramRunner parted_in_step(const Program& steps, int last) {
+  ProgramRunner program(steps, 3.0, 0.1, {});
+  Sample sample;
+  program.next(sample);
+  while (!program.ended()) {
+    sample.sequence = program.last().sequence;
+    sample.time = program.last().time;
+    sample.balance_offset = 0.0;
+    sample.load = sample.force_upper = program.last().phase == Phase::kPreload ? 20.0 : 0.0;
+    sample.status = program.last().step == last ? BenchStatus::kBroken : BenchStatus::kPhaseDone;
+    sample.message = "the rod parted";
+    program.next(sample);
   }
+  return program;
 }
 
-TEST(ProgramRunner, ARodThatPartsWhileItIsOnlyHeldFailsNoTest) {
-  ProgramRunner program({step(Phase::kHold, 0.0033, 5.0)}, 3.0, 0.1, {});
-  program.next(Sample());
-  Sample parted;
-  parted.sequence = program.last().sequence;
-  parted.status = BenchStatus::kBroken;
-  program.next(parted);
-  EXPECT_EQ(program.ended_by(), EndedBy::kBreak);
-  EXPECT_FALSE(program.failed());
+ProgramStep preload(double load) {
+  ProgramStep out = step(Phase::kPreload);
+  out.load = load;
+  out.balance = false;
+  return out;
+}
+
+TEST(ProgramRunner, ARodThatPartsBeforeItIsLoadedFailsTheTest) {
+  const ProgramStep hold = step(Phase::kHold, 0.0033, 5.0);
+  for (const Phase phase : {Phase::kTie, Phase::kRelease, Phase::kMount, Phase::kBalance, Phase::kHold}) {
+    const ProgramStep first = step(phase, 0.0033, 5.0);
+    for (const Program& steps : {Program{first, pull(0.1)}, Program{first, preload(20.0), hold}}) {
+      const ProgramRunner program = parted_in_step(steps, 0);
+      EXPECT_EQ(program.ended_by(), EndedBy::kBreak);
+      EXPECT_TRUE(program.failed());
+      EXPECT_EQ(program.reason(), std::string(phase_name(phase)) + ": the rod parted, before it was pulled");
+    }
+  }
+  EXPECT_TRUE(parted_in_step({step(Phase::kBalance), hold}, 0).failed()) << "it is being prepared";
+}
+
+/// A rod that creeps, and one that bears its own weight: their break is what the test waits for.
+TEST(ProgramRunner, ARodThatPartsUnderItsLoadFailsNoTest) {
+  const ProgramStep hold = step(Phase::kHold, 0.0033, 5.0);
+  ProgramStep at_load = hold;
+  at_load.hold_load = true;
+  at_load.held_load = 20.0;
+  for (const Program& steps :
+       {Program{hold}, Program{preload(20.0), hold}, Program{preload(20.0), hold, pull(0.1)},
+        Program{at_load, pull(0.1)}, Program{step(Phase::kTie), step(Phase::kRelease), step(Phase::kMount), hold},
+        Program{preload(20.0), pull(0.1)}})
+    for (int i = 0; i < static_cast<int>(steps.size()); ++i) {
+      if (traits_of(steps[static_cast<std::size_t>(i)].phase).ends_by_itself) continue;
+      const ProgramRunner program = parted_in_step(steps, i);
+      EXPECT_EQ(program.ended_by(), EndedBy::kBreak);
+      EXPECT_FALSE(program.failed()) << steps.size() << " steps, parted in step " << i;
+      EXPECT_EQ(program.reason(), "the rod parted");
+    }
 }
 
 TEST(ProgramRunner, EndsByBreakOverloadTravelAndSolver) {

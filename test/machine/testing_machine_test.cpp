@@ -7,7 +7,9 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <string>
 
+#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "rod/materials.hpp"
@@ -295,12 +297,66 @@ TEST(TestingMachine, ContactLoadAddsUpToTheForcesOfTheReading) {
   }
 }
 
+/// As it is tied, and as it is let go at the beginning of a mount without a release: to the bit as without gravity.
+TEST(TestingMachine, ALoopHasNoWeightUntilTheRollersTakeIt) {
+  SpecimenOptions specimen;
+  specimen.to_be_tied = true;
+  specimen.edge_length = 0.005;
+  specimen.preload = 20.0;
+  PhysicsOptions physics;
+  physics.accuracy = Accuracy::kDraft;
+  TestingMachine light(specimen, polypropylene(), {}, physics);
+  physics.gravity = {9.81, 0.0, 0.0};
+  TestingMachine heavy(specimen, polypropylene(), {}, physics);
+  Command command;
+  command.step = 1;
+  command.phase = Phase::kTie;
+  command.speed = 0.01;
+  while (light.respond(command).status == BenchStatus::kRunning) {
+    ++command.sequence;
+    command.time += 0.3;
+  }
+  Archive saved("bench");
+  saved(light);
+  Archive loaded("bench", saved.bytes(), "here");
+  loaded(heavy);
+
+  command.phase = Phase::kMount;
+  command.step = 2;
+  const double begin = command.time;
+  for (const double behind : {0.1, 0.3, 0.4, 0.7}) {  // the rollers take it from the third of these on
+    ++command.sequence;
+    command.time = begin + behind;
+    light.respond(command);
+    ASSERT_NE(heavy.respond(command).status, BenchStatus::kFailed);
+    const double moved = (heavy.state().position - light.state().position).cwiseAbs().maxCoeff();
+    EXPECT_EQ(moved > 0.0, behind > 0.5) << behind;
+  }
+}
+
+/// It is solved, but leads a rod that parts at 5 N to a multiple of that, however short it is.
+TEST(TestingMachine, AStepThatNoRodMakesIsNotKeptAsOneThatCannotBeSolved) {
+  Material brittle = nylon();
+  brittle.breaking_force = 5.0;
+  MachineOptions machine;
+  machine.grips = GripKind::kClamps;
+  PhysicsOptions physics;
+  physics.accuracy = Accuracy::kDraft;
+  TestingMachine bench(straight_rod(), brittle, machine, physics);
+  bench.respond(Command{});
+  const Sample failed = bench.respond(pull(1, 1e-6, 1e-3));
+  ASSERT_EQ(failed.status, BenchStatus::kFailed);
+  EXPECT_NE(failed.message.find("times what the rod bears"), std::string::npos) << failed.message;
+  EXPECT_EQ(bench.failed_step(), "");
+}
+
 TEST(TestingMachine, OnceFailedItAnswersEveryCommandWithTheSame) {
   TestingMachine machine = bench(straight_rod());
   machine.respond(Command{});
   const Sample failed = machine.respond(pull(1, 1e-6, 0.2));  // faster than any step may move
   ASSERT_EQ(failed.status, BenchStatus::kFailed);
   EXPECT_NE(failed.message, "");
+  EXPECT_NE(machine.failed_step(), "");
   const Points position = machine.state().position;
   for (std::uint64_t k = 2; k < 5; ++k) {
     Command command = pull(k, 0.1 * static_cast<double>(k), 0.0);

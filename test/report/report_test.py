@@ -12,8 +12,10 @@ from runs import (FISHERMAN, ROOT, STRAIGHT, command_of, html_of, keys_on, open_
 
 import numpy as np
 import yaml
+from matplotlib.figure import Figure
 
 import certificate
+import curve_figures
 import page
 import quantities
 import turnable
@@ -53,6 +55,17 @@ class PageOfARun(unittest.TestCase):
         self.assertAlmostEqual(float(row[1]), 1e3 * result["lock_extension"], delta=0.05)
         self.assertAlmostEqual(float(row[2].strip("± ")), 1e3 * result["lock_extension_error"], delta=0.05)
         self.assertEqual(row[-1], "mm")
+
+    def test_the_line_of_rigid_sliding_is_that_of_the_grips(self):
+        for grips, slope in (("rollers", -2.0), ("nodes", -1.0)):
+            run = Run(fisherman)
+            run.method = {**run.method, "machine": {**run.method["machine"], "grips": grips}}
+            axes = Figure().subplots()
+            curve_figures.draw_knot_distance(axes, run, [])
+            line, = [line for line in axes.lines if "rigid sliding" in line.get_label()]
+            (s_from, s_to), (e_from, e_to) = line.get_data()
+            self.assertAlmostEqual((e_to - e_from) / (s_to - s_from), slope)
+            self.assertIn(f"{-slope:.0f}: rigid", line.get_label())
 
     def test_has_the_true_force_beside_the_balanced_load(self):
         folder = folders.with_report(fisherman, plateau_force=4.25, plateau_force_error=None, true_plateau_force=5.5)

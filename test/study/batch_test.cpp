@@ -155,6 +155,21 @@ TEST_F(Batch, SpecimensThatFailAreRejectedAndTheirReadingsLeftOut) {
   EXPECT_EQ(statistics()["peak_force"]["n"].as<int>(), 0);
 }
 
+/// Under its weight, in a hold.
+TEST_F(Batch, ARodThatPartsBeforeItIsLoadedIsRejectedAndOneThatIsOnlyHeldCounts) {
+  const auto rejected = [&](const std::string& program) {
+    return run_batch(load_method(kConfig + "straight.yaml",
+                                 {"material.breaking_force=0.02", "physics.gravity=[0, 0, -9.81]",
+                                  "program=[" + program + "]", "specimens={count: 2, scatter: none}"}),
+                     options)
+        .rejected;
+  };
+  EXPECT_EQ(rejected("{hold: {duration: 1}}").size(), 0u);
+  const auto early = rejected("{hold: {duration: 1}}, {pull: {until: {extension: 0.01}}}");
+  ASSERT_EQ(early.size(), 2u);
+  EXPECT_THAT(early[0].reason, testing::EndsWith("before it was pulled"));
+}
+
 TEST_F(Batch, AWarningIsToldOnceForAllSpecimens) {
   run_batch(load_method(kConfig + "tighten.yaml", {"physics.accuracy=draft", "specimens={count: 2, scatter: none}"}),
             options);

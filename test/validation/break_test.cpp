@@ -7,6 +7,7 @@
 
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 
@@ -23,7 +24,7 @@ Results pulled_to_the_break(const std::string& material, std::vector<std::string
     samples.insert(samples.end(), bench.substeps().begin(), bench.substeps().end());
   });
   EXPECT_EQ(program.ended_by(), EndedBy::kBreak) << program.reason();
-  return analyse(samples, program.ended_by());
+  return analyse(samples, samples, program.ended_by(), rollers_hold(method.specimen, method.machine));
 }
 
 /// The shipped breaking forces are inferred from these very extensions: this holds the files to them, to the two digits

@@ -64,6 +64,10 @@ struct Drop {
   double force(const Pull& pull) const { return pull[from].force - pull[to].force; }  ///< [N]
 };
 
+/// de/ds of knots that slide along a loop whose rod does not stretch. On rollers, `on_rollers`, both sides of the loop
+/// share what the knots let out; between two held nodes it all stays on the side with the knots.
+double rigid_sliding(bool on_rollers);
+
 /// Whether fewer than 20 points lie at extensions up to s = `end`. Neighbouring points are then so far apart that a
 /// fall of F between them need not be sudden.
 bool has_few_for_drops(const Pull& pull, double end);
@@ -82,17 +86,17 @@ std::optional<Drop> largest_drop(const Pull& pull, double end);
 ///   the excess length that it had when the pull began, and F must fall by a tenth or more. Knots of a stretchy loop
 ///   take in as much under a load that rises, and have not jumped.
 /// - Where they are not known, F must fall to a half or less, and the knots must come nearer to each other by more than
-///   sliding explains. Sliding alone brings them nearer by twice the growth of s; the rest must exceed e_0/20. In
-///   simulations this rest was 6 to 65 % of e_0 for knots that jumped open, and at most 4 % for others, whose knots
-///   nested into each other. Stretchy strands come nearer by up to 15 % as a knot slips, but F then falls little.
+///   rigid_sliding() explains; the rest must exceed e_0/20. In simulations this rest was 6 to 65 % of e_0 for knots
+///   that jumped open, and at most 4 % for others, whose knots nested into each other. Stretchy strands come nearer by
+///   up to 15 % as a knot slips, but F then falls little.
 ///
 /// The result reaches from the largest F of the jump to the smallest F within another jump_way() after it. No lock is
 /// required, because a load that rises to its breakaway and then falls shows a false lock. Only points from the index
 /// `begin` on are looked at.
-std::optional<Drop> jump(const Pull& pull, const HiddenRod& hidden = {}, std::size_t begin = 0);
+std::optional<Drop> jump(const Pull& pull, bool on_rollers, const HiddenRod& hidden, std::size_t begin = 0);
 
 /// The extension within which a knot jumps open: e_0/40, where e_0 is the first knot distance. That is a twentieth of
-/// e_0/2, the extension by which knots that slide have met [m]. NaN where there are no two knots.
+/// e_0/2, the extension by which knots that slide on rollers have met [m]. NaN where there are no two knots.
 double jump_way(const Pull& pull);
 
 /// The part of F(s) in which the locked knots carry the load. It consists of the peak and of the points before it, from
@@ -138,7 +142,7 @@ struct CurveReadings {
   std::optional<LockedPart> locked;        ///< the part of the curve from which it was read
 };
 
-/// Reads a curve. `hidden` may be empty.
+/// Reads a curve. `on_rollers`: if it is that of a loop, rollers hold it, not two of its nodes. `hidden` may be empty.
 ///
 /// Whether there is a plateau, a lock or a jump is decided by the force that the rod bears (`PullPoint::borne`), where
 /// that is known. The decision is then independent of balancing and of the noise of the load cell. The largest drop is
@@ -148,8 +152,10 @@ struct CurveReadings {
 /// - F was read at least three times within the plateau range.
 /// - No knot jumped open. A knot that jumped open is another knot from then on, so it has no lock and no stiffness here
 ///   either.
-/// - Where e is known, the mean of de/ds differs from -2, the value of rigid sliding, by at most 0.5. That is half the
-///   difference to -1, at which sliding ends.
+/// - Where e is known, rollers hold the loop. Between two held nodes the side without knots is stretched as far as the
+///   grips move, and F is also the load of that side.
+/// - Where e is known, the mean of de/ds differs from -2, the value of rigid sliding on rollers, by at most 0.5, half
+///   the difference to -1, at which sliding ends.
 /// - F does not fall suddenly by half of its mean or more. The mean would be one of two different levels.
 /// - F changes over the range by less than 10/11 of its mean, which is the change of a force proportional to s. Such a
 ///   force has no level of its own. Where neither a lock nor e shows that anything slides, the limit is half of the
@@ -164,6 +170,6 @@ struct CurveReadings {
 /// if there is no plateau, or if it lies between two readings that are further apart than a twentieth of the extension
 /// up to it. In simulations of the shipped materials that lock, s_l is larger by 1 to 5 % than the lock extension from
 /// the distance of the knots (`Results::lock_extension`), because F doubles only after the knots have begun to hold.
-CurveReadings curve_readings(const Pull& pull, const HiddenRod& hidden = {});
+CurveReadings curve_readings(const Pull& pull, bool on_rollers, const HiddenRod& hidden = {});
 
 }  // namespace knot_utm

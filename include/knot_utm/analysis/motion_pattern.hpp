@@ -25,9 +25,8 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 /// reading of the load cell is shifted by its balance. Only samples of the pull count, up to a break. Of these only the
 /// ones count that reach a new largest s, because moving back tells nothing.
 ///
-/// Kinematics: knots that slide rigidly along the two strands give de/ds = -2 exactly where the loop lies on rollers,
-/// because what they let out is shared by its two sides. Between two held nodes no rod passes from side to side: it
-/// lengthens the side with the knots alone, and de/ds = -1. Strands that only stretch give de/ds = e/L > 0. de/ds is
+/// Kinematics: knots that slide along strands that do not stretch give de/ds = rigid_sliding(), which is -2 on rollers
+/// and -1 between two held nodes. Strands that only stretch give de/ds = e/L > 0. de/ds is
 /// the slope of a least-squares line over the last window of s, whose width is 3 % of the first e. The limit q between
 /// the two is half of rigid sliding: -1 on rollers, -1/2 between held nodes. The specimen **slides** in a window in
 /// which de/ds < q. It has **locked** at the extension at which de/ds last rises through q.
@@ -45,11 +44,10 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 ///               another knot, and how it moves does not change the pattern
 ///   sliding     both of these hold:
 ///               (a) de/ds < q over at least one window, and over 15 % of all extension;
-///               (b) de/ds < q over a third of all extension; or, until de/ds was last below q, the knots came nearer
-///               to
-///                   each other by more than |q| times the growth of s. The latter is counted from the beginning of the
-///                   pull or, where it does not hold there, from where sliding began; then F at the end of sliding must
-///                   be less than twice its mean since sliding began.
+///               (b) de/ds < q over a third of all extension; or the knots came nearer to each other by more than |q|
+///                   times the growth of s until de/ds was last below q. The latter is counted from the beginning of
+///                   the pull or, where it does not hold there, from where sliding began; then F at the end of sliding
+///                   must be less than twice its mean since sliding began.
 ///               If (b) fails, something other than the knots gave way
 ///   stretching  anything else
 ///
@@ -69,7 +67,7 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 class MotionPatternTracker {
  public:
   /// `on_rollers`: rollers hold the loop, not two of its nodes.
-  explicit MotionPatternTracker(bool on_rollers = true);
+  explicit MotionPatternTracker(bool on_rollers);
 
   void add(const Sample& sample);
 
@@ -112,6 +110,7 @@ class MotionPatternTracker {
   bool knot_lost() const;
   bool untangles() const;
 
+  bool on_rollers_;
   double turnover_;  ///< q
   Pull pull_;
   HiddenRod hidden_;              ///< excess lengths at its points

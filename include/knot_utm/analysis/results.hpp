@@ -70,15 +70,15 @@ struct Results {
   std::optional<double> snap_extension;  ///< s at which it snapped into another shape [m]
   std::optional<double> snap_drop;       ///< by how much F fell then [N]
 
-  bool only_compressed = false;  ///< F was never above zero in the pull, which has readings
+  bool never_in_tension = false;  ///< F was never above zero in the pull, which has readings
 
-  std::optional<double> plateau_slope;   ///< mean of de/ds over the plateau [-]; -2: rigid sliding
+  std::optional<double> plateau_slope;   ///< mean of de/ds over the plateau [-]; -2: rigid sliding on rollers
   std::optional<double> lock_extension;  ///< s_l, found from the knot distance: sliding became stretching there [m]
   std::optional<double> first_contact_extension;  ///< s at which the coils of the two knots first touch each other [m]
   /// s at which a roller first presses on a knot or its tail with 5 % of F or more [m]
   std::optional<double> roller_touched_at;
   std::optional<double> balance_offset;   ///< F at which the cell reads zero, as the pull begins [N]
-  std::optional<double> break_extension;  ///< s at which the rod parted [m]
+  std::optional<double> break_extension;  ///< s at which the rod parted, if it was loaded by then [m]
   std::optional<double> break_arclength;  ///< arclength of the place where it parted, from the first node [m]
   BreakPlace break_place = BreakPlace::kNone;
   /// "sliding", "stretching" or "untangling then fracture", "fracture", or "untangling" (came undone); empty: none
@@ -143,9 +143,6 @@ struct Results {
 /// Evaluates a whole test. `samples` are all accepted time steps, and `readings` those of them that the load cell read.
 /// Readings after a break do not count. `on_rollers`: rollers hold the loop, not two of its nodes.
 Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& readings, EndedBy ended_by,
-                bool on_rollers = true);
-
-/// The same for a load cell that reads in every time step.
-Results analyse(const std::vector<Sample>& samples, EndedBy ended_by);
+                bool on_rollers);
 
 }  // namespace knot_utm

@@ -12,26 +12,27 @@ namespace knot_utm {
 /// at half its length; a run whose shortest step is refused is given up.
 class BreakWatch {
  public:
-  /// `shortest`: steps are no shorter than this for a break that is near [s].
-  explicit BreakWatch(double shortest) : shortest_(shortest) {}
+  /// `shortest`: steps are no shorter than this for a break that is near [s]. `start`: exposure before the first step.
+  BreakWatch(double shortest, const Exposure& start) : shortest_(shortest), before_(start.fraction) {}
 
-  /// Of a step that leads from one exposure to another in the time dt [s]. Empty: it is accepted, or why it is not.
-  std::string refuse(const Exposure& from, const Exposure& to, double dt) const;
+  /// Of a step that would lead to an exposure in the time dt [s]. Empty: it is accepted, or why it is not.
+  std::string refuse(const Exposure& to, double dt) const;
 
-  /// After an accepted step: whether the rod has parted. Where it has not, `next` is how long the next step may be.
-  bool parts(const Exposure& now, double dt);
+  /// To be called after every accepted step. Returns whether the rod has parted. Where it has not, `next` is how long
+  /// the next step may be.
+  bool judge(const Exposure& now, double dt);
   double next() const { return next_; }  ///< [s]
 
   void state(Archive& archive) { archive(before_); }
 
  private:
   double shortest_;
-  double before_ = 0.0;  ///< fraction of the exposure after the last step
+  double before_;  ///< fraction of the exposure after the last accepted step
   double next_ = 0.0;
 };
 
-/// What a rod cannot do: part by tension while its grips are pressed together, by a `force` < 0 [N]. Empty, or what is
-/// wrong.
-std::string not_by_tension(const Exposure& parted, double force);
+/// Why a rod cannot have parted, or empty: by tension while both grips are pressed together, by the forces `upper` and
+/// `lower` < 0 [N]. One grip alone may be pressed by the rod's weight, and both by what an iteration leaves.
+std::string not_by_tension(const Exposure& parted, double upper, double lower);
 
 }  // namespace knot_utm

@@ -72,8 +72,11 @@ class ProgramRunner {
 
   bool ended() const { return ended_by_ != EndedBy::kNotYet; }
   EndedBy ended_by() const { return ended_by_; }
-  /// Whether the test failed: the simulation gave up, or the knot came undone or the rod parted before it was pulled.
+  /// Whether the test failed: the simulation gave up, the knot came undone before it was pulled, or the rod parted
+  /// before it was loaded.
   bool failed() const;
+  /// How the reason ends where a rod parted before it was loaded.
+  static constexpr const char* kTooEarly = ", before it was pulled";
   const std::string& reason() const { return reason_; }  ///< one line where the test did not end as programmed
 
   Phase phase() const;       ///< of the last command; done once the test has ended
@@ -91,7 +94,7 @@ class ProgramRunner {
   bool end_by_alarm(const Sample& sample);
   bool only_ties() const;
   bool was_pulled() const;
-  bool is_to_be_pulled() const;
+  bool parts_too_early() const;
   bool is_undone(const Sample& sample) const;
   std::string break_seen(const Sample& sample);
   EndedBy step_end(const Sample& sample);  ///< kNotYet: the step goes on

@@ -37,6 +37,8 @@ class TiedLoop {
   /// Replaces the holders that the grips have put into the boundary by those of the rig at time `to` [s].
   void hold(Boundary& boundary, double from, double to) const;
   double left_to_put_on(double time) const { return rig_.left_to_put_on(time); }
+  /// Fraction of its weight that a loop has at a time: none off the rollers, and all of it once they have taken it.
+  double weight_borne(double time) const { return rig_.off_rollers() ? 0.0 : 1.0 - rig_.left_to_put_on(time); }
 
   /// Length of the strands from the upper grip to the lower one, or to the rig's clamps, as mounted [m].
   double held_length(double from, double to) const;
