@@ -103,7 +103,7 @@ class Side {
 
 /// Raw data alone: a curve of ours has its zero.
 void balance(const ZeroWanted& wanted, Side& a, Side& b, const Tell& tell) {
-  if (a.has_zero() && b.has_zero())
+  if (wanted.balance && a.has_zero() && b.has_zero())
     tell("--balance changes nothing, since both curves are of knot_utm and have their zero");
   Side& raw = a.has_zero() ? b : a;
   const Side& other = a.has_zero() ? a : b;
@@ -123,12 +123,13 @@ void balance(const ZeroWanted& wanted, Side& a, Side& b, const Tell& tell) {
 
 ComparedCurves compare_curves(CurveOfFile a, CurveOfFile b, const ZeroWanted& zero, const Tell& tell) {
   Side side_a(std::move(a), tell), side_b(std::move(b), tell);
-  if (zero.balance) balance(zero, side_a, side_b, tell);
+  const bool balances = zero.balance.value_or(zero.begins_at || !side_a.has_zero() || !side_b.has_zero());
+  if (balances) balance(zero, side_a, side_b, tell);
   const bool both = side_a.has_zero() && side_b.has_zero();
   const ExtensionOf extension = both ? ExtensionOf::kSpecimen : ExtensionOf::kMachine;
   ComparedCurves out{pull_of(side_a.rows(), extension), pull_of(side_b.rows(), extension), {}};
   out.comparison = compare(out.a, out.b);
-  if (zero.balance) out.comparison.zeros = GivenZeros{side_a.given(), side_b.given()};
+  if (balances) out.comparison.zeros = GivenZeros{side_a.given(), side_b.given()};
   if (!out.comparison.difference)
     throw InvalidInput::sentence("extensions", "none that both have",
                                  "the curves have no extension in common, so they cannot be compared");

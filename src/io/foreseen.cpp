@@ -41,6 +41,23 @@ std::string near_the_rollers(const Method& method) {
          " m";
 }
 
+/// Of a loop whose ends two held nodes take.
+std::string between_nodes(const Method& method) {
+  if (!knot_of(method.specimen).about().loop || method.machine.grips != GripKind::kNodes) return "";
+  return "machine.grips is nodes: no rod passes two held nodes, so the side of the loop without knots bears the load "
+         "as "
+         "soon as it is straight; machine.grips: rollers pulls at both sides alike";
+}
+
+/// Of a loop with knots of opposite handedness: of shipped nylon three of four specimens slid, and one jumped open.
+std::string scatters(const Method& method) {
+  const SpecimenOptions& specimen = method.specimen;
+  if (!knot_of(specimen).has("handedness") || specimen.handedness != Handedness::kOpposite) return "";
+  return "specimen.handedness is opposite: whether such knots hold or jump open, and at which force they slide, is one "
+         "of a distribution, and small changes of the specimen or its mesh decide it; judge by several specimens "
+         "(specimens.count)";
+}
+
 std::string seconds(double time) { return short_number(time) + " s"; }
 std::string metres(double extension) { return short_number(extension) + " m"; }
 std::string newtons(double load) { return short_number(load) + " N"; }
@@ -116,7 +133,8 @@ void add_never_reached(const Method& method, std::vector<std::string>& all) {
 std::vector<std::string> foreseen_warnings(const Method& method) {
   std::vector<std::string> all;
   if (method.specimen.to_be_tied) all = tying_warnings(method.specimen, method.material, method.physics);
-  for (const std::string& found : {longer_than_usual(method), near_the_rollers(method)})
+  for (const std::string& found :
+       {longer_than_usual(method), near_the_rollers(method), between_nodes(method), scatters(method)})
     if (!found.empty()) all.push_back(found);
   add_never_reached(method, all);
   for (const std::string& question : questions_about(method.material)) all.push_back(question);

@@ -8,17 +8,12 @@ namespace knot_utm {
 namespace {
 
 constexpr double kHeavy = 0.01;  // weight over the sliding force, or the largest one
-// By choice, far more than a loop that is held by its rollers' friction moves along them [h].
-constexpr double kSlidAlong = 3.0;
 
 }  // namespace
 
 std::vector<std::string> gravity_warnings(const Results& results, const RunFacts& facts) {
   std::vector<std::string> all;
   if (!(facts.weight > 0.0)) return all;
-  if (facts.slid_along > kSlidAlong * facts.material.radius)
-    all.push_back("the loop slid along the axes of its rollers by " + short_number(facts.slid_along) +
-                  " m: physics.gravity pushes it there, and nothing but machine.roller_friction holds it");
   const bool slides = results.true_plateau_force.has_value();
   const double force = results.true_plateau_force.value_or(results.true_peak_force.value_or(0.0));
   if (facts.weight > kHeavy * force && force > 0.0)

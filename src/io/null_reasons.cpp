@@ -43,8 +43,10 @@ std::string why_the_load_has_no_stiffness(const Results& results) {
   return results.lock_extension ? "the lock does not show in the load" : why_they_did_not_lock(results);
 }
 
-/// `no_reading`: why there is no reading that could be off; empty: there is one.
-std::string why_no_error(const ResultSource& source, const std::string& no_reading) {
+/// `no_reading`: why there is no reading that could be off; empty: there is one. `studied`: the error of mesh and
+/// tolerances, which is larger than half of the reading where a reading has no error all the same.
+std::string why_no_error(const ResultSource& source, const std::string& no_reading,
+                         const std::optional<double>& studied) {
   const Results& results = source.results;
   if (!why_not_at_rest(results, source.facts).empty()) return "unknown: the specimen was not at rest as its pull began";
   if (results.curve.jump_force) return "unknown: a knot jumped open, which no convergence study covers";
@@ -52,7 +54,9 @@ std::string why_no_error(const ResultSource& source, const std::string& no_readi
     return "unknown: a knot opened as the loop was mounted, which no convergence study covers";
   if (knots_hardly_closed(results, source.facts))
     return "unknown: the knots were hardly closed, which no convergence study covers";
-  return no_reading.empty() ? "unknown: no convergence study covers this case" : no_reading;
+  if (!no_reading.empty()) return no_reading;
+  return studied ? "unknown: the estimate is more than half of the reading"
+                 : "unknown: no convergence study covers this case";
 }
 
 }  // namespace
@@ -75,7 +79,9 @@ std::string why_no_plateau(const ResultSource& source) {
   return source.results.curve.no_plateau.empty() ? "" : "see no_plateau_because";
 }
 
-std::string why_no_plateau_error(const ResultSource& source) { return why_no_error(source, why_no_plateau(source)); }
+std::string why_no_plateau_error(const ResultSource& source) {
+  return why_no_error(source, why_no_plateau(source), source.facts.errors.plateau_force);
+}
 
 std::string why_no_drop(const ResultSource& source) {
   return of_the_pull(source, "the load was read fewer than 20 times before the lock");
@@ -94,7 +100,9 @@ std::string why_no_lock(const ResultSource& source) {
   return of_the_pull(source, source.results.lock_extension ? "" : why_they_did_not_lock(source.results));
 }
 
-std::string why_no_lock_error(const ResultSource& source) { return why_no_error(source, why_no_lock(source)); }
+std::string why_no_lock_error(const ResultSource& source) {
+  return why_no_error(source, why_no_lock(source), source.facts.errors.lock_extension);
+}
 
 std::string why_no_lock_by_load(const ResultSource& source) {
   return of_the_pull(source, source.results.curve.no_lock_by_load);
@@ -108,10 +116,11 @@ std::string why_no_stiffness(const ResultSource& source) {
 std::string why_no_stiffness_error(const ResultSource& source) {
   const std::string no_reading = why_no_stiffness(source);
   const bool slides = no_reading.empty() && slid_to_the_end(source.results);
-  return why_no_error(source, slides ? why_they_did_not_lock(source.results) : no_reading);
+  return why_no_error(source, slides ? why_they_did_not_lock(source.results) : no_reading,
+                      source.facts.errors.locked_stiffness);
 }
 
-std::string why_no_peak_error(const ResultSource& source) { return why_no_error(source, why_no_peak(source)); }
+std::string why_no_peak_error(const ResultSource& source) { return why_no_error(source, why_no_peak(source), {}); }
 
 std::string why_no_snap(const ResultSource& source) {
   return of_the_pull(source,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "knot_utm/contact/friction.hpp"
+#include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
@@ -91,7 +92,8 @@ ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& ma
       FrictionRegistry::entry(physics.friction.law).studied && friction_couple(material, physics) == 0.0 &&
       material.bending_set == 0.0 && BendingRegistry::entry(material.bending.law).studied &&
       TwistingRegistry::entry(material.twisting.law).studied &&
-      PressureRegistry::entry(material.pressure.law).studied && machine.roller_friction == 0.0;
+      PressureRegistry::entry(material.pressure.law).studied && machine.roller_friction == 0.0 &&
+      rollers_hold(specimen, machine);
   if (!studied) return out;
   const double h = material.radius, edge = specimen.edge_length / h;
   const bool solid = stretches(specimen, material), opposite = specimen.handedness == Handedness::kOpposite;
@@ -101,7 +103,6 @@ ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& ma
                of_strands = coarseness(own, of(Accuracy::kNormal, specimen, material), edge);
   const double slippery = std::max(1.0, kSlippery / std::max(material.friction_coefficient, kLeastFriction));
   out.plateau_force = coarse * (opposite ? kOppositePlateau : kPlateau * slippery);
-  out.plateau_scatters = opposite;
   out.lock_extension = coarse * (opposite ? kOppositeLock : kLock);
   out.locked_stiffness = of_strands * (solid ? kSolidsStiffnessOfKnots * h / specimen.end_to_end : kRopesStiffness);
   return out;

@@ -63,6 +63,10 @@ CurveOfFile read(const std::string& file, RawOptions options, const Tell& told) 
 int run(Arguments arguments) {
   if (arguments.tolerance && !std::isfinite(*arguments.tolerance))
     throw InvalidInput("--tolerance", std::to_string(*arguments.tolerance), "a finite number of at least 0");
+  if (arguments.zero.begins_at && arguments.zero.balance == false)
+    throw InvalidInput::sentence(
+        "--begins-at", format_number(*arguments.zero.begins_at),
+        "--begins-at says where raw data have their zero, so that --no-balance cannot stand beside it");
   const RawOptions of_a = raw_options(arguments.raw, {}, 0, 2), of_b = raw_options(arguments.raw, {}, 1, 2);
   const std::string unused =
       without_effect(arguments.raw, {}, may_hold_several(arguments.a) || may_hold_several(arguments.b));
@@ -103,12 +107,12 @@ int main(int argc, char** argv) {
         "machine exported. Prints the main readings of both and their differences.");
     app.add_option("A", arguments.a, "the curve that B is compared with")->required();
     app.add_option("B", arguments.b, "the other curve")->required();
-    CLI::Option* balance = app.add_flag("--balance", arguments.zero.balance,
-                                        "raw data: load and extension are zero where the crosshead begins to move");
+    app.add_flag("--balance,!--no-balance", arguments.zero.balance,
+                 "raw data: load and extension are zero where the crosshead begins to move (that is so by default); "
+                 "--no-balance takes them as they are");
     app.add_option("--begins-at", arguments.zero.begins_at,
                    "extension of the first reading of raw data that were cut [m]; the load there is taken from the "
-                   "other curve")
-        ->needs(balance);
+                   "other curve");
     app.add_option("--tolerance", arguments.tolerance, "end with exit code 1 where a relative difference is larger [-]")
         ->check(CLI::NonNegativeNumber);
     app.add_option("--report", arguments.report, "a folder to write the page to, report.html and report.pdf");

@@ -59,7 +59,7 @@ TEST_F(Compare, ACurveIsTheSameAsItselfAndAsItsRawData) {
   write_raw_data("raw.csv", 1.0);
   for (const char* other : {"a.csv", "raw.csv"}) {
     // Millimetres and metres may differ by a rounding.
-    const Answer same = compare("a.csv", other, "--tolerance 1e-12");
+    const Answer same = compare("a.csv", other, "--tolerance 1e-12 --no-balance");
     EXPECT_EQ(same.code, 0) << same.text;
     EXPECT_THAT(same.text, AllOf(HasSubstr("peak_force: {a: 100, b: 100, difference: 0, relative: 0}"),
                                  HasSubstr("plateau_force: {a: null, b: null")));
@@ -69,9 +69,9 @@ TEST_F(Compare, ACurveIsTheSameAsItselfAndAsItsRawData) {
 TEST_F(Compare, SaysWhatIsBeyondTheTolerance) {
   write_curve("a.csv", 1.0);
   write_raw_data("b.csv", 1.5);
-  const Answer within = compare("a.csv", "b.csv", "--tolerance 0.51");
+  const Answer within = compare("a.csv", "b.csv", "--tolerance 0.51 --no-balance");
   EXPECT_EQ(within.code, 0) << within.text;
-  const Answer beyond = compare("a.csv", "b.csv", "--tolerance 0.4");
+  const Answer beyond = compare("a.csv", "b.csv", "--tolerance 0.4 --no-balance");
   EXPECT_EQ(beyond.code, 1);
   EXPECT_THAT(beyond.text,
               AllOf(HasSubstr("compare: peak_force: the relative difference is 0.5, but must be within 0.4\n"),
@@ -93,9 +93,10 @@ TEST_F(Compare, BalancesRawDataAlone) {
   write_curve("a.csv", 1.0);
   write_raw_data("b.csv", 1.0, 25, 14);
   write_raw_data("c.csv", 1.0, 3, 40);
-  EXPECT_EQ(compare("a.csv", "b.csv", "--tolerance 0.01").code, 2) << "they have no extension in common";
+  EXPECT_EQ(compare("a.csv", "b.csv", "--tolerance 0.01 --no-balance").code, 2) << "they have no extension in common";
   // Each begins at its zero; which of them was cut nobody knows.
-  const Answer both = compare("b.csv", "c.csv", "--tolerance 1e-12 --balance");
+  const Answer both = compare("b.csv", "c.csv", "--tolerance 1e-12");
+  EXPECT_EQ(both.text, compare("b.csv", "c.csv", "--tolerance 1e-12 --balance").text) << "by default";
   EXPECT_EQ(both.code, 0) << both.text;
   EXPECT_THAT(both.text, AllOf(HasSubstr("b.csv: the record shows no rest before the pull, so its first reading, 25 N"),
                                HasSubstr("c.csv: the record shows")));
@@ -108,12 +109,12 @@ TEST_F(Compare, IsToldWhereARecordWasCut) {
   write_curve("a.csv", 1.0);
   write_raw_data("b.csv", 1.0, 25, 14);
   EXPECT_EQ(compare("a.csv", "b.csv", "--tolerance 1e-12 --balance").code, 1);
-  const Answer told = compare("a.csv", "b.csv", "--tolerance 1e-12 --balance --begins-at 0.001");
+  const Answer told = compare("a.csv", "b.csv", "--tolerance 1e-12 --begins-at 0.001");
   EXPECT_EQ(told.code, 0) << told.text;
   EXPECT_THAT(told.text, HasSubstr("its load is set to that of the other curve"));
-  for (const char* wrong : {"--begins-at 0.001", "--balance --begins-at 3", "--balance --begins-at x"})
+  for (const char* wrong : {"--no-balance --begins-at 0.001", "--begins-at 3", "--begins-at x"})
     EXPECT_EQ(compare("a.csv", "b.csv", wrong).code, 2) << wrong;
-  EXPECT_EQ(compare("b.csv", "b.csv", "--balance --begins-at 0.001").code, 2);
+  EXPECT_EQ(compare("b.csv", "b.csv", "--begins-at 0.001").code, 2);
 }
 
 TEST_F(Compare, SaysWhatItReadOfRawData) {

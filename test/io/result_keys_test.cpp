@@ -77,6 +77,33 @@ TEST(ResultKeys, SayHowFarThePeakMayBeOff) {
   EXPECT_THAT(result_yaml(results, facts), said("null  # unknown: no convergence study covers this case"));
 }
 
+/// At high speed the last step passes the strength that was given: 133 N where 100 N were.
+TEST(ResultKeys, SayThatAFastBreakIsOffByWhatPassesTheStrength) {
+  Results results;
+  RunFacts facts;
+  results.break_place = BreakPlace::kStrand;
+  facts.material.breaking_force = 100.0;
+  for (const double reached : {100.05, 133.0}) {
+    results.true_peak_force = results.curve.peak_force = reached;
+    const YAML::Node said = YAML::Load(result_yaml(results, facts));
+    EXPECT_NEAR(said["peak_force_error"].as<double>() / reached, reached < 101.0 ? 2e-3 : 0.33, 1e-9);
+  }
+}
+
+/// "8 +- 1777 N" says nothing.
+TEST(ResultKeys, LeaveOutErrorsOfMoreThanHalfOfTheReading) {
+  Results results;
+  RunFacts facts;
+  results.true_peak_force = results.curve.peak_force = 10.0;
+  results.curve.plateau_force = results.true_plateau_force = 8.0;
+  facts.errors = {0.4, 0.6, 0.02, {}};
+  results.lock_extension = 0.1;
+  results.motion_pattern = MotionPattern::kSliding;
+  const std::string said = result_yaml(results, facts);
+  EXPECT_THAT(said, testing::HasSubstr("plateau_force_error: 3.2"));
+  EXPECT_THAT(said, testing::HasSubstr("lock_extension_error: null  # unknown: the estimate is more than half of"));
+}
+
 /// Knots that slide under less than 0.15 k_b/h^2 are hardly closed: a finer mesh moved the lock of such a loop by 27 %.
 TEST(ResultKeys, SayThatErrorsOfHardlyClosedKnotsAreNotKnown) {
   Results results;

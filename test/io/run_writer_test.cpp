@@ -404,6 +404,31 @@ TEST(ResultYaml, TheNoiseOfTheLoadCellIsInTheErrorOfAStiffness) {
   EXPECT_LT(within, 0.99 * kDraws);
 }
 
+/// Ctrl-C while the knots are tied finds them still far from where they will be.
+TEST(Warnings, NothingIsSaidOfKnotsThatWereNotReleased) {
+  Results results;
+  results.tied_knot_distance = 0.0967;
+  RunFacts facts;
+  facts.knot_distance = 0.15;
+  const auto said = [&] { return printed_warnings(results, facts); };
+  EXPECT_THAT(said(), ::testing::Contains(HasSubstr("the knots moved as they were released")));
+  results.ended_by = EndedBy::kOperator;
+  EXPECT_THAT(said(), ::testing::Not(::testing::Contains(HasSubstr("the knots moved"))));
+  results.true_peak_force = 1.0;
+  EXPECT_THAT(said(), ::testing::Contains(HasSubstr("the knots moved as they were released")));
+}
+
+/// Without gravity a light loop slides as far.
+TEST(Warnings, ALoopThatSlidAlongItsRollersIsTold) {
+  Results results;
+  RunFacts facts;
+  facts.material.radius = 1e-3;
+  facts.slid_along = 2.9e-3;
+  EXPECT_THAT(printed_warnings(results, facts), ::testing::Not(::testing::Contains(HasSubstr("slid along the axes"))));
+  facts.slid_along = 3.1e-3;
+  EXPECT_THAT(printed_warnings(results, facts), ::testing::Contains(HasSubstr("slid along the axes")));
+}
+
 TEST(GravityWarnings, HoldTheWeightAgainstTheSlidingForceAndElseAgainstTheLargest) {
   Results results;
   results.true_peak_force = 30.0;

@@ -16,9 +16,10 @@ struct CurveOfFile {
   std::vector<CurveRow> rows;
 };
 
-/// How to find the zero of raw data, in which load and extension were not zeroed.
+/// How to find the zero of raw data. A curve of ours keeps its own.
 struct ZeroWanted {
-  bool balance = false;             ///< the zero is the state in which the crosshead begins to move (zero_at_rest)
+  /// Whether the zero is the state in which the crosshead begins to move (zero_at_rest); empty: of raw data it is.
+  std::optional<bool> balance;
   std::optional<double> begins_at;  ///< for a record whose beginning was cut off: extension of its first reading [m]
 };
 

@@ -30,8 +30,6 @@ struct ReadingErrors {
   std::optional<double> lock_extension;
   std::optional<double> locked_stiffness;
   std::optional<double> peak_force = std::nullopt;  ///< follows from the others (known_errors.hpp)
-  /// The plateau is one of a distribution: small changes of mesh, tolerances or specimen move it by its error.
-  bool plateau_scatters = false;
 };
 
 /// Each error is meant to contain 95 % of the differences from a run at `fine` with edges half as long, a quarter of

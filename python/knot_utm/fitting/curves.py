@@ -88,7 +88,7 @@ def read_other(file, curve_file, reading=()):
         raise WrongInput(f"{compare} is not there, which reads such files as {file}: scripts/build compare makes it")
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "beside")
-        done = subprocess.run([compare, file, curve_file, "--balance", "--report", out, *reading], check=False, text=True,
+        done = subprocess.run([compare, file, curve_file, "--report", out, *reading], check=False, text=True,
                               errors="replace", stdin=subprocess.DEVNULL, capture_output=True)
         table = os.path.join(out, "a.csv")
         if not os.path.exists(table):
