@@ -6,6 +6,7 @@
 
 #include <utility>
 
+#include "knot_utm/io/raw_options.hpp"
 #include "knot_utm/io/raw_zero.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/program.hpp"
@@ -19,6 +20,11 @@ namespace {
 constexpr double kLook = 0.05;  // wall time between two looks at what has come [s]
 constexpr std::uint32_t kQueue = 1000;
 constexpr std::uint32_t kLargest = 16 * 1024;  // message to this node [bytes]
+
+/// The zero is looked for in what is pulled, and so a record of compression is turned round for it.
+void mirror(std::vector<CurveRow>& rows) {
+  for (CurveRow& row : rows) row.extension = -row.extension;
+}
 
 }  // namespace
 
@@ -35,9 +41,16 @@ std::vector<CurveRow> record_with_zero(std::vector<CurveRow> rows, RecordBalance
     if (balance == RecordBalance::kYes) tell("the record is a curve of knot_utm and keeps its own zero");
     return rows;
   }
-  const RawZero zero = zero_at_rest(rows);
+  const bool compresses = what_falls(rows).extension;
+  if (compresses) mirror(rows);
+  RawZero zero = zero_at_rest(rows);
+  rows = balanced(rows, zero);
+  if (compresses) {
+    mirror(rows);
+    zero.extension = -zero.extension;
+  }
   tell(zero_words(zero));
-  return balanced(rows, zero);
+  return rows;
 }
 
 ExperimentNode::ExperimentNode(const ros::NodeHandle& node, std::vector<CurveRow> rows, RecordBalance balance,

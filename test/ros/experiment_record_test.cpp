@@ -52,6 +52,18 @@ TEST(ExperimentRecord, RawDataHaveTheZeroOfCompare) {
   }
 }
 
+/// Its last reading was once taken for zero, although the rest before it moves is there.
+TEST(ExperimentRecord, CompressionHasTheZeroOfItsRest) {
+  std::vector<CurveRow> rows = raw();
+  for (CurveRow& row : rows) row.extension = -row.extension;
+  Told told;
+  const std::vector<CurveRow> found = told.zeroed(rows, RecordBalance::kAuto);
+  ASSERT_EQ(found.size(), rows.size() - 9);
+  EXPECT_NEAR(found[0].extension, 0.0, 1e-12);
+  EXPECT_NEAR(found.back().extension, -0.02, 1e-12);
+  EXPECT_THAT(told.lines, ElementsAre(HasSubstr("10.5 N at -0.013 m, the mean of its 10 readings")));
+}
+
 /// A launch says how raw data are read, and is told in its own words what it must say.
 TEST(ExperimentRecord, IsReadAsTheLaunchSays) {
   TestWords words;
