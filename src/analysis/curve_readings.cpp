@@ -254,7 +254,7 @@ std::optional<Drop> jump(const Pull& pull, bool on_rollers, const HiddenRod& hid
     for (std::size_t j = i + 1; j <= last; ++j) {
       if (pull[j - 1].force > pull[highest].force) highest = j - 1;
       const Drop fall{highest, lowest[j]};
-      if (fall.force(pull) < kFallen * std::abs(pull[highest].force)) continue;
+      if (!(pull[highest].force > 0.0) || fall.force(pull) < kFallen * pull[highest].force) continue;
       const double taken = hidden.empty() ? Sample::kNone : taken_in(hidden.front(), hidden[i], kept[j]);
       if (const double much = opened(pull, pull[i], pull[j], taken, rigid_sliding(on_rollers)); much > most) {
         most = much;

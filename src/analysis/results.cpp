@@ -191,7 +191,8 @@ void read_loads(const std::vector<Sample>& readings, bool on_rollers, Results& r
   results.curve = curve_readings(pull_of(rows), on_rollers, hidden_rod_of(rows));
 }
 
-std::optional<double> tensile(double force) { return force > 0.0 ? std::optional<double>(force) : std::nullopt; }
+/// Less than this fraction of the largest force of a compression is what its rest left [-].
+constexpr double kTensile = 1e-3;
 
 /// What loads and the motion of the knots tell together.
 void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>& at_break, Results& results) {
@@ -201,12 +202,18 @@ void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>
     results.true_jump_force = true_pull[jumped->from].force;
     results.true_force_after_jump = true_pull[jumped->to].force;
   }
+  double largest = 0.0;
+  for (const PullPoint& point : true_pull) largest = std::max(largest, std::abs(point.force));
+  const auto tensile = [&](double force) {
+    return force > kTensile * largest ? std::optional<double>(force) : std::nullopt;
+  };
   if (!pull.empty()) results.true_peak_force = tensile(peak_force(true_pull));
-  if (at_break) {  // wherever it was: nothing is less than none
+  if (at_break) {  // An empty optional compares below any number: this also sets a peak that was never read.
     results.curve.peak_force = std::max(results.curve.peak_force, tensile(at_break->load));
     results.true_peak_force = std::max(results.true_peak_force, tensile(at_break->force_upper));
   }
   results.never_in_tension = !pull.empty() && !results.true_peak_force;
+  if (results.never_in_tension) results.curve.peak_force.reset();
   const bool locked = results.lock_extension || results.curve.rises_at;
   if (results.motion_pattern == MotionPattern::kSliding && !locked) results.curve.locked_stiffness.reset();
   drop_what_does_not_slide(results.motion_pattern, results.curve);

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -13,6 +14,21 @@ namespace {
 
 using made_up::Curve;
 using made_up::on_rollers;
+
+/// A compressed rod whose rest left 6 uN once had these as its largest load.
+TEST(Results, WhatARestLeavesIsNoTension) {
+  for (const double left : {5e-4, 2e-3}) {
+    std::vector<Sample> samples = Curve().samples();
+    double largest = 0.0;
+    for (Sample& sample : samples) {
+      sample.load = -sample.load;
+      sample.force_upper = -sample.force_upper;
+      largest = std::max(largest, -sample.force_upper);
+    }
+    samples[samples.size() / 2].force_upper = left * largest;
+    EXPECT_EQ(on_rollers(samples, EndedBy::kExtension).never_in_tension, left < 1e-3) << left;
+  }
+}
 
 TEST(Results, AKnotThatJumpsBeforeTheLockIsFastWhatSnapsBehindItIsNot) {
   Curve curve;
