@@ -15,6 +15,8 @@
 #include "knot_utm/io/raw_zero.hpp"
 #include "knot_utm/io/report.hpp"
 #include "knot_utm/io/summary.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/number.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/curve_bag.hpp"
 #endif
