@@ -109,9 +109,12 @@ int main(int argc, char** argv) {
         "machine exported. Prints the main readings of both and their differences.");
     app.add_option("A", arguments.a, "the curve that B is compared with")->required();
     app.add_option("B", arguments.b, "the other curve")->required();
-    app.add_flag("--balance,!--no-balance", arguments.zero.balance,
-                 "raw data: load and extension are zero where the crosshead begins to move (that is so by default); "
-                 "--no-balance takes them as they are");
+    CLI::Option* balance = app.add_flag_callback(
+        "--balance", [&arguments] { arguments.zero.balance = true; },
+        "raw data: load and extension are zero where the crosshead begins to move; this is so by default");
+    app.add_flag_callback(
+           "--no-balance", [&arguments] { arguments.zero.balance = false; }, "raw data: take them as they are")
+        ->excludes(balance);
     app.add_option("--begins-at", arguments.zero.begins_at,
                    "extension of the first reading of raw data that were cut [m]; the load there is taken from the "
                    "other curve");
