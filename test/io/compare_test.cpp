@@ -120,7 +120,7 @@ TEST_F(Compare, IsToldWhereARecordWasCut) {
 TEST_F(Compare, SaysWhatItReadOfRawData) {
   write_curve("a.csv", 1.0);
   write_raw_data("raw.csv", 1.0);
-  const Answer answer = compare("a.csv", "raw.csv");
+  const Answer answer = compare("a.csv", "raw.csv", "--no-balance");
   EXPECT_THAT(answer.text, HasSubstr("raw.csv: 11 readings: time is column 1 \"Zeit\" in s, extension is column 2"));
   EXPECT_THAT(answer.text, testing::Not(HasSubstr("a.csv: ")));
 }
@@ -153,7 +153,7 @@ TEST_F(Compare, NeedsNoTime) {
   std::string text = "extension,load\nm,N\n";
   for (int i = 0; i <= 10; ++i) text += format_number(1e-3 * (i + 1)) + ',' + std::to_string(10 * i) + '\n';
   write_whole(file("pull.csv"), text);
-  const Answer answer = compare("a.csv", "pull.csv", "--tolerance 0");
+  const Answer answer = compare("a.csv", "pull.csv", "--tolerance 0 --no-balance");
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("pull.csv: 11 readings: extension is column 1"));
 }
@@ -176,8 +176,8 @@ TEST_F(Compare, ARecordThatRunsDownwardsIsToldAndTurned) {
   EXPECT_EQ(std::count(refused.text.begin(), refused.text.end(), '\n'), 1) << refused.text;
   EXPECT_THAT(refused.text, HasSubstr("extension.csv: the extension falls from its first reading on"));
   for (const char* name : {"load.csv", "extension.csv"})
-    EXPECT_EQ(compare("a.csv", name, "--invert --tolerance 1e-12").code, 0) << name;
-  EXPECT_EQ(compare("a.csv", "load.csv", "--invert=load --tolerance 1e-12").code, 0);
+    EXPECT_EQ(compare("a.csv", name, "--invert --tolerance 1e-12 --no-balance").code, 0) << name;
+  EXPECT_EQ(compare("a.csv", "load.csv", "--invert=load --tolerance 1e-12 --no-balance").code, 0);
   EXPECT_EQ(compare("a.csv", "load.csv", "--invert=up").code, 2);
 }
 

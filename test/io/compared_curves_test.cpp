@@ -42,13 +42,13 @@ struct Told {
 
 TEST(ComparedCurves, AreTheSameWhereTheirNumbersAre) {
   Told told;
-  EXPECT_NEAR(told.compare(ours(), raw()).comparison.difference->largest, 0.0, 1e-9);
+  EXPECT_NEAR(told.compare(ours(), raw(), {false, std::nullopt}).comparison.difference->largest, 0.0, 1e-9);
   EXPECT_THAT(told.lines, IsEmpty());
 }
 
 TEST(ComparedCurves, SayWhatIsTakenForZero) {
   Told told;
-  const ComparedCurves compared = told.compare(ours(), raw(0.0, 5.0), {true, std::nullopt});
+  const ComparedCurves compared = told.compare(ours(), raw(0.0, 5.0));  // raw data have one by default
   EXPECT_NEAR(compared.comparison.difference->largest, 0.0, 1e-9);
   EXPECT_THAT(told.lines, ElementsAre(HasSubstr("ours.csv: the curve is one of knot_utm and keeps its own zero"),
                                       HasSubstr("raw.csv: the record shows no rest before the pull")));

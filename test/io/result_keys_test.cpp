@@ -70,6 +70,7 @@ TEST(ResultKeys, SayHowFarThePeakMayBeOff) {
   EXPECT_THAT(result_yaml(results, facts), said("20"));
   results.break_place = BreakPlace::kStrand;
   facts.material.breaking_force = 500.0;
+  facts.strands = 2;
   EXPECT_THAT(result_yaml(results, facts), said("2")) << "the load at which it parts was given";
   results.break_place = BreakPlace::kKnot;
   EXPECT_THAT(result_yaml(results, facts), said("50"));
