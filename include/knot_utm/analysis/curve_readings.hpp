@@ -83,8 +83,8 @@ std::optional<Drop> largest_drop(const Pull& pull, double end);
 /// A knot jumps open if it takes in rod at once and F falls. "At once" means within jump_way(). Two criteria are used:
 ///
 /// - Where the excess lengths are known, a knot must take in, and keep over another jump_way(), at least an eighth of
-///   the excess length that it had when the pull began, and F must fall by a tenth or more. Knots of a stretchy loop
-///   take in as much under a load that rises, and have not jumped.
+///   the excess length that it had when the pull began, and F must fall from above zero, by a tenth or more. Knots of a
+///   stretchy loop take in as much under a load that rises, and have not jumped.
 /// - Where they are not known, F must fall to a half or less, and the knots must come nearer to each other by more than
 ///   rigid_sliding() explains; the rest must exceed e_0/20. In simulations this rest was 6 to 65 % of e_0 for knots
 ///   that jumped open, and at most 4 % for others, whose knots nested into each other. Stretchy strands come nearer by

@@ -26,10 +26,10 @@ const char* motion_pattern_name(MotionPattern pattern);  ///< "none", "sliding",
 /// ones count that reach a new largest s, because moving back tells nothing.
 ///
 /// Kinematics: knots that slide along strands that do not stretch give de/ds = rigid_sliding(), which is -2 on rollers
-/// and -1 between two held nodes. Strands that only stretch give de/ds = e/L > 0. de/ds is
-/// the slope of a least-squares line over the last window of s, whose width is 3 % of the first e. The limit q between
-/// the two is half of rigid sliding: -1 on rollers, -1/2 between held nodes. The specimen **slides** in a window in
-/// which de/ds < q. It has **locked** at the extension at which de/ds last rises through q.
+/// and -1 between two held nodes. Strands that only stretch give de/ds = e/L > 0. de/ds is the slope of a least-squares
+/// line over the last window of s, whose width is 3 % of the first e. The limit q between the two is half of rigid
+/// sliding: -1 on rollers, -1/2 between held nodes. The specimen **slides** in a window in which de/ds < q. It has
+/// **locked** at the extension at which de/ds last rises through q.
 ///
 /// The pattern is decided in this order:
 ///

@@ -70,7 +70,9 @@ struct Results {
   std::optional<double> snap_extension;  ///< s at which it snapped into another shape [m]
   std::optional<double> snap_drop;       ///< by how much F fell then [N]
 
-  bool never_in_tension = false;  ///< F was never above zero in the pull, which has readings
+  /// The pull has readings, and F was never above a thousandth of the largest |F| in it: what rest leaves is no
+  /// tension.
+  bool never_in_tension = false;
 
   std::optional<double> plateau_slope;   ///< mean of de/ds over the plateau [-]; -2: rigid sliding on rollers
   std::optional<double> lock_extension;  ///< s_l, found from the knot distance: sliding became stretching there [m]
