@@ -6,7 +6,7 @@
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/shipped.hpp"
-#include "knot_utm/machine/grips.hpp"
+#include "knot_utm/machine/options.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 

@@ -18,14 +18,6 @@ constexpr double kHeld = 100.0;     // stiffness of what holds the middle of the
 
 }  // namespace
 
-bool rollers_hold(const SpecimenOptions& specimen, const MachineOptions& machine) {
-  return knot_of(specimen).about().loop && machine.grips == GripKind::kRollers;
-}
-
-bool clamps_hold(const SpecimenOptions& specimen, const MachineOptions& machine) {
-  return machine.grips != GripKind::kNodes && !rollers_hold(specimen, machine);
-}
-
 Grips::Grips(const SpecimenOptions& specimen, const MachineOptions& machine, const Centreline& centreline,
              const Material& material) {
   const double radius = material.radius;

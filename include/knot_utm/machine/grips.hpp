@@ -13,11 +13,6 @@
 
 namespace knot_utm {
 
-/// Whether two rollers hold the specimen, as they do a loop. Else nodes are held, and clamps also hold their
-/// neighbours.
-bool rollers_hold(const SpecimenOptions& specimen, const MachineOptions& machine);
-bool clamps_hold(const SpecimenOptions& specimen, const MachineOptions& machine);
-
 /// The grips of the machine: two rollers in the loop of a fisherman's knot, or held nodes. A clamp holds two nodes and
 /// the material frame between them. Where fixed posts and dead loads bear the specimen's lower end, its first post is
 /// the lower grip. The lower grip stands still. The upper one moves along +z by its displacement [m], which is that of

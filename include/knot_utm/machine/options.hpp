@@ -5,6 +5,8 @@
 
 namespace knot_utm {
 
+struct SpecimenOptions;
+
 enum class GripKind { kRollers, kNodes, kClamps };
 
 /// Whether the middle of the loop's far side is held half-way between the rollers, or the loop is free to turn on them.
@@ -41,5 +43,10 @@ struct MachineOptions {
   double stiffness = std::numeric_limits<double>::infinity();  ///< frame [N/m]
   double travel = 1.0;                                         ///< the crosshead's reach; a test ends there [m]
 };
+
+/// Whether two rollers hold the specimen, as they do a loop. Else nodes are held, and clamps also hold their
+/// neighbours.
+bool rollers_hold(const SpecimenOptions& specimen, const MachineOptions& machine);
+bool clamps_hold(const SpecimenOptions& specimen, const MachineOptions& machine);
 
 }  // namespace knot_utm

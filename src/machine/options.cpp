@@ -1,0 +1,16 @@
+#include "knot_utm/machine/options.hpp"
+
+#include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/options.hpp"
+
+namespace knot_utm {
+
+bool rollers_hold(const SpecimenOptions& specimen, const MachineOptions& machine) {
+  return knot_of(specimen).about().loop && machine.grips == GripKind::kRollers;
+}
+
+bool clamps_hold(const SpecimenOptions& specimen, const MachineOptions& machine) {
+  return machine.grips != GripKind::kNodes && !rollers_hold(specimen, machine);
+}
+
+}  // namespace knot_utm
