@@ -25,13 +25,12 @@ namespace fs = std::filesystem;
 constexpr const char* kPython = "/usr/bin/python3";  // Debian's, which has Debian's packages
 
 /// An installed executable looks beside itself first, as it does for materials.
-fs::path script() {
-  const fs::path name = fs::path("report") / "make_report.py";
+fs::path packages() {
   std::error_code error;
   const fs::path executable = fs::read_symlink("/proc/self/exe", error);
-  const fs::path installed = executable.parent_path() / ".." / ".." / "share" / "knot_utm" / name;
-  if (!error && fs::is_regular_file(installed, error)) return installed.lexically_normal();
-  return fs::path(KNOT_UTM_REPORT_DIR) / "make_report.py";
+  const fs::path installed = executable.parent_path() / ".." / "python3" / "dist-packages";
+  if (!error && fs::is_directory(installed / "knot_utm" / "report", error)) return installed.lexically_normal();
+  return fs::path(KNOT_UTM_PYTHON_DIR);
 }
 
 std::runtime_error cannot_run(int error) {
@@ -152,10 +151,10 @@ std::string pull_csv(const Pull& pull) {
 }  // namespace
 
 void write_report(const std::string& folder, const std::string& command) {
-  // -E, -s: what the user's own Python is made to find is not what Debian's packages were made for; -B: nothing is
-  // written beside the script. Where it succeeds what it says are warnings of libraries.
-  const Ended ended =
-      run({kPython, "-EsB", script().string(), "--command", command, "--version", version(), "--", folder});
+  // PYTHONPATH, -s, -P: what the user's own Python is made to find is not what Debian's packages were made for; -B:
+  // nothing is written beside the code. Where it succeeds what it says are warnings of libraries.
+  const Ended ended = run({"/usr/bin/env", "-u", "PYTHONHOME", "PYTHONPATH=" + packages().string(), kPython, "-sPB",
+                           "-m", "knot_utm.report", "--command", command, "--version", version(), "--", folder});
   if (WIFEXITED(ended.status) && WEXITSTATUS(ended.status) == 0) return;
   const std::string line = last_line(ended.said);
   throw std::runtime_error(

@@ -146,7 +146,7 @@ class Measured(unittest.TestCase):
 class Results(unittest.TestCase):
     """doc/results.md against the table of the keys, which the program writes (tensile_test --list-results)."""
     page = text("doc/results.md")
-    units = {row["key"]: row["unit"] for row in csv.DictReader(text("report/result_keys.csv").splitlines())}
+    units = {row["key"]: row["unit"] for row in csv.DictReader(text("python/knot_utm/report/result_keys.csv").splitlines())}
 
     def test_has_every_key_and_its_unit(self):
         self.assertGreater(len(self.units), 20)

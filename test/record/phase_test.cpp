@@ -41,7 +41,7 @@ TEST(Phase, HasTheTraitsThatTheReportReads) {
     expected << t.name << ',' << t.is_step << ',' << t.prepares << ',' << t.forms << ',' << t.ends_by_itself << ','
              << t.moves << ',' << t.pulls << ',' << t.can_break << '\n';
   std::ostringstream read;
-  read << std::ifstream(std::string(KNOT_UTM_SOURCE_DIR) + "/report/phases.csv").rdbuf();
+  read << std::ifstream(std::string(KNOT_UTM_SOURCE_DIR) + "/python/knot_utm/report/phases.csv").rdbuf();
   EXPECT_EQ(read.str(), expected.str());
 }
 

@@ -3,6 +3,7 @@ import csv
 import io
 import os
 import subprocess
+import sys
 
 import yaml
 
@@ -10,7 +11,6 @@ from knot_utm import tool
 from knot_utm.fitting.verdict import short
 
 WRITTEN = ("fit.yaml", "curves.csv", "profiles.csv", "method.yaml", "method_2.yaml", "report.html", "report.pdf")
-PYTHON = "/usr/bin/python3"  # Debian's, which has Debian's packages
 
 
 def write_fit(folder, fitted, methods):
@@ -30,9 +30,8 @@ def write_fit(folder, fitted, methods):
 
 def write_report(folder, command):
     """report.html and report.pdf, of the other files. Raises RuntimeError with a line where they cannot be made."""
-    script = os.path.join(tool.SHARE, "report/make_report.py")
-    words = [PYTHON, "-EsB", script, "--command", command, "--version", tool.version()]
-    done = subprocess.run([*words, "--", folder], check=False, text=True, errors="replace", stdin=subprocess.DEVNULL,
+    words = [sys.executable, "-m", "knot_utm.report", "--command", command, "--version", tool.version()]
+    done = subprocess.run([*words, "--", folder], env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)}, check=False, text=True, errors="replace", stdin=subprocess.DEVNULL,
                           capture_output=True)
     if done.returncode != 0:
         raise RuntimeError(tool.said_by(done.stderr) or "the report was not written")

@@ -1,0 +1,311 @@
+#!/usr/bin/python3
+"""Turns what a ruler, a weight and a kitchen scale tell of a rope into a material file (doc/measure.md).
+
+examples:
+    scripts/material measurements.yaml --out my_rope.yaml
+    build/devel/lib/knot_utm/tensile_test tighten --set material=my_rope.yaml
+
+exit codes: 0 the file is written; 1 a module is not installed; 2 the measurements are wrong or do not suffice
+"""
+import argparse
+import math
+import os
+import sys
+
+
+def asked():
+    """The command line, read before what takes its time to import, and may not be installed."""
+    parser = argparse.ArgumentParser(prog="scripts/material", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("measurements", help="a YAML file as in doc/measure.md")
+    parser.add_argument("--out", required=True, help="the material file to be written")
+    parser.add_argument("--overwrite", action="store_true", help="write over a file that exists")
+    return parser.parse_args()
+
+
+ASKED = asked() if __name__ == "__main__" else None
+try:
+    import numpy as np
+    import yaml
+
+    from knot_utm.report.new_file import why_not
+except ModuleNotFoundError as absent:
+    sys.exit(f"scripts/material: {absent}; it needs python3-numpy and python3-yaml")
+
+GRAVITY = 9.81  # [m/s2]
+STIFFENING_DEPTH = 0.015  # of the radius, from which the simulated contact stiffens (doc/model.md)
+SOLID = 10.0    # k_s h^2/k_b of less is a solid rod's, which is 4; ropes have hundreds
+
+MOST_TURNS = 30.0  # [rad] of a capstan: already with mu = 0.2 the heavy mass would be four hundred times the light one
+
+# What may be measured: of each group the keys, all of them needed.
+GROUPS = {"diameter": None, "weighed": ("length", "mass"), "stretched": ("length", "mass", "elongation"),
+          "cantilever": ("overhang", "drop"), "loop": ("length", "height"), "capstan": ("angle", "light", "heavy"),
+          "pressed": ("mass", "approach"), "tied": ("mass",), "broken": ("force",)}
+NEEDED = ("diameter", "weighed", "stretched", "capstan")
+
+
+class Wrong(Exception):
+    """The measurements cannot be used; the text says why."""
+
+
+# ---- shapes of a heavy rod: w its weight per length ----------------------------------------------------------------
+
+
+def integrate(slope, state, length, steps=100):
+    """Runge and Kutta's fourth order."""
+    ds = length / steps
+    for i in range(steps):
+        s = i * ds
+        a = slope(s, state)
+        b = slope(s + ds / 2, state + ds / 2 * a)
+        c = slope(s + ds / 2, state + ds / 2 * b)
+        d = slope(s + ds, state + ds * c)
+        state = state + ds / 6 * (a + 2 * b + 2 * c + d)
+    return state
+
+
+def sags():
+    """(heaviness w l^3/k_b, drop over l) of rods that are clamped level, from hardly bent to hanging straight down.
+
+    From the free end, where it is not bent, a rod in units of (k_b/w)^(1/3) is the same whatever its length: it is as long
+    as it takes to come level. All angles of the end are followed at once."""
+    angle = np.radians(np.concatenate([np.linspace(0.05, 85, 400), 90 - np.geomspace(5, 1e-6, 100)]))
+    step = 2e-3
+    slope, drop, length = np.zeros_like(angle), np.zeros_like(angle), np.full_like(angle, np.nan)
+    fallen = np.zeros_like(angle)
+    for i in range(6000):
+        s = (i + 0.5) * step
+        middle = angle + 0.5 * step * slope
+        before, slope = slope, slope - step * s * np.cos(middle)
+        after = angle + 0.5 * step * (before + slope)
+        there = np.isnan(length) & (after <= 0)
+        share = np.where(there, angle / np.where(there, angle - after, 1.0), 1.0)
+        fallen = np.where(np.isnan(length), fallen + share * step * np.sin(np.maximum(0.5 * (angle + after), 0)), fallen)
+        drop = np.where(there, fallen, drop)
+        length = np.where(there, (i + share) * step, length)
+        angle = after
+    known = ~np.isnan(length)
+    return np.array([length[known] ** 3, drop[known] / length[known]]).T
+
+
+def heights_of_loops():
+    """(heaviness w L^3/k_b, height over L) of loops whose two ends are held side by side, straight up, from none on."""
+    def end(clamp, heaviness):
+        def slope(s, y):  # angle from straight down, its slope, sideways, down
+            return np.array([y[1], clamp[1] * math.cos(y[0]) + heaviness * (0.5 - s) * math.sin(y[0]),
+                             math.sin(y[0]), math.cos(y[0])])
+        return integrate(slope, np.array([0.0, clamp[0], 0.0, 0.0]), 0.5)
+
+    clamp, heaviness, table = np.array([6.055, -39.65]), 1e-3, []  # of the loop without weight
+    while heaviness < 1e4:
+        for _ in range(30):
+            here = end(clamp, heaviness)
+            miss = np.array([here[0] + math.pi / 2, here[2]])
+            if np.abs(miss).max() < 1e-10:
+                break
+            steps = 1e-7 * np.maximum(1, np.abs(clamp))
+            slopes = np.array([(end(clamp + step, heaviness)[[0, 2]] - here[[0, 2]]) / step.sum()
+                               for step in np.diag(steps)]).T
+            clamp = clamp - np.linalg.solve(slopes, miss)
+        else:
+            break
+        table.append((heaviness, here[3]))
+        heaviness *= 1.2 if heaviness > 1 else 4
+    return np.array(table)
+
+
+def cantilever_stiffness(weight, overhang, drop, table=[]):
+    if not table:
+        table.append(sags())
+    heaviness, drops = table[0].T
+    if not drops[0] < drop / overhang < 0.9:
+        raise Wrong(f"cantilever: the drop is {drop / overhang:.4f} of the overhang, but must be between {drops[0]:.4f} and 0.9; "
+                    "of a rope that hangs straight down, measure a loop")
+    return weight * overhang ** 3 / math.exp(np.interp(drop / overhang, drops, np.log(heaviness)))
+
+
+def loop_stiffness(weight, length, height, table=[]):
+    if not table:
+        table.append(heights_of_loops())
+    heaviness, heights = table[0].T
+    if not heights[0] < height / length < heights[-1]:
+        raise Wrong(f"loop: its height over its length is {height / length:.4f}, but must be between {heights[0]:.4f}, a "
+                    f"loop without weight, and {heights[-1]:.4f}")
+    return weight * length ** 3 / math.exp(np.interp(height / length, heights, np.log(heaviness)))
+
+
+# ---- from measurements to properties -------------------------------------------------------------------------------
+
+
+def properties(m):
+    """All that follows from the measurements, whose values are plain numbers by (group, key)."""
+    h = m["diameter", ""] / 2
+    per_length = m["weighed", "mass"] / m["weighed", "length"]
+    out = {"radius": h, "density": per_length / (math.pi * h * h),
+           "stretching_stiffness": m["stretched", "mass"] * GRAVITY * m["stretched", "length"] / m["stretched", "elongation"],
+           "friction_coefficient": math.log(m["capstan", "heavy"] / m["capstan", "light"]) / m["capstan", "angle"]}
+    weight = per_length * GRAVITY
+    if ("cantilever", "drop") in m:
+        out["bending_stiffness"] = cantilever_stiffness(weight, m["cantilever", "overhang"], m["cantilever", "drop"])
+    else:
+        out["bending_stiffness"] = loop_stiffness(weight, m["loop", "length"], m["loop", "height"])
+    solid = out["stretching_stiffness"] * h * h < SOLID * out["bending_stiffness"]
+    out["twisting_stiffness"] = out["bending_stiffness"] * (2 / 3 if solid else 1)
+    if ("pressed", "mass") in m:
+        out["contact_stiffness"] = (3 * m["pressed", "mass"] * GRAVITY /
+                                    (8 * math.sqrt(h) * m["pressed", "approach"] ** 1.5))
+    if ("tied", "mass") in m:
+        out["tying_preload"] = m["tied", "mass"] * GRAVITY
+    if ("broken", "force") in m:
+        out["breaking_force"] = m["broken", "force"]
+    return out
+
+
+def with_errors(values, errors):
+    """The properties and their standard uncertainties: those of the measurements, independent, to first order."""
+    here = properties(values)
+    squares = dict.fromkeys(here, 0.0)
+    for key, error in errors.items():
+        if error > 0:
+            step = 0.5 * error
+            above = properties({**values, key: values[key] + step})
+            below = properties({**values, key: values[key] - step})
+            for name in here:
+                squares[name] += (above[name] - below[name]) ** 2
+    return here, {name: math.sqrt(square) for name, square in squares.items()}
+
+
+# ---- files ---------------------------------------------------------------------------------------------------------
+
+
+def measured(where, given):
+    """[value, uncertainty], both positive."""
+    try:
+        value, error = (float(number) for number in given)
+        if value > 0 and 0 <= error < value and math.isfinite(value):
+            return value, error
+    except (TypeError, ValueError):
+        pass
+    raise Wrong(f"{where} is {given}, but must be [value, uncertainty], the value above 0 and more than the uncertainty")
+
+
+def read(text):
+    given = yaml.safe_load(text)
+    if not isinstance(given, dict):
+        raise Wrong("the file must be a map with the keys " + ", ".join(["name", *GROUPS]))
+    values, errors = {}, {}
+    for group, content in given.items():
+        if group in ("name", "notes"):
+            continue
+        if group not in GROUPS:
+            raise Wrong(f"{group} is no measurement; the measurements are " + ", ".join(GROUPS))
+        keys = GROUPS[group]
+        if keys is None:
+            values[group, ""], errors[group, ""] = measured(group, content)
+            continue
+        if not isinstance(content, dict) or set(content) != set(keys):
+            raise Wrong(f"{group} must be a map with the keys " + ", ".join(keys))
+        for key in keys:
+            values[group, key], errors[group, key] = measured(f"{group}.{key}", content[key])
+    missing = [group for group in NEEDED if group not in given]
+    if not ({"cantilever", "loop"} & set(given)):
+        missing.append("cantilever or loop")
+    if missing:
+        raise Wrong("missing: " + ", ".join(missing))
+    if values["capstan", "heavy"] <= values["capstan", "light"]:
+        raise Wrong("capstan: the heavy mass must be more than the light one")
+    angle = values["capstan", "angle"]
+    if angle > MOST_TURNS:
+        raise Wrong(f"capstan.angle is {angle:g} rad, which are {angle / (2 * math.pi):.0f} turns; is it in degrees? {angle:g} degrees "
+                    f"are {math.radians(angle):.4g} rad")
+    # As a method takes it (doc/method.md): millimetres given as metres end here.
+    low, high = 1e-5, 0.05
+    if not low <= values["diameter", ""] / 2 <= high:
+        raise Wrong(f"diameter is {values['diameter', '']:g} m, but must be {2 * low:g} to {2 * high:g} m; is it in metres?")
+    return given, values, errors
+
+
+UNITS = {"radius": "m", "density": "kg/m3", "stretching_stiffness": "N", "bending_stiffness": "N m2",
+         "twisting_stiffness": "N m2", "friction_coefficient": "-", "contact_stiffness": "N/m2", "tying_preload": "N",
+         "breaking_force": "N"}
+HOW = {"radius": "measured: half the diameter", "density": "measured: mass over volume", "tying_preload": "measured",
+       "stretching_stiffness": "measured: load over strain", "friction_coefficient": "measured: capstan",
+       "bending_stiffness": "measured: sag under its own weight", "breaking_force": "measured",
+       "twisting_stiffness": "assumed: k_b of a rope, 2/3 k_b of a solid rod", "contact_stiffness": "measured: pressed crosswise"}
+
+
+def material(given, here, errors):
+    lines = [f"# {given.get('name', 'A rope')}, from measurements by scripts/material; the uncertainties are one standard "
+             "deviation."]
+    for name, value in here.items():
+        entry = f"{name}: {value:.6g}"
+        lines.append(f"{entry:<38}# [{UNITS[name]}] +- {errors[name]:.2g}, {HOW[name]}")
+    lines.append("notes: " + yaml.safe_dump(str(given.get("notes", "Measured with a ruler, a weight and a scale.")),
+                                            width=10000).splitlines()[0])
+    return "\n".join(lines) + "\n"
+
+
+def in_words(here):
+    """The rod in numbers that a person can check."""
+    area = math.pi * here["radius"]**2
+    return (f"{1e3 * here['density'] * area:.3g} g/m at a diameter of {2e3 * here['radius']:.3g} mm, E = {modulus(here):.2g} GPa "
+            f"stretched, friction {here['friction_coefficient']:.2g}; bent a solid rod of this E would be "
+            f"{here['stretching_stiffness'] * here['radius']**2 / (4 * here['bending_stiffness']):.2g} times as stiff")
+
+
+def modulus(here):
+    """Of the whole cross-section, stretched [GPa]."""
+    return 1e-9 * here["stretching_stiffness"] / (math.pi * here["radius"]**2)
+
+
+def questions(here):
+    """What no rod is like: most likely a slip of a unit. The limits are those of src/io/plausible_rod.cpp."""
+    if not 150 <= here["density"] <= 12000:
+        yield (f"the density is {here['density']:.3g} kg/m3, and cork has 200, water 1000, steel 7850: is weighed.mass in kg, and are "
+               "weighed.length and the diameter in m?")
+    if not 1e-5 <= modulus(here) <= 1.5e3:
+        yield (f"E is {modulus(here):.3g} GPa, and rubber has 0.001, nylon 2, steel 200: is stretched.mass in kg, are stretched.length "
+               "and stretched.elongation in m?")
+    stiffer = 4 * here["bending_stiffness"] / (here["stretching_stiffness"] * here["radius"]**2)
+    if stiffer > 4 or stiffer < 1e-6:
+        yield (f"it bends {stiffer:.2g} times as stiffly as a solid rod that stretches alike, and ropes do 0.0001 to 1 times: are all "
+               "lengths in m, and masses in kg?")
+    if not 0.01 <= here["friction_coefficient"] <= 2:
+        yield f"the friction coefficient is {here['friction_coefficient']:.3g}, and ropes have 0.05 to 1: is capstan.angle in rad?"
+    if here.get("breaking_force", here["stretching_stiffness"]) < 1e-4 * here["stretching_stiffness"]:
+        yield f"it would break at a strain of {here['breaking_force'] / here['stretching_stiffness']:.1g}: is broken.force in N?"
+
+
+def warnings(here, errors, values):
+    yield from questions(here)
+    h = here["radius"]
+    if ("pressed", "approach") in values and values["pressed", "approach"] > STIFFENING_DEPTH * h:
+        yield (f"the strands were pressed {values['pressed', 'approach'] / h:.3f} radii together; beyond {STIFFENING_DEPTH} the "
+               "simulated contact stiffens by itself, so that it will be too stiff")
+    for name, value in here.items():
+        if errors[name] > 0.3 * value:
+            yield f"{name} is uncertain by {100 * errors[name] / value:.0f} %"
+
+
+def main(arguments):
+    if why := why_not(arguments.out, [arguments.measurements], arguments.overwrite):
+        print(f"material: --out: {why}", file=sys.stderr)
+        return 2
+    try:
+        with open(arguments.measurements, encoding="utf-8") as file:
+            given, values, errors = read(file.read())
+        here, uncertain = with_errors(values, errors)
+        with open(arguments.out, "w", encoding="utf-8") as file:
+            file.write(material(given, here, uncertain))
+    except (Wrong, OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        print(f"material: {arguments.measurements}: {' '.join(str(error).split())}", file=sys.stderr)
+        return 2
+    print(f"{arguments.out}: {in_words(here)}")
+    for line in warnings(here, uncertain, values):
+        print("material: " + line, file=sys.stderr)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(ASKED))

@@ -1,0 +1,125 @@
+"""Numbers as a person reads them: label, unit and digits of every key of result.yaml, also of those not known here."""
+import math
+
+from knot_utm.report.is_number import is_number
+from knot_utm.report.key_tables import table
+
+
+class Quantity:
+    """How a key is shown. `kind`: of its unit, as units.Units.of takes it."""
+
+    def __init__(self, label, kind=""):
+        self.label, self.kind = label, kind
+
+
+# How a unit of result_keys.csv is shown, where the page has one of its own for it.
+KINDS = {"N": "force", "m": "length", "N/m": "stiffness", "m/s": "speed", "bytes": "memory", "-": "", "0 to 1": "", "of the radius": "",
+         "of the gauge length": "percent", "of the strength without a knot": "percent"}
+# Groups that are no table of results: what they hold has another place on the page.
+HEAD, BESIDE, CERTIFICATE = "head", "beside", "certificate"
+
+
+def keys_of_results():
+    """Quantities by group and key, and the titles of the tables in their order. The program writes the file:
+    tensile_test --list-results."""
+    groups, tables = {}, {}
+    for row in table("result_keys.csv"):
+        quantity = Quantity(row["meaning"], KINDS.get(row["unit"], row["unit"]))
+        groups.setdefault(row["group"], {})[row["key"]] = quantity
+        tables[int(row["table"])] = row["group"]
+    return groups, [tables[place] for place in sorted(tables) if place > 0]
+
+
+GROUPS, TABLES = keys_of_results()
+KNOWN = {key: quantity for group in GROUPS.values() for key, quantity in group.items()}
+
+# The unit of a key that is not known here, by how it ends: names of quantities are the field's.
+ENDINGS = [("_force", "force"), ("_load", "force"), ("_extension", "length"), ("_distance", "length"),
+           ("_length", "length"), ("_displacement", "length"), ("_stiffness", "stiffness"), ("_energy", "J"),
+           ("_work", "J"), ("_loss", "J"), ("_time", "s"), ("_at", "s"), ("_duration", "s")]
+
+
+def quantity_of(key):
+    if key in KNOWN:
+        return KNOWN[key]
+    label = key.replace("_", " ").capitalize()
+    for ending, kind in ENDINGS:
+        if ("_" + key).endswith(ending):
+            return Quantity(label, kind)
+    return Quantity(label)
+
+
+NOTHING = 1e-12  # of a reading in SI: what is smaller is rounding
+# What is left of another reading, such as the elongation that an elastic rod keeps: below a millionth of it is none.
+LEFT_OF = {"hysteresis": "energy_to_peak", "elongation_residual": "elongation_total"}
+
+
+def is_rounding(key, value_of):
+    """`value_of`: the number of a key, or None."""
+    value, whole = value_of(key), value_of(LEFT_OF.get(key, key))
+    if not is_number(value):
+        return False
+    return abs(value) < NOTHING or (key in LEFT_OF and is_number(whole) and abs(value) < 1e-6 * abs(whole))
+
+
+def shown(value, scale=1.0, error=None):
+    """A value of any kind as text. A number has four digits, or as many as its error leaves meaningful."""
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, int) and scale == 1.0:
+        return str(value)
+    if isinstance(value, (int, float)):
+        return "0" if abs(value) < NOTHING else number(value * scale, None if error is None else error * scale)
+    if isinstance(value, dict):
+        return ", ".join(f"{name.replace('_', ' ')} {shown(part)}" for name, part in value.items()) or "–"
+    if isinstance(value, (list, tuple)):
+        return "; ".join(shown(part, scale) for part in value) or "–"
+    return str(value)
+
+
+def number(value, error=None):
+    if not math.isfinite(value):
+        return "–"
+    if value == 0.0:
+        return "0"
+    decimals = decimals_of(value, 4)
+    if error is not None and is_number(error) and error > 0.0:
+        decimals = decimals_of(error, 2)
+    if -3 < decimals <= 7 or (error is not None and decimals <= 7):
+        text = f"{value:.{max(decimals, 0)}f}"
+        text = without_zeros(text, value) if error is None else text
+        return text.replace("-", "–" if float(text) else "")  # never "–0.00"
+    mantissa, exponent = f"{value:.3e}".split("e")
+    return f"{without_zeros(mantissa, value / 10.0 ** int(exponent))} · 10{superscript(int(exponent))}".replace("-", "–")
+
+
+def decimals_of(value, digits):
+    """Behind the point, where so many digits are given. A 9.97 of two digits is 10."""
+    return digits - 1 - int(f"{value:.{digits - 1}e}".split("e")[1])
+
+
+def without_zeros(text, value):
+    """Of what was given, such as 250 mm, the zeros at its end say nothing; of a reading of 103.04 mm that of 103.0 does."""
+    return text.rstrip("0").rstrip(".") if "." in text and math.isclose(float(text), value, rel_tol=1e-9) else text
+
+
+def superscript(exponent):
+    return str(exponent).translate(str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"))
+
+
+def error_shown(error, scale):
+    """With two digits. A value beside it ends at the same decimal place."""
+    if not is_number(error):
+        return ""
+    rounded = float(f"{error * scale:.1e}")
+    return number(rounded, rounded if 1e-4 <= rounded < 1e4 else None)
+
+
+def percent(share):
+    return number(float(f"{100.0 * share:.3g}")) + " %" if is_number(share) else ""
+
+
+def with_unit(value, unit, error=None):
+    return f"{shown(value, unit.scale, error)} {unit.name}".strip()
