@@ -4,7 +4,7 @@ if(NOT KNOT_UTM_BENCH)
   return()
 endif()
 find_package(CLI11 REQUIRED)
-foreach(bench capsizing_bench capstan_bench iteration_cost_bench rolling_bench row_of_knots_bench step_parts_bench
+foreach(bench capsizing_bench capstan_bench iteration_cost_bench row_of_knots_bench step_parts_bench
               tied_state_bench)
   add_executable(${bench} bench/${bench}.cpp)
   target_include_directories(${bench} PRIVATE test)

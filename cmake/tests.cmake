@@ -110,6 +110,7 @@ foreach(name interval_test fit_test)
                        ENVIRONMENT "${python_environment}")
 endforeach()
 add_test(NAME doc_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/doc_test.py)
+set_tests_properties(doc_test PROPERTIES ENVIRONMENT "${python_environment}")
 
 # The recipe for a friction law in CONTRIBUTING.md, by following it.
 add_test(NAME friction_law_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/contributing/friction_law_test.py)

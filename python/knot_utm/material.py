@@ -1,36 +1,11 @@
-#!/usr/bin/python3
-"""Turns what a ruler, a weight and a kitchen scale tell of a rope into a material file (doc/measure.md).
-
-examples:
-    scripts/material measurements.yaml --out my_rope.yaml
-    build/devel/lib/knot_utm/tensile_test tighten --set material=my_rope.yaml
-
-exit codes: 0 the file is written; 1 a module is not installed; 2 the measurements are wrong or do not suffice
-"""
-import argparse
+"""Turns what a ruler, a weight and a kitchen scale tell of a rope into a material file (doc/measure.md; scripts/material)."""
 import math
-import os
 import sys
 
+import numpy as np
+import yaml
 
-def asked():
-    """The command line, read before what takes its time to import, and may not be installed."""
-    parser = argparse.ArgumentParser(prog="scripts/material", description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("measurements", help="a YAML file as in doc/measure.md")
-    parser.add_argument("--out", required=True, help="the material file to be written")
-    parser.add_argument("--overwrite", action="store_true", help="write over a file that exists")
-    return parser.parse_args()
-
-
-ASKED = asked() if __name__ == "__main__" else None
-try:
-    import numpy as np
-    import yaml
-
-    from knot_utm.report.new_file import why_not
-except ModuleNotFoundError as absent:
-    sys.exit(f"scripts/material: {absent}; it needs python3-numpy and python3-yaml")
+from knot_utm.report.commands import OneLineParser, refuse, why_not
 
 GRAVITY = 9.81  # [m/s2]
 STIFFENING_DEPTH = 0.015  # of the radius, from which the simulated contact stiffens (doc/model.md)
@@ -288,24 +263,26 @@ def warnings(here, errors, values):
             yield f"{name} is uncertain by {100 * errors[name] / value:.0f} %"
 
 
-def main(arguments):
-    if why := why_not(arguments.out, [arguments.measurements], arguments.overwrite):
-        print(f"material: --out: {why}", file=sys.stderr)
-        return 2
+def main():
+    parser = OneLineParser(prog="material", description=__doc__)
+    parser.add_argument("measurements", help="a YAML file as in doc/measure.md")
+    parser.add_argument("--out", required=True, help="the material file to be written")
+    parser.add_argument("--overwrite", action="store_true", help="write over a file that exists")
+    asked = parser.parse_args()
+    if why := why_not(asked.out, [asked.measurements], asked.overwrite):
+        refuse("material", f"--out: {why}")
     try:
-        with open(arguments.measurements, encoding="utf-8") as file:
+        with open(asked.measurements, encoding="utf-8") as file:
             given, values, errors = read(file.read())
         here, uncertain = with_errors(values, errors)
-        with open(arguments.out, "w", encoding="utf-8") as file:
+        with open(asked.out, "w", encoding="utf-8") as file:
             file.write(material(given, here, uncertain))
     except (Wrong, OSError, UnicodeDecodeError, yaml.YAMLError) as error:
-        print(f"material: {arguments.measurements}: {' '.join(str(error).split())}", file=sys.stderr)
-        return 2
-    print(f"{arguments.out}: {in_words(here)}")
+        refuse("material", f"{asked.measurements}: {' '.join(str(error).split())}")
+    print(f"{asked.out}: {in_words(here)}")
     for line in warnings(here, uncertain, values):
         print("material: " + line, file=sys.stderr)
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main(ASKED))
+    main()

@@ -1,20 +1,13 @@
-#!/usr/bin/python3
-"""Rewrites saved time steps whose layout has changed since, in place: those of test/failed_steps, or failed_step.bin of
-a run. Files of the present layout stay as they are.
+"""Saved time steps of an older layout, written anew in the present one (scripts/resave-steps).
 
 A saved time step is one archive (include/knot_utm/numeric/archive.hpp). Each of its sections begins with a mark of four
 letters, and whoever changes what a section holds gives it another mark. CONVERSIONS says below how a section of the old
 mark becomes one of the new mark.
-
-examples:
-    scripts/resave-steps test/failed_steps/*.bin
-
-exit codes: 0 all files have the present layout; 2 a file is no saved time step, or of a layout that is not known here
 """
-import argparse
 import struct
-import sys
 import zlib
+
+from knot_utm.report.commands import OneLineParser, refuse
 
 HEADING = b"knot_utm time step, version "
 NEWEST = (b"PRO3", b"SET5", b"BND3")
@@ -97,19 +90,8 @@ def resaved(content):
     return out + struct.pack("<I", zlib.crc32(out))
 
 
-class OneLineParser(argparse.ArgumentParser):
-    def error(self, message):
-        refuse(message)
-
-
-def refuse(why):
-    print(f"resave-steps: {why}", file=sys.stderr)
-    sys.exit(2)
-
-
 def main():
-    parser = OneLineParser(prog="scripts/resave-steps", description=__doc__,
-                           formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser = OneLineParser(prog="resave-steps", description="Rewrites saved time steps in the present layout.")
     parser.add_argument("files", metavar="FILE", nargs="+", help="a saved time step")
     for name in parser.parse_args().files:
         try:
@@ -117,7 +99,7 @@ def main():
                 content = file.read()
             out = resaved(content)
         except (OSError, Unknown, ValueError, OverflowError, struct.error) as error:
-            refuse(f"{name}: {error}")
+            refuse("resave-steps", f"{name}: {error}")
         if out != content:
             with open(name, "wb") as file:
                 file.write(out)

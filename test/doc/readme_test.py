@@ -89,7 +89,7 @@ class Readme(unittest.TestCase):
             self.assertAlmostEqual(float(error), result[key + "_error"] / UNITS[error_unit], delta=step(error), msg=key)
 
     def test_pictures_are_of_this_program(self):
-        """Each PNG carries what it was made of (report/picture_facts.py). The two of a test are of the run above."""
+        """Each PNG carries what it was made of (knot_utm.report.picture_facts). The two of a test are of the run above."""
         result, steps = self.result(), {key: step(value) * UNITS[unit] for key, value, unit, _, _ in self.rows()}
         seen = set()
         for name in sorted(os.listdir(IMAGES)):
@@ -103,13 +103,6 @@ class Readme(unittest.TestCase):
                     self.assertEqual(facts["method"], "fisherman, polypropylene")
                     self.assertAlmostEqual(float(facts[key].split()[0]), result[key], delta=steps[key], msg=f"{name}: {key}")
         self.assertEqual(seen, {"rviz.png", "tighten.png"})
-
-    def test_the_log_in_the_picture_rolls_as_the_program_has_it(self):
-        """As test/sim/surface_friction_test.cpp: half as far as the plank, or not at all."""
-        facts = texts_of(os.path.join(IMAGES, "rolling.png"))
-        for scene, share in (("surface", 0.5), ("centreline", 0.0)):
-            plank, log = (float(way) for way in re.findall(r"([\d.]+) h", facts[scene]))
-            self.assertAlmostEqual(log, share * plank, delta=0.01, msg=facts[scene])
 
     def test_method_runs(self):
         method = os.path.join(self.home.name, "method.yaml")

@@ -17,11 +17,11 @@ struct MethodKey {
 /// name in words, unless the table of labels in method_keys.cpp has better ones.
 std::vector<MethodKey> method_keys();
 
-/// The same as CSV: key, label, unit. It is report/method_keys.csv.
+/// The same as CSV: key, label, unit. The report reads it from `tensile_test --list-method-keys`.
 std::string method_keys_csv();
 
-/// What a report calls each knot, and the keys of `specimen` that it shows of it, as CSV: knot, title, keys. It is
-/// report/knots.csv.
+/// What a report calls each knot, and the keys of `specimen` that it shows of it, as CSV: knot, title, keys. The
+/// report reads it from `tensile_test --list-knots`.
 std::string knots_csv();
 
 }  // namespace knot_utm

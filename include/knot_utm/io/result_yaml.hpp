@@ -16,8 +16,8 @@ std::string result_yaml(const Results& results, const RunFacts& facts);
 /// keys.
 std::vector<std::string> result_numbers();
 
-/// The table of the keys as CSV with the columns key, unit, kind, group, table and meaning: the content of
-/// report/result_keys.csv.
+/// The table of the keys as CSV with the columns key, unit, kind, group, table and meaning: what
+/// `tensile_test --list-results` prints.
 std::string result_keys_csv();
 
 }  // namespace knot_utm

@@ -4,7 +4,7 @@ import collections
 import math
 import statistics
 
-# Phases before the zero of the pull (report/phases.csv, prepares): the balance is the zero.
+# Phases before the zero of the pull (tensile_test --list-phases, prepares): the balance is the zero.
 PREPARATION = {'', 'idle', 'tie', 'release', 'mount', 'preload', 'done'}
 BROKEN, FAILED = 3, 4  # status of a KnotState
 KEPT, CROSSED = 0, 2   # its knot_type

@@ -4,12 +4,10 @@ import os
 import numpy as np
 
 from knot_utm.report.certificate import certificate, specification_checks
-from knot_utm.report.failure import CannotReport
-from knot_utm.report.is_number import is_number
-from knot_utm.report.largest_load import largest_load
-from knot_utm.report.run import Run, numbers, read_table, read_yaml, texts_of
-from knot_utm.report.sentences import all_in_units, in_units
-from knot_utm.report.units import units_of
+from knot_utm.report.commands import CannotReport
+from knot_utm.report.marks import largest_load
+from knot_utm.report.quantities import all_in_units, in_units, is_number, units_of
+from knot_utm.report.run import numbers, read_table, read_yaml, Run, texts_of
 
 # What stands in a row of specimens.csv before the readings, and behind what was drawn.
 OUTCOME = ("rejected", "ended_by", "motion_pattern")

@@ -1,9 +1,9 @@
 """The tables of a batch: a row for each specimen and rows of statistics, as the software of a testing machine prints them."""
 from knot_utm.report.certificate import Check
-from knot_utm.report.is_number import is_number
 from knot_utm.report.method_facts import label_of, place_of, sentence, unit_of
-from knot_utm.report.quantities import BESIDE, CERTIFICATE, GROUPS, TABLES, error_shown, is_rounding, percent, quantity_of, shown
-from knot_utm.report.results_table import NOTHING, labels_of, short_label
+from knot_utm.report.quantities import (BESIDE, CERTIFICATE, error_shown, GROUPS, is_number, is_rounding, percent,
+                                        quantity_of, shown, TABLES)
+from knot_utm.report.results_table import labels_of, NOTHING, short_label
 
 WIDEST = 5  # readings beside each other: as many as a telephone has room for
 # What is looked for first, in this order, where the specimens have it.

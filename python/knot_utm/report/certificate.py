@@ -3,8 +3,7 @@
 The limits of trust are those at which the program itself warns (src/io/run_warnings.cpp, whose names they bear). What has
 no limit has no verdict, and stands among the results alone.
 """
-from knot_utm.report.quantities import number, quantity_of
-from knot_utm.report.is_number import is_number
+from knot_utm.report.quantities import is_number, number, quantity_of
 
 LIMITS = {
     "kDeepContact": 0.05,  # contact [of the radius]

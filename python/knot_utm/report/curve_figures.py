@@ -3,11 +3,10 @@ import matplotlib.pyplot as plt
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from knot_utm.report.error_band import error_band
-from knot_utm.report.few_points import few_points
+from knot_utm.report.curves import error_band, few_points
 from knot_utm.report.quantities import shown, with_unit
 from knot_utm.report.run import FORMING
-from knot_utm.report.style import BLUE, GOLD, GREEN, GREY, INK, ORANGE, PHASES, RED, SMALL, USUAL, VIOLET, as_svg, stacked
+from knot_utm.report.style import as_svg, BLUE, GOLD, GREEN, GREY, INK, ORANGE, PHASES, RED, SMALL, stacked, USUAL, VIOLET
 
 MANY = 8.0  # a peak above this many plateaus hides the plateau: it gets axes of its own
 FEW = 250   # readings of the cell that are drawn as points

@@ -1,8 +1,7 @@
-#!/usr/bin/python3
 """Writes the rod of a test for other programs: over time for ParaView, or as it lay at one time for slides and the web.
 
-    export.py DIR --vtk OUT
-    export.py DIR --gltf OUT.glb [--color NAME] [--time SECONDS] [--overwrite]
+    scripts/export DIR --vtk OUT
+    scripts/export DIR --gltf OUT.glb [--color NAME] [--time SECONDS] [--overwrite]
 
 DIR is the folder of a test. Its shapes over time are those of shapes.csv (tensile_test --shapes), else of test.bag; without
 them there is the final shape alone.
@@ -11,12 +10,8 @@ import argparse
 import os
 import sys
 
-from knot_utm.report.failure import CannotReport, in_one_line
-from knot_utm.report.__main__ import OneLineParser
-from knot_utm.report.new_file import files_of, why_not
+from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_not
 
-PACKAGES = {"vtkmodules": "python3-vtk9", "numpy": "python3-numpy", "yaml": "python3-yaml",
-            "matplotlib": "python3-matplotlib"}
 NAMES = ("tension", "curvature", "twist", "contact_force")
 
 
@@ -46,7 +41,7 @@ def asked():
 
 def main():
     arguments = asked()
-    with in_one_line("export", PACKAGES):
+    with in_one_line("export"):
         try:
             print(export(arguments))
         except OSError as error:
@@ -62,19 +57,55 @@ def export(arguments):
     series, note = series_of(run)
     if note:
         print("export:", note.replace(" is shown", " is written"), file=sys.stderr)
-    radius = run.method["material"]["radius"]
+    shapes = [series.shape(i) for i in range(len(series))]
     if arguments.vtk is not None:
-        from knot_utm.report.vtk_series import write_vtk_series
+        return over_time(arguments.vtk, shapes, run.method["material"]["radius"])
+    return at_one_time(arguments, run, shapes, shapes[-1] if arguments.time is None else series.at(arguments.time))
 
-        os.makedirs(arguments.vtk, exist_ok=True)
-        count = write_vtk_series(arguments.vtk, series, radius)
-        return f"{os.path.join(arguments.vtk, 'rod.pvd')}: {count} shapes"
-    from knot_utm.report.rod_gltf import rod_glb
 
-    content, words = rod_glb(run, series, arguments.time, arguments.color)
+def over_time(folder, shapes, radius):
+    """rod.pvd, and of each shape rod_000.vtp and so on. Every file has the same arrays: NaN where a value is not known."""
+    import numpy as np
+
+    from knot_utm.report.colours import names_known, node_values
+    from knot_utm.report.mesh_files import write_pvd, write_vtp
+    from knot_utm.report.shapes import lengths, pieces
+    from knot_utm.report.tube import rod_mesh
+
+    os.makedirs(folder, exist_ok=True)
+    names, files = names_known(shapes), [f"rod_{number:03d}.vtp" for number in range(len(shapes))]
+    along = np.concatenate([[0.0], np.cumsum(lengths(shapes[0]))])
+    for file, shape in zip(files, shapes):
+        unknown = np.full(len(shape.points), np.nan)
+        of_nodes = {**dict.fromkeys(names, unknown), **node_values(shape), "arclength": along if len(along) == len(unknown) else unknown}
+        mesh = rod_mesh(shape.points, pieces(shape, shapes[0]), radius)
+        write_vtp(os.path.join(folder, file), mesh, {name: values[mesh.along.astype(int)] for name, values in of_nodes.items()})
+    pvd = os.path.join(folder, "rod.pvd")
+    write_pvd(pvd, [shape.time for shape in shapes], files)
+    return f"{pvd}: {len(shapes)} shapes"
+
+
+def at_one_time(arguments, run, shapes, shape):
+    import numpy as np
+
+    from knot_utm.report.colours import colour_scales, node_values
+    from knot_utm.report.mesh_files import glb
+    from knot_utm.report.rod_pictures import UNKNOWN
+    from knot_utm.report.shapes import pieces
+    from knot_utm.report.tube import rod_mesh
+
+    radius, values = run.method["material"]["radius"], node_values(shape)
+    scales = {scale.name: scale for scale in colour_scales(shapes, radius, run.units) if scale.name in values}
+    if arguments.color and arguments.color not in scales:
+        raise CannotReport(f"{run.folder}: --color {arguments.color}: it is not known at {shape.time:g} s; known are: "
+                           f"{', '.join(name for name in values if name in scales)}")
+    scale = scales.get(arguments.color or "tension")
+    mesh = rod_mesh(shape.points, pieces(shape, shapes[0]), radius)
+    colours = scale.of(values[scale.name][mesh.along.astype(int)]) if scale else np.tile(UNKNOWN, (len(mesh.points), 1))
     with open(arguments.gltf, "wb") as out:
-        out.write(content)
-    return f"{arguments.gltf}: {words}"
+        out.write(glb(mesh, colours, "rod"))
+    in_colours = f"coloured by its {scale.label()}" if scale else "in one colour, as no tension is known then"
+    return f"{arguments.gltf}: the rod at {shape.time:g} s, {in_colours}"
 
 
 if __name__ == "__main__":

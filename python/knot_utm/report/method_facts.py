@@ -1,17 +1,16 @@
-"""A method as a person reads it: what was tested, on what, and how."""
+"""A method as a person reads it: what was tested, on what, and how; and what a laboratory says of a test by a standard."""
+from knot_utm import tool
 from knot_utm.report import quantities
-from knot_utm.report.key_tables import table
-from knot_utm.report.quantities import number
-from knot_utm.report.is_number import is_number
-from knot_utm.report.units import Unit
+from knot_utm.report.quantities import is_number, number, Unit
+from knot_utm.report.run import PULLING
 
-# Labels and units of dotted keys. The program writes the file: tensile_test --list-method-keys.
-LABELS = {row["key"]: row["label"] for row in table("method_keys.csv")}
-UNITS = {row["key"]: row["unit"] for row in table("method_keys.csv")}
-# What a knot is called, and the keys that are shown of it: tensile_test --list-knots.
-TITLES = {row["knot"]: row["title"] for row in table("knots.csv")}
-KEYS_OF_KNOTS = {row["knot"]: row["keys"].split() for row in table("knots.csv")}
-# How a unit of method_keys.csv is shown, where that is not as in a result.
+# Labels and units of dotted keys.
+LABELS = {row["key"]: row["label"] for row in tool.listing("method-keys")}
+UNITS = {row["key"]: row["unit"] for row in tool.listing("method-keys")}
+# What a knot is called, and the keys that are shown of it.
+TITLES = {row["knot"]: row["title"] for row in tool.listing("knots")}
+KEYS_OF_KNOTS = {row["knot"]: row["keys"].split() for row in tool.listing("knots")}
+# How a unit of a method is shown, where that is not as in a result.
 KINDS = {**quantities.KINDS, "m/s": "speed", "N/s": "force_rate", "of the radius": "of the radius",
          "of capacity": "of its capacity", "of k_b/h2": "k_b/h²", "of friction_coefficient": "of the friction coefficient"}
 # Labels where the rod lies around a post.
@@ -149,3 +148,27 @@ def step_text(step, keys, facts):
         else:
             parts.append(f"{label_of(key)} {facts.text(key, value)}")
     return ", ".join(parts)
+
+
+def particulars(report, method, gauge_length, units, specimens=""):
+    """[(key, label, text)]; empty where `report` names no standard."""
+    if not report.get("standard"):
+        return []
+    found = [("gauge_length", "Gauge length", with_unit_of(gauge_length, units.length)),
+             ("speed", "Speed of the crosshead", with_unit_of(speed_of(method), units.rate)),
+             ("specimens", "Specimens", specimens)]
+    return [row for row in found if row[2]]
+
+
+def with_unit_of(value, unit):
+    return f"{number(value * unit.scale)} {unit.name}" if is_number(value) else ""
+
+
+def speed_of(method):
+    """Of the last step that pulls [m/s]; None where the load decides it, or where nothing pulls."""
+    steps = [keys or {} for step in method.get("program", []) for name, keys in step.items() if name in PULLING]
+    return None if not steps or is_number(steps[-1].get("load_rate")) else steps[-1].get("speed")
+
+
+def counted(tested, rejected):
+    return f"{tested} tested, {tested - rejected} count, {rejected} discarded"

@@ -1,7 +1,6 @@
-#!/usr/bin/python3
 """Makes a movie of a test, or of two side by side: the rod above its curve, which is drawn as far as the test has come.
 
-    movie.py RUN [RUN] [--out FILE.mp4] [--seconds S] [--rate FPS] [--color NAME] [--overwrite]
+    scripts/movie RUN [RUN] [--out FILE.mp4] [--seconds S] [--rate FPS] [--color NAME] [--overwrite]
 
 RUN is the folder of a test with shapes.csv (tensile_test --shapes) or test.bag. Two tests are shown at the same time since
 their pull began, with the same colours and the same axes.
@@ -13,9 +12,7 @@ import shutil
 import subprocess
 import sys
 
-from knot_utm.report.failure import CannotReport, in_one_line
-from knot_utm.report.__main__ import PACKAGES, OneLineParser
-from knot_utm.report.new_file import files_of, why_not
+from knot_utm.report.commands import CannotReport, files_of, in_one_line, OneLineParser, why_not
 
 SIZE = (1920, 1080)
 NAMES = ("tension", "curvature", "twist", "contact_force")
@@ -48,7 +45,7 @@ def asked():
 
 def main():
     arguments = asked()
-    with in_one_line("movie", PACKAGES):
+    with in_one_line("movie"):
         make(arguments)
 
 

@@ -2,15 +2,14 @@
 import matplotlib.pyplot as plt
 import numpy as np
 
-from knot_utm.report.colour_scales import colour_scales
+from knot_utm.report.colours import colour_scales
+from knot_utm.report.commands import CannotReport
 from knot_utm.report.curve_figures import small_loads
-from knot_utm.report.failure import CannotReport
-from knot_utm.report.few_points import few_points
+from knot_utm.report.curves import few_points
 from knot_utm.report.method_facts import knot_of
-from knot_utm.report.quantities import with_unit
 from knot_utm.report.rod_pictures import draw_bar, draw_rod, draw_rollers, view
 from knot_utm.report.run import Run
-from knot_utm.report.shapes import Shape, pieces, series_of
+from knot_utm.report.shapes import pieces, series_of, Shape
 from knot_utm.report.style import BLUE, FAINT, INK, ORANGE, USUAL
 
 DPI = 120
@@ -63,7 +62,7 @@ class Stage:
         rod.set_aspect("equal")
         rod.axis("off")
         figure.text(left + 0.5 * wide, 0.945, test.title, ha="center", fontsize=USUAL + 7, weight="bold", color=INK)
-        figure.text(left + 0.5 * wide, 0.905, test.words(shape), ha="center", fontsize=USUAL + 4, color=INK)
+        figure.text(left + 0.5 * wide, 0.905, test.run.words_at(shape.time), ha="center", fontsize=USUAL + 4, color=INK)
         margin = 0.06
         if self.small:  # the peak hides the plateau: small loads again, above
             axes = figure.add_axes([left + margin, 0.335, wide - margin - 0.02, 0.13])
@@ -85,6 +84,7 @@ class Stage:
         axes.set_ylim(loads[0], loads[1] + 0.05 * (loads[1] - loads[0]))
         axes.set_ylabel(f"{name} [{test.run.units.force.name}]", fontsize=USUAL + 3)
         axes.tick_params(labelsize=USUAL + 2)
+
 
 def joined(of_tests):
     """The lowest and the highest value of all of them."""
@@ -135,18 +135,6 @@ class OneTest:
         times = self.tested["time"]
         past = times < time
         return [np.append(values[past], np.interp(time, times, values)) for values in (self.extension, self.load)]
-
-    def words(self, shape):
-        curve, units = self.run.curve, self.run.units
-        phase = curve.phase[min(int(np.searchsorted(curve["time"], shape.time)), len(curve) - 1)]
-        extension, load = (float(np.interp(shape.time, curve["time"], curve[name])) for name in ("extension", "load"))
-        said = f"{phase}, {shape.time:.1f} s"
-        if shape.time < self.begin:
-            return said
-        broke = self.run.time_of_break()
-        if broke is not None and shape.time > broke:
-            return said + ":  the rod has parted"
-        return said + f":  s = {with_unit(extension, units.length)},  F = {with_unit(load, units.force)}"
 
 
 def between(before, after, part):

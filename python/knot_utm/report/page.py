@@ -1,29 +1,22 @@
 """What goes into a page, and the page as HTML and PDF."""
 import logging
 import os
-import re
 from html import escape
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
 from knot_utm.report.certificate import certificate, specification_checks, specification_verdict, stiffness_name, verdict
-from knot_utm.report.comparison import READINGS, Comparison
-from knot_utm.report.comparison_figures import overlay
+from knot_utm.report.commands import CannotReport
 from knot_utm.report.curve_figures import course, force_extension
-from knot_utm.report.error_band import error_band
-from knot_utm.report.failure import CannotReport
-from knot_utm.report.laboratory import particulars
-from knot_utm.report.largest_load import largest_load
-from knot_utm.report.marks import end_of, marks_of, time_of_break
-from knot_utm.report.method_facts import knot_of, method_facts, program
-from knot_utm.report.is_number import is_number
-from knot_utm.report.quantities import error_shown, number, percent, quantity_of, shown, with_unit
+from knot_utm.report.curves import error_band
+from knot_utm.report.marks import end_of, largest_load, marks_of, time_of_break
+from knot_utm.report.method_facts import knot_of, method_facts, particulars, program
+from knot_utm.report.quantities import all_in_units, error_shown, in_units, number, quantity_of, shown, with_unit
 from knot_utm.report.results_table import results_table, short_label
 from knot_utm.report.rod_pictures import pictures
-from knot_utm.report.run import Run, printable
-from knot_utm.report.sentences import all_in_units, in_units
+from knot_utm.report.run import printable, Run
 from knot_utm.report.shapes import final_shape, series_of, shapes_at
-from knot_utm.report.style import LOOKS, embedded
+from knot_utm.report.style import embedded, LOOKS
 from knot_utm.report.turnable import turnable
 from knot_utm.report.typefaces import told, without_typeface
 
@@ -181,49 +174,6 @@ def range_of_plateau(run):
     way = 0.5 * (end if end is not None else float(run.pull()["extension"][-1]))  # from 0.3 to 0.8
     rises = slope is not None and slope * way > RISES * (high - low)
     return f"{'rises from' if rises else 'between'} {ends[0]} {'to' if rises else 'and'} {ends[1]} {unit.name}"
-
-
-def report_on_comparison(folder, command, version):
-    comparison = Comparison(folder)
-    units = comparison.units
-    rising = [name.upper() for name in ("a", "b") if comparison.ends_at_its_largest_load(name)]
-    rows = [comparison_row(comparison, key, units) for key in READINGS if has_either(comparison.facts.get(key))]
-    length, force = units.length.scale, units.force.scale
-    return render("comparison.html.j2", {
-        "title": "Comparison of two curves", "facts": comparison.facts,
-        "curves": [overlay(comparison, look) for look in LOOKS], "rows": rows,
-        "rising": rising, "sides": [(name.upper(), printable(file), *side_facts(comparison.runs[name], units))
-                                    for name, file in comparison.files.items()],
-        "unmeasured": [key for key in READINGS if key in comparison.facts and not has_either(comparison.facts[key])],
-        "common": [shown(s, length) for s in comparison.facts["common_extension"]],
-        "force": units.force.name, "length": units.length.name, "si": units.are_default,
-        "rms": shown(comparison.number("rms_difference"), force),
-        "largest": shown(comparison.number("largest_difference"), force),
-        "share": percent(comparison.number("rms_difference_over_load")),
-        "largest_at": shown(comparison.number("largest_difference_at"), length), "files": files_of(folder),
-        "command": printable(command), "version": version, "folder": printable(folder)})
-
-
-def has_either(both):
-    return isinstance(both, dict) and any(is_number(both.get(name)) for name in ("a", "b"))
-
-
-def comparison_row(comparison, key, units):
-    both, quantity = comparison.facts[key], quantity_of(key)
-    unit = units.of(quantity.kind)
-    rises = key == "peak_force" and any(map(comparison.ends_at_its_largest_load, ("a", "b")))
-    return (key, "Largest load" if rises else re.split("[,;]", quantity.label)[0], unit.name,
-            *(shown(both[part], unit.scale) if is_number(both.get(part)) else "none" if part != "difference" else ""
-              for part in ("a", "b", "difference")), percent(both.get("relative")))
-
-
-def side_facts(run, units):
-    """What a curve is from, and what its run warns of."""
-    if run is None:
-        return "This curve is a file of its own: no run of knot_utm stands beside it.", []
-    words = (f"This curve was simulated: {knot_of(run.method)}, {run.method['material'].get('name', 'own material')}, knot_utm "
-             f"{run.result.get('version')}, ended by {run.result.get('ended_by')}.")
-    return words, all_in_units(run.result.get("warnings") or [], units)
 
 
 def files_of(folder):

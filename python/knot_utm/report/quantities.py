@@ -1,8 +1,47 @@
-"""Numbers as a person reads them: label, unit and digits of every key of result.yaml, also of those not known here."""
+"""Numbers as a person reads them: the label, unit and digits of every key of result.yaml, also of those not known here, and the
+units of a page. Files are in SI; a page is in what its reader measures with."""
 import math
+import re
 
-from knot_utm.report.is_number import is_number
-from knot_utm.report.key_tables import table
+from knot_utm import tool
+
+
+def is_number(value):
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+
+
+FORCES = {"N": 1.0, "kN": 1e-3, "lbf": 1.0 / 4.4482216152605}
+LENGTHS = {"mm": 1e3, "in": 1.0 / 0.0254, "m": 1.0}
+
+
+class Unit:
+    """A value in SI times `scale` has the unit `name`."""
+
+    def __init__(self, name, scale=1.0):
+        self.name, self.scale = name, scale
+
+
+class Units:
+    def __init__(self, force="N", length="mm"):
+        self.force, self.length = Unit(force, FORCES[force]), Unit(length, LENGTHS[length])
+        self.stiffness = Unit(f"{force}/{length}", self.force.scale / self.length.scale)
+        self.speed = Unit(f"{length}/s", self.length.scale)
+        self.force_rate = Unit(f"{force}/s", self.force.scale)
+        self.rate = Unit(f"{length}/min", 60.0 * self.length.scale)
+        self.memory = Unit("MB", 1e-6)
+        self.percent = Unit("%", 100.0)
+        self.are_default = (force, length) == ("N", "mm")
+
+    def of(self, kind):
+        """`kind`: one of the quantities above, else the name of a unit that every page uses."""
+        return getattr(self, kind) if kind in ("force", "length", "stiffness", "speed", "force_rate", "memory",
+                                               "percent") else Unit(kind)
+
+
+def units_of(report):
+    """Those that `report` of a method asks for."""
+    asked = report.get("units") or {}
+    return Units(asked.get("force", "N"), asked.get("length", "mm"))
 
 
 class Quantity:
@@ -12,7 +51,7 @@ class Quantity:
         self.label, self.kind = label, kind
 
 
-# How a unit of result_keys.csv is shown, where the page has one of its own for it.
+# How a unit of a reading is shown, where the page has one of its own for it.
 KINDS = {"N": "force", "m": "length", "N/m": "stiffness", "m/s": "speed", "bytes": "memory", "-": "", "0 to 1": "", "of the radius": "",
          "of the gauge length": "percent", "of the strength without a knot": "percent"}
 # Groups that are no table of results: what they hold has another place on the page.
@@ -20,10 +59,9 @@ HEAD, BESIDE, CERTIFICATE = "head", "beside", "certificate"
 
 
 def keys_of_results():
-    """Quantities by group and key, and the titles of the tables in their order. The program writes the file:
-    tensile_test --list-results."""
+    """Quantities by group and key, and the titles of the tables in their order."""
     groups, tables = {}, {}
-    for row in table("result_keys.csv"):
+    for row in tool.listing("results"):
         quantity = Quantity(row["meaning"], KINDS.get(row["unit"], row["unit"]))
         groups.setdefault(row["group"], {})[row["key"]] = quantity
         tables[int(row["table"])] = row["group"]
@@ -123,3 +161,23 @@ def percent(share):
 
 def with_unit(value, unit, error=None):
     return f"{shown(value, unit.scale, error)} {unit.name}".strip()
+
+
+# ---- sentences of the program, which speaks of newtons and metres ----
+
+NUMBER = r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
+# "0.41 N", "from 5 to 2.5 N", "0.41 and 0.067 N"; no number that is a part of a word, and no unit that goes on.
+VALUES = re.compile(rf"(?<![\w.])({NUMBER})(?:( and | to )({NUMBER}))? (N/m|m/s|N|m)(?![\w/²³^])")
+
+
+def in_units(text, units):
+    def replaced(found):
+        unit = units.of(KINDS[found[4]])
+        values = [number(float(value) * unit.scale) for value in (found[1], found[3]) if value]
+        return f"{(found[2] or '').join(values)} {unit.name}"
+
+    return VALUES.sub(replaced, text)
+
+
+def all_in_units(texts, units):
+    return [in_units(text, units) for text in texts]

@@ -1,7 +1,6 @@
 """result.yaml as a table: every key that has a value has its place, also those that this file has never heard of."""
 from knot_utm.report.certificate import stiffness_name
-from knot_utm.report.quantities import CERTIFICATE, GROUPS, HEAD, TABLES, error_shown, is_rounding, quantity_of, shown
-from knot_utm.report.sentences import in_units
+from knot_utm.report.quantities import CERTIFICATE, error_shown, GROUPS, HEAD, in_units, is_rounding, quantity_of, shown, TABLES
 
 
 class Row:

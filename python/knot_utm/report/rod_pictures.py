@@ -5,13 +5,12 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import LogNorm, to_rgb
 
-from knot_utm.report.colour_scales import colour_scales
+from knot_utm.report.colours import colour_scales, node_values
 from knot_utm.report.method_facts import post_diameter
-from knot_utm.report.node_values import node_values
 from knot_utm.report.quantities import with_unit
 from knot_utm.report.shapes import pieces
-from knot_utm.report.style import GREY, HUB, INK, ROLLER, SMALL, USUAL, as_png
-from knot_utm.report.tube import Tube, smooth, to_picture
+from knot_utm.report.style import as_png, GREY, HUB, INK, ROLLER, SMALL, USUAL
+from knot_utm.report.tube import SeenTube, smooth, to_picture
 
 UNKNOWN = to_rgb("#9fb3c4")
 PIXELS = 1500   # across a picture
@@ -50,8 +49,20 @@ def width_of(views):
 
 
 def draw_rod(axes, shape, whole, radius, scale):
-    tubes = [(part, Tube(smooth(to_picture(shape.points[part])), radius)) for part in pieces(shape, whole)]
-    colours = np.concatenate([tube.shaded(base_of(shape, part, tube.along, scale)) for part, tube in tubes])
+    values = node_values(shape).get(scale.name) if scale else None
+
+    def colours(node):
+        if values is None:
+            return np.tile(UNKNOWN, (len(node), 1))
+        return scale.of(np.interp(node, np.arange(len(values)), values))
+
+    draw_tubes(axes, shape.points, pieces(shape, whole), radius, colours)
+
+
+def draw_tubes(axes, points, parts, radius, colours_at):
+    """Tubes around parts of the rod. `colours_at`: of places along it, as numbers of nodes."""
+    tubes = [(part, SeenTube(smooth(to_picture(points[part])), radius)) for part in parts]
+    colours = np.concatenate([tube.shaded(colours_at(part.start + tube.along * (part.stop - 1 - part.start))) for part, tube in tubes])
     depth = np.concatenate([tube.depth for _, tube in tubes])
     # What is farther from the eye is paler.
     away = (depth.max() - depth) / max(np.ptp(depth), 4.0 * radius)
@@ -60,14 +71,6 @@ def draw_rod(axes, shape, whole, radius, scale):
     outlines = np.concatenate([tube.outlines for _, tube in tubes])[order]
     axes.add_collection(PolyCollection(1e3 * outlines, facecolors=colours[order], edgecolors=colours[order],
                                        linewidths=0.25, zorder=2))
-
-
-def base_of(shape, part, along, scale):
-    """Colours by the values of a scale at places along a part of the rod, 0 to 1."""
-    values = node_values(shape).get(scale.name) if scale else None
-    if values is None:
-        return np.tile(UNKNOWN, (len(along), 1))
-    return scale.of(np.interp(part.start + along * (part.stop - 1 - part.start), np.arange(len(values)), values))
 
 
 def rollers(run, shape):

@@ -6,18 +6,14 @@ import re
 import numpy as np
 import yaml
 
-from knot_utm.report.failure import CannotReport
-from knot_utm.report.is_number import is_number
-from knot_utm.report.quantities import with_unit
-from knot_utm.report.units import units_of
-
+from knot_utm import tool
+from knot_utm.report.commands import CannotReport
+from knot_utm.report.quantities import is_number, units_of, with_unit
 
 
 def phases(trait):
-    """Names of the phases that have a trait of phases.csv."""
-    path = os.path.join(os.path.dirname(os.path.abspath(__file__)), "phases.csv")
-    with open(path, encoding="utf-8", newline="") as file:
-        return tuple(row["name"] for row in csv.DictReader(file) if row[trait] == "1")
+    """Names of the phases that have a trait."""
+    return tuple(row["name"] for row in tool.listing("phases") if row[trait] == "1")
 
 
 PULLING = phases("pulls")  # the specimen is pulled further than before
@@ -110,6 +106,23 @@ class Run:
         or `readings`."""
         tested, broke = (self.curve if curve is None else curve).tested(), self.time_of_break()
         return tested if broke is None else tested.where(tested["time"] <= broke)
+
+    def place_at(self, time):
+        """Extension [m] and load [N] at a time; None before the test proper and behind a break."""
+        tested = self.tested()
+        behind = self.time_of_break() is not None and len(tested) and time > tested["time"][-1]
+        if behind or not len(tested) or time < tested["time"][0]:
+            return None
+        return tuple(float(np.interp(time, tested["time"], tested[name])) for name in ("extension", "load"))
+
+    def words_at(self, time):
+        """What happens at a time."""
+        phase = self.curve.phase[min(int(np.searchsorted(self.curve["time"], time)), len(self.curve) - 1)]
+        place, broke = self.place_at(time), self.time_of_break()
+        said = f"{phase}, {time:.2f} s"
+        if place:
+            return f"{said}: s = {with_unit(place[0], self.units.length)}, F = {with_unit(place[1], self.units.force)}"
+        return said + (": the rod has parted" if broke is not None and time > broke else "")
 
     def offset(self):
         """True force less load [N]."""

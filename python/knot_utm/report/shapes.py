@@ -3,7 +3,7 @@ import os
 
 import numpy as np
 
-from knot_utm.report.failure import CannotReport
+from knot_utm.report.commands import CannotReport
 from knot_utm.report.run import numbers, read_columns
 
 SHAPE, STATE = "knot/shape", "knot/state"

@@ -10,7 +10,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import matplotlib.text  # noqa: E402
 
-from knot_utm.report.typefaces import further_families  # noqa: E402
+from knot_utm.report.typefaces import further_families
 
 INK, GREY, FAINT = "#22303c", "#5f6e7b", "#d9e0e6"
 BLUE, ORANGE, GREEN, VIOLET, RED, GOLD = "#1f5f99", "#b95a15", "#2a7554", "#6d4a9c", "#a02020", "#806416"
@@ -76,6 +76,13 @@ def data_uri(figure, kind, **how):
     figure.savefig(out, **how)
     plt.close(figure)
     return embedded(kind, out.getvalue())
+
+
+def short(file, letters):
+    """The last two parts of a path, the last letters of a long name."""
+    text = "/".join(file.split("/")[-2:])
+    text = text if len(text) <= letters else "…" + text[1 - letters:]
+    return text.replace("$", r"\$")  # which begins a formula
 
 
 def embedded(kind, content):

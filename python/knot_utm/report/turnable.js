@@ -23,75 +23,33 @@
     return new THREE.Vector3(...[0, 1, 2].map(k => data.low[k] + data.step[k] * points[at + k]));
   }
 
-  // The quadratic B-spline that has the nodes for control points, as the contacts see the rod; and the node of each point.
-  function line(shape, first, end) {
-    const nodes = [], places = [], along = [];
-    for (let i = first; i < end; ++i) nodes.push(node(shape, i));
-    places.push(nodes[0]);
-    along.push(first);
-    for (let i = 0; i + 2 < nodes.length; ++i) {
-      for (let k = 0; k < PIECES; ++k) {
-        const u = k / PIECES;
-        places.push(new THREE.Vector3().addScaledVector(nodes[i], 0.5 * (1 - u) * (1 - u))
-          .addScaledVector(nodes[i + 1], 0.5 + u - u * u).addScaledVector(nodes[i + 2], 0.5 * u * u));
-        along.push(first + Math.round(i + 0.5 + u));
-      }
-    }
-    places.push(nodes[nodes.length - 1]);
-    along.push(end - 1);
-    return {places, along};
-  }
-
   function colour(shape, i) {
     const place = shown ? shown.places[shape * data.nodes + i] : UNKNOWN;
     return place === UNKNOWN ? data.unknown : [0, 1, 2].map(k => shown.palette[3 * place + k] / 255);
   }
 
-  // Rings around a piece of the rod, their sides carried along it without spinning, closed by a flat face at either end.
-  function addPiece(mesh, shape, first, end) {
-    const {places, along} = line(shape, first, end), last = places.length - 1;
-    const side = new THREE.Vector3(), tangent = new THREE.Vector3();
-    const ring = (i, radius, normal) => {
-      const other = new THREE.Vector3().crossVectors(tangent, side), shade = colour(shape, along[i]);
-      for (let k = 0; k < SIDES; ++k) {
-        const angle = 2 * Math.PI * k / SIDES;
-        const out = new THREE.Vector3().addScaledVector(side, Math.cos(angle)).addScaledVector(other, Math.sin(angle));
-        mesh.position.push(...new THREE.Vector3().copy(places[i]).addScaledVector(out, radius).toArray());
-        mesh.normal.push(...(normal || out).toArray());
-        mesh.color.push(...shade);
-      }
-      const begin = mesh.position.length / 3 - SIDES;
-      if (mesh.open) {
-        for (let k = 0; k < SIDES; ++k) {
-          const a = begin - SIDES + k, b = begin - SIDES + (k + 1) % SIDES;
-          mesh.index.push(a, b, a + SIDES, b, b + SIDES, a + SIDES);
-        }
-      }
-      mesh.open = true;
-    };
-    mesh.open = false;
-    for (let i = 0; i <= last; ++i) {
-      tangent.subVectors(places[Math.min(i + 1, last)], places[Math.max(i - 1, 0)]).normalize();
-      if (i === 0) {
-        side.set(...[0, 1, 2].map(k => Number(Math.abs(tangent.getComponent(k)) <=
-          Math.min(...tangent.toArray().map(Math.abs)) + 1e-12)));
-      }
-      side.addScaledVector(tangent, -side.dot(tangent)).normalize();
-      const outwards = i === 0 ? tangent.clone().negate() : i === last ? tangent : null;
-      if (i === 0) [0, data.radius].forEach(radius => ring(i, radius, outwards));
-      ring(i, data.radius, null);
-      if (i === last) [data.radius, 0].forEach(radius => ring(i, radius, outwards));
-    }
+  function coloured(geometry, shade) {
+    const shades = [];
+    for (let i = 0; i < geometry.attributes.position.count; ++i) shades.push(...shade(i));
+    geometry.setAttribute("color", new THREE.Float32BufferAttribute(shades, 3));
+    return geometry;
   }
 
-  function meshOf(shape) {
-    const mesh = {position: [], normal: [], color: [], index: [], open: false};
-    (data.pieces[shape] || [[0, data.nodes]]).forEach(piece => addPiece(mesh, shape, ...piece));
-    const geometry = new THREE.BufferGeometry();
-    ["position", "normal", "color"].forEach(name =>
-      geometry.setAttribute(name, new THREE.Float32BufferAttribute(mesh[name], 3)));
-    geometry.setIndex(mesh.index);
-    return geometry;
+  // A piece of the rod: a smooth line through its nodes, a tube around it, and a disc at either end.
+  function piece(shape, first, end) {
+    const nodes = [];
+    for (let i = first; i < end; ++i) nodes.push(node(shape, i));
+    const line = new THREE.CatmullRomCurve3(nodes);
+    line.getPointAt = line.getPoint;  // by the number of the node, which has the colour, and not by the length
+    line.getTangentAt = line.getTangent;
+    const tube = new THREE.TubeBufferGeometry(line, PIECES * (nodes.length - 1), data.radius, SIDES);
+    const ends = [0, 1].map(at => {
+      const disc = new THREE.CircleBufferGeometry(data.radius, SIDES);
+      disc.lookAt(line.getTangent(at).multiplyScalar(2 * at - 1));
+      disc.translate(...line.getPoint(at).toArray());
+      return coloured(disc, () => colour(shape, at ? end - 1 : first));
+    });
+    return [coloured(tube, i => colour(shape, first + Math.round(Math.floor(i / (SIDES + 1)) / PIECES))), ...ends];
   }
 
   // ---- the scene ----------------------------------------------------------------------------------------------------
@@ -103,8 +61,8 @@
   lamp.position.set(-0.4, 0.8, 1);
   camera.add(lamp);
   scene.add(camera, new THREE.AmbientLight(0xffffff, 0.45));
-  const rod = new THREE.Mesh(new THREE.BufferGeometry(),
-    new THREE.MeshPhongMaterial({vertexColors: THREE.VertexColors, shininess: 30, specular: 0x222222}));
+  const rod = new THREE.Group();
+  const paint_of_rod = new THREE.MeshPhongMaterial({vertexColors: THREE.VertexColors, shininess: 30, specular: 0x222222});
   scene.add(rod);
   const wheels = data.rollers[0].map(() => new THREE.Mesh(
     new THREE.CylinderBufferGeometry(data.roller_radius, data.roller_radius, 5 * data.radius, 64),
@@ -122,14 +80,14 @@
     const frame = renderer.domElement.getBoundingClientRect(), ray = new THREE.Raycaster();
     ray.setFromCamera(new THREE.Vector2(2 * (event.clientX - frame.left) / frame.width - 1,
       1 - 2 * (event.clientY - frame.top) / frame.height), camera);
-    const hit = ray.intersectObject(rod)[0];
+    const hit = ray.intersectObject(rod, true)[0];
     if (hit) controls.target.copy(hit.point);
     controls.update();
     draw();
   });
 
   function lookAtAll() {
-    const box = rod.geometry.boundingBox, middle = box.getCenter(new THREE.Vector3()), size = box.getSize(new THREE.Vector3());
+    const box = new THREE.Box3().setFromObject(rod), middle = box.getCenter(new THREE.Vector3()), size = box.getSize(new THREE.Vector3());
     const tall = Math.max(size.x, size.z / camera.aspect);
     controls.target.copy(middle);
     camera.position.copy(middle).add(new THREE.Vector3(0.2, 1, 0).normalize()
@@ -183,11 +141,11 @@
 
   function show(shape) {
     now = shape;
-    const geometry = meshOf(shape), state = data.states[shape];
-    rod.geometry.dispose();
-    rod.geometry = geometry;
-    geometry.computeBoundingBox();
-    geometry.computeBoundingSphere();
+    const state = data.states[shape];
+    rod.children.forEach(part_of_rod => part_of_rod.geometry.dispose());
+    rod.remove(...rod.children);
+    (data.pieces[shape] || [[0, data.nodes]]).forEach(([first, end]) =>
+      piece(shape, first, end).forEach(geometry => rod.add(new THREE.Mesh(geometry, paint_of_rod))));
     wheels.forEach((wheel, i) => wheel.position.set(0, 0, data.rollers[shape][i]));
     slider.value = shape;
     part("words").textContent = state.words;

@@ -6,12 +6,11 @@ import os
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from knot_utm.report.colour_scales import colour_scales
+from knot_utm.report.colours import colour_scales, node_values
 from knot_utm.report.curve_figures import small_loads
-from knot_utm.report.few_points import few_points
-from knot_utm.report.node_values import node_values
-from knot_utm.report.quantities import number, with_unit
-from knot_utm.report.rod_pictures import UNKNOWN, rollers
+from knot_utm.report.curves import few_points
+from knot_utm.report.quantities import number
+from knot_utm.report.rod_pictures import rollers, UNKNOWN
 from knot_utm.report.run import read_text
 from knot_utm.report.shapes import pieces
 
@@ -100,13 +99,6 @@ def axis(values, label, most):
 def state(run, shape):
     """What is said of a shape, and where it lies on the curve; None: the test proper has not begun, or the rod has
     parted."""
-    curve, tested = run.curve, run.tested()
-    phase = curve.phase[min(int(np.searchsorted(curve["time"], shape.time)), len(curve) - 1)]
-    words, place = f"{phase}, {shape.time:.2f} s", None
-    if len(tested) and shape.time > tested["time"][-1] and run.time_of_break() is not None:
-        words += ": the rod has parted"
-    elif len(tested) and shape.time >= tested["time"][0]:
-        extension, load = (float(np.interp(shape.time, tested["time"], tested[name])) for name in ("extension", "load"))
-        place = [run.units.length.scale * extension, run.units.force.scale * load]
-        words += f": s = {with_unit(extension, run.units.length)}, F = {with_unit(load, run.units.force)}"
-    return {"words": words, "place": place}
+    place = run.place_at(shape.time)
+    return {"words": run.words_at(shape.time),
+            "place": place and [run.units.length.scale * place[0], run.units.force.scale * place[1]]}

@@ -1,6 +1,5 @@
 #!/usr/bin/python3
 """The panel beside the picture in rviz: what it says, and that all of it can be read."""
-import csv
 import itertools
 import math
 import os
@@ -12,6 +11,7 @@ import unittest
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(__file__), '../../..'))
 
+from knot_utm import tool
 from knot_utm.panel.drawing import HEIGHT, WIDTH, Drawing, limit
 from knot_utm.panel.readings import BROKEN, CROSSED, CURVES, ENDED, FAILED, MOST_WAITING, PAUSED, PREPARATION, Readings
 
@@ -119,8 +119,7 @@ class ReadingsTest(unittest.TestCase):
         self.assertEqual(readings.curve(), [(0.0, 0.1)])
 
     def test_phases_that_prepare_are_those_of_the_program(self):
-        with open(os.path.join(ROOT, 'python/knot_utm/report/phases.csv'), encoding='utf-8') as text:
-            prepare = {row['name'] for row in csv.DictReader(text) if row['prepares'] == '1'}
+        prepare = {row['name'] for row in tool.listing('phases') if row['prepares'] == '1'}
         self.assertEqual(PREPARATION - {''}, prepare - {'balance'})
 
     def test_the_curve_ends_with_the_load_at_the_break(self):

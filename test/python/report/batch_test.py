@@ -5,24 +5,18 @@ import re
 import subprocess
 import unittest
 
-from runs import FISHERMAN, ROOT, STRAIGHT, Folders, command_of, keys_on, open_bytes, page_of, read, row_of, script, tool, write
+from runs import FISHERMAN, ROOT, STRAIGHT, Folders, command_of, keys_on, page_of, read, row_of, script, tool, write
 
 import matplotlib.text
 import numpy as np
 import yaml
 
-from knot_utm.report import batch_figures
-from knot_utm.report import batch_page
-from knot_utm.report import batch_tables
-from knot_utm.report import curve_figures
-from knot_utm.report import style
+from knot_utm.report import batch_page, batch_tables, curve_figures, style
 from knot_utm.report.batch import Batch
 from knot_utm.report.certificate import Check
-from knot_utm.report.laboratory import particulars
-from knot_utm.report.mean_curve import mean_curve
-from knot_utm.report.quantities import number, quantity_of
-from knot_utm.report.student import quantile
-from knot_utm.report.units import Units
+from knot_utm.report.curves import mean_curve
+from knot_utm.report.method_facts import particulars
+from knot_utm.report.quantities import number, Units
 
 SCATTER = ["--set", "specimens.scatter={material.stretching_stiffness: {normal: 0.05}, program.pull.speed: {uniform: 0.1}}"]
 # Of these three specimens the second one comes undone before it is pulled.
@@ -66,18 +60,6 @@ def changed(of, name, change):
     return folder
 
 
-def all_rejected(of):
-    def change(facts):
-        facts["rejected"] = [{"specimen": one, "reason": "the physics gave up: a & b"} for one in (1, 2)]
-        for key, found in facts.items():
-            if isinstance(found, dict):
-                facts[key] = {} if key == "motion_pattern" else {name: 0 if name == "n" else None for name in found}
-
-    folder = changed(of, "statistics.yaml", change)
-    write(read(folder, "specimens.csv").replace(",false,", ",true,"), folder, "specimens.csv")
-    return folder
-
-
 def head_of(html):
     """{label: text}"""
     return dict(re.findall(r'<div><span class="label">(.*?)</span>(.*?)</div>', html))
@@ -100,11 +82,6 @@ class PageByAStandard(unittest.TestCase):
 
     def test_of_no_standard_the_head_is_empty(self):
         self.assertEqual(head_of(html_of(rods)), {})
-
-    def test_shows_elongations_and_efficiencies_in_percent(self):
-        for key in ("elongation_total", "elongation_at_break", "knot_efficiency"):
-            unit = Units().of(quantity_of(key).kind)
-            self.assertEqual((unit.name, unit.scale), ("%", 100.0), key)
 
     def test_of_a_load_rate_there_is_no_speed(self):
         method = {"program": [{"pull": {"speed": 0.1, "load_rate": 5.0}}]}
@@ -163,15 +140,6 @@ class PageOfABatch(unittest.TestCase):
         self.assertEqual([row[0] for row in drawn[1:]], ["1", "2, rejected", "3"])
         self.assertNotIn("Rejected specimens", page_of(loops))
 
-    def test_of_which_no_specimen_counts(self):
-        folder = all_rejected(rods)
-        self.assertEqual(script(folder).stderr, "")
-        html = page_of(folder)
-        self.assertIn("No specimen counts: all 2 are rejected", html)
-        self.assertIn("<td>the physics gave up: a &amp; b</td>", html)
-        self.assertNotIn("Force and extension</h2>", html)
-        self.assertEqual(set(statistics(folder)) - keys_on(html), set())
-
     def test_counts_motion_patterns_and_ends(self):
         self.assertIn("motion pattern <b>sliding 3</b> · ended by <b>", page_of(loops))
         self.assertIn("motion pattern <b>untangling 2</b>", html_of(loose))
@@ -201,19 +169,6 @@ class PageOfABatch(unittest.TestCase):
             if not name.startswith("specimen_"):
                 self.assertIn(f"<code>{name}</code>", html)
         self.assertIn("<code>specimen_001/ to specimen_003/</code>", html)
-
-    def test_asks_for_nothing_from_elsewhere(self):
-        html = page_of(loops)
-        self.assertEqual([source[:5] for source in re.findall(r'(?:src|srcset)="([^"]*)"', html)], ["data:"] * 2)
-        for elsewhere in ("<link", "<script", "http://", "https://", "url(", "@import"):
-            self.assertNotIn(elsewhere, html)
-
-    def test_is_the_same_to_the_last_byte_when_made_again(self):
-        folder, made = folders.copy(rods), []
-        for _ in range(2):
-            self.assertEqual(script(folder).returncode, 0)
-            made.append([open_bytes(folder, name) for name in ("report.html", "report.pdf")])
-        self.assertTrue(made[0] == made[1])
 
     def test_gives_each_warning_once(self):
         folder = folders.copy(rods)
@@ -310,31 +265,13 @@ class TheMeanCurve(unittest.TestCase):
         self.assertIsNone(mean_curve([one, (np.array([]), np.array([]))]))
 
 
-class StudentsDistribution(unittest.TestCase):
-    def test_is_that_of_the_program(self):
-        for folder, degrees in ((loops, 2), (rods, 1)):
-            checked = 0
-            for found in statistics(folder).values():
-                if isinstance(found, dict) and found.get("n") == degrees + 1 and found["sd"]:
-                    half = quantile(degrees) * found["sd"] / np.sqrt(degrees + 1.0)
-                    self.assertAlmostEqual((found["high"] - found["mean"]) / half, 1.0, delta=1e-6)
-                    checked += 1
-            self.assertGreater(checked, 5)
-
-    def test_has_the_closed_forms_of_one_two_and_many_degrees(self):
-        self.assertAlmostEqual(quantile(1.0), np.tan(0.475 * np.pi), places=7)
-        self.assertAlmostEqual(quantile(2.0), 0.95 * np.sqrt(2.0 / (1.0 - 0.95**2)), places=7)
-        self.assertAlmostEqual(quantile(1e7), 1.959963985, places=5)  # of a normal distribution
-        self.assertTrue(quantile(2.0) > quantile(2.5) > quantile(3.0))
-
-
 class FiguresOfABatch(unittest.TestCase):
     def drawn(self, folder, look):
         kept = []
-        self.addCleanup(setattr, batch_figures, "as_svg", batch_figures.as_svg)
-        batch_figures.as_svg = lambda figure, *_: kept.append(figure) or ""
+        self.addCleanup(setattr, "as_svg", batch_page.as_svg)
+        batch_page.as_svg = lambda figure, *_: kept.append(figure) or ""
         batch = Batch(folder)
-        batch_figures.curves(batch, mean_curve([one.pull for one in batch.tested]), look)
+        batch_page.curves(batch, mean_curve([one.pull for one in batch.tested]), look)
         return kept[0]
 
     def test_draw_every_specimen_that_counts_and_their_mean(self):
@@ -377,10 +314,10 @@ class FiguresOfABatch(unittest.TestCase):
 
     def test_have_fewer_points_of_many_curves(self):
         s = np.linspace(0.0, 1.0, 5000)
-        figure, axes = batch_figures.stacked(style.WIDE, [2.0])[:2]
-        batch_figures.draw(axes[0], [(s, s)] * 100, None, 1.0, 1.0)
-        self.assertLessEqual(sum(len(line.get_xdata()) for line in axes[0].get_lines()), 1.1 * batch_figures.IN_ALL)
-        batch_figures.as_svg(figure)
+        figure, axes = batch_page.stacked(style.WIDE, [2.0])[:2]
+        batch_page.draw(axes[0], [(s, s)] * 100, None, 1.0, 1.0)
+        self.assertLessEqual(sum(len(line.get_xdata()) for line in axes[0].get_lines()), 1.1 * batch_page.IN_ALL)
+        batch_page.as_svg(figure)
 
 
 class Efficiency(unittest.TestCase):

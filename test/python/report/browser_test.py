@@ -18,7 +18,7 @@ from knot_utm.report import style
 
 NO_WEBGL, WEBGL = ["--disable-3d-apis"], ["--enable-unsafe-swiftshader"]  # by the processor, as no graphics card is there
 WIDTH = 1200                    # of the window [px]
-WIDTHS = (360, 720, 800, 1280)  # a telephone, tablets, a desk [px]
+WIDTHS = (360, 720, 1280)  # a telephone, a tablet, a desk [px]
 SMALLEST, DRAWN = 12.0, 10.0    # letters of the page, and those in its figures [px]
 
 # What the page cannot hide from itself, said where --dump-dom shows it. It stands in a frame, as no window is as narrow as

@@ -7,13 +7,9 @@ from runs import ROOT, STRAIGHT, OfValues, html_of, read, row_of, two_runs
 
 import yaml
 
-from knot_utm.report import certificate
-from knot_utm.report import method_facts
-from knot_utm.report import page
-from knot_utm.report import quantities
-from knot_utm.report import sentences
+from knot_utm.report import certificate, method_facts, page, quantities
+from knot_utm.report.quantities import Units
 from knot_utm.report.run import Run
-from knot_utm.report.units import Units
 
 
 def setUpModule():
@@ -170,7 +166,7 @@ class Numbers(unittest.TestCase):
     def test_in_sentences_are_in_the_units_of_the_page(self):
         said = ("parted 0.370498 m along at 2500.08 N (2 strands of 3 radii), from 44.48 to 4.448 N, at 0.0254 m/s, where k_b/h^2 is "
                 "-4.448 N; 175.1 N/m, 2e-05 m, 8 N/m², 5 mm and 1e-7 s")
-        self.assertEqual(sentences.in_units(said, Units("lbf", "in")),
+        self.assertEqual(quantities.in_units(said, Units("lbf", "in")),
                          "parted 14.59 in along at 562.0 lbf (2 strands of 3 radii), from 10.00 to 1.000 lbf, at 1 in/s, where k_b/h^2 is "
                          "–1.000 lbf; 0.9998 lbf/in, 0.0007874 in, 8 N/m², 5 mm and 1e-7 s")
 

@@ -13,7 +13,7 @@ from vtkmodules.vtkFiltersCore import vtkPolyDataConnectivityFilter
 from vtkmodules.vtkIOGeometry import vtkGLTFReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
-from knot_utm.report.node_values import curvature, node_values
+from knot_utm.report.colours import curvature, node_values
 from knot_utm.report.run import Run
 from knot_utm.report.shapes import final_shape, series_of
 

@@ -84,7 +84,7 @@ class Pictures(unittest.TestCase):
         self.assertEqual((times[0], times[-1]), (min(test.first() for test in stage.tests), max(test.last() for test in stage.tests)))
         for test in stage.tests:
             self.assertNotEqual(test.run.curve.phase[np.searchsorted(test.run.curve["time"], test.at(-0.1).time)], "pull")
-            self.assertRegex(test.words(test.at(0.1)), "^pull, .* s = ")
+            self.assertRegex(test.run.words_at(test.at(0.1).time), "^pull, .* s = ")
 
     def test_lie_between_the_shapes_that_are_known(self):
         test = OneTest(nylon)
@@ -99,7 +99,7 @@ class Pictures(unittest.TestCase):
         test = OneTest(nylon)
         shape = test.at(20.03)
         extension, load = test.until(shape.time)
-        self.assertIn(f"s = {extension[-1]:.4g} mm", test.words(shape))
+        self.assertIn(f"s = {extension[-1]:.4g} mm", test.run.words_at(shape.time))
         self.assertAlmostEqual(load[-1], np.interp(extension[-1], test.extension, test.load), delta=0.01 * load[-1])
         self.assertTrue((np.diff(extension) > 0.0).all())
 

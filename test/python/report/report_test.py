@@ -7,19 +7,15 @@ import re
 import subprocess
 import unittest
 
-from runs import (FISHERMAN, ROOT, STRAIGHT, command_of, html_of, keys_on, open_bytes, page_of, put_into, read, row_of,
+from runs import (FISHERMAN, STRAIGHT, command_of, html_of, keys_on, open_bytes, page_of, put_into, read, row_of,
                   script, tool, two_runs, write)
 
 import numpy as np
 import yaml
 from matplotlib.figure import Figure
 
-from knot_utm.report import certificate
-from knot_utm.report import curve_figures
-from knot_utm.report import page
-from knot_utm.report import quantities
-from knot_utm.report import turnable
-from knot_utm.report.failure import CannotReport
+from knot_utm.report import certificate, curve_figures, page, quantities, turnable
+from knot_utm.report.commands import CannotReport
 from knot_utm.report.run import Run
 from knot_utm.report.shapes import series_of
 
@@ -118,12 +114,6 @@ class PageOfARun(unittest.TestCase):
         for name in os.listdir(fisherman):
             self.assertIn(f"<code>{name}</code>", html)
 
-    def test_asks_for_nothing_from_elsewhere(self):
-        html = page_of(fisherman)  # what its scripts do the browser tells
-        self.assertEqual([source[:5] for source in re.findall(r'(?:src|srcset)="([^"]*)"', html)], ["data:"] * 6)
-        for elsewhere in ("<link", "<script", "http://", "https://", "url(", "@import"):
-            self.assertNotIn(elsewhere, html)
-
     def test_holds_every_shape_in_a_millionth_of_its_size(self):
         given = json.loads(re.search(r'id="turnable-data">(.*?)</script>', read(fisherman, "report.html"))[1])
         series, _ = series_of(Run(fisherman))
@@ -162,7 +152,7 @@ class PageOfARun(unittest.TestCase):
         for floor in (0.0, 0.002):
             method["machine"]["load_cell"]["floor"] = floor
             write(yaml.safe_dump(method), folder, "method.yaml")
-            pages.append(html_of(folder))
+            pages.append(html_of(folder, with_figures=True))
         self.assertEqual(Run(folder).load_cell_floor(), 0.002 * method["machine"]["load_cell"]["capacity"])
         self.assertEqual(["hatched floor" in html for html in pages], [False, True])
         curves = [re.search(r'src="(data:image/svg[^"]+)"', html).group(1) for html in pages]
@@ -173,7 +163,7 @@ class PageOfARun(unittest.TestCase):
         bag = os.path.join(folder, "test.bag")
         os.remove(bag) if os.path.exists(bag) else None
         for remark in ("no test.bag", "test.bag cannot be read"):
-            html = html_of(folder)
+            html = html_of(folder, with_figures=True)
             self.assertTrue(remark in html)
             self.assertTrue("image/png" in html)
             write("#ROSBAG V2.0\n", bag)
@@ -190,7 +180,7 @@ class PageOfARun(unittest.TestCase):
         for name in ("curve.csv", "curve_full.csv"):
             rows = read(folder, name).splitlines()
             write("\n".join(row for row in rows if ",pull," not in row) + "\n", folder, name)
-        html = html_of(folder)
+        html = html_of(folder, with_figures=True)
         self.assertIn("there is no curve", html)
         self.assertEqual(len(re.findall(r' src="data:image/(?:svg|png)', html)), 2)
 
@@ -245,15 +235,6 @@ class NumbersOfThePage(unittest.TestCase):
             for mark in page.marks_of(run):
                 if not np.isnan(mark.load):
                     self.assertIn((float(mark.time), float(mark.extension), float(mark.load)), places, mark.title())
-
-    def test_of_the_energies_fit_each_other_also_where_the_rod_broke(self):
-        for folder in (fisherman, self.broken):
-            of = Run(folder).value
-            self.assertGreaterEqual(of("kinetic_energy"), 0.0)
-            parts = sum(of(key) for key in ("stored_energy", "kinetic_energy", "friction_loss", "plastic_loss", "drag_loss",
-                                            "numerical_dissipation", "reweighting_loss"))
-            self.assertAlmostEqual(parts, of("work"), delta=1e-3 * of("work"))
-        self.assertAlmostEqual(of("work"), of("energy_to_break"), delta=1e-3 * of("work"))
 
     def test_that_were_given_are_no_result(self):
         html = html_of(self.broken)
@@ -322,16 +303,8 @@ class Failures(unittest.TestCase):
         out = os.path.join(folders.path, "no_room")
         os.makedirs(os.path.join(out, "report.html", "in_the_way"))
         done = tool("tensile_test", *STRAIGHT, "--quiet", "--out", out, "--report")
-        self.assertIn("tensile_test: report: ", self.one_line(done, 1))
-        self.assertIn("report.html: cannot be written", done.stderr)
+        self.assertEqual(self.one_line(done, 1), f"report: {out}/report.html: cannot be written: Is a directory\n")
         self.assertIn("ended_by: extension", read(out, "result.yaml"))
-
-    def test_a_new_run_takes_the_old_page_away(self):
-        out = folders.run("twice", STRAIGHT, "--report")
-        self.assertTrue(os.path.exists(os.path.join(out, "report.pdf")))
-        folders.run("twice", STRAIGHT, "--overwrite")
-        self.assertFalse({"report.html", "report.pdf"} & set(os.listdir(out)))
-
 
     def test_a_page_that_cannot_be_written_leaves_the_old_one_and_no_part(self):
         out = os.path.join(folders.path, "parts")

@@ -5,13 +5,14 @@ import shutil
 import subprocess
 import tempfile
 import unittest
+from unittest import mock
 
 import numpy as np
 import yaml
 
 from knot_utm.report import page
+from knot_utm.report.quantities import Units
 from knot_utm.report.run import Curve, Run
-from knot_utm.report.units import Units
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../.."))
 SCRIPT = os.path.join(ROOT, "scripts/report")
@@ -63,9 +64,13 @@ def open_bytes(*parts):
         return content.read()
 
 
-def html_of(folder):
-    """The page as the script makes it, without its scripts and the time that its PDF takes."""
-    return without_scripts(page.report_on_run(folder, "of the test", ""))
+def html_of(folder, with_figures=False):
+    """The page as the script makes it, without its scripts and the time that its PDF takes, and mostly without figures."""
+    if with_figures:
+        return without_scripts(page.report_on_run(folder, "of the test", ""))
+    with mock.patch.object(page, "figures_of", lambda _, marks: {
+            "curve": ["", ""] if marks else None, "course": None, "pictures": None, "note": "", "turnable": None}):
+        return page.report_on_run(folder, "of the test", "")
 
 
 def command_of(html):

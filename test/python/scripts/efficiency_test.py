@@ -3,14 +3,13 @@
 import math
 import os
 import subprocess
-import sys
 import tempfile
 import unittest
 
 import numpy as np
 import yaml
 
-from knot_utm.report.ratio_of_means import Sample, ratio_of_means
+from knot_utm.report.efficiency import ratio_of_means, Sample
 
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../.."))
 SCRIPT = os.path.join(ROOT, "scripts/efficiency")

@@ -4,7 +4,6 @@ a module is not installed."""
 import glob
 import itertools
 import os
-import sys
 import tempfile
 import unittest
 

@@ -3,7 +3,6 @@
 77, where a module is not installed."""
 import math
 import os
-import sys
 import tempfile
 import unittest
 

@@ -10,7 +10,6 @@ import resource
 import shlex
 import signal
 import subprocess
-import sys
 import unittest
 
 from sweeps import CONFIG, LENGTHS, REAL, ROOT, Sweeps, content, write  # first: it finds the packages

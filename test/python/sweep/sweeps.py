@@ -1,7 +1,6 @@
 """Small sweeps for the tests, with a tensile_test that tells what it was asked for, and may be held, or killed, at one run."""
 import os
 import subprocess
-import sys
 import tempfile
 import unittest
 
