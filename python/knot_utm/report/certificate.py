@@ -22,16 +22,14 @@ class Check:
         self.verdict = "" if kept is None else "pass" if kept else "fail"
 
 
-def at_most(words, key, value, limit, unit=""):
-    unit = " " + unit if unit else ""
-    if not is_number(value):
-        return Check(words, [key], "", f"at most {limit:g}{unit}", None)
-    return Check(words, [key], number(value) + unit, f"at most {limit:g}{unit}", value <= limit)
+def at_most(words, key, value, limit):
+    there = is_number(value)
+    return Check(words, [key], number(value) if there else "", f"at most {limit:g}", value <= limit if there else None)
 
 
-def must_be(words, key, value, wanted, yes, no):
-    return Check(words, [key], yes if value is True else no if value is False else "", yes if wanted else no,
-                 None if value is None else value is wanted)
+def so_it_is(words, key, is_so):
+    """`is_so`: None where it is not known."""
+    return Check(words, [key], "" if is_so is None else "yes" if is_so else "no", "yes", is_so)
 
 
 def certificate(result, has_knot=True):
@@ -40,26 +38,15 @@ def certificate(result, has_knot=True):
 
 
 def checks_of(result, has_knot=True):
-    def value(key):
-        return result.get(key)
-
-    def label(key):
-        return quantity_of(key).label
-
-    ended_by = value("ended_by")
+    value, ended_by, moved, jump = result.get, result.get("ended_by"), result.get("not_equilibrated"), jumped(result)
     return [
-        Check("The physics solved every time step", ["ended_by"],
-              "" if ended_by is None else "no" if ended_by == "solver" else "yes", "yes",
-              None if ended_by is None else ended_by != "solver"),
-        must_be("The knot remained the same knot", "knot_type_preserved",
-                value("knot_type_preserved") if has_knot else None, True, "yes", "no"),
-        must_be("The specimen was at rest as its pull began", "not_equilibrated", value("not_equilibrated"), False,
-                "no", "yes"),
+        so_it_is("The physics solved every time step", "ended_by", None if ended_by is None else ended_by != "solver"),
+        so_it_is("The knot remained the same knot", "knot_type_preserved", value("knot_type_preserved") if has_knot else None),
+        so_it_is("The specimen was at rest as its pull began", "not_equilibrated", None if moved is None else not moved),
         at_most("Deepest contact, in radii", "max_penetration", value("max_penetration"), LIMITS["kDeepContact"]),
-        must_be("No knot jumped open", "jump_force", jumped(result), False, "no", "yes"),
-        at_most(label("energy_balance_error"), "energy_balance_error", value("energy_balance_error"), LIMITS["kUnbalanced"]),
-        at_most(label("force_balance_error"), "force_balance_error", value("force_balance_error"),
-                LIMITS["kForcesDiffer"]),
+        so_it_is("No knot jumped open", "jump_force", None if jump is None else not jump),
+        *(at_most(quantity_of(key).label, key, value(key), LIMITS[limit])
+          for key, limit in (("energy_balance_error", "kUnbalanced"), ("force_balance_error", "kForcesDiffer"))),
         at_most("Estimated numerical error of the plateau force, as a share of it", "plateau_force_error",
                 share_of_plateau(result), LIMITS["kUnsure"]),
     ]

@@ -1,6 +1,7 @@
 """Curves of one test: its course over time, and load and knot distance over extension."""
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 
 from knot_utm.report.curves import error_band, few_points
@@ -19,33 +20,17 @@ def phases_of(curve):
     return [(str(curve.phase[a]), a, min(b, len(curve) - 1)) for a, b in zip(edges[:-1], edges[1:])]
 
 
-def named_spans(curve, letters):
-    """[(names, begin, end)] [s]: phases in a row that are too short for a name each share one place. `letters`: as many
-    as the whole width has room for."""
-    time, spans = curve["time"], []
-    for name, a, b in phases_of(curve):
-        short = time[b] - time[a] < (len(name) + 2) / letters * (time[-1] - time[0])
-        if name in ("idle", "done"):
-            continue
-        if short and spans and spans[-1][3]:
-            names, begin = spans[-1][0], spans[-1][1]
-            if not names.endswith((name, "…")):
-                names = names + ", " + name if len(names + name) < 0.4 * letters else names + " …"
-            spans[-1] = (names, begin, time[b], True)
-        else:
-            spans.append((name, time[a], time[b], short))
-    return [span[:3] for span in spans]
-
-
 def course(run, look):
     """Load and extension over time, with every phase of the program."""
     curve, force, length = run.curve, run.units.force, run.units.length
-    tall = 2.2
+    tall = 2.4 if look.is_narrow else 2.2
     figure, axes = plt.subplots(figsize=(look.width, tall))
     time = curve["time"]
     for name, a, b in phases_of(curve):
         axes.axvspan(time[a], time[b], color=PHASES.get(name, "#eeeeee"), lw=0, zorder=0)
-    name_phases(axes, curve, look)
+    names = [name for name in dict.fromkeys(curve.phase.tolist()) if name in PHASES]
+    figure.legend(handles=[Patch(color=PHASES[name], label=name) for name in names], loc="upper center", handlelength=1.0,
+                  ncol=5 if look.is_narrow else len(names), columnspacing=1.0, handletextpad=0.4, borderpad=0.2)
     tested, broke = ~np.isin(curve.phase, FORMING), run.time_of_break()
     if broke is not None:
         tested &= time <= broke
@@ -61,20 +46,8 @@ def course(run, look):
     second.set_ylabel(f"extension s [{length.name}]", color=ORANGE)
     second.spines["right"].set_visible(True)
     second.grid(False)
-    figure.subplots_adjust(**look.room(tall, 0.5, 0.3, right=0.6))
+    figure.subplots_adjust(**look.room(tall, 0.5, 0.5 if look.is_narrow else 0.3, right=0.6))
     return as_svg(figure)
-
-
-def name_phases(axes, curve, look):
-    """Above the axes, each in the middle of its phases, or behind the name before it where that is in the way."""
-    time, taken = curve["time"], 0.0
-    letters = 15.0 * (look.width - 1.3)
-    whole = (time[-1] - time[0]) or 1.0
-    for names, begin, end in named_spans(curve, letters):
-        half = 0.5 * (len(names) + 1) / letters
-        place = max(0.5 * (begin + end - 2.0 * time[0]) / whole, taken + half)
-        taken = place + half
-        axes.text(place, 1.04, names, ha="center", fontsize=SMALL, color=GREY, transform=axes.transAxes)
 
 
 def force_extension(run, marks, look):

@@ -4,10 +4,7 @@ import math
 import re
 
 from knot_utm import tool
-
-
-def is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+from knot_utm.yaml_text import is_number
 
 
 FORCES = {"N": 1.0, "kN": 1e-3, "lbf": 1.0 / 4.4482216152605}

@@ -8,9 +8,6 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
-import matplotlib.text  # noqa: E402
-
-from knot_utm.report.typefaces import further_families
 
 INK, GREY, FAINT = "#22303c", "#5f6e7b", "#d9e0e6"
 BLUE, ORANGE, GREEN, VIOLET, RED, GOLD = "#1f5f99", "#b95a15", "#2a7554", "#6d4a9c", "#a02020", "#806416"
@@ -43,7 +40,8 @@ logging.getLogger("matplotlib.font_manager").setLevel(logging.ERROR)
 warnings.filterwarnings("ignore", message="Glyph .* missing from")  # the page tells which
 plt.rcParams.update({
     "svg.hashsalt": "knot_utm", "svg.fonttype": "path",
-    "font.family": ["Liberation Sans", "Arial", "DejaVu Sans"], "font.size": USUAL, "mathtext.fontset": "dejavusans",
+    "font.family": ["Liberation Sans", "Arial", "DejaVu Sans", "Droid Sans Fallback", "Noto Sans CJK SC"],  # for other letters
+    "font.size": USUAL, "mathtext.fontset": "dejavusans",
     "text.color": INK, "axes.labelcolor": INK, "axes.edgecolor": GREY, "axes.linewidth": 0.7,
     "xtick.color": GREY, "ytick.color": GREY, "xtick.labelcolor": INK, "ytick.labelcolor": INK,
     "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True, "grid.color": FAINT,
@@ -69,9 +67,6 @@ def as_png(figure, dpi):
 
 
 def data_uri(figure, kind, **how):
-    for text in figure.findobj(matplotlib.text.Text):
-        if further := further_families(text.get_text()):
-            text.set_fontfamily([*plt.rcParams["font.family"], *further])
     out = io.BytesIO()
     figure.savefig(out, **how)
     plt.close(figure)

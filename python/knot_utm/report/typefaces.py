@@ -24,18 +24,6 @@ def special(text):
     return "".join(sorted({one for one in text if ord(one) >= LATIN and one.isprintable()}))
 
 
-def further_families(text):
-    """One family for all special characters of a text, or one for each that some family has."""
-    characters = special(text)
-    if not characters:
-        return []
-    found = families_with(characters)
-    if found:
-        return found[:1]
-    each = [families_with(one) for one in characters]
-    return list(dict.fromkeys(some[0] for some in each if some))
-
-
 def without_typeface(page):
     """The characters of a page that no typeface has."""
     text = html.unescape(re.sub(r"<(style|script).*?</\1>|<[^>]*>", "", page, flags=re.DOTALL))
