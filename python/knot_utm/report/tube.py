@@ -33,17 +33,15 @@ def tube(line, radius, sides=SIDES):
     angle = np.linspace(0.0, 2.0 * np.pi, sides, endpoint=False)[:, None]
     out = np.cos(angle) * across[:, None] + np.sin(angle) * np.cross(tangent, across)[:, None]
     rings = line[:, None] + radius * out
-    points = np.concatenate([rings.reshape(-1, 3), rings[0], rings[-1], line[[0, -1]]])
-    normals = np.concatenate([out.reshape(-1, 3), np.repeat([-tangent[0], tangent[-1]], sides, axis=0), [-tangent[0], tangent[-1]]])
-    along = np.concatenate([np.repeat(np.arange(count), sides), np.repeat([0, count - 1], sides), [0, count - 1]])
+    points = np.concatenate([rings.reshape(-1, 3), rings[0], rings[-1]])
+    normals = np.concatenate([out.reshape(-1, 3), np.repeat([-tangent[0], tangent[-1]], sides, axis=0)])
+    along = np.concatenate([np.repeat(np.arange(count), sides), np.repeat([0, count - 1], sides)])
     here = np.arange(sides)
     there = (here + 1) % sides
     around = np.stack([here, there, sides + there, sides + here], axis=1)
-    first, last, centre = sides * count, sides * (count + 1), sides * (count + 2)
-    quads = np.concatenate([
-        *(around + sides * i for i in range(count - 1)),
-        np.stack([0 * here + centre, first + there, first + here, 0 * here + centre], axis=1),
-        np.stack([0 * here + centre + 1, last + here, last + there, 0 * here + centre + 1], axis=1)])
+    first, last = sides * count, sides * (count + 1)
+    fan = np.stack([0 * here, here, there, 0 * here], axis=1)[1:-1]
+    quads = np.concatenate([*(around + sides * i for i in range(count - 1)), first + fan[:, ::-1], last + fan])
     return Mesh(points, normals, along.astype(float), quads)
 
 
