@@ -1,13 +1,16 @@
 """Turns what a ruler, a weight and a kitchen scale tell of a rope into a material file (doc/measure.md; scripts/material)."""
+import functools
 import math
 import sys
 
 import numpy as np
 import yaml
+from scipy import integrate, optimize
 
 from knot_utm.report.commands import OneLineParser, refuse, why_not
 
 GRAVITY = 9.81  # [m/s2]
+LEAST_ANGLE = math.radians(0.05)  # of the end of a cantilever: less is not seen
 STIFFENING_DEPTH = 0.015  # of the radius, from which the simulated contact stiffens (doc/model.md)
 SOLID = 10.0    # k_s h^2/k_b of less is a solid rod's, which is 4; ropes have hundreds
 
@@ -27,83 +30,53 @@ class Wrong(Exception):
 # ---- shapes of a heavy rod: w its weight per length ----------------------------------------------------------------
 
 
-def integrate(slope, state, length, steps=100):
-    """Runge and Kutta's fourth order."""
-    ds = length / steps
-    for i in range(steps):
-        s = i * ds
-        a = slope(s, state)
-        b = slope(s + ds / 2, state + ds / 2 * a)
-        c = slope(s + ds / 2, state + ds / 2 * b)
-        d = slope(s + ds, state + ds * c)
-        state = state + ds / 6 * (a + 2 * b + 2 * c + d)
-    return state
-
-
-def sags():
-    """(heaviness w l^3/k_b, drop over l) of rods that are clamped level, from hardly bent to hanging straight down.
+def sag(end):
+    """(heaviness w l^3/k_b, drop over l) of a rod that is clamped level and whose free end hangs at an angle below the level.
 
     From the free end, where it is not bent, a rod in units of (k_b/w)^(1/3) is the same whatever its length: it is as long
-    as it takes to come level. All angles of the end are followed at once."""
-    angle = np.radians(np.concatenate([np.linspace(0.05, 85, 400), 90 - np.geomspace(5, 1e-6, 100)]))
-    step = 2e-3
-    slope, drop, length = np.zeros_like(angle), np.zeros_like(angle), np.full_like(angle, np.nan)
-    fallen = np.zeros_like(angle)
-    for i in range(6000):
-        s = (i + 0.5) * step
-        middle = angle + 0.5 * step * slope
-        before, slope = slope, slope - step * s * np.cos(middle)
-        after = angle + 0.5 * step * (before + slope)
-        there = np.isnan(length) & (after <= 0)
-        share = np.where(there, angle / np.where(there, angle - after, 1.0), 1.0)
-        fallen = np.where(np.isnan(length), fallen + share * step * np.sin(np.maximum(0.5 * (angle + after), 0)), fallen)
-        drop = np.where(there, fallen, drop)
-        length = np.where(there, (i + share) * step, length)
-        angle = after
-    known = ~np.isnan(length)
-    return np.array([length[known] ** 3, drop[known] / length[known]]).T
+    as it takes to come level."""
+    def is_level(_, y):
+        return y[0]
+
+    is_level.terminal = True
+    found = integrate.solve_ivp(lambda s, y: [y[1], -s * math.cos(y[0]), math.sin(y[0])], (0.0, 100.0), [end, 0.0, 0.0],
+                                "LSODA", events=is_level, rtol=1e-9, atol=1e-12)
+    length, drop = found.t[-1], found.y[2, -1]
+    return length ** 3, drop / length
 
 
+def cantilever_stiffness(weight, overhang, drop):
+    least, share = sag(LEAST_ANGLE)[1], drop / overhang
+    if not least < share < 0.9:
+        raise Wrong(f"cantilever: the drop is {share:.4f} of the overhang, but must be between {least:.4f} and 0.9; "
+                    "of a rope that hangs straight down, measure a loop")
+    # The logarithm of the angle to straight down: of a rope it is tiny.
+    steep = optimize.brentq(lambda u: sag(0.5 * math.pi - math.exp(u))[1] - share, math.log(1e-12),
+                            math.log(0.5 * math.pi - 0.99 * LEAST_ANGLE))
+    return weight * overhang ** 3 / sag(0.5 * math.pi - math.exp(steep))[0]
+
+
+@functools.cache
 def heights_of_loops():
     """(heaviness w L^3/k_b, height over L) of loops whose two ends are held side by side, straight up, from none on."""
     def end(clamp, heaviness):
         def slope(s, y):  # angle from straight down, its slope, sideways, down
-            return np.array([y[1], clamp[1] * math.cos(y[0]) + heaviness * (0.5 - s) * math.sin(y[0]),
-                             math.sin(y[0]), math.cos(y[0])])
-        return integrate(slope, np.array([0.0, clamp[0], 0.0, 0.0]), 0.5)
+            return [y[1], clamp[1] * math.cos(y[0]) + heaviness * (0.5 - s) * math.sin(y[0]), math.sin(y[0]), math.cos(y[0])]
+        return integrate.solve_ivp(slope, (0.0, 0.5), [0.0, clamp[0], 0.0, 0.0], "LSODA", rtol=1e-8, atol=1e-10).y[:, -1]
 
-    clamp, heaviness, table = np.array([6.055, -39.65]), 1e-3, []  # of the loop without weight
-    while heaviness < 1e4:
-        for _ in range(30):
-            here = end(clamp, heaviness)
-            miss = np.array([here[0] + math.pi / 2, here[2]])
-            if np.abs(miss).max() < 1e-10:
-                break
-            steps = 1e-7 * np.maximum(1, np.abs(clamp))
-            slopes = np.array([(end(clamp + step, heaviness)[[0, 2]] - here[[0, 2]]) / step.sum()
-                               for step in np.diag(steps)]).T
-            clamp = clamp - np.linalg.solve(slopes, miss)
-        else:
+    clamp, heaviness, table = [6.055, -39.65], 1e-3, []  # of the loop without weight
+    while heaviness < 1e3:
+        found = optimize.root(lambda at: end(at, heaviness)[[0, 2]] + [0.5 * math.pi, 0.0], clamp)
+        if not found.success:
             break
-        table.append((heaviness, here[3]))
+        clamp = found.x
+        table.append((heaviness, end(clamp, heaviness)[3]))
         heaviness *= 1.2 if heaviness > 1 else 4
     return np.array(table)
 
 
-def cantilever_stiffness(weight, overhang, drop, table=[]):
-    if not table:
-        table.append(sags())
-    heaviness, drops = table[0].T
-    if not drops[0] < drop / overhang < 0.9:
-        raise Wrong(f"cantilever: the drop is {drop / overhang:.4f} of the overhang, but must be between {drops[0]:.4f} and 0.9; "
-                    "of a rope that hangs straight down, measure a loop")
-    return weight * overhang ** 3 / math.exp(np.interp(drop / overhang, drops, np.log(heaviness)))
-
-
-def loop_stiffness(weight, length, height, table=[]):
-    if not table:
-        table.append(heights_of_loops())
-    heaviness, heights = table[0].T
+def loop_stiffness(weight, length, height):
+    heaviness, heights = heights_of_loops().T
     if not heights[0] < height / length < heights[-1]:
         raise Wrong(f"loop: its height over its length is {height / length:.4f}, but must be between {heights[0]:.4f}, a "
                     f"loop without weight, and {heights[-1]:.4f}")

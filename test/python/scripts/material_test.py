@@ -11,6 +11,8 @@ import unittest
 import numpy as np
 import yaml
 
+from knot_utm import material
+
 ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../.."))
 TOOLS = os.environ.get("KNOT_UTM_TOOLS_DIR", os.path.join(ROOT, "build/devel/lib/knot_utm"))
 GRAVITY = 9.81
@@ -139,6 +141,10 @@ class Material(unittest.TestCase):
             self.assertAlmostEqual(made["tying_preload"], rod.measured["tied"]["mass"][0] * GRAVITY, places=3)
         # Neither larger nor smaller than they should be: of 25 draws, the mean square of a standard normal one.
         self.assertTrue(0.3 < np.mean(np.square(misses)) < 2.2, misses)
+
+    def test_of_a_small_sag_has_its_closed_form(self):
+        for share in (0.002, 0.01):  # w l^4/(8 k_b) is the sag
+            self.assertAlmostEqual(8.0 * share * material.cantilever_stiffness(1.0, 1.0, share), 1.0, delta=1e-3)
 
     def test_the_file_runs(self):
         self.made(Rod(7, 2e-4, False).measured)
