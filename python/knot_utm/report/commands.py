@@ -5,6 +5,8 @@ import os
 import stat
 import sys
 
+from knot_utm.errors import WrongInput
+
 # Debian's name of what a module is in.
 PACKAGES = {"matplotlib": "python3-matplotlib", "numpy": "python3-numpy", "yaml": "python3-yaml", "scipy": "python3-scipy",
             "jinja2": "python3-jinja2", "weasyprint": "weasyprint"}
@@ -26,7 +28,7 @@ def in_one_line(program):
         sys.exit(f"{program}: interrupted")
     except Exception as error:
         said = " ".join(str(error).split())
-        sys.exit(f"{program}: " + (said if isinstance(error, CannotReport) else f"{type(error).__name__}: {said}"))
+        sys.exit(f"{program}: " + (said if isinstance(error, (CannotReport, WrongInput)) else f"{type(error).__name__}: {said}"))
 
 
 class OneLineParser(argparse.ArgumentParser):
@@ -36,7 +38,7 @@ class OneLineParser(argparse.ArgumentParser):
 
 def refuse(program, message):
     """Bad input."""
-    print(f"{program}:", message.encode("utf-8", "backslashreplace").decode("utf-8"), file=sys.stderr)
+    print(f"{program}:", str(message).encode("utf-8", "backslashreplace").decode("utf-8"), file=sys.stderr)
     sys.exit(2)
 
 

@@ -119,50 +119,31 @@ def in_mm(length):
 
 
 class InABrowser(unittest.TestCase):
-    def is_whole(self, folder, images, keys):
-        seen, console = in_browser(read(folder, "report.html"))
-        self.assertEqual(console, [])
-        self.assertEqual(seen["requests"], [])
-        self.assertEqual(len(seen["images"]), images)
-        for complete, natural, drawn in seen["images"]:
-            self.assertTrue(complete and natural > 100 and drawn > 500, seen["images"])
-        self.fits(seen)
-        self.assertEqual(set(keys) - set(seen["keys"]), set())
+    def is_whole_and_legible(self, folder, images, facts):
+        """At every width; what was seen at the last one."""
+        for width in WIDTHS:
+            seen, console = in_browser(read(folder, "report.html"), width)
+            look = style.NARROW if width <= 760 else style.WIDE
+            self.assertEqual((console, seen["requests"], seen["outside"]), ([], [], []), width)
+            self.assertLessEqual(seen["overflow"], 0, width)
+            self.assertGreaterEqual(seen["letters"], SMALLEST, width)
+            self.assertEqual(set(seen["narrow"]), {look.is_narrow}, width)
+            self.assertEqual(len(seen["images"]), images)
+            for complete, natural, drawn in seen["images"]:
+                self.assertTrue(complete and natural > 100, seen["images"])
+                self.assertGreaterEqual(drawn / look.width * style.SMALL / 72.0, DRAWN, width)
+            self.assertEqual(set(yaml.safe_load(read(folder, facts))) - set(seen["keys"]), set())
         return seen
 
-    def fits(self, seen):
-        self.assertLessEqual(seen["overflow"], 0)
-        self.assertEqual(seen["outside"], [])
+    def test_the_page_of_a_run_is_whole_and_legible_at_every_width(self):
+        seen = self.is_whole_and_legible(run, 3, "result.yaml")
+        self.assertRegex(seen["text"], in_mm(yaml.safe_load(read(run, "result.yaml"))["lock_extension"]))
 
-    def is_legible(self, folder):
-        for width in WIDTHS:
-            seen, _ = in_browser(read(folder, "report.html"), width)
-            self.fits(seen)
-            self.assertGreaterEqual(seen["letters"], SMALLEST, width)
-            look = style.NARROW if width <= 760 else style.WIDE
-            self.assertEqual(set(seen["narrow"]), {look.is_narrow}, width)
-            for _, _, drawn in seen["images"]:
-                self.assertGreaterEqual(drawn / look.width * style.SMALL / 72.0, DRAWN, width)
+    def test_the_page_of_a_comparison_is_whole_and_legible_at_every_width(self):
+        self.is_whole_and_legible(comparison, 1, "comparison.yaml")
 
-    def test_the_page_of_a_run_is_legible_at_every_width(self):
-        self.is_legible(run)
-
-    def test_the_page_of_a_comparison_is_legible_at_every_width(self):
-        self.is_legible(comparison)
-
-    def test_the_page_of_a_batch_is_legible_at_every_width(self):
-        self.is_legible(batch)
-
-    def test_the_page_of_a_run_is_whole(self):
-        result = yaml.safe_load(read(run, "result.yaml"))
-        seen = self.is_whole(run, 3, result)
-        self.assertRegex(seen["text"], in_mm(result["lock_extension"]))
-
-    def test_the_page_of_a_comparison_is_whole(self):
-        self.is_whole(comparison, 1, yaml.safe_load(read(comparison, "comparison.yaml")))
-
-    def test_the_page_of_a_batch_is_whole(self):
-        self.is_whole(batch, 1, yaml.safe_load(read(batch, "statistics.yaml")))
+    def test_the_page_of_a_batch_is_whole_and_legible_at_every_width(self):
+        self.is_whole_and_legible(batch, 1, "statistics.yaml")
 
     def test_what_is_not_whole_would_be_seen(self):
         seen, console = in_browser('<html><body><img src="data:image/png;base64,AAAA">'
