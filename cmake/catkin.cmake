@@ -54,8 +54,10 @@ if(catkin_FOUND)
   catkin_package(INCLUDE_DIRS include LIBRARIES knot_utm_ros knot_utm_bags knot_utm_core
                  CATKIN_DEPENDS message_runtime ${message_packages} ${node_packages} DEPENDS EIGEN3 ${installed_targets})
   set(KNOT_UTM_EXECUTABLE_DIR ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_BIN_DESTINATION})
-  file(MAKE_DIRECTORY ${KNOT_UTM_EXECUTABLE_DIR})
-  file(CREATE_LINK ${PROJECT_SOURCE_DIR}/python/knot_utm/panel/panel_node ${KNOT_UTM_EXECUTABLE_DIR}/panel_node SYMBOLIC)
+  if(KNOT_UTM_INSTALLS_SETUP)  # of a workspace rosrun finds it among the sources
+    file(MAKE_DIRECTORY ${KNOT_UTM_EXECUTABLE_DIR})
+    file(CREATE_LINK ${PROJECT_SOURCE_DIR}/python/knot_utm/panel/panel_node ${KNOT_UTM_EXECUTABLE_DIR}/panel_node SYMBOLIC)
+  endif()
 else()
   include(GNUInstallDirs)
   set(CATKIN_PACKAGE_BIN_DESTINATION lib/knot_utm)

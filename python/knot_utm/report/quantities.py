@@ -68,20 +68,10 @@ def keys_of_results():
 GROUPS, TABLES = keys_of_results()
 KNOWN = {key: quantity for group in GROUPS.values() for key, quantity in group.items()}
 
-# The unit of a key that is not known here, by how it ends: names of quantities are the field's.
-ENDINGS = [("_force", "force"), ("_load", "force"), ("_extension", "length"), ("_distance", "length"),
-           ("_length", "length"), ("_displacement", "length"), ("_stiffness", "stiffness"), ("_energy", "J"),
-           ("_work", "J"), ("_loss", "J"), ("_time", "s"), ("_at", "s"), ("_duration", "s")]
-
 
 def quantity_of(key):
-    if key in KNOWN:
-        return KNOWN[key]
-    label = key.replace("_", " ").capitalize()
-    for ending, kind in ENDINGS:
-        if ("_" + key).endswith(ending):
-            return Quantity(label, kind)
-    return Quantity(label)
+    """A key that is not known here has no unit."""
+    return KNOWN.get(key) or Quantity(key.replace("_", " ").capitalize())
 
 
 NOTHING = 1e-12  # of a reading in SI: what is smaller is rounding
