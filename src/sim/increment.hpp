@@ -11,6 +11,7 @@
 #include "held_unknowns.hpp"
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
 #include "motion_term.hpp"
 #include "residual_norm.hpp"

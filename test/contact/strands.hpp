@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {

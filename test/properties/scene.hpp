@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/sim/time_step.hpp"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "knot_utm/numeric/points.hpp"
 #include "properties/scene.hpp"
 
 namespace knot_utm::properties {

@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stretching.hpp"

@@ -9,6 +9,7 @@
 #include <memory>
 #include <utility>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/step_control.hpp"
 
 namespace knot_utm {

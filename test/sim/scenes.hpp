@@ -1,5 +1,6 @@
 #pragma once
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "rod/materials.hpp"
 

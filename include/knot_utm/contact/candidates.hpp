@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "knot_utm/numeric/lanes.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {

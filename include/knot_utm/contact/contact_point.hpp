@@ -5,7 +5,7 @@
 #include "knot_utm/contact/friction.hpp"
 #include "knot_utm/contact/pressure_laws.hpp"
 #include "knot_utm/numeric/lanes.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 

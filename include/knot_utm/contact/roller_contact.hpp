@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knot_utm/contact/surface_contact.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 

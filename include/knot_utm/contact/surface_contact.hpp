@@ -5,6 +5,7 @@
 
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/contact/edge_law.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "knot_utm/numeric/block.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 

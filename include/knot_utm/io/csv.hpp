@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "knot_utm/analysis/curve_row.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
 

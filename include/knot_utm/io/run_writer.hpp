@@ -10,8 +10,8 @@
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/io/shape_series.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/topology/loop_turn.hpp"
 
 namespace knot_utm {

@@ -3,8 +3,8 @@
 #include <vector>
 
 #include "knot_utm/machine/options.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/material.hpp"
-#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {

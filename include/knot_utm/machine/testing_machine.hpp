@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knot_utm/machine/options.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/contact_force.hpp"

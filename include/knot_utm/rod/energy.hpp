@@ -1,5 +1,6 @@
 #pragma once
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/twisting.hpp"

@@ -3,14 +3,11 @@
 #include <Eigen/Core>
 
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/material.hpp"
 #include "knot_utm/rod/rod_laws.hpp"
 
 namespace knot_utm {
-
-using Vec3 = Eigen::Vector3d;
-using Mat3 = Eigen::Matrix3d;
-using Points = Eigen::Matrix3Xd;  ///< one column a point [m]
 
 /// Whether all of them are numbers, and none is further than 1000 km from the origin.
 bool are_places(const Points& points);

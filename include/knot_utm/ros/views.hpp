@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "knot_utm/machine/grip_bodies.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/knot_places.hpp"
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/contact_force.hpp"
 
 namespace knot_utm {

@@ -4,6 +4,7 @@
 
 #include "knot_utm/contact/surface_contact.hpp"
 #include "knot_utm/numeric/block.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stencil.hpp"

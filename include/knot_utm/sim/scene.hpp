@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "knot_utm/contact/roller_contact.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/options.hpp"
 
 namespace knot_utm {

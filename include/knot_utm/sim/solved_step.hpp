@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "knot_utm/numeric/lanes.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/scene.hpp"
 

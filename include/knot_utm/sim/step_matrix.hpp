@@ -8,6 +8,7 @@
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/surface_contact.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/solver/block_matrix.hpp"
 
 namespace knot_utm {

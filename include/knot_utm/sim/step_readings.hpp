@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "knot_utm/contact/roller_contact.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/contact_sums.hpp"
 #include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"

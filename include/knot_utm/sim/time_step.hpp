@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/step_diagnosis.hpp"
 #include "knot_utm/sim/step_readings.hpp"
