@@ -66,7 +66,7 @@ void run(int nodes) {
   const double step_with_roller = time_of([&] { rolled.pull(); });
   const double iterations = static_cast<double>(bare.iterations) / (kRounds * kSteps);
 
-  SmoothContact contact(bare.rod, bare.settings.normal, bare.settings.friction, bare.settings.candidate_margin);
+  SmoothContact contact(bare.rod, bare.settings.pressure_law, bare.settings.friction, bare.settings.candidate_margin);
   const Points& x = bare.stepper->state().position;
   const int evaluations = static_cast<int>(std::lround(iterations)) + 1;
   const double search = time_of([&] {

@@ -24,7 +24,7 @@ constexpr double kTakenIn = 0.125, kFallen = 0.1;         // of the first excess
 constexpr double kLetOut = 0.05, kLetGo = 0.5;            // of the first e; of F
 constexpr int kFewestForDrops = 20;                       // readings on the way to the lock
 
-double mean_force(const Pull& pull, const Range& range) {
+double force_over(const Pull& pull, const Range& range) {
   const Integrals part = integrate(pull, range);
   return part.force / part.width;
 }
@@ -183,7 +183,7 @@ std::optional<double> lock_by_load(const Pull& pull) {
   constexpr int kMostSteps = 1000;
   double lock = way.end();
   for (int step = 0; step < kMostSteps && lock > earliest; ++step) {
-    const double mean = way.mean_force(plateau_range(pull, lock));
+    const double mean = way.force_over(plateau_range(pull, lock));
     if (!(mean > 0.0)) return std::nullopt;
     const double next = std::min(lock, way.last_rise_through(kLockedLoad * mean));
     if (next >= way.end()) return std::nullopt;
@@ -219,7 +219,7 @@ std::optional<Plateau> plateau(const Pull& pull, double end) {
   out.force_slope = slope_over(pull, range);
   std::tie(out.low, out.high) = extremes(pull, range);
   const double middle = 0.5 * (range.low + range.high);
-  out.rise = 2.0 * (mean_force(pull, {middle, range.high}) - mean_force(pull, {range.low, middle}));
+  out.rise = 2.0 * (force_over(pull, {middle, range.high}) - force_over(pull, {range.low, middle}));
   return out;
 }
 

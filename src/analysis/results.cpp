@@ -40,22 +40,22 @@ std::string failure_mode(const Results& results) {
 
 /// The state that a phase begins from: the sample before its first, balanced as that one is. A balance in between has
 /// left the specimen as it was: s = 0 and F = balance_offset by its definition.
-Sample origin_of(const Sample& first, Sample before) {
+Sample origin_at(const Sample& first, Sample before) {
   if (before.balance_offset == first.balance_offset) return before;
   before.extension = 0.0;
   before.force_upper = before.balance_offset = first.balance_offset;
   return before;
 }
 
-PullPoint point_of(const Sample& sample) {
+PullPoint pull_point(const Sample& sample) {
   return {sample.time, sample.extension, sample.knot_distance, sample.force_upper, sample.normal_force};
 }
 
 /// With the state that it began from in front of it, and behind it where the rod parted as a load was held further out.
 Pull with_ends(const Pull& pull, const std::optional<Sample>& origin, const std::optional<Sample>& at_break) {
   Pull whole = pull;
-  if (origin && origin->extension < pull.front().extension) whole.insert(whole.begin(), point_of(*origin));
-  if (at_break && at_break->extension > pull.back().extension) whole.push_back(point_of(*at_break));
+  if (origin && origin->extension < pull.front().extension) whole.insert(whole.begin(), pull_point(*origin));
+  if (at_break && at_break->extension > pull.back().extension) whole.push_back(pull_point(*at_break));
   return whole;
 }
 
@@ -109,7 +109,7 @@ LastCycles last_cycles(const std::vector<Sample>& samples) {
   const std::vector<Stretch> steps = stretches(samples, Phase::kCycle);
   if (steps.empty()) return {};
   const Stretch& step = steps.back();
-  const Sample origin = origin_of(samples[step.begin], samples[step.begin - 1]);
+  const Sample origin = origin_at(samples[step.begin], samples[step.begin - 1]);
   Path path = {{origin.extension, origin.force_upper}};
   for (std::size_t i = step.begin; i < step.end; ++i) path.push_back({samples[i].extension, samples[i].force_upper});
   return {step.begin - 1, closed_cycles(path)};
@@ -409,7 +409,7 @@ void read_whole_pull(const Course& course, Results& results) {
   const Pull& pull = course.motion().pull();
   if (pull.empty()) return;
   std::optional<Sample> origin, at_break = course.at_break();
-  if (course.before_pull()) origin = origin_of(*course.pull_begin(), *course.before_pull());
+  if (course.before_pull()) origin = origin_at(*course.pull_begin(), *course.before_pull());
   if (at_break && at_break->balance_offset != course.pull_begin()->balance_offset) at_break.reset();  // another s
   read_pull(with_ends(pull, origin, at_break), results);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {

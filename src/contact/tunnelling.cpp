@@ -8,7 +8,7 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kRounding = 1e-12;  // more than what rounding does to e.d [fraction of |e||d|]
+constexpr double kPlaneRounding = 1e-12;  // more than what rounding does to e.d [fraction of |e||d|]
 
 // Edges further apart along the rod than this many pieces are not neighbours: what lies between would have to advance.
 constexpr int kNeighbours = 2;
@@ -46,7 +46,7 @@ bool TunnellingSearch::advances(const Box& edges) {
   const Lanes d = edges.low + edges.high;
   const Lanes low = d * edges.low, high = d * edges.high;
   const Lanes least = smaller(low, high), size = larger(larger(low, -low), larger(high, -high));
-  return least[0] + least[1] + least[2] > kRounding * (size[0] + size[1] + size[2]);
+  return least[0] + least[1] + least[2] > kPlaneRounding * (size[0] + size[1] + size[2]);
 }
 
 bool TunnellingSearch::set_advances(const Points& start, const Points& end) {

@@ -11,6 +11,7 @@
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 

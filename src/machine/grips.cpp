@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {

@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "knot_utm/record/sample.hpp"
+
 namespace knot_utm {
 namespace {
 

@@ -15,6 +15,7 @@
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/machine/tied_loop.hpp"
+#include "knot_utm/record/command.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/sim/saved_step.hpp"
@@ -208,9 +209,9 @@ struct TestingMachine::Impl {
   bool knows_contacts() const { return status != BenchStatus::kFailed && status != BenchStatus::kBroken; }
 
   void watch_for_break(double shortest) {
-    breaks.emplace(shortest, most_exposed(stepper->rod(), stepper->state().position));
+    breaks.emplace(shortest, most_exposed(material, stepper->rod(), stepper->state().position));
     stepper->refuse_by([this](const Points& end, double dt) {
-      const std::string why = parted() ? "" : breaks->refuse(most_exposed(stepper->rod(), end), dt);
+      const std::string why = parted() ? "" : breaks->refuse(most_exposed(material, stepper->rod(), end), dt);
       refused = !why.empty();
       return why;
     });
@@ -219,7 +220,7 @@ struct TestingMachine::Impl {
   /// After an accepted step: does the rod part? The next step ends where at this pace it will.
   void judge_break(double dt) {
     if (!breaks || parted()) return;
-    const Exposure now = most_exposed(stepper->rod(), stepper->state().position);
+    const Exposure now = most_exposed(material, stepper->rod(), stepper->state().position);
     if (!breaks->judge(now, dt)) return control.at_most(breaks->next());
     message = not_by_tension(now, grips.force_upper(*stepper), grips.force_lower(*stepper));
     if (message.empty()) return part(now);

@@ -6,6 +6,7 @@
 
 #include "force_term.hpp"
 #include "knot_utm/contact/roller_contact.hpp"
+#include "knot_utm/numeric/index.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
 #include "knot_utm/sim/roller_turns.hpp"
@@ -128,8 +129,6 @@ class ContactTerm {
   struct LinearPressure {
     double pressure, slope;  // at the present overlap [N/m], and per overlap [N/m^2]
   };
-
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
   /// Adds the nodal forces of the force g that acts on side a of a contact.
   static void add_force(const ContactPoint& contact, const Lanes& g, std::vector<Lanes>& to) {

@@ -49,7 +49,7 @@ struct Equation {
         centreline(rod, !state.curved_at_rest()),
         frames(rod, settings),
         strands(strand_contact(rod, settings)),
-        rollers(RollerContact(rod, settings.normal, settings.roller_friction, settings.motion_limit)),
+        rollers(RollerContact(rod, settings.pressure_law, settings.roller_friction, settings.motion_limit)),
         held(static_cast<std::size_t>(rod.nodes())),
         norm(settings),
         matrix(static_cast<int>(rod.nodes())),
@@ -88,9 +88,10 @@ struct Equation {
  private:
   static StrandContact strand_contact(const RodProperties& rod, const StepSettings& settings) {
     if constexpr (std::is_same_v<StrandContact, SmoothContact>)
-      return SmoothContact(rod, settings.normal, settings.friction, settings.candidate_margin, settings.weighting_time);
+      return SmoothContact(rod, settings.pressure_law, settings.friction, settings.candidate_margin,
+                           settings.weighting_time);
     else
-      return StrandContact(rod, settings.normal, settings.friction, settings.candidate_margin);
+      return StrandContact(rod, settings.pressure_law, settings.friction, settings.candidate_margin);
   }
 };
 

@@ -3,16 +3,12 @@
 #include <Eigen/Geometry>
 #include <string>
 
+#include "knot_utm/numeric/index.hpp"
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/sim/roller_turns.hpp"
+#include "knot_utm/sim/scene.hpp"
 
 namespace knot_utm {
-
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 StepReadings::StepReadings(const RodProperties& rod, const RodState& state, double spin)
     : force_(static_cast<std::size_t>(rod.nodes())) {

@@ -3,19 +3,19 @@
 #include "diagnose_step.hpp"
 #include "examine_step.hpp"
 #include "increment.hpp"
+#include "increment_solver.hpp"
 #include "knot_utm/contact/tunnelling.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/energy.hpp"
-#include "solution.hpp"
 #include "watch_increment.hpp"
 
 namespace knot_utm {
 
 namespace {
 
-/// One step from its beginning to its end: the equation is solved (increment.hpp, solution.hpp), what it would do to
-/// the rod is examined, and only then does the state move on.
+/// One step from its beginning to its end: the equation is solved (increment.hpp, increment_solver.hpp), what it would
+/// do to the rod is examined, and only then does the state move on.
 template <int D, typename StrandContact>
 class ImplicitStep final : public TimeStep {
  public:
@@ -26,11 +26,11 @@ class ImplicitStep final : public TimeStep {
         readings_(rod_, state_, equation_.frames.kinetic_energy(state_.twist_rate)),
         increment_(3, rod.nodes()) {}
 
-  StepSummary step(const Boundary& boundary, double dt, Solution solution) override {
+  StepSummary step(const Boundary& boundary, double dt, SolveStrategy strategy) override {
     const StepStart start{state_, boundary, dt};
     StepSummary summary;
     WorstResidual worst;
-    summary.newton = solve(start, solution, worst);
+    summary.newton = solve(start, strategy, worst);
     increment_.noalias() = equation_.x - state_.position;
     const SolvedStep step{start, equation_.x, increment_, equation_.force, equation_.held.nodes()};
     if (!summary.newton.converged()) {
@@ -88,11 +88,11 @@ class ImplicitStep final : public TimeStep {
   }
 
  private:
-  NewtonSummary solve(const StepStart& start, Solution solution, WorstResidual& worst) {
+  NewtonSummary solve(const StepStart& start, SolveStrategy strategy, WorstResidual& worst) {
     const auto watch = [&](const Increment<D, StrandContact>& increment) {
       if (watcher_) watcher_(iterate_of(equation_, increment));
     };
-    return SolutionOf<D, StrandContact, decltype(watch)>(equation_, start, watch).by(solution, worst);
+    return IncrementSolver<D, StrandContact, decltype(watch)>(equation_, start, watch).solve(strategy, worst);
   }
 
   void commit(const SolvedStep& step) {
@@ -150,7 +150,7 @@ void TimeStep::state(Archive& archive) { archive(state_); }
 std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodState& state,
                                          const StepSettings& settings) {
   require_fits(rod, state);
-  const bool edges = settings.contact_scheme == ContactScheme::kEdge;
+  const bool edges = settings.contact_law == ContactLaw::kEdge;
   if (state.twist.size() == 0) {
     if (edges) return std::make_unique<ImplicitStep<3, EdgeContact>>(rod, state, settings);
     return std::make_unique<ImplicitStep<3, SmoothContact>>(rod, state, settings);

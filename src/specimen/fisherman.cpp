@@ -7,6 +7,7 @@
 #include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
 #include "path.hpp"

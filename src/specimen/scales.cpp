@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/specimen/material.hpp"
+
 namespace knot_utm {
 
 namespace {
@@ -22,14 +24,14 @@ constexpr double kRestSpeed = 0.0063;   // [radii/s]
 
 /// Mass per length of a rod that a length bends in this time [kg/m]. No root, so that similar specimens have the same
 /// bits.
-double mass_of(double time, double length, const Material& material) {
+double mass_of(double time, double length, const RodMaterial& material) {
   const double length2 = length * length;
   return time * time * material.bending_stiffness / (length2 * length2);
 }
 
 }  // namespace
 
-SpecimenScales specimen_scales(const Material& material) {
+SpecimenScales specimen_scales(const RodMaterial& material) {
   const double h = material.radius;
   SpecimenScales out;
   out.force = material.bending_stiffness / (h * h);
@@ -39,7 +41,7 @@ SpecimenScales specimen_scales(const Material& material) {
   return out;
 }
 
-double inertia_factor(const Material& material, const PhysicsOptions& physics, double slack) {
+double inertia_factor(const RodMaterial& material, const PhysicsOptions& physics, double slack) {
   const double loop = slack / (2.0 * M_PI), own = specimen_scales(material).mass;
   double mass = mass_of(kBendingTime, material.radius, material);
   if (loop > 0.0) mass = std::min(mass, mass_of(kSlackTime, loop, material));
@@ -51,12 +53,12 @@ Material as_it_moves(Material material, const PhysicsOptions& physics, double sl
   return material;
 }
 
-double drag_to_rest(const Material& as_it_moves, bool loop) {
+double drag_to_rest(const RodMaterial& as_it_moves, bool loop) {
   const double mass = specimen_scales(as_it_moves).mass;
   return kFading * (loop ? std::max(mass, mass_of(kCoastingTime, as_it_moves.radius, as_it_moves)) : mass);
 }
 
-double settling_drag(const Material& material, double wave, double time) {
+double settling_drag(const RodMaterial& material, double wave, double time) {
   return 0.1 * time * material.bending_stiffness * std::pow(2.0 * M_PI / wave, 4);
 }
 

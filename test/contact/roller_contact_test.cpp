@@ -190,8 +190,7 @@ TEST(RollerContact, ARodPressedOnARollerRestsOnItWithItsWholeWeight) {
   settings.gravity = Vec3(0.0, 0.0, -9.81);
   settings.drag = 1.0;
   RodState state = straight_state(rod);
-  state.position.row(2).setConstant(
-      -std::get<NormalLaw>(settings.normal).overlap_at(rod.mass.sum() / rod.length() * 9.81));
+  state.position.row(2).setConstant(-settings.pressure_law.overlap_at(rod.mass.sum() / rod.length() * 9.81));
   const std::unique_ptr<TimeStep> stepper = TimeStep::make(rod, state, settings);
   Boundary boundary;
   boundary.rollers = {plane_below(material.radius)};

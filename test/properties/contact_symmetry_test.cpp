@@ -60,12 +60,12 @@ struct Touching {
 
   explicit Touching(double friction) {
     const std::vector<int> numbers = random_numbers(RandomScene::kNumbers);
-    scene = RandomScene(numbers, ContactScheme::kSmooth, false).scene();
+    scene = RandomScene(numbers, ContactLaw::kSmooth, false).scene();
     presliding = 0.02 * scene.rod.material.radius;
     scene.settings.friction = MemoryFriction{friction, presliding};
     position = scene.state.position + scene.dt * scene.state.velocity;
     const StepSettings& s = scene.settings;
-    Contact contact(scene.rod, s.normal, s.friction, s.candidate_margin);
+    Contact contact(scene.rod, s.pressure_law, s.friction, s.candidate_margin);
     contact.begin(position);
     contact.evaluate(position, scene.state.position, scene.dt);
     contacts = contact.contacts();

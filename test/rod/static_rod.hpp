@@ -251,7 +251,7 @@ class StaticRod {
 
 /// A rod of unit bending stiffness, n edges of length l.
 inline RodProperties unit_rod(Eigen::Index n, double l, double stretching_stiffness, double twisting_stiffness = 1.0) {
-  Material material;
+  RodMaterial material;
   material.radius = 0.01;
   material.density = 1.0;
   material.bending_stiffness = 1.0;

@@ -38,7 +38,7 @@ inline double surface_exponent(double mu, double eta) {
 /// A rod of bending stiffness 1 around a shaft of a radius near 1, pulled at T1 or more.
 inline StepSettings capstan_settings(const Material& material, double t1, double tolerance, double residual) {
   StepSettings settings = closed_form_settings(material);
-  settings.normal = NormalLaw{2e3 * t1, tolerance};
+  settings.pressure_law = NormalLaw{2e3 * t1, tolerance};
   settings.residual = residual * t1;
   settings.residual_of_tension = 0.0;
   settings.newton_cap = 0.05;

@@ -28,7 +28,7 @@ struct Incline {
     // Pressed in by its own weight already, so that nothing falls.
     RodState state = straight_state(rod);
     const double weight = rod.mass.sum() / rod.length() * kGravity * std::cos(angle);
-    state.position.row(2).setConstant(-std::get<NormalLaw>(settings.normal).overlap_at(weight));
+    state.position.row(2).setConstant(-settings.pressure_law.overlap_at(weight));
     stepper = TimeStep::make(rod, state, settings);
     boundary.rollers = {plane_below(material.radius)};
   }

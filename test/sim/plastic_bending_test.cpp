@@ -7,6 +7,7 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "rod/own_laws.hpp"
 #include "sim/balance.hpp"
 #include "sim/scenes.hpp"
 
@@ -36,7 +37,7 @@ struct Strip {
     rod = make_rod(material, Eigen::VectorXd::Constant(kEdges, material.radius));
     settings = closed_form_settings(material);
     settings.drag = 5.0;
-    rod.laws.bending = PlasticBending{kYield * kTurn / kEdges / material.radius, kHardening};
+    set_law(rod, PlasticBending{kYield * kTurn / kEdges / material.radius, kHardening});
     state = straight_state(rod);
     state.natural_curvature.setZero(2, rod.nodes() - 2);
     state.position = arc(kTurn / kEdges, material.radius);

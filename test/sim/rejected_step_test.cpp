@@ -14,14 +14,14 @@ namespace {
 /// A rod that falls onto a roller with friction, moving along it; with and without twist, under both contact laws.
 struct Scene {
   bool twist;
-  ContactScheme law;
+  ContactLaw law;
 
   std::unique_ptr<TimeStep> stepper() const {
     Material material = braided_rope();
     material.twisting_stiffness = material.bending_stiffness;
     const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(20, material.radius));
     StepSettings settings = closed_form_settings(material);
-    settings.contact_scheme = law;
+    settings.contact_law = law;
     settings.gravity = Vec3(0.5, 0.0, -9.81);
     settings.drag = 1.0;
     settings.roller_friction = MemoryFriction{0.4, 1e-3 * material.radius};
@@ -76,10 +76,10 @@ TEST_P(RejectedStep, WhatIsNotANumberIsNeverAccepted) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, RejectedStep,
-                         testing::Values(Scene{false, ContactScheme::kSmooth}, Scene{true, ContactScheme::kSmooth},
-                                         Scene{false, ContactScheme::kEdge}, Scene{true, ContactScheme::kEdge}),
+                         testing::Values(Scene{false, ContactLaw::kSmooth}, Scene{true, ContactLaw::kSmooth},
+                                         Scene{false, ContactLaw::kEdge}, Scene{true, ContactLaw::kEdge}),
                          [](const auto& scene) {
-                           return std::string(scene.param.law == ContactScheme::kEdge ? "edge" : "smooth") +
+                           return std::string(scene.param.law == ContactLaw::kEdge ? "edge" : "smooth") +
                                   (scene.param.twist ? "Twist" : "");
                          });
 

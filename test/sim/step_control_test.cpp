@@ -17,10 +17,10 @@ class ScriptedStep : public TimeStep {
  public:
   ScriptedStep() : TimeStep(make_rod(braided_rope(), Eigen::VectorXd::Constant(4, 0.01)), RodState{}) {}
 
-  StepSummary step(const Boundary& /*boundary*/, double dt, Solution solution) override {
+  StepSummary step(const Boundary& /*boundary*/, double dt, SolveStrategy strategy) override {
     StepSummary out;
-    (solution == Solution::kSecants ? by_secants : by_tangents).push_back(dt);
-    if (solution != Solution::kSecants && only_secants) out.reason = "it ran in circles";
+    (strategy == SolveStrategy::kSecants ? by_secants : by_tangents).push_back(dt);
+    if (strategy != SolveStrategy::kSecants && only_secants) out.reason = "it ran in circles";
     out.newton.iterations = iterations;
     out.largest_motion = speed * dt;
     out.largest_slip = slip_speed * dt;

@@ -15,6 +15,7 @@
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/centreline.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 #include "knot_utm/specimen/polyline.hpp"
 
@@ -176,7 +177,7 @@ struct StopperKnot {
 
   StepSettings settings() const {
     StepSettings out;
-    out.normal = NormalLaw{300.0, options.contact_tolerance, 0.015};
+    out.pressure_law = NormalLaw{300.0, options.contact_tolerance, 0.015};
     out.friction = MemoryFriction{options.friction, options.presliding};
     out.roller_friction = out.friction;
     out.friction_couple = options.couple;

@@ -56,7 +56,7 @@ struct AcrossAnIncline {
     settings.motion_limit = settings.newton_cap = 10.0;
     RodState state = straight_state(rod);
     const double weight = rod.mass.sum() / rod.length() * kGravity * std::cos(angle);
-    state.position.row(2).setConstant(-std::get<NormalLaw>(settings.normal).overlap_at(weight));
+    state.position.row(2).setConstant(-settings.pressure_law.overlap_at(weight));
     initialise_frames(&state);
     stepper = TimeStep::make(rod, state, settings);
     boundary.rollers = {plane_below(material.radius)};
@@ -145,7 +145,7 @@ struct CrossedRods {
     material.twisting_stiffness = 2e-5;
     const int nodes = 2 * (kStrand + 1) + 2;
     StepSettings settings = closed_form_settings(material);
-    settings.normal = NormalLaw{1e5, 0.005 * kRadius};
+    settings.pressure_law = NormalLaw{1e5, 0.005 * kRadius};
     settings.friction = MemoryFriction{kFriction, kPresliding};
     settings.friction_couple = couple;
     settings.spin_inertia = false;

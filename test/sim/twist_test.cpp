@@ -12,6 +12,7 @@
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "reference.hpp"
 
 namespace knot_utm {
@@ -42,7 +43,7 @@ struct Bare {
     for (int i = 0; i <= kEdges; ++i) state.position(0, i) = kEdge * i;
     state.velocity = Points::Zero(3, kEdges + 1);
     initialise_frames(&state);
-    settings.normal = NormalLaw{1.0, 1e-3};
+    settings.pressure_law = NormalLaw{1.0, 1e-3};
     settings.drag = 100.0;
     settings.residual = 1e-9;
     settings.newton_cap = 0.1;

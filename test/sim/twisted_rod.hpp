@@ -24,7 +24,7 @@ struct TwistedRod {
   double shortening = 0.0, turn = 0.0;  // of the ends [m], of the far clamp [rad]
 
   TwistedRod(double radius, double twisting_stiffness, int edges, double edge_length) {
-    Material material;
+    RodMaterial material;
     material.radius = radius;
     material.density = 1.0 / (M_PI * radius * radius);
     material.bending_stiffness = 1.0;
@@ -32,7 +32,7 @@ struct TwistedRod {
     material.stretching_stiffness = 1e5;
     rod = make_rod(material, Eigen::VectorXd::Constant(edges, edge_length));
     settings.spin_inertia = false;
-    settings.normal = NormalLaw{1.0, 0.05 * radius};
+    settings.pressure_law = NormalLaw{1.0, 0.05 * radius};
     settings.max_iterations = 40;
   }
 

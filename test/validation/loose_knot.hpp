@@ -39,7 +39,7 @@ class LooseKnot {
   explicit LooseKnot(const LooseKnotOptions& options)
       : options_(options), radius_(1.0 / (options.eps * options.eps)), force_(0.5 / (radius_ * radius_)) {
     const double e = 2.0 * M_PI * radius_, end_to_end = 2.0 * options.tail * radius_ + braid_length();
-    Material material;
+    RodMaterial material;
     material.radius = 1.0;
     material.bending_stiffness = 1.0;
     material.twisting_stiffness = 2.0 / 3.0;
@@ -90,7 +90,7 @@ class LooseKnot {
   /// Of the present shape, without memory.
   std::vector<ContactPoint> contacts() const {
     const Points& x = stepper_->state().position;
-    SmoothContact contact(rod_, settings_.normal, settings_.friction, settings_.candidate_margin);
+    SmoothContact contact(rod_, settings_.pressure_law, settings_.friction, settings_.candidate_margin);
     contact.begin(x);
     contact.evaluate(x, x, 1.0);
     return contact.contacts();
@@ -210,7 +210,7 @@ class LooseKnot {
 
   void start(const RodState& state, const Friction& friction) {
     // Overlaps of about a quarter of the tolerance.
-    settings_.normal = NormalLaw{48.0 * force_ / options_.tolerance, options_.tolerance};
+    settings_.pressure_law = NormalLaw{48.0 * force_ / options_.tolerance, options_.tolerance};
     settings_.friction = friction;
     settings_.friction_couple = options_.couple;
     settings_.spin_inertia = false;

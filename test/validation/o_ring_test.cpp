@@ -68,7 +68,7 @@ struct Ring {
     settings.friction_couple = options.couple;
     settings.spin_inertia = false;
 
-    const double at = 1.0 - std::get<NormalLaw>(settings.normal).overlap_at(options.tension);
+    const double at = 1.0 - settings.pressure_law.overlap_at(options.tension);
     RodState state;
     state.position.resize(3, nodes);
     state.velocity = Points::Zero(3, nodes);

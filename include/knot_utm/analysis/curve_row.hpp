@@ -4,9 +4,10 @@
 
 #include "knot_utm/analysis/curve_readings.hpp"
 #include "knot_utm/record/program.hpp"
-#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
+
+struct Sample;
 
 /// One row of curve.csv: what a testing machine records of a test.
 struct CurveRow {

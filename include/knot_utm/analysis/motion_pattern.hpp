@@ -5,9 +5,10 @@
 #include <optional>
 
 #include "knot_utm/analysis/curve_readings.hpp"
-#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
+
+struct Sample;
 
 /// How a fisherman's loop responds to the pull.
 enum class MotionPattern {

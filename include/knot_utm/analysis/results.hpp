@@ -12,9 +12,10 @@
 #include "knot_utm/analysis/rate_shares.hpp"
 #include "knot_utm/analysis/start_of_pull.hpp"
 #include "knot_utm/record/ended_by.hpp"
-#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
+
+struct Sample;
 
 /// The work of the grips and what became of it [J]. Each part is computed by its own formula (StepWork).
 struct EnergyParts {

@@ -53,7 +53,7 @@ class EdgeContact {
  public:
   using Model = EdgeContactModel;
 
-  EdgeContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction, double margin);
+  EdgeContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin);
 
   /// As SmoothContact's.
   void act_at_surface(double couple, const SectionTurns& turns) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "knot_utm/contact/friction_options.hpp"
+#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/lanes.hpp"
 #include "knot_utm/numeric/points.hpp"
 

@@ -6,6 +6,7 @@
 
 #include "knot_utm/contact/surface_contact.hpp"
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
 
@@ -57,7 +58,7 @@ class RollerContact {
 
   /// `farthest`: the largest motion of a node in an accepted step [m]. Segments that are further from all rollers when
   /// a step begins are left out of that step.
-  RollerContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction, double farthest);
+  RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double farthest);
 
   /// As SmoothContact's.
   void act_at_surface(double couple, const SectionTurns& turns) {
@@ -110,7 +111,7 @@ class RollerContact {
   void commit(const std::vector<Roller>& rollers);
 
   /// e(D) of the pressure law [N]
-  double energy(double overlap) const { return energy_of(normal_, overlap); }
+  double energy(double overlap) const { return normal_.energy(overlap); }
 
   /// Of the last accepted step.
   void state(Archive& archive);
@@ -132,7 +133,7 @@ class RollerContact {
   std::size_t index_of(const ContactPoint& contact) const;
   double lever_of(const ContactPoint& contact) const;
 
-  PressureLaws normal_;
+  NormalLaw normal_;
   double begins_;  // overlap at which its pressure begins [m]
   Friction friction_;
   double dt_ = 0.0;  // of this step [s]

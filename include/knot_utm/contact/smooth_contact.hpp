@@ -33,7 +33,7 @@ class SmoothContact {
   using Model = ContactModel;
 
   /// `catch_up`: relaxation time with which omega and o follow the shape [s].
-  SmoothContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction, double margin,
+  SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,
                 double catch_up = 0.05);
 
   /// From now on friction acts at the surfaces of the strands, whose sections transmit the fraction `couple` of its
@@ -76,7 +76,7 @@ class SmoothContact {
   void commit(const Points& position);
 
   /// e(D) of the pressure law [N]
-  double energy(double overlap) const { return energy_of(normal_, overlap); }
+  double energy(double overlap) const { return normal_.energy(overlap); }
 
   /// Of the last accepted step.
   void state(Archive& archive);
@@ -86,7 +86,7 @@ class SmoothContact {
   struct Memory {
     double arclength_b;
     double weighting;  // omega
-    double outwards;   // o: the strand of the foot lies this far outwards of its spline, towards the point [m]
+    double offset;     // o: the strand of the foot lies this far outwards of its spline, towards the point [m]
     double pressure;   // predicted; < 0: none
     FrictionMemory friction;
     bool pressed = false;  // at the beginning of the step
@@ -132,16 +132,16 @@ class SmoothContact {
   void set_slip(ContactPoint& contact) const;
   void add_surface(const ContactPoint& contact, const SegmentParabola& a, const SegmentParabola& b, double u_b);
   void remember(const Points* position, MemoryList& list) const;
-  /// Sets outwards_ for an accepted position, before the first step for its start. It falls to zero where the rod is
+  /// Sets fraction_ for an accepted position, before the first step for its start. It falls to zero where the rod is
   /// bent more sharply than its edges resolve.
-  void put_outwards(const Points& position);
+  void set_fractions(const Points& position);
   double weighting(const FootSearch::Foot& foot, const Points& position) const;
   /// Upper bound of a foot's weighting factor. It falls to zero towards the end of the spline, where a strand slips
   /// off, because a force that vanished there suddenly would leave steps, however short, without a solution.
   double largest_weighting(const Memory& memory) const;
-  double outwards(const FootSearch::Foot& foot, const Points& position) const;
+  double offset_at(const FootSearch::Foot& foot, const Points& position) const;
 
-  PressureLaws normal_;
+  NormalLaw normal_;
   double begins_;  // overlap at which its pressure begins [m]
   Friction friction_;
   double dt_ = 0.0;  // of this step [s]
@@ -150,7 +150,7 @@ class SmoothContact {
   double reach_;               // of centrelines within which feet are followed [m]
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd voronoi_;
-  Eigen::VectorXd outwards_;  // fraction of the second difference by which a segment stands outwards; at first empty
+  Eigen::VectorXd fraction_;  // fraction of the second difference by which a segment stands outwards; at first empty
   Candidates candidates_;
   FootSearch search_;
   std::vector<Tracked> tracked_;

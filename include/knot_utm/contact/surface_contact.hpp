@@ -117,7 +117,7 @@ struct SurfaceModels {
 /// The consistent linearisation of `evaluate_forces` and add_couples, as `linearise` of contact_point.hpp, of the next
 /// four active contacts from number `from` on, or as many as are left. `surfaces`: one for each of `contacts`. Returns
 /// the number from which to go on.
-std::size_t linearise(const PressureLaws& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+std::size_t linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                       const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
                       std::size_t from, SurfaceModels& models);
 

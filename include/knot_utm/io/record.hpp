@@ -5,6 +5,7 @@
 
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {

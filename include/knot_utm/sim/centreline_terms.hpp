@@ -4,11 +4,14 @@
 
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/rod/stretching_law.hpp"
 #include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 
 namespace knot_utm {
+
+struct RodProperties;
 
 /// Forces and stiffness of a whole centreline: stretching (stretching.hpp) of every edge by the rod's law, and
 /// isotropic bending (isotropic_bending.hpp) of every inner node. The two share the tangents.

@@ -135,8 +135,7 @@ class FrameTerms {
   template <typename Law>
   void add_bending_stiffness(const Law& law, StepMatrix<4>& matrix) const;
   void set_tangents(const Points& position);
-  template <typename Law>
-  void set_twist(const Law& law);
+  void set_twist();
   void carry_directors();
   void set_turn(std::size_t edge, double turned);
 

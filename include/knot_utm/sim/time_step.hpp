@@ -18,7 +18,7 @@ namespace knot_utm {
 /// predicted tensions and pressures, and is abandoned early where a shorter step costs less. kSecants, for iterates
 /// that run in a cycle, linearises friction by secants and, from there, by tangents; if that fails, secants are tried
 /// again with each change halved, up to three times. The equations and their tolerance are the same in all of them.
-enum class Solution { kTangents, kTangentsAbandonedEarly, kSecants };
+enum class SolveStrategy { kTangents, kTangentsAbandonedEarly, kSecants };
 
 /// How one time step went.
 struct StepSummary {
@@ -64,8 +64,8 @@ class TimeStep {
   /// the state (initialise_frames). Throws InvalidInput where rod and state do not fit together.
   static std::unique_ptr<TimeStep> make(const RodProperties& rod, const RodState& state, const StepSettings& settings);
 
-  StepSummary step(const Boundary& boundary, double dt) { return step(boundary, dt, Solution::kTangents); }
-  virtual StepSummary step(const Boundary& boundary, double dt, Solution solution) = 0;
+  StepSummary step(const Boundary& boundary, double dt) { return step(boundary, dt, SolveStrategy::kTangents); }
+  virtual StepSummary step(const Boundary& boundary, double dt, SolveStrategy strategy) = 0;
 
   /// The rod parts at an edge between two steps. From the next one on nothing holds its two ends together, and the
   /// energy that was stored there is lost as `StepWork::numerical`. To be called once at most; not saved by `state`.

@@ -5,12 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "knot_utm/rod/material.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
+
+struct Material;
 
 /// The properties of the machine and of the accuracy on which a centreline depends.
 struct Mounting {

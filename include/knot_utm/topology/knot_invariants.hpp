@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/topology/overhand_strand.hpp"
 
