@@ -88,7 +88,7 @@ std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double wa
     while (!low.empty() && low.front() <= i) low.pop_front();
     if (low.empty()) continue;
     const Drop fall{i, low.front()};
-    // Of those that are the same the last begins where F begins to fall.
+    // Among equal falls the last one begins where F begins to fall.
     if (fall.force(pull) > 0.0 && (!out || fall.force(pull) >= out->force(pull))) out = fall;
   }
   return out;
@@ -104,8 +104,8 @@ HiddenRod as_kept(const Pull& pull, const HiddenRod& hidden, double way, std::si
   return out;
 }
 
-/// Of the rod that a knot holds: what it took in from one point to another over what it held at `first`, the largest of
-/// all knots; NaN: not known.
+/// The length of rod that a knot took in from one point to another, over what it held at `first`: the largest of all
+/// knots. NaN where it is not known.
 double taken_in(const PerKnot& first, const PerKnot& from, const PerKnot& to) {
   double most = Sample::kNone;
   for (std::size_t k = 0; k < first.size(); ++k) most = std::fmax(most, (to.at(k) - from.at(k)) / first.at(k));
@@ -303,7 +303,7 @@ std::string why_too_few(const Pull& pull, double end) {
               static_cast<double>(within), static_cast<double>(kFewestReadings));
 }
 
-/// Of the force that the rod bears; empty: there is a plateau.
+/// Says why the force that the rod bears has no plateau; empty where it has one.
 std::string why_no_plateau(const Pull& borne, bool on_rollers, const CurveReadings& found) {
   if (!(peak_force(borne) > 0.0)) return "the specimen was never in tension";
   const std::optional<Plateau> level = plateau(borne, found.slides_to);
@@ -324,7 +324,7 @@ Pull borne_of(Pull pull) {
   return pull;
 }
 
-/// Of the force that the rod bears; empty: it locks where F rises for good.
+/// Says why the knots do not lock; empty where they lock, which is where the force rises for good.
 std::string why_no_lock(const Pull& borne, const CurveReadings& found) {
   if (found.jumped) return "a knot jumped open";
   if (!found.no_plateau.empty()) return "there is no plateau";

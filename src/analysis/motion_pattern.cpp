@@ -192,7 +192,7 @@ const PullPoint& MotionPatternTracker::point_at(double extension) const {
                            [](const PullPoint& p, double s) { return p.extension < s; });
 }
 
-/// Of the load [N].
+/// The mean load between two points of the pull [N].
 double MotionPatternTracker::mean_between(const PullPoint& first, const PullPoint& last) const {
   const Integrals way = integrate(pull_, {first.extension, last.extension});
   return way.width > 0.0 ? way.force / way.width : first.force;

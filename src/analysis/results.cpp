@@ -13,7 +13,7 @@ namespace {
 
 std::optional<double> known(double value) { return std::isfinite(value) ? std::optional<double>(value) : std::nullopt; }
 
-/// Of the pull until the knots lock; to its end where they never do [m/s].
+/// The fastest node of the pull until the knots lock, or to its end where they never do [m/s].
 double fastest_node_while_sliding(const std::vector<Sample>& samples, std::optional<double> lock_extension) {
   double fastest = 0.0;
   for (const Sample& sample : samples)
@@ -85,8 +85,8 @@ std::vector<Stretch> stretches(const std::vector<Sample>& samples, Phase phase) 
   return out;
 }
 
-/// Of the last hold in which the crosshead stands still, and is out with a load on the grip: where a load is held it
-/// moves, and a drawn shape that settles bears none.
+/// The relaxation in the last hold at a place that is out, with a load on the grip. Where a load is held the crosshead
+/// moves, and a drawn shape that settles bears no load.
 std::optional<Relaxation> last_relaxation(const std::vector<Sample>& samples) {
   std::optional<Relaxation> last;
   for (const Stretch& hold : stretches(samples, Phase::kHold)) {
@@ -99,7 +99,7 @@ std::optional<Relaxation> last_relaxation(const std::vector<Sample>& samples) {
   return last;
 }
 
-/// Of the last step that cycles: its cycles, whose places count from the sample before the step.
+/// The cycles of the last step that cycles. Their places count from the sample before the step.
 struct LastCycles {
   std::size_t origin = 0;
   std::vector<Cycle> closed;

@@ -110,7 +110,7 @@ std::optional<Tunnelling> TunnellingSearch::search(std::size_t level, int i, int
 std::optional<Tunnelling> TunnellingSearch::edges_meet(int a, int b) const {
   if (a == parted_ || b == parted_) return std::nullopt;
   if (closed_ && a == 0 && b + 2 == start_->cols()) return std::nullopt;  // they share the node that closes the rod
-  // Of an end edge that is bare the inner half is asked: its middle goes straight as its ends do.
+  // A free end edge is tested on its inner half only; its midpoint, too, moves straight.
   const bool bare = bare_ends_ && !closed_;
   const bool inner_a = bare && a == 0, inner_b = bare && b + 2 == start_->cols();
   auto middle = [](const Points& nodes, int edge) { return Vec3(0.5 * (nodes.col(edge) + nodes.col(edge + 1))); };

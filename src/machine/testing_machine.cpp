@@ -154,7 +154,7 @@ struct TestingMachine::Impl {
                                    : start_displacement + fraction * (command.displacement - start_displacement);
     travel_tried = travel;
     refused = false;
-    // Of what was last accepted alone: a step that is tried again at another length begins from the same.
+    // This depends on the last accepted state only, so that a step that is tried again begins from the same.
     grip_tried = frame.rigid()
                      ? travel
                      : frame.grip_after(grip, travel, grips.force_upper(*stepper), held_length(from, to), to - from);
@@ -167,7 +167,7 @@ struct TestingMachine::Impl {
     return boundary;
   }
 
-  /// Of the strands that bear on the upper grip, as mounted [m].
+  /// The length of the strands that bear on the upper grip, as mounted [m].
   double held_length(double from, double to) const {
     return loop ? loop->held_length(from, to) : grips.end_to_end(0.0);
   }

@@ -151,7 +151,7 @@ class ContactTerm {
   }
 
   Contacts contacts_;
-  // Of the active contacts, in order.
+  // Both lists hold one entry for each active contact, in order.
   std::vector<Model> models_;
   std::vector<LinearPressure> pressures_;
 };

@@ -39,7 +39,7 @@ StepAccount& StepReadings::begin(const SolvedStep& step, const RollerContact& ro
   return account_;
 }
 
-/// Of a force, by its mean over the step; the step itself took it as it is at the end.
+/// Adds the work of a force by its mean over the step. The step itself took the force as it is at the end.
 void StepReadings::add_work_of_boundary(double at_end, double at_begin) {
   const double mean = first_ ? at_end : 0.5 * (at_begin + at_end);
   account_.work.boundary += mean;

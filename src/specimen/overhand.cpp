@@ -19,7 +19,7 @@ namespace {
 constexpr double kLength = 1.0;    // of the shipped method, for the paper's radius [m]
 constexpr double kEndToEnd = 0.7;  // [of its length]
 
-/// Of rod beyond its end-to-end distance, that an overhand knot of so many turns takes up at least.
+/// The least length of rod, beyond its end-to-end distance, that an overhand knot of so many turns takes up [m].
 double taken_up(int turns, double h) { return 1.1 * (34.5 + 40.0 * turns) * h; }
 
 /// Length of the braid: the loose knot's own, but never so short that its strands would overlap.

@@ -67,7 +67,7 @@ struct Results {
   std::optional<double> true_jump_force;
   std::optional<double> true_force_after_jump;
 
-  // Of a specimen that is no loop of two knots (snap.hpp).
+  // A specimen that is no loop of two knots may have these (snap.hpp).
   std::optional<double> snap_extension;  ///< s at which it snapped into another shape [m]
   std::optional<double> snap_drop;       ///< by how much F fell then [N]
 

@@ -84,7 +84,7 @@ class EdgeContact {
     return knot_utm::linearise(normal_, friction_, dt, how, contacts_, surfaces_, moving_, from, models);
   }
 
-  /// Of one of `contacts()`.
+  /// The motion of one of `contacts()` in this step.
   ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;
 
   /// The evaluated state becomes the one that the next step remembers.
@@ -93,7 +93,7 @@ class EdgeContact {
   /// Energy of the pressure law per length of rod [N]
   double energy(double overlap) const { return normal_.energy(overlap); }
 
-  /// Of the last accepted step.
+  /// Saves or loads what the last accepted step left.
   void state(Archive& archive);
 
  private:

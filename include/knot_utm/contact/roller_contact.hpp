@@ -70,7 +70,7 @@ class RollerContact {
   /// Rotation of a roller in this step [rad]: the prescribed one, or that of the present iterate where it is free.
   double turned(int roller) const { return turned_[static_cast<std::size_t>(roller)]; }
   void turn_on(int roller, double by) { turned_[static_cast<std::size_t>(roller)] += by; }
-  /// Of the last accepted step.
+  /// How far a roller had turned after the last accepted step.
   RollerTurn turn(int roller) const {
     const auto number = static_cast<std::size_t>(roller);
     return number < turn_.size() ? turn_[number] : RollerTurn();
@@ -99,7 +99,7 @@ class RollerContact {
   /// From now on the rod has parted at an edge, and segments that reach into it touch nothing.
   void part(int edge) { parted_ = edge; }
 
-  /// Of one of `contacts()`.
+  /// The motion of one of `contacts()` in this step.
   ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;
 
   /// What the rod does to a roller, as last evaluated: force [N], and moment about the roller's centre [N m].
@@ -113,7 +113,7 @@ class RollerContact {
   /// e(D) of the pressure law [N]
   double energy(double overlap) const { return normal_.energy(overlap); }
 
-  /// Of the last accepted step.
+  /// Saves or loads what the last accepted step left.
   void state(Archive& archive);
 
  private:
@@ -122,7 +122,7 @@ class RollerContact {
     int segment;
   };
 
-  /// Of a place from a roller's axis [m].
+  /// The distance of a place from a roller's axis [m].
   static double distance(const Roller& roller, const Vec3& x);
   /// Distance of a segment's node from the axis beyond which no part of the segment touches [m].
   double limit(const Roller& roller, int segment) const;

@@ -69,7 +69,7 @@ class SmoothContact {
     return knot_utm::linearise(normal_, friction_, dt, how, contacts_, surfaces_, from, models);
   }
 
-  /// Of one of `contacts()`. The overlap at the beginning neglects the third order in the motion of the foot.
+  /// The motion of one of `contacts()` in this step. The overlap at the beginning neglects the third order in the motion of the foot.
   ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;
 
   /// The evaluated state becomes the one that the next step remembers. `position` is what was last evaluated.
@@ -78,7 +78,7 @@ class SmoothContact {
   /// e(D) of the pressure law [N]
   double energy(double overlap) const { return normal_.energy(overlap); }
 
-  /// Of the last accepted step.
+  /// Saves or loads what the last accepted step left.
   void state(Archive& archive);
 
  private:
@@ -110,7 +110,7 @@ class SmoothContact {
   };
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  /// Of an integration point, by its number in search_.
+  /// The segment of an integration point, which goes by its number in search_.
   int segment_of(int point) const { return candidates_.segments()[static_cast<std::size_t>(point / 2)]; }
   std::size_t row_of(int point) const { return static_cast<std::size_t>(2 * segment_of(point) + point % 2); }
 
@@ -119,7 +119,7 @@ class SmoothContact {
   std::size_t follow(std::size_t foot);
   /// Gives the feet of a point, which are tracked from `first` on, their memories from the last iterate.
   void recall(std::size_t row, std::size_t first);
-  /// Of a foot and its point [m]
+  /// The overlap of a foot and its point [m]
   double overlap(const Tracked& foot) const;
   /// Whether the foot and its point already overlapped when the step began.
   bool began_inside(const Tracked& foot) const;

@@ -126,8 +126,7 @@ std::size_t linearise(const EdgeLaw& normal, const Friction& friction, double dt
                       const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
                       const std::vector<EdgeFeet>& feet, std::size_t from, SurfaceModels& models);
 
-/// Of contacts with friction at the surface: calls visit(number of the contact, its SurfaceModel) for each active one,
-/// in order.
+/// Calls visit(number of the contact, its SurfaceModel) for each active contact with friction at the surface, in order.
 template <typename Contacts, typename Visit>
 void linearise_surfaces(const Contacts& contacts, const ContactLinearisation& how, double dt, Visit visit) {
   SurfaceModels models;

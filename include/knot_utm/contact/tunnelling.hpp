@@ -44,7 +44,7 @@ class TunnellingSearch {
   struct Box {
     Lanes low, high;
   };
-  /// Of a piece of the rod, over the whole motion.
+  /// What a piece of the rod passes through in the whole motion.
   struct Piece {
     Box place;    // of its points [m]
     Box advance;  // of its edges, as vectors [m]

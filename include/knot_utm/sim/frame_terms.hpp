@@ -88,7 +88,7 @@ class FrameTerms {
   NodeStiffness node_stiffness(int i) const;
   EdgeStiffness edge_stiffness(int j) const;
 
-  /// Of edge j, as FrameTerms says [1/m].
+  /// The lean of edge j, as FrameTerms says [1/m].
   Vec3 lean(int j) const { return to_vec3(lean_[static_cast<std::size_t>(j)]); }
 
   /// Spins of the edges in this step, at the trial positions; only where friction acts at the surface.
@@ -163,7 +163,7 @@ class FrameTerms {
   const RodState* start_ = nullptr;
   double dt_ = 0.0;
   std::vector<char> held_;  // N
-  // Of edges and nodes. Lists that are computed four at a time have room for three more behind the last entry.
+  // These lists hold a value for each edge or node. Lists that are computed four at a time have room for three more behind the last entry.
   std::vector<Lanes> start_tangent_;       // t^n
   std::vector<Lanes> edge_, tangent_;      // e_j, t_j of the trial positions
   std::vector<double> inverse_length_;     // 1/|e_j|

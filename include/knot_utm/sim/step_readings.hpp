@@ -14,7 +14,7 @@ namespace knot_utm {
 /// went. The terms of the step (time_step.cpp) enter their parts into the account that `begin` opens.
 class StepReadings {
  public:
-  /// Of a rod before its first step; `spin`: kinetic energy of its edges' spin [J].
+  /// The readings of a rod before its first step; `spin` is the kinetic energy of its edges' spin [J].
   StepReadings(const RodProperties& rod, const RodState& state, double spin);
 
   /// Opens the account of a step and enters the holders of the rod: fixed nodes and frames, and rollers.

@@ -105,7 +105,7 @@ class TimeStep {
   virtual ContactReading contact_reading() const = 0;
   virtual StepWork work() const = 0;
   virtual LoadSum loads() const = 0;
-  /// Of the last step that was tried: to be read after an accepted step, before the next one is tried.
+  /// The contacts of the last step that was tried: to be read after an accepted step, before the next one is tried.
   virtual std::vector<ContactForce> contact_forces() const = 0;
   /// Sum of the normal forces of strands and rollers on each node; to be read at the same time [N].
   virtual Eigen::VectorXd normal_forces() const = 0;

@@ -63,7 +63,7 @@ class Knot {
   virtual ~Knot() = default;
 
   const KnotDescription& about() const { return about_; }
-  /// Of its own keys and of those that all knots have, `knot` and `edge_length`.
+  /// Whether it takes a key: one of its own, or one that all knots have (`knot`, `edge_length`).
   bool has(const std::string& key) const;
 
   /// The values of `auto` for a rod of radius h [m]. Keys that the knot does not have keep their plain values, so that
