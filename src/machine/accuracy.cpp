@@ -97,7 +97,8 @@ ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& ma
   const double h = material.radius, edge = specimen.edge_length / h;
   const bool solid = stretches(specimen, material), opposite = specimen.handedness == Handedness::kOpposite;
   const Tolerances own = tolerances(physics, specimen, material);
-  // Where a rope is tied hard, edges in its knots are shorter, and so is the error there. The strands do not gain by it.
+  // Where a rope is tied hard, edges in its knots are shorter, and so is the error there. The strands do not gain by
+  // it.
   const double coarse = coarseness(own, of(Accuracy::kNormal, solid), edge),
                of_strands = coarseness(own, of(Accuracy::kNormal, specimen, material), edge);
   const double slippery = std::max(1.0, kSlippery / std::max(material.friction_coefficient, kLeastFriction));

@@ -16,8 +16,8 @@ constexpr double kBendingTime = 2e-4;  // tau [s]
 // With 3.7 s, that of its own mass, a loose overhand in a rod of 4 m swings through its whole pull, with 0.8 s a tenth
 // of it; with 0.1 s its force is steady (doc/developers/measured.md).
 constexpr double kSlackTime = 0.1;  // of a slack loop [s]
-// The drag of a loop is no less than that of a rod with this time. A thread with tau = 1.9e-7 s, whose drag followed from its
-// own mass, coasted around its rollers at 80 m/s, in steps that led nowhere (doc/developers/measured.md).
+// The drag of a loop is no less than that of a rod with this time. A thread with tau = 1.9e-7 s, whose drag followed
+// from its own mass, coasted around its rollers at 80 m/s, in steps that led nowhere (doc/developers/measured.md).
 constexpr double kCoastingTime = 2e-5;  // tau [s]
 constexpr double kFading = 3.0;         // of motion under the drag that brings a specimen to rest [1/s]
 constexpr double kRestSpeed = 0.0063;   // [radii/s]

@@ -69,7 +69,8 @@ class SmoothContact {
     return knot_utm::linearise(normal_, friction_, dt, how, contacts_, surfaces_, from, models);
   }
 
-  /// The motion of one of `contacts()` in this step. The overlap at the beginning neglects the third order in the motion of the foot.
+  /// The motion of one of `contacts()` in this step. The overlap at the beginning neglects the third order in the
+  /// motion of the foot.
   ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;
 
   /// The evaluated state becomes the one that the next step remembers. `position` is what was last evaluated.

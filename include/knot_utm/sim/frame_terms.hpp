@@ -163,7 +163,8 @@ class FrameTerms {
   const RodState* start_ = nullptr;
   double dt_ = 0.0;
   std::vector<char> held_;  // N
-  // These lists hold a value for each edge or node. Lists that are computed four at a time have room for three more behind the last entry.
+  // These lists hold a value for each edge or node. Lists that are computed four at a time have room for three more
+  // behind the last entry.
   std::vector<Lanes> start_tangent_;       // t^n
   std::vector<Lanes> edge_, tangent_;      // e_j, t_j of the trial positions
   std::vector<double> inverse_length_;     // 1/|e_j|

@@ -14,8 +14,8 @@ struct EnclosedCircle {
 };
 
 /// The largest circle that an open curve encloses, as seen along the third row of `rotation`. The curve goes straight
-/// from each of `points` to the next. The radius is too small by at most `tolerance`, which is more than 0, and never too large. Only circles with a radius
-/// above `larger_than` are looked for.
+/// from each of `points` to the next. The radius is too small by at most `tolerance`, which is more than 0, and never
+/// too large. Only circles with a radius above `larger_than` are looked for.
 EnclosedCircle largest_enclosed_circle(const Points& points, const Mat3& rotation, double tolerance,
                                        double larger_than = 0.0);
 
