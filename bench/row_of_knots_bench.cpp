@@ -94,7 +94,7 @@ void run(const Arguments& arguments) {
               static_cast<unsigned long long>(after.steps - before.steps),
               static_cast<unsigned long long>(after.rejected - before.rejected),
               static_cast<unsigned long long>(after.iterations - before.iterations));
-  std::printf("touching: %d\npeak_memory: %ld\n", scene.stepper->contact_reading().touching, 1024 * usage.ru_maxrss);
+  std::printf("touching: %d\npeak_memory: %ld\n", scene.stepper->readings().contact().touching, 1024 * usage.ru_maxrss);
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ void run(int nodes) {
 
   double sum = 0.0;
   const double reading = time_of([&] {
-    const Energies energies = bare.stepper->energies();
+    const Energies energies = bare.stepper->readings().energies();
     sum += energies.stretching + energies.kinetic + bare.stepper->state().velocity.colwise().squaredNorm().maxCoeff();
   });
   const bool same = bare.stepper->state().position == rolled.stepper->state().position;

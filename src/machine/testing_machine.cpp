@@ -289,12 +289,12 @@ struct TestingMachine::Impl {
     s.balance_offset = cell.offset();
     s.tail_force = s.excess_length = PerKnot::unknown(static_cast<std::size_t>(knot_of(specimen).about().knots));
     if (loop) loop->read(s);
-    const ContactReading contact = stepper->contact_reading();
+    const ContactReading contact = stepper->readings().contact();
     s.max_penetration = contact.largest_overlap / material.radius;
     s.normal_force = contact.normal_force;
     s.contacts = contact.touching;
     s.fastest_node = std::sqrt(stepper->state().velocity.colwise().squaredNorm().maxCoeff());
-    const Energies energies = stepper->energies();
+    const Energies energies = stepper->readings().energies();
     s.stretching_energy = energies.stretching;
     s.bending_energy = energies.bending;
     s.twisting_energy = energies.twisting;
@@ -306,7 +306,7 @@ struct TestingMachine::Impl {
     s.plastic_loss = work.plastic;
     s.numerical_dissipation = work.numerical;
     s.reweighting_loss = work.reweighting;
-    s.moment_imbalance = stepper->loads().moment.norm();
+    s.moment_imbalance = stepper->readings().loads().moment.norm();
     s.steps = control.counters().steps;
     s.rejected_steps = control.counters().rejected;
     s.newton_iterations = control.counters().iterations;
@@ -358,7 +358,7 @@ struct TestingMachine::Impl {
                          : to < command.time ? start.displacement + speed * (to - start.time)
                                              : command.displacement;
           grip = frame.rigid() ? displacement : grip_tried;
-          work += stepper->work();
+          work += stepper->readings().work();
           if (loop) loop->follow(phase, {to, displacement, grip}, dt);
           judge_break(dt);
           substeps.push_back(read(command, to));
@@ -437,11 +437,11 @@ Eigen::VectorXd TestingMachine::tension() const {
   return impl_->stepper->tension();
 }
 std::vector<ContactForce> TestingMachine::contact_forces() const {
-  return impl_->knows_contacts() ? impl_->stepper->contact_forces() : std::vector<ContactForce>();
+  return impl_->knows_contacts() ? impl_->stepper->readings().contact_forces() : std::vector<ContactForce>();
 }
 Eigen::VectorXd TestingMachine::contact_load() const {
   if (!impl_->knows_contacts()) return {};
-  return impl_->stepper->normal_forces().cwiseQuotient(rod().voronoi_length);
+  return impl_->stepper->readings().normal_forces().cwiseQuotient(rod().voronoi_length);
 }
 void TestingMachine::state(Archive& archive) { impl_->state(archive); }
 

@@ -23,7 +23,8 @@ class ImplicitStep final : public TimeStep {
       : TimeStep(rod, state, settings),
         equation_(rod_, state_, settings_),
         tunnelling_(rod.nodes(), std::is_same_v<StrandContact, SmoothContact>),
-        readings_(rod_, state_, equation_.frames.kinetic_energy(state_.twist_rate)),
+        readings_(rod_, state_, equation_.frames.kinetic_energy(state_.twist_rate), equation_.strands.points(),
+                  equation_.rollers.contacts()),
         increment_(3, rod.nodes()) {}
 
   StepSummary step(const Boundary& boundary, double dt, SolveStrategy strategy) override {
@@ -53,32 +54,7 @@ class ImplicitStep final : public TimeStep {
     tunnelling_.part(edge);
   }
 
-  // ---- readings ---------------------------------------------------------------------------------------------------
-
-  Vec3 reaction(int node) const override { return readings_.reaction(node); }
-  double reaction_torque(int edge) const override { return D == 4 ? readings_.reaction_torque(edge) : 0.0; }
-  Vec3 roller_force(int roller) const override { return readings_.roller_force(roller); }
-  Vec3 roller_moment(int roller) const override { return readings_.roller_moment(roller); }
-  RollerTurn roller_turn(int roller) const override { return equation_.rollers.contacts().turn(roller); }
-  Energies energies() const override { return readings_.account().energies; }
-  ContactReading contact_reading() const override { return readings_.account().contact; }
-  StepWork work() const override { return readings_.account().work; }
-  LoadSum loads() const override { return readings_.account().loads; }
-  std::vector<ContactForce> contact_forces() const override {
-    return knot_utm::contact_forces(equation_.strands.points(), state_.position);
-  }
-  Eigen::VectorXd normal_forces() const override {
-    Eigen::VectorXd force = Eigen::VectorXd::Zero(rod_.nodes());
-    add_normal_forces(equation_.strands.points(), force);
-    add_normal_forces(equation_.rollers.points(), force);
-    return force;
-  }
-  double normal_force_between(const NodeRange& a, const NodeRange& b) const override {
-    return knot_utm::normal_force_between(equation_.strands.points(), a, b);
-  }
-  double roller_normal_force(const NodeRange& piece) const override {
-    return knot_utm::roller_normal_force(equation_.rollers.points(), piece);
-  }
+  const StepReadings& readings() const override { return readings_; }
 
   void state(Archive& archive) override {
     archive.section("STEP");
@@ -106,10 +82,10 @@ class ImplicitStep final : public TimeStep {
   }
 
   void account(const SolvedStep& step) {
-    StepAccount& account = readings_.begin(step, equation_.rollers.contacts());
+    StepAccount& account = readings_.begin(step);
     equation_.grips.account(step, account);
     equation_.motion.account(step, account);
-    readings_.add_free_turns(step, equation_.rollers.contacts());
+    readings_.add_free_turns(step);
     equation_.centreline.account(step, account);
     equation_.frames.account(step, account);
     readings_.add_fall_of_elastic_energy();

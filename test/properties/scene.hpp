@@ -54,10 +54,10 @@ inline Outcome run(const Scene& scene) {
   const std::vector<FixedNode>& held = scene.boundary.back().fixed_nodes;
   out.reaction.resize(3, static_cast<Eigen::Index>(held.size()));
   for (std::size_t i = 0; i < held.size(); ++i)
-    out.reaction.col(static_cast<Eigen::Index>(i)) = step->reaction(held[i].node);
-  out.energies = step->energies();
-  out.contact = step->contact_reading();
-  out.work = step->work();
+    out.reaction.col(static_cast<Eigen::Index>(i)) = step->readings().reaction(held[i].node);
+  out.energies = step->readings().energies();
+  out.contact = step->readings().contact();
+  out.work = step->readings().work();
   return out;
 }
 

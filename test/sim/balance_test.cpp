@@ -35,11 +35,11 @@ TEST(EnergyBalance, AVibratingRodLosesWhatImplicitEulerTakes) {
     settings.motion_limit = settings.newton_cap = 1.0;
     Balance balance(TimeStep::make(rod, state, settings), settings, dt);
     const Boundary free;
-    const double begin = balance.stepper().energies().total();
+    const double begin = balance.stepper().readings().energies().total();
     const int steps = 40;
     balance.run(steps * dt, [&](double) -> const Boundary& { return free; });
     const double left = begin * std::pow(1.0 + omega * omega * dt * dt, -steps);
-    EXPECT_NEAR(balance.stepper().energies().total(), left, balance.residual_bound() + 1e-9 * begin);
+    EXPECT_NEAR(balance.stepper().readings().energies().total(), left, balance.residual_bound() + 1e-9 * begin);
     EXPECT_NEAR(balance.sum().numerical, begin - left, balance.residual_bound() + 1e-9 * begin);
     EXPECT_LT(std::abs(balance.sum().residual), balance.residual_bound());
     EXPECT_LT(std::abs(balance.gap()), balance.rounding());
@@ -217,7 +217,7 @@ TEST_P(EnergyOf, EverySceneClosesStepByStep) {
   EXPECT_GT(scene.balance->sum().drag, 0.0);
   EXPECT_EQ(scene.balance->sum().friction > 0.0, GetParam().friction > 0.0);
   // The energies that the balance goes by are those of the state.
-  const Energies energies = scene.balance->stepper().energies();
+  const Energies energies = scene.balance->stepper().readings().energies();
   const ElasticEnergy elastic = elastic_energy(scene.balance->stepper().rod(), scene.balance->stepper().state());
   EXPECT_NEAR(energies.stretching, elastic.stretching, 1e-9 * energies.total());
   EXPECT_NEAR(energies.bending, elastic.bending, 1e-9 * energies.total());

@@ -143,7 +143,9 @@ struct Capstan {
             boundary.fixed_nodes[0].position = from + kSpeed * to * pull;
           return boundary;
         },
-        [&](double, double dt, const StepSummary&) { sum += kSpeed * dt * stepper->reaction(last).norm() / t1; });
+        [&](double, double dt, const StepSummary&) {
+          sum += kSpeed * dt * stepper->readings().reaction(last).norm() / t1;
+        });
     if (!gave_up.empty()) throw std::runtime_error(gave_up);
     counters.steps += control.counters().steps;
     counters.rejected += control.counters().rejected;

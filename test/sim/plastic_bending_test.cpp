@@ -80,15 +80,15 @@ TEST(PlasticBending, AReleasedStripKeepsWhatItsMomentDoesNotHold) {
 TEST(PlasticBending, ANewStepperBeginsWithTheEnergyOfTheLastOne) {
   const Strip strip;
   const std::unique_ptr<TimeStep> stepper = TimeStep::make(strip.rod, strip.state, strip.settings);
-  const double drawn = stepper->energies().bending;
+  const double drawn = stepper->readings().energies().bending;
   Boundary held;
   for (int i = 0; i <= kEdges; ++i) held.fixed_nodes.push_back({i, strip.state.position.col(i)});
   ASSERT_TRUE(stepper->step(held, 0.02).accepted());
-  const double stored = stepper->energies().bending;
-  EXPECT_NEAR(drawn, stored + stepper->work().plastic, 1e-9 * drawn);
-  EXPECT_GT(stepper->work().plastic, 0.0);
+  const double stored = stepper->readings().energies().bending;
+  EXPECT_NEAR(drawn, stored + stepper->readings().work().plastic, 1e-9 * drawn);
+  EXPECT_GT(stepper->readings().work().plastic, 0.0);
   const std::unique_ptr<TimeStep> next = TimeStep::make(strip.rod, stepper->state(), strip.settings);
-  EXPECT_NEAR(next->energies().bending, stored, 1e-9 * stored);
+  EXPECT_NEAR(next->readings().energies().bending, stored, 1e-9 * stored);
 }
 
 TEST(PlasticBending, NeedsARodThatRemembersItsBends) {

@@ -76,7 +76,7 @@ TEST_P(SavedTimeStep, ComesToTheSameBitsElsewhere) {
   EXPECT_EQ(there, here);
   EXPECT_EQ(elsewhere.stepper->state().position, scene.stepper->state().position);
   EXPECT_EQ(elsewhere.stepper->state().twist, scene.stepper->state().twist);
-  EXPECT_EQ(elsewhere.stepper->roller_force(0), scene.stepper->roller_force(0));
+  EXPECT_EQ(elsewhere.stepper->readings().roller_force(0), scene.stepper->readings().roller_force(0));
 }
 
 INSTANTIATE_TEST_SUITE_P(Twist, SavedTimeStep, testing::Bool(),

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 #include <vector>
 
 #include "sim/scenes.hpp"
@@ -36,19 +37,7 @@ class ScriptedStep : public TimeStep {
   }
   static std::string text() { return diagnosis().text(); }
   void part(int) override {}
-  Vec3 reaction(int /*node*/) const override { return Vec3::Zero(); }
-  double reaction_torque(int /*edge*/) const override { return 0.0; }
-  Vec3 roller_force(int /*roller*/) const override { return Vec3::Zero(); }
-  Vec3 roller_moment(int /*roller*/) const override { return Vec3::Zero(); }
-  RollerTurn roller_turn(int /*roller*/) const override { return {}; }
-  Energies energies() const override { return {}; }
-  ContactReading contact_reading() const override { return {}; }
-  StepWork work() const override { return {}; }
-  LoadSum loads() const override { return {}; }
-  std::vector<ContactForce> contact_forces() const override { return {}; }
-  Eigen::VectorXd normal_forces() const override { return {}; }
-  double normal_force_between(const NodeRange&, const NodeRange&) const override { return 0.0; }
-  double roller_normal_force(const NodeRange&) const override { return 0.0; }
+  const StepReadings& readings() const override { throw std::logic_error("nothing is read of it"); }
 
   double longest_good = 1.0;  // [s]
   double speed = 0.0;         // [m/s]

@@ -292,7 +292,8 @@ struct StopperKnot {
   void seat() {
     pull_while(1000.0, [&] {
       double on_hole = 0.0;
-      for (int i = 0; i < static_cast<int>(boundary.rollers.size()); ++i) on_hole -= stepper->roller_force(i)[2];
+      for (int i = 0; i < static_cast<int>(boundary.rollers.size()); ++i)
+        on_hole -= stepper->readings().roller_force(i)[2];
       return on_hole < kSeating;
     });
   }
@@ -332,10 +333,10 @@ struct StopperKnot {
   Reading read() const {
     Reading out;
     out.way = way;
-    out.force = -(stepper->reaction(0) + stepper->reaction(1))[2];
-    out.torque = stepper->reaction_torque(0);
+    out.force = -(stepper->readings().reaction(0) + stepper->readings().reaction(1))[2];
+    out.torque = stepper->readings().reaction_torque(0);
     out.passed = at_hole() - passed_before_;
-    out.twisting = stepper->energies().twisting;
+    out.twisting = stepper->readings().energies().twisting;
     out.shape = shape_from(at_hole());
     return out;
   }

@@ -61,9 +61,9 @@ TEST(StretchingLaw, ABarPulledByAThirdBearsWhatItsLawSays) {
     const double energy = linear ? 0.5 * k_s * Pulled::kStrain * Pulled::kStrain * length
                                  : k_s / 6.0 * (lambda * lambda + 2.0 / lambda - 3.0) * length;
     const TimeStep& stepper = pulled.balance.stepper();
-    EXPECT_NEAR(stepper.reaction(kEdges).x(), tension, 1e-6 * tension);
+    EXPECT_NEAR(stepper.readings().reaction(kEdges).x(), tension, 1e-6 * tension);
     EXPECT_LT((stepper.tension().array() - tension).abs().maxCoeff(), 1e-6 * tension);
-    EXPECT_NEAR(stepper.energies().stretching, energy, 1e-6 * energy);
+    EXPECT_NEAR(stepper.readings().energies().stretching, energy, 1e-6 * energy);
     EXPECT_LT(std::abs(pulled.balance.gap()), pulled.balance.rounding());
   }
 }
@@ -76,7 +76,7 @@ TEST(StretchingLaw, IsSavedWithItsRod) {
   EXPECT_TRUE(std::holds_alternative<NeoHookeanStretching>(loaded.stepper->rod().laws->stretching));
   ASSERT_TRUE(loaded.try_again().accepted());
   ASSERT_TRUE(stepper->step(boundary, 0.01).accepted());
-  EXPECT_EQ(loaded.stepper->reaction(kEdges), stepper->reaction(kEdges));
+  EXPECT_EQ(loaded.stepper->readings().reaction(kEdges), stepper->readings().reaction(kEdges));
 }
 
 TEST(StretchingLaw, AMaterialGivesItToItsRod) {

@@ -202,7 +202,7 @@ TEST(TunnellingOfASimulation, IsNeverSeenWhereAnOverhandIsPulledTight) {
     }
   }
   EXPECT_GE(pulled, 0.12);
-  EXPECT_GT(stepper->contact_reading().touching, 50) << "it must have been pulled tight";
+  EXPECT_GT(stepper->readings().contact().touching, 50) << "it must have been pulled tight";
   EXPECT_GT(accepted, 100);
 }
 

@@ -95,10 +95,10 @@ TEST(Twist, AClampThatTurnsStoresTheEnergyOfAShaft) {
     bare.boundary.fixed_twists = {{0, 0.0}, {kLast, angle}};
     bare.settings.drag = 0.0;
     for (int k = 0; k < 60; ++k) bare.go(1.0);
-    EXPECT_NEAR(bare.step->energies().twisting, 0.6 * angle * angle / (2.0 * length), 1e-6 * angle * angle);
-    EXPECT_NEAR(bare.step->reaction_torque(kLast), 0.6 * angle / length, 1e-6 * angle);
-    EXPECT_NEAR(bare.step->reaction_torque(0), -0.6 * angle / length, 1e-6 * angle);
-    EXPECT_LT(bare.step->energies().bending, 1e-20);
+    EXPECT_NEAR(bare.step->readings().energies().twisting, 0.6 * angle * angle / (2.0 * length), 1e-6 * angle * angle);
+    EXPECT_NEAR(bare.step->readings().reaction_torque(kLast), 0.6 * angle / length, 1e-6 * angle);
+    EXPECT_NEAR(bare.step->readings().reaction_torque(0), -0.6 * angle / length, 1e-6 * angle);
+    EXPECT_LT(bare.step->readings().energies().bending, 1e-20);
   }
 }
 
@@ -173,7 +173,7 @@ TEST_P(Natural, ShapeIsTheRodAtRest) {
   bare.begin();
   bare.settle(100.0);
   const RodState& end = bare.step->state();
-  const Energies energies = bare.step->energies();
+  const Energies energies = bare.step->readings().energies();
   EXPECT_LT(energies.bending + energies.twisting + energies.stretching, 1e-12);
   for (int i = 1; i < kEdges; ++i) {
     const Vec3 e = end.position.col(i) - end.position.col(i - 1), f = end.position.col(i + 1) - end.position.col(i);

@@ -82,8 +82,10 @@ struct TwistedRod {
   }
 
   /// Force along the rod at the far clamp, and moment about it.
-  double tension() const { return step->reaction(last_node() - 1).x() + step->reaction(last_node()).x(); }
-  double moment() const { return step->reaction_torque(last_node() - 1); }
+  double tension() const {
+    return step->readings().reaction(last_node() - 1).x() + step->readings().reaction(last_node()).x();
+  }
+  double moment() const { return step->readings().reaction_torque(last_node() - 1); }
   double fastest() const { return step->state().velocity.colwise().norm().maxCoeff(); }
 
  private:

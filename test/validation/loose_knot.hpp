@@ -78,9 +78,9 @@ class LooseKnot {
   const TimeStep& stepper() const { return *stepper_; }
   double end_shortening() const { return rod_.length() - (upper_ - lower_).norm(); }
   double eps() const { return std::sqrt(2.0 * M_PI / end_shortening()); }
-  double force() const { return released_ ? 0.0 : stepper_->reaction(static_cast<int>(last()))[2]; }
+  double force() const { return released_ ? 0.0 : stepper_->readings().reaction(static_cast<int>(last()))[2]; }
   /// Of one strand on the other.
-  double normal_force() const { return stepper_->contact_reading().normal_force; }
+  double normal_force() const { return stepper_->readings().contact().normal_force; }
 
   /// |Delta(-1)|: 2 turns + 1 for the overhand.
   std::int64_t determinant() const {

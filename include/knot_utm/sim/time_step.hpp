@@ -91,26 +91,8 @@ class TimeStep {
   /// From now on `watcher` is called with every iterate; an empty one ends that.
   void watch(std::function<void(const Iterate&)> watcher) { watcher_ = std::move(watcher); }
 
-  /// Force of a fixed node's holder on the rod, from the residual of the step's equations there [N].
-  virtual Vec3 reaction(int node) const = 0;
-  /// Torque about an edge's tangent that the holder of its material frame exerts on the rod [N m].
-  virtual double reaction_torque(int edge) const = 0;
-  /// Force of the rod on a roller [N], and its moment about the roller's centre [N m]; zero before the first accepted
-  /// step.
-  virtual Vec3 roller_force(int roller) const = 0;
-  virtual Vec3 roller_moment(int roller) const = 0;
-  /// How far a roller has turned about its axis since the first step, and its rate.
-  virtual RollerTurn roller_turn(int roller) const = 0;
-  virtual Energies energies() const = 0;
-  virtual ContactReading contact_reading() const = 0;
-  virtual StepWork work() const = 0;
-  virtual LoadSum loads() const = 0;
-  /// The contacts of the last step that was tried: to be read after an accepted step, before the next one is tried.
-  virtual std::vector<ContactForce> contact_forces() const = 0;
-  /// Sum of the normal forces of strands and rollers on each node; to be read at the same time [N].
-  virtual Eigen::VectorXd normal_forces() const = 0;
-  virtual double normal_force_between(const NodeRange& a, const NodeRange& b) const = 0;
-  virtual double roller_normal_force(const NodeRange& piece) const = 0;
+  /// What the last accepted step did to everything around the rod, and where its work went.
+  virtual const StepReadings& readings() const = 0;
   /// Tension of each edge [N]; of a parted one none.
   Eigen::VectorXd tension() const;
 
