@@ -9,6 +9,7 @@
 #include <string>
 
 #include "knot_utm/machine/step_settings.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/centreline_file.hpp"

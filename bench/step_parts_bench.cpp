@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {

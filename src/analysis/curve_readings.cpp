@@ -7,6 +7,7 @@
 #include <deque>
 #include <tuple>
 
+#include "knot_utm/record/sample.hpp"
 #include "pull_integrals.hpp"
 
 namespace knot_utm {

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "knot_utm/record/choice_names.hpp"
+#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "pull_integrals.hpp"
 
 namespace knot_utm {

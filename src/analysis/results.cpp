@@ -7,6 +7,7 @@
 #include "knot_utm/analysis/cycles.hpp"
 #include "knot_utm/analysis/pull_readings.hpp"
 #include "knot_utm/analysis/snap.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {

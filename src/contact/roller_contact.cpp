@@ -5,6 +5,7 @@
 #include <string>
 
 #include "knot_utm/contact/centreline_curve.hpp"
+#include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
 

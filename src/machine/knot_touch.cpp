@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/topology/overhand_strand.hpp"
 
 namespace knot_utm {

@@ -8,6 +8,7 @@
 #include "knot_utm/contact/roller_contact.hpp"
 #include "knot_utm/numeric/index.hpp"
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
 #include "knot_utm/sim/roller_turns.hpp"
 #include "knot_utm/sim/solved_step.hpp"

@@ -4,6 +4,8 @@
 #include <optional>
 #include <sstream>
 
+#include "knot_utm/rod/rod.hpp"
+
 namespace knot_utm {
 
 namespace {

@@ -5,6 +5,7 @@
 
 #include "knot_utm/numeric/index.hpp"
 #include "knot_utm/rod/energy.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/roller_turns.hpp"
 #include "knot_utm/sim/scene.hpp"
 

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "knot_utm/rod/isotropic_bending.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/saved_step.hpp"
 #include "tool.hpp"
 

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "contact/nodal_forces.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/roller_turns.hpp"
 #include "rod/finite_difference.hpp"
 #include "sim/scenes.hpp"

@@ -7,6 +7,7 @@
 #include "contact/nodal_forces.hpp"
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "properties/random.hpp"
 
 namespace knot_utm::properties {

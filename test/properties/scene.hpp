@@ -7,6 +7,7 @@
 
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/time_step.hpp"
 
 namespace knot_utm::properties {

@@ -4,6 +4,7 @@
 
 #include <functional>
 
+#include "knot_utm/rod/rod.hpp"
 #include "properties/random.hpp"
 
 namespace knot_utm::properties {

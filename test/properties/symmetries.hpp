@@ -1,6 +1,7 @@
 #pragma once
 
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "properties/scene.hpp"
 
 namespace knot_utm::properties {

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 
 namespace knot_utm {

@@ -8,6 +8,7 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "sim/balance.hpp"
 #include "sim/scenes.hpp"

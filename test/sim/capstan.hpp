@@ -9,6 +9,7 @@
 #include <string>
 
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "sim/scenes.hpp"
 

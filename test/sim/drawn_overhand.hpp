@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 #include "sim/scenes.hpp"
 

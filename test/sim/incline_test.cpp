@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "reference.hpp"
 #include "sim/scenes.hpp"

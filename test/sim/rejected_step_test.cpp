@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {

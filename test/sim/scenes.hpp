@@ -1,6 +1,7 @@
 #pragma once
 
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "rod/materials.hpp"
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "sim/scenes.hpp"
 

@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "knot_utm/rod/rod.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {

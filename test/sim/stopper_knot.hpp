@@ -13,6 +13,7 @@
 
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/material.hpp"

@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "rod/materials.hpp"
 #include "sim/drawn_overhand.hpp"

@@ -10,6 +10,7 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/material.hpp"

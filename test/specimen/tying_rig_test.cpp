@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "rod/materials.hpp"

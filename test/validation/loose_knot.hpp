@@ -11,6 +11,7 @@
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/overhand.hpp"

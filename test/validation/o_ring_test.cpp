@@ -9,6 +9,7 @@
 
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "reference.hpp"
 #include "sim/capstan.hpp"

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "knot_utm/contact/centreline_curve.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "reference.hpp"
 #include "sim/twisted_rod.hpp"
 

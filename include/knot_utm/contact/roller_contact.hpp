@@ -6,9 +6,10 @@
 
 #include "knot_utm/contact/surface_contact.hpp"
 #include "knot_utm/numeric/points.hpp"
-#include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
+
+struct RodProperties;
 
 /// A cylinder of unlimited length, on which the rod may lie.
 struct Roller {
