@@ -4,6 +4,7 @@
 
 #include "knot_utm/analysis/curve_readings.hpp"
 #include "knot_utm/record/program.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 
