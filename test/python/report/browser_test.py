@@ -95,7 +95,7 @@ def chromium(*arguments, graphics=NO_WEBGL):
     with tempfile.TemporaryDirectory(prefix="knot_utm_browser_") as profile:
         done = subprocess.run(["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--hide-scrollbars",
                                "--disable-dev-shm-usage", *graphics, f"--user-data-dir={profile}", "--enable-logging=stderr",
-                               *arguments], capture_output=True, text=True, check=False, timeout=120)
+                               *arguments], capture_output=True, text=True, check=False, timeout=900)
     assert done.returncode == 0, done.stderr
     return done
 
