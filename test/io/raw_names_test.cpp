@@ -17,7 +17,7 @@ namespace {
 using testing::HasSubstr;
 
 std::string fixture(const std::string& name) {
-  return std::string(KNOT_UTM_SOURCE_DIR) + "/test/fuzz/corpus/raw_data/" + name;
+  return std::string(KNOT_UTM_SOURCE_DIR) + "/test/io/raw_data/" + name;
 }
 
 struct Reading {
