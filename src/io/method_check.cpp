@@ -197,19 +197,6 @@ void check_load(const std::string& key, double load, double highest, const char*
     reject(key, load, std::string("at most the load cell's ") + what + ", " + format_number(highest) + " N");
 }
 
-/// A record that is faster than any testing machine is in other units than it says, or is none.
-void check_record(const ProgramStep& step, const std::string& key) {
-  for (std::size_t i = 1; i < step.recorded.size(); ++i) {
-    const RecordedPlace &from = step.recorded[i - 1], &to = step.recorded[i];
-    const double speed = std::abs(to.displacement - from.displacement) / (to.time - from.time);
-    if (speed > kFastestCrosshead)
-      throw InvalidInput::sentence(key, step.record,
-                                   key + ": the crosshead of " + shown(step.record) + " moves at " +
-                                       format_number(speed) + " m/s at " + format_number(from.time) +
-                                       " s, but must be no faster than " + format_number(kFastestCrosshead) + " m/s");
-  }
-}
-
 void check_step(const ProgramStep& step, const std::string& key, double capacity) {
   if (step.phase == Phase::kPreload) check_load(key + ".load", step.load, capacity);
   if (step.phase == Phase::kPull && step.until.load) check_load(key + ".until.load", *step.until.load, capacity);
@@ -231,7 +218,6 @@ void check_step(const ProgramStep& step, const std::string& key, double capacity
     if (step.cycles == 0 && !step.until.time)
       throw InvalidInput::sentence(key, "no end", key + " has no end: give count, time or both");
   }
-  if (step.phase == Phase::kFollow) check_record(step, key + ".record");
 }
 
 void check_ends(const Method& m) {

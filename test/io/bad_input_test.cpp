@@ -11,7 +11,7 @@
 
 #include "io/command.hpp"
 #include "knot_utm/io/key_units.hpp"
-#include "knot_utm/io/method.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
@@ -191,7 +191,7 @@ const std::vector<Wrong>& wrong_overrides() {
 
 std::string complaint(const std::string& file, const std::vector<std::string>& overrides = {}) {
   try {
-    load_method(file, overrides);
+    load_test(file, overrides);
   } catch (const InvalidInput& invalid) {
     return invalid.what();
   }

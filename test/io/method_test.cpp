@@ -1,5 +1,3 @@
-#include "knot_utm/io/method.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -10,6 +8,7 @@
 #include <limits>
 
 #include "knot_utm/contact/friction.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -184,7 +183,7 @@ TEST(Method, EveryStepWritesBackToTheSame) {
   const std::string copy = ::testing::TempDir() + "knot_utm_round_trip_steps.yaml";
   const std::string record = ::testing::TempDir() + "knot_utm_record.csv";
   std::ofstream(record) << "Time (s),Extension (mm),Load (N)\n5.0,1.0,0.5\n6.0,2.5,1.5\n8.0,2.0,1.0\n";
-  const Method method = load_method(
+  const Method method = load_test(
       kTighten,
       {"ends={load: 4000, time: 600, break_at_fraction_of_peak: 0.4, arming_load: 50, sharp_drop: 0.3, drop: "
        "0.2, drop_extension: 0.002}",
@@ -206,7 +205,7 @@ TEST(Method, EveryStepWritesBackToTheSame) {
   EXPECT_EQ(method.ends.breaks.drop_extension, 0.002);
   const std::string text = method_yaml(method);
   std::ofstream(copy) << text;
-  EXPECT_EQ(method_yaml(load_method(copy)), text);
+  EXPECT_EQ(method_yaml(load_test(copy)), text);
   fs::remove(copy);
   fs::remove(record);
 }
@@ -215,7 +214,7 @@ TEST(Method, ARecordIsNoFasterThanACrosshead) {
   const std::string record = ::testing::TempDir() + "knot_utm_fast_record.csv";
   std::ofstream(record) << "Time (s),Extension (m),Load (N)\n0,0,0\n1.0,1.5,0.5\n";
   try {
-    load_method(kTighten, {"program=[{follow: {record: " + record + "}}]"});
+    load_test(kTighten, {"program=[{follow: {record: " + record + "}}]"});
     ADD_FAILURE();
   } catch (const InvalidInput& invalid) {
     EXPECT_THAT(invalid.what(), HasSubstr("moves at 1.5 m/s at 0 s, but must be no faster than 0.5 m/s"));

@@ -10,7 +10,6 @@
 #include "knot_utm/io/specimens_options.hpp"
 #include "knot_utm/machine/end_options.hpp"
 #include "knot_utm/machine/options.hpp"
-#include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/program.hpp"
 #include "knot_utm/rod/material.hpp"
@@ -42,7 +41,8 @@ struct Method {
 ///   2. share/knot_utm/config of the installation to which the running executable belongs,
 ///   3. the config/ of the sources from which it was built.
 /// After reading, `specimen.preload` and the load cell are resolved. `specimen.file`, `report.logo` and the records
-/// that are followed are absolute paths.
+/// that are followed are absolute paths. Records are not read, nor is a specification compared with the results that
+/// there are: load_test (io/load_test.hpp) does that.
 ///
 /// Each override has the form "dotted.key=YAML", as `--set` takes it. An entry of a list is named by its index from 0
 /// or, in the program, by the name of the step ("program.pull.speed"). A key inside a material or load cell that is
@@ -68,9 +68,6 @@ std::string method_yaml(const Method& method);
 /// The number that `method_yaml` of a single specimen has at a dotted key, as overrides name it ("program.pull.speed").
 /// Empty where no number stands at the key.
 std::optional<double> number_at(const Method& method, const std::string& key);
-
-/// The runner of the method's program. `longest_step`: longest time step of the simulation [s].
-ProgramRunner make_program(const Method& method, double longest_step);
 
 /// Checks values that must go together, as `load_method` does. Throws InvalidInput.
 void check_method(const Method& method);
