@@ -1,9 +1,7 @@
 #include "knot_utm/io/load_test.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 #include <system_error>
 
 #include "knot_utm/io/curve_file.hpp"
@@ -16,18 +14,8 @@
 namespace knot_utm {
 namespace {
 
-/// From which load on a fall may be a break, unless the method says so: testing machines have such a fraction.
+/// From which load on a fall may be a break: testing machines have such a fraction.
 constexpr double kArmingFraction = 0.02;  // of the cell's capacity
-
-/// Half the windows within which a drop of the load counts as a break, so that they are resolved [s].
-double longest_period(const Method& method) {
-  const BreakDetection& breaks = method.ends.breaks;
-  double window = std::numeric_limits<double>::infinity();
-  if (breaks.sharp_drop) window = breaks.sharp_drop_time;
-  if (breaks.drop)
-    for (const ProgramStep& step : method.program) window = std::min(window, breaks.drop_extension / step.speed);
-  return 0.5 * window;
-}
 
 /// A record that is faster than any testing machine is in other units than it says, or is none.
 void check_speed(const ProgramStep& step, const std::string& key) {
@@ -99,10 +87,8 @@ ProgramRunner make_program(const Method& method, double longest_step) {
       (machine.grips == GripKind::kRollers ? machine.roller_diameter : 0.0) + 2.0 * method.material.radius;
   limits.travel = machine.travel;
   limits.time = method.ends.time.value_or(limits.time);
-  limits.breaks = method.ends.breaks;
-  limits.breaks.arming_load = method.ends.arming_load.value_or(kArmingFraction * capacity);
-  return ProgramRunner(program, machine.load_cell.sampling_rate, std::min(longest_step, longest_period(method)),
-                       limits);
+  limits.breaks = {method.ends.break_at_fraction_of_peak, kArmingFraction * capacity};
+  return ProgramRunner(program, machine.load_cell.sampling_rate, longest_step, limits);
 }
 
 }  // namespace knot_utm

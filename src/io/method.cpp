@@ -172,8 +172,6 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
         read_load_cell(reader.take("load_cell"), file, method.material, defaults.machine.load_cell, library, automatic);
   });
   method.program = read_program(top.take("program"), file, defaults, automatic);
-  // Without effect they keep their plain value.
-  if (known && known->ends.breaks.drop) method.ends.breaks.drop_extension = defaults.drop_extension;
   if (known) set_creep(known->physics.friction.law, defaults.slip_tolerance, method.physics.friction);
   top.section("ends", [&](Reader& reader) { fields::ends(reader, method.ends); });
   top.section("physics", [&](Reader& reader) { fields::physics(reader, method.physics); });

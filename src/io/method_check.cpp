@@ -15,6 +15,7 @@
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_reader.hpp"
@@ -225,14 +226,6 @@ void check_ends(const Method& m) {
   const double overload = m.machine.load_cell.overload;
   if (m.ends.load && std::isfinite(overload)) check_load("ends.load", *m.ends.load, overload * capacity, "stop");
   if (m.ends.load && std::isinf(overload)) check_load("ends.load", *m.ends.load, capacity);
-  if (m.ends.arming_load) check_load("ends.arming_load", *m.ends.arming_load, capacity);
-  const BreakDetection& breaks = m.ends.breaks;
-  const BreakDetection unset;
-  has_effect(breaks.on(), "ends.arming_load", m.ends.arming_load.value_or(0.0), 0.0,
-             "with break_at_fraction_of_peak, sharp_drop or drop");
-  has_effect(breaks.sharp_drop.has_value(), "ends.sharp_drop_time", breaks.sharp_drop_time, unset.sharp_drop_time,
-             "with sharp_drop");
-  has_effect(breaks.drop.has_value(), "ends.drop_extension", breaks.drop_extension, unset.drop_extension, "with drop");
 }
 
 void check_pull(const Method& m, const ProgramStep& step, const std::string& key) {

@@ -22,8 +22,6 @@ void leave_out_idle_keys(const Method& m, YAML::Node& root) {
   for (const std::string& key : idle) root["specimen"].remove(key);
   if (!knot.about().loop) root["machine"].remove("roller_diameter");
   if (!rollers_hold(m.specimen, m.machine)) root["machine"].remove("far_side");
-  if (!m.ends.breaks.sharp_drop) root["ends"].remove("sharp_drop_time");
-  if (!m.ends.breaks.drop) root["ends"].remove("drop_extension");
 }
 
 }  // namespace

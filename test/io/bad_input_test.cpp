@@ -182,9 +182,6 @@ const std::vector<Wrong>& wrong_overrides() {
        "no such file"},
       {"ends.load=60000", "ends.load", "60000", "capacity, 50000 N"},
       {"ends.break_at_fraction_of_peak=40", "ends.break_at_fraction_of_peak", "40", "0 to 0.99"},
-      {"ends.arming_load=5", "ends.arming_load", "5", "only with break_at_fraction_of_peak, sharp_drop or drop"},
-      {"ends.drop_extension=0.01", "ends.drop_extension", "0.01", "only with drop"},
-      {"ends.sharp_drop_time=0.2", "ends.sharp_drop_time", "0.2", "only with sharp_drop"},
   };
   return kTable;
 }
