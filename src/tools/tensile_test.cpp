@@ -11,7 +11,6 @@
 
 #include "knot_utm/io/command_hint.hpp"
 #include "knot_utm/io/foreseen.hpp"
-#include "knot_utm/io/key_units.hpp"
 #include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/latest_link.hpp"
 #include "knot_utm/io/load_test.hpp"

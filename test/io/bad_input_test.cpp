@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "io/command.hpp"
-#include "knot_utm/io/key_units.hpp"
 #include "knot_utm/io/load_test.hpp"
+#include "knot_utm/io/method_keys.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/key_units.hpp"
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/io/method_keys.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/limit_text.hpp"

@@ -5,9 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/analysis_options.hpp"
 #include "knot_utm/io/report_options.hpp"
-#include "knot_utm/io/specimens_options.hpp"
 #include "knot_utm/machine/end_options.hpp"
 #include "knot_utm/machine/options.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
@@ -17,6 +15,33 @@
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
+
+/// The `analysis` section of a method: which further evaluations are asked for, beyond those of every test.
+struct AnalysisOptions {
+  bool margin = false;  ///< safety margin of a knot that slides (analysis/margin.hpp)
+};
+
+/// How a value of the method scatters from specimen to specimen. With x0 the value in the method and d the spread:
+///
+///     normal      x0 (1 + d z), where z is standard normal, limited to 3 standard deviations; d is the cv
+///     log_normal  x0 exp(d z), with the same z
+///     uniform     x0 (1 + d u), where u is uniform from -1 to 1
+enum class ScatterLaw { kNormal, kLogNormal, kUniform };
+
+struct Scatter {
+  std::string key;  ///< dotted key of the method, as `--set` takes it
+  ScatterLaw law = ScatterLaw::kNormal;
+  double spread = 0.0;  ///< d [-]
+};
+
+inline constexpr int kMostSpecimens = 10000;
+
+/// The `specimens` section of a method: how many specimens are tested, and how they differ.
+struct SpecimensOptions {
+  int count = 1;
+  unsigned seed = 1;
+  std::vector<Scatter> scatter;
+};
 
 /// A test method with everything resolved: the content of a method file.
 struct Method {
