@@ -65,43 +65,21 @@ void check_law(const LawOptions<Number>& given, const std::string& section, cons
   }
 }
 
-/// A `Fields` (method_fields.hpp) that keeps the keys of a specimen and their values as messages show them. Numbers
-/// have all their digits, so that equal texts are equal values. A value that is not set is empty.
-class Texts {
- public:
-  using Range = fields::Range;
-  void number(const char* key, double& value, const Range&) { add(key, format_number(value)); }
-  void scaled_number(const char* key, double& value, const Range&) { add(key, format_number(value)); }
-  void optional_number(const char* key, std::optional<double>& value, const Range&, const char*) {
-    add(key, value ? format_number(*value) : "");
-  }
-  void integer(const char* key, int& value, int, int) { add(key, std::to_string(value)); }
-  void text(const char* key, std::string& value) { add(key, value); }
-  void flag(const char* key, bool& value) { add(key, value ? "true" : "false"); }
-  template <class Enum, class Names>
-  void choice(const char* key, Enum& value, const Names& names) {
-    add(key, names[static_cast<std::size_t>(value)]);
-  }
-
-  static std::vector<std::pair<const char*, std::string>> of(SpecimenOptions specimen) {
-    Texts texts;
-    fields::specimen(texts, specimen);
-    return texts.all_;
-  }
-
- private:
-  void add(const char* key, const std::string& value) { all_.emplace_back(key, value); }
-
-  std::vector<std::pair<const char*, std::string>> all_;
-};
+/// The keys of a specimen, each with its value as a message shows it.
+YAML::Node keys_of(SpecimenOptions specimen) {
+  fields::Writer writer;
+  fields::specimen(writer, specimen);
+  return writer.map();
+}
 
 /// A key of `specimen` that its knot does not have is without effect.
 void check_keys_of_knot(const SpecimenOptions& specimen) {
-  const auto given = Texts::of(specimen), unset = Texts::of(SpecimenOptions());
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    const char* key = given[i].first;
-    has_effect(knot_of(specimen).has(key), (std::string("specimen.") + key).c_str(), given[i].second, unset[i].second,
-               "for knot: " + knots_with(key));
+  const YAML::Node given = keys_of(specimen), unset = keys_of(SpecimenOptions());
+  for (const auto& item : given) {
+    const std::string key = item.first.Scalar(), value = item.second.Scalar();
+    const YAML::Node plain = unset[key];
+    has_effect(knot_of(specimen).has(key), ("specimen." + key).c_str(), value,
+               plain.IsDefined() ? plain.Scalar() : std::string(), "for knot: " + knots_with(key));
   }
 }
 

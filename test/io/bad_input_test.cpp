@@ -379,13 +379,15 @@ TEST(BadInput, APullThatIsLongerThanTheTailOfACapstan) {
 /// The command itself: exit code 2, one line, nothing written.
 TEST_F(BadFile, TheCommandSaysItInOneLineAndWritesNothing) {
   const fs::path out = folder_ / "out";
-  std::vector<std::string> lines;
-  for (const Wrong& wrong : wrong_overrides()) {
-    lines.push_back("'" + kTighten + "' --set '" + wrong.set + "'");
-  }
-  lines.push_back("/nowhere/method.yaml");
-  lines.push_back("");
-  lines.push_back("'" + kTighten + "' --no-such-option");
+  const std::string file = "'" + kTighten + "'";
+  // Refused as the method is read, as its records and its specification are, and as its specimen is made.
+  const std::vector<std::string> lines{file + " --set specimen.turns=5",
+                                       file + " --set 'program=[{follow: {record: nowhere.csv}}]'",
+                                       file + " --set specification.peek_force.min=3",
+                                       file + " --set 'specimen={knot: file, file: nowhere.csv}'",
+                                       file + " --no-such-option",
+                                       "/nowhere/method.yaml",
+                                       ""};
   for (const std::string& line : lines) {
     const Answer answer = answer_of(tool("tensile_test", line + " --out '" + out.string() + "'"));
     EXPECT_EQ(answer.code, 2) << line;
