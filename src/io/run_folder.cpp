@@ -14,7 +14,6 @@
 #include "knot_utm/io/cannot_write.hpp"
 #include "knot_utm/io/journal.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/record/ended_by.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
