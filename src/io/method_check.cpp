@@ -110,8 +110,6 @@ void check_effects(const Method& m) {
   check_law<FrictionRegistry>(m.physics.friction, "physics.friction.", "law");
   check_law<StretchingRegistry>(m.material.stretching, "material.", "stretching_law");
   check_law<BendingRegistry>(m.material.bending, "material.", "bending_law");
-  check_law<TwistingRegistry>(m.material.twisting, "material.", "twisting_law");
-  check_law<PressureRegistry>(m.material.pressure, "material.", "pressure_law");
 }
 
 void check_specimen(const Method& m) {

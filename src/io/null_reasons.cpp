@@ -2,6 +2,7 @@
 
 #include "knot_utm/io/known_errors.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {

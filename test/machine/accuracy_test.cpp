@@ -168,7 +168,7 @@ TEST(Tolerances, EdgesAreShorterInRopesThatAreTiedHard) {
 
 TEST(RelativeErrors, AreNotGivenWhereNoStudySays) {
   Loop edge, smoothed, untied, overhand, rolling, set, rough, rubber, straight;
-  edge.physics.contact_scheme = ContactScheme::kEdge;
+  edge.physics.contact_law = ContactLaw::kEdge;
   smoothed.physics.friction.law = law_named("smoothed");
   untied.specimen.to_be_tied = false;
   overhand.specimen.knot = knot_named("overhand");

@@ -3,9 +3,11 @@
 #include <optional>
 #include <string>
 
-#include "knot_utm/record/sample.hpp"
+#include "knot_utm/numeric/archive.hpp"
 
 namespace knot_utm {
+
+struct Sample;
 
 /// What a testing machine takes for a break: the load has fallen to a fraction of its peak. It judges loads only. A rod
 /// that parts in the simulation (fracture.hpp) ends the test without it.
