@@ -9,6 +9,7 @@
 #include "earlier_run.hpp"
 #include "knot_utm/io/claimed_folder.hpp"
 #include "knot_utm/io/foreseen.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/io/locked_file.hpp"
 #include "knot_utm/io/recovery.hpp"
 #include "knot_utm/io/run_folder.hpp"

@@ -11,14 +11,13 @@
 
 #include "knot_utm/io/command_hint.hpp"
 #include "knot_utm/io/foreseen.hpp"
-#include "knot_utm/io/key_units.hpp"
 #include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/latest_link.hpp"
-#include "knot_utm/io/method.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/io/method_keys.hpp"
 #include "knot_utm/io/plausible_rod.hpp"
 #include "knot_utm/io/progress_line.hpp"
-#include "knot_utm/io/result_yaml.hpp"
+#include "knot_utm/io/result_keys.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/io/summary.hpp"
@@ -236,10 +235,9 @@ int run(const Arguments& arguments) {
     std::fputs(run_summary(arguments.show).c_str(), stdout);
     return kDone;
   }
-  const Method method = load_method(arguments.method, arguments.overrides);
-  if (!arguments.quiet)
-    for (const ProgramStep& step : method.program)
-      for (const std::string& line : step.read) std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
+  const Method method = load_test(arguments.method, arguments.overrides, [&](const std::string& line) {
+    if (!arguments.quiet) std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
+  });
   if (arguments.check) return check(method);
   if (arguments.list_keys) return list_keys(method);
   if (arguments.overwrite) require_no_method_in(folder_of(arguments, method), arguments.method);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "knot_utm/analysis/results.hpp"
+#include "knot_utm/io/known_errors.hpp"
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/io/verdict.hpp"
 
@@ -74,5 +75,9 @@ constexpr char kCertificate[] = "certificate";  ///< among the checks of the cer
 /// labels and units of the report (`tensile_test --list-results`) are made from this table. Tests compare
 /// doc/results.md with it. A new key is one row of this table and one row of doc/results.md.
 const std::vector<ResultKey>& result_keys();
+
+/// The table of the keys as CSV with the columns key, unit, kind, group, table and meaning: the content of
+/// report/result_keys.csv.
+std::string result_keys_csv();
 
 }  // namespace knot_utm

@@ -198,7 +198,10 @@ def read_curve(file):
             raise CannotReport(f"{file}: no column {name}")
     phase = np.array(columns.pop("phase"), dtype=str)
     curve = Curve({name: numbers(file, name, column) for name, column in columns.items()}, phase)
-    if "corrected_extension" in columns:  # the frame is compliant: results are of the specimen's own extension
+    if "crosshead_travel" in columns:  # the frame is compliant
+        travel = curve["crosshead_travel"]
+        curve.columns["crosshead_extension"] = np.where(np.isfinite(travel), travel, curve["extension"])
+    if "corrected_extension" in columns:  # the same of a run by an earlier version
         own = curve["corrected_extension"]
         curve.columns["crosshead_extension"] = curve["extension"]
         curve.columns["extension"] = np.where(np.isfinite(own), own, curve["extension"])

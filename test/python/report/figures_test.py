@@ -148,8 +148,7 @@ class ACompliantFrame(unittest.TestCase):
         folder = folders.copy(straight)
         for name in ("curve.csv", "curve_full.csv"):
             rows = [row.split(",") for row in read(folder, name).splitlines()]
-            rows = [rows[0] + ["corrected_extension"], rows[1] + ["m"],
-                    *(row[:1] + [str(2.0 * float(row[1]))] + row[2:] + [row[1]] for row in rows[2:])]
+            rows = [rows[0] + ["crosshead_travel"], rows[1] + ["m"], *(row + [str(2.0 * float(row[1]))] for row in rows[2:])]
             write("\n".join(map(",".join, rows)) + "\n", folder, name)
         own, rigid = Run(folder).curve, Run(straight).curve
         np.testing.assert_array_equal(own["extension"], rigid["extension"])

@@ -1,4 +1,4 @@
-#include "knot_utm/io/yaml_lines.hpp"
+#include "knot_utm/numeric/yaml_lines.hpp"
 
 #include <algorithm>
 #include <cmath>
