@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/rod/rod.hpp"
 #include "sim/stopper_knot.hpp"
 
 namespace {

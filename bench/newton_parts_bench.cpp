@@ -12,7 +12,9 @@
 
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
+#include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 namespace {

@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <exception>
 
+#include "knot_utm/rod/rod.hpp"
 #include "sim/rolling_log.hpp"
 
 namespace {

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -66,7 +67,7 @@ void run(int nodes) {
   const double step_with_roller = time_of([&] { rolled.pull(); });
   const double iterations = static_cast<double>(bare.iterations) / (kRounds * kSteps);
 
-  SmoothContact contact(bare.rod, bare.settings.normal, bare.settings.friction, bare.settings.candidate_margin);
+  SmoothContact contact(bare.rod, bare.settings.pressure_law, bare.settings.friction, bare.settings.candidate_margin);
   const Points& x = bare.stepper->state().position;
   const int evaluations = static_cast<int>(std::lround(iterations)) + 1;
   const double search = time_of([&] {
@@ -77,7 +78,7 @@ void run(int nodes) {
 
   double sum = 0.0;
   const double reading = time_of([&] {
-    const Energies energies = bare.stepper->energies();
+    const Energies energies = bare.stepper->readings().energies();
     sum += energies.stretching + energies.kinetic + bare.stepper->state().velocity.colwise().squaredNorm().maxCoeff();
   });
   const bool same = bare.stepper->state().position == rolled.stepper->state().position;

@@ -2,7 +2,8 @@
 # which takes clang (scripts/fuzz), with the tests one that runs the inputs kept in test/fuzz.
 file(GLOB fuzz_sources CONFIGURE_DEPENDS test/fuzz/*_fuzz.cpp)
 if(KNOT_UTM_FUZZ)
-  target_compile_options(knot_utm_compiler INTERFACE -fsanitize=fuzzer-no-link)
+  target_compile_options(knot_utm_compiler INTERFACE ${sanitizer_options} -fsanitize=fuzzer-no-link)
+  target_link_options(knot_utm_compiler INTERFACE ${sanitizer_options})
   add_custom_target(fuzz)
 endif()
 foreach(source ${fuzz_sources})

@@ -11,6 +11,7 @@
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 
@@ -26,9 +27,9 @@ constexpr double kMostStretch = 2.0;  // strain by a pre-load up to which a law 
 // and specimen.preload= at draft).
 constexpr double kLargestStrain = 5.0;  // by a pre-load [-]
 constexpr double kMuchStretch = 0.2;    // by choice: no shipped rope is stretched by a tenth of it as it is tied [-]
-// Of ropes that were tied with 2 to 8 k_b/h^2, 41 of 43 opened or jumped open with a friction of 0.3 to 0.5, and 5 of
-// 111 with more; of those with 20 to 60 k_b/h^2, 12 of 34 did (bench/results/studies/pattern_map.csv.gz, the Sobol
-// sequence).
+// The limits follow from runs of ropes. Of those that were tied with 2 to 8 k_b/h^2, 41 of 43 opened or jumped open
+// with a friction of 0.3 to 0.5, and 5 of 111 with more; of those with 20 to 60 k_b/h^2, 12 of 34 did
+// (bench/results/studies/pattern_map.csv.gz, the Sobol sequence).
 constexpr double kHoldsLoosely = 0.5, kLimp = 300.0;    // friction [-]; k_s h^2/k_b of a rope [-]
 constexpr double kTightly = 20.0, kVeryTightly = 60.0;  // [k_b/h^2]
 constexpr double kMetal = 20e9;  // modulus that no polymer reaches, but metals, glass and carbon do [Pa]
@@ -46,7 +47,7 @@ double least_preload(const SpecimenOptions& specimen, const Material& material) 
   return std::min(closed * fraction * fraction, bending_force(material) / (2.0 * kClosed * kClosed));
 }
 
-/// Of a pre-load that nobody chose, not even for the material. Empty: it suits the rod.
+/// Warns of a pre-load that nobody chose, not even for the material. It is empty where the pre-load suits the rod.
 std::string automatic_warning(double preload, double stretch, const Material& material) {
   if (material.tying_preload || preload != default_preload(material)) return "";
   const double force = bending_force(material);
@@ -59,7 +60,7 @@ std::string automatic_warning(double preload, double stretch, const Material& ma
          " to " + short_number(kVeryTightly * force) + " N" + set;
 }
 
-/// Of what a tied knot asks of the outermost fibre. Empty: nothing is known to fail.
+/// Warns of a strain that the outermost fibre of a tied knot may not bear. It is empty where nothing is known to fail.
 std::string strain_warning(double strain, const Material& material) {
   const std::string needed = "tied knots strain the outermost fibre by up to " + short_number(strain);
   if (material.breaking_strain && *material.breaking_strain < strain)
@@ -78,7 +79,7 @@ std::string strain_warning(double strain, const Material& material) {
          "you know them";
 }
 
-/// Of edges that are too long for the bends of a tied rope; knots of solid rods were the same with edges of 2 h.
+/// Warns of edges that are too long for the bends of a tied rope. Knots of solid rods were the same with edges of 2 h.
 std::string mesh_warning(double edge, const Material& material) {
   const double h = material.radius;
   if (edge <= kCoarsestEdge * h || is_solid(material)) return "";

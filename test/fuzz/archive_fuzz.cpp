@@ -12,6 +12,7 @@
 #include "fuzz/target.hpp"
 #include "knot_utm/io/checkpoint.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/sim/saved_step.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
@@ -132,7 +133,7 @@ std::string good_step() {
   state.position.row(2) = rod.arclength().transpose();
   state.velocity = Points::Zero(3, rod.nodes());
   StepSettings settings;
-  settings.normal = NormalLaw{1e5, 1e-5, 1e-5};
+  settings.pressure_law = NormalLaw{1e5, 1e-5, 1e-5};
   settings.residual = 1e-6;
   settings.newton_cap = settings.motion_limit = settings.overlap_limit = settings.candidate_margin = 1e-3;
   Boundary boundary;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/topology/knot_invariants.hpp"
 #include "sim/stopper_knot.hpp"
 

@@ -3,11 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/rod/material.hpp"
 #include "knot_utm/sim/options.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
+
+struct Material;
 
 /// What is known about the knots that a pre-load ties before any time step.
 ///

@@ -5,23 +5,24 @@
 
 namespace knot_utm {
 
-/// Solves the increment of a step in one of the ways of `Solution` (time_step.hpp).
+/// Solves the increment of a step in one of the ways of `SolveStrategy` (time_step.hpp).
 ///
 /// Each of them makes its own `Increment`, so that all of them begin at the prediction. `watch(increment)` is called
 /// after every evaluation of the residual.
 template <int D, typename StrandContact, typename Watch>
-class SolutionOf {
+class IncrementSolver {
  public:
   using TheEquation = Equation<D, StrandContact>;
   using TheIncrement = Increment<D, StrandContact>;
 
-  SolutionOf(TheEquation& equation, const StepStart& start, const Watch& watch)
+  IncrementSolver(TheEquation& equation, const StepStart& start, const Watch& watch)
       : equation_(equation), start_(start), watch_(watch) {}
 
   /// Solves in the given way. The equation is left at the last trial, and `worst` is its largest residual.
-  NewtonSummary by(Solution solution, WorstResidual& worst) {
-    NewtonSummary out =
-        solution == Solution::kSecants ? by_secants() : by_tangents(solution == Solution::kTangentsAbandonedEarly);
+  NewtonSummary solve(SolveStrategy strategy, WorstResidual& worst) {
+    NewtonSummary out = strategy == SolveStrategy::kSecants
+                            ? by_secants()
+                            : by_tangents(strategy == SolveStrategy::kTangentsAbandonedEarly);
     worst = worst_;
     return out;
   }
