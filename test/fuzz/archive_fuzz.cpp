@@ -174,9 +174,7 @@ std::string with(const std::string& good, const std::string& text) {
   return out;
 }
 
-}  // namespace
-
-void fuzz(const std::string& text) {
+void fuzz_archive(const std::string& text) {
   static Resumed resumed;
   static const std::string step = good_step(), checkpoint = resumed.good();
   const auto step_written = [](const std::string& file) { return written(file); };
@@ -196,5 +194,8 @@ void fuzz(const std::string& text) {
   hold_checkpoint(file_of("checkpoint", with_random_numbers(text)));
   hold_checkpoint(file_of("checkpoint", with(state_of("checkpoint", checkpoint), text)));
 }
+const FuzzTarget archive("archive", fuzz_archive);
+
+}  // namespace
 
 }  // namespace knot_utm

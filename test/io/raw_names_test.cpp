@@ -17,9 +17,7 @@ namespace {
 
 using testing::HasSubstr;
 
-std::string fixture(const std::string& name) {
-  return std::string(KNOT_UTM_SOURCE_DIR) + "/test/fuzz/corpus/raw_data/" + name;
-}
+std::string fixture(const std::string& name) { return std::string(KNOT_UTM_SOURCE_DIR) + "/test/io/raw_data/" + name; }
 
 struct Reading {
   double time, extension, load;  // [s], [mm], [N]
