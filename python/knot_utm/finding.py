@@ -26,7 +26,8 @@ def fit(measured, method, free, out=None, settings=None, also=(), jobs=None, com
     method; `also`: [(measured, {key: value})], more records and what is other for them; `out`: the folder for fit.yaml,
     method.yaml and, with `report`, report.html, unless given out/ and the name of the measured file; `command`: that the page
     names; `reading`: options of `compare` with which raw data are read, such as ["--units", "load=lbf"]; `overwrite`: whether
-    another fit in the folder is replaced. Raises WrongInput where it cannot be fitted, before anything is written; Interrupted where it was cut short."""
+    another fit in the folder is replaced. Raises WrongInput where it cannot be fitted, before anything is written; Interrupted where it
+    was cut short."""
     name = os.path.splitext(os.path.basename(os.fspath(measured)))[0]
     out = os.path.abspath(out or os.path.join("out", name + "_fit"))
     method = tool.find_method(os.fspath(method), os.getcwd())

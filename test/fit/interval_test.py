@@ -403,7 +403,8 @@ class Records(unittest.TestCase):
         measured.require_producible(model(1.0, 5.0, ended_by="extension"))
         measured.require_producible(model(0.3, 5.0, ended_by="break"))
         for wrong, words in ((model(1000.0, 1.0), "other units"), (model(1.0, 1e3), "other units"), (model(1.0, -1.0), "--invert"),
-                             (model(0.5, 1.0, ended_by="extension"), "let it go on"), (Model(None, {"reason": "it gave up"}), "it gave up")):
+                             (model(0.5, 1.0, ended_by="extension"), "let it go on"),
+                             (Model(None, {"reason": "it gave up"}), "it gave up")):
             with self.assertRaisesRegex(WrongInput, words):
                 measured.require_producible(wrong)
 
