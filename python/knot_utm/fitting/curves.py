@@ -1,5 +1,4 @@
 """A pull, as load over extension, of a record or of a run."""
-import math
 import os
 import subprocess
 import tempfile
@@ -105,7 +104,3 @@ def _known(file, pull):
     if pull is None:
         raise WrongInput(f"{file}: nothing is pulled in it, or it has fewer than two readings of a pull")
     return pull
-
-
-def is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)

@@ -10,10 +10,10 @@ import head  # noqa: F401
 
 import numpy as np
 import pandas as pd
-from scipy import linalg, special, stats
+from scipy import special, stats
 
 from knot_utm.errors import WrongInput
-from knot_utm.fitting import ends, errors, files, kinds, profiles
+from knot_utm.fitting import ends, errors, found, kinds, profiles
 from knot_utm.fitting.curves import Pull, pull_of_table
 from knot_utm.fitting.emulator import Emulator
 from knot_utm.fitting.keys import FreeKey, method_key, offset_key, parse_free, value_at
@@ -22,14 +22,27 @@ from knot_utm.fitting.records import MOST_BINS, Record
 from knot_utm.fitting.runs import Model
 from knot_utm.fitting.scatter import covariance_of, left_over
 from knot_utm.fitting.search import Case, Search
-from knot_utm.fitting.verdict import judge
 
 EXTENSION = np.linspace(0.0, 1.0, 12)
 LOW, HIGH = np.zeros(2), np.ones(2)
+FRICTION = FreeKey("friction", 0.0, 1.0)
 
 
 def record(load, extension=EXTENSION):
     return Record("made.csv", Pull(extension, np.asarray(load, float)), {})
+
+
+def searched(measured, keys, load, cell):
+    """A search that has ended, of a load over the values of the keys."""
+    def run(places, _):
+        return [[Model(Pull(measured.extension, load(*(key.value(at) for key, at in zip(keys, place)))), {}) for place in places]]
+    search = Search([Case(measured, 1, keys, cell, None)], keys, run, lambda best: None)
+    search.go()
+    return search
+
+
+def sliding(friction, _density=0.0):
+    return (1.0 + friction) * EXTENSION
 
 
 class Quadratic:
@@ -69,14 +82,6 @@ class Profiles(unittest.TestCase):
         self.assertNotIn(None, (found[0].low, found[0].high))
         self.assertEqual((found[1].low, found[1].high), (None, None))
 
-    def test_of_a_ridge_are_known_together_only(self):
-        ridge = Quadratic([0.5, 0.5], np.array([[1.0, 1.0], [1.0, 1.0 + 1e-5]]))
-        best, value = profiles.best_of(ridge, LOW, HIGH, 1)
-        self.assertGreater(profiles.correlations(ridge, best, LOW, HIGH)[0, 1], profiles.KNOWN_TOGETHER)
-        for key in (0, 1):
-            found = profiles.profile(ridge, key, LOW, HIGH, best, value, 2)
-            self.assertIn(None, (found.low, found.high))
-
 
 class Emulators(unittest.TestCase):
     grid = np.linspace(0.0, 1.0, 50)
@@ -84,16 +89,12 @@ class Emulators(unittest.TestCase):
     def curves(self, places):
         return np.exp(places[:, :1]) * self.grid + np.sin(3.0 * places[:, 1:]) * self.grid**2
 
-    def test_learn_smooth_curves(self):
+    def test_learn_smooth_curves_and_know_what_they_do_not_know(self):
         places, unseen = profiles.sobol(2, 32, 1), profiles.sobol(2, 16, 2)
         emulator = Emulator(places, self.curves(places), np.full(50, 1e-3))
-        told = np.array([emulator.curve(place) for place in unseen])
-        np.testing.assert_allclose(told, self.curves(unseen), atol=2e-2)
-
-    def test_know_what_they_do_not_know(self):
-        places = 0.3 * profiles.sobol(2, 24, 1)
-        emulator = Emulator(places, self.curves(places), np.full(50, 1e-3))
-        _, variances = emulator.weights(np.array([[0.15, 0.15], [1.0, 1.0]]))
+        told, _ = emulator.weights(unseen)
+        np.testing.assert_allclose(emulator.mean + told @ emulator.components, self.curves(unseen), atol=2e-2)
+        _, variances = emulator.weights(np.array([[0.5, 0.5], [3.0, 3.0]]))
         self.assertGreater(variances[1].sum(), 100.0 * variances[0].sum())
 
     def test_average_over_scatter(self):
@@ -104,7 +105,7 @@ class Emulators(unittest.TestCase):
         scatter = sigma * random.standard_normal((count, 1)) * np.ones(50)
         emulator = Emulator(places, 1.0 + places * self.grid + scatter, np.full(50, sigma), sigma**2 * np.ones((50, 50)))
         weights, variances = emulator.weights(np.array([[0.5]]))
-        error = emulator.curve(np.array([0.5])) - (1.0 + 0.5 * self.grid)
+        error = emulator.mean + weights[0] @ emulator.components - (1.0 + 0.5 * self.grid)
         self.assertLess(np.max(np.abs(error)), 3.0 * sigma * np.sqrt(2.0 / count))
         self.assertLess((variances[0] * (emulator.components**2).mean(axis=1)).sum(), sigma**2 * 4.0 / count)
 
@@ -191,15 +192,6 @@ class Errors(unittest.TestCase):
         with self.assertRaisesRegex(WrongInput, "machine.load_cell.accuracy"):
             errors.require_known(record(EXTENSION), {"accuracy": 0, "noise": 0, "resolution": 0}, np.zeros((12, 12)))
 
-    def test_scatter_has_the_variances_and_can_be_inverted(self):
-        random = np.random.default_rng(3)
-        truth = 4.0 * np.ones((20, 20)) + np.eye(20)
-        drawn = random.multivariate_normal(np.zeros(20), truth, 400)
-        found = covariance_of(drawn)
-        np.testing.assert_allclose(np.diag(found), np.diag(truth), rtol=4.0 * np.sqrt(2.0 / 400))  # four standard deviations
-        linalg.cholesky(covariance_of(drawn[:8]))
-        np.testing.assert_array_equal(covariance_of(np.ones((8, 3))), np.zeros((3, 3)))
-
     def test_scatter_of_a_few_specimens_does_not_promise_too_much(self):
         """Means weighted by it are as far off as they are said to be, where they move together and where they do not."""
         random = np.random.default_rng(4)
@@ -207,6 +199,7 @@ class Errors(unittest.TestCase):
         truth = 0.8 + 0.2 * np.exp(-np.abs(s[:, None] - s[None, :]) / 0.1)
         slope = 1.0 + s
         off = []
+        np.testing.assert_array_equal(covariance_of(np.ones((8, 3))), np.zeros((3, 3)))
         for _ in range(300):
             drawn = random.multivariate_normal(np.zeros(12), truth, 31)
             inverse = np.linalg.inv(covariance_of(drawn[1:]))
@@ -225,46 +218,18 @@ class Errors(unittest.TestCase):
 
 class Jumps(unittest.TestCase):
     """A load that all but vanishes below a critical value, as of knots that open."""
-    keys = [FreeKey("friction", 0.0, 1.0)]
-    cell = {"accuracy": 0.005, "noise": 0.01}
-    critical, truth = 0.5, 0.53
-    low, high = np.zeros(1), np.ones(1)
-
-    @classmethod
-    def load(cls, friction):
-        return (1.0 + friction) * EXTENSION if friction > cls.critical else 1e-3 * EXTENSION
-
-    def model(self, friction):
-        return Model(Pull(EXTENSION, self.load(friction)), {})
-
-    def case(self):
-        return Case(record(self.load(self.truth)), 1, self.keys, self.cell, None)
-
-    def test_tell_runs_of_another_kind(self):
-        case = self.case()
-        for friction in (0.1, 0.3, 0.35, 0.4, 0.6, 0.65, 0.7, 0.9):
-            case.add(np.array([friction]), self.model(friction))
-        self.assertEqual(case.unlike(self.low, self.high).tolist(), 4 * [True] + 4 * [False])
-        self.assertEqual(case.is_right(self.low, self.high).tolist(), 4 * [False] + 4 * [True])
-
-    def test_are_nothing_where_no_run_comes_near(self):
-        case = self.case()
-        for friction in (0.1, 0.4):
-            case.add(np.array([friction]), self.model(friction))
-        self.assertFalse(case.unlike(self.low, self.high).any())
 
     def test_beside_the_true_value_do_not_move_its_interval(self):
-        case = self.case()
-        search = Search([case], self.keys, lambda places, _: [[self.model(place[0]) for place in places]],
-                        lambda best: None)
-        search.go()
-        fitted = judge(search)
-        found = fitted.found["friction"]
-        self.assertTrue(fitted.fits and found.identifiable)
-        self.assertLess(found.low, self.truth)
-        self.assertGreater(found.high, self.truth)
-        self.assertLess(found.high - found.low, 0.05)
+        def load(friction):
+            return sliding(friction) if friction > 0.5 else 1e-3 * EXTENSION
+        search = searched(record(load(0.53)), [FRICTION], load, {"accuracy": 0.005, "noise": 0.01})
+        fitted = found.judge(search)
+        one = fitted.found["friction"]
+        self.assertTrue(fitted.fits and one.identifiable)
+        self.assertTrue(one.low < 0.53 < one.high < one.low + 0.05, one)
         self.assertIn("left loads of quite another size", " ".join(fitted.notes))
+        case = search.cases[0]
+        self.assertEqual(case.is_right(search.low, search.high).tolist(), [FRICTION.value(place[0]) > 0.5 for place in case.tried])
 
 
 class Kinds(unittest.TestCase):
@@ -277,11 +242,6 @@ class Kinds(unittest.TestCase):
         self.assertEqual(found.tolist(), 12 * [True] + 12 * [False] + 12 * [True])
         found = kinds.beyond_a_gap(both, np.arange(36) < 24)
         self.assertEqual(found.tolist(), 12 * [True] + 24 * [False], "a gap among some of them")
-
-    def test_size_is_the_logarithm_of_the_ratio(self):
-        measured = 1.0 + EXTENSION
-        self.assertAlmostEqual(kinds.size(3.0 * measured, measured, np.zeros(12)), np.log(3.0))
-        self.assertAlmostEqual(kinds.size(np.zeros(12), np.zeros(12), np.zeros(12)), 0.0)
 
     def test_share_is_that_of_many_runs(self):
         random = np.random.default_rng(8)
@@ -304,67 +264,48 @@ class Kinds(unittest.TestCase):
 
 class Ends(unittest.TestCase):
     """Of a load (1 + friction) s."""
-    keys = [FreeKey("friction", 0.0, 1.0)]
     truth = 0.5
 
     def setUp(self):
-        def model(friction):
-            return Model(Pull(EXTENSION, (1.0 + friction) * EXTENSION), {})
-        case = Case(record(model(self.truth).pull.load), 1, self.keys, {"noise": 0.1}, None)
-        self.search = Search([case], self.keys, lambda places, _: [[model(place[0]) for place in places]], lambda best: None)
-        self.search.go()
-        found = judge(self.search).found["friction"]
-        self.low, self.high = found.low, found.high
+        self.search = searched(record(sliding(self.truth)), [FRICTION], sliding, {"noise": 0.1})
+        one = found.judge(self.search).found["friction"]
+        self.low, self.high = one.low, one.high
 
     def test_are_confirmed_where_runs_beyond_them_do_not_fit(self):
         self.assertEqual(self.search.ends.unconfirmed, {})
         half = stats.norm.ppf(0.975) * 0.1 / np.sqrt(np.sum(EXTENSION**2))
         np.testing.assert_allclose([self.low, self.high], [self.truth - half, self.truth + half], rtol=0.05)
-
-    def test_are_doubted_where_runs_beyond_them_fit(self):
         within, beyond = np.array([0.9 * self.high + 0.1 * self.truth]), np.array([1.3 * self.high - 0.3 * self.truth])
         self.assertEqual(ends.doubtful(self.search, {(0, -1): beyond, (0, 1): within}), [(0, 1)])
 
     def test_that_are_doubted_in_the_last_look_go_on_to_those_runs_and_are_told(self):
-        self.search.ends.unconfirmed.update({(0, 1): 0.9})
-        fitted = judge(self.search)
-        found = fitted.found["friction"]
-        self.assertEqual((found.low, found.high, found.unconfirmed), (self.low, 0.9, ["high"]))
-        self.assertEqual(sum("do not confirm that its interval ends at 0.9" in note for note in fitted.notes), 1)
-        self.assertEqual(files.summary(fitted)["friction"]["unconfirmed"], ["high"])
-
-    def test_are_unconfirmed_where_the_last_look_moved_them(self):
-        found, end = self.search.ends.profiles, (0, 1)
-        within, beyond = (np.array([0.5 * (self.truth + at)]) for at in (self.high, 1.0))
-        low = {(0, -1): np.zeros(1)}
-        self.assertEqual(ends.unconfirmed(found, {**low, end: beyond}, []), {})
-        self.assertEqual(ends.unconfirmed(found, {**low, end: beyond}, [end]), {end: beyond[0]})
-        self.assertEqual(ends.unconfirmed(found, {**low, end: within}, []), {end: None}, "it is beyond the runs")
-        self.assertEqual(ends.unconfirmed(found, low, []), {end: None}, "it was open when the runs were made")
-
-    def test_that_move_on_and_on_are_looked_at_a_bounded_number_of_times(self):
-        """Runs beyond an end that fit, each time."""
         looks = []
 
         def doubtful(_, beyond):
             looks.append(beyond)
             return [(0, 1)]
         with mock.patch.object(ends, "doubtful", doubtful):
-            found = ends.checked(self.search, 9)
+            self.search.ends = ends.checked(self.search, 9)
         self.assertEqual(len(looks), ends.CHECKS + 1)
-        self.assertEqual(found.unconfirmed, {(0, 1): looks[-1][0, 1][0]})
+        self.assertEqual(self.search.ends.unconfirmed, {(0, 1): looks[-1][0, 1][0]})
+        fitted = found.judge(self.search)
+        high = found.short(looks[-1][0, 1][0])
+        self.assertEqual((fitted.found["friction"].high, fitted.summary()["friction"]["unconfirmed"]), (high, ["high"]))
+        self.assertEqual(sum(f"do not confirm that its interval ends at {high:.4g}" in note for note in fitted.notes), 1)
+
+    def test_are_unconfirmed_where_the_last_look_moved_them(self):
+        of, end = self.search.ends.profiles, (0, 1)
+        within, beyond = (np.array([0.5 * (self.truth + at)]) for at in (self.high, 1.0))
+        low = {(0, -1): np.zeros(1)}
+        self.assertEqual(ends.unconfirmed(of, {**low, end: beyond}, []), {})
+        self.assertEqual(ends.unconfirmed(of, {**low, end: beyond}, [end]), {end: beyond[0]})
+        self.assertEqual(ends.unconfirmed(of, {**low, end: within}, []), {end: None}, "it is beyond the runs")
+        self.assertEqual(ends.unconfirmed(of, low, []), {end: None}, "it was open when the runs were made")
 
     def test_of_a_range_that_the_value_is_not_in_ask_for_a_wider_one(self):
         for low, high, words in ((0.6, 1.0, "lower end of its range: the data only tell that it is below 0.6"),
                                  (0.0, 0.4, "upper end of its range: the data only tell that it is above 0.")):
-            keys = [FreeKey("friction", low, high)]
-
-            def run(places, _, key=keys[0]):
-                return [[Model(Pull(EXTENSION, (1.0 + key.value(place[0])) * EXTENSION), {}) for place in places]]
-            case = Case(self.search.cases[0].record, 1, keys, {"noise": 1e-3}, None)
-            search = Search([case], keys, run, lambda best: None)
-            search.go()
-            fitted = judge(search)
+            fitted = found.judge(searched(record(sliding(0.5)), [FreeKey("friction", low, high)], sliding, {"noise": 1e-3}))
             self.assertFalse(fitted.fits)
             self.assertIn("friction is at the " + words, " ".join(fitted.notes))
             self.assertIn("give a wider range", " ".join(fitted.notes))
@@ -376,41 +317,26 @@ class Ends(unittest.TestCase):
             self.search.wave(number)
         self.assertLess(self.search.low[0], self.low)
 
-
-class Corners(unittest.TestCase):
-    """A load that rises at once and then slides: the second of a few readings is a corner."""
-
-    def test_are_no_error_of_the_fit(self):
-        def model(friction):
-            return Model(Pull(extension, (1.0 + friction) * np.where(extension > 0.0, 1.0, 0.1)), {})
-        extension, truth = np.linspace(0.0, 1.0, 32), 0.4
-        keys = [FreeKey("friction", 0.0, 1.0)]
-        case = Case(record(model(truth).pull.load, extension), 1, keys, {"noise": 1e-3}, None)
-        search = Search([case], keys, lambda places, _: [[model(place[0]) for place in places]], lambda best: None)
-        search.go()
-        fitted = judge(search)
-        self.assertLess(fitted.chi_square, 1.0)
-        self.assertAlmostEqual(fitted.found["friction"].value, truth, delta=1e-3)
-
-
-class Open(unittest.TestCase):
-    """Of a load (1 + friction) s, which density does not act on."""
-
-    def test_ends_cost_no_runs_and_stay_open_wherever_the_box_ends(self):
-        def run(places, _):
-            return [[Model(Pull(EXTENSION, (1.0 + place[0]) * EXTENSION), {}) for place in places]]
-        keys = [FreeKey("friction", 0.0, 1.0), FreeKey("density", 0.0, 1.0)]
-        case = Case(record(1.5 * EXTENSION), 1, keys, {"noise": 0.1}, None)
-        search = Search([case], keys, run, lambda best: None)
-        search.go()
+    def test_that_are_open_cost_no_runs_and_stay_open_wherever_the_box_ends(self):
+        search = searched(record(sliding(0.5)), [FRICTION, FreeKey("density", 0.0, 1.0)], sliding, {"noise": 0.1})
         search.low[1], search.high[1] = 0.4, 0.6
         search.learn(1)
         before = search.count
         search.ends = ends.checked(search, 9)
         self.assertEqual(search.count - before, 2, "one beyond each end of friction")
-        found = judge(search).found
-        self.assertTrue(found["friction"].identifiable)
-        self.assertEqual((found["density"].low, found["density"].high, found["density"].unconfirmed), (None, None, []))
+        of = found.judge(search).found
+        self.assertTrue(of["friction"].identifiable)
+        self.assertEqual((of["density"].low, of["density"].high, of["density"].unconfirmed), (None, None, []))
+
+    def test_know_corners_between_few_readings(self):
+        """A load that rises at once and then slides: the second of a few readings is a corner."""
+        s = np.linspace(0.0, 1.0, 32)
+
+        def load(friction):
+            return (1.0 + friction) * np.where(s > 0.0, 1.0, 0.1)
+        fitted = found.judge(searched(record(load(0.4), s), [FRICTION], load, {"noise": 1e-3}))
+        self.assertLess(fitted.chi_square, 1.0)
+        self.assertAlmostEqual(fitted.found["friction"].value, 0.4, delta=1e-3)
 
 
 class Specimens:
@@ -452,14 +378,35 @@ class TwoKinds(unittest.TestCase):
             return [[Specimens.model(*of(place), drawn[(first + i) % len(drawn)]) for i, place in enumerate(places)]]
         search = Search([case], self.keys, run, lambda best: case.renew(Specimens(*of(best))))
         search.go()
-        for key, found in judge(search).found.items():
-            self.assertTrue(found.identifiable, key)
-            self.assertTrue(found.low < self.truth[key] < found.high, (key, found))
+        for key, one in found.judge(search).found.items():
+            self.assertTrue(one.identifiable, key)
+            self.assertTrue(one.low < self.truth[key] < one.high, (key, one))
         unlike = case.unlike(search.low, search.high)
         for place, is_unlike in zip(case.places, unlike):
             friction, preload = of(place)
             if abs(preload / (140.0 * np.exp(-(friction - 0.41) / 0.06)) - 1.0) > 0.06:  # three standard deviations
                 self.assertEqual(is_unlike, preload < 140.0 * np.exp(-(friction - 0.41) / 0.06))
+
+
+class Records(unittest.TestCase):
+    def test_have_means_of_equal_parts(self):
+        s = np.concatenate([np.linspace(0.0, 0.5, 90), [1.0]])
+        measured = record(s, s)
+        self.assertEqual(measured.counts.sum(), len(s))
+        np.testing.assert_allclose(measured.measured, measured.centres)
+        self.assertLess(len(measured.counts), MOST_BINS, "no part without readings")
+
+    def test_of_other_units_or_another_range_are_refused(self):
+        def model(extension, load, **result):
+            return Model(Pull(np.array([0.0, extension]), np.array([0.0, load])), result)
+        measured = record(EXTENSION)
+        measured.require_producible(model(1.0, 5.0, ended_by="extension"))
+        measured.require_producible(model(0.3, 5.0, ended_by="break"))
+        for wrong, words in ((model(1000.0, 1.0), "other units"), (model(1.0, 1e3), "other units"), (model(1.0, -1.0), "--invert"),
+                             (model(0.5, 1.0, ended_by="extension"), "let it go on"),
+                             (Model(None, {"reason": "it gave up"}), "it gave up")):
+            with self.assertRaisesRegex(WrongInput, words):
+                measured.require_producible(wrong)
 
 
 class Pulls(unittest.TestCase):
@@ -468,14 +415,13 @@ class Pulls(unittest.TestCase):
                 "end_to_end": [1.0, 1.1, 1.2, 1.15, 1.3], "phase": ["balance", "pull", "pull", "pull", "pull"]}
         return pd.DataFrame({**rows, **changes})
 
-    def test_are_what_reaches_a_new_extension(self):
+    def test_are_what_reaches_a_new_extension_from_where_the_balance_made_zero(self):
         pull = pull_of_table(self.table())
         np.testing.assert_array_equal(pull.extension, [0.0, 0.1, 0.2, 0.3])
         np.testing.assert_array_equal(pull.load, [0.5, 1.0, 2.0, 3.0])
-
-    def test_begin_where_the_balance_made_zero(self):
         pull = pull_of_table(self.table(end_to_end=[0.9, 1.1, 1.2, 1.15, 1.3]))
         self.assertEqual((pull.extension[0], pull.load[0]), (0.0, 0.0))
+        self.assertIsNone(pull_of_table(self.table(phase=["hold"] * 5)))
 
     def test_end_where_the_rod_parts(self):
         s = np.linspace(0.0, 1.0, 101)
@@ -483,9 +429,6 @@ class Pulls(unittest.TestCase):
         self.assertEqual(Pull(s, load).extension[-1], 0.99)
         np.testing.assert_allclose(Pull(s, load).at(np.array([0.5, 1.1])), [0.5, 1.1])
         self.assertEqual(Pull(s, np.where(s > 0.5, 0.0, s)).extension[-1], 1.0, "a knot that jumped open is pulled on")
-
-    def test_of_a_table_without_one_are_none(self):
-        self.assertIsNone(pull_of_table(self.table(phase=["hold"] * 5)))
 
 
 class Keys(unittest.TestCase):
@@ -499,45 +442,19 @@ class Keys(unittest.TestCase):
         self.assertEqual(value_at(method, "program.0.tie.speed"), 3.0)
         self.assertAlmostEqual(FreeKey("a", 1.0, 100.0).value(0.5), 10.0)
         self.assertAlmostEqual(FreeKey("a", 1.0, 3.0).value(0.5), 2.0)
-        offset = offset_key("record.2.force_offset", None, [record(EXTENSION), record(4.0 * EXTENSION)])
-        self.assertAlmostEqual(offset.high, 0.2)
+        records = [record(EXTENSION), record(4.0 * EXTENSION)]
+        self.assertAlmostEqual(offset_key("record.2.force_offset", None, records).high, 0.2)
+        with self.assertRaisesRegex(WrongInput, "there are 1"):
+            offset_key("record.2.force_offset", None, records[:1])
         for name in ("a.none", "a.absent"):
             with self.assertRaisesRegex(WrongInput, f"give --free {name}=low:high"):
                 method_key(name, None, method, numbers)
-        for limits in (None, (0.0, 1.0)):
-            for name, said in (("a.word", "auto"), ("a", "several values"), ("a.other", "nothing")):
-                with self.assertRaisesRegex(WrongInput, f"{name} is {said}, but only a number that acts on the test may be free"):
-                    method_key(name, limits, method, numbers)
-        with self.assertRaisesRegex(WrongInput, "there are 1"):
-            offset_key("record.2.force_offset", None, [record(EXTENSION)])
-
-    def test_are_refused(self):
+        for name, said in (("a.word", "auto"), ("a", "several values"), ("a.other", "nothing")):
+            with self.assertRaisesRegex(WrongInput, f"{name} is {said}, but only a number that acts on the test may be free"):
+                method_key(name, (0.0, 1.0), method, numbers)
         for word in ("", "=1:2", "a=1", "a=2:1", "a=x:y", "a=1:inf", "record.offset", "record.0.force_offset"):
             with self.assertRaises(WrongInput, msg=word):
                 parse_free(word)
-
-
-class Records(unittest.TestCase):
-    def model(self, extension, load, **result):
-        return Model(Pull(np.asarray(extension, float), np.asarray(load, float)), result)
-
-    def test_of_other_units_or_another_range_are_refused(self):
-        measured = record(EXTENSION)
-        measured.require_producible(self.model([0.0, 1.0], [0.0, 5.0], ended_by="extension"))
-        measured.require_producible(self.model([0.0, 0.3], [0.0, 5.0], ended_by="break"))
-        for model, words in ((self.model([0.0, 1000.0], [0.0, 1.0]), "other units"),
-                             (self.model([0.0, 1.0], [0.0, 1e3]), "other units"),
-                             (self.model([0.0, 0.5], [0.0, 1.0], ended_by="extension"), "let it go on"),
-                             (Model(None, {"reason": "it gave up"}), "it gave up")):
-            with self.assertRaisesRegex(WrongInput, words):
-                measured.require_producible(model)
-
-    def test_have_means_of_equal_parts(self):
-        s = np.concatenate([np.linspace(0.0, 0.5, 90), [1.0]])
-        measured = record(s, s)
-        self.assertEqual(measured.counts.sum(), len(s))
-        np.testing.assert_allclose(measured.measured, measured.centres)
-        self.assertLess(len(measured.counts), MOST_BINS, "no part without readings")
 
 
 if __name__ == "__main__":
