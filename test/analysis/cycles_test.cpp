@@ -35,11 +35,6 @@ TEST(ClosedCycles, OfDryFrictionTheAreaIsTwiceItsForceTimesTheWay) {
   EXPECT_EQ(cycles[0].end, cycles[1].begin);
 }
 
-TEST(ClosedCycles, OfASpringThereIsNoArea) {
-  for (const Cycle& cycle : closed_cycles(path({0.0, 0.1, 0.0}, [](double s, bool) { return 200.0 * s; })))
-    EXPECT_NEAR(cycle.hysteresis, 0.0, 1e-12);
-}
-
 /// s = sin(t), F = sin(t + phi): an ellipse of area pi sin(phi), gone around in the sense of lost work.
 TEST(ClosedCycles, OfAnEllipseTheAreaIsItsOwn) {
   constexpr int kPoints = 4000;

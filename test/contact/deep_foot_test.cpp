@@ -64,17 +64,6 @@ class Beside {
     archive.end();
     accepted_ = at(overlap);
   }
-  std::string saved_bare() {
-    std::string bytes;
-    Archive archive = Archive::to(bytes);
-    archive(contact_);
-    return bytes;
-  }
-  void load_bare(const std::string& bytes) {
-    Archive archive = Archive::from(bytes, "contact", "here");
-    archive(contact_);
-    archive.end();
-  }
 
  private:
   static constexpr int kMiddle[] = {12, 13, 14, 15, 16};  // first nodes of segments
@@ -154,19 +143,6 @@ TEST(StateOfSmoothContact, OfAnotherRodIsRefused) {
   Beside strands, longer(31);
   strands.step_to(0.1);
   EXPECT_THROW(longer.load(strands.saved(), 0.1), InvalidInput);
-}
-
-TEST(StateOfSmoothContact, WithSharesOutwardsOfFewerNodesIsRefused) {
-  Beside strands;
-  strands.step_to(0.1);
-  // "SMTI", their number, and that many.
-  std::string bytes = strands.saved_bare();
-  constexpr std::size_t kTag = 4, kWord = 8;
-  --bytes[kTag];
-  bytes.erase(kTag + kWord, kWord);
-  Beside elsewhere;
-  EXPECT_NO_THROW(elsewhere.load_bare(strands.saved_bare()));
-  EXPECT_THROW(elsewhere.load_bare(bytes), InvalidInput);
 }
 
 }  // namespace

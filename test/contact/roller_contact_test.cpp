@@ -47,39 +47,6 @@ struct Wound {
   }
 };
 
-Vec3 force_on_rod(const RollerContact& contact) { return unflat(nodal_forces(contact.contacts(), 21)).rowwise().sum(); }
-
-TEST(RollerContact, WhatTheRodPushesTheRollerPushesBack) {
-  const Wound scene;
-  Points end = scene.position;
-  end.row(0).array() += 1e-5;  // and slides a little
-  const RollerContact contact = scene.touch(MemoryFriction{0.3, 2e-3 * scene.rod.material.radius}, end);
-  ASSERT_GT(contact.contacts().size(), 10u);
-  EXPECT_GT(force_on_rod(contact)[2], 0.0);
-  EXPECT_LT((force_on_rod(contact) + contact.force_on(0)).norm(), 1e-12 * contact.force_on(0).norm());
-}
-
-TEST(RollerContact, WithoutFrictionItPushesStraightOutwards) {
-  const Wound scene;
-  const RollerContact contact = scene.touch(MemoryFriction{0.0, 1e-5}, scene.position);
-  for (const ContactPoint& point : contact.contacts()) {
-    EXPECT_LT(point.force.cross(point.n).norm(), 1e-12 * point.force.norm());
-    EXPECT_GT(point.force.dot(point.n), 0.0);
-    EXPECT_NEAR(point.pressure, scene.normal.pressure(point.overlap), 1e-9 * point.pressure);
-    EXPECT_EQ(point.axis.dot(point.force), 0.0);
-  }
-}
-
-TEST(RollerContact, FrictionIsAtMostItsShareAndAgainstTheSlip) {
-  constexpr double kMu = 0.3;
-  const Wound scene;
-  Points end = scene.position;
-  end.row(1).array() += 1e-3;  // along the roller, far beyond presliding
-  const RollerContact contact = scene.touch(MemoryFriction{kMu, 1e-5}, end);
-  for (const ContactPoint& point : contact.contacts())
-    EXPECT_NEAR(point.force[1], -kMu * point.force.dot(point.n), 0.01 * kMu * point.force.norm());
-}
-
 TEST(RollerContact, ARollerThatTurnsTakesARodAlongAsARodThatMovesTheOtherWay) {
   const Wound scene;
   const MemoryFriction friction{0.3, 1e-3 * scene.rod.material.radius};
@@ -174,55 +141,6 @@ TEST_P(RollerContactJacobian, OfATurningRollerIsTheDerivativeOfForcesAndTorque) 
 
 INSTANTIATE_TEST_SUITE_P(Slips, RollerContactJacobian, testing::Values(1e-6, 1e-4),
                          [](const auto& slip) { return slip.param < 1e-5 ? "sticking" : "slipping"; });
-
-TEST(RollerContact, ARodThatDoesNotReachItFeelsNothing) {
-  const Wound scene;
-  Points away = scene.position;
-  away.row(2).array() += 0.1;
-  const RollerContact contact = scene.touch(MemoryFriction{0.3, 1e-5}, away);
-  EXPECT_TRUE(contact.contacts().empty());
-  EXPECT_EQ(contact.force_on(0), Vec3::Zero());
-}
-
-TEST(RollerContact, ARodPressedOnARollerRestsOnItWithItsWholeWeight) {
-  const Material material = braided_rope();
-  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(20, material.radius));
-  StepSettings settings = closed_form_settings(material);
-  settings.gravity = Vec3(0.0, 0.0, -9.81);
-  settings.drag = 1.0;
-  RodState state = straight_state(rod);
-  state.position.row(2).setConstant(-settings.pressure_law.overlap_at(rod.mass.sum() / rod.length() * 9.81));
-  const std::unique_ptr<TimeStep> stepper = TimeStep::make(rod, state, settings);
-  Boundary boundary;
-  boundary.rollers = {plane_below(material.radius)};
-  const double weight = 9.81 * rod.mass.sum();
-  for (int i = 0; i < 50; ++i) ASSERT_TRUE(stepper->step(boundary, 0.01).accepted());
-  EXPECT_NEAR(stepper->readings().roller_force(0)[2], -weight, 1e-3 * weight);
-  EXPECT_LT(std::abs(stepper->readings().roller_force(0)[0]), 1e-9);
-}
-
-TEST(RollerContact, AStepThatFailsLeavesTheReadingsOfTheLastOne) {
-  const Material material = braided_rope();
-  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(20, material.radius));
-  StepSettings settings = closed_form_settings(material);
-  settings.gravity = Vec3(0.0, 0.0, -9.81);
-  settings.drag = 1.0;
-  const std::unique_ptr<TimeStep> stepper = TimeStep::make(rod, straight_state(rod), settings);
-  Boundary boundary;
-  boundary.rollers = {plane_below(material.radius)};
-  for (int i = 0; i < 5; ++i) ASSERT_TRUE(stepper->step(boundary, 0.01).accepted());
-  const Vec3 force = stepper->readings().roller_force(0);
-  const double contact_energy = stepper->readings().energies().contact;
-  const Points position = stepper->state().position;
-  ASSERT_LT(force[2], 0.0);
-  ASSERT_GT(contact_energy, 0.0);
-
-  boundary.rollers[0].centre[2] += 10.0 * material.radius;  // into the rod, further than a step may move it
-  EXPECT_FALSE(stepper->step(boundary, 0.01).accepted());
-  EXPECT_EQ(stepper->readings().roller_force(0), force);
-  EXPECT_EQ(stepper->readings().energies().contact, contact_energy);
-  EXPECT_EQ(stepper->state().position, position);
-}
 
 }  // namespace
 }  // namespace knot_utm

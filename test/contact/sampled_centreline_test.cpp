@@ -20,10 +20,5 @@ TEST(SampledCentreline, LiesOnTheCircleThatHasTheRodsOwnLengthToFourthOrder) {
   }
 }
 
-TEST(SampledCentreline, HasNoPlacesWhereNoNodeIsAnInnerOne) {
-  EXPECT_EQ(sampled_centreline(Points::Zero(3, 0)).cols(), 0);
-  EXPECT_EQ(sampled_centreline(Points::Zero(3, 2)).cols(), 0);
-}
-
 }  // namespace
 }  // namespace knot_utm

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 #include <random>
@@ -110,39 +109,6 @@ INSTANTIATE_TEST_SUITE_P(Laws, SmoothContactJacobian,
                                          Law{"smoothed", SmoothedFriction{0.4, 2e-2}}),
                          [](const auto& law) { return law.param.name; });
 
-TEST(SmoothContact, ForcesAndMomentsBalance) {
-  TwoStrands scene(1.93 * kRadius);
-  SmoothContact contact(scene.rod, NormalLaw{1e6, 0.05 * kRadius}, MemoryFriction{0.4, 1e-3 * kRadius}, 0.5 * kRadius);
-  const Points force = unflat(scene.forces(contact, scene.position, 0.01));
-  Vec3 moment = Vec3::Zero();
-  for (Eigen::Index i = 0; i < force.cols(); ++i) moment += Vec3(scene.position.col(i)).cross(Vec3(force.col(i)));
-  ASSERT_GT(force.norm(), 1e-3);
-  EXPECT_LT(force.rowwise().sum().norm(), 1e-12 * force.norm());
-  // Normal forces act along the gap; friction acts at both ends of it, whose arm is the gap itself.
-  double friction_arm = 0.0;
-  for (const ContactPoint& point : contact.contacts()) friction_arm += point.x.cross(point.force).norm();
-  EXPECT_LE(moment.norm(), friction_arm * (1.0 + 1e-9) + 1e-12);
-}
-
-TEST(SmoothContact, StrandsApartFeelNothing) {
-  TwoStrands scene(2.1 * kRadius);
-  SmoothContact contact(scene.rod, NormalLaw{1e6, 0.05 * kRadius}, MemoryFriction{0.4, 1e-3 * kRadius}, 0.5 * kRadius);
-  EXPECT_EQ(scene.forces(contact, scene.start, 0.01).norm(), 0.0);
-}
-
-/// K is the material's own, or 300 k_b/h^4; the contact tolerance is asked for.
-TEST(NormalLaw, IsMadeOfAMaterial) {
-  Material material;
-  material.radius = 0.01;
-  material.bending_stiffness = 2e-6;
-  const auto made = [&] { return normal_law(material, 3e-5); };
-  EXPECT_NEAR(made().stiffness, 6e4, 1e-9 * 6e4);
-  EXPECT_EQ(made().tolerance, 3e-5);
-  EXPECT_GT(made().stiffens_at(), made().tolerance);
-  material.contact_stiffness = 7e5;
-  EXPECT_EQ(made().stiffness, 7e5);
-}
-
 TEST(NormalLaw, SlopeAndEnergyAreThePressuresDerivativeAndIntegral) {
   const NormalLaw law{3e6, 1e-4, 2e-4};
   for (const double overlap : {-6e-5, -4e-5, 1e-5, 4e-5, 6e-5, 1.3e-4, 4e-4}) {
@@ -174,23 +140,6 @@ std::vector<std::pair<int, int>> near_pairs(const Points& x, double edge, double
           (x.col(i) - x.col(j)).norm() < near + half(i) + half(j))
         pairs.push_back({i, j});
   return pairs;
-}
-
-TEST(Candidates, FindEveryPairThatBruteForceFinds) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> place(0.0, 0.05);
-  Material material;
-  material.radius = kRadius;
-  const int nodes = 80;
-  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(nodes - 1, 2e-3));
-  Points x(3, nodes);
-  for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] = place(random);
-  const double reach = 6e-3, margin = 1e-3, exclusion = 9e-3;
-  Candidates candidates(rod, reach, margin, exclusion);
-  EXPECT_TRUE(candidates.refresh(x));
-  EXPECT_FALSE(candidates.refresh(x.array() + 0.2 * margin));
-  EXPECT_EQ(pairs_of(candidates), near_pairs(x, 2e-3, exclusion, reach + margin));
-  EXPECT_TRUE(candidates.refresh(x.array() + 0.6 * margin));
 }
 
 TEST(Candidates, OfRodsOfAnyNumberOfNodesAreThoseOfBruteForceWhetherPartedOrNot) {

@@ -97,22 +97,6 @@ TEST(TunnellingSearch, AClosedRodSharesANodeWithItself) {
   EXPECT_TRUE(passage(start, open)) << "ends that touched and part are two nodes that were in one place";
 }
 
-TEST(TunnellingSearch, SeesAStrandPushedThroughARing) {
-  // A rod whose second half is a ring; its first half, a straight strand beyond the ring's plane, is thrown past it.
-  const int strand = 20, around = 40;
-  Points start(3, strand + around);
-  for (int i = 0; i < strand; ++i) start.col(i) << -15.0 + i, 3.0, -1.0;
-  start.rightCols(around) = ring(around).leftCols(around);
-  Points end = start;
-  end.leftCols(strand).row(2).setConstant(-0.1);
-  EXPECT_FALSE(passage(start, end)) << "it comes near";
-  end.leftCols(strand).row(2).setConstant(50.0);
-  const auto found = passage(start, end);
-  ASSERT_TRUE(found) << "it goes through where it lies over the ring";
-  EXPECT_LT(found->edge_a, strand);
-  EXPECT_GE(found->edge_b, strand);
-}
-
 TEST(TunnellingSearch, IsNotSeenWhereARodOnlyBendsStretchesAndTurns) {
   // A coil as tight as a strand around another, wound up by a quarter turn, stretched and carried away in one motion.
   const int nodes = 200;

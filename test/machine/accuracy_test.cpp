@@ -35,22 +35,6 @@ Results plateau() {
   return out;
 }
 
-TEST(ReadingErrors, FallWithTheAccuracy) {
-  Loop loop;
-  loop.physics.accuracy = Accuracy::kDraft;
-  const ReadingErrors draft = loop.errors();
-  loop.physics.accuracy = Accuracy::kNormal;
-  const ReadingErrors normal = loop.errors();
-  loop.physics.accuracy = Accuracy::kFine;
-  const ReadingErrors fine = loop.errors();
-  for (const auto reading :
-       {&ReadingErrors::plateau_force, &ReadingErrors::lock_extension, &ReadingErrors::locked_stiffness}) {
-    EXPECT_GT((draft.*reading).value(), (normal.*reading).value());
-    EXPECT_GT((normal.*reading).value(), (fine.*reading).value());
-    EXPECT_GT((fine.*reading).value(), 0.0);
-  }
-}
-
 TEST(ReadingErrors, GrowWithEdgesAndTolerances) {
   const double plain = Loop().errors().plateau_force.value();
   Loop coarse, soft, loose;
@@ -60,26 +44,11 @@ TEST(ReadingErrors, GrowWithEdgesAndTolerances) {
   for (const Loop& loop : {coarse, soft, loose}) EXPECT_GT(loop.errors().plateau_force.value(), plain);
 }
 
-TEST(ReadingErrors, GrowWithSlipperiness) {
-  Loop rough, slippery;
-  rough.material.friction_coefficient = 0.8;
-  slippery.material.friction_coefficient = 0.3;
-  EXPECT_GT(slippery.errors().plateau_force.value(), 2.0 * rough.errors().plateau_force.value());
-}
-
 TEST(ReadingErrors, OfOppositeHandsAreLarger) {
   Loop same, opposite;
   opposite.specimen.handedness = Handedness::kOpposite;
   EXPECT_GT(opposite.errors().plateau_force.value(), 3.0 * same.errors().plateau_force.value());
   EXPECT_GT(opposite.errors().lock_extension.value(), 3.0 * same.errors().lock_extension.value());
-}
-
-/// Between two held nodes the side without knots bears the load, which no study covers.
-TEST(ReadingErrors, BetweenNodesAreNotKnown) {
-  Loop loop;
-  loop.machine.grips = GripKind::kNodes;
-  EXPECT_FALSE(loop.errors().plateau_force);
-  EXPECT_FALSE(loop.errors().locked_stiffness);
 }
 
 TEST(ReadingErrors, OfEdgesOfOneRadiusAtNormalIsThatOfTheStudy) {
@@ -100,14 +69,6 @@ TEST(ReadingErrors, FallWithPreslidingAndStep) {
   shorter.physics.friction.set("presliding", own.presliding / 4.0);
   plain.specimen.edge_length = shorter.specimen.edge_length = plain.material.radius;
   EXPECT_NEAR(*shorter.errors().plateau_force / *plain.errors().plateau_force, 0.5 + 0.5 / 4.0, 1e-12);
-}
-
-/// Below 0.15 k_b/h^2.
-TEST(ReadingErrors, OfKnotsThatAreHardlyClosedAreNotKnown) {
-  const Material rod = Loop().material;
-  const double force = rod.bending_stiffness / (rod.radius * rod.radius);
-  EXPECT_FALSE(hardly_closed(0.151 * force, rod));
-  EXPECT_TRUE(hardly_closed(0.149 * force, rod));
 }
 
 /// Nylon's edges are shorter, as it is tied hard, and its error is smaller with their square.

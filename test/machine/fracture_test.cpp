@@ -115,19 +115,6 @@ TEST(Fracture, TheEndsOfAStraightRodRecoil) {
   EXPECT_LT(results.fastest_node, 0.1 * speed);  // the recoil is none of the test's
 }
 
-TEST(Fracture, ABenchWhoseRodPartedAnswersEveryCommandWithTheSame) {
-  Pulled test = straight_run(Accuracy::kDraft, 300.0);
-  const Sample last = test.samples.back();
-  Command command;
-  command.sequence = 1000;
-  command.time = 1000.0;
-  command.step = 7;
-  const Sample answer = test.bench.respond(command);
-  EXPECT_EQ(answer.status, BenchStatus::kBroken);
-  EXPECT_EQ(answer.time, last.time);
-  EXPECT_EQ(answer.message, last.message);
-}
-
 class FractureOfAnOverhand : public testing::TestWithParam<std::tuple<ContactLaw, TwistMode>> {};
 
 TEST_P(FractureOfAnOverhand, EndsTheTestAndChangesNothingBefore) {
@@ -201,20 +188,6 @@ TEST(Fracture, OfTwoLimitsTheNearerOneCounts) {
   EXPECT_NEAR(most_exposed(material, rod, state.position).value, 1e-3, 1e-12);
   state.position.row(2) *= 0.9;  // nothing is under tension
   EXPECT_EQ(most_exposed(material, rod, state.position).edge, -1);
-}
-
-TEST(Fracture, ItsMessageNamesTheLimitThatWasReached) {
-  SpecimenOptions specimen;
-  specimen.knot = knot_named("straight");
-  specimen.length = kLength;
-  specimen.edge_length = 0.005;
-  Material material = nylon();
-  material.breaking_force = 1e5;
-  material.breaking_strain = 0.0125;
-  PhysicsOptions physics;
-  physics.accuracy = Accuracy::kDraft;
-  const Pulled test = run(specimen, material, physics, {pull(0.02)});
-  EXPECT_THAT(test.program.reason(), testing::HasSubstr("at a strain of its outermost fibre of 0.0125"));
 }
 
 }  // namespace

@@ -223,15 +223,6 @@ TEST(LedSteps, FollowsARecordFromWhereItStands) {
   EXPECT_EQ(program.ended_by(), EndedBy::kProgram);
 }
 
-TEST(LedSteps, ATimeLimitEndsIt) {
-  ProgramRunner::Limits limits;
-  limits.time = 1.0;
-  ProgramRunner program({pull(0.1)}, 3.0, 0.1, limits);
-  EXPECT_DOUBLE_EQ(run(FakeBench(), program).samples.back().time, 1.0);
-  EXPECT_EQ(program.ended_by(), EndedBy::kTime);
-  EXPECT_THAT(program.reason(), HasSubstr("time is over"));
-}
-
 TEST(LedSteps, ADropThatIsABreakEndsIt) {
   FakeBench weak;
   weak.weak_from = 0.008;
@@ -308,14 +299,6 @@ TEST(LedSteps, MeetsExtensionsOnACompliantFrameAtSpeed) {
   });
   EXPECT_NEAR(highest, 0.002, 1e-3 * 0.001 * program.period());
   EXPECT_NEAR(time, 4 * 0.002 / (0.5 * 0.001), 8 * program.period());
-}
-
-TEST(LedSteps, ALostBenchCountsBeforeAStopThatWasAskedFor) {
-  ProgramRunner program({pull(0.1)}, 3.0, 0.1, {});
-  program.stop();
-  program.fail("it died");
-  EXPECT_EQ(program.ended_by(), EndedBy::kSolver);
-  EXPECT_EQ(program.reason(), "it died");
 }
 
 }  // namespace

@@ -72,15 +72,6 @@ TEST(LoadCell, AccuracyIsAnErrorOfTheGainWithinItsBoundsAndAllOverThem) {
   EXPECT_NEAR(squares / kCells, 1.0 / 3.0, 5.0 * std::sqrt(4.0 / 45.0 / kCells));
 }
 
-TEST(LoadCell, ItsNoiseIsTheSameWhateverItsAccuracy) {
-  LoadCellOptions options;
-  options.noise = 0.1;
-  LoadCell exact(options);
-  options.accuracy = 0.01;
-  LoadCell other(options);
-  for (int i = 0; i < 10; ++i) EXPECT_EQ(exact.read(0.0, 0.0), other.read(0.0, 0.0));
-}
-
 TEST(LoadCell, DriftsSinceItWasBalanced) {
   LoadCellOptions options;
   options.drift = -0.25;

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <vector>
 
 namespace knot_utm {
@@ -50,23 +49,6 @@ TEST(LoopPins, StandInWhatTheLoopLeavesOfItsEnds) {
 TEST(LoopPins, FindNoRoomInALoopThatIsClosed) {
   EXPECT_THAT(pins_in(points_of({{0, 0, 0}, {0.1, 0, 0}, {0.1, 0, 20}, {0, 0, 20}}), 1.0, kClearance),
               testing::IsEmpty());
-}
-
-TEST(LoopPins, WidenToTheirRollers) {
-  const Pin pin{{0, 0, 1}, 0.5};
-  Roller roller;
-  roller.centre = Vec3(2, 0, 3);
-  roller.radius = 1.5;
-  Roller half = roller, whole = roller;
-  widen(pin, 1.0, whole);
-  EXPECT_EQ(whole.centre, pin.place);
-  EXPECT_EQ(whole.radius, pin.radius);
-  widen(pin, 0.5, half);
-  EXPECT_EQ(half.centre, Vec3(1, 0, 2));
-  EXPECT_EQ(half.radius, 1.0);
-  widen(pin, 0.0, roller);
-  EXPECT_EQ(roller.centre, Vec3(2, 0, 3));
-  EXPECT_EQ(roller.radius, 1.5);
 }
 
 }  // namespace

@@ -231,14 +231,6 @@ TEST(ProgramRunner, AProgramThatOnlyTiesGoesOnToItsEnd) {
   EXPECT_FALSE(program.failed());
 }
 
-TEST(ProgramRunner, EveryEndHasANameOfItsOwn) {
-  for (int i = 0; i <= static_cast<int>(EndedBy::kUntangled); ++i) {
-    const auto end = static_cast<EndedBy>(i);
-    EXPECT_EQ(ended_by_named(ended_by_name(end)), end);
-  }
-  EXPECT_EQ(ended_by_named("never"), std::nullopt);
-}
-
 /// What interrupts a test comes between two commands, where it can go on.
 TEST(ProgramRunner, AnInterruptedTestGoesOnAsIfItWasNot) {
   ProgramRunner whole(paper_program(), 3.0, 0.1, {}), cut(paper_program(), 3.0, 0.1, {});
@@ -265,15 +257,6 @@ TEST(ProgramRunner, OverloadCountsTheTrueForceInBothDirections) {
   }
 }
 
-TEST(ProgramRunner, GoesOnWithWhatDoesNotComeToRestAsWithWhatDoes) {
-  FakeBench calm, restless;
-  restless.comes_to_rest = false;
-  ProgramRunner rested(paper_program(), 3.0, 0.1, {}), moving(paper_program(), 3.0, 0.1, {});
-  const Course with_rest = run(calm, rested), without = run(restless, moving);
-  EXPECT_EQ(moving.ended_by(), EndedBy::kExtension);
-  EXPECT_EQ(without.commands.size(), with_rest.commands.size());
-}
-
 TEST(ProgramRunner, OperatorStopsAndBalances) {
   ProgramRunner program({pull(0.1)}, 3.0, 0.1, {});
   Sample sample;
@@ -292,30 +275,6 @@ TEST(ProgramRunner, OperatorStopsAndBalances) {
   EXPECT_EQ(after.phase, Phase::kDone);
   EXPECT_EQ(after.sequence, 3u);
   EXPECT_EQ(after.velocity, 0.0);
-}
-
-TEST(ProgramRunner, TakesNoAnswerToAnotherCommand) {
-  ProgramRunner program({pull(0.1)}, 3.0, 0.1, {});
-  Sample sample;
-  sample.sequence = 7;
-  EXPECT_THROW(program.next(sample), std::invalid_argument);
-}
-
-TEST(ProgramRunner, ProgressGrowsFromZeroToOne) {
-  ProgramRunner program(paper_program(), 3.0, 0.1, {});
-  FakeBench bench;
-  double last = -1e-9;
-  run_test(bench, program, [&](const Command& command, const Sample&) {
-    EXPECT_GE(program.progress(), 0.0);
-    EXPECT_LE(program.progress(), 1.0);
-    // Steps that end by themselves may end early or late; within a step the share only grows.
-    if (command.phase == Phase::kPull) {
-      EXPECT_GE(program.progress(), last);
-    }
-    last = command.phase == Phase::kPull ? program.progress() : -1.0;
-  });
-  EXPECT_EQ(program.progress(), 1.0);
-  EXPECT_EQ(program.time_left(), 0.0);
 }
 
 }  // namespace

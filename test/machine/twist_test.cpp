@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/record/command.hpp"
@@ -84,35 +83,6 @@ TEST(TwistOnTheMachine, AutoIsOnWhereFrictionRollsStrands) {
   EXPECT_FALSE(by_itself(0.5, FrictionAt::kCentreline, 0.3));
   EXPECT_FALSE(by_itself(0.0, FrictionAt::kSurface, 0.3));
   EXPECT_FALSE(by_itself(0.5, FrictionAt::kSurface, 0.0));
-}
-
-TEST(TwistOnTheMachine, ALoopTiesTheSameWithIt) {
-  // Steps short enough that none is rejected, nor the first one shorter: where one of the two needs an iteration more
-  // and takes another step next, paths that jump from contact to contact part by hundredths of a radius.
-  constexpr double kLongestStep = 8e-4;
-  TestingMachine on = bench(loop(), GripKind::kRollers, TwistMode::kOn, kLongestStep);
-  TestingMachine off = bench(loop(), GripKind::kRollers, TwistMode::kOff, kLongestStep);
-  const Sample with = run(on, Phase::kTie, 10, 0.1, 0.02), without = run(off, Phase::kTie, 10, 0.1, 0.02);
-  const double difference = (on.state().position - off.state().position).colwise().norm().maxCoeff();
-  RecordProperty("largest_difference_in_radii", std::to_string(1e6 * difference / on.rod().material.radius) + "e-6");
-  ASSERT_EQ(with.steps, without.steps);
-  EXPECT_LT(difference, 0.001 * on.rod().material.radius);
-  EXPECT_NEAR(with.tail_force[0], without.tail_force[0], 1e-3 * without.tail_force[0]);
-  EXPECT_LT(with.twisting_energy, 1e-9 * with.bending_energy);
-  EXPECT_EQ(without.twisting_energy, 0.0);
-}
-
-TEST(TwistOnTheMachine, AStraightRodPullsTheSameWithIt) {
-  SpecimenOptions specimen;
-  specimen.knot = knot_named("straight");
-  specimen.length = 0.25;
-  specimen.edge_length = 0.005;
-  TestingMachine on = bench(specimen, GripKind::kClamps, TwistMode::kOn);
-  TestingMachine off = bench(specimen, GripKind::kClamps, TwistMode::kOff);
-  const Sample with = run(on, Phase::kPull, 10, 0.1, 0.0033), without = run(off, Phase::kPull, 10, 0.1, 0.0033);
-  EXPECT_GT(without.force_upper, 0.0);
-  EXPECT_NEAR(with.force_upper, without.force_upper, 1e-6 * without.force_upper);
-  EXPECT_EQ(with.twisting_energy, 0.0);
 }
 
 TEST(TwistOnTheMachine, AnOverhandBetweenClampsStoresIt) {

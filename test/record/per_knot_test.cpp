@@ -11,21 +11,6 @@
 namespace knot_utm {
 namespace {
 
-TEST(PerKnot, IsAsLongAsThereAreKnots) {
-  EXPECT_EQ(PerKnot().size(), 0u);
-  const PerKnot two{1.0, 2.0};
-  EXPECT_EQ(std::vector<double>(two.begin(), two.end()), (std::vector<double>{1.0, 2.0}));
-  const PerKnot one = PerKnot::unknown(1);
-  EXPECT_EQ(one.size(), 1u);
-  EXPECT_TRUE(std::isnan(one[0]));
-}
-
-TEST(PerKnot, KnowsNothingOfKnotsThatAreNotThere) {
-  const PerKnot one{3.0};
-  EXPECT_TRUE(std::isnan(one[1]));
-  EXPECT_TRUE(std::isnan(one[PerKnot::kMost - 1]));
-}
-
 TEST(PerKnot, TakesNoMoreThanItHasRoomFor) {
   EXPECT_EQ(PerKnot::unknown(PerKnot::kMost).size(), PerKnot::kMost);
   EXPECT_THROW(PerKnot::unknown(PerKnot::kMost + 1), std::length_error);

@@ -79,32 +79,6 @@ TEST(R9Incline, AboveTheFrictionAngleTheRodSlides) {
   hold_against("R9 incline of 1.05 atan mu: acceleration [m/s^2]", acceleration, scene.speed() - from, 1e-5);
 }
 
-/// The coefficient with which a rod slides whose weight presses with the `part`-th of the reference pressure.
-double power_coefficient(double exponent, double part, double expected) {
-  const Material material = braided_rope();
-  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(24, material.radius));
-  const double angle = std::atan(1.2 * expected);
-  const double pressure = rod.mass.sum() / rod.length() * kGravity * std::cos(angle);
-  Incline scene(angle, PowerFriction{kMu, 1e-4 * material.radius, exponent, pressure / part});
-  scene.run(0.2, 0.01);
-  const double from = scene.speed();
-  scene.run(0.2, 0.01);
-  return std::tan(angle) - (scene.speed() - from) / (0.2 * kGravity * std::cos(angle));
-}
-
-/// The ends of the rod bear nothing, so that it presses by 5 % more than its mean weight. The bound at small loads
-/// takes 3 % of the pressure at a thirtieth of the reference pressure. Where strands hardly touch, the coefficient is
-/// that at a thousandth of it.
-TEST(PowerFrictionIncline, FollowsTheLawAndIsBoundedAtSmallLoads) {
-  for (const double n : {0.5, 0.67, 0.8}) {
-    EXPECT_NEAR(power_coefficient(n, 1.0, kMu), kMu, (1.0 - n) * 0.06 * kMu) << n;
-    const double small = kMu * std::pow(30.0, 1.0 - n);
-    EXPECT_NEAR(power_coefficient(n, 1.0 / 30.0, small), small, (1.0 - n) * 0.1 * small) << n;
-    const double largest = kMu * std::pow(1000.0, 1.0 - n);
-    EXPECT_NEAR(power_coefficient(n, 1e-6, largest), largest, 2e-3 * largest) << n;
-  }
-}
-
 TEST(R11Creep, DirectionUnderALoadRatio) {
   for (const double ratio : {0.5, 0.9, 0.99}) {
     const double speed = std::log((1.0 + ratio) / (1.0 - ratio)) / 15.0;

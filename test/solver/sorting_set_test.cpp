@@ -37,17 +37,5 @@ TEST(SortingSet, AppendsWhatItWasGivenInAscendingOrder) {
   }
 }
 
-TEST(SortingSet, HoldsNothingOrAll) {
-  SortingSet set;
-  set.reset(200);
-  std::vector<int> list;
-  set.take(list);
-  EXPECT_TRUE(list.empty());
-  set.insert_run(0, 199);
-  set.take(list);
-  ASSERT_EQ(list.size(), 200U);
-  for (int i = 0; i < 200; ++i) EXPECT_EQ(list[static_cast<std::size_t>(i)], i);
-}
-
 }  // namespace
 }  // namespace knot_utm

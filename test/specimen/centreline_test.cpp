@@ -301,13 +301,6 @@ TEST(Overhand, SaysWhichEndToEndDistancesFitItsLength) {
     }
 }
 
-TEST(Straight, LiesAlongTheLoadAxis) {
-  const Centreline line = straight(1.0, 3.175e-3, 0.0032);
-  expect_equal_edges(line.points, 0.0032);
-  EXPECT_EQ(line.points.col(0), Vec3::Zero());
-  EXPECT_NEAR((line.points.rightCols(1) - Vec3(0.0, 0.0, 1.0)).norm(), 0.0, 1e-15);
-}
-
 TEST(FromPoints, ResamplesACircleAndClosesIt) {
   Points circle(3, 200);
   for (int i = 0; i < 200; ++i) circle.col(i) << 0.1 * std::cos(0.01 * M_PI * i), 0.1 * std::sin(0.01 * M_PI * i), 0.0;
