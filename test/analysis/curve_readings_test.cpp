@@ -66,14 +66,6 @@ TEST(CurveReadings, AKnotThatSlidesToTheEndHasNoLockAndNoStiffness) {
   EXPECT_FALSE(readings.locked_stiffness);
 }
 
-/// Between two readings the load may do anything.
-TEST(CurveReadings, AMeanOfFewerThanThreeReadingsIsNoPlateau) {
-  const CurveReadings few = curve_readings(pull(sliding, 0.12, 5));
-  EXPECT_FALSE(few.plateau_force);
-  EXPECT_EQ(few.no_plateau, "the load was read 2 times from 0.3 to 0.8 of the way, where a mean takes at least 3");
-  EXPECT_NEAR(*curve_readings(pull(sliding, 0.12, 12)).plateau_force, 6.0, 1e-12);
-}
-
 TEST(CurveReadings, ABreakawayIsNoLock) {
   const auto force = [](double s) { return sliding(s) + 30.0 * std::exp(-s / 2e-3); };
   EXPECT_NEAR(*curve_readings(pull(force)).lock_extension_by_load, 0.08 + 6.0 / 2e5, 1e-6);

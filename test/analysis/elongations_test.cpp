@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/record/phase.hpp"
 #include "knot_utm/record/sample.hpp"

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "analysis/made_up_curve.hpp"
@@ -233,22 +232,6 @@ TEST(Results, ARodThatPartsWhereNothingPullsHasABreakToo) {
   }
 }
 
-TEST(Results, ARodThatCreepsUntilItPartsHasABreakExtension) {
-  const auto sample = [](Phase phase, double displacement) {
-    Sample out;
-    out.phase = phase;
-    out.displacement = out.extension = displacement;
-    return out;
-  };
-  // Pre-loaded and held, and brought to a load by the hold itself.
-  for (std::vector<Sample> creep :
-       {std::vector{sample(Phase::kPreload, 0.004), sample(Phase::kHold, 0.004), sample(Phase::kHold, 0.004)},
-        std::vector{sample(Phase::kBalance, 0.0), sample(Phase::kHold, 0.003), sample(Phase::kHold, 0.004)}}) {
-    creep.back().status = BenchStatus::kBroken;
-    EXPECT_EQ(on_rollers(creep, EndedBy::kBreak).break_extension, 0.004);
-  }
-}
-
 TEST(Results, RelaxationIsThatOfTheLastHoldUnderALoad) {
   std::vector<Sample> samples;
   const auto add = [&](Phase phase, double displacement, double force) {
@@ -287,44 +270,6 @@ TEST(Results, AHoldAtALoadIsNoRelaxation) {
   EXPECT_FALSE(on_rollers(samples, EndedBy::kProgram).relaxation);
   samples[3].displacement = samples[2].displacement;
   EXPECT_NEAR(on_rollers(samples, EndedBy::kProgram).relaxation->lost(), -2.0, 1e-12);
-}
-
-/// A spring of 200 N/m with dry friction of 2 N beside it, which is pulled to 0.02 m and cycles from there to 0.03 m.
-TEST(Results, HysteresisIsThatOfTheLastCycle) {
-  std::vector<Sample> samples;
-  const auto move = [&](Phase phase, double from, double to) {
-    for (int i = 1; i <= 100; ++i) {
-      Sample sample;
-      sample.phase = phase;
-      sample.displacement = sample.extension = from + (to - from) * i / 100.0;
-      sample.force_upper = 200.0 * sample.extension + (to > from ? 2.0 : -2.0);
-      sample.end_to_end = 0.25 + sample.extension;
-      samples.push_back(sample);
-    }
-  };
-  move(Phase::kPull, 0.0, 0.02);
-  EXPECT_FALSE(on_rollers(samples, EndedBy::kProgram).hysteresis);
-  for (int i = 0; i < 3; ++i) {
-    move(Phase::kCycle, 0.02, 0.03);
-    move(Phase::kCycle, 0.03, 0.02);
-  }
-  move(Phase::kReturn, 0.02, 0.0);
-  const Results results = on_rollers(samples, EndedBy::kProgram);
-  EXPECT_EQ(results.cycles, 3u);
-  // Where it turns F falls within one of a hundred steps.
-  EXPECT_NEAR(*results.hysteresis, 2.0 * 2.0 * 0.01, 1.01 * 2.0 * 2.0 * 0.01 / 100.0);
-}
-
-TEST(Results, EnergyBalanceIsThatOfWorkStorageAndLoss) {
-  std::vector<Sample> samples = Curve().samples();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double x = static_cast<double>(i);
-    samples[i].grip_work = 3.0 + 1.0 * x;
-    samples[i].stretching_energy = 7.0 + 0.3 * x;
-    samples[i].bending_energy = 0.1 * x;
-    samples[i].dissipation = 0.59 * x;
-  }
-  EXPECT_NEAR(*on_rollers(samples, EndedBy::kExtension).energy_balance_error, 0.01, 1e-9);
 }
 
 TEST(Results, EnergyPartsAreThoseOfThePullAndWhatFollows) {
@@ -410,37 +355,6 @@ TEST(Results, MomentBalanceIsThatOfThePull) {
   EXPECT_NEAR(*results.moment_arm, 0.02 / worst.force_upper, 1e-12);
 }
 
-TEST(Results, CountsAndNotEquilibratedAreCarriedOver) {
-  std::vector<Sample> samples = Curve().samples();
-  Sample tie;
-  tie.phase = Phase::kTie;
-  tie.status = BenchStatus::kNotEquilibrated;
-  tie.message = "a node still moved";
-  tie.max_penetration = 0.04;
-  tie.knot_distance = 0.16;
-  tie.excess_length = {0.05, 0.05};
-  samples.insert(samples.begin(), tie);
-  samples.back().steps = 100;
-  samples.back().rejected_steps = 3;
-  samples.back().newton_iterations = 450;
-  const Results results = on_rollers(samples, EndedBy::kExtension);
-  EXPECT_EQ(results.not_equilibrated, "a node still moved");
-  EXPECT_EQ(results.max_penetration, 0.04);
-  EXPECT_EQ(results.steps, 100u);
-  EXPECT_EQ(results.rejected_steps, 3u);
-  EXPECT_EQ(results.newton_iterations, 450u);
-  EXPECT_EQ(results.simulated_time, samples.back().time);
-  EXPECT_EQ(results.tied_knot_distance, 0.16);
-  EXPECT_EQ(results.tied_excess_length[0], 0.05);
-  EXPECT_EQ(results.final_excess_length[1], 0.04);
-}
-
-TEST(Results, WhereNothingIsTiedThePullBeginsWithTheKnotsAsTheyAre) {
-  const Results results = on_rollers(Curve().samples(), EndedBy::kExtension);
-  EXPECT_NEAR(*results.tied_knot_distance, 0.15, 1e-3);
-  EXPECT_EQ(results.tied_excess_length[0], 0.04);
-}
-
 TEST(Results, ForcesAreThoseOfTheBalancedLoadAndTheTrueOnesAreLargerByTheBalanceOffset) {
   std::vector<Sample> samples = Curve().samples();
   for (Sample& sample : samples) {
@@ -467,22 +381,6 @@ TEST(Results, ReadingsOfTheCellAreNotThoseOfEveryTimeStep) {
   EXPECT_LT(*results.curve.peak_force, samples.back().load);
   EXPECT_EQ(results.curve.plateau_force, on_rollers(readings, EndedBy::kExtension).curve.plateau_force);
   EXPECT_EQ(results.lock_extension, on_rollers(samples, EndedBy::kExtension).lock_extension);
-}
-
-TEST(Results, WhatATestDoesNotHaveIsEmpty) {
-  std::vector<Sample> samples = Curve().samples();
-  for (Sample& sample : samples) sample.phase = Phase::kHold;
-  const Results results = on_rollers(samples, EndedBy::kOperator);
-  EXPECT_FALSE(results.curve.peak_force);
-  EXPECT_FALSE(results.true_peak_force);
-  EXPECT_FALSE(results.balance_offset);
-  EXPECT_FALSE(results.force_balance_error);
-  EXPECT_FALSE(results.moment_arm);
-  EXPECT_FALSE(results.energy_balance_error);
-  EXPECT_FALSE(results.energy);
-  EXPECT_FALSE(results.tied_knot_distance);
-  EXPECT_FALSE(results.energy_to_peak || results.energy_to_break || results.relaxation);
-  EXPECT_FALSE(results.chord_stiffness || results.secant_stiffness || results.tangent_stiffness);
 }
 
 }  // namespace

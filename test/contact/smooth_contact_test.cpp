@@ -179,31 +179,6 @@ TEST(Candidates, OfRodsOfAnyNumberOfNodesAreThoseOfBruteForceWhetherPartedOrNot)
   EXPECT_GT(found, 10000u);
 }
 
-TEST(Candidates, OfARodThatIsFoldedMoreAndMoreAreThoseOfBruteForce) {
-  Material material;
-  material.radius = kRadius;
-  const int nodes = 60;
-  const double edge = 2e-3, reach = 6e-3, margin = 1e-3, exclusion = 2e-2;
-  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(nodes - 1, edge));
-  int found_nothing = 0, found_some = 0;
-  for (int fold = 0; fold <= 48; ++fold)
-    for (const double stretch : {0.6, 1.0, 1.3}) {
-      // A hairpin of six edges in the middle, whose ends go apart as it opens.
-      Points x = Points::Zero(3, nodes);
-      double angle = 0.0;
-      for (int i = 1; i < nodes; ++i) {
-        if (i > 25 && i <= 31) angle += M_PI / 40.0 * fold / 6.0;
-        x.col(i) = x.col(i - 1) + stretch * edge * Vec3(std::cos(angle), std::sin(angle), 0.0);
-      }
-      Candidates candidates(rod, reach, margin, exclusion);
-      candidates.refresh(x);
-      EXPECT_EQ(pairs_of(candidates), near_pairs(x, edge, exclusion, reach + margin)) << fold << ' ' << stretch;
-      ++(pairs_of(candidates).empty() ? found_nothing : found_some);
-    }
-  EXPECT_GT(found_nothing, 20);
-  EXPECT_GT(found_some, 20);
-}
-
 /// Segments of the smooth centreline that come within `reach` of each other, as seen at places along them.
 std::vector<std::pair<int, int>> segments_within(double reach, const Points& x, double edge, double exclusion) {
   constexpr int kPlaces = 21;

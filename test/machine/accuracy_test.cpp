@@ -35,22 +35,6 @@ Results plateau() {
   return out;
 }
 
-TEST(ReadingErrors, GrowWithEdgesAndTolerances) {
-  const double plain = Loop().errors().plateau_force.value();
-  Loop coarse, soft, loose;
-  coarse.specimen.edge_length *= 1.5;
-  soft.physics.contact_tolerance = 0.1;
-  loose.physics.residual = 1e-3;
-  for (const Loop& loop : {coarse, soft, loose}) EXPECT_GT(loop.errors().plateau_force.value(), plain);
-}
-
-TEST(ReadingErrors, OfOppositeHandsAreLarger) {
-  Loop same, opposite;
-  opposite.specimen.handedness = Handedness::kOpposite;
-  EXPECT_GT(opposite.errors().plateau_force.value(), 3.0 * same.errors().plateau_force.value());
-  EXPECT_GT(opposite.errors().lock_extension.value(), 3.0 * same.errors().lock_extension.value());
-}
-
 TEST(ReadingErrors, OfEdgesOfOneRadiusAtNormalIsThatOfTheStudy) {
   Loop loop;
   loop.specimen.edge_length = loop.material.radius;

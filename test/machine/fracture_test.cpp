@@ -64,32 +64,26 @@ const Sample& at_break(const Pulled& run) {
   return run.samples.back();
 }
 
+/// Of a brittle rod the tension rises in the first steps from nothing to a multiple of what it bears.
 TEST(Fracture, AStraightRodPartsAtItsBreakingForceWhateverTheStep) {
-  constexpr double kBreaking = 2000.0;  // [N]
   const double stiffness = nylon().stretching_stiffness / kLength;
-  for (const Accuracy accuracy : {Accuracy::kDraft, Accuracy::kNormal, Accuracy::kFine}) {
-    const Pulled test = straight_run(accuracy, kBreaking);
+  for (const auto& [accuracy, breaking] : {std::pair{Accuracy::kDraft, 2000.0},
+                                           {Accuracy::kFine, 2000.0},
+                                           {Accuracy::kDraft, 5.0},
+                                           {Accuracy::kDraft, 200.0}}) {
+    const Pulled test = straight_run(accuracy, breaking);
     EXPECT_EQ(test.program.ended_by(), EndedBy::kBreak);
     EXPECT_THAT(test.program.reason(), testing::HasSubstr("the rod parted"));
     const Sample& parted = at_break(test);
     // The step that parts it may be as long as the shortest that is taken for it, a thousandth of the longest.
     const double overshoot = stiffness * 0.0033 * 1e-3 * test.bench.longest_step();
-    EXPECT_GE(parted.force_upper, kBreaking * (1.0 - 1e-9));
-    EXPECT_LE(parted.force_upper, kBreaking + overshoot + 1e-5 * kBreaking);  // drag and inertia, as between the grips
-    EXPECT_NEAR(parted.extension, kBreaking / stiffness, (overshoot + 1e-5 * kBreaking) / stiffness);
+    const double other = (breaking < 1000.0 ? 1e-3 : 1e-5) * breaking;  // drag and inertia, as between the grips
+    EXPECT_GE(parted.force_upper, breaking < 1000.0 ? breaking - other : breaking * (1.0 - 1e-9));
+    EXPECT_LE(parted.force_upper, breaking + overshoot + other);
+    EXPECT_GT(parted.extension, 0.0);
+    if (breaking < 1000.0) continue;
+    EXPECT_NEAR(parted.extension, breaking / stiffness, (overshoot + other) / stiffness);
     EXPECT_GT(parted.break_arclength, 0.0);
-  }
-}
-
-/// In the first steps the tension rises from nothing to a multiple of what such a rod bears.
-TEST(Fracture, ABrittleRodPartsAtItsBreakingForceToo) {
-  for (const double breaking : {5.0, 50.0, 200.0}) {
-    const Pulled test = straight_run(Accuracy::kDraft, breaking);
-    EXPECT_EQ(test.program.ended_by(), EndedBy::kBreak) << test.program.reason();
-    const double overshoot = nylon().stretching_stiffness / kLength * 0.0033 * 1e-3 * test.bench.longest_step();
-    EXPECT_GE(at_break(test).force_upper, breaking * (1.0 - 1e-3));
-    EXPECT_LE(at_break(test).force_upper, breaking * (1.0 + 1e-3) + overshoot);
-    EXPECT_GT(at_break(test).extension, 0.0);
   }
 }
 
@@ -145,8 +139,8 @@ TEST_P(FractureOfAnOverhand, EndsTheTestAndChangesNothingBefore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, FractureOfAnOverhand,
-                         testing::Combine(testing::Values(ContactLaw::kSmooth, ContactLaw::kEdge),
-                                          testing::Values(TwistMode::kOn, TwistMode::kOff)),
+                         testing::Values(std::tuple{ContactLaw::kSmooth, TwistMode::kOn},
+                                         std::tuple{ContactLaw::kEdge, TwistMode::kOff}),
                          [](const auto& test) {
                            return std::string(std::get<0>(test.param) == ContactLaw::kSmooth ? "smooth" : "edge") +
                                   (std::get<1>(test.param) == TwistMode::kOn ? "WithTwist" : "");

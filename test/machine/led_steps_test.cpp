@@ -138,22 +138,6 @@ TEST(LedSteps, PullsAtARateOfLoad) {
   EXPECT_EQ(program.ended_by(), EndedBy::kLoad);
 }
 
-TEST(LedSteps, HoldsALoad) {
-  ProgramStep hold = step(Phase::kHold, 0.01, 5.0);
-  hold.hold_load = true;
-  hold.held_load = 7.0;
-  ProgramRunner to_another({pull(0.01), hold}, 3.0, 0.1, {});
-  EXPECT_NEAR(run(FakeBench(), to_another).samples.back().load, 7.0, 1e-9);
-  hold.held_load.reset();
-  ProgramRunner as_it_is({pull(0.01), hold}, 3.0, 0.1, {});
-  const Course result = run(FakeBench(), as_it_is);
-  for (const Sample& sample : result.samples)
-    if (sample.phase == Phase::kHold) {
-      EXPECT_NEAR(sample.load, 1000.0 * 0.01, 0.5);
-    }
-  EXPECT_EQ(as_it_is.ended_by(), EndedBy::kProgram);
-}
-
 TEST(LedSteps, CyclesBetweenExtensionsThatItMeets) {
   ProgramStep cycle = step(Phase::kCycle, 0.0033);
   cycle.extension_turns = TurningPoints{0.001, 0.004};

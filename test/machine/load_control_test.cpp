@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
@@ -55,16 +54,6 @@ TEST(LoadControl, RunsAfterALoadThatDoesNotRise) {
     now.displacement += kPeriod * speed;
   }
   EXPECT_EQ(speed, kFastest);
-}
-
-/// What comes from the balance is no force of the specimen.
-TEST(LoadControl, KnowsTheBalancedForce) {
-  Spring spring{1e4};
-  for (int n = 1; n < 10; ++n) spring.step(n);
-  spring.now.balance_offset = 5.0;
-  spring.control.shift(5.0);
-  spring.step(6.0);
-  EXPECT_NEAR(spring.now.force_upper, 11.0, 1e-12);
 }
 
 TEST(LoadControl, MeetsALoadThatOneCommandWouldPass) {

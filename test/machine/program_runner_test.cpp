@@ -90,20 +90,6 @@ TEST(ProgramRunner, HoldLastsItsDurationInWholePeriods) {
   }
 }
 
-TEST(ProgramRunner, UntilLoadAndUntilTime) {
-  ProgramStep to_load = step(Phase::kPull, 0.01);
-  to_load.until.load = 5.0;
-  ProgramRunner by_load({to_load}, 3.0, 0.1, {});
-  EXPECT_NEAR(run(FakeBench(), by_load).samples.back().load, 5.0, 5e-3);  // kMetLoad
-  EXPECT_EQ(by_load.ended_by(), EndedBy::kLoad);
-
-  ProgramStep to_time = step(Phase::kPull, 0.01);
-  to_time.until.time = 1.0;
-  ProgramRunner by_time({to_time}, 3.0, 0.1, {});
-  EXPECT_DOUBLE_EQ(run(FakeBench(), by_time).samples.back().time, 1.0);
-  EXPECT_EQ(by_time.ended_by(), EndedBy::kProgram);
-}
-
 /// Answers the commands of a program until one of its last step, in which the rod parts.
 ProgramRunner parted_in_step(const Program& steps, int last) {
   ProgramRunner program(steps, 3.0, 0.1, {});

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <memory>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
@@ -98,14 +97,6 @@ TEST(BendingSet, AHeldBendResistsBeingRolled) {
     // Half of it from either node, whose edge is turned against its rest by phi, and the other edge, too.
     EXPECT_NEAR(std::abs(stepper->readings().reaction_torque(j)), expected, 0.01 * expected) << j;
   }
-}
-
-/// Bending of a rod that is straight at rest knows of no natural curvature.
-TEST(BendingSet, IsOnlyTakenByARodMadeForIt) {
-  Arc arc;
-  arc.state.natural_curvature.resize(2, 0);
-  const std::unique_ptr<TimeStep> stepper = TimeStep::make(arc.rod, arc.state, arc.settings);
-  EXPECT_THROW(stepper->take_set(kShare), InvalidInput);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <memory>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "rod/own_laws.hpp"
 #include "sim/balance.hpp"
@@ -89,12 +88,6 @@ TEST(PlasticBending, ANewStepperBeginsWithTheEnergyOfTheLastOne) {
   EXPECT_GT(stepper->readings().work().plastic, 0.0);
   const std::unique_ptr<TimeStep> next = TimeStep::make(strip.rod, stepper->state(), strip.settings);
   EXPECT_NEAR(next->readings().energies().bending, stored, 1e-9 * stored);
-}
-
-TEST(PlasticBending, NeedsARodThatRemembersItsBends) {
-  Strip strip;
-  strip.state.natural_curvature.resize(2, 0);
-  EXPECT_THROW(TimeStep::make(strip.rod, strip.state, strip.settings), InvalidInput);
 }
 
 }  // namespace

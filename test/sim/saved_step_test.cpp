@@ -82,27 +82,6 @@ TEST_P(SavedTimeStep, ComesToTheSameBitsElsewhere) {
 INSTANTIATE_TEST_SUITE_P(Twist, SavedTimeStep, testing::Bool(),
                          [](const auto& twist) { return twist.param ? "On" : "Off"; });
 
-TEST(WatchedTimeStep, IsToldOfEveryIterate) {
-  FallingRod scene(false);
-  for (int i = 0; i < 3; ++i) ASSERT_TRUE(scene.stepper->step(scene.boundary, 0.01).accepted());
-  scene.boundary.forces = {{7, Vec3(0.0, 0.0, -0.1)}};
-  std::vector<Iterate> seen;
-  scene.stepper->watch([&](const Iterate& iterate) { seen.push_back(iterate); });
-  const StepSummary summary = scene.stepper->step(scene.boundary, 1e-3);
-  ASSERT_TRUE(summary.accepted()) << summary.reason;
-  ASSERT_EQ(seen.size(), static_cast<std::size_t>(summary.newton.iterations) + 1);
-  EXPECT_EQ(seen.front().node, 7) << "where it is pulled";
-  EXPECT_EQ(seen.front().factor, 0.0);
-  EXPECT_GT(seen[1].factor, 0.0);
-  EXPECT_GT(seen[1].motion, 0.0);
-  EXPECT_EQ(seen.back().residual, summary.newton.residual);
-  EXPECT_EQ(seen.back().tolerance, summary.newton.tolerance);
-  EXPECT_GT(seen.back().touching, 0);
-  EXPECT_EQ(seen.back().roller, 0);
-  EXPECT_GT(seen.back().overlap, scene.stepper->settings().pressure_law.begin());
-  EXPECT_LE(std::abs(seen.back().arclengths[0] - scene.stepper->rod().arclength()[7]), 2 * braided_rope().radius);
-}
-
 /// A knot on the machine whose crosshead jumps: the step fails, and fails the same way elsewhere.
 TEST(FailedTimeStep, FailsForTheSameReasonElsewhere) {
   MachineOptions machine;

@@ -17,14 +17,13 @@
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/material.hpp"
-#include "knot_utm/specimen/overhand.hpp"
 #include "knot_utm/specimen/polyline.hpp"
 
 namespace knot_utm {
 
-/// A knot that stops a solid rod in a hole. The strand below the knot runs down through the hole (along -z) to a clamp,
-/// which pulls it and holds its spin; the tail above the knot is free. Lengths are in radii h of the rod, forces in
-/// k_b/h^2, energies in k_b/h.
+/// A figure-eight knot that stops a solid rod in a hole. The strand below the knot runs down through the hole (along
+/// -z) to a clamp, which pulls it and holds its spin; the tail above the knot is free. Lengths are in radii h of the
+/// rod, forces in k_b/h^2, energies in k_b/h.
 ///
 /// The hole is square and its edges are round: four fixed cylinders in the plane z = 0, two along x and two along y.
 /// They touch the rod only, so that they may run through each other.
@@ -33,10 +32,7 @@ namespace knot_utm {
 /// rod just above the hole is another one after that: laid onto what it was, its points are more than h away (root mean
 /// square). A knot that slips by jerks keeps its shape.
 struct StopperKnot {
-  enum class Kind { kOverhand, kFigureEight };
-
   struct Options {
-    Kind kind = Kind::kFigureEight;
     bool mirrored = false;
     double edge = 1.0;            ///< length of an edge
     double friction = 0.3;        ///< mu, between strands and on the hole
@@ -95,7 +91,7 @@ struct StopperKnot {
     material.stretching_stiffness = options.stretching;
     material.twisting_stiffness = options.twisting;
     RodState state;
-    state.position = options.kind == Kind::kOverhand ? drawn_overhand() : drawn_figure_eight();
+    state.position = drawn_figure_eight();
     if (options.mirrored) state.position.row(1) *= -1.0;
     last = static_cast<int>(state.position.cols()) - 1;
     rod = make_rod(material, (state.position.rightCols(last) - state.position.leftCols(last)).colwise().norm());
@@ -200,18 +196,6 @@ struct StopperKnot {
     out.first = 1e-3;
     out.motion = 0.6;
     out.slip = 0.4;
-    return out;
-  }
-
-  Points drawn_overhand() const {
-    constexpr double kExcess = 90.0, kMiddle = 30.0;  // length that the loop takes; height of the knot over the hole
-    OverhandShape shape;
-    shape.radius = kUnit;
-    shape.edge_length = kUnit * options.edge;
-    shape.end_to_end = kUnit * 2.0 * (options.below + kMiddle);
-    shape.length = shape.end_to_end + kUnit * kExcess;
-    Points out = overhand(shape).points / kUnit;
-    out.row(2).array() -= options.below;
     return out;
   }
 

@@ -141,7 +141,6 @@ TEST(BlockPattern, IsThatOfEliminatingAFullMatrix) {
   }
 }
 
-
 TYPED_TEST(BlockMatrixTest, SolvesForAnotherRightHandSideWithWhatItKept) {
   constexpr int kD = TypeParam::value;
   Example<kD> example;

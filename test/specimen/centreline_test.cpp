@@ -254,18 +254,6 @@ TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
   }
 }
 
-TEST(Overhand, RefusesTooLittleOrTooMuchExcessLength) {
-  OverhandShape shape;
-  shape.length = 1.0;
-  for (const double end_to_end : {0.99, 0.15, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
-    shape.end_to_end = end_to_end;
-    EXPECT_THROW(overhand(shape), InvalidInput) << end_to_end;
-  }
-  shape.end_to_end = 0.7;
-  shape.turns = 5;
-  EXPECT_THROW(overhand(shape), InvalidInput);
-}
-
 TEST(Overhand, SaysWhichEndToEndDistancesFitItsLength) {
   const auto refusal = [](double length, double end_to_end) -> std::optional<InvalidInput> {
     OverhandShape shape;

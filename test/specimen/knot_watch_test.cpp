@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "knot_utm/machine/specimen_centreline.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
@@ -166,16 +165,6 @@ TEST(MultipleFisherman, IsAnotherKnotWithEachWindingThatItsTailIsPulledOutOf) {
       EXPECT_LT(gone.overhand_determinant[1], 2 * turns + 1);
       EXPECT_EQ(gone.overhand_determinant[0], 2 * turns + 1);
     }
-}
-
-TEST(MultipleFisherman, RefusesOneWindingWhichIsTheFishermansKnot) {
-  Scene scene("multiple_fisherman", 1, 3.175e-3, Handedness::kSame);
-  try {
-    knot_of(scene.specimen).check(scene.specimen, 3.175e-3);
-    FAIL() << "accepted";
-  } catch (const InvalidInput& invalid) {
-    EXPECT_STREQ(invalid.what(), "specimen.turns is 1, but must be 2 or 3; knot: fisherman winds its tails once");
-  }
 }
 
 }  // namespace
