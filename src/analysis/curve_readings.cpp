@@ -184,7 +184,7 @@ std::optional<double> lock_by_load(const Pull& pull) {
   constexpr int kMostSteps = 1000;
   double lock = way.end();
   for (int step = 0; step < kMostSteps && lock > earliest; ++step) {
-    const double mean = way.force_over(plateau_range(pull, lock));
+    const double mean = way.mean_force(plateau_range(pull, lock));
     if (!(mean > 0.0)) return std::nullopt;
     const double next = std::min(lock, way.last_rise_through(kLockedLoad * mean));
     if (next >= way.end()) return std::nullopt;

@@ -1,19 +1,8 @@
 #include "knot_utm/record/sample.hpp"
 
-#include "knot_utm/record/choice_names.hpp"
 #include "knot_utm/record/sample_fields.hpp"
 
 namespace knot_utm {
-namespace {
-
-constexpr ChoiceNames<BreakPlace, 4> kBreakPlaceNames{{{BreakPlace::kNone, "none"},
-                                                       {BreakPlace::kStrand, "strand"},
-                                                       {BreakPlace::kKnot, "knot"},
-                                                       {BreakPlace::kGrip, "grip"}}};
-
-}  // namespace
-
-const char* break_place_name(BreakPlace place) { return name_of(kBreakPlaceNames, place); }
 
 void Sample::state(Archive& archive) {
   visit_sample_fields([&](const auto& field) {

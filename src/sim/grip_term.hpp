@@ -5,6 +5,7 @@
 #include "force_term.hpp"
 #include "knot_utm/numeric/index.hpp"
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/record/ended_by.hpp"
 #include "knot_utm/record/per_knot.hpp"
 #include "knot_utm/record/phase.hpp"
 
@@ -18,23 +19,6 @@ enum class BenchStatus {
   kBroken,           ///< the rod parted; `message` says where
   kFailed            ///< the simulation gave up; `message` says why
 };
-
-/// Whether the specimen is the knot that it began as.
-enum class KnotType {
-  kKept,
-  kChanged,  ///< it came undone, or is another one now
-  kCrossed   ///< the rod ran through itself
-};
-
-/// Where a rod parted.
-enum class BreakPlace {
-  kNone,    ///< it is whole
-  kStrand,  ///< where it lies free
-  kKnot,    ///< where another strand lies against it
-  kGrip     ///< on a roller, or where a clamp or node holds it
-};
-
-const char* break_place_name(BreakPlace place);  ///< "none", "strand", "knot", "grip"
 
 /// One reading of the whole bench. Only `load` has the errors of the load cell. The meaning, the unit and the allowed
 /// values of each field stand in record/sample_fields.hpp.

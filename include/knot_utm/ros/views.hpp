@@ -6,6 +6,7 @@
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/knot_places.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 

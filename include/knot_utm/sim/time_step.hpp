@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/step_diagnosis.hpp"
 #include "knot_utm/sim/step_readings.hpp"
