@@ -10,7 +10,6 @@
 #include "contact/strands.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/numeric/archive.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {
@@ -137,12 +136,6 @@ TEST(DeepFoot, IsKeptWithTheState) {
   strands.step_to(kFar);
   elsewhere.load(strands.saved(), 0.9);
   EXPECT_EQ(elsewhere.step_to(1.0), 0.0);
-}
-
-TEST(StateOfSmoothContact, OfAnotherRodIsRefused) {
-  Beside strands, longer(31);
-  strands.step_to(0.1);
-  EXPECT_THROW(longer.load(strands.saved(), 0.1), InvalidInput);
 }
 
 }  // namespace

@@ -66,26 +66,6 @@ TEST(ReadingErrors, OfTheShippedMethodNeedNoWarning) {
   EXPECT_EQ(accuracy_warning(plateau(), errors), "");
 }
 
-TEST(Tolerances, AreLooserWhereTheLoopStretches) {
-  for (const Accuracy accuracy : {Accuracy::kDraft, Accuracy::kNormal, Accuracy::kFine}) {
-    Loop rope;
-    rope.physics.accuracy = accuracy;
-    Loop solid = rope, overhand = rope, chosen = rope;
-    const Material& rod = rope.material;
-    const double of_a_solid_rod = 4.0 * rod.bending_stiffness / (rod.radius * rod.radius);
-    for (Loop* loop : {&solid, &overhand, &chosen}) loop->material.stretching_stiffness = of_a_solid_rod;
-    overhand.specimen.knot = knot_named("overhand");
-    chosen.specimen.refinement = 2.5;
-    EXPECT_LT(solid.tolerances().refinement, 0.8 * rope.tolerances().refinement);
-    EXPECT_GE(solid.tolerances().contact_tolerance, rope.tolerances().contact_tolerance);
-    EXPECT_GE(solid.tolerances().presliding, rope.tolerances().presliding);
-    EXPECT_EQ(solid.tolerances().longest_step, rope.tolerances().longest_step);
-    EXPECT_EQ(overhand.tolerances().refinement, rope.tolerances().refinement);
-    EXPECT_EQ(overhand.tolerances().contact_tolerance, rope.tolerances().contact_tolerance);
-    EXPECT_EQ(chosen.tolerances().refinement, 2.5);
-  }
-}
-
 /// By the fourth root of the pre-load over 6 k_b/h^2, up to a third.
 TEST(Tolerances, EdgesAreShorterInRopesThatAreTiedHard) {
   const auto refinement = [](const Loop& loop, double preload) {  // F_p h^2/k_b

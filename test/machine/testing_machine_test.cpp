@@ -58,25 +58,6 @@ std::string wrong_key(const SpecimenOptions& specimen) {
   return "";
 }
 
-TEST(TestingMachine, AStraightRodIsASpringOfStiffnessOverLength) {
-  TestingMachine machine = bench(straight_rod());
-  machine.respond(Command{});
-  const double stiffness = nylon().stretching_stiffness / 0.25;
-  double force = 0.0, extension = 0.0;
-  for (std::uint64_t k = 1; k <= 20; ++k) {
-    const Sample sample = machine.respond(pull(k, 0.1 * static_cast<double>(k), 3.3e-4 * static_cast<double>(k)));
-    ASSERT_EQ(sample.status, BenchStatus::kRunning) << sample.message;
-    EXPECT_NEAR(sample.force_upper, stiffness * sample.extension, 1e-5 * sample.force_upper);
-    EXPECT_NEAR(sample.force_upper, sample.force_lower, 1e-5 * sample.force_upper);
-    if (k > 1) {
-      EXPECT_NEAR((sample.force_upper - force) / (sample.extension - extension), stiffness, 2e-4 * stiffness);
-    }
-    force = sample.force_upper;
-    extension = sample.extension;
-  }
-  EXPECT_NEAR(extension, 6.6e-3, 1e-12);
-}
-
 /// What is read of two knots is read of a loop alone, and each list has a number for each knot.
 TEST(TestingMachine, ReadsAsManyKnotsAsTheSpecimenHas) {
   for (const auto& [name, knots] : std::map<const char*, std::size_t>{

@@ -2,13 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdint>
-#include <optional>
-
 #include "knot_utm/machine/testing_machine.hpp"
-#include "knot_utm/record/command.hpp"
-#include "knot_utm/record/phase.hpp"
-#include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"
@@ -16,32 +10,12 @@
 namespace knot_utm {
 namespace {
 
-TestingMachine bench(const SpecimenOptions& specimen, GripKind grips, TwistMode twist,
-                     std::optional<double> longest_step = std::nullopt) {
+TestingMachine bench(const SpecimenOptions& specimen, GripKind grips, TwistMode twist) {
   MachineOptions machine;
   machine.grips = grips;
   PhysicsOptions physics;
   physics.twist = twist;
-  physics.max_step = longest_step;
   return TestingMachine(specimen, pink_vps(), machine, physics);
-}
-
-/// Steps of `period` in one phase.
-Sample run(TestingMachine& machine, Phase phase, int commands, double period, double speed) {
-  Command command;
-  machine.respond(command);
-  command.phase = phase;
-  command.speed = speed;
-  command.step = 1;
-  Sample sample;
-  for (int k = 1; k <= commands; ++k) {
-    command.sequence = static_cast<std::uint64_t>(k);
-    command.time = period * k;
-    if (phase == Phase::kPull) command.displacement = speed * command.time;
-    sample = machine.respond(command);
-    EXPECT_NE(sample.status, BenchStatus::kFailed) << sample.message;
-  }
-  return sample;
 }
 
 SpecimenOptions loop() {
@@ -83,13 +57,6 @@ TEST(TwistOnTheMachine, AutoIsOnWhereFrictionRollsStrands) {
   EXPECT_FALSE(by_itself(0.5, FrictionAt::kCentreline, 0.3));
   EXPECT_FALSE(by_itself(0.0, FrictionAt::kSurface, 0.3));
   EXPECT_FALSE(by_itself(0.5, FrictionAt::kSurface, 0.0));
-}
-
-TEST(TwistOnTheMachine, AnOverhandBetweenClampsStoresIt) {
-  TestingMachine on = bench(open_overhand(), GripKind::kClamps, TwistMode::kAuto);
-  const Sample with = run(on, Phase::kPull, 30, 0.1, 0.0033);
-  EXPECT_GT(with.twisting_energy, 1e-6 * with.bending_energy);
-  EXPECT_LT(with.twisting_energy, with.bending_energy);
 }
 
 }  // namespace

@@ -10,10 +10,9 @@
 
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/sim/step_control.hpp"
-#include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "reference.hpp"
+#include "sim/scenes.hpp"
 
 namespace knot_utm {
 namespace {
@@ -66,12 +65,8 @@ struct Bare {
     StepControl::Options options;
     options.longest = 1.0;
     options.motion = 0.02;
-    StepControl control(options);
     double from = 0.0;
-    const std::string gave_up = control.advance(
-        *step, from, time, [this](double, double) -> const Boundary& { return boundary; },
-        [](double, double, const StepSummary&) {});
-    EXPECT_EQ(gave_up, "");
+    run_to(time, *step, from, options, [this](double) -> const Boundary& { return boundary; });
   }
 
   /// Newton iterations.
