@@ -217,19 +217,6 @@ TEST(ProgramRunner, AProgramThatOnlyTiesGoesOnToItsEnd) {
   EXPECT_FALSE(program.failed());
 }
 
-/// What interrupts a test comes between two commands, where it can go on.
-TEST(ProgramRunner, AnInterruptedTestGoesOnAsIfItWasNot) {
-  ProgramRunner whole(paper_program(), 3.0, 0.1, {}), cut(paper_program(), 3.0, 0.1, {});
-  const Course unbroken = run(FakeBench(), whole);
-  FakeBench bench;
-  std::vector<double> forces;
-  const auto observe = [&](const Command&, const Sample& sample) { forces.push_back(sample.force_upper); };
-  for (std::size_t most = 10; !cut.ended(); most += 10)
-    run_test(bench, cut, observe, [&] { return forces.size() >= most; });
-  ASSERT_EQ(forces.size(), unbroken.samples.size());
-  for (std::size_t i = 0; i < forces.size(); ++i) EXPECT_EQ(forces[i], unbroken.samples[i].force_upper);
-}
-
 TEST(ProgramRunner, OverloadCountsTheTrueForceInBothDirections) {
   ProgramRunner::Limits limits;
   limits.load = 20.0;

@@ -136,9 +136,7 @@ TEST_P(NothingPassesThrough, ShorterStepsGetThereAndTheStrandsStop) {
 
 INSTANTIATE_TEST_SUITE_P(Throws, NothingPassesThrough,
                          testing::Values(Thrown{ContactLaw::kSmooth, 3e-3, 6.0},
-                                         Thrown{ContactLaw::kSmooth, 3e-3, 40.0},
-                                         Thrown{ContactLaw::kSmooth, 1e-4, 40.0}, Thrown{ContactLaw::kEdge, 3e-3, 6.0},
-                                         Thrown{ContactLaw::kEdge, 1e-4, 40.0}),
+                                         Thrown{ContactLaw::kSmooth, 1e-4, 40.0}, Thrown{ContactLaw::kEdge, 3e-3, 6.0}),
                          [](const auto& scene) {
                            const Thrown& thrown = scene.param;
                            return std::string(thrown.law == ContactLaw::kEdge ? "edge" : "smooth") +

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 
@@ -46,23 +45,6 @@ TEST(KnotWatch, ARodWithoutAKnotHasNoneToLose) {
   KnotWatch watch({}, false, kRadius, straightened(knotted, 0.99));
   EXPECT_EQ(watch.follow(knotted), KnotType::kKept);
   EXPECT_EQ(watch.follow(straightened(knotted, 0.99)), KnotType::kKept);
-}
-
-TEST(KnotWatch, SavedItReadsNextWhereItWouldHave) {
-  const Points start = open_overhand().points;
-  KnotWatch watch({}, false, kRadius, start), elsewhere({}, false, kRadius, start);
-  Points points = start;
-  points.col(20).x() += 1.1 * kRadius;
-  watch.follow(points);
-  ASSERT_EQ(watch.readings(), 2);
-  Archive saved("knot");
-  saved(watch);
-  Archive loaded("knot", saved.bytes(), "here");
-  loaded(elsewhere);
-  loaded.end();
-  elsewhere.follow(points);
-  EXPECT_EQ(elsewhere.readings(), 2) << "nothing has moved since";
-  EXPECT_EQ(elsewhere.follow(straightened(start, 0.99)), KnotType::kChanged);
 }
 
 TEST(KnotWatch, AClosedRodIsJoinedWhereItsEndsMeet) {
