@@ -3,15 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cstddef>
-#include <utility>
-#include <vector>
 
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/sim/step_control.hpp"
-#include "knot_utm/solver/block_matrix.hpp"
 #include "sim/capstan.hpp"
 #include "sim/drawn_overhand.hpp"
-#include "solver/coupled.hpp"
 
 namespace {
 std::size_t allocations = 0;
@@ -49,40 +45,6 @@ int posix_memalign(void** memory, std::size_t alignment, std::size_t size) {
 
 namespace knot_utm {
 namespace {
-
-TEST(Allocation, IsCounted) {
-  const std::size_t before = allocations;
-  ::operator delete(::operator new(1000));  // a new expression may be left out by the compiler
-  const std::size_t one = allocations;
-  EXPECT_GT(one, before);
-  Eigen::VectorXd vector(1000);
-  vector.setZero();
-  EXPECT_GT(allocations, one);
-}
-
-TEST(WarmBlockPattern, IsBuiltWithoutTheHeap) {
-  constexpr int kNodes = 60;
-  const auto chain_with_contact = [](int a, int b) {
-    std::vector<std::pair<int, int>> pairs;
-    for (int i = 0; i + 1 < kNodes; ++i) pairs.push_back({i, i + 1});
-    for (int k = 0; k < 3; ++k)
-      for (int l = 0; l < 3; ++l) pairs.push_back({a + k, b + l});
-    return coupled(kNodes, pairs);
-  };
-  const auto here = chain_with_contact(3, 40), there = chain_with_contact(12, 25);
-  BlockPattern pattern;
-  BlockMatrix<3> matrix;
-  const auto build = [&](const Neighbours& neighbours) {
-    pattern.build(neighbours);
-    matrix.set_pattern(pattern);
-  };
-  build(here);
-  build(there);
-  const std::size_t before = allocations;
-  build(here);
-  build(there);
-  EXPECT_EQ(allocations, before);
-}
 
 /// An overhand in polypropylene with friction, one of whose ends is pulled out: strands slide, contacts come and go.
 struct SlidingOverhand {

@@ -66,25 +66,10 @@ TEST(CurveReadings, AKnotThatSlidesToTheEndHasNoLockAndNoStiffness) {
   EXPECT_FALSE(readings.locked_stiffness);
 }
 
-/// Between two readings the load may do anything.
-TEST(CurveReadings, AMeanOfFewerThanThreeReadingsIsNoPlateau) {
-  const CurveReadings few = curve_readings(pull(sliding, 0.12, 5));
-  EXPECT_FALSE(few.plateau_force);
-  EXPECT_EQ(few.no_plateau, "the load was read 2 times from 0.3 to 0.8 of the way, where a mean takes at least 3");
-  EXPECT_NEAR(*curve_readings(pull(sliding, 0.12, 12)).plateau_force, 6.0, 1e-12);
-}
-
 TEST(CurveReadings, ABreakawayIsNoLock) {
   const auto force = [](double s) { return sliding(s) + 30.0 * std::exp(-s / 2e-3); };
   EXPECT_NEAR(*curve_readings(pull(force)).lock_extension_by_load, 0.08 + 6.0 / 2e5, 1e-6);
   EXPECT_FALSE(curve_readings(pull(force, 0.07, 700)).lock_extension_by_load);
-}
-
-TEST(CurveReadings, APlateauBeforeALockMayRise) {
-  const CurveReadings readings = curve_readings(pull([](double s) { return sliding(s) + 150.0 * s; }));
-  ASSERT_TRUE(readings.lock_extension_by_load);
-  // Of a straight line the mean is that of the middle, 0.55 of the lock.
-  EXPECT_NEAR(*readings.plateau_force, 6.0 + 150.0 * 0.55 * *readings.lock_extension_by_load, 1e-9);
 }
 
 TEST(CurveReadings, BesideTheMeanStandWhatItIsTheMeanOf) {
@@ -140,7 +125,7 @@ TEST(CurveReadings, AKnotThatJumpsOpenHasTheForceAtWhichItDidAndNoPlateau) {
   EXPECT_NEAR(*jumped.force_after_jump, 0.6, 1e-9);
   EXPECT_NEAR(*jumped.jump_extension, 0.03, 5e-3);
   EXPECT_NEAR(*jumped.largest_drop, 5.4, 1e-9);
-  EXPECT_FALSE(jumped.plateau_force);
+  EXPECT_FALSE(jumped.plateau_force || jumped.lock_extension_by_load || jumped.locked_stiffness);
   EXPECT_NE(jumped.no_plateau.find("jumped open"), std::string::npos);
   // Ten times the size, a thousand times the force.
   Pull large = with_knots(pull(sliding), 0.02);
@@ -150,12 +135,6 @@ TEST(CurveReadings, AKnotThatJumpsOpenHasTheForceAtWhichItDidAndNoPlateau) {
     point.force *= 1e3;
   }
   EXPECT_NEAR(*curve_readings(large).jump_force, 1e3 * *jumped.jump_force, 1e-6);
-}
-
-TEST(CurveReadings, NoLockAndNoStiffnessStandBehindAJump) {
-  const CurveReadings jumped = curve_readings(with_knots(pull(sliding), 0.02));
-  EXPECT_FALSE(jumped.lock_extension_by_load);
-  EXPECT_FALSE(jumped.locked_stiffness);
 }
 
 /// What the coils take in tells a jump from knots that slip as strands shorten: as much, or a third of it.

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <functional>
 
 namespace knot_utm {
@@ -33,26 +32,6 @@ TEST(ClosedCycles, OfDryFrictionTheAreaIsTwiceItsForceTimesTheWay) {
   const double corner = 2.0 * 2.0 * 0.1 / 200.0;
   for (const Cycle& cycle : cycles) EXPECT_NEAR(cycle.hysteresis, 2.0 * 2.0 * 0.1, 1.01 * corner);
   EXPECT_EQ(cycles[0].end, cycles[1].begin);
-}
-
-TEST(ClosedCycles, OfASpringThereIsNoArea) {
-  for (const Cycle& cycle : closed_cycles(path({0.0, 0.1, 0.0}, [](double s, bool) { return 200.0 * s; })))
-    EXPECT_NEAR(cycle.hysteresis, 0.0, 1e-12);
-}
-
-/// s = sin(t), F = sin(t + phi): an ellipse of area pi sin(phi), gone around in the sense of lost work.
-TEST(ClosedCycles, OfAnEllipseTheAreaIsItsOwn) {
-  constexpr int kPoints = 4000;
-  const double phase = 0.3;
-  Path round;
-  for (int i = 0; i <= 2 * kPoints; ++i) {
-    const double t = 2.0 * M_PI * i / kPoints;
-    round.push_back({-std::cos(t), -std::cos(t + phase)});
-  }
-  const std::vector<Cycle> cycles = closed_cycles(round);
-  ASSERT_EQ(cycles.size(), 2u);
-  // A polygon of n corners has the share 1 - 2 pi^2/(3 n^2) of the area.
-  for (const Cycle& cycle : cycles) EXPECT_NEAR(cycle.hysteresis, M_PI * std::sin(phase), 1e-6);
 }
 
 TEST(ClosedCycles, TheWayToWhereTheyBeginAndWhatWasCutOffAreNone) {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/record/phase.hpp"
 #include "knot_utm/record/sample.hpp"
@@ -38,21 +36,6 @@ class Cycled {
   double left = 0.0;  ///< [m]
   std::vector<Sample> samples;
 };
-
-TEST(Elongations, OfALinearSpringAllComesBack) {
-  Cycled spring;
-  for (int i = 0; i < 3; ++i) {
-    spring.move(Phase::kCycle, 0.0, kReach);
-    spring.move(Phase::kCycle, kReach, 0.0);
-  }
-  const Results results = spring.results();
-  ASSERT_TRUE(results.elongations && results.gauge_length);
-  EXPECT_DOUBLE_EQ(*results.gauge_length, kGauge);
-  EXPECT_NEAR(results.elongations->total, kReach / kGauge, 1e-15);
-  EXPECT_NEAR(results.elongations->elastic, results.elongations->total, 1e-15);
-  EXPECT_NEAR(results.elongations->working, results.elongations->total, 1e-15);
-  EXPECT_NEAR(results.elongations->residual, 0.0, 1e-15);
-}
 
 /// What yields keeps a part of its extension, and is stretched the less by the same load afterwards.
 TEST(Elongations, OfASpecimenThatBedsInAPartStaysAndIsNotElastic) {

@@ -43,19 +43,6 @@ TEST(MotionPattern, SlidingThenStretching) {
   }
 }
 
-TEST(MotionPattern, SlidingToTheEndHasNeitherLockNorStiffness) {
-  Curve curve;
-  curve.end = 0.06;
-  curve.breakaway = 3.0;
-  const Results results = on_rollers(curve.samples(), EndedBy::kExtension);
-  EXPECT_EQ(results.motion_pattern, MotionPattern::kSliding);
-  EXPECT_GT(results.motion_pattern_confidence, 0.85);
-  EXPECT_FALSE(results.lock_extension);
-  EXPECT_FALSE(results.curve.locked_stiffness);
-  EXPECT_NEAR(*results.true_plateau_force, curve.plateau, 0.03 * curve.plateau);
-  EXPECT_GT(*results.true_breakaway_force, 2.0 * curve.plateau);
-}
-
 TEST(MotionPattern, StretchingFromTheStart) {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     Curve curve;
@@ -86,17 +73,6 @@ TEST(LockedStiffness, DoesNotSeeASlipInsideTheLock) {
   }
   // One part in three holds the slip, and is left out.
   EXPECT_NEAR(*on_rollers(samples, EndedBy::kExtension).curve.locked_stiffness, whole, 2e-3 * whole);
-}
-
-TEST(LockedStiffness, DoesNotDependOnWhereTheStepsAreShort) {
-  Curve curve;
-  curve.step = 1e-4;
-  const std::vector<Sample> fine = curve.samples();
-  std::vector<Sample> sparse;  // ten times as long beyond three quarters of the extension
-  for (std::size_t i = 0; i < fine.size(); ++i)
-    if (4 * i < 3 * fine.size() || i % 10 == 0 || i + 1 == fine.size()) sparse.push_back(fine[i]);
-  const double whole = *on_rollers(fine, EndedBy::kExtension).curve.locked_stiffness;
-  EXPECT_NEAR(*on_rollers(sparse, EndedBy::kExtension).curve.locked_stiffness, whole, 2e-3 * whole);
 }
 
 /// A knot jumps open at s = 0.03 m, as is told live and in the end, and the loop slides and locks as a looser one. How

@@ -19,15 +19,6 @@ Pull pull(const std::function<double(double)>& force, double end = 0.1, int poin
   return out;
 }
 
-TEST(PullReadings, OfASpringAllStiffnessesAreItsOwn) {
-  const Pull spring = pull([](double s) { return 160.0 * s; });
-  EXPECT_NEAR(energy(spring), 0.5 * 160.0 * 0.1 * 0.1, 1e-12);
-  EXPECT_EQ(energy_to_peak(spring), energy(spring));
-  EXPECT_NEAR(*chord_stiffness(spring), 160.0, 1e-9);
-  EXPECT_NEAR(*secant_stiffness(spring), 160.0, 1e-9);
-  EXPECT_NEAR(*tangent_stiffness(spring), 160.0, 1e-9);
-}
-
 /// The pull goes to s = 0.1. A force that rises by a from its middle on to its end differs by a/2 from quarter to
 /// quarter.
 TEST(PullReadings, SteadyForceIsTheMeanOfASecondHalfThatIsLevel) {

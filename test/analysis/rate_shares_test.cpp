@@ -66,13 +66,5 @@ TEST(RateShares, EndWhereTheKnotsLockAndWhereTheyComeUndoneOrTheRodParts) {
   EXPECT_NEAR(*rate_shares(samples, {}, {}).drag, kDrag / kForce, 1e-9);
 }
 
-TEST(RateShares, NothingWasPulled) {
-  EXPECT_FALSE(rate_shares({}, {}, {}).drag);
-  std::vector<Sample> samples = pulled(0.0);
-  samples.resize(10);
-  EXPECT_FALSE(rate_shares(samples, {}, {}).drag);
-  EXPECT_FALSE(rate_shares(samples, {}, {}).inertia);
-}
-
 }  // namespace
 }  // namespace knot_utm

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "analysis/made_up_curve.hpp"
@@ -14,6 +13,16 @@ namespace {
 
 using made_up::Curve;
 using made_up::on_rollers;
+
+/// At a displacement [m], which is the extension too, under a force [N].
+Sample reading(Phase phase, double displacement, double force) {
+  Sample out;
+  out.phase = phase;
+  out.displacement = out.extension = displacement;
+  out.force_upper = out.force_lower = force;
+  out.end_to_end = 0.25 + displacement;
+  return out;
+}
 
 /// A compressed rod whose rest left 6 uN once had these as its largest load.
 TEST(Results, WhatARestLeavesIsNoTension) {
@@ -142,13 +151,8 @@ TEST(Results, ABreakEndsThePullAndIsNoUntangling) {
 
 /// A spring that is pulled in three coarse steps, breaks, and is balanced where it begins.
 TEST(Results, WhatIsReadOffThePullBeginsWhereThePullDoes) {
-  std::vector<Sample> samples(4);
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    samples[i].phase = i == 0 ? Phase::kBalance : Phase::kPull;
-    samples[i].extension = samples[i].displacement = 0.01 * static_cast<double>(i);
-    samples[i].force_upper = samples[i].force_lower = 2.0 + 500.0 * samples[i].extension;
-    samples[i].end_to_end = 0.25 + samples[i].extension;
-  }
+  std::vector<Sample> samples = {reading(Phase::kBalance, 0.0, 2.0), reading(Phase::kPull, 0.01, 7.0),
+                                 reading(Phase::kPull, 0.02, 12.0), reading(Phase::kPull, 0.03, 17.0)};
   Results results = on_rollers(samples, EndedBy::kExtension);
   EXPECT_NEAR(*results.energy_to_peak, 0.03 * (2.0 + 17.0) / 2.0, 1e-12);
   EXPECT_FALSE(results.energy_to_break);
@@ -164,12 +168,8 @@ TEST(Results, WhatIsReadOffThePullBeginsWhereThePullDoes) {
 /// A spring of 500 N/m: pre-loaded to 5 N and balanced there with the first command of the pull, as a program does.
 TEST(Results, ABalanceBehindThePreloadIsTheOriginOfThePull) {
   const auto sample = [](Phase phase, double displacement, double extension) {
-    Sample out;
-    out.phase = phase;
-    out.displacement = displacement;
+    Sample out = reading(phase, displacement, 500.0 * displacement);
     out.extension = extension;
-    out.force_upper = out.force_lower = 500.0 * displacement;
-    out.end_to_end = 0.25 + displacement;
     out.balance_offset = phase == Phase::kPreload || phase == Phase::kReturn ? 0.0 : 5.0;
     return out;
   };
@@ -195,18 +195,10 @@ TEST(Results, ABalanceBehindThePreloadIsTheOriginOfThePull) {
 }
 
 TEST(Results, ARodThatPartsWhereNothingPullsHasABreakToo) {
-  const auto sample = [](Phase phase, double displacement, double force) {
-    Sample out;
-    out.phase = phase;
-    out.displacement = out.extension = displacement;
-    out.force_upper = out.force_lower = force;
-    out.end_to_end = 0.25 + displacement;
-    return out;
-  };
   // Held at a displacement, it parts and its end recoils.
-  std::vector<Sample> held = {sample(Phase::kBalance, 0.0, 0.0), sample(Phase::kPull, 0.01, 100.0),
-                              sample(Phase::kHold, 0.01, 90.0), sample(Phase::kHold, 0.01, 110.0),
-                              sample(Phase::kHold, 0.01, -30.0)};
+  std::vector<Sample> held = {reading(Phase::kBalance, 0.0, 0.0), reading(Phase::kPull, 0.01, 100.0),
+                              reading(Phase::kHold, 0.01, 90.0), reading(Phase::kHold, 0.01, 110.0),
+                              reading(Phase::kHold, 0.01, -30.0)};
   held[3].status = held[4].status = BenchStatus::kBroken;
   held[4].max_penetration = 9.0;
   Results results = on_rollers(held, EndedBy::kBreak);
@@ -221,7 +213,7 @@ TEST(Results, ARodThatPartsWhereNothingPullsHasABreakToo) {
   EXPECT_EQ(results.break_extension, 0.012);
   EXPECT_NEAR(*results.energy_to_break, 0.5 + 0.002 * (100.0 + 110.0) / 2.0, 1e-12);
   for (const Phase phase : {Phase::kPreload, Phase::kMount, Phase::kBalance, Phase::kHold}) {
-    std::vector<Sample> early = {sample(phase, 0.005, 0.0), sample(phase, 0.005, 50.0), sample(phase, 0.005, 60.0)};
+    std::vector<Sample> early = {reading(phase, 0.005, 0.0), reading(phase, 0.005, 50.0), reading(phase, 0.005, 60.0)};
     early[1].status = early[2].status = BenchStatus::kBroken;
     results = on_rollers(early, EndedBy::kBreak);
     if (phase == Phase::kPreload)
@@ -233,31 +225,10 @@ TEST(Results, ARodThatPartsWhereNothingPullsHasABreakToo) {
   }
 }
 
-TEST(Results, ARodThatCreepsUntilItPartsHasABreakExtension) {
-  const auto sample = [](Phase phase, double displacement) {
-    Sample out;
-    out.phase = phase;
-    out.displacement = out.extension = displacement;
-    return out;
-  };
-  // Pre-loaded and held, and brought to a load by the hold itself.
-  for (std::vector<Sample> creep :
-       {std::vector{sample(Phase::kPreload, 0.004), sample(Phase::kHold, 0.004), sample(Phase::kHold, 0.004)},
-        std::vector{sample(Phase::kBalance, 0.0), sample(Phase::kHold, 0.003), sample(Phase::kHold, 0.004)}}) {
-    creep.back().status = BenchStatus::kBroken;
-    EXPECT_EQ(on_rollers(creep, EndedBy::kBreak).break_extension, 0.004);
-  }
-}
-
 TEST(Results, RelaxationIsThatOfTheLastHoldUnderALoad) {
   std::vector<Sample> samples;
   const auto add = [&](Phase phase, double displacement, double force) {
-    Sample sample;
-    sample.phase = phase;
-    sample.displacement = sample.extension = displacement;
-    sample.force_upper = force;
-    sample.end_to_end = 0.25 + displacement;
-    samples.push_back(sample);
+    samples.push_back(reading(phase, displacement, force));
   };
   add(Phase::kIdle, 0.0, 0.5);
   add(Phase::kHold, 0.0, 0.4);
@@ -276,55 +247,11 @@ TEST(Results, RelaxationIsThatOfTheLastHoldUnderALoad) {
 }
 
 TEST(Results, AHoldAtALoadIsNoRelaxation) {
-  std::vector<Sample> samples(4);
-  const double displacement[] = {0.0, 0.01, 0.01, 0.011};
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    samples[i].phase = i < 2 ? Phase::kPull : Phase::kHold;
-    samples[i].displacement = samples[i].extension = displacement[i];
-    samples[i].force_upper = 100.0 * static_cast<double>(i);
-    samples[i].end_to_end = 0.25;
-  }
+  std::vector<Sample> samples = {reading(Phase::kPull, 0.0, 0.0), reading(Phase::kPull, 0.01, 100.0),
+                                 reading(Phase::kHold, 0.01, 200.0), reading(Phase::kHold, 0.011, 300.0)};
   EXPECT_FALSE(on_rollers(samples, EndedBy::kProgram).relaxation);
   samples[3].displacement = samples[2].displacement;
   EXPECT_NEAR(on_rollers(samples, EndedBy::kProgram).relaxation->lost(), -2.0, 1e-12);
-}
-
-/// A spring of 200 N/m with dry friction of 2 N beside it, which is pulled to 0.02 m and cycles from there to 0.03 m.
-TEST(Results, HysteresisIsThatOfTheLastCycle) {
-  std::vector<Sample> samples;
-  const auto move = [&](Phase phase, double from, double to) {
-    for (int i = 1; i <= 100; ++i) {
-      Sample sample;
-      sample.phase = phase;
-      sample.displacement = sample.extension = from + (to - from) * i / 100.0;
-      sample.force_upper = 200.0 * sample.extension + (to > from ? 2.0 : -2.0);
-      sample.end_to_end = 0.25 + sample.extension;
-      samples.push_back(sample);
-    }
-  };
-  move(Phase::kPull, 0.0, 0.02);
-  EXPECT_FALSE(on_rollers(samples, EndedBy::kProgram).hysteresis);
-  for (int i = 0; i < 3; ++i) {
-    move(Phase::kCycle, 0.02, 0.03);
-    move(Phase::kCycle, 0.03, 0.02);
-  }
-  move(Phase::kReturn, 0.02, 0.0);
-  const Results results = on_rollers(samples, EndedBy::kProgram);
-  EXPECT_EQ(results.cycles, 3u);
-  // Where it turns F falls within one of a hundred steps.
-  EXPECT_NEAR(*results.hysteresis, 2.0 * 2.0 * 0.01, 1.01 * 2.0 * 2.0 * 0.01 / 100.0);
-}
-
-TEST(Results, EnergyBalanceIsThatOfWorkStorageAndLoss) {
-  std::vector<Sample> samples = Curve().samples();
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double x = static_cast<double>(i);
-    samples[i].grip_work = 3.0 + 1.0 * x;
-    samples[i].stretching_energy = 7.0 + 0.3 * x;
-    samples[i].bending_energy = 0.1 * x;
-    samples[i].dissipation = 0.59 * x;
-  }
-  EXPECT_NEAR(*on_rollers(samples, EndedBy::kExtension).energy_balance_error, 0.01, 1e-9);
 }
 
 TEST(Results, EnergyPartsAreThoseOfThePullAndWhatFollows) {
@@ -355,6 +282,8 @@ TEST(Results, EnergyPartsAreThoseOfThePullAndWhatFollows) {
   EXPECT_NEAR(results.energy->reweighting, -0.05 * last, 1e-9);
   EXPECT_NEAR(results.energy->gap(), 0.0, 1e-9);
   EXPECT_NEAR(*results.energy_balance_error, 0.0, 1e-12);
+  samples.back().dissipation -= 0.011 * last;
+  EXPECT_NEAR(*on_rollers(samples, EndedBy::kExtension).energy_balance_error, 0.01, 1e-9);
 }
 
 /// A parted rod lets go of the grip: what it does to the grip then is no work of the test.
@@ -410,37 +339,6 @@ TEST(Results, MomentBalanceIsThatOfThePull) {
   EXPECT_NEAR(*results.moment_arm, 0.02 / worst.force_upper, 1e-12);
 }
 
-TEST(Results, CountsAndNotEquilibratedAreCarriedOver) {
-  std::vector<Sample> samples = Curve().samples();
-  Sample tie;
-  tie.phase = Phase::kTie;
-  tie.status = BenchStatus::kNotEquilibrated;
-  tie.message = "a node still moved";
-  tie.max_penetration = 0.04;
-  tie.knot_distance = 0.16;
-  tie.excess_length = {0.05, 0.05};
-  samples.insert(samples.begin(), tie);
-  samples.back().steps = 100;
-  samples.back().rejected_steps = 3;
-  samples.back().newton_iterations = 450;
-  const Results results = on_rollers(samples, EndedBy::kExtension);
-  EXPECT_EQ(results.not_equilibrated, "a node still moved");
-  EXPECT_EQ(results.max_penetration, 0.04);
-  EXPECT_EQ(results.steps, 100u);
-  EXPECT_EQ(results.rejected_steps, 3u);
-  EXPECT_EQ(results.newton_iterations, 450u);
-  EXPECT_EQ(results.simulated_time, samples.back().time);
-  EXPECT_EQ(results.tied_knot_distance, 0.16);
-  EXPECT_EQ(results.tied_excess_length[0], 0.05);
-  EXPECT_EQ(results.final_excess_length[1], 0.04);
-}
-
-TEST(Results, WhereNothingIsTiedThePullBeginsWithTheKnotsAsTheyAre) {
-  const Results results = on_rollers(Curve().samples(), EndedBy::kExtension);
-  EXPECT_NEAR(*results.tied_knot_distance, 0.15, 1e-3);
-  EXPECT_EQ(results.tied_excess_length[0], 0.04);
-}
-
 TEST(Results, ForcesAreThoseOfTheBalancedLoadAndTheTrueOnesAreLargerByTheBalanceOffset) {
   std::vector<Sample> samples = Curve().samples();
   for (Sample& sample : samples) {
@@ -467,22 +365,6 @@ TEST(Results, ReadingsOfTheCellAreNotThoseOfEveryTimeStep) {
   EXPECT_LT(*results.curve.peak_force, samples.back().load);
   EXPECT_EQ(results.curve.plateau_force, on_rollers(readings, EndedBy::kExtension).curve.plateau_force);
   EXPECT_EQ(results.lock_extension, on_rollers(samples, EndedBy::kExtension).lock_extension);
-}
-
-TEST(Results, WhatATestDoesNotHaveIsEmpty) {
-  std::vector<Sample> samples = Curve().samples();
-  for (Sample& sample : samples) sample.phase = Phase::kHold;
-  const Results results = on_rollers(samples, EndedBy::kOperator);
-  EXPECT_FALSE(results.curve.peak_force);
-  EXPECT_FALSE(results.true_peak_force);
-  EXPECT_FALSE(results.balance_offset);
-  EXPECT_FALSE(results.force_balance_error);
-  EXPECT_FALSE(results.moment_arm);
-  EXPECT_FALSE(results.energy_balance_error);
-  EXPECT_FALSE(results.energy);
-  EXPECT_FALSE(results.tied_knot_distance);
-  EXPECT_FALSE(results.energy_to_peak || results.energy_to_break || results.relaxation);
-  EXPECT_FALSE(results.chord_stiffness || results.secant_stiffness || results.tangent_stiffness);
 }
 
 }  // namespace

@@ -46,11 +46,6 @@ TEST(ContactModel, FrictionOfADrawnApartContactThatIsExpectedToPressHoldsIt) {
   EXPECT_LT(models[0].still[1][1], 0.0) << "the tangent's pressure drives it on";
 }
 
-TEST(ContactModel, WithoutAnEstimateThePressureThatTurnsIsThatOfTheTangent) {
-  EXPECT_EQ(predicted_pressure(-1.0, 7.0), 7.0);
-  EXPECT_EQ(predicted_pressure(100.0, 7.0), 100.0);
-}
-
 TEST(ContactModel, EachContactHasItsOwnHoweverManyThereAre) {
   const NormalLaw normal{1e6, 0.02 * kRadius, 0.05 * kRadius};
   const MemoryFriction friction{0.5, 1e-5};

@@ -10,7 +10,6 @@
 #include "contact/strands.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
 #include "knot_utm/numeric/archive.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {
@@ -63,17 +62,6 @@ class Beside {
     archive(contact_);
     archive.end();
     accepted_ = at(overlap);
-  }
-  std::string saved_bare() {
-    std::string bytes;
-    Archive archive = Archive::to(bytes);
-    archive(contact_);
-    return bytes;
-  }
-  void load_bare(const std::string& bytes) {
-    Archive archive = Archive::from(bytes, "contact", "here");
-    archive(contact_);
-    archive.end();
   }
 
  private:
@@ -148,25 +136,6 @@ TEST(DeepFoot, IsKeptWithTheState) {
   strands.step_to(kFar);
   elsewhere.load(strands.saved(), 0.9);
   EXPECT_EQ(elsewhere.step_to(1.0), 0.0);
-}
-
-TEST(StateOfSmoothContact, OfAnotherRodIsRefused) {
-  Beside strands, longer(31);
-  strands.step_to(0.1);
-  EXPECT_THROW(longer.load(strands.saved(), 0.1), InvalidInput);
-}
-
-TEST(StateOfSmoothContact, WithSharesOutwardsOfFewerNodesIsRefused) {
-  Beside strands;
-  strands.step_to(0.1);
-  // "SMTI", their number, and that many.
-  std::string bytes = strands.saved_bare();
-  constexpr std::size_t kTag = 4, kWord = 8;
-  --bytes[kTag];
-  bytes.erase(kTag + kWord, kWord);
-  Beside elsewhere;
-  EXPECT_NO_THROW(elsewhere.load_bare(strands.saved_bare()));
-  EXPECT_THROW(elsewhere.load_bare(bytes), InvalidInput);
 }
 
 }  // namespace

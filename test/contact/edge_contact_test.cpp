@@ -211,36 +211,6 @@ INSTANTIATE_TEST_SUITE_P(
                                      Place{"two_ends", 0.7, 1.4, -0.4, 1.7})),
     [](const auto& test) { return std::string(std::get<0>(test.param).name) + "_" + std::get<1>(test.param).name; });
 
-TEST(EdgeContact, PlacesOfTheJacobianCoverEveryCase) {
-  const struct {
-    Place place;
-    bool t_free, u_free;
-  } cases[] = {{{"", 1.2, 0.4, 0.7, 1.97}, true, true},
-               {{"", 0.03, 0.5, 0.55, 1.97}, true, true},
-               {{"", 1.2, -0.4, 0.6, 1.93}, false, true},
-               {{"", 1.2, 0.4, 1.4, 1.93}, true, false},
-               {{"", 0.7, 1.4, -0.4, 1.7}, false, false}};
-  for (const auto& [place, t_free, u_free] : cases) {
-    const Points x = TwoEdges(place.angle, place.where_a, place.where_b, place.gap * kRadius).position;
-    const double l = 0.9 * kRadius;
-    const ClosestPoints at = closest_points(x.col(1), x.col(2) - x.col(1), x.col(5), x.col(6) - x.col(5), 0.01 * l * l);
-    EXPECT_EQ(at.t_free, t_free);
-    EXPECT_EQ(at.u_free, u_free);
-  }
-}
-
-TEST(EdgeContact, ForcesBalanceAndEdgesApartFeelNothing) {
-  TwoEdges scene(1.2, 0.4, 0.7, 1.9 * kRadius);
-  EdgeContact contact(scene.rod, NormalLaw{1e6, 0.05 * kRadius}, MemoryFriction{0.4, 1e-4 * kRadius}, 0.5 * kRadius);
-  contact.begin(scene.start);
-  const Points force = unflat(scene.forces(contact, scene.position, 0.01));
-  ASSERT_GT(force.norm(), 1e-3);
-  EXPECT_LT(force.rowwise().sum().norm(), 1e-12 * force.norm());
-
-  TwoEdges apart(1.2, 0.4, 0.7, 2.1 * kRadius);
-  EXPECT_EQ(apart.forces(contact, apart.start, 0.01).norm(), 0.0);
-}
-
 /// Two strands of one rod that cross at a right angle, the first one driven along x over the second one. What joins
 /// them leads far around.
 struct Crossing {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string>
 #include <vector>
 
 #include "knot_utm/contact/contact_point.hpp"
@@ -164,12 +163,6 @@ TEST(FrictionLaws, AreSavedWithTheirParameters) {
     loaded.state(again);
     EXPECT_EQ(again.bytes(), to.bytes());
   }
-}
-
-TEST(SmoothedFriction, KeepsALeastSlipInTheShortestSteps) {
-  const SmoothedFriction friction{kMu, 1e-3, 6e-8};
-  EXPECT_EQ(friction.scale(0.1), 1e-4);
-  EXPECT_EQ(friction.scale(1e-9), 6e-8);
 }
 
 TEST(MemoryFriction, RemembersWhatItsSpringHolds) {

@@ -21,11 +21,6 @@ double traction(const PowerFriction& law, double pressure) {
   return pressure * t.coefficient * t.z.norm();
 }
 
-TEST(PowerFriction, HasItsCoefficientAtTheReferencePressure) {
-  const PowerFriction law{kMu, kPresliding, 0.8, kReference};
-  EXPECT_NEAR(law.traction(sliding(kReference)).coefficient, kMu, 1e-15);
-}
-
 TEST(PowerFriction, GrowsWithAPowerOfThePressure) {
   for (const double n : {0.6, 0.8, 1.0}) {
     const PowerFriction law{kMu, kPresliding, n, kReference};

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <limits>
 #include <random>
@@ -110,39 +109,6 @@ INSTANTIATE_TEST_SUITE_P(Laws, SmoothContactJacobian,
                                          Law{"smoothed", SmoothedFriction{0.4, 2e-2}}),
                          [](const auto& law) { return law.param.name; });
 
-TEST(SmoothContact, ForcesAndMomentsBalance) {
-  TwoStrands scene(1.93 * kRadius);
-  SmoothContact contact(scene.rod, NormalLaw{1e6, 0.05 * kRadius}, MemoryFriction{0.4, 1e-3 * kRadius}, 0.5 * kRadius);
-  const Points force = unflat(scene.forces(contact, scene.position, 0.01));
-  Vec3 moment = Vec3::Zero();
-  for (Eigen::Index i = 0; i < force.cols(); ++i) moment += Vec3(scene.position.col(i)).cross(Vec3(force.col(i)));
-  ASSERT_GT(force.norm(), 1e-3);
-  EXPECT_LT(force.rowwise().sum().norm(), 1e-12 * force.norm());
-  // Normal forces act along the gap; friction acts at both ends of it, whose arm is the gap itself.
-  double friction_arm = 0.0;
-  for (const ContactPoint& point : contact.contacts()) friction_arm += point.x.cross(point.force).norm();
-  EXPECT_LE(moment.norm(), friction_arm * (1.0 + 1e-9) + 1e-12);
-}
-
-TEST(SmoothContact, StrandsApartFeelNothing) {
-  TwoStrands scene(2.1 * kRadius);
-  SmoothContact contact(scene.rod, NormalLaw{1e6, 0.05 * kRadius}, MemoryFriction{0.4, 1e-3 * kRadius}, 0.5 * kRadius);
-  EXPECT_EQ(scene.forces(contact, scene.start, 0.01).norm(), 0.0);
-}
-
-/// K is the material's own, or 300 k_b/h^4; the contact tolerance is asked for.
-TEST(NormalLaw, IsMadeOfAMaterial) {
-  Material material;
-  material.radius = 0.01;
-  material.bending_stiffness = 2e-6;
-  const auto made = [&] { return normal_law(material, 3e-5); };
-  EXPECT_NEAR(made().stiffness, 6e4, 1e-9 * 6e4);
-  EXPECT_EQ(made().tolerance, 3e-5);
-  EXPECT_GT(made().stiffens_at(), made().tolerance);
-  material.contact_stiffness = 7e5;
-  EXPECT_EQ(made().stiffness, 7e5);
-}
-
 TEST(NormalLaw, SlopeAndEnergyAreThePressuresDerivativeAndIntegral) {
   const NormalLaw law{3e6, 1e-4, 2e-4};
   for (const double overlap : {-6e-5, -4e-5, 1e-5, 4e-5, 6e-5, 1.3e-4, 4e-4}) {
@@ -174,23 +140,6 @@ std::vector<std::pair<int, int>> near_pairs(const Points& x, double edge, double
           (x.col(i) - x.col(j)).norm() < near + half(i) + half(j))
         pairs.push_back({i, j});
   return pairs;
-}
-
-TEST(Candidates, FindEveryPairThatBruteForceFinds) {
-  std::mt19937 random(5);
-  std::uniform_real_distribution<double> place(0.0, 0.05);
-  Material material;
-  material.radius = kRadius;
-  const int nodes = 80;
-  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(nodes - 1, 2e-3));
-  Points x(3, nodes);
-  for (Eigen::Index i = 0; i < x.size(); ++i) x.data()[i] = place(random);
-  const double reach = 6e-3, margin = 1e-3, exclusion = 9e-3;
-  Candidates candidates(rod, reach, margin, exclusion);
-  EXPECT_TRUE(candidates.refresh(x));
-  EXPECT_FALSE(candidates.refresh(x.array() + 0.2 * margin));
-  EXPECT_EQ(pairs_of(candidates), near_pairs(x, 2e-3, exclusion, reach + margin));
-  EXPECT_TRUE(candidates.refresh(x.array() + 0.6 * margin));
 }
 
 TEST(Candidates, OfRodsOfAnyNumberOfNodesAreThoseOfBruteForceWhetherPartedOrNot) {
@@ -228,31 +177,6 @@ TEST(Candidates, OfRodsOfAnyNumberOfNodesAreThoseOfBruteForceWhetherPartedOrNot)
       found += listed;
     }
   EXPECT_GT(found, 10000u);
-}
-
-TEST(Candidates, OfARodThatIsFoldedMoreAndMoreAreThoseOfBruteForce) {
-  Material material;
-  material.radius = kRadius;
-  const int nodes = 60;
-  const double edge = 2e-3, reach = 6e-3, margin = 1e-3, exclusion = 2e-2;
-  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(nodes - 1, edge));
-  int found_nothing = 0, found_some = 0;
-  for (int fold = 0; fold <= 48; ++fold)
-    for (const double stretch : {0.6, 1.0, 1.3}) {
-      // A hairpin of six edges in the middle, whose ends go apart as it opens.
-      Points x = Points::Zero(3, nodes);
-      double angle = 0.0;
-      for (int i = 1; i < nodes; ++i) {
-        if (i > 25 && i <= 31) angle += M_PI / 40.0 * fold / 6.0;
-        x.col(i) = x.col(i - 1) + stretch * edge * Vec3(std::cos(angle), std::sin(angle), 0.0);
-      }
-      Candidates candidates(rod, reach, margin, exclusion);
-      candidates.refresh(x);
-      EXPECT_EQ(pairs_of(candidates), near_pairs(x, edge, exclusion, reach + margin)) << fold << ' ' << stretch;
-      ++(pairs_of(candidates).empty() ? found_nothing : found_some);
-    }
-  EXPECT_GT(found_nothing, 20);
-  EXPECT_GT(found_some, 20);
 }
 
 /// Segments of the smooth centreline that come within `reach` of each other, as seen at places along them.

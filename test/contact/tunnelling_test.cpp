@@ -97,36 +97,6 @@ TEST(TunnellingSearch, AClosedRodSharesANodeWithItself) {
   EXPECT_TRUE(passage(start, open)) << "ends that touched and part are two nodes that were in one place";
 }
 
-TEST(TunnellingSearch, SeesAStrandPushedThroughARing) {
-  // A rod whose second half is a ring; its first half, a straight strand beyond the ring's plane, is thrown past it.
-  const int strand = 20, around = 40;
-  Points start(3, strand + around);
-  for (int i = 0; i < strand; ++i) start.col(i) << -15.0 + i, 3.0, -1.0;
-  start.rightCols(around) = ring(around).leftCols(around);
-  Points end = start;
-  end.leftCols(strand).row(2).setConstant(-0.1);
-  EXPECT_FALSE(passage(start, end)) << "it comes near";
-  end.leftCols(strand).row(2).setConstant(50.0);
-  const auto found = passage(start, end);
-  ASSERT_TRUE(found) << "it goes through where it lies over the ring";
-  EXPECT_LT(found->edge_a, strand);
-  EXPECT_GE(found->edge_b, strand);
-}
-
-TEST(TunnellingSearch, IsNotSeenWhereARodOnlyBendsStretchesAndTurns) {
-  // A coil as tight as a strand around another, wound up by a quarter turn, stretched and carried away in one motion.
-  const int nodes = 200;
-  Points start(3, nodes), end(3, nodes);
-  for (int i = 0; i < nodes; ++i) {
-    const double angle = 0.25 * i;
-    start.col(i) << 2.0 * std::cos(angle), 2.0 * std::sin(angle), 2.2 * angle / (2.0 * M_PI);
-    end.col(i) << 1.9 * std::cos(1.01 * angle) + 0.5, 1.9 * std::sin(1.01 * angle), 2.1 * angle / (2.0 * M_PI) - 3.0;
-  }
-  EXPECT_TRUE(all_that_meet(start, end).empty());
-  EXPECT_FALSE(passage(start, end));
-  EXPECT_FALSE(passage(start, start));
-}
-
 TEST(TunnellingSearch, EndsThatSlipOverAStrandPassNothing) {
   // A hook: a strand along x, and the rod's tail across it at height one, which is drawn back along y over the strand.
   auto hook = [](double tail) {

@@ -35,53 +35,6 @@ Results plateau() {
   return out;
 }
 
-TEST(RelativeErrors, FallWithTheAccuracy) {
-  Loop loop;
-  loop.physics.accuracy = Accuracy::kDraft;
-  const RelativeErrors draft = loop.errors();
-  loop.physics.accuracy = Accuracy::kNormal;
-  const RelativeErrors normal = loop.errors();
-  loop.physics.accuracy = Accuracy::kFine;
-  const RelativeErrors fine = loop.errors();
-  for (const auto reading :
-       {&RelativeErrors::plateau_force, &RelativeErrors::lock_extension, &RelativeErrors::locked_stiffness}) {
-    EXPECT_GT((draft.*reading).value(), (normal.*reading).value());
-    EXPECT_GT((normal.*reading).value(), (fine.*reading).value());
-    EXPECT_GT((fine.*reading).value(), 0.0);
-  }
-}
-
-TEST(RelativeErrors, GrowWithEdgesAndTolerances) {
-  const double plain = Loop().errors().plateau_force.value();
-  Loop coarse, soft, loose;
-  coarse.specimen.edge_length *= 1.5;
-  soft.physics.contact_tolerance = 0.1;
-  loose.physics.residual = 1e-3;
-  for (const Loop& loop : {coarse, soft, loose}) EXPECT_GT(loop.errors().plateau_force.value(), plain);
-}
-
-TEST(RelativeErrors, GrowWithSlipperiness) {
-  Loop rough, slippery;
-  rough.material.friction_coefficient = 0.8;
-  slippery.material.friction_coefficient = 0.3;
-  EXPECT_GT(slippery.errors().plateau_force.value(), 2.0 * rough.errors().plateau_force.value());
-}
-
-TEST(RelativeErrors, OfOppositeHandsAreLarger) {
-  Loop same, opposite;
-  opposite.specimen.handedness = Handedness::kOpposite;
-  EXPECT_GT(opposite.errors().plateau_force.value(), 3.0 * same.errors().plateau_force.value());
-  EXPECT_GT(opposite.errors().lock_extension.value(), 3.0 * same.errors().lock_extension.value());
-}
-
-/// Between two held nodes the side without knots bears the load, which no study covers.
-TEST(RelativeErrors, BetweenNodesAreNotKnown) {
-  Loop loop;
-  loop.machine.grips = GripKind::kNodes;
-  EXPECT_FALSE(loop.errors().plateau_force);
-  EXPECT_FALSE(loop.errors().locked_stiffness);
-}
-
 TEST(RelativeErrors, OfEdgesOfOneRadiusAtNormalIsThatOfTheStudy) {
   Loop loop;
   loop.specimen.edge_length = loop.material.radius;
@@ -102,14 +55,6 @@ TEST(RelativeErrors, FallWithPreslidingAndStep) {
   EXPECT_NEAR(*shorter.errors().plateau_force / *plain.errors().plateau_force, 0.5 + 0.5 / 4.0, 1e-12);
 }
 
-/// Below 0.15 k_b/h^2.
-TEST(RelativeErrors, OfKnotsThatAreHardlyClosedAreNotKnown) {
-  const Material rod = Loop().material;
-  const double force = rod.bending_stiffness / (rod.radius * rod.radius);
-  EXPECT_FALSE(hardly_closed(0.151 * force, rod));
-  EXPECT_TRUE(hardly_closed(0.149 * force, rod));
-}
-
 /// Nylon's edges are shorter, as it is tied hard, and its error is smaller with their square.
 TEST(RelativeErrors, OfTheShippedMethodNeedNoWarning) {
   const Method shipped = load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/tighten.yaml");
@@ -121,26 +66,6 @@ TEST(RelativeErrors, OfTheShippedMethodNeedNoWarning) {
   const double force = *plateau().true_plateau_force;
   EXPECT_EQ(accuracy_warning(plateau(), {*errors.plateau_force * force, {}, {}, {}}), "");
   EXPECT_NE(accuracy_warning(plateau(), {0.11 * force, {}, {}, {}}), "");
-}
-
-TEST(Tolerances, AreLooserWhereTheLoopStretches) {
-  for (const Accuracy accuracy : {Accuracy::kDraft, Accuracy::kNormal, Accuracy::kFine}) {
-    Loop rope;
-    rope.physics.accuracy = accuracy;
-    Loop solid = rope, overhand = rope, chosen = rope;
-    const Material& rod = rope.material;
-    const double of_a_solid_rod = 4.0 * rod.bending_stiffness / (rod.radius * rod.radius);
-    for (Loop* loop : {&solid, &overhand, &chosen}) loop->material.stretching_stiffness = of_a_solid_rod;
-    overhand.specimen.knot = knot_named("overhand");
-    chosen.specimen.refinement = 2.5;
-    EXPECT_LT(solid.tolerances().refinement, 0.8 * rope.tolerances().refinement);
-    EXPECT_GE(solid.tolerances().contact_tolerance, rope.tolerances().contact_tolerance);
-    EXPECT_GE(solid.tolerances().presliding, rope.tolerances().presliding);
-    EXPECT_EQ(solid.tolerances().longest_step, rope.tolerances().longest_step);
-    EXPECT_EQ(overhand.tolerances().refinement, rope.tolerances().refinement);
-    EXPECT_EQ(overhand.tolerances().contact_tolerance, rope.tolerances().contact_tolerance);
-    EXPECT_EQ(chosen.tolerances().refinement, 2.5);
-  }
 }
 
 /// By the fourth root of the pre-load over 6 k_b/h^2, up to a third.

@@ -90,18 +90,6 @@ TEST(BeforeTying, APreloadThatMovesNoCoilIsRefused) {
   EXPECT_EQ(loop.refused(), "");
 }
 
-TEST(BeforeTying, ARefusedPreloadSaysWhichRodItIsFor) {
-  Loop loop;
-  loop.material.bending_stiffness = 12.0;
-  try {
-    check_tying(loop.specimen, loop.material);
-    ADD_FAILURE() << "not refused";
-  } catch (const InvalidInput& invalid) {
-    EXPECT_THAT(invalid.what(), HasSubstr("for a rod with material.bending_stiffness 12 N m2, radius 0.00317 m and "
-                                          "friction_coefficient 0.46"));
-  }
-}
-
 /// k_s h^2 = 4 k_b: the pre-load 4 k_b/h^2 is k_s.
 TEST(BeforeTying, AnAutomaticPreloadThatStretchesASolidRodIsAWarning) {
   Loop loop;

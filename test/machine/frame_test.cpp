@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {
@@ -83,11 +82,6 @@ TEST(Frame, AMassOnTheGripComesToRestHoweverSoftTheFrameAndShortTheStep) {
       EXPECT_LT(largest, 1e-12) << stiffness << " N/m, " << dt << " s";
     }
   }
-}
-
-TEST(Frame, HasAStiffness) {
-  EXPECT_THROW(Frame(0.0, nylon(), 1, 0.0), InvalidInput);
-  EXPECT_THROW(Frame(std::nan(""), nylon(), 1, 0.0), InvalidInput);
 }
 
 }  // namespace

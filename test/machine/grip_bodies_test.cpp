@@ -30,27 +30,6 @@ MachineOptions with(GripKind grips) {
   return out;
 }
 
-TEST(GripBodies, RollersInALoop) {
-  const MachineOptions machine = with(GripKind::kRollers);
-  const std::vector<GripBody> bodies = grip_bodies(specimen("fisherman"), machine, rod());
-  ASSERT_EQ(bodies.size(), 2u);
-  EXPECT_FALSE(bodies[0].goes_up);
-  EXPECT_TRUE(bodies[1].goes_up);
-  for (const GripBody& roller : bodies) {
-    EXPECT_EQ(roller.cylinder_radius, 0.5 * machine.roller_diameter);
-    EXPECT_EQ(roller.axis, Vec3::UnitY());
-    EXPECT_EQ(roller.half_box(kRadius)[2], 0.5 * machine.roller_diameter);
-    EXPECT_EQ(roller.half_box(kRadius)[1], roller.half_length(kRadius));
-  }
-}
-
-TEST(GripBodies, BlocksWhereNodesAreHeld) {
-  for (const char* knot : {"straight", "overhand", "fisherman"})
-    for (const GripKind grips : {GripKind::kNodes, GripKind::kClamps})
-      for (const GripBody& body : grip_bodies(specimen(knot), with(grips), rod()))
-        EXPECT_EQ(body.cylinder_radius, 0.0) << knot;
-}
-
 /// A post that stands for the lower grip is drawn as the specimen's own supports have it, aslant where they have it so.
 TEST(GripBodies, ThePostOfACapstan) {
   for (const double wrap : {M_PI, 4.0 * M_PI}) {

@@ -137,22 +137,6 @@ TEST(LedSteps, PullsAtARateOfLoad) {
   EXPECT_EQ(program.ended_by(), EndedBy::kLoad);
 }
 
-TEST(LedSteps, HoldsALoad) {
-  ProgramStep hold = step(Phase::kHold, 0.01, 5.0);
-  hold.hold_load = true;
-  hold.held_load = 7.0;
-  ProgramRunner to_another({pull(0.01), hold}, 3.0, 0.1, {});
-  EXPECT_NEAR(run(FakeBench(), to_another).samples.back().load, 7.0, 1e-9);
-  hold.held_load.reset();
-  ProgramRunner as_it_is({pull(0.01), hold}, 3.0, 0.1, {});
-  const Course result = run(FakeBench(), as_it_is);
-  for (const Sample& sample : result.samples)
-    if (sample.phase == Phase::kHold) {
-      EXPECT_NEAR(sample.load, 1000.0 * 0.01, 0.5);
-    }
-  EXPECT_EQ(as_it_is.ended_by(), EndedBy::kProgram);
-}
-
 TEST(LedSteps, CyclesBetweenExtensionsThatItMeets) {
   ProgramStep cycle = step(Phase::kCycle, 0.0033);
   cycle.extension_turns = TurningPoints{0.001, 0.004};
@@ -220,15 +204,6 @@ TEST(LedSteps, FollowsARecordFromWhereItStands) {
     EXPECT_NEAR(way, std::min(expected, 0.007), 1e-12) << t;
   }
   EXPECT_EQ(program.ended_by(), EndedBy::kProgram);
-}
-
-TEST(LedSteps, ATimeLimitEndsIt) {
-  ProgramRunner::Limits limits;
-  limits.time = 1.0;
-  ProgramRunner program({pull(0.1)}, 3.0, 0.1, limits);
-  EXPECT_DOUBLE_EQ(run(FakeBench(), program).samples.back().time, 1.0);
-  EXPECT_EQ(program.ended_by(), EndedBy::kTime);
-  EXPECT_THAT(program.reason(), HasSubstr("time is over"));
 }
 
 TEST(LedSteps, ADropThatIsABreakEndsIt) {
@@ -307,14 +282,6 @@ TEST(LedSteps, MeetsExtensionsOnACompliantFrameAtSpeed) {
   });
   EXPECT_NEAR(highest, 0.002, 1e-3 * 0.001 * program.period());
   EXPECT_NEAR(time, 4 * 0.002 / (0.5 * 0.001), 8 * program.period());
-}
-
-TEST(LedSteps, ALostBenchCountsBeforeAStopThatWasAskedFor) {
-  ProgramRunner program({pull(0.1)}, 3.0, 0.1, {});
-  program.stop();
-  program.fail("it died");
-  EXPECT_EQ(program.ended_by(), EndedBy::kSolver);
-  EXPECT_EQ(program.reason(), "it died");
 }
 
 }  // namespace

@@ -3,9 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <string>
-
-#include "knot_utm/numeric/invalid_input.hpp"
 
 namespace knot_utm {
 namespace {
@@ -72,15 +69,6 @@ TEST(LoadCell, AccuracyIsAnErrorOfTheGainWithinItsBoundsAndAllOverThem) {
   EXPECT_NEAR(squares / kCells, 1.0 / 3.0, 5.0 * std::sqrt(4.0 / 45.0 / kCells));
 }
 
-TEST(LoadCell, ItsNoiseIsTheSameWhateverItsAccuracy) {
-  LoadCellOptions options;
-  options.noise = 0.1;
-  LoadCell exact(options);
-  options.accuracy = 0.01;
-  LoadCell other(options);
-  for (int i = 0; i < 10; ++i) EXPECT_EQ(exact.read(0.0, 0.0), other.read(0.0, 0.0));
-}
-
 TEST(LoadCell, DriftsSinceItWasBalanced) {
   LoadCellOptions options;
   options.drift = -0.25;
@@ -114,25 +102,6 @@ TEST(LoadCell, ItsClassSaysHowFarAReadingMayBeOff) {
   EXPECT_DOUBLE_EQ(*class_error(cell, 9.9), 10.0);
   EXPECT_TRUE(is_below_floor(cell, -9.9));
   EXPECT_FALSE(is_below_floor(cell, 10.0));
-}
-
-TEST(LoadCell, TakesNoNonsense) {
-  const auto wrong = [](double LoadCellOptions::*option, double value) {
-    LoadCellOptions options;
-    options.*option = value;
-    try {
-      LoadCell{options};
-    } catch (const InvalidInput& invalid) {
-      return invalid.key;
-    }
-    return std::string();
-  };
-  EXPECT_EQ(wrong(&LoadCellOptions::capacity, 0.0), "machine.load_cell.capacity");
-  EXPECT_EQ(wrong(&LoadCellOptions::noise, -1.0), "machine.load_cell.noise");
-  EXPECT_EQ(wrong(&LoadCellOptions::accuracy, -0.1), "machine.load_cell.accuracy");
-  EXPECT_EQ(wrong(&LoadCellOptions::floor, 1.1), "machine.load_cell.floor");
-  EXPECT_EQ(wrong(&LoadCellOptions::overload, 0.9), "machine.load_cell.overload");
-  EXPECT_EQ(wrong(&LoadCellOptions::drift, std::nan("")), "machine.load_cell.drift");
 }
 
 }  // namespace

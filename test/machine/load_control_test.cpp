@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
@@ -22,25 +20,6 @@ struct Spring {
     now.force_upper = stiffness * now.displacement;
   }
 };
-
-TEST(LoadControl, KnowsASpringAfterOneStepAndThenMeetsEveryLoad) {
-  Spring spring{1e4};
-  spring.step(1.0);
-  for (int n = 2; n < 50; ++n) {
-    spring.step(n);
-    EXPECT_NEAR(spring.now.force_upper, n, 1e-12 * n);
-  }
-}
-
-TEST(LoadControl, IsNeverFasterThanTheCrosshead) {
-  Spring soft{1.0};
-  double before = 0.0;
-  for (int n = 1; n < 50; ++n) {
-    soft.step(n);
-    EXPECT_LE(std::abs(soft.now.displacement - before), kPeriod * kFastest * (1.0 + 1e-12));
-    before = soft.now.displacement;
-  }
-}
 
 TEST(LoadControl, CatchesUpWithASpringThatTurnsSoft) {
   Spring spring{1e6};
@@ -66,38 +45,6 @@ TEST(LoadControl, RunsAfterALoadThatDoesNotRise) {
     now.displacement += kPeriod * speed;
   }
   EXPECT_EQ(speed, kFastest);
-}
-
-TEST(LoadControl, GoesBackWhereTheLoadIsTooLarge) {
-  Spring spring{1e4};
-  for (int n = 1; n < 10; ++n) spring.step(n);
-  spring.step(2.0);
-  EXPECT_NEAR(spring.now.force_upper, 2.0, 1e-12);
-}
-
-/// What comes from the balance is no force of the specimen.
-TEST(LoadControl, KnowsTheBalancedForce) {
-  Spring spring{1e4};
-  for (int n = 1; n < 10; ++n) spring.step(n);
-  spring.now.balance_offset = 5.0;
-  spring.control.shift(5.0);
-  spring.step(6.0);
-  EXPECT_NEAR(spring.now.force_upper, 11.0, 1e-12);
-}
-
-TEST(LoadControl, MeetsALoadThatOneCommandWouldPass) {
-  LoadControl control;
-  Sample now;
-  EXPECT_EQ(control.meeting(now, 10.0, kPeriod, kFastest, false), kFastest);
-  EXPECT_EQ(LoadControl().meeting(now, 10.0, kPeriod, kFastest, true), 0.01 * kFastest);
-  constexpr double kStiffness = 4e3;  // a command at full speed rises by 4 N
-  for (const double load : {4.0, 8.0}) {
-    now.displacement += kPeriod * control.meeting(now, 10.0, kPeriod, kFastest, false);
-    now.force_upper = kStiffness * now.displacement;
-    EXPECT_NEAR(now.force_upper, load, 1e-12);
-  }
-  now.displacement += kPeriod * control.meeting(now, 10.0, kPeriod, kFastest, false);
-  EXPECT_NEAR(kStiffness * now.displacement, 10.0, 1e-12);
 }
 
 /// Over a way that is none, the change of the load is rounding or what the solver left.

@@ -90,20 +90,6 @@ TEST(ProgramRunner, HoldLastsItsDurationInWholePeriods) {
   }
 }
 
-TEST(ProgramRunner, UntilLoadAndUntilTime) {
-  ProgramStep to_load = step(Phase::kPull, 0.01);
-  to_load.until.load = 5.0;
-  ProgramRunner by_load({to_load}, 3.0, 0.1, {});
-  EXPECT_NEAR(run(FakeBench(), by_load).samples.back().load, 5.0, 5e-3);  // kMetLoad
-  EXPECT_EQ(by_load.ended_by(), EndedBy::kLoad);
-
-  ProgramStep to_time = step(Phase::kPull, 0.01);
-  to_time.until.time = 1.0;
-  ProgramRunner by_time({to_time}, 3.0, 0.1, {});
-  EXPECT_DOUBLE_EQ(run(FakeBench(), by_time).samples.back().time, 1.0);
-  EXPECT_EQ(by_time.ended_by(), EndedBy::kProgram);
-}
-
 /// Answers the commands of a program until one of its last step, in which the rod parts.
 ProgramRunner parted_in_step(const Program& steps, int last) {
   ProgramRunner program(steps, 3.0, 0.1, {});
@@ -231,27 +217,6 @@ TEST(ProgramRunner, AProgramThatOnlyTiesGoesOnToItsEnd) {
   EXPECT_FALSE(program.failed());
 }
 
-TEST(ProgramRunner, EveryEndHasANameOfItsOwn) {
-  for (int i = 0; i <= static_cast<int>(EndedBy::kUntangled); ++i) {
-    const auto end = static_cast<EndedBy>(i);
-    EXPECT_EQ(ended_by_named(ended_by_name(end)), end);
-  }
-  EXPECT_EQ(ended_by_named("never"), std::nullopt);
-}
-
-/// What interrupts a test comes between two commands, where it can go on.
-TEST(ProgramRunner, AnInterruptedTestGoesOnAsIfItWasNot) {
-  ProgramRunner whole(paper_program(), 3.0, 0.1, {}), cut(paper_program(), 3.0, 0.1, {});
-  const Course unbroken = run(FakeBench(), whole);
-  FakeBench bench;
-  std::vector<double> forces;
-  const auto observe = [&](const Command&, const Sample& sample) { forces.push_back(sample.force_upper); };
-  for (std::size_t most = 10; !cut.ended(); most += 10)
-    run_test(bench, cut, observe, [&] { return forces.size() >= most; });
-  ASSERT_EQ(forces.size(), unbroken.samples.size());
-  for (std::size_t i = 0; i < forces.size(); ++i) EXPECT_EQ(forces[i], unbroken.samples[i].force_upper);
-}
-
 TEST(ProgramRunner, OverloadCountsTheTrueForceInBothDirections) {
   ProgramRunner::Limits limits;
   limits.load = 20.0;
@@ -263,15 +228,6 @@ TEST(ProgramRunner, OverloadCountsTheTrueForceInBothDirections) {
     program.next(sample);
     EXPECT_EQ(program.ended_by(), std::abs(force) > 20.0 ? EndedBy::kLoad : EndedBy::kNotYet) << force;
   }
-}
-
-TEST(ProgramRunner, GoesOnWithWhatDoesNotComeToRestAsWithWhatDoes) {
-  FakeBench calm, restless;
-  restless.comes_to_rest = false;
-  ProgramRunner rested(paper_program(), 3.0, 0.1, {}), moving(paper_program(), 3.0, 0.1, {});
-  const Course with_rest = run(calm, rested), without = run(restless, moving);
-  EXPECT_EQ(moving.ended_by(), EndedBy::kExtension);
-  EXPECT_EQ(without.commands.size(), with_rest.commands.size());
 }
 
 TEST(ProgramRunner, OperatorStopsAndBalances) {
@@ -292,30 +248,6 @@ TEST(ProgramRunner, OperatorStopsAndBalances) {
   EXPECT_EQ(after.phase, Phase::kDone);
   EXPECT_EQ(after.sequence, 3u);
   EXPECT_EQ(after.velocity, 0.0);
-}
-
-TEST(ProgramRunner, TakesNoAnswerToAnotherCommand) {
-  ProgramRunner program({pull(0.1)}, 3.0, 0.1, {});
-  Sample sample;
-  sample.sequence = 7;
-  EXPECT_THROW(program.next(sample), std::invalid_argument);
-}
-
-TEST(ProgramRunner, ProgressGrowsFromZeroToOne) {
-  ProgramRunner program(paper_program(), 3.0, 0.1, {});
-  FakeBench bench;
-  double last = -1e-9;
-  run_test(bench, program, [&](const Command& command, const Sample&) {
-    EXPECT_GE(program.progress(), 0.0);
-    EXPECT_LE(program.progress(), 1.0);
-    // Steps that end by themselves may end early or late; within a step the share only grows.
-    if (command.phase == Phase::kPull) {
-      EXPECT_GE(program.progress(), last);
-    }
-    last = command.phase == Phase::kPull ? program.progress() : -1.0;
-  });
-  EXPECT_EQ(program.progress(), 1.0);
-  EXPECT_EQ(program.time_left(), 0.0);
 }
 
 }  // namespace

@@ -23,57 +23,11 @@ namespace {
 
 constexpr std::size_t kToTheEnd = std::numeric_limits<std::size_t>::max();
 
-/// What is compared: a number by its bits, as not-a-number is none of its equals.
-struct Bits {
-  double value;
-  bool operator==(const Bits& other) const { return std::memcmp(&value, &other.value, sizeof value) == 0; }
-};
-void PrintTo(const Bits& bits, std::ostream* out) { *out << testing::PrintToString(bits.value); }
-
-std::vector<Bits> numbers(const Sample& s) {
-  return {{static_cast<double>(s.sequence)},
-          {s.time},
-          {static_cast<double>(s.phase)},
-          {s.displacement},
-          {s.extension},
-          {s.end_to_end},
-          {s.knot_distance},
-          {s.load},
-          {s.balance_offset},
-          {s.force_upper},
-          {s.force_lower},
-          {s.tail_force[0]},
-          {s.tail_force[1]},
-          {s.excess_length[0]},
-          {s.excess_length[1]},
-          {s.max_penetration},
-          {s.normal_force},
-          {static_cast<double>(s.contacts)},
-          {s.fastest_node},
-          {s.stretching_energy},
-          {s.bending_energy},
-          {s.twisting_energy},
-          {s.contact_energy},
-          {s.kinetic_energy},
-          {s.grip_work},
-          {s.dissipation},
-          {s.friction_loss},
-          {s.plastic_loss},
-          {s.numerical_dissipation},
-          {s.reweighting_loss},
-          {s.moment_imbalance},
-          {s.knots_force},
-          {s.knot_on_roller},
-          {s.raw_extension},
-          {static_cast<double>(s.steps)},
-          {static_cast<double>(s.rejected_steps)},
-          {static_cast<double>(s.newton_iterations)},
-          {s.highest_load},
-          {s.lowest_load},
-          {s.break_arclength},
-          {static_cast<double>(s.break_place)},
-          {static_cast<double>(s.knot_type)},
-          {static_cast<double>(s.status)}};
+/// What is compared: all fields by their bits, as not-a-number is none of its equals.
+std::string bits(const std::vector<Sample>& samples, std::size_t i) {
+  std::string out;
+  Archive::to(out).save(samples[i]);
+  return out;
 }
 
 /// A bench and its program; both are saved, and what the bench answered since.
@@ -265,9 +219,8 @@ TEST_P(SavedState, GoesOnToTheSameBits) {
   const auto is_as_unbroken = [&](const WholeTest& run, std::size_t from) {
     ASSERT_EQ(run.substeps.size(), unbroken.substeps.size() - from);
     for (std::size_t i = 0; i < run.substeps.size(); ++i) {
-      const Sample &expected = unbroken.substeps[from + i], &found = run.substeps[i];
-      ASSERT_EQ(numbers(found), numbers(expected)) << "at t = " << expected.time << " s, saved after " << from;
-      ASSERT_EQ(found.message, expected.message);
+      ASSERT_EQ(bits(run.substeps, i), bits(unbroken.substeps, from + i))
+          << "at t = " << run.substeps[i].time << " s, saved after " << from;
     }
     EXPECT_EQ(run.bench.state().position, unbroken.bench.state().position);
     EXPECT_EQ(run.bench.state().velocity, unbroken.bench.state().velocity);
@@ -295,8 +248,7 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(straight(), on_a_compliant_frame(), programmed(), broken(),
                     overhand("overhandWithTwist", "memory", ContactLaw::kSmooth),
                     overhand("smoothedFriction", "smoothed", ContactLaw::kSmooth),
-                    overhand("edgeContact", "memory", ContactLaw::kEdge), loop("loop", polypropylene(), 20.0, 0.01),
-                    twisted_loop(), rolling(twisted_loop(), "rollingLoop"),
+                    loop("loop", polypropylene(), 20.0, 0.01), twisted_loop(),
                     rolling(overhand("", "memory", ContactLaw::kEdge), "rollingEdges"),
                     with_a_set(rolling(loop("", polypropylene(), 20.0, 0.002), ""), "loopWithASet"),
                     on_turning_rollers(loop("", polypropylene(), 20.0, 0.002), "freeRollers", RollerRotation::kFree),

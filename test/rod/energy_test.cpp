@@ -34,19 +34,6 @@ RodState arc(Eigen::Index n, double l, double angle) {
   return state;
 }
 
-TEST(Energy, OfAnArcIsTheSameWithAndWithoutFrame) {
-  const RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(8, 0.1));
-  RodState state = arc(8, 0.12, 0.3);
-  const ElasticEnergy twist_free = elastic_energy(rod, state);
-  EXPECT_NEAR(twist_free.bending, 7 * 0.5 * 2.0 / 0.1 * 0.3 * 0.3, 1e-10);
-  EXPECT_NEAR(twist_free.stretching, 8 * 0.5 * 50.0 * 0.1 * 0.04, 1e-12);
-  EXPECT_EQ(twist_free.twisting, 0.0);
-  initialise_frames(&state);
-  const ElasticEnergy full = elastic_energy(rod, state);
-  EXPECT_NEAR(full.total(), twist_free.total(), 1e-12);
-  EXPECT_NEAR(full.twisting, 0.0, 1e-20);
-}
-
 /// Every node of a rod that is wound to a radius turns by its Voronoi length over it, however long its edges are.
 TEST(Energy, OfAnArcIsExactWhateverItsEdges) {
   constexpr double kRadius = 0.4;
@@ -95,6 +82,7 @@ TEST(Energy, TensionIsPositiveWhereTheEdgeIsLonger) {
   const RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(8, 0.1));
   EXPECT_LT((edge_tension(rod, arc(8, 0.12, 0.3).position).array() - 10.0).abs().maxCoeff(), 1e-12);
   EXPECT_LT((edge_tension(rod, arc(8, 0.09, 0.3).position).array() + 5.0).abs().maxCoeff(), 1e-12);
+  EXPECT_NEAR(elastic_energy(rod, arc(8, 0.12, 0.3)).stretching, 8 * 0.5 * 50.0 * 0.1 * 0.04, 1e-12);
 }
 
 /// What is bent within its yield stores r/2 k kappa^2 + (1 - r)/2 k (kappa - kappabar)^2, k = k_b/lbar, in every node.
@@ -122,6 +110,13 @@ TEST(Energy, RefusesAStateThatDoesNotFitTheRod) {
   without_frames.natural_curvature = Eigen::Matrix2Xd::Zero(2, 7);
   EXPECT_THROW(require_fits(rod, without_frames), InvalidInput);
   EXPECT_NO_THROW(require_fits(rod, arc(8, 0.1, 0.0)));
+}
+
+TEST(Rod, MassIsDensityTimesVolumeAndEndNodesCarryHalf) {
+  const RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(10, 0.01));
+  EXPECT_EQ(rod.nodes(), 11);
+  EXPECT_NEAR(rod.mass.sum(), 1000.0 * M_PI * 1e-4 * 0.1, 1e-15);
+  EXPECT_NEAR(rod.mass[0], 0.5 * rod.mass[1], 1e-18);
 }
 
 }  // namespace

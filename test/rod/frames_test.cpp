@@ -66,23 +66,6 @@ TEST(Frames, TransportToTheOppositeTangentKeepsAFrame) {
   EXPECT_LT((parallel_transport(from, from, -from) + from).norm(), kRounding);
 }
 
-TEST(Frames, HolonomyIsTheAreaTheTangentEncloses) {
-  const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();
-  const Vec3 start = y;
-  const Vec3 end = parallel_transport(parallel_transport(parallel_transport(start, x, y), y, z), z, x);
-  EXPECT_NEAR(signed_angle(start, end, x), M_PI / 2.0, kRounding);
-}
-
-TEST(Frames, SpaceParallelFrameHasNoReferenceTwist) {
-  const Points x = trefoil(60);
-  const Points t = tangents(x);
-  const Points d1 = space_parallel_directors(x, Vec3::UnitZ());
-  expect_normal_to_tangents(d1, x);
-  for (Eigen::Index i = 0; i + 1 < d1.cols(); ++i) {
-    EXPECT_NEAR(reference_twist(d1.col(i), t.col(i), d1.col(i + 1), t.col(i + 1)), 0.0, kRounding);
-  }
-}
-
 TEST(Frames, HolonomyOfATrefoilIsItsWrithe) {
   for (const Eigen::Index n : {24, 61, 120}) {
     const Points x = trefoil(n);

@@ -74,11 +74,5 @@ TEST_P(IsotropicBendingBy, CheapPathAgrees) {
 
 INSTANTIATE_TEST_SUITE_P(Angles, IsotropicBendingBy, testing::Values(0.0, 1e-5, 0.1, 1.0, 2.0, 2.8));
 
-TEST(IsotropicBending, NearlyStraightKeepsItsDigits) {
-  const double angle = 1e-7;
-  const double expected = 0.5 * kStiffness / kVoronoi * angle * angle;
-  EXPECT_NEAR(at(turn(angle)).energy, expected, 1e-8 * expected);
-}
-
 }  // namespace
 }  // namespace knot_utm

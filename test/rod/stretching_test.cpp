@@ -56,11 +56,5 @@ INSTANTIATE_TEST_SUITE_P(Stretches, StretchingOf,
                                           testing::Values(StretchingLaws(LinearStretching()),
                                                           StretchingLaws(NeoHookeanStretching()))));
 
-TEST(Stretching, TenPercentIsATenthOfTheStiffness) {
-  const StretchingLocal local = stretching(LinearStretching(), 100.0, 2.0, Vec3(2.2, 0.0, 0.0));
-  EXPECT_NEAR(local.energy, 0.5 * 100.0 * 2.0 * 0.01, 1e-13);
-  EXPECT_NEAR(local.gradient.x(), 10.0, 1e-12);
-}
-
 }  // namespace
 }  // namespace knot_utm

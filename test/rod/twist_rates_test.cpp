@@ -60,12 +60,5 @@ TEST(TwistRates, DoNotDependOnTheReferenceFrame) {
   EXPECT_LT((twist_rates(rod, state) - rates).cwiseAbs().maxCoeff(), kRounding * 1e3);
 }
 
-TEST(TwistRates, AreNoneWhereTheSceneDoesNotSolveForTwist) {
-  const RodProperties rod = rod_of_two_lengths();
-  RodState state;
-  state.position = helix(rod).position;
-  EXPECT_EQ(twist_rates(rod, state).size(), 0);
-}
-
 }  // namespace
 }  // namespace knot_utm

@@ -18,7 +18,7 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kGravity = 9.81;
+constexpr double kGravity = OnAnIncline::kGravity;
 
 /// A free rod in its first mode of stretching: a linear system, whose energy implicit Euler divides by 1 + (omega
 /// dt)^2.
@@ -48,25 +48,12 @@ TEST(EnergyBalance, AVibratingRodLosesWhatImplicitEulerTakes) {
 }
 
 /// A rod lies on a plane that falls towards +x by `angle`, pressed in by its weight.
-struct Incline {
-  StepSettings settings;
-  Boundary boundary;
-  double normal_force = 0.0;
+struct Incline : OnAnIncline {
   std::unique_ptr<Balance> balance;
 
-  Incline(double angle, double mu) {
-    const Material material = braided_rope();
-    const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(24, material.radius));
-    settings = closed_form_settings(material);
-    settings.gravity = kGravity * Vec3(std::sin(angle), 0.0, -std::cos(angle));
-    settings.roller_friction = MemoryFriction{mu, 1e-3 * material.radius};
-    settings.motion_limit = settings.newton_cap = 10.0;
-    normal_force = rod.mass.sum() * kGravity * std::cos(angle);
-    RodState state = straight_state(rod);
-    state.position.row(2).setConstant(-settings.pressure_law.overlap_at(normal_force / rod.length()));
-    boundary.rollers = {plane_below(material.radius)};
-    balance = std::make_unique<Balance>(TimeStep::make(rod, state, settings), settings, 0.01);
-  }
+  Incline(double angle, double mu)
+      : OnAnIncline(angle, Vec3::UnitX(), 24, MemoryFriction{mu, 1e-3 * braided_rope().radius}),
+        balance(std::make_unique<Balance>(TimeStep::make(rod, state, settings), settings, 0.01)) {}
   void run(double duration) {
     balance->run(duration, [this](double) -> const Boundary& { return boundary; });
   }

@@ -195,25 +195,6 @@ TEST_P(FrameTermsOf, ForcesAreTheEnergysSlopeAtFixedSpin) {
   EXPECT_LT(relative_difference(force, expected), 1e-8);
 }
 
-TEST_P(FrameTermsOf, AHeldAngleStandsWhereItMust) {
-  FrameTerms terms(rod, settings);
-  Boundary held;
-  held.fixed_twists = {{2, 0.4}};
-  const StepStart step{start, held, kDt};
-  terms.begin(step);
-  EXPECT_TRUE(terms.held(2));
-  EXPECT_FALSE(terms.held(3));
-  EXPECT_TRUE(terms.held(kNodes - 1)) << "there is no edge behind the last node";
-  std::vector<Lanes> force(kNodes, Lanes{0.0, 0.0, 0.0, 0.0});
-  terms.add_forces(step, start.position, force);
-  terms.move(std::vector<Lanes>(kNodes, Lanes{0.1, 0.2, 0.0, 0.3}), 1.0);
-  terms.add_forces(step, start.position, force);
-  RodState end = start;
-  terms.commit(end);
-  EXPECT_EQ(end.twist[2], 0.4);
-  EXPECT_DOUBLE_EQ(end.twist[3], start.twist[3] + kDt * start.twist_rate[3] + 0.3);
-}
-
 INSTANTIATE_TEST_SUITE_P(Rods, FrameTermsOf, testing::Bool(),
                          [](const auto& rods) { return rods.param ? "CurvedAtRest" : "StraightAtRest"; });
 

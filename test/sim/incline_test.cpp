@@ -1,50 +1,30 @@
 #include <gtest/gtest.h>
 
-#include "knot_utm/rod/rod.hpp"
-#include "knot_utm/sim/step_control.hpp"
 #include "reference.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
 namespace {
 
-constexpr double kGravity = 9.81;
+constexpr double kGravity = OnAnIncline::kGravity;
 constexpr double kMu = 0.46;
 // What Newton's residual (1e-8 N a node) leaves open on the presliding spring of about 1500 N/m [m].
 constexpr double kRestTolerance = 2e-10;
 
 /// A straight rod lies on a plane that falls towards +x by `angle`.
-struct Incline {
-  Boundary boundary;
+struct Incline : OnAnIncline {
   std::unique_ptr<TimeStep> stepper;
 
-  Incline(double angle, const Friction& friction) {
-    const Material material = braided_rope();
-    const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(24, material.radius));
-    StepSettings settings = closed_form_settings(material);
-    settings.gravity = kGravity * Vec3(std::sin(angle), 0.0, -std::cos(angle));
-    settings.roller_friction = friction;
-    settings.motion_limit = 10.0;
-    settings.newton_cap = 10.0;
-    // Pressed in by its own weight already, so that nothing falls.
-    RodState state = straight_state(rod);
-    const double weight = rod.mass.sum() / rod.length() * kGravity * std::cos(angle);
-    state.position.row(2).setConstant(-settings.pressure_law.overlap_at(weight));
-    stepper = TimeStep::make(rod, state, settings);
-    boundary.rollers = {plane_below(material.radius)};
-  }
+  Incline(double angle, const Friction& friction)
+      : OnAnIncline(angle, Vec3::UnitX(), 24, friction), stepper(TimeStep::make(rod, state, settings)) {}
 
   /// In steps of at most dt: from sticking to sliding and back Newton's method needs short ones.
   void run(double duration, double dt) {
     StepControl::Options options;
     options.longest = dt;
     options.motion = 10.0;
-    StepControl control(options);
     double time = 0.0;
-    const std::string gave_up = control.advance(
-        *stepper, time, duration, [this](double, double) -> const Boundary& { return boundary; },
-        [](double, double, const StepSummary&) {});
-    ASSERT_EQ(gave_up, "");
+    run_to(duration, *stepper, time, options, [this](double) -> const Boundary& { return boundary; });
   }
   double place() const { return stepper->state().position.row(0).mean(); }
   double speed() const { return stepper->state().velocity.row(0).mean(); }
@@ -77,32 +57,6 @@ TEST(R9Incline, AboveTheFrictionAngleTheRodSlides) {
   scene.run(1.0, 0.01);
   const double acceleration = kGravity * (std::sin(angle) - kMu * std::cos(angle));
   hold_against("R9 incline of 1.05 atan mu: acceleration [m/s^2]", acceleration, scene.speed() - from, 1e-5);
-}
-
-/// The coefficient with which a rod slides whose weight presses with the `part`-th of the reference pressure.
-double power_coefficient(double exponent, double part, double expected) {
-  const Material material = braided_rope();
-  const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(24, material.radius));
-  const double angle = std::atan(1.2 * expected);
-  const double pressure = rod.mass.sum() / rod.length() * kGravity * std::cos(angle);
-  Incline scene(angle, PowerFriction{kMu, 1e-4 * material.radius, exponent, pressure / part});
-  scene.run(0.2, 0.01);
-  const double from = scene.speed();
-  scene.run(0.2, 0.01);
-  return std::tan(angle) - (scene.speed() - from) / (0.2 * kGravity * std::cos(angle));
-}
-
-/// The ends of the rod bear nothing, so that it presses by 5 % more than its mean weight. The bound at small loads
-/// takes 3 % of the pressure at a thirtieth of the reference pressure. Where strands hardly touch, the coefficient is
-/// that at a thousandth of it.
-TEST(PowerFrictionIncline, FollowsTheLawAndIsBoundedAtSmallLoads) {
-  for (const double n : {0.5, 0.67, 0.8}) {
-    EXPECT_NEAR(power_coefficient(n, 1.0, kMu), kMu, (1.0 - n) * 0.06 * kMu) << n;
-    const double small = kMu * std::pow(30.0, 1.0 - n);
-    EXPECT_NEAR(power_coefficient(n, 1.0 / 30.0, small), small, (1.0 - n) * 0.1 * small) << n;
-    const double largest = kMu * std::pow(1000.0, 1.0 - n);
-    EXPECT_NEAR(power_coefficient(n, 1e-6, largest), largest, 2e-3 * largest) << n;
-  }
 }
 
 TEST(R11Creep, DirectionUnderALoadRatio) {

@@ -50,6 +50,10 @@ TEST_P(RejectedStep, TheNextOneIsAsIfItHadNotBeenTried) {
     }
     // Further into the rod than a step may move it.
     EXPECT_FALSE(tried->step(Scene::boundary(10.0 * radius), 0.01).accepted());
+    EXPECT_EQ(tried->readings().energies().contact, plain->readings().energies().contact);
+    if (before > 0) {
+      EXPECT_EQ(tried->readings().roller_force(0), plain->readings().roller_force(0));
+    }
     for (int i = 1; i <= 3; ++i) {
       ASSERT_TRUE(tried->step(Scene::boundary(1e-3 * radius * i), 0.01).accepted());
       ASSERT_TRUE(plain->step(Scene::boundary(1e-3 * radius * i), 0.01).accepted());

@@ -1,13 +1,10 @@
 #pragma once
 
 #include <memory>
-#include <stdexcept>
-#include <string>
 
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/sim/step_control.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -78,17 +75,12 @@ struct RollingLog {
     StepControl::Options options;
     options.longest = options.first = 0.02 * material.radius / kSpeed;
     options.motion = options.slip = 1.0;
-    StepControl control(options);
     const double from = time, begun = reached_, ahead = way_ - reached_;
-    const std::string gave_up = control.advance(
-        *stepper, time, from + duration,
-        [&](double, double to) -> const Boundary& {
-          reached_ = begun + ahead * (to - from) / duration;
-          for (FixedNode& held : boundary.fixed_nodes) held.position[0] = begin(0, held.node) + reached_;
-          return boundary;
-        },
-        [](double, double, const StepSummary&) {});
-    if (!gave_up.empty()) throw std::runtime_error(gave_up);
+    run_to(from + duration, *stepper, time, options, [&](double to) -> const Boundary& {
+      reached_ = begun + ahead * (to - from) / duration;
+      for (FixedNode& held : boundary.fixed_nodes) held.position[0] = begin(0, held.node) + reached_;
+      return boundary;
+    });
   }
 };
 

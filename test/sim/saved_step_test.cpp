@@ -3,17 +3,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
-#include "knot_utm/record/command.hpp"
-#include "knot_utm/record/phase.hpp"
-#include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/frames.hpp"
-#include "machine/overhand_specimen.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -81,65 +75,6 @@ TEST_P(SavedTimeStep, ComesToTheSameBitsElsewhere) {
 
 INSTANTIATE_TEST_SUITE_P(Twist, SavedTimeStep, testing::Bool(),
                          [](const auto& twist) { return twist.param ? "On" : "Off"; });
-
-TEST(WatchedTimeStep, IsToldOfEveryIterate) {
-  FallingRod scene(false);
-  for (int i = 0; i < 3; ++i) ASSERT_TRUE(scene.stepper->step(scene.boundary, 0.01).accepted());
-  scene.boundary.forces = {{7, Vec3(0.0, 0.0, -0.1)}};
-  std::vector<Iterate> seen;
-  scene.stepper->watch([&](const Iterate& iterate) { seen.push_back(iterate); });
-  const StepSummary summary = scene.stepper->step(scene.boundary, 1e-3);
-  ASSERT_TRUE(summary.accepted()) << summary.reason;
-  ASSERT_EQ(seen.size(), static_cast<std::size_t>(summary.newton.iterations) + 1);
-  EXPECT_EQ(seen.front().node, 7) << "where it is pulled";
-  EXPECT_EQ(seen.front().factor, 0.0);
-  EXPECT_GT(seen[1].factor, 0.0);
-  EXPECT_GT(seen[1].motion, 0.0);
-  EXPECT_EQ(seen.back().residual, summary.newton.residual);
-  EXPECT_EQ(seen.back().tolerance, summary.newton.tolerance);
-  EXPECT_GT(seen.back().touching, 0);
-  EXPECT_EQ(seen.back().roller, 0);
-  EXPECT_GT(seen.back().overlap, scene.stepper->settings().pressure_law.begin());
-  EXPECT_LE(std::abs(seen.back().arclengths[0] - scene.stepper->rod().arclength()[7]), 2 * braided_rope().radius);
-}
-
-/// A knot on the machine whose crosshead jumps: the step fails, and fails the same way elsewhere.
-TEST(FailedTimeStep, FailsForTheSameReasonElsewhere) {
-  MachineOptions machine;
-  machine.grips = GripKind::kClamps;
-  PhysicsOptions physics;
-  physics.accuracy = Accuracy::kDraft;
-  TestingMachine bench(overhand_specimen(0.4, 0.15, 0.006), pink_vps(), machine, physics);
-  Command command;
-  bench.respond(command);
-  command.phase = Phase::kPull;
-  command.step = 1;
-  for (command.sequence = 1; command.sequence <= 10; ++command.sequence) {
-    command.time += 0.3;
-    ASSERT_EQ(bench.respond(command).status, BenchStatus::kRunning);
-    EXPECT_EQ(bench.failed_step(), "");
-  }
-  command.time += 2e-6;
-  command.displacement = 0.1;
-  const Sample failed = bench.respond(command);
-  ASSERT_EQ(failed.status, BenchStatus::kFailed);
-  ASSERT_GT(failed.contacts, 0);
-
-  SavedStep step = load_step(bench.failed_step(), "here");
-  EXPECT_EQ(step.time, failed.time);
-  EXPECT_EQ(step.stepper->state().position, bench.state().position);
-  StepSummary first;
-  for (int i = 0; i < 2; ++i) {
-    const StepSummary summary = step.try_again();
-    EXPECT_FALSE(summary.accepted());
-    std::ostringstream residual;
-    residual << "(residual " << summary.newton.residual << " N, tolerance " << summary.newton.tolerance << " N";
-    EXPECT_THAT(failed.message, testing::HasSubstr(summary.reason));
-    EXPECT_THAT(failed.message, testing::HasSubstr(residual.str()));
-    if (i == 0) first = summary;
-    EXPECT_EQ(summary.newton.residual, first.newton.residual) << "what failed has changed nothing";
-  }
-}
 
 std::string complaint(const std::string& content) {
   try {

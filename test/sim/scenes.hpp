@@ -1,7 +1,12 @@
 #pragma once
 
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "rod/materials.hpp"
 
@@ -47,6 +52,40 @@ inline Roller plane_below(double rod_radius) {
   out.axis = Vec3::UnitX();
   out.centre = Vec3(0.0, 0.0, -out.radius - rod_radius);
   return out;
+}
+
+/// A straight rod of braided rope along x lies on a plane that falls by `angle` towards `down`, and is pressed in by
+/// its own weight already, so that nothing falls.
+struct OnAnIncline {
+  static constexpr double kGravity = 9.81;
+  Material material = braided_rope();
+  RodProperties rod;
+  StepSettings settings;
+  RodState state;
+  Boundary boundary;
+  double normal_force = 0.0;
+
+  OnAnIncline(double angle, const Vec3& down, int edges, const Friction& friction) {
+    rod = make_rod(material, Eigen::VectorXd::Constant(edges, material.radius));
+    settings = closed_form_settings(material);
+    settings.gravity = kGravity * (std::sin(angle) * down - std::cos(angle) * Vec3::UnitZ());
+    settings.roller_friction = friction;
+    settings.motion_limit = settings.newton_cap = 10.0;
+    normal_force = rod.mass.sum() * kGravity * std::cos(angle);
+    state = straight_state(rod);
+    state.position.row(2).setConstant(-settings.pressure_law.overlap_at(normal_force / rod.length()));
+    boundary.rollers = {plane_below(material.radius)};
+  }
+};
+
+/// Steps from `time` on until a time; `boundary(to)` stands at the end of a step. Throws where the physics gives up.
+template <typename BoundaryAt>
+void run_to(double until, TimeStep& stepper, double& time, const StepControl::Options& options, BoundaryAt boundary) {
+  StepControl control(options);
+  const std::string gave_up = control.advance(
+      stepper, time, until, [&](double, double to) -> const Boundary& { return boundary(to); },
+      [](double, double, const StepSummary&) {});
+  if (!gave_up.empty()) throw std::runtime_error(gave_up);
 }
 
 }  // namespace knot_utm

@@ -99,28 +99,6 @@ TEST(StepControl, TriesSecantsWhereStepsHaveFailedInARow) {
   EXPECT_EQ(step.by_secants.size(), run.taken.size());
 }
 
-TEST(StepControl, TriesSecantsInShortStepsAtOnce) {
-  StepControl::Options from = options();
-  from.first = 5e-4 * from.longest;
-  StepControl control(from);
-  ScriptedStep step;
-  step.only_secants = true;
-  const Outcome run = advance(control, step, 1e-4);
-  EXPECT_EQ(run.gave_up, "");
-  EXPECT_EQ(control.counters().rejected, 0u);
-  EXPECT_EQ(step.by_secants.size(), run.taken.size());
-}
-
-TEST(StepControl, GivesUpWithWhereItWasHardestAndWhatWasTried) {
-  StepControl control(options());
-  ScriptedStep step;
-  step.longest_good = 0.0;
-  const Outcome run = advance(control, step, 0.1);
-  EXPECT_THAT(run.gave_up, testing::HasSubstr(step.text()));
-  EXPECT_THAT(run.gave_up, testing::HasSubstr(" steps of 0.1 to "));
-  EXPECT_FALSE(step.by_secants.empty());
-}
-
 TEST(StepControl, GivesUpWhatManyIterationsLeadNowhere) {
   StepControl control(options());
   ScriptedStep step;
@@ -140,25 +118,6 @@ TEST(StepControl, LabouringOnIsNotGivenUp) {
   const Outcome run = advance(control, step, 1.0);
   EXPECT_EQ(run.gave_up, "");
   EXPECT_GT(control.counters().iterations, 50'000u);
-}
-
-TEST(StepDiagnosis, NamesNodeResidualAndContact) {
-  StepDiagnosis where;
-  where.node = 17;
-  where.arclength = 0.25;
-  where.residual = 0.5;
-  EXPECT_THAT(where.text(),
-              testing::AllOf(testing::HasSubstr("node 17, 0.25 m"), testing::HasSubstr("along the rod: 0.5 N"),
-                             testing::HasSubstr("touches nothing")));
-  where.in_contact = true;
-  where.contact_arclengths[0] = 0.26;
-  where.contact_arclengths[1] = 0.75;
-  where.overlap = 1e-5;
-  where.slides = true;
-  EXPECT_THAT(where.text(), testing::AllOf(testing::HasSubstr("another strand, 0.26 m along the rod at 0.75 m"),
-                                           testing::HasSubstr("an overlap of 1e-05 m"), testing::HasSubstr("sliding")));
-  where.roller = 1;
-  EXPECT_THAT(where.text(), testing::HasSubstr("roller 1"));
 }
 
 TEST(StepControl, EndsExactlyAtTheEndWithoutASliver) {

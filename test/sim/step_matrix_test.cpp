@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 namespace knot_utm {
 namespace {
 
@@ -83,34 +81,6 @@ TEST(StepMatrix, HasRoomForContactsAboutToComeAndNotForThoseFarAway) {
   near.overlap = far.overlap = 0.0;
   matrix.locate({near, far, touches});
   expect_blocks_of({near, far, touches}, matrix);
-}
-
-TEST(StepMatrix, StencilsAreTheBlocksOfThreeNodesInARow) {
-  StepMatrix<4> matrix(kNodes);
-  matrix.locate({});
-  for (int i = 0; i < kNodes; ++i)
-    for (int k = 0; k < 3; ++k)
-      for (int l = 0; l < 3; ++l)
-        EXPECT_EQ(matrix.stencil(i)[static_cast<std::size_t>(3 * k + l)],
-                  std::max(k, l) + i < kNodes ? matrix.values().pattern().index(i + k, i + l) : -1);
-}
-
-TEST(StepMatrix, SetsAllBlocksToZeroButThoseOfTheBand) {
-  StepMatrix<3> matrix(kNodes);
-  matrix.locate({pressed(2, 20), pressed(5, 17)});
-  const BlockPattern& pattern = matrix.values().pattern();
-  for (int block = 0; block < pattern.blocks(); ++block) matrix.block(block).set_identity();
-  matrix.set_zero_beyond_band();
-  int zeros = 0;
-  for (int i = 0; i < kNodes; ++i)
-    for (int j = 0; j < kNodes; ++j) {
-      const int block = pattern.index(i, j);
-      if (block < 0) continue;
-      const bool in_band = std::abs(i - j) <= 2;
-      EXPECT_EQ(matrix.block(block)(0, 0), in_band ? 1.0 : 0.0) << i << ' ' << j;
-      zeros += in_band ? 0 : 1;
-    }
-  EXPECT_GT(zeros, 10);
 }
 
 }  // namespace

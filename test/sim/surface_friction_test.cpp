@@ -10,7 +10,6 @@
 
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/sim/step_control.hpp"
 #include "reference.hpp"
 #include "sim/capstan.hpp"
 #include "sim/rolling_log.hpp"
@@ -19,7 +18,7 @@
 namespace knot_utm {
 namespace {
 
-constexpr double kGravity = 9.81;
+constexpr double kGravity = OnAnIncline::kGravity;
 
 /// Runs a scene in steps of at most `longest` [s]; `boundary(to)` stands at the end of a step.
 template <typename BoundaryAt>
@@ -27,12 +26,7 @@ void run(TimeStep& stepper, double from, double to, double longest, BoundaryAt b
   StepControl::Options options;
   options.longest = options.first = longest;
   options.motion = options.slip = 1e3;
-  StepControl control(options);
-  double time = from;
-  const std::string gave_up = control.advance(
-      stepper, time, to, [&](double, double at) -> const Boundary& { return boundary(at); },
-      [](double, double, const StepSummary&) {});
-  ASSERT_EQ(gave_up, "");
+  run_to(to, stepper, from, options, boundary);
 }
 
 // ---- R12 ------------------------------------------------------------------------------------------------------------
@@ -40,27 +34,16 @@ void run(TimeStep& stepper, double from, double to, double longest, BoundaryAt b
 constexpr double kMu = 0.3;
 
 /// A straight rod along x lies on a plane that falls towards +y by `angle`.
-struct AcrossAnIncline {
-  Boundary boundary;
+struct AcrossAnIncline : OnAnIncline {
+  double radius = material.radius;
   std::unique_ptr<TimeStep> stepper;
-  double radius;
 
-  AcrossAnIncline(double angle, bool spin_inertia) {
-    const Material material = braided_rope();
-    radius = material.radius;
-    const RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(16, material.radius));
-    StepSettings settings = closed_form_settings(material);
-    settings.gravity = kGravity * Vec3(0.0, std::sin(angle), -std::cos(angle));
-    settings.roller_friction = MemoryFriction{kMu, 1e-4 * material.radius};
+  AcrossAnIncline(double angle, bool spin_inertia)
+      : OnAnIncline(angle, Vec3::UnitY(), 16, MemoryFriction{kMu, 1e-4 * braided_rope().radius}) {
     settings.friction_couple = 1.0;
     settings.spin_inertia = spin_inertia;
-    settings.motion_limit = settings.newton_cap = 10.0;
-    RodState state = straight_state(rod);
-    const double weight = rod.mass.sum() / rod.length() * kGravity * std::cos(angle);
-    state.position.row(2).setConstant(-settings.pressure_law.overlap_at(weight));
     initialise_frames(&state);
     stepper = TimeStep::make(rod, state, settings);
-    boundary.rollers = {plane_below(material.radius)};
   }
 
   /// Between two times: means of the accelerations down the plane and of the spin.

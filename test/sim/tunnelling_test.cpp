@@ -13,8 +13,6 @@
 
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
-#include "rod/materials.hpp"
-#include "sim/drawn_overhand.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -138,74 +136,13 @@ TEST_P(NothingPassesThrough, ShorterStepsGetThereAndTheStrandsStop) {
 
 INSTANTIATE_TEST_SUITE_P(Throws, NothingPassesThrough,
                          testing::Values(Thrown{ContactLaw::kSmooth, 3e-3, 6.0},
-                                         Thrown{ContactLaw::kSmooth, 3e-3, 40.0},
-                                         Thrown{ContactLaw::kSmooth, 1e-4, 40.0}, Thrown{ContactLaw::kEdge, 3e-3, 6.0},
-                                         Thrown{ContactLaw::kEdge, 1e-4, 40.0}),
+                                         Thrown{ContactLaw::kSmooth, 1e-4, 40.0}, Thrown{ContactLaw::kEdge, 3e-3, 6.0}),
                          [](const auto& scene) {
                            const Thrown& thrown = scene.param;
                            return std::string(thrown.law == ContactLaw::kEdge ? "edge" : "smooth") +
                                   (thrown.radius < 1e-3 ? "Thin" : "Thick") +
                                   std::to_string(static_cast<int>(thrown.way)) + "RadiiAStep";
                          });
-
-TEST(StrandsThrownAtEachOther, PressWhereOneStepBringsThemIntoEachOther) {
-  // With the limits of a step as a test has them, neither strand alone gets from beyond the gap within which feet are
-  // followed to where a foot is deep inside. Both together do.
-  const Thrown scene{ContactLaw::kSmooth, 3e-3, 0.78};
-  StepSettings settings = closed_form_settings(scene.material());
-  settings.residual = 1e-6 * settings.pressure_law.stiffness * scene.radius * scene.radius;
-  RodState state;
-  state.position = scene.shape();
-  state.velocity = Points::Zero(3, Thrown::nodes());
-  state.velocity.leftCols(Thrown::kStrand).row(2).setConstant(Thrown::kSpeed);
-  state.velocity.rightCols(Thrown::kStrand).row(2).setConstant(-Thrown::kSpeed);
-  const std::unique_ptr<TimeStep> stepper = TimeStep::make(scene.rod(), state, settings);
-  auto distance = [&] {  // of the middles, which lie over each other [radii]
-    const Points& now = stepper->state().position;
-    return (now.col(10) - now.col(Thrown::nodes() - 11)).norm() / scene.radius;
-  };
-  const Boundary boundary;
-  ASSERT_TRUE(stepper->step(boundary, 0.41 * scene.step()).accepted());
-  ASSERT_GT(distance(), 2.31) << "no foot yet";
-  double dt = scene.step();
-  for (int accepted = 0; accepted < 10;) {
-    if (stepper->step(boundary, dt).accepted()) {
-      ++accepted;
-      EXPECT_GT(distance(), 1.5) << "deeper than a step may leave them";
-    } else {
-      dt *= 0.5;
-      ASSERT_GT(dt, 1e-6 * scene.step());
-    }
-  }
-}
-
-TEST(TunnellingOfASimulation, IsNeverSeenWhereAnOverhandIsPulledTight) {
-  const Material material = polypropylene();
-  const DrawnOverhand drawn(material, 2.0);
-  StepSettings settings = sliding_settings(material);
-  settings.max_iterations = 12;
-  const std::unique_ptr<TimeStep> stepper = TimeStep::make(drawn.rod, drawn.state, settings);
-  Boundary boundary = drawn.held();
-  const double drawn_height = boundary.fixed_nodes[1].position.z();
-  double dt = 1e-3, pulled = 0.0;
-  int accepted = 0;
-  while (pulled < 0.12 && dt > 1e-7) {
-    const double further = 0.01 * dt;
-    boundary.fixed_nodes[1].position.z() = drawn_height + pulled + further;
-    const StepSummary summary = stepper->step(boundary, dt);
-    EXPECT_THAT(summary.reason, testing::Not(testing::HasSubstr("pass through")));
-    if (summary.accepted()) {
-      pulled += further;
-      ++accepted;
-      dt *= std::min(1.2, 0.3 * material.radius / summary.largest_motion);
-    } else {
-      dt *= 0.5;
-    }
-  }
-  EXPECT_GE(pulled, 0.12);
-  EXPECT_GT(stepper->readings().contact().touching, 50) << "it must have been pulled tight";
-  EXPECT_GT(accepted, 100);
-}
 
 }  // namespace
 }  // namespace knot_utm

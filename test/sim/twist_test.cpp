@@ -8,13 +8,11 @@
 #include <memory>
 #include <string>
 
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/sim/step_control.hpp"
-#include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "reference.hpp"
+#include "sim/scenes.hpp"
 
 namespace knot_utm {
 namespace {
@@ -67,12 +65,8 @@ struct Bare {
     StepControl::Options options;
     options.longest = 1.0;
     options.motion = 0.02;
-    StepControl control(options);
     double from = 0.0;
-    const std::string gave_up = control.advance(
-        *step, from, time, [this](double, double) -> const Boundary& { return boundary; },
-        [](double, double, const StepSummary&) {});
-    EXPECT_EQ(gave_up, "");
+    run_to(time, *step, from, options, [this](double) -> const Boundary& { return boundary; });
   }
 
   /// Newton iterations.
@@ -228,30 +222,6 @@ TEST(Twist, ARodFreeToTurnMovesAsWithoutIt) {
   RecordProperty("with_spin_inertia", std::to_string(1e9 * with_inertia) + "e-9");
   EXPECT_LT(exact, 1e-8);
   EXPECT_LT(with_inertia, 1e-3);
-}
-
-TEST(Twist, ARodWithNaturalCurvatureNeedsFrames) {
-  Bare bare(1.0);
-  bare.state.natural_curvature = Eigen::Matrix2Xd::Constant(2, kEdges - 1, 0.1);
-  bare.state.twist.resize(0);
-  EXPECT_THROW(TimeStep::make(bare.rod, bare.state, bare.settings), InvalidInput);
-}
-
-TEST(Twist, AStepThatIsNotAcceptedChangesNothing) {
-  Bare bare(1.0);
-  bare.hold(0);
-  bare.hold(1);
-  bare.begin();
-  bare.boundary.fixed_twists = {{0, 0.0}};
-  bare.go(0.1);
-  const RodState before = bare.step->state();
-  bare.boundary.fixed_twists = {{0, 1.0}, {kLast, -2.0}};
-  bare.boundary.forces = {{kEdges, Vec3(0.0, 1e4, 0.0)}};
-  EXPECT_FALSE(bare.step->step(bare.boundary, 0.1).accepted());
-  EXPECT_EQ(bare.step->state().twist, before.twist);
-  EXPECT_EQ(bare.step->state().twist_rate, before.twist_rate);
-  EXPECT_EQ(bare.step->state().reference_director, before.reference_director);
-  EXPECT_EQ(bare.step->state().reference_twist, before.reference_twist);
 }
 
 }  // namespace

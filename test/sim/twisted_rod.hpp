@@ -4,13 +4,11 @@
 
 #include <cmath>
 #include <memory>
-#include <string>
 
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/sim/step_control.hpp"
-#include "knot_utm/sim/time_step.hpp"
+#include "sim/scenes.hpp"
 
 namespace knot_utm {
 
@@ -66,20 +64,15 @@ struct TwistedRod {
     StepControl::Options options;
     options.longest = longest_step;
     options.motion = motion;
-    StepControl control(options);
     const double from = shortening, turned = turn;
     double now = 0.0;
-    const std::string gave_up = control.advance(
-        *step, now, time,
-        [&](double, double to) -> const Boundary& {
-          const double t = to / time, way = t * t * (3.0 - 2.0 * t);
-          shortening = from + (new_shortening - from) * way;
-          turn = turned + (new_turn - turned) * way;
-          place_clamps();
-          return boundary;
-        },
-        [](double, double, const StepSummary&) {});
-    ASSERT_EQ(gave_up, "");
+    run_to(time, *step, now, options, [&](double to) -> const Boundary& {
+      const double t = to / time, way = t * t * (3.0 - 2.0 * t);
+      shortening = from + (new_shortening - from) * way;
+      turn = turned + (new_turn - turned) * way;
+      place_clamps();
+      return boundary;
+    });
   }
 
   /// Force along the rod at the far clamp, and moment about it.

@@ -141,16 +141,6 @@ TEST(BlockPattern, IsThatOfEliminatingAFullMatrix) {
   }
 }
 
-TYPED_TEST(BlockMatrixTest, SolvesAsDenseLuDoes) {
-  constexpr int D = TypeParam::value;
-  Example<D> example;
-  const Eigen::VectorXd b = Eigen::VectorXd::LinSpaced(D * Example<D>::kNodes, -1.0, 2.0);
-  auto x = example.lanes(b);
-  ASSERT_TRUE(example.matrix.solve(x));
-  // 1e-13: rounding of a well-conditioned system of 160 unknowns.
-  EXPECT_LT((example.vector(x) - example.dense.partialPivLu().solve(b)).norm(), 1e-13);
-}
-
 TYPED_TEST(BlockMatrixTest, SolvesForAnotherRightHandSideWithWhatItKept) {
   constexpr int kD = TypeParam::value;
   Example<kD> example;

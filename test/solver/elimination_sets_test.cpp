@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
+#include <set>
 #include <utility>
+#include <vector>
 
 #include "knot_utm/solver/block_matrix.hpp"
+#include "knot_utm/solver/sorting_set.hpp"
 #include "solver/coupled.hpp"
 
 namespace knot_utm {
@@ -47,13 +51,6 @@ std::vector<int> numbers(const Pairs& runs) {
   return out;
 }
 
-TEST(EliminationSets, ARodWithOneKnotOrNoneIsOneSet) {
-  EXPECT_EQ(sets_of(1, {}), numbers({{1, 0}}));
-  EXPECT_EQ(sets_of(50, rod(50, {})), numbers({{50, 0}}));
-  EXPECT_EQ(sets_of(50, rod(50, {{10, 30}, {15, 27}})), numbers({{50, 0}}));
-  EXPECT_EQ(sets_of(50, rod(50, {{0, 47}})), numbers({{50, 0}}));
-}
-
 TEST(EliminationSets, KnotsInARowComeOneAfterTheOtherWithTheStraightsThatLeadToThem) {
   // Knots of nodes 10 to 22, 40 to 52 and 70 to 82.
   const Pairs pairs = rod(100, {{10, 20}, {40, 50}, {70, 80}});
@@ -87,6 +84,33 @@ int blocks_of_row(int knots) {
 TEST(EliminationSets, FillGrowsAsTheKnotsInARowDo) {
   // Every knot passes two blocks more through itself than it does alone; straights cost what they do at the ends.
   EXPECT_LT(blocks_of_row(16), 1.1 * 16 * blocks_of_row(1));
+}
+
+TEST(SortingSet, AppendsWhatItWasGivenInAscendingOrder) {
+  std::mt19937 random(5);
+  SortingSet set;
+  for (const int numbers : {1, 63, 64, 65, 300}) {
+    set.reset(numbers);
+    const auto any = [&] { return static_cast<int>(random() % static_cast<unsigned>(numbers)); };
+    for (int round = 0; round < 50; ++round) {
+      std::set<int> expected;
+      for (int n = 0; n < round % 4; ++n) {
+        const std::vector<int> several = {any(), any(), any()};
+        set.insert(several.data(), several.data() + several.size(), [&](int i) { return numbers - 1 - i; });
+        for (const int i : several) expected.insert(numbers - 1 - i);
+        const int a = any(), b = any();
+        set.insert_run(std::min(a, b), std::max(a, b));
+        for (int i = std::min(a, b); i <= std::max(a, b); ++i) expected.insert(i);
+        set.erase(a);
+        expected.erase(a);
+      }
+      std::vector<int> list = {-7};
+      set.take(list);
+      std::vector<int> whole = {-7};
+      whole.insert(whole.end(), expected.begin(), expected.end());
+      EXPECT_EQ(list, whole);
+    }
+  }
 }
 
 }  // namespace

@@ -53,14 +53,5 @@ TEST_F(CentrelineFile, WrongRowsAreNamed) {
               HasSubstr("row 2 is longer than 4096 characters"));
 }
 
-TEST_F(CentrelineFile, MissingFile) {
-  try {
-    read_centreline("/nowhere/shape.csv");
-    ADD_FAILURE();
-  } catch (const InvalidInput& invalid) {
-    EXPECT_STREQ(invalid.what(), "specimen.file: cannot read /nowhere/shape.csv: no such file");
-  }
-}
-
 }  // namespace
 }  // namespace knot_utm

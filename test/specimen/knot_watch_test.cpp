@@ -4,11 +4,7 @@
 
 #include <cmath>
 
-#include "knot_utm/machine/testing_machine.hpp"
-#include "knot_utm/record/command.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
-#include "knot_utm/specimen/knot.hpp"
-#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 
 namespace knot_utm {
@@ -51,35 +47,6 @@ TEST(KnotWatch, ARodWithoutAKnotHasNoneToLose) {
   EXPECT_EQ(watch.follow(straightened(knotted, 0.99)), KnotType::kKept);
 }
 
-TEST(KnotWatch, ReadsOnlyWhereSomethingHasMoved) {
-  const Points start = open_overhand().points;
-  KnotWatch watch({}, false, kRadius, start);
-  Points points = start;
-  points.col(20).x() += 0.8 * kRadius;
-  watch.follow(points);
-  EXPECT_EQ(watch.readings(), 1);
-  points.col(20).x() += 0.3 * kRadius;
-  watch.follow(points);
-  EXPECT_EQ(watch.readings(), 2);
-}
-
-TEST(KnotWatch, SavedItReadsNextWhereItWouldHave) {
-  const Points start = open_overhand().points;
-  KnotWatch watch({}, false, kRadius, start), elsewhere({}, false, kRadius, start);
-  Points points = start;
-  points.col(20).x() += 1.1 * kRadius;
-  watch.follow(points);
-  ASSERT_EQ(watch.readings(), 2);
-  Archive saved("knot");
-  saved(watch);
-  Archive loaded("knot", saved.bytes(), "here");
-  loaded(elsewhere);
-  loaded.end();
-  elsewhere.follow(points);
-  EXPECT_EQ(elsewhere.readings(), 2) << "nothing has moved since";
-  EXPECT_EQ(elsewhere.follow(straightened(start, 0.99)), KnotType::kChanged);
-}
-
 TEST(KnotWatch, AClosedRodIsJoinedWhereItsEndsMeet) {
   Points ring(3, 101);
   for (int i = 0; i <= 100; ++i) {
@@ -110,37 +77,6 @@ TEST(KnotWatch, ATailThatSlipsOutOfItsCoilUnties) {
     points.col(i) = points.col(upper) + static_cast<double>(i - upper) * edge * Vec3::UnitZ();
   }
   EXPECT_EQ(watch.follow(points), KnotType::kChanged);
-}
-
-TEST(KnotWatch, StandsOnTheMachine) {
-  Material material;
-  material.radius = kRadius;
-  material.density = 1150.0;
-  material.stretching_stiffness = 1.70;
-  material.bending_stiffness = 4.34e-6;
-  material.twisting_stiffness = 2.893e-6;
-  material.friction_coefficient = 0.54;
-  SpecimenOptions specimen;
-  specimen.edge_length = 0.005;
-  for (const KnotKind knot : {knot_named("fisherman"), knot_named("overhand")}) {
-    specimen.knot = knot;
-    specimen.end_to_end = knot == knot_named("fisherman") ? 0.25 : 0.7;
-    MachineOptions machine;
-    machine.grips = knot == knot_named("fisherman") ? GripKind::kRollers : GripKind::kClamps;
-    TestingMachine bench(specimen, material, machine, PhysicsOptions());
-    Command command;
-    Sample sample = bench.respond(command);
-    command.phase = Phase::kPull;
-    command.step = 0;
-    for (int k = 1; k <= 20; ++k) {
-      command.sequence = static_cast<std::uint64_t>(k);
-      command.time = 0.1 * k;
-      command.displacement = 0.0033 * command.time;
-      sample = bench.respond(command);
-      ASSERT_EQ(sample.status, BenchStatus::kRunning) << sample.message;
-    }
-    EXPECT_EQ(sample.knot_type, KnotType::kKept);
-  }
 }
 
 }  // namespace

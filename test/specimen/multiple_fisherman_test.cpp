@@ -2,12 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <vector>
 
 #include "knot_utm/machine/specimen_centreline.hpp"
-#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
@@ -167,31 +165,6 @@ TEST(MultipleFisherman, IsAnotherKnotWithEachWindingThatItsTailIsPulledOutOf) {
       EXPECT_LT(gone.overhand_determinant[1], 2 * turns + 1);
       EXPECT_EQ(gone.overhand_determinant[0], 2 * turns + 1);
     }
-}
-
-/// The clamps stand further out, and the rod to them is straight, by what a further winding may run out.
-TEST(MultipleFisherman, SaysHowFarItMayRunOut) {
-  const double h = 2e-3, tight = 2.0 + 2.0 / std::sqrt(3.0);
-  EXPECT_EQ(runs_out(1, 4.7, h), 0.0);
-  EXPECT_NEAR(runs_out(2, 4.7, h), 0.5 * 2.0 * M_PI * (4.7 - tight) * h, 1e-12);
-  EXPECT_NEAR(runs_out(3, 4.7, h), 2.0 * runs_out(2, 4.7, h), 1e-12);
-  const Centreline line = Scene("multiple_fisherman", 3, h, Handedness::kSame).centreline();
-  for (const KnotLandmarks& marks : line.knots) {
-    EXPECT_EQ(marks.windings, 3);
-    EXPECT_EQ(marks.runs_out, runs_out(3, 4.7, h));
-  }
-  EXPECT_NEAR(TyingRig::straight_strand(h, runs_out(3, 4.7, h)) - TyingRig::straight_strand(h), runs_out(3, 4.7, h),
-              1e-12);
-}
-
-TEST(MultipleFisherman, RefusesOneWindingWhichIsTheFishermansKnot) {
-  Scene scene("multiple_fisherman", 1, 3.175e-3, Handedness::kSame);
-  try {
-    knot_of(scene.specimen).check(scene.specimen, 3.175e-3);
-    FAIL() << "accepted";
-  } catch (const InvalidInput& invalid) {
-    EXPECT_STREQ(invalid.what(), "specimen.turns is 1, but must be 2 or 3; knot: fisherman winds its tails once");
-  }
 }
 
 }  // namespace

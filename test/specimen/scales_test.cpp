@@ -17,14 +17,6 @@ Material similar(double lengths, double forces) {
   return out;
 }
 
-TEST(SpecimenScales, AreMassAndTheTimeInWhichItBends) {
-  const Material material = nylon();
-  const double h = material.radius, mass = material.density * M_PI * h * h;
-  const SpecimenScales scales = specimen_scales(material);
-  EXPECT_DOUBLE_EQ(scales.mass, mass);
-  EXPECT_DOUBLE_EQ(scales.own_time, h * h * std::sqrt(mass / material.bending_stiffness));
-}
-
 TEST(SpecimenScales, SimilarSpecimensOfAnyDensityMoveAlike) {
   for (const double lengths : {0.04, 1.0, 6.0})
     for (const double forces : {1e-5, 1.0, 1e4}) {
@@ -71,14 +63,6 @@ TEST(SpecimenScales, ASlackLoopSpringsFast) {
   EXPECT_EQ(inertia_factor(material, {}, tight), inertia_factor(material, {}, 0.0));
   const SpecimenScales moving = specimen_scales(as_it_moves(material, {}, slack));
   EXPECT_NEAR(radius * radius * std::sqrt(moving.mass / material.bending_stiffness), 0.1, 1e-12);
-}
-
-TEST(SpecimenScales, AMethodMayAskForTheRodsOwnMass) {
-  PhysicsOptions physics;
-  physics.inertia = 1.0;
-  EXPECT_EQ(as_it_moves(nylon(), physics, 0.0).density, nylon().density);
-  physics.inertia = 0.25;
-  EXPECT_EQ(inertia_factor(nylon(), physics, 0.0), 0.25);
 }
 
 }  // namespace

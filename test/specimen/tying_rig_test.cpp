@@ -99,19 +99,6 @@ TEST(TyingRig, ClampsHoldAndGripsNeverPullHarderThanThePreload) {
   EXPECT_EQ(loop.rig->not_equilibrated(), "");
 }
 
-TEST(TyingRig, SettlesUnderADragThatFades) {
-  Loop loop(TyingRig::Options{});
-  loop.rig->tie(0.02, 0.0, loop.stepper->state().position);
-  const auto drag_at = [&](double to) {
-    Boundary boundary;
-    loop.rig->hold(boundary, 0.0, to);
-    return boundary.extra_drag;
-  };
-  EXPECT_GT(drag_at(0.0), drag_at(0.1));
-  EXPECT_GT(drag_at(0.1), drag_at(0.2));
-  EXPECT_EQ(drag_at(1.0), 0.0);
-}
-
 TEST(TyingRig, SaysWhenThePreloadWasNotReachedInTime) {
   TyingRig::Options options;
   options.pull_patience = 0.01;

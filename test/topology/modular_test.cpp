@@ -34,11 +34,6 @@ std::uint64_t leibniz(const std::vector<std::vector<std::uint64_t>>& matrix) {
   return sum;
 }
 
-TEST(Modular, AnInverseTimesItsNumberIsOne) {
-  for (const std::uint64_t a : {std::uint64_t{1}, std::uint64_t{2}, std::uint64_t{123456789}, kPrime - 1})
-    EXPECT_EQ(multiply(a, inverse(a)), 1U);
-}
-
 TEST(ModularDeterminant, IsTheSumOverAllPermutations) {
   std::mt19937_64 random(5);
   for (int n = 0; n < 200; ++n) {

@@ -13,9 +13,9 @@
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
-#include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 #include "knot_utm/topology/knot_invariants.hpp"
+#include "sim/scenes.hpp"
 
 namespace knot_utm {
 
@@ -232,22 +232,17 @@ class LooseKnot {
     control_options.motion = 0.5;
     control_options.easy_iterations = 8;
     control_options.hard_iterations = 16;
-    StepControl control(control_options);
     const Vec3 lower = lower_, upper = upper_;
     Boundary boundary;
     double time = 0.0;
-    const std::string gave_up = control.advance(
-        *stepper_, time, duration,
-        [&](double, double to) -> const Boundary& {
-          const Vec3 way(0.0, 0.0, 0.5 * speed * to);
-          if (!released_) boundary.fixed_nodes = {{0, lower - way}, {static_cast<int>(last()), upper + way}};
-          boundary.extra_drag = settings_.drag * fading_drag * std::max(0.0, 1.0 - 2.0 * to / duration);
-          return boundary;
-        },
-        [](double, double, const StepSummary&) {});
+    run_to(duration, *stepper_, time, control_options, [&](double to) -> const Boundary& {
+      const Vec3 way(0.0, 0.0, 0.5 * speed * to);
+      if (!released_) boundary.fixed_nodes = {{0, lower - way}, {static_cast<int>(last()), upper + way}};
+      boundary.extra_drag = settings_.drag * fading_drag * std::max(0.0, 1.0 - 2.0 * to / duration);
+      return boundary;
+    });
     lower_ = stepper_->state().position.col(0);
     upper_ = stepper_->state().position.col(last());
-    ASSERT_EQ(gave_up, "");
     ASSERT_EQ(determinant(), 2 * options_.turns + 1) << "the rod ran through itself";
   }
 

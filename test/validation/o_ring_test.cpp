@@ -10,7 +10,6 @@
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/rod.hpp"
-#include "knot_utm/sim/step_control.hpp"
 #include "reference.hpp"
 #include "sim/capstan.hpp"
 
@@ -106,17 +105,11 @@ struct Ring {
     StepControl::Options control_options;
     control_options.longest = control_options.first = 0.05 * lever / kSpeed;
     control_options.motion = control_options.slip = 1e3;
-    StepControl control(control_options);
-    const double end = to / kSpeed;
-    const std::string gave_up = control.advance(
-        *stepper, time, end,
-        [&](double, double now) -> const Boundary& {
-          for (FixedNode& held : boundary.fixed_nodes) held.position[0] = kSpeed * now;
-          for (SpringHold& held : boundary.holds) held.place[0] = kSpeed * now;
-          return boundary;
-        },
-        [](double, double, const StepSummary&) {});
-    ASSERT_EQ(gave_up, "");
+    run_to(to / kSpeed, *stepper, time, control_options, [&](double now) -> const Boundary& {
+      for (FixedNode& held : boundary.fixed_nodes) held.position[0] = kSpeed * now;
+      for (SpringHold& held : boundary.holds) held.place[0] = kSpeed * now;
+      return boundary;
+    });
     way = to;
   }
 
