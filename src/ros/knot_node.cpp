@@ -21,7 +21,6 @@ namespace {
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
 constexpr double kManyRejected = 0.5;       // of the time steps that were tried
 constexpr std::uint32_t kQueue = 2 * KnotNode::kKeptAnswers;
-constexpr std::uint32_t kLargest = 16 * 1024;  // message to this node [bytes]
 
 /// The forces where the strands are shown, each going with the node that it is nearest to.
 std::vector<ContactForce> moved(std::vector<ContactForce> forces, const Points& from, const Points& to) {
@@ -62,9 +61,8 @@ KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
   shape_ = node_.advertise<KnotShape>(names::kKnotShape, 10);
   specimen_ = node_.advertise<SpecimenInfo>(names::kSpecimen, 1, true);
   markers_ = node_.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 1);
-  commands_ =
-      subscribe_gated(node_, {names::kCrosshead, names::kUtmNode, kQueue, kLargest}, &KnotNode::on_command, this);
-  status_ = subscribe_gated(node_, {names::kTestStatus, names::kUtmNode, 10, kLargest}, &KnotNode::on_status, this);
+  commands_ = subscribe_gated(node_, names::kCrosshead, names::kUtmNode, kQueue, &KnotNode::on_command, this);
+  status_ = subscribe_gated(node_, names::kTestStatus, names::kUtmNode, 10, &KnotNode::on_status, this);
   reset_ = node_.advertiseService(names::kReset, &KnotNode::on_reset, this);
 
   diagnostics_.setHardwareID(method_.material.name);
@@ -114,8 +112,6 @@ void KnotNode::begin_specimen() {
 void KnotNode::on_command(const Crosshead::ConstPtr& command) {
   const Crosshead& message = *command;
   if (message.run < run_) return;  // left over from a test that has ended
-  const std::string fault = fault_of(message, limits());
-  if (!fault.empty()) return refuse(message, std::string(names::kCrosshead) + ": " + fault);
   if (message.run != run_) {
     if (message.sequence != 0) return refuse(message, "the specimen was reset during the test");
     try {
@@ -135,11 +131,7 @@ void KnotNode::on_command(const Crosshead::ConstPtr& command) {
          "command " + std::to_string(message.sequence) + " came where " + std::to_string(next_) + " was expected");
 }
 
-CrossheadLimits KnotNode::limits() const { return {method_.machine.travel, machine_.longest_step()}; }
-
 void KnotNode::answer(const Crosshead& message) {
-  const std::string fault = kept_.empty() ? "" : fault_after(kept_.back()->command, message, limits());
-  if (!fault.empty()) return refuse(message, std::string(names::kCrosshead) + ": " + fault);
   const Command command = from_message(message);
   stamp_ = message.header.stamp;
   sample_ = machine_.respond(command);

@@ -16,10 +16,10 @@
 #include "bag_topics.hpp"
 #include "clock_pace.hpp"
 #include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/urdf.hpp"
-#include "knot_utm/ros/validate.hpp"
 
 namespace knot_utm {
 namespace {
@@ -103,6 +103,7 @@ int ReplayNode::spin() {
       on_view_timer({});
       ROS_INFO("%s has been replayed", options_.bag.c_str());
       ros::WallDuration(kGoodbye).sleep();
+      end_launch_when_rviz_is_closed();
       break;
     }
   }
@@ -143,11 +144,12 @@ void ReplayNode::play(const rosbag::MessageInstance& instance) {
     show(*replay<KnotShape>(instance));
   } else if (name == names::kKnotState) {
     const boost::shared_ptr<KnotState> state = replay<KnotState>(instance);
-    const std::string fault = fault_of(*state);
-    if (!fault.empty())
-      throw InvalidInput::sentence(name, fault, "a message on " + name + " is not that of a test: " + shown(fault))
+    try {
+      sample_ = from_message(*state);
+    } catch (const std::invalid_argument& fault) {
+      throw InvalidInput::sentence(name, "", "a message on " + name + " is not that of a test: " + shown(fault.what()))
           .in_file(options_.bag);
-    sample_ = from_message(*state);
+    }
     run_ = state->run;
     motion_pattern_ = state->motion_pattern;
   } else if (name == names::kCrosshead) {

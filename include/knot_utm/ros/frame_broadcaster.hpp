@@ -4,7 +4,6 @@
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
-#include "knot_utm/ros/latecomers.hpp"
 #include "knot_utm/ros/machine_frames.hpp"
 
 namespace knot_utm {
@@ -30,9 +29,8 @@ class FrameBroadcaster {
  private:
   MachineFrames frames_;
   ros::Time published_;
-  tf2_msgs::TFMessage last_;  ///< the moving frames at that time
-  Latecomers latecomers_;
-  ros::Publisher moving_;
+  ros::Publisher moving_;  ///< latched, for those who come late
+  ros::Publisher looks_;
   tf2_ros::StaticTransformBroadcaster fixed_;
 };
 

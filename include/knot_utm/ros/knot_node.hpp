@@ -18,7 +18,6 @@
 #include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/order_of_test.hpp"
 #include "knot_utm/ros/shown_state.hpp"
-#include "knot_utm/ros/validate.hpp"
 #include "knot_utm/ros/view_parameters.hpp"
 #include "knot_utm/ros/views.hpp"
 
@@ -27,8 +26,8 @@ namespace knot_utm {
 /// The simulation as a node. It answers each command with the state of the same sequence number and stamp. A command
 /// that it has already answered gets the same answer again, so that a lost message never repeats a step. Command 0 of a
 /// new test begins with a new specimen, which is that of the test's order (test_order.hpp). A command out of
-/// order (as when the specimen was reset during a test), or one that no program can give, is answered with a failure.
-/// Only commands of the machine's node are accepted.
+/// order, as when the specimen was reset during a test, is answered with a failure. Only commands of the machine's node
+/// are accepted.
 class KnotNode {
  public:
   /// Number of answers that are kept, to be sent again on request. The recorder may be behind by this number of
@@ -46,7 +45,6 @@ class KnotNode {
 
   void put_in(const TestOrder& order);  ///< puts in a new specimen; throws InvalidInput, and then the last one stays
   void begin_specimen();
-  CrossheadLimits limits() const;
   void answer(const Crosshead& message);
   void refuse(const Crosshead& message, const std::string& why);
   void publish(const KnotRecord& record);

@@ -27,7 +27,7 @@ struct ReplayOptions {
   std::string bag;           ///< a test.bag
   double rate = 1.0;         ///< test time over wall time; 0: as fast as possible
   std::string ended_by;      ///< how the test ended, as result.yaml names it; empty: not known
-  bool exit_at_end = false;  ///< `spin` returns at the end of the bag
+  bool exit_at_end = false;  ///< the launch ends at the end of the bag
   double patience = 5.0;     ///< longest wall time to wait for a viewer of the pictures before beginning [s]
 };
 

@@ -4,14 +4,15 @@
 #include <knot_utm/ViewConfig.h>
 
 #include <functional>
+#include <optional>
 
 #include "knot_utm/ros/markers.hpp"
 
 namespace knot_utm {
 
 /// The parameters ~marker_rate, ~color_by and ~contact_forces of a node that draws pictures. They can be changed by
-/// dynamic_reconfigure while the node runs. A value that is not allowed is refused: the value before stays and is
-/// returned to the client, and a line says what is allowed.
+/// dynamic_reconfigure while the node runs. Where a value is not allowed all of them stay as they were, which the
+/// client is told, and a line says what is allowed.
 class ViewParameters {
  public:
   /// `on_change` receives the wall time between two pictures [s], at once and whenever a parameter has changed. Throws
@@ -23,7 +24,7 @@ class ViewParameters {
 
   ScenePicture& picture_;
   std::function<void(double)> on_change_;
-  ViewConfig now_;
+  std::optional<ViewConfig> now_;
   dynamic_reconfigure::Server<ViewConfig> server_;
 };
 
