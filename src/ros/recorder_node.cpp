@@ -302,8 +302,8 @@ void RecorderNode::finish_when_ready() {
   if (test_.state != TestStatus::ENDED || test_.run != run_number_) return;
   const bool all = run_->next > test_.sequence;
   const bool shape = run_->shape.cols() > 0 && run_->shape_sequence == test_.sequence;
-  // A physics that has failed may not have the specimen any more.
-  if (all && (shape || run_->failed)) {
+  // A physics that has failed may not have the specimen any more, and one that has died answers nothing.
+  if (all && (shape || run_->failed || test_.reason == kPhysicsDied)) {
     finish_as_told("");
   } else if (waited_ - run_->progress > kPatienceAtEnd) {
     if (!all) run_->dropped += test_.sequence + 1 - run_->next;

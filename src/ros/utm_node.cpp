@@ -31,6 +31,7 @@ using std::chrono::steady_clock;
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
 constexpr double kCatchUp = 0.1;            // wall time that is made up for after a slow step [s]
 constexpr double kLongestPause = 86400.0;   // between two commands, however slow the pace asked for [s]
+constexpr double kLongestStart = 60.0;      // wall time after which a physics that nobody saw has died [s]
 constexpr std::uint32_t kQueue = 1000;
 
 double seconds_since(steady_clock::time_point then) { return Seconds(steady_clock::now() - then).count(); }
@@ -135,12 +136,13 @@ std::string UtmNode::folder() const {
 /// roslaunch does not end where the physics dies: the recorder is to hear first why the test has ended.
 void UtmNode::look_after_physics() {
   looked_ = steady_clock::now();
-  const bool is_there = nodes_of_launch().count(names::kKnotNode) > 0;
-  if (physics_seen_ && !is_there) {
+  const std::set<std::string> nodes = nodes_of_launch();
+  if (nodes.count(names::kKnotNode) > 0) {
+    physics_seen_ = true;
+  } else if (physics_seen_ || (!nodes.empty() && !has_specimen_ && seconds_since(began_) > kLongestStart)) {
     physics_gone_ = true;
-    if (active()) physics_failed(kPhysicsDied);
+    physics_lost();
   }
-  physics_seen_ = is_there;
 }
 
 double UtmNode::wait_time() const {
@@ -152,7 +154,10 @@ double UtmNode::wait_time() const {
 void UtmNode::on_specimen(const SpecimenInfo::ConstPtr& specimen) { has_specimen_ = specimen->nodes > 0; }
 
 void UtmNode::on_gone(const ros::SingleSubscriberPublisher& subscriber) {
-  if (subscriber.getSubscriberName() != node_.resolveName(names::kKnotNode)) return;
+  if (subscriber.getSubscriberName() == node_.resolveName(names::kKnotNode)) physics_lost();
+}
+
+void UtmNode::physics_lost() {
   if (active() || (state_ == State::kEnded && another_follows())) physics_died_ = true;
   if (active()) physics_failed(kPhysicsDied);
 }

@@ -110,6 +110,7 @@ class UtmNode {
   void send(const Command& command);
   void resend();
   void physics_failed(const std::string& why);  ///< ends the test with this reason
+  void physics_lost();
   void look_after_physics();
   void end_launch_of_test();
   std::string folder() const;
@@ -132,7 +133,7 @@ class UtmNode {
   bool has_specimen_ = false;  ///< whether the simulation holds one
   bool physics_died_ = false;  ///< during this test
   bool physics_gone_ = false;  ///< its process has ended
-  bool physics_seen_ = false;  ///< as a process of the launch, at the last look
+  bool physics_seen_ = false;  ///< as a process of the launch
   bool leaves_ = false;        ///< the launch ends; no other test begins
   Batch batch_;
   std::optional<ProgramRunner> program_;  ///< program of this test
@@ -161,6 +162,7 @@ class UtmNode {
   Clock::time_point status_published_;
   Clock::time_point diagnosed_;
   Clock::time_point looked_;
+  Clock::time_point began_ = Clock::now();
   Clock::time_point factor_measured_;
   double factor_time_ = 0.0;  ///< test time at which the factor was last measured [s]
   double factor_;             ///< recent ratio of test time to wall time

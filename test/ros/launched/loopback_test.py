@@ -34,7 +34,7 @@ class LoopbackTest(unittest.TestCase):
                 pid = next(pid for name, pid in processes.items() if name.startswith(node))
                 addresses = listening(pid)
                 self.assertGreaterEqual(len(addresses), 1, node)
-                self.assertLessEqual(set(addresses), {'127.0.0.1', '0.0.0.0%lo'}, node)
+                self.assertLessEqual(set(addresses), {'127.0.0.1', '127.0.0.1%lo', '0.0.0.0%lo'}, node)
             self.assertEqual(set(listening(launch.roslaunch())), {'127.0.0.1'})
 
     def test_opened(self):

@@ -71,9 +71,9 @@ class NodesDieTest(unittest.TestCase):
     def test_physics(self):
         self.dies('knot_node', 'solver', 'knot_node died during the test')
 
-    def test_physics_that_dies_before_a_test(self):
-        with Launch('method:=' + METHOD, 'autostart:=false', 'exit_at_end:=false') as launch:
-            wait_for('the nodes', lambda: launch.answers('utm_node') and launch.answers('knot_node'))
+    def test_physics_that_dies_between_two_tests(self):
+        with Launch('method:=' + METHOD, "overrides:='program.hold.duration=0.1'", 'exit_at_end:=false') as launch:
+            wait_for('the first test', lambda: 'readings were written' in launch.console())
             os.kill(launch.pid('knot_node'), signal.SIGKILL)
             launch.end()
 

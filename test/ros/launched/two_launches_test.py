@@ -128,8 +128,7 @@ class TwoLaunchesTest(unittest.TestCase):
                 check = subprocess.run([os.path.join(ROOT, 'launch/check'), 'tighten.launch', '--', word], check=False,
                                        env=dict(os.environ, ROS_MASTER_URI=uri), stdout=subprocess.DEVNULL,
                                        stderr=subprocess.PIPE, universal_newlines=True, timeout=LAST_RESORT)
-                self.assertEqual((check.returncode, check.stderr.count('
-')), (code, code // 2), check.stderr)
+                self.assertEqual((check.returncode, check.stderr.count('\n')), (code, code // 2), check.stderr)
                 self.assertIn(why if code else '', check.stderr)
 
 
