@@ -76,7 +76,9 @@ class StartTestTest(unittest.TestCase):
         for override in overrides:
             command += ['--set', override]
         subprocess.run(command, check=True)
-        _, different, missing = filecmp.cmpfiles(folder + below, out + below, FILES, shallow=False)
+        # Of a batch tensile_test writes no bags.
+        files = [name for name in FILES if not below or name != 'test.bag']
+        _, different, missing = filecmp.cmpfiles(folder + below, out + below, files, shallow=False)
         self.assertEqual(different + missing, [])
 
     def material(self):
