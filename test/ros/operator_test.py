@@ -101,7 +101,7 @@ class OperatorTest(unittest.TestCase):
                   'knot/record': KnotRecord(), 'knot/specimen': SpecimenInfo()}
         for topic, message in forged.items():
             publisher = rospy.Publisher(topic, type(message), queue_size=10)
-            begin = 'messages on %s from /operator_test are ignored' % topic
+            begin = 'messages on %s from %s are ignored' % (topic, rospy.get_name())
 
             def ignored(publisher=publisher, message=message, begin=begin):
                 publisher.publish(message)
