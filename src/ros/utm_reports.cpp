@@ -3,6 +3,7 @@
 
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 
 namespace knot_utm {

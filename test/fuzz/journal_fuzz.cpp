@@ -66,9 +66,7 @@ void read(const std::string& folder, const std::string& file) {
   promise(read_whole(journal_file(folder)) == file.substr(0, before), "what was read is written to the same bytes");
 }
 
-}  // namespace
-
-void fuzz(const std::string& text) {
+void fuzz_journal(const std::string& text) {
   static const ScratchFolder folder;
   static const std::string good = beginning(folder.name(), {"specimen: {knot: straight}\n", 7, "test"});
   static const std::size_t words = good.find('\n') + 1 + sizeof(std::uint32_t);
@@ -76,5 +74,8 @@ void fuzz(const std::string& text) {
   understood([&] { read(folder.name(), good.substr(0, words) + frame(text)); });
   promise(understood([&] { read(folder.name(), good + frames(text)); }), "a journal whose header is whole is read");
 }
+const FuzzTarget journal("journal", fuzz_journal);
+
+}  // namespace
 
 }  // namespace knot_utm

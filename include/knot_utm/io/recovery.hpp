@@ -9,6 +9,7 @@
 #include "knot_utm/io/locked_file.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/run_writer.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 

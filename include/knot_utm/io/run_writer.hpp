@@ -10,11 +10,12 @@
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/io/shape_series.hpp"
-#include "knot_utm/record/sample.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/topology/loop_turn.hpp"
 
 namespace knot_utm {
+
+struct Sample;
 
 /// Writes all files of a run into its folder, in a test without ROS as well as in the recorder:
 ///   method.yaml      from the beginning, with the centreline beside it as specimen.csv where the specimen is a file

@@ -15,6 +15,7 @@
 
 #include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/run_writer.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/ros/keeper.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/order_of_test.hpp"

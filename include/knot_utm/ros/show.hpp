@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/ros/machine_frames.hpp"
 #include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/shown_state.hpp"

@@ -23,6 +23,7 @@
 #include <vector>
 
 #include "knot_utm/machine/program_runner.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 
 namespace knot_utm {
