@@ -77,7 +77,7 @@ def memory(pid):
 
 
 class Launch:
-    """tighten.launch under way, in a folder of its own; `with` ends it."""
+    """tighten.launch, or another one that `command` starts, under way in a folder of its own; `with` ends it."""
 
     def __init__(self, *arguments, command=None, environment=None, prepare=None, port=None):
         self.folder = tempfile.mkdtemp(prefix='knot_utm_')
@@ -90,9 +90,10 @@ class Launch:
                                 ROS_LOG_DIR=os.path.join(self.folder, 'log'),
                                 KNOT_UTM_SKIP_BUILD='1', **(environment or {}))
         command = command or ['roslaunch', 'knot_utm', 'tighten.launch']
+        out = [] if 'replay.launch' in command else ['out:=out']
         with open(os.path.join(self.folder, 'console'), 'wb') as console:
             self.process = subprocess.Popen(
-                command + ['-p', str(self.port), 'working_directory:=' + self.folder, 'out:=out'] + list(arguments),
+                command + ['-p', str(self.port), 'working_directory:=' + self.folder] + out + list(arguments),
                 stdout=console, stderr=subprocess.STDOUT, env=self.environment, cwd=self.folder, start_new_session=True)
 
     def __enter__(self):

@@ -5,6 +5,7 @@
 
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/record/ended_by.hpp"
+#include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
 
@@ -28,6 +29,7 @@ int main(int argc, char** argv) {
   namespace fs = std::filesystem;
   return knot_utm::run_node(argc, argv, knot_utm::names::kReplayNode, kHelp, [&] {
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, knot_utm::names::kReplayNode);
+    const knot_utm::SimTimeFound sim_time_found;
     const ros::NodeHandle own("~");
     std::string bag, method, base;
     knot_utm::ReplayOptions options;

@@ -7,7 +7,6 @@
 
 #include "knot_utm/record/phase.hpp"
 #include "knot_utm/ros/base_marker.hpp"
-#include "knot_utm/ros/color.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/views.hpp"
 

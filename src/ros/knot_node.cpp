@@ -1,6 +1,5 @@
 #include "knot_utm/ros/knot_node.hpp"
 
-#include <knot_utm/ColorBar.h>
 #include <knot_utm/SpecimenInfo.h>
 
 #include <algorithm>
@@ -21,17 +20,6 @@ namespace {
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
 constexpr double kManyRejected = 0.5;       // of the time steps that were tried
 constexpr std::uint32_t kQueue = 2 * KnotNode::kKeptAnswers;
-constexpr std::uint32_t kLargest = 16 * 1024;  // message to this node [bytes]
-
-/// The forces where the strands are shown, each going with the node that it is nearest to.
-std::vector<ContactForce> moved(std::vector<ContactForce> forces, const Points& from, const Points& to) {
-  for (ContactForce& contact : forces) {
-    Eigen::Index node = 0;
-    (from.colwise() - contact.place).colwise().squaredNorm().minCoeff(&node);
-    contact.place += to.col(node) - from.col(node);
-  }
-  return forces;
-}
 
 TestingMachine make_bench(const Method& method) {
   return TestingMachine(method.specimen, method.material, method.machine, method.physics);
@@ -45,26 +33,16 @@ KnotNode::KnotNode(const ros::NodeHandle& node, const Method& method)
       method_(method),
       machine_(make_bench(method)),
       motion_(rollers_hold(method.specimen, method.machine)),
-      frames_(machine_.lower_grip(), method.specimen.end_to_end),
-      picture_(method.specimen, method.machine, method.material),
-      views_(method.specimen, method.machine, method.material),
-      colors_(node_.advertise<ColorBar>(names::kColors, 1, true)),
-      view_timer_(node_.createSteadyTimer(ros::WallDuration(1.0), &KnotNode::on_view_timer, this)),
-      diagnostics_(node_),
-      view_(picture_, [this](double period) {
-        view_is_old_ = true;
-        colors_.publish(picture_.scale().bar());
-        view_timer_.setPeriod(ros::WallDuration(period));
-      }) {
+      show_(
+          node, [this] { return moment(); }, [this] { return machine_.contact_forces(); }),
+      diagnostics_(node_) {
   state_ = node_.advertise<KnotState>(names::kKnotState, kQueue);
   record_ = node_.advertise<KnotRecord>(names::kKnotRecord, kQueue);
   load_cell_ = node_.advertise<geometry_msgs::WrenchStamped>(names::kLoadCell, kQueue);
   shape_ = node_.advertise<KnotShape>(names::kKnotShape, 10);
   specimen_ = node_.advertise<SpecimenInfo>(names::kSpecimen, 1, true);
-  markers_ = node_.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 1);
-  commands_ =
-      subscribe_gated(node_, {names::kCrosshead, names::kUtmNode, kQueue, kLargest}, &KnotNode::on_command, this);
-  status_ = subscribe_gated(node_, {names::kTestStatus, names::kUtmNode, 10, kLargest}, &KnotNode::on_status, this);
+  commands_ = subscribe_gated(node_, names::kCrosshead, names::kUtmNode, kQueue, &KnotNode::on_command, this);
+  status_ = subscribe_gated(node_, names::kTestStatus, names::kUtmNode, 10, &KnotNode::on_status, this);
   reset_ = node_.advertiseService(names::kReset, &KnotNode::on_reset, this);
 
   diagnostics_.setHardwareID(method_.material.name);
@@ -80,12 +58,6 @@ void KnotNode::put_in(const TestOrder& order) {
   method_ = method;
   order_ = order;
   diagnostics_.setHardwareID(method_.material.name);
-  frames_.begin(machine_.lower_grip(), method_.specimen.end_to_end);
-  ScenePicture picture(method_.specimen, method_.machine, method_.material);
-  picture.show_as(picture_);
-  picture_ = picture;
-  views_ = Views(method_.specimen, method_.machine, method_.material);
-  colors_.publish(picture_.scale().bar());
   begin_specimen();
 }
 
@@ -95,9 +67,7 @@ void KnotNode::begin_specimen() {
   kept_.clear();
   sample_ = Sample();
   motion_ = MotionPatternTracker(rollers_hold(method_.specimen, method_.machine));
-  picture_.begin(machine_.state().position);
-  shown_.begin();
-  view_is_old_ = true;
+  show_.begin(method_, machine_.lower_grip(), machine_.state().position);
   set_on_master(node_.resolveName(names::kRobotDescription),
                 machine_urdf(method_, machine_.lower_grip(), machine_.upper_grip()));
 
@@ -114,8 +84,6 @@ void KnotNode::begin_specimen() {
 void KnotNode::on_command(const Crosshead::ConstPtr& command) {
   const Crosshead& message = *command;
   if (message.run < run_) return;  // left over from a test that has ended
-  const std::string fault = fault_of(message, limits());
-  if (!fault.empty()) return refuse(message, std::string(names::kCrosshead) + ": " + fault);
   if (message.run != run_) {
     if (message.sequence != 0) return refuse(message, "the specimen was reset during the test");
     try {
@@ -135,18 +103,13 @@ void KnotNode::on_command(const Crosshead::ConstPtr& command) {
          "command " + std::to_string(message.sequence) + " came where " + std::to_string(next_) + " was expected");
 }
 
-CrossheadLimits KnotNode::limits() const { return {method_.machine.travel, machine_.longest_step()}; }
-
 void KnotNode::answer(const Crosshead& message) {
-  const std::string fault = kept_.empty() ? "" : fault_after(kept_.back()->command, message, limits());
-  if (!fault.empty()) return refuse(message, std::string(names::kCrosshead) + ": " + fault);
   const Command command = from_message(message);
   stamp_ = message.header.stamp;
   sample_ = machine_.respond(command);
   motion_.add(sample_);
   ++next_;
-  view_is_old_ = true;
-  if (viewers_ > 0) shown_.add(moment(), ShownState::Clock::now());
+  show_.state_changed();
 
   auto record = boost::make_shared<KnotRecord>();
   record->command = message;
@@ -200,10 +163,7 @@ void KnotNode::on_status(const TestStatus::ConstPtr& ended) {
   if (status.state != TestStatus::ENDED || status.run != run_ || kept_.empty()) return;
   KnotRecord& last = *kept_.back();
   if (last.command.sequence != status.sequence) return;
-  if (viewers_ > 0 && !shown_.settled(ShownState::Clock::now())) {
-    shown_.settle();  // this node may end before the pictures have come to the last state
-    publish_markers();
-  }
+  show_.settle();
   if (last.shape.points.empty()) put_shape(last);
   if (record_.getNumSubscribers() > 0) record_.publish(last);
 }
@@ -215,16 +175,6 @@ bool KnotNode::on_reset(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigg
   return true;
 }
 
-void KnotNode::on_view_timer(const ros::SteadyTimerEvent& /*event*/) {
-  const std::uint32_t viewers = markers_.getNumSubscribers();
-  const bool somebody_is_new = viewers > viewers_;
-  if (viewers_ == 0) shown_.begin();
-  viewers_ = viewers;
-  if (viewers == 0) return frames_.publish(stamp_, sample_.displacement, machine_.upper_grip(), nullptr);
-  if (shown_.empty()) shown_.add(moment(), ShownState::Clock::now());
-  if (view_is_old_ || somebody_is_new) publish_markers();
-}
-
 Moment KnotNode::moment() const {
   return {stamp_,
           machine_.state().position,
@@ -232,18 +182,6 @@ Moment KnotNode::moment() const {
           machine_.upper_grip(),
           sample_,
           motion_pattern_name(motion_.pattern())};
-}
-
-void KnotNode::publish_markers() {
-  const ShownState::Clock::time_point now = ShownState::Clock::now();
-  view_is_old_ = !shown_.settled(now);
-  const Moment moment = shown_.at(now);
-  const Looks looks = views_.look(moment.points, machine_.lower_grip(), moment.upper_grip, moment.sample);
-  frames_.publish(moment.stamp, moment.sample.displacement, moment.upper_grip, &looks);
-  const std::vector<ContactForce> contacts = moved(machine_.contact_forces(), machine_.state().position, moment.points);
-  const SceneView view{moment.points, moment.tension,       contacts, machine_.lower_grip(), moment.upper_grip,
-                       moment.sample, moment.motion_pattern};
-  markers_.publish(picture_.draw(view, moment.stamp));
 }
 
 void KnotNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -8,7 +8,6 @@
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
 #include "knot_utm/ros/base_marker.hpp"
-#include "knot_utm/ros/color.hpp"
 #include "knot_utm/ros/names.hpp"
 
 namespace knot_utm {

@@ -37,6 +37,12 @@ XmlRpc::XmlRpcValue request_for(const std::string& name) {
 
 }  // namespace
 
+bool master_answers() {
+  XmlRpc::XmlRpcValue request, answer;
+  request[0] = ros::this_node::getName();
+  return call("getPid", request, answer);
+}
+
 bool set_on_master(const std::string& name, const XmlRpc::XmlRpcValue& value) {
   XmlRpc::XmlRpcValue request = request_for(name), answer;
   request[2] = value;

@@ -2,7 +2,6 @@
 
 #include <ros/console.h>
 #include <ros/init.h>
-#include <ros/names.h>
 #include <ros/this_node.h>
 
 #include <algorithm>
@@ -17,10 +16,10 @@
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/numeric/number.hpp"
-#include "knot_utm/ros/batch_place.hpp"
+#include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/loopback.hpp"
-#include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/order_of_test.hpp"
 #include "knot_utm/study/specimens.hpp"
 
 namespace knot_utm {
@@ -96,9 +95,10 @@ void check_specimens(const Method& method, const std::string& file) {
   draw_specimens(method);
 }
 
+/// utm_node reads the same where it is launched too, which its parameters tell.
 bool another_says_it(const ros::NodeHandle& node) {
   return ros::this_node::getName() != node.resolveName(names::kUtmNode) &&
-         node.hasParam(std::string(names::kExitCodes) + "/" + names::kUtmNode);
+         node.hasParam(std::string(names::kUtmNode) + "/exit_at_end");
 }
 
 TestWords read_words(const ros::NodeHandle& node) {
@@ -126,6 +126,12 @@ MethodSetup read_parameters(const ros::NodeHandle& node) {
   const MethodSetup setup = set_up(read_words(node));
   if (setup.method.specimens.count > 1 && !another_says_it(node)) check_specimens(setup.method, setup.file);
   return setup;
+}
+
+/// Prints one line on the console, whether or not ROS logging is available. Returns `code`.
+int report_failure(const char* name, const char* what, int code) {
+  std::fprintf(stderr, "%s: %s\n", name, what);
+  return code;
 }
 
 }  // namespace
@@ -189,22 +195,16 @@ ros::NodeHandle join_ros(int argc, char** argv, const char* name) {
   prefer_loopback();
   ros::init(argc, argv, name);
   ros::start();  // so that it goes on until `leave_ros`, and not until the last handle is gone
+  end_with_launch();
   const ros::NodeHandle node;
   bool network = false;
   read_parameter(node, "test/network", &network, "true or false");
   if (!network) {
     stay_on_loopback();
-    require_loopback();
   } else if (name == std::string(names::kUtmNode)) {  // one of all that say it
     ROS_WARN("network:=true: ROS 1 has no authentication, so anyone who reaches this machine can command the test");
   }
   return node;
-}
-
-void leave_ros(const char* name, int code) {
-  if (!ros::isStarted()) return;
-  if (ros::ok()) set_on_master(ros::names::resolve(std::string(names::kExitCodes) + "/" + name), code);
-  ros::shutdown();
 }
 
 std::optional<int> answer_words(int argc, char** argv, const char* name, const char* help) {
@@ -224,8 +224,22 @@ std::optional<int> answer_words(int argc, char** argv, const char* name, const c
   return std::nullopt;
 }
 
-int report_failure(const char* name, const char* what, int code) {
-  std::fprintf(stderr, "%s: %s\n", name, what);
+int run_node(int argc, char** argv, const char* name, const char* help, const std::function<int()>& body) {
+  if (const std::optional<int> answered = answer_words(argc, argv, name, help)) return *answered;
+  int code = 0;
+  try {
+    code = body();
+  } catch (const SaidByAnother&) {
+    wait_for_end_of(names::kUtmNode);
+    code = 2;
+  } catch (const InvalidInput& error) {
+    code = report_failure(name, error.what(), 2);
+    end_launch();
+  } catch (const std::exception& error) {
+    code = report_failure(name, error.what(), 1);
+    end_launch();
+  }
+  if (ros::isStarted()) ros::shutdown();
   return code;
 }
 

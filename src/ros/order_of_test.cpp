@@ -1,7 +1,10 @@
 #include "knot_utm/ros/order_of_test.hpp"
 
+#include <XmlRpcException.h>
+
 #include <optional>
 
+#include "knot_utm/io/command_hint.hpp"
 #include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/names.hpp"
 
@@ -12,20 +15,18 @@ using XmlRpc::XmlRpcValue;
 
 constexpr char kNumber[] = "number", kCount[] = "count", kName[] = "name", kMethod[] = "method", kOut[] = "out";
 
-/// One that is not there, or of another type, is 0 or empty, which no order of utm_node has.
-int number_of(XmlRpcValue& order, const char* key) {
-  const bool there = order.hasMember(key) && order[key].getType() == XmlRpcValue::TypeInt;
-  return there ? static_cast<int>(order[key]) : 0;
-}
-std::string text_of(XmlRpcValue& order, const char* key) {
-  const bool there = order.hasMember(key) && order[key].getType() == XmlRpcValue::TypeString;
-  return there ? static_cast<std::string>(order[key]) : "";
-}
-
 }  // namespace
 
+std::string BatchPlace::text() const { return "specimen " + std::to_string(number) + " of " + std::to_string(count); }
+
+std::string command_to_resume(const std::string& batch) {
+  return command_line({program_beside("tensile_test"), "--resume", batch});
+}
+
 TestOrder order_of(const Method& method, const std::string& out, const BatchPlace& place) {
-  return {place, method.name, method_yaml(method_of_batch(method, place.count)), out};
+  Method of_batch = method;
+  of_batch.specimens.count = place.count;
+  return {place, method.name, method_yaml(of_batch), out};
 }
 
 Method method_of(const TestOrder& order) { return parse_method(order.method, order.name + ".yaml"); }
@@ -49,13 +50,18 @@ TestOrder given_order(const ros::NodeHandle& node) {
         name, "",
         "cannot read the parameter " + name +
             ", which utm_node sets before each test: it is not there, or the ROS master does not answer");
-  const TestOrder order{{number_of(*set, kNumber), number_of(*set, kCount)},
-                        text_of(*set, kName),
-                        text_of(*set, kMethod),
-                        text_of(*set, kOut)};
+  TestOrder order;
+  try {
+    XmlRpcValue& value = *set;
+    order.place = {static_cast<int>(value[kNumber]), static_cast<int>(value[kCount])};
+    order.name = static_cast<std::string>(value[kName]);
+    order.method = static_cast<std::string>(value[kMethod]);
+    order.out = static_cast<std::string>(value[kOut]);
+  } catch (const XmlRpc::XmlRpcException&) {
+    order.place.number = 0;
+  }
   const BatchPlace& place = order.place;
-  const bool is_one = place.number >= 1 && place.number <= place.count && place.count <= kMostInBatch;
-  if (!is_one || order.name.empty() || order.method.empty() || order.out.empty())
+  if (place.number < 1 || place.number > place.count || place.count > kMostInBatch)
     throw InvalidInput(name, place.text(), "the order that utm_node sets");
   return order;
 }

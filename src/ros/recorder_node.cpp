@@ -13,11 +13,10 @@
 #include "knot_utm/io/recovery.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/journal_bag.hpp"
 #include "knot_utm/ros/knot_node.hpp"
-#include "knot_utm/ros/loopback.hpp"
 #include "knot_utm/ros/master_parameters.hpp"
-#include "knot_utm/ros/validate.hpp"
 
 namespace knot_utm {
 namespace {
@@ -25,15 +24,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint32_t kQueue = 4 * KnotNode::kKeptAnswers;
-constexpr std::uint32_t kLargest = 256 * 1024 * 1024;  // message to this node [bytes]
-constexpr double kLastRecords = 1.0;                   // wall time for what is under way once the machine died [s]
-constexpr double kPatience = 2.0;                      // wall time to wait for a record that is missing [s]
-constexpr double kPatienceWithKeeper = 60.0;           // wall time that a recovery may take [s]
-constexpr double kPatienceAtEnd = 10.0;                // the same for the final shape [s]
-constexpr double kAcknowledgePeriod = 0.005;           // wall time between acknowledgements [s]
-constexpr double kDiagnosticsPeriod = 1.0;             // wall time [s]
-constexpr double kLongestPause = 0.1;                  // between two looks that counts as waiting [s]
-constexpr std::uint64_t kAcknowledgeAfter = 16;        // records, where they come faster
+constexpr double kLastRecords = 1.0;             // wall time for what is under way once the machine died [s]
+constexpr double kPatience = 2.0;                // wall time to wait for a record that is missing [s]
+constexpr double kPatienceWithKeeper = 60.0;     // wall time that a recovery may take [s]
+constexpr double kPatienceAtEnd = 10.0;          // the same for the final shape [s]
+constexpr double kAcknowledgePeriod = 0.005;     // wall time between acknowledgements [s]
+constexpr double kDiagnosticsPeriod = 1.0;       // wall time [s]
+constexpr double kLongestPause = 0.1;            // between two looks that counts as waiting [s]
+constexpr std::uint64_t kAcknowledgeAfter = 16;  // records, where they come faster
 
 double seconds_since(std::chrono::steady_clock::time_point then) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
@@ -65,10 +63,8 @@ RecorderNode::RecorderNode(const ros::NodeHandle& node, const std::string& out, 
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
   status_ = node_.advertise<RecorderStatus>(names::kRecorderStatus, 100, come, gone, ros::VoidConstPtr(), true);
   save_ = node_.advertiseService(names::kSave, &RecorderNode::on_save, this);
-  records_ =
-      subscribe_gated(node_, {names::kKnotRecord, names::kKnotNode, kQueue, kLargest}, &RecorderNode::on_record, this);
-  test_status_ =
-      subscribe_gated(node_, {names::kTestStatus, names::kUtmNode, 10, kLargest}, &RecorderNode::on_status, this);
+  records_ = subscribe_gated(node_, names::kKnotRecord, names::kKnotNode, kQueue, &RecorderNode::on_record, this);
+  test_status_ = subscribe_gated(node_, names::kTestStatus, names::kUtmNode, 10, &RecorderNode::on_status, this);
   diagnostics_.setHardwareID("none");
   diagnostics_.add("files", this, &RecorderNode::diagnose);
   publish_status();
@@ -222,8 +218,6 @@ void RecorderNode::watch(const std::string& folder) {
 
 void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
   if (!error_.empty()) return;
-  const std::string fault = fault_of(*record);
-  if (!fault.empty()) return odd_record_.say(names::kKnotNode, fault);
   try {
     const Crosshead& command = record->command;
     if (command.run < run_number_) return;
@@ -299,8 +293,6 @@ void RecorderNode::give_up_gap() {
 }
 
 void RecorderNode::on_status(const TestStatus::ConstPtr& status) {
-  const std::string fault = fault_of(*status);
-  if (!fault.empty()) return odd_status_.say(names::kUtmNode, fault);
   // A machine that was paused has its end long after its last record.
   if (run_ && status->state == TestStatus::ENDED && test_.state != TestStatus::ENDED) run_->progress = waited_;
   test_ = *status;
@@ -310,8 +302,8 @@ void RecorderNode::finish_when_ready() {
   if (test_.state != TestStatus::ENDED || test_.run != run_number_) return;
   const bool all = run_->next > test_.sequence;
   const bool shape = run_->shape.cols() > 0 && run_->shape_sequence == test_.sequence;
-  // A physics that has failed may not have the specimen any more.
-  if (all && (shape || run_->failed)) {
+  // A physics that has failed may not have the specimen any more, and one that has died answers nothing.
+  if (all && (shape || run_->failed || test_.reason == kPhysicsDied)) {
     finish_as_told("");
   } else if (waited_ - run_->progress > kPatienceAtEnd) {
     if (!all) run_->dropped += test_.sequence + 1 - run_->next;
@@ -469,7 +461,7 @@ void RecorderNode::publish_status() {
 void RecorderNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   using diagnostic_msgs::DiagnosticStatus;
   if (!error_.empty()) {
-    status.summary(DiagnosticStatus::ERROR, one_line(error_));
+    status.summary(DiagnosticStatus::ERROR, error_);
   } else if (run_ && run_->dropped > 0) {
     status.summary(DiagnosticStatus::WARN, std::to_string(run_->dropped) + " commands of the test never arrived");
   } else if (is_complete()) {

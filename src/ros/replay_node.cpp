@@ -1,7 +1,6 @@
 #include "knot_utm/ros/replay_node.hpp"
 
 #include <geometry_msgs/WrenchStamped.h>
-#include <knot_utm/ColorBar.h>
 #include <knot_utm/Crosshead.h>
 #include <knot_utm/KnotState.h>
 #include <ros/callback_queue.h>
@@ -16,10 +15,10 @@
 #include "bag_topics.hpp"
 #include "clock_pace.hpp"
 #include "knot_utm/ros/conversions.hpp"
+#include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/urdf.hpp"
-#include "knot_utm/ros/validate.hpp"
 
 namespace knot_utm {
 namespace {
@@ -56,19 +55,11 @@ ReplayNode::ReplayNode(const ros::NodeHandle& node, const Method& method, const 
     : node_(node),
       options_(options),
       machine_(method.specimen, method.material, method.machine, method.physics),
-      frames_(machine_.lower_grip(), method.specimen.end_to_end),
-      picture_(method.specimen, method.machine, method.material),
-      views_(method.specimen, method.machine, method.material),
-      markers_(node_.advertise<visualization_msgs::MarkerArray>(names::kMarkers, 1)),
-      colors_(node_.advertise<ColorBar>(names::kColors, 1, true)),
+      tested_(method),
+      show_(
+          node, [this] { return moment_; }, [] { return std::vector<ContactForce>(); }),
       method_(node_.advertise<std_msgs::String>(names::kMethod, 1, true)),
-      clock_(node_.advertise<rosgraph_msgs::Clock>(names::kClock, 10)),
-      view_timer_(node_.createSteadyTimer(ros::WallDuration(1.0), &ReplayNode::on_view_timer, this)),
-      parameters_(picture_, [this](double period) {
-        picture_is_old_ = true;
-        colors_.publish(picture_.scale().bar());
-        view_timer_.setPeriod(ros::WallDuration(period));
-      }) {
+      clock_(node_.advertise<rosgraph_msgs::Clock>(names::kClock, 10)) {
   open(bag_, options_.bag);
   names_ = topics_of(bag_, options_.bag);
   std::vector<std::string> topics;
@@ -87,22 +78,23 @@ ReplayNode::ReplayNode(const ros::NodeHandle& node, const Method& method, const 
   method_.publish(text);
   set_on_master(node_.resolveName(names::kRobotDescription),
                 machine_urdf(method, machine_.lower_grip(), machine_.upper_grip()));
+  show_.begin(tested_, machine_.lower_grip(), Points(3, 0));
   begin_ = Clock::now();
 }
 
 int ReplayNode::spin() {
   while (ros::ok()) {
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(until_due()));
-    if (!begun_ && (somebody_looks() || seconds_since(begin_) > options_.patience)) begin();
+    if (!begun_ && (show_.somebody_looks() || seconds_since(begin_) > options_.patience)) begin();
     if (begun_) play_what_is_due();
     if (seconds_since(clock_published_) > kIdleClockPeriod) publish_clock();
     if (begun_ && next_ == view_->end() && !ended_) publish_end();
     if (options_.exit_at_end && next_ == view_->end()) {
       publish_clock();
-      shown_.settle();
-      on_view_timer({});
+      show_.settle();
       ROS_INFO("%s has been replayed", options_.bag.c_str());
       ros::WallDuration(kGoodbye).sleep();
+      end_launch_when_rviz_is_closed();
       break;
     }
   }
@@ -143,11 +135,12 @@ void ReplayNode::play(const rosbag::MessageInstance& instance) {
     show(*replay<KnotShape>(instance));
   } else if (name == names::kKnotState) {
     const boost::shared_ptr<KnotState> state = replay<KnotState>(instance);
-    const std::string fault = fault_of(*state);
-    if (!fault.empty())
-      throw InvalidInput::sentence(name, fault, "a message on " + name + " is not that of a test: " + shown(fault))
+    try {
+      sample_ = from_message(*state);
+    } catch (const std::invalid_argument& fault) {
+      throw InvalidInput::sentence(name, "", "a message on " + name + " is not that of a test: " + shown(fault.what()))
           .in_file(options_.bag);
-    sample_ = from_message(*state);
+    }
     run_ = state->run;
     motion_pattern_ = state->motion_pattern;
   } else if (name == names::kCrosshead) {
@@ -180,34 +173,14 @@ void ReplayNode::publish_clock() {
 
 void ReplayNode::show(const KnotShape& shape) {
   const Points points = points_from_message(shape);
-  if (shown_.empty()) picture_.begin(points);
+  if (moment_.points.cols() == 0) show_.begin(tested_, machine_.lower_grip(), points);
   const Eigen::VectorXd tension =
       Eigen::Map<const Eigen::VectorXd>(shape.tension.data(), static_cast<Eigen::Index>(shape.tension.size()));
   // On a compliant frame the grip goes less far than the crosshead.
   const double travel =
       sample_.end_to_end > 0.0 ? sample_.end_to_end - (machine_.upper_grip() - machine_.lower_grip()).norm() : 0.0;
-  shown_.add({now_, points, tension, machine_.upper_grip() + travel * Vec3::UnitZ(), sample_, motion_pattern_},
-             Clock::now());
-  picture_is_old_ = true;
-}
-
-void ReplayNode::on_view_timer(const ros::SteadyTimerEvent& /*event*/) {
-  const std::uint32_t viewers = markers_.getNumSubscribers();
-  const bool somebody_is_new = viewers > viewers_;
-  viewers_ = viewers;
-  if (shown_.empty()) return;
-  const Clock::time_point now = Clock::now();
-  const Moment moment = shown_.at(now);
-  const Vec3 lower_grip = machine_.lower_grip();
-  if (viewers == 0) return frames_.publish(moment.stamp, moment.sample.displacement, moment.upper_grip, nullptr);
-  if (!picture_is_old_ && !somebody_is_new) return;
-  picture_is_old_ = !shown_.settled(now);
-  const Looks looks = views_.look(moment.points, lower_grip, moment.upper_grip, moment.sample);
-  frames_.publish(moment.stamp, moment.sample.displacement, moment.upper_grip, &looks);
-  const std::vector<ContactForce> none_recorded;
-  const SceneView view{moment.points,     moment.tension, none_recorded,        lower_grip,
-                       moment.upper_grip, moment.sample,  moment.motion_pattern};
-  markers_.publish(picture_.draw(view, moment.stamp));
+  moment_ = {now_, points, tension, machine_.upper_grip() + travel * Vec3::UnitZ(), sample_, motion_pattern_};
+  show_.state_changed();
 }
 
 }  // namespace knot_utm

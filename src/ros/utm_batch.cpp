@@ -5,6 +5,7 @@
 #include "knot_utm/io/load_test.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/machine/accuracy.hpp"
+#include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/order_of_test.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 #include "knot_utm/study/specimens.hpp"
@@ -57,6 +58,7 @@ UtmNode::Batch UtmNode::batch_of(const StartTest::Request& request) const {
 std::string UtmNode::start_if_possible(const StartTest::Request& request) {
   // What is told in the same breath as this request: the last goal gets the result of its own test.
   if (state_ == State::kEnded && all_is_recorded()) see_to_the_next();
+  if (leaves_) return "the launch is about to end";
   if (active()) return "a test is running";
   if (!has_specimen_) return "there is no specimen yet";
   if (run_ > 0 && !all_is_recorded()) return "the last test is still being recorded";
@@ -88,13 +90,13 @@ bool UtmNode::start(std::size_t specimen) {
   single_steps_ = 0;
   sample_ = Sample();
   motion_pattern_.clear();
-  readings_.clear();
   max_penetration_ = 0.0;
   state_ = State::kRunning;
   due_ = steady_clock::now();
   run_began_ = due_;
   factor_measured_ = due_;
   factor_time_ = 0.0;
+  if (specimen == 0) write_verdict(options_.verdict, std::nullopt, batch_.folder);
   if (!place.alone()) ROS_INFO("%s is tested", place.text().c_str());
   send(program_->last());
   publish_status();
@@ -126,17 +128,13 @@ void UtmNode::see_to_the_next() {
     ROS_ERROR("the ROS master does not answer");
     batch_.cut_off = true;
   }
-  if (tested() < batch_.methods.size()) {
+  if (tested() < batch_.methods.size())
     ROS_WARN("the batch ended after %zu of %zu specimens", tested(), batch_.methods.size());
-    if (!batch_directory_.empty())
-      ROS_WARN("once the launch has ended, the others can be tested by: %s",
-               command_to_resume(batch_directory_).c_str());
-  }
   finish_goal();
 }
 
 bool UtmNode::failed() const {
-  return recorder_failed_ || physics_died_ || batch_.cut_off ||
+  return recorder_failed_ || physics_died_ || physics_gone_ || batch_.cut_off ||
          (program_ && program_->failed() && batch_.good_tests == 0);
 }
 

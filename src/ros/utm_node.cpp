@@ -7,15 +7,20 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "clock_pace.hpp"
 #include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/progress_line.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/conversions.hpp"
-#include "knot_utm/ros/validate.hpp"
+#include "knot_utm/ros/gate.hpp"
+#include "knot_utm/ros/launched.hpp"
+#include "knot_utm/ros/names.hpp"
+#include "knot_utm/ros/order_of_test.hpp"
 
 namespace knot_utm {
 namespace {
@@ -26,13 +31,20 @@ using std::chrono::steady_clock;
 constexpr double kDiagnosticsPeriod = 1.0;  // wall time [s]
 constexpr double kCatchUp = 0.1;            // wall time that is made up for after a slow step [s]
 constexpr double kLongestPause = 86400.0;   // between two commands, however slow the pace asked for [s]
+constexpr double kLongestStart = 60.0;      // wall time after which a physics that nobody saw has died [s]
 constexpr std::uint32_t kQueue = 1000;
-constexpr std::uint32_t kLargest = 64 * 1024;  // message to this node [bytes]
 
 double seconds_since(steady_clock::time_point then) { return Seconds(steady_clock::now() - then).count(); }
 
 steady_clock::duration to_duration(double seconds) {
   return std::chrono::duration_cast<steady_clock::duration>(Seconds(seconds));
+}
+
+/// The status of goals is latched and published at every change of it. By itself the server would publish it by a
+/// timer on /clock, which anybody may set, and which runs as fast as the test does.
+const char* without_timer(const ros::NodeHandle& node) {
+  node.setParam(std::string(names::kRunTest) + "/actionlib_status_frequency", 0.0);
+  return names::kRunTest;
 }
 
 }  // namespace
@@ -43,12 +55,9 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
       options_(options),
       progress_(std::make_unique<ProgressLine>(stderr)),
       factor_(std::numeric_limits<double>::quiet_NaN()),
-      run_test_(node, {[this](std::uint32_t count) {
-                         StartTest::Request request;
-                         request.specimens = count;
-                         return start_if_possible(request);
-                       },
-                       [this] { stop(); }}),
+      actions_(
+          node, without_timer(node), [this](Actions::GoalHandle goal) { on_goal(std::move(goal)); },
+          [this](const Actions::GoalHandle& goal) { on_cancel(goal); }, false),
       diagnostics_(node) {
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
   crosshead_ = node_.advertise<Crosshead>(names::kCrosshead, kQueue, ros::SubscriberStatusCallback(), gone);
@@ -56,11 +65,10 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
   status_ = node_.advertise<TestStatus>(names::kTestStatus, 10, true);
   method_text_ = node_.advertise<std_msgs::String>(names::kMethod, 1, true);
   clock_ = node_.advertise<rosgraph_msgs::Clock>(names::kClock, 10);
-  states_ = subscribe_gated(node_, {names::kKnotState, names::kKnotNode, kQueue, kLargest}, &UtmNode::on_state, this);
-  specimens_ = subscribe_gated(node_, {names::kSpecimen, names::kKnotNode, 1, kLargest}, &UtmNode::on_specimen, this);
+  states_ = subscribe_gated(node_, names::kKnotState, names::kKnotNode, kQueue, &UtmNode::on_state, this);
+  specimens_ = subscribe_gated(node_, names::kSpecimen, names::kKnotNode, 1, &UtmNode::on_specimen, this);
   if (options_.record) {
-    recorder_ = subscribe_gated(node_, {names::kRecorderStatus, names::kRecorderNode, 10, kLargest},
-                                &UtmNode::on_recorder, this);
+    recorder_ = subscribe_gated(node_, names::kRecorderStatus, names::kRecorderNode, 10, &UtmNode::on_recorder, this);
   }
   start_ = node_.advertiseService(names::kStartTest, &UtmNode::on_start, this);
   stop_ = node_.advertiseService(names::kStopTest, &UtmNode::on_stop, this);
@@ -75,6 +83,7 @@ UtmNode::UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const
                  std::to_string(getpid()) + "-" + std::to_string(steady_clock::now().time_since_epoch().count()));
   publish_method(launched_.method);
   publish_status();
+  actions_.start();
 }
 
 UtmNode::~UtmNode() = default;
@@ -90,17 +99,50 @@ int UtmNode::spin() {
     if (seconds_since(sent_) > options_.resend_period) resend();
     if (seconds_since(clock_published_) > kIdleClockPeriod) publish_clock(true);
     if (seconds_since(status_published_) > kStatusPeriod && (active() || !all_is_recorded())) publish_status();
+    if (seconds_since(looked_) > kStatusPeriod) look_after_physics();
     if (seconds_since(diagnosed_) > kDiagnosticsPeriod) {
       diagnosed_ = steady_clock::now();
       diagnostics_.force_update();
     }
     if (state_ == State::kEnded && all_is_recorded()) see_to_the_next();
-    if (options_.exit_at_end && state_ == State::kEnded && all_is_recorded()) {
-      ros::WallDuration(kGoodbye).sleep();
+    const bool over = !active() && (run_ == 0 || all_is_recorded());
+    if (over && (physics_gone_ || (options_.exit_at_end && state_ == State::kEnded))) {
+      end_launch_of_test();
       break;
     }
   }
+  // ROS may be shut down by now.
+  if (!batch_directory_.empty() && holds_unfinished_run(batch_directory_))
+    std::printf("not all specimens of the batch in %s were tested; test the others by: %s\n", batch_directory_.c_str(),
+                command_to_resume(batch_directory_).c_str());
+  std::fflush(stdout);
   return failed() ? 1 : 0;
+}
+
+void UtmNode::end_launch_of_test() {
+  leaves_ = true;
+  write_verdict(options_.verdict, failed() ? 1 : 0, folder());
+  ros::WallDuration(kGoodbye).sleep();
+  if (physics_died_ || physics_gone_) return end_launch();
+  end_launch_when_rviz_is_closed();
+}
+
+/// That of the recorder; before it has said one, the one that it will make.
+std::string UtmNode::folder() const {
+  if (!batch_directory_.empty()) return batch_directory_;
+  return directory_.empty() ? batch_.folder : directory_;
+}
+
+/// roslaunch does not end where the physics dies: the recorder is to hear first why the test has ended.
+void UtmNode::look_after_physics() {
+  looked_ = steady_clock::now();
+  const std::set<std::string> nodes = nodes_of_launch();
+  if (nodes.count(names::kKnotNode) > 0) {
+    physics_seen_ = true;
+  } else if (physics_seen_ || (!nodes.empty() && !has_specimen_ && seconds_since(began_) > kLongestStart)) {
+    physics_gone_ = true;
+    physics_lost();
+  }
 }
 
 double UtmNode::wait_time() const {
@@ -109,14 +151,13 @@ double UtmNode::wait_time() const {
   return std::clamp(until_due, 0.0, 0.02);
 }
 
-void UtmNode::on_specimen(const SpecimenInfo::ConstPtr& specimen) {
-  const std::string fault = fault_of(*specimen);
-  if (!fault.empty()) return odd_specimen_.say(names::kKnotNode, fault);
-  has_specimen_ = true;
-}
+void UtmNode::on_specimen(const SpecimenInfo::ConstPtr& specimen) { has_specimen_ = specimen->nodes > 0; }
 
 void UtmNode::on_gone(const ros::SingleSubscriberPublisher& subscriber) {
-  if (subscriber.getSubscriberName() != node_.resolveName(names::kKnotNode)) return;
+  if (subscriber.getSubscriberName() == node_.resolveName(names::kKnotNode)) physics_lost();
+}
+
+void UtmNode::physics_lost() {
   if (active() || (state_ == State::kEnded && another_follows())) physics_died_ = true;
   if (active()) physics_failed(kPhysicsDied);
 }
@@ -135,28 +176,14 @@ void UtmNode::physics_failed(const std::string& why) {
 void UtmNode::on_state(const KnotState::ConstPtr& answer) {
   const KnotState& state = *answer;
   if (!waiting_ || state.run != run_ || state.sequence != command_.sequence) return;  // an answer given twice
-  const std::string fault = fault_of(state);
-  if (!fault.empty()) return physics_failed(std::string(names::kKnotState) + ": " + fault);
   sample_ = from_message(state);
   motion_pattern_ = state.motion_pattern;
-  take_reading();
   max_penetration_ = std::max(max_penetration_, sample_.max_penetration);
   waiting_ = false;
   progress_->show(sample_, *program_, seconds_since(run_began_));
   now_ = state.header.stamp;
   publish_clock(false);
   if (joint_states_.getNumSubscribers() > 0) joint_states_.publish(to_joint_state(command_, sample_, now_));
-}
-
-/// What result.yaml is made of, too: the readings of the load cell, and where the rod parts.
-void UtmNode::take_reading() {
-  const bool parted = sample_.status == BenchStatus::kBroken;
-  if (!command_.read_cell && !command_.balance && !parted) return;
-  readings_.push_back(sample_);
-  if (!parted) return;
-  Sample& reading = readings_.back();  // its ends recoil by now: the largest load of the command is that of the break
-  reading.load = reading.highest_load;
-  reading.force_upper = reading.highest_load + reading.balance_offset;
 }
 
 void UtmNode::on_recorder(const RecorderStatus::ConstPtr& recorded) {
@@ -171,7 +198,7 @@ void UtmNode::on_recorder(const RecorderStatus::ConstPtr& recorded) {
   if (!status.error.empty()) {
     recorder_failed_ = true;
     if (active()) {
-      ROS_ERROR("the recorder failed: %s", one_line(status.error).c_str());
+      ROS_ERROR("the recorder failed: %s", status.error.c_str());
       stop();
     }
   }

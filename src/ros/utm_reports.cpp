@@ -1,8 +1,7 @@
 // What the machine tells of itself: its status, the action's feedback and result, its health.
 #include <limits>
 
-#include "knot_utm/analysis/results.hpp"
-#include "knot_utm/machine/grips.hpp"
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/utm_node.hpp"
@@ -50,7 +49,7 @@ void UtmNode::publish_status() {
 }
 
 void UtmNode::report_to_goal(const TestStatus& status) {
-  if (!run_test_.has_goal()) return;
+  if (!goal_) return;
   RunTestFeedback feedback;
   feedback.specimen = static_cast<std::uint32_t>(batch_.specimen + 1);
   feedback.specimens = static_cast<std::uint32_t>(batch_.methods.size());
@@ -64,10 +63,13 @@ void UtmNode::report_to_goal(const TestStatus& status) {
   feedback.progress = status.progress;
   feedback.real_time_factor = status.real_time_factor;
   feedback.time_left = status.time_left;
-  run_test_.report(feedback);
+  goal_->publishFeedback(feedback);
 }
 
 TestOutcome UtmNode::outcome() const {
+  const auto recorded = [this](const char* key) {
+    return parse_number(result_of(directory_, key).value_or("")).value_or(Sample::kNone);
+  };
   const EndedBy ended_by = program_->ended_by();
   TestOutcome out;
   out.run = run_;
@@ -77,18 +79,16 @@ TestOutcome UtmNode::outcome() const {
   out.motion_pattern = motion_pattern_;
   out.time = sample_.time;
   out.extension = sample_.extension;
-  const Method& method = batch_.methods[batch_.specimen];
-  const Results results = analyse(readings_, readings_, ended_by, rollers_hold(method.specimen, method.machine));
-  out.peak_force = results.curve.peak_force.value_or(Sample::kNone);
-  out.true_peak_force = results.true_peak_force.value_or(Sample::kNone);
-  out.balance_offset = results.balance_offset.value_or(Sample::kNone);
+  out.peak_force = recorded("peak_force");
+  out.true_peak_force = recorded("true_peak_force");
+  out.balance_offset = recorded("balance_offset");
   out.max_penetration = max_penetration_;
   out.directory = directory_;
   return out;
 }
 
 void UtmNode::finish_goal() {
-  if (!run_test_.has_goal()) return;
+  if (!goal_) return;
   const TestOutcome& last = batch_.outcomes.back();
   RunTestResult result;
   result.run = last.run;
@@ -108,10 +108,14 @@ void UtmNode::finish_goal() {
     text = "tested " + std::to_string(tested()) + " of " + std::to_string(batch_.methods.size()) +
            " specimens; the last test " + text;
   const bool by_operator = batch_.stopped || program_->ended_by() == EndedBy::kOperator;
-  run_test_.finish(failed()      ? GoalEnd::kAborted
-                   : by_operator ? GoalEnd::kPreempted
-                                 : GoalEnd::kSucceeded,
-                   result, text);
+  if (failed()) {
+    goal_->setAborted(result, text);
+  } else if (by_operator) {
+    goal_->setCanceled(result, text);
+  } else {
+    goal_->setSucceeded(result, text);
+  }
+  goal_.reset();
 }
 
 void UtmNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -29,6 +29,19 @@ bool UtmNode::on_start(StartTest::Request& request, StartTest::Response& respons
   return true;
 }
 
+void UtmNode::on_goal(Actions::GoalHandle goal) {
+  StartTest::Request request;
+  request.specimens = goal.getGoal()->count;
+  const std::string why_not = start_if_possible(request);
+  if (!why_not.empty()) return goal.setRejected(RunTestResult(), why_not);
+  goal_ = goal;
+  goal_->setAccepted("the test is running");
+}
+
+void UtmNode::on_cancel(const Actions::GoalHandle& goal) {
+  if (goal_ && *goal_ == goal) stop();
+}
+
 bool UtmNode::on_stop(std_srvs::Trigger::Request& /*request*/, std_srvs::Trigger::Response& response) {
   const bool between_two = state_ == State::kEnded && another_follows();
   if (!active() && !between_two) return refuse(response, "no test is running");

@@ -82,7 +82,7 @@ class KilledRecorderTest(unittest.TestCase):
         rows = self.rows()
         said = launch.end()
         self.assertEqual(said.count('process has died'), 1, said)
-        self.assertRegex(said, r'\[recorder_node-\d+\] process has died')
+        self.assertRegex(said, r'\[recorder_node-\d+\] has died!\nprocess has died')
         wait_until('the folder is recovered', lambda: self.has('result.yaml'))
         self.assertIn(b'ended_by: not yet\nreason: "the recorder died"', content(self.out, 'result.yaml'))
         self.assertGreaterEqual(self.rows(), rows)

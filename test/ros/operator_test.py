@@ -12,9 +12,11 @@ sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import rospy
 import rostest
 from geometry_msgs.msg import WrenchStamped
-from knot_utm.msg import KnotState, RecorderStatus, SpecimenInfo, TestStatus
+from knot_utm.msg import Crosshead, KnotRecord, KnotState, RecorderStatus, SpecimenInfo, TestStatus
 from knot_utm.srv import StartTest
 from node_test import LAST_RESORT, Latest, call, start_test
+from own_launch import wait_until
+from rosgraph_msgs.msg import Log
 from std_msgs.msg import String
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import Marker, MarkerArray
@@ -91,6 +93,23 @@ class OperatorTest(unittest.TestCase):
         self.assertTrue(call('utm/pause', Trigger).success, 'pressed again it goes on')
         before = self.state.last.sequence
         self.state.wait('goes on again', lambda s: s.sequence > before)
+
+    def test_4_strangers_are_ignored(self):
+        console = Latest('/rosout', Log)
+        forged = {'utm/crosshead': Crosshead(run=9), 'knot/state': KnotState(status=KnotState.FAILED, sequence=self.state.last.sequence),
+                  'utm/status': TestStatus(state=TestStatus.ENDED, run=1), 'recorder/status': RecorderStatus(run=1, error='forged'),
+                  'knot/record': KnotRecord(), 'knot/specimen': SpecimenInfo()}
+        for topic, message in forged.items():
+            publisher = rospy.Publisher(topic, type(message), queue_size=10)
+            begin = 'messages on %s from %s are ignored' % (topic, rospy.get_name())
+
+            def ignored(publisher=publisher, message=message, begin=begin):
+                publisher.publish(message)
+                return any(log.msg.startswith(begin) for log in list(console.messages))
+            wait_until(topic + ' is ignored', ignored)
+            publisher.unregister()
+        sequence = self.state.last.sequence
+        self.state.wait('the test goes on', lambda s: s.run == 1 and s.sequence > sequence + 3 and s.status != KnotState.FAILED)
 
     def test_5_tools(self):
         topics = tool('rostopic', 'list').split()

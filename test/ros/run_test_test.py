@@ -110,9 +110,9 @@ class RunTestTest(unittest.TestCase):
         self.assertEqual(changed['color_by'], 'curvature')
         self.colors.wait('curvature', lambda bar: bar.quantity == 'curvature')
         self.assertEqual(view.update_configuration({'color_by': 'beauty'})['color_by'], 'curvature')
-        self.said('knot_node: color_by: beauty is refused: tension or curvature is allowed; it stays curvature')
+        self.said('knot_node: refused: color_by is "beauty", but must be tension or curvature')
         self.assertEqual(view.update_configuration({'marker_rate': 1000.0})['marker_rate'], 50.0)
-        self.said('knot_node: marker_rate: 1000 is refused: 0.1 to 60 is allowed; it stays 50')
+        self.said('knot_node: refused: marker_rate is 1000, but must be 0.1 to 60')
 
         machine = Client('utm_node', timeout=LAST_RESORT)
         self.assertEqual(machine.update_configuration({'real_time_factor': -1.0})['real_time_factor'], 0.2)

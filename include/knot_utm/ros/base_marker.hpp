@@ -1,6 +1,7 @@
 #pragma once
 
 #include <geometry_msgs/Point.h>
+#include <std_msgs/ColorRGBA.h>
 #include <visualization_msgs/Marker.h>
 
 #include "knot_utm/numeric/points.hpp"
@@ -13,6 +14,16 @@ inline geometry_msgs::Point to_point(const Vec3& v) {
   point.y = v.y();
   point.z = v.z();
   return point;
+}
+
+/// An opaque colour from its components, 0 to 1.
+inline std_msgs::ColorRGBA color(double red, double green, double blue) {
+  std_msgs::ColorRGBA c;
+  c.r = static_cast<float>(red);
+  c.g = static_cast<float>(green);
+  c.b = static_cast<float>(blue);
+  c.a = 1.0f;
+  return c;
 }
 
 /// A marker for rviz that is still without size, colour and content. `ns`: its namespace, within which `id` is unique.

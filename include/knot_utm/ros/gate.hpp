@@ -2,80 +2,28 @@
 
 #include <ros/ros.h>
 
-#include <boost/make_shared.hpp>
-#include <chrono>
 #include <memory>
+#include <set>
 #include <string>
 
 namespace knot_utm {
 
-/// Prints warnings about messages of a topic, at most one line in five seconds. The time is that of a monotonic clock,
-/// which nobody can set.
-class TopicWarning {
- public:
-  explicit TopicWarning(std::string topic) : topic_(std::move(topic)) {}
-  void say(const std::string& publisher, const std::string& fault);
-
- private:
-  std::string topic_;
-  std::chrono::steady_clock::time_point said_;
-  bool silent_so_far_ = true;
-};
-
-/// Restricts who may publish on a topic, and how long a message may be. A message that is not admitted is ignored
-/// before it is deserialised, because deserialising trusts the lengths of arrays in it.
-class Gate {
- public:
-  /// `publisher`: full name of the only node that may publish. `largest`: largest length of a message [bytes].
-  Gate(const std::string& topic, std::string publisher, std::uint32_t largest);
-
-  /// Whether to accept a message. A warning is printed where not.
-  bool admits(const std::string& publisher, std::uint32_t length);
-
- private:
-  std::string publisher_;
-  std::uint32_t largest_;
-  TopicWarning warning_;
-};
-
-/// A topic and the node that publishes it. Both names are relative to the namespace of the subscriber.
-struct Source {
-  const char* topic;
-  const char* publisher;
-  std::uint32_t queue;    ///< length of the subscriber's queue [messages]
-  std::uint32_t largest;  ///< largest message [bytes]
-};
-
-/// A subscription callback that deserialises only messages admitted by a gate.
-template <class Message>
-class GatedCallback : public ros::SubscriptionCallbackHelperT<const boost::shared_ptr<const Message>&> {
-  using Base = ros::SubscriptionCallbackHelperT<const boost::shared_ptr<const Message>&>;
-
- public:
-  GatedCallback(const typename Base::Callback& callback, Gate gate) : Base(callback), gate_(std::move(gate)) {}
-
-  ros::VoidConstPtr deserialize(const ros::SubscriptionCallbackHelperDeserializeParams& params) override {
-    const auto caller = params.connection_header->find("callerid");
-    const std::string publisher = caller == params.connection_header->end() ? "" : caller->second;
-    return gate_.admits(publisher, params.length) ? Base::deserialize(params) : ros::VoidConstPtr();
-  }
-
- private:
-  Gate gate_;
-};
-
-/// Subscribes to a topic, and accepts messages of its rightful node only.
+/// Subscribes to a topic, and ignores what any node but its rightful publisher says there. Both names are relative to
+/// the namespace of the subscriber. A warning is printed once for each stranger.
 template <class Message, class Node>
-ros::Subscriber subscribe_gated(ros::NodeHandle& handle, const Source& source,
+ros::Subscriber subscribe_gated(ros::NodeHandle& handle, const char* topic, const char* publisher, std::uint32_t queue,
                                 void (Node::*take)(const boost::shared_ptr<const Message>&), Node* node) {
-  using Pointer = boost::shared_ptr<const Message>;
-  const boost::function<void(const Pointer&)> callback = [take, node](const Pointer& message) {
-    (node->*take)(message);
+  using Event = const ros::MessageEvent<const Message>&;
+  const std::string rightful = handle.resolveName(publisher);
+  const auto strangers = std::make_shared<std::set<std::string>>();
+  const boost::function<void(Event)> callback = [=](Event event) {
+    const std::string& from = event.getPublisherName();
+    if (from == rightful) return (node->*take)(event.getMessage());
+    if (strangers->insert(from).second)
+      ROS_WARN("messages on %s from %s are ignored: only %s may publish there", topic, from.c_str(), rightful.c_str());
   };
   ros::SubscribeOptions options;
-  options.init<Message>(source.topic, source.queue, callback);
-  options.helper = boost::make_shared<GatedCallback<Message>>(
-      callback, Gate(source.topic, handle.resolveName(source.publisher), source.largest));
+  options.initByFullCallbackType<Event>(topic, queue, callback);
   options.transport_hints = ros::TransportHints().tcpNoDelay();
   return handle.subscribe(options);
 }

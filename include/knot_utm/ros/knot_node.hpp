@@ -14,21 +14,16 @@
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
-#include "knot_utm/ros/frame_broadcaster.hpp"
-#include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/order_of_test.hpp"
-#include "knot_utm/ros/shown_state.hpp"
-#include "knot_utm/ros/validate.hpp"
-#include "knot_utm/ros/view_parameters.hpp"
-#include "knot_utm/ros/views.hpp"
+#include "knot_utm/ros/show.hpp"
 
 namespace knot_utm {
 
 /// The simulation as a node. It answers each command with the state of the same sequence number and stamp. A command
 /// that it has already answered gets the same answer again, so that a lost message never repeats a step. Command 0 of a
 /// new test begins with a new specimen, which is that of the test's order (test_order.hpp). A command out of
-/// order (as when the specimen was reset during a test), or one that no program can give, is answered with a failure.
-/// Only commands of the machine's node are accepted.
+/// order, as when the specimen was reset during a test, is answered with a failure. Only commands of the machine's node
+/// are accepted.
 class KnotNode {
  public:
   /// Number of answers that are kept, to be sent again on request. The recorder may be behind by this number of
@@ -41,18 +36,15 @@ class KnotNode {
   void on_command(const Crosshead::ConstPtr& command);
   void on_status(const TestStatus::ConstPtr& ended);
   bool on_reset(std_srvs::Trigger::Request& request, std_srvs::Trigger::Response& response);
-  void on_view_timer(const ros::SteadyTimerEvent& event);
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   void put_in(const TestOrder& order);  ///< puts in a new specimen; throws InvalidInput, and then the last one stays
   void begin_specimen();
-  CrossheadLimits limits() const;
   void answer(const Crosshead& message);
   void refuse(const Crosshead& message, const std::string& why);
   void publish(const KnotRecord& record);
   void put_shape(KnotRecord& record) const;
   Moment moment() const;
-  void publish_markers();
 
   ros::NodeHandle node_;
   TestOrder order_;  ///< of the present specimen
@@ -65,19 +57,13 @@ class KnotNode {
   MotionPatternTracker motion_;                     ///< motion pattern of this specimen
   ros::Time stamp_;                                 ///< stamp of the last answer
   Sample diagnosed_;                                ///< the answer at the last diagnosis
-  FrameBroadcaster frames_;
-  ScenePicture picture_;
-  Views views_;
-  ShownState shown_;  ///< maintained while somebody views the pictures
-  bool view_is_old_ = true;
-  std::uint32_t viewers_ = 0;
+  Show show_;
 
-  ros::Publisher colors_, state_, record_, load_cell_, shape_, specimen_, markers_;
+  ros::Publisher state_, record_, load_cell_, shape_, specimen_;
   ros::Subscriber commands_, status_;
   ros::ServiceServer reset_;
-  ros::SteadyTimer view_timer_, diagnostics_timer_;
+  ros::SteadyTimer diagnostics_timer_;
   diagnostic_updater::Updater diagnostics_;
-  ViewParameters view_;
 };
 
 }  // namespace knot_utm

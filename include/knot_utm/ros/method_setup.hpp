@@ -3,6 +3,7 @@
 #include <knot_utm/StartTest.h>
 #include <ros/node_handle.h>
 
+#include <functional>
 #include <optional>
 #include <sstream>
 #include <string>
@@ -73,41 +74,16 @@ void read_parameter(const ros::NodeHandle& node, const std::string& name, Value*
   }
 }
 
-/// Starts ROS as the node `name` of a test, on loopback unless the environment says otherwise. Throws InvalidInput
-/// where other machines can reach this node or the master and test/network is not true.
+/// Starts ROS as the node `name` of a test. Other machines can reach it only where test/network is true.
 ros::NodeHandle join_ros(int argc, char** argv, const char* name);
 
-/// Sets the parameter with the node's exit code, which watch_node reads, and shuts ROS down.
-void leave_ros(const char* name, int code);
-
-/// Runs `body` as the main function of a node, and prints one line where it throws. Returns the exit code: 0 success, 1
-/// failure, 2 invalid input. `help`: see `answer_words`.
-template <class Body>
-int run_node(int argc, char** argv, const char* name, const char* help, Body body);
+/// Runs `body` as the main function of a node. Where it throws, prints one line and ends the launch. Returns the exit
+/// code: 0 success, 1 failure, 2 invalid input. `help`: see `answer_words`.
+int run_node(int argc, char** argv, const char* name, const char* help, const std::function<int()>& body);
 
 /// For main functions, before anything of ROS is asked for: answers --help and --version, and refuses every other word
 /// that is not for ROS itself (NAME:=VALUE). Returns the exit code; nothing where the node is to run. `help`: what it
 /// prints below its usage line.
 std::optional<int> answer_words(int argc, char** argv, const char* name, const char* help);
-
-/// For `run_node`: prints one line on the console, whether or not ROS logging is available. Returns `code`.
-int report_failure(const char* name, const char* what, int code);
-
-template <class Body>
-int run_node(int argc, char** argv, const char* name, const char* help, Body body) {
-  if (const std::optional<int> answered = answer_words(argc, argv, name, help)) return *answered;
-  int code = 0;
-  try {
-    code = body();
-  } catch (const SaidByAnother&) {
-    code = 2;
-  } catch (const InvalidInput& error) {
-    code = report_failure(name, error.what(), 2);
-  } catch (const std::exception& error) {
-    code = report_failure(name, error.what(), 1);
-  }
-  leave_ros(name, code);
-  return code;
-}
 
 }  // namespace knot_utm

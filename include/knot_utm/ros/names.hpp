@@ -48,9 +48,7 @@ inline constexpr char kTestId[] = "test/id";  ///< set by utm_node: identifies t
 inline constexpr char kTestOrder[] = "test/order";
 /// set by recorder_node: the id of a batch's first test, a space, the batch's folder
 inline constexpr char kFolderOfBatch[] = "test/batch_folder";
-inline constexpr char kFolderOfTest[] = "test/folder";  ///< set by recorder_node: a test's id, a space, its folder
-/// set by each node, below this name; -1: it runs, or was killed
-inline constexpr char kExitCodes[] = "test/exit_codes";
+inline constexpr char kFolderOfTest[] = "test/folder";    ///< set by recorder_node: a test's id, a space, its folder
 inline constexpr char kRecordedTest[] = "test/recorded";  ///< set by recorder_node: the last test that it completed
 inline constexpr char kRobotDescription[] = "robot_description";  ///< set by knot_node: the machine as URDF
 

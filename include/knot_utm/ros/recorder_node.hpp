@@ -16,7 +16,6 @@
 #include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/numeric/points.hpp"
-#include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/keeper.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/order_of_test.hpp"
@@ -118,7 +117,6 @@ class RecorderNode {
   double waited_ = 0.0;                 ///< time spent waiting for messages while this process was running [s]
   int machines_ = 0;                    ///< number of connections to the machine: two while it connects anew
   std::optional<double> machine_died_;  ///< value of `waited_` when the last of them was lost [s]
-  TopicWarning odd_record_{names::kKnotRecord}, odd_status_{names::kTestStatus};
   std::string error_;
   RecorderStatus published_;
   Clock::time_point published_at_;

@@ -14,11 +14,7 @@
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/ros/frame_broadcaster.hpp"
-#include "knot_utm/ros/markers.hpp"
-#include "knot_utm/ros/shown_state.hpp"
-#include "knot_utm/ros/view_parameters.hpp"
-#include "knot_utm/ros/views.hpp"
+#include "knot_utm/ros/show.hpp"
 
 namespace knot_utm {
 
@@ -27,7 +23,7 @@ struct ReplayOptions {
   std::string bag;           ///< a test.bag
   double rate = 1.0;         ///< test time over wall time; 0: as fast as possible
   std::string ended_by;      ///< how the test ended, as result.yaml names it; empty: not known
-  bool exit_at_end = false;  ///< `spin` returns at the end of the bag
+  bool exit_at_end = false;  ///< the launch ends at the end of the bag
   double patience = 5.0;     ///< longest wall time to wait for a viewer of the pictures before beginning [s]
 };
 
@@ -46,7 +42,6 @@ class ReplayNode {
  private:
   using Clock = std::chrono::steady_clock;
 
-  bool somebody_looks() const { return markers_.getNumSubscribers() > 0; }
   void begin();
   void play_what_is_due();
   double until_due() const;  ///< wall time until the next message is due [s]
@@ -55,7 +50,6 @@ class ReplayNode {
   boost::shared_ptr<Message> replay(const rosbag::MessageInstance& instance);
   void publish_clock();
   void publish_end();
-  void on_view_timer(const ros::SteadyTimerEvent& event);
   void show(const KnotShape& shape);
 
   ros::NodeHandle node_;
@@ -65,10 +59,9 @@ class ReplayNode {
   std::unique_ptr<rosbag::View> view_;
   rosbag::View::iterator next_;
   TestingMachine machine_;  ///< in its state before the test
-  FrameBroadcaster frames_;
-  ScenePicture picture_;
-  Views views_;
-  ShownState shown_;
+  Method tested_;
+  Moment moment_;  ///< the last shape, and what was published with it
+  Show show_;
   bool begun_ = false;
   ros::Time start_;  ///< time of the first message of the bag
   ros::Time now_;    ///< time of the last message that was published
@@ -78,13 +71,9 @@ class ReplayNode {
   std::uint32_t run_ = 1;  ///< number of the test in the bag
   Sample sample_;
   std::string motion_pattern_;
-  bool picture_is_old_ = false;
-  std::uint32_t viewers_ = 0;
 
   std::map<std::string, ros::Publisher> publishers_;  ///< by the package's own names
-  ros::Publisher markers_, colors_, method_, clock_;
-  ros::SteadyTimer view_timer_;
-  ViewParameters parameters_;
+  ros::Publisher method_, clock_;
 };
 
 }  // namespace knot_utm

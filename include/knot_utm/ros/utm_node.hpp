@@ -1,11 +1,13 @@
 #pragma once
 
+#include <actionlib/server/action_server.h>
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <dynamic_reconfigure/server.h>
 #include <knot_utm/Crosshead.h>
 #include <knot_utm/KnotState.h>
 #include <knot_utm/MachineConfig.h>
 #include <knot_utm/RecorderStatus.h>
+#include <knot_utm/RunTestAction.h>
 #include <knot_utm/SpecimenInfo.h>
 #include <knot_utm/StartTest.h>
 #include <knot_utm/TestOutcome.h>
@@ -22,11 +24,7 @@
 
 #include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/ros/batch_place.hpp"
-#include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/method_setup.hpp"
-#include "knot_utm/ros/names.hpp"
-#include "knot_utm/ros/run_test_server.hpp"
 
 namespace knot_utm {
 
@@ -37,7 +35,8 @@ struct UtmOptions {
   double real_time_factor = 1.0;  ///< test time over wall time; 0: as fast as possible
   bool autostart = true;          ///< starts a test as soon as there is a specimen
   bool record = false;            ///< never gets further ahead of the recorder than kWindow commands
-  bool exit_at_end = false;       ///< `spin` returns when the test has ended and everything is recorded
+  bool exit_at_end = false;       ///< the launch ends when the test has ended and everything is recorded
+  std::string verdict;            ///< file that `write_verdict` writes; empty: none
   double resend_period = 0.25;    ///< wall time after which an unanswered command is sent again [s]
 };
 
@@ -62,12 +61,14 @@ class UtmNode {
   UtmNode(const ros::NodeHandle& node, const MethodSetup& launched, const UtmOptions& options);
   ~UtmNode();
 
-  /// Runs until ROS is shut down or, with `exit_at_end`, until the test or the batch has ended. Returns the exit code
-  /// of the node: 1 where the simulation failed on all specimens or died, or the recorder failed.
+  /// Runs until ROS is shut down. Ends the launch with `exit_at_end` when the test or the batch has ended, and where
+  /// the simulation has died. Returns the exit code of the node: 1 where the simulation failed on all specimens or
+  /// died, or the recorder failed.
   int spin();
 
  private:
   using Clock = std::chrono::steady_clock;
+  using Actions = actionlib::ActionServer<RunTestAction>;
   enum class State { kIdle, kRunning, kPaused, kEnded };  ///< numbered as in TestStatus
 
   /// Tests of several specimens, one after the other. A test that stands alone is a batch of one.
@@ -109,12 +110,17 @@ class UtmNode {
   void advance();
   void send(const Command& command);
   void resend();
-  void take_reading();
   void physics_failed(const std::string& why);  ///< ends the test with this reason
+  void physics_lost();
+  void look_after_physics();
+  void end_launch_of_test();
+  std::string folder() const;
   void end();
   void publish_clock(bool at_once);
   void publish_method(const Method& method);
   void publish_status();
+  void on_goal(Actions::GoalHandle goal);
+  void on_cancel(const Actions::GoalHandle& goal);
   void report_to_goal(const TestStatus& status);
   TestOutcome outcome() const;
   void finish_goal();
@@ -127,6 +133,9 @@ class UtmNode {
   UtmOptions options_;
   bool has_specimen_ = false;  ///< whether the simulation holds one
   bool physics_died_ = false;  ///< during this test
+  bool physics_gone_ = false;  ///< its process has ended
+  bool physics_seen_ = false;  ///< as a process of the launch
+  bool leaves_ = false;        ///< the launch ends; no other test begins
   Batch batch_;
   std::optional<ProgramRunner> program_;  ///< program of this test
   State state_ = State::kIdle;
@@ -135,7 +144,6 @@ class UtmNode {
   Command command_;                   ///< the last command
   Sample sample_;                     ///< the last answer
   std::string motion_pattern_;        ///< motion pattern in the last answer
-  std::vector<Sample> readings_;      ///< readings of the load cell in this test
   double max_penetration_ = 0.0;      ///< largest overlap in all answers [fraction of radius]
   bool waiting_ = false;              ///< whether the answer to `command_` is still awaited
   std::uint64_t single_steps_ = 0;    ///< number of single steps requested while paused
@@ -146,7 +154,6 @@ class UtmNode {
   std::string directory_;        ///< folder of the recorder's files
   std::string batch_directory_;  ///< folder of the batch; empty: the test stands alone
   ros::Time now_;                ///< time on /clock
-  TopicWarning odd_specimen_{names::kSpecimen};
 
   std::unique_ptr<ProgressLine> progress_;  ///< on the terminal of the launch
   Clock::time_point run_began_;
@@ -155,6 +162,8 @@ class UtmNode {
   Clock::time_point clock_published_;
   Clock::time_point status_published_;
   Clock::time_point diagnosed_;
+  Clock::time_point looked_;
+  Clock::time_point began_ = Clock::now();
   Clock::time_point factor_measured_;
   double factor_time_ = 0.0;  ///< test time at which the factor was last measured [s]
   double factor_;             ///< recent ratio of test time to wall time
@@ -162,7 +171,8 @@ class UtmNode {
   ros::Publisher crosshead_, joint_states_, status_, method_text_, clock_;
   ros::Subscriber states_, specimens_, recorder_;
   ros::ServiceServer start_, stop_, balance_, pause_, resume_, step_;
-  RunTestServer run_test_;
+  std::optional<Actions::GoalHandle> goal_;  ///< its test runs, or is still being recorded
+  Actions actions_;
   diagnostic_updater::Updater diagnostics_;
   dynamic_reconfigure::Server<MachineConfig> pace_;
 };

@@ -7,13 +7,15 @@ import signal
 import socket
 import subprocess
 import sys
+import tempfile
 import unittest
 import xmlrpc.client
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
-from launched import METHOD, ROOT, Launch, wait_for
-from dying import Dying
+from launched import METHOD, ROOT, Headless, Launch, free_port, wait_for
+
+HOLD = 'program.hold.duration=10'
 
 
 def connection(launch):
@@ -42,13 +44,59 @@ def cut(process, said):
         connected.shutdown(socket.SHUT_RDWR)
 
 
-class NodesDieTest(Dying):
+class NodesDieTest(unittest.TestCase):
+
+    def dies(self, victim, ended_by, reason):
+        """A process is killed in the middle of a test that a script runs."""
+        with Launch('method:=' + METHOD, 'rviz:=false', command=[os.path.join(ROOT, 'scripts/tighten')]) as launch:
+            launch.wait_for_rows(3)
+            os.kill(launch.pid(victim), signal.SIGKILL)
+            self.assertEqual(launch.end(), 1)
+            console = launch.console()
+            self.assertIn('files are in %s\n' % launch.out, console)
+            # Once, and not what ended for that reason.
+            self.assertEqual(console.count('process has died'), 1, console)
+            self.assertRegex(console, r'\[%s(-\d+)?\] (has died!\n)?process has died \[.*exit code -9' % victim)
+            self.assertEqual(launch.result('ended_by'), ended_by, console)
+            self.assertRegex(launch.result('reason'), reason)
+            lines = launch.text('curve.csv').split('\n')
+            self.assertEqual(lines[-1], '')
+            self.assertGreaterEqual(len(lines), 2 + 3 + 1)
+            self.assertEqual({len(line.split(',')) for line in lines[:-1]}, {len(lines[0].split(','))})
 
     def test_machine(self):
-        self.dies('utm_node', 'interrupted', 'utm_node died before the test had ended')
+        # roslaunch may end the recorder before it has noticed.
+        self.dies('utm_node', 'interrupted', '(utm_node died|ROS was shut down) before the test had ended')
 
     def test_physics(self):
         self.dies('knot_node', 'solver', 'knot_node died during the test')
+
+    def test_physics_that_dies_between_two_tests(self):
+        with Launch('method:=' + METHOD, "overrides:='program.hold.duration=0.1'", 'exit_at_end:=false') as launch:
+            wait_for('the first test', lambda: os.path.exists(os.path.join(launch.out, 'result.yaml')))
+            os.kill(launch.pid('knot_node'), signal.SIGKILL)
+            launch.end()
+
+    def test_master_of_the_launch(self):
+        self.dies('master', 'interrupted', 'the ROS master died before the test had ended')
+
+    def test_master_that_was_there_before(self):
+        # Nobody watches it, and the nodes do not need it any more: the test goes on to its end.
+        port = free_port()
+        with tempfile.TemporaryDirectory() as log:
+            master = subprocess.Popen(['rosmaster', '--core', '-p', str(port)], env=dict(os.environ, ROS_LOG_DIR=log),
+                                      stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            try:
+                with Launch('method:=' + METHOD, "overrides:='" + HOLD + "'", port=port) as launch:
+                    launch.wait_for_rows(3)
+                    master.kill()
+                    launch.end()
+                    self.assertEqual(launch.result('ended_by'), 'program')
+                    with Headless(METHOD, HOLD) as headless:
+                        self.assertEqual(headless.different(launch.out), ([], []))
+            finally:
+                master.kill()
+                master.wait()
 
     def test_connection_lost(self):
         with Launch('method:=' + METHOD, 'rviz:=false') as launch:

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""A node that stands still for 20 s, as on a machine that swaps or sleeps, is waited for: the files are those of the
+"""A node that stands still for 12 s, as on a machine that swaps or sleeps, is waited for: the files are those of the
 headless tool."""
 import os
 import signal
@@ -12,7 +12,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '..
 from launched import METHOD, Headless, Launch
 
 NODES = ['utm_node', 'knot_node', 'recorder_node']
-STANDSTILL = 20.0
+STANDSTILL = 12.0  # [s] longer than the recorder waits for the last records of a test
 HOLD = 'program.hold.duration=10'
 
 

@@ -2,12 +2,13 @@
 """While the window of rviz is open the launch goes on after the end of its test; closed, the launch ends."""
 import os
 import signal
+import subprocess
 import sys
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
-from launched import METHOD, Launch, children, wait_for
+from launched import LAST_RESORT, METHOD, Launch, children, wait_for
 
 # In the place of rviz a process that needs no display, and ends well when the one that it waits for does.
 LAUNCH = """<launch>
@@ -32,9 +33,11 @@ class WindowTest(unittest.TestCase):
         with Launch(prepare=prepare, command=['roslaunch', './mine.launch']) as launch:
             said = 'the launch ends when the window of rviz is closed'
             wait_for('the end of the test', lambda: said in launch.console())
-            self.assertNotIn('utm_node', launch.processes())
-            # Its picture can still be changed.
+            # Its picture can still be changed, but no other test begins.
             self.assertIn('knot_node', launch.processes())
+            said = subprocess.run(['rosservice', 'call', '/utm/start_test', '{}'], env=launch.environment, check=True,
+                                  stdout=subprocess.PIPE, universal_newlines=True, timeout=LAST_RESORT).stdout
+            self.assertIn('the launch is about to end', said)
             self.assertIsNone(launch.process.poll())
             for process in children(launch.pid('rviz')):
                 os.kill(process, signal.SIGTERM)

@@ -1,0 +1,156 @@
+#!/usr/bin/python3
+"""scripts/tighten and the launch files as a user meets them: arguments, exit codes, what is said and what is written."""
+import os
+import pty
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import yaml
+
+sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
+
+from launched import LAST_RESORT, METHOD, ROOT, TOOL, Headless, Launch, free_port
+
+SCRIPT = [os.path.join(ROOT, 'scripts/tighten')]
+CHECK = [os.path.join(ROOT, 'launch/check')]
+PROGRAM = os.path.join(ROOT, 'test/ros/whole_program.yaml')
+BATCH = os.path.join(ROOT, 'test/ros/batch.yaml')
+SHORT = "overrides:='program.hold.duration=0.1'"
+SLIPPERY = ("overrides:='material=polypropylene', 'specimen.preload=20', 'specimen.edge_length=0.005', "
+            "'material.friction_coefficient=0.05', 'physics.accuracy=draft'")
+LINE = re.compile(r'\r(\w+) +[\d.]+ %  s +[-\d.]+ mm  F +\S+ N +\S+ x real time +\S+ s left ')
+
+
+def on_terminal(*command, **environment):
+    """What a command says on one."""
+    ours, its = pty.openpty()
+    process = subprocess.Popen(command, stdin=its, stdout=its, stderr=its, env=dict(os.environ, **environment), start_new_session=True)
+    os.close(its)
+    said = b''
+    while True:
+        try:
+            part = os.read(ours, 65536)
+        except OSError:  # so ends a terminal
+            break
+        said += part
+        if not part:
+            break
+    os.close(ours)
+    process.wait(LAST_RESORT)
+    return said.decode('utf-8', 'replace')
+
+
+class TightenTest(unittest.TestCase):
+
+    def ends(self, code, *arguments, prepare=None):
+        """What the console has of a launch that ends with this exit code, and its folder."""
+        with Launch('rviz:=false', *arguments, command=SCRIPT, prepare=prepare) as launch:
+            self.assertEqual(launch.end(), code, launch.console())
+            return launch.console(), sorted(os.listdir(launch.folder))
+
+    def test_a_folder_with_every_kind_of_character_that_holds_a_run(self):
+        name = "o ut; touch hacked; `touch hacked` & 'x' | \"y\" $HOME * #"
+
+        def run_before(folder):
+            subprocess.run([TOOL, METHOD, '--set', 'program.hold.duration=0.1', '--quiet', '--out', os.path.join(folder, name)],
+                           check=True)
+
+        console, folders = self.ends(0, 'method:=' + METHOD, SHORT, 'out:=' + name, prepare=run_before)
+        self.assertEqual(folders, sorted([name, name + '-2', 'console', 'log']))
+        self.assertIn(name + ' holds a run already', console)
+        self.assertLess(len(console.partition('\nthe test ended by ')[2].splitlines()), 11)
+        self.assertIn(name + '-2', console.splitlines()[-1])
+        for word in ('died', 'REQUIRED', 'ERROR', 'Shutdown errors'):
+            self.assertNotIn(word, console)
+
+    def test_wrong_input_is_told_in_one_line(self):
+        def copy(folder):
+            shutil.copy(METHOD, os.path.join(folder, '...yaml'))
+
+        console, folders = self.ends(2, 'method:=...yaml', 'out:=', prepare=copy)
+        self.assertEqual(console.count('its name without its ending is that of the folder to write to'), 1)
+        self.assertTrue(console.endswith('scripts/tighten: nothing was written\n'))
+        self.assertEqual(folders, ['...yaml', 'console', 'log'])
+        for word in ('died', 'REQUIRED'):
+            self.assertNotIn(word, console)
+
+    def test_a_knot_that_comes_undone(self):
+        console, _ = self.ends(1, 'real_time_factor:=0', SLIPPERY)
+        self.assertIn('the test ended by untangled', console)
+        self.assertIn('a higher specimen.preload (now 20 N; auto is 50 N)', console)
+
+    def test_a_batch_ends_with_its_statistics(self):
+        self.assertIn('\n3 of 3 specimens count\n', self.ends(0, 'method:=' + BATCH, 'real_time_factor:=0')[0])
+
+    def test_the_progress_line_is_that_of_tensile_test(self):
+        with tempfile.TemporaryDirectory() as folder:
+            words = ['method:=' + METHOD, "overrides:='program.hold.duration=2'", 'rviz:=false', 'record:=false', 'out:=' + folder + '/live']
+            said = on_terminal(*SCRIPT, *words, '-p', str(free_port()), KNOT_UTM_SKIP_BUILD='1', ROS_HOME=folder)
+            headless = on_terminal(TOOL, METHOD, '--set', 'program.hold.duration=2000', '--out', folder + '/headless')
+            for one in said, headless:
+                self.assertIn('hold', LINE.findall(one), one)
+            self.assertEqual(said.count('the test ended by program'), 1)
+            self.assertIn('scripts/tighten: nothing was written, because of record:=false', said)
+            self.assertFalse(os.path.exists(folder + '/live'))
+
+    def test_same_files_as_headless(self):
+        with Launch('method:=' + PROGRAM) as launch, Headless(PROGRAM) as headless:
+            launch.end()
+            self.assertEqual(launch.result('ended_by'), 'break', launch.console())
+            self.assertIn('the rod parted', launch.result('reason'))
+            self.assertEqual(headless.different(launch.out), ([], []))
+
+
+class ArgumentsTest(unittest.TestCase):
+
+    def said(self, code, *command):
+        run = subprocess.run(command, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=LAST_RESORT,
+                             universal_newlines=True, env=dict(os.environ, ROS_MASTER_URI='http://localhost:%d' % free_port()))
+        self.assertEqual(run.returncode, code, run.stdout)
+        return run.stdout
+
+    def test_unknown_argument_is_refused_with_the_nearest_known_one(self):
+        said = 'matrial is no argument of tighten.launch; did you mean material?\n'
+        self.assertEqual(self.said(2, *SCRIPT, 'matrial:=nylon'), said)
+        for file in ('tighten.launch', 'experiment.launch', 'replay.launch'):
+            needed = {'experiment.launch': ['data:=x'], 'replay.launch': ['bag:=x']}.get(file, [])
+            word, meant = ('color_buy', 'color_by') if file == 'replay.launch' else ('matrial', 'material')
+            console = self.said(1, 'roslaunch', '-p', str(free_port()), 'knot_utm', file, *needed, word + ':=nylon')
+            self.assertIn('%s is no argument of %s; did you mean %s?' % (word, file, meant), console)
+            self.assertNotIn('started with pid', console)
+
+    def test_what_is_no_argument_is_refused(self):
+        for word, why in (('nylon', 'nylon is no argument of tighten.launch'), ('--fast', '--fast is no option'),
+                          ('material=nylon', 'did you mean material:=nylon?'), ('namespace:=1st', 'namespace is "/1st"'),
+                          ('nothing_like_it:=1', 'which has method, material')):
+            console = self.said(2, *CHECK, 'tighten.launch', '--', word, '-p', '1', '--screen')
+            self.assertEqual(console.count('\n'), 1, console)
+            self.assertIn(why, console)
+
+    def test_arguments_of_a_launch_file_that_includes_ours_are_its_own(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, 'mine.launch')
+            with open(file, 'w', encoding='utf-8') as text:
+                text.write('<launch><arg name="mine"/><include file="$(find knot_utm)/launch/tighten.launch"/></launch>')
+            self.said(0, 'roslaunch', '--dump-params', file, 'mine:=1')
+
+    def test_every_parameter_of_a_test_is_set_anew(self):
+        # A master outlives a launch: what the one before has left there must not be taken for this one's.
+        given = {'data': 'x.csv', 'columns': 'load=3', 'units': 'load=lbf', 'specimen': '2', 'invert': 'load'}
+        with open(os.path.join(ROOT, 'src/ros/method_setup.cpp'), encoding='utf-8') as code:
+            read = set(re.findall(r'"(test/\w+)"', code.read()))
+        self.assertIn('test/data', read)
+        for file in ('tighten.launch', 'experiment.launch'):
+            found = yaml.safe_load(self.said(0, 'roslaunch', '--dump-params', 'knot_utm', file,
+                                             *('%s:=%s' % item for item in given.items())))
+            self.assertLessEqual({'/' + name for name in read}, set(found))
+            for name, value in given.items():
+                self.assertEqual(found['/test/' + name], value, file)
+
+
+if __name__ == '__main__':
+    unittest.main()
