@@ -25,7 +25,7 @@ foreach(source ${core_test_sources})
                  KNOT_UTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}" KNOT_UTM_TOOLS_DIR="${KNOT_UTM_EXECUTABLE_DIR}")
   endif()
 endforeach()
-add_dependencies(core_tests compare tensile_test recover replay_step)
+add_dependencies(core_tests compare tensile_test replay_step)
 gtest_discover_tests(core_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800)
 
 # What stands on lanes, for processors without AVX2: it compiles there too. What it costs there is measured by

@@ -15,7 +15,7 @@ constexpr ChoiceNames<BreakPlace, 4> kBreakPlaceNames{{{BreakPlace::kNone, "none
 
 const char* break_place_name(BreakPlace place) { return name_of(kBreakPlaceNames, place); }
 
-// In the order of the journal: another one is another version of it (src/io/journal.cpp).
+// In the order of a checkpoint: another one is another version of it.
 void Command::state(Archive& archive) {
   archive(sequence, time, displacement, velocity, step);
   archive.choice("phase", phase, last_of(phase));

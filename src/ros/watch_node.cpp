@@ -13,13 +13,13 @@
 #include <stdexcept>
 #include <utility>
 
-#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/ros/batch_place.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/validate.hpp"
+#include "knot_utm/study/batch.hpp"
 
 namespace knot_utm {
 namespace {
@@ -116,7 +116,7 @@ std::string WatchNode::told_folder() const {
 }
 
 void WatchNode::tell_unfinished_batch() const {
-  if (batch_.empty() || !holds_unfinished_run(batch_)) return;
+  if (batch_.empty() || is_complete_batch(batch_)) return;
   // ROS may be shut down by now.
   std::printf("not all specimens of the batch in %s were tested; test the others by: %s\n", batch_.c_str(),
               command_to_resume(batch_).c_str());

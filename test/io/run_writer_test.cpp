@@ -13,6 +13,7 @@
 #include "knot_utm/contact/sampled_centreline.hpp"
 #include "knot_utm/io/gravity_warnings.hpp"
 #include "knot_utm/io/result_yaml.hpp"
+#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/run_warnings.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -38,9 +39,15 @@ class RunFolder : public ::testing::Test {
   void SetUp() override { fs::remove_all(folder_); }
   void TearDown() override { fs::remove_all(folder_); }
 
+  void begin(const Method& method) {
+    make_run_folder(folder_.string());
+    begin_run_folder(folder_.string(), method);
+  }
+
   /// A whole run of the method with a spring for a knot.
   RunFacts run(const Method& method, FakeBench bench = {}) {
     ProgramRunner program(method.program, method.machine.load_cell.sampling_rate, 0.1, {});
+    begin(method);
     RunWriter writer(folder_.string(), method);
     run_test(bench, program, [&](const Command& command, const Sample& sample) {
       Record record;
@@ -64,7 +71,8 @@ class RunFolder : public ::testing::Test {
 TEST_F(RunFolder, HoldsTheInnerDiameterOfAKnotThatIsWhole) {
   const Method method = load_method(kConfig + "overhand.yaml");
   const Points shape = knot_of(method.specimen).centreline(method.specimen, method.material, {}).points;
-  RunWriter writer(folder_.string(), method);
+  begin(method);
+    RunWriter writer(folder_.string(), method);
   Results results;
   const auto written = [&](const char* key) {
     writer.finish(results, writer.facts(), shape);
@@ -248,7 +256,7 @@ TEST_F(RunFolder, AnUnfinishedRunHasNoResultOfAnEarlierOne) {
   const Method method = load_method(kConfig + "straight.yaml");
   run(method);
   EXPECT_TRUE(fs::exists(folder_ / "result.yaml"));
-  RunWriter writer(folder_.string(), method);
+  begin(method);
   EXPECT_FALSE(fs::exists(folder_ / "result.yaml"));
   EXPECT_FALSE(fs::exists(folder_ / "final_shape.csv"));
 }
@@ -259,14 +267,14 @@ TEST_F(RunFolder, ARunMayTestTheShapeThatTheLastOneLeftThere) {
   std::ofstream(folder_ / "final_shape.csv") << shape;
   Method method = load_method(kConfig + "from_file.yaml");
   method.specimen.file = (folder_ / "final_shape.csv").string();
-  RunWriter writer(folder_.string(), method);
+  begin(method);
   EXPECT_EQ(text_of(folder_ / "specimen.csv"), shape);
   EXPECT_FALSE(fs::exists(folder_ / "final_shape.csv"));
 }
 
 TEST_F(RunFolder, AFileWhereTheFolderShouldBe) {
   std::ofstream(folder_.string()) << "x";
-  EXPECT_THROW(RunWriter(folder_.string(), load_method(kConfig + "straight.yaml")), InvalidInput);
+  EXPECT_THROW(begin(load_method(kConfig + "straight.yaml")), InvalidInput);
 }
 
 TEST(ResultYaml, TextsAreQuotedOnOneLine) {

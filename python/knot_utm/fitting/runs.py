@@ -82,7 +82,7 @@ class Runs:
     def _wait(self, method, settings, out, more):
         if self._stopped:
             raise Interrupted("it was interrupted")
-        process = tool.start(method, settings, out, "--overwrite", "--checkpoint", "0", *more)
+        process = tool.start(method, settings, out, "--overwrite", *more)
         self._live.add(process)
         if self._stopped:
             process.kill()

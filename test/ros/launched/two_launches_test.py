@@ -70,7 +70,6 @@ class TwoLaunchesTest(unittest.TestCase):
         self.assertEqual((launch.result('ended_by'), launch.result('reason')), ('operator', 'stopped by the operator'))
         for name in FILES:
             self.assertTrue(os.path.exists(os.path.join(launch.out, name)), name)
-        self.assertFalse(os.path.exists(os.path.join(launch.out, 'journal')))
 
     def test_a_port_at_which_a_master_runs_is_refused(self):
         port = self.master()
