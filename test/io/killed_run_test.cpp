@@ -76,7 +76,8 @@ class KilledRun : public OwnFolder {
     const std::string samples = read_whole(samples_file(out)), curve = read_whole(out + "/curve_full.csv");
     const auto steps = std::count(curve.begin(), curve.end(), '\n');
     std::string::difference_type written = 2;
-    for (std::size_t at = samples.find("\nstep,"); at != std::string::npos; at = samples.find("\nstep,", at + 1)) ++written;
+    for (std::size_t at = samples.find("\nstep,"); at != std::string::npos; at = samples.find("\nstep,", at + 1))
+      ++written;
     EXPECT_EQ(steps, written) << "a time step that was answered is lost";
   }
 };
@@ -147,8 +148,7 @@ TEST_F(KilledRun, WhatIsStillWrittenIsLeftAlone) {
   ASSERT_EQ(waitid(P_PID, static_cast<id_t>(test), &stopped, WSTOPPED | WEXITED | WNOWAIT), 0);
   ASSERT_EQ(stopped.si_code, CLD_STOPPED) << "the test was over before it could be stopped";
   const std::string samples = read_whole(samples_file(in("runs")));
-  for (const std::string& command :
-       {kTool + "--from-samples " + in("runs"), kTest + in("runs") + " --overwrite"}) {
+  for (const std::string& command : {kTool + "--from-samples " + in("runs"), kTest + in("runs") + " --overwrite"}) {
     EXPECT_EQ(shell(command), 2);
     EXPECT_THAT(said(), HasSubstr("another run is writing to the folder " + in("runs")));
   }

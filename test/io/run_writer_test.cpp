@@ -72,7 +72,7 @@ TEST_F(RunFolder, HoldsTheInnerDiameterOfAKnotThatIsWhole) {
   const Method method = load_method(kConfig + "overhand.yaml");
   const Points shape = knot_of(method.specimen).centreline(method.specimen, method.material, {}).points;
   begin(method);
-    RunWriter writer(folder_.string(), method);
+  RunWriter writer(folder_.string(), method);
   Results results;
   const auto written = [&](const char* key) {
     writer.finish(results, writer.facts(), shape);

@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <random>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "io/own_folder.hpp"
@@ -56,8 +58,8 @@ class Samples : public OwnFolder {
   Record record(std::uint64_t sequence) {
     Record out;
     out.wall_time = number();
-    out.command = {sequence, number(), number(), number(), static_cast<int>(sequence % 5) - 1, Phase::kPull,
-                   number(), number(), sequence % 2 == 0, sequence % 2 == 1};
+    out.command = {sequence,     number(), number(), number(),          static_cast<int>(sequence % 5) - 1,
+                   Phase::kPull, number(), number(), sequence % 2 == 0, sequence % 2 == 1};
     out.answer = sample(sequence);
     for (std::uint64_t k = 0; k < sequence % 4; ++k) out.steps.push_back(sample(sequence));
     if (sequence % 2 == 1) out.shape = Points::Random(3, 5);
@@ -121,11 +123,10 @@ TEST_F(Samples, TornAnywhereTheyEndWithTheLastWholeCommandAndGoOnFromThere) {
     fs::resize_file(samples_file(folder()), bytes);
     SamplesReader reader(folder());
     Record found;
-    while (reader.next(found)) continue;
+    while (reader.next(found)) EXPECT_EQ(bytes_of(found), bytes_of(records[reader.records() - 1]));
     const auto whole = static_cast<std::size_t>(std::upper_bound(ends.begin(), ends.end(), bytes) - ends.begin());
     ASSERT_EQ(reader.records(), whole);
     EXPECT_EQ(reader.torn_bytes(), bytes - ends[whole - 1]);
-    EXPECT_EQ(bytes_of(found).size(), bytes_of(records[whole - 1]).size());
     SamplesWriter writer(folder(), reader);
     for (std::size_t k = whole; k < records.size(); ++k) writer.append(records[k]);
     ASSERT_TRUE(rows() == whole_rows && shapes() == whole_shapes) << bytes;
@@ -151,6 +152,37 @@ TEST_F(Samples, ARowThatNobodyWroteSoIsNamed) {
   EXPECT_THAT(complaint(good + "step,1\n"), HasSubstr("row 6"));
   EXPECT_THAT(complaint(good + good.substr(good.rfind("\nanswer,") + 1, 7) + "soon\n"),
               AllOf(HasSubstr("row 6: wall_time"), HasSubstr("\"soon\"")));
+}
+
+TEST_F(Samples, AnyBytesAreUnderstoodOrRefusedInOneLine) {
+  {
+    SamplesWriter writer(folder());
+    for (std::uint64_t k = 0; k < 4; ++k) writer.append(record(k));
+    writer.end({EndedBy::kBreak, ""}, Points::Random(3, 5));
+  }
+  const std::string good_rows = rows(), good_shapes = shapes();
+  const std::size_t head = good_rows.find("\nstep,") + 1;
+  std::mt19937 random(1);
+  int refused = 0;
+  for (int i = 0; i < 2000; ++i) {
+    std::string bad_rows = good_rows, bad_shapes = good_shapes;
+    for (std::size_t n = random() % 3; n > 0; --n)
+      bad_rows[head + random() % (bad_rows.size() - head)] = ",\"\n9aE\xff\0"[random() % 8];
+    for (std::size_t n = random() % 3; n > 0; --n)
+      bad_shapes[random() % bad_shapes.size()] = static_cast<char>(random());
+    write_whole(samples_file(folder()), bad_rows);
+    write_whole(folder() + "/shapes.bin", bad_shapes);
+    try {
+      SamplesReader reader(folder());
+      Record found;
+      while (reader.next(found)) continue;
+      EXPECT_LE(reader.records(), 5u);
+    } catch (const InvalidInput& invalid) {
+      ++refused;
+      EXPECT_EQ(std::string(invalid.what()).find('\n'), std::string::npos);
+    }
+  }
+  EXPECT_GT(refused, 200);
 }
 
 TEST_F(Samples, AreBegunOnce) {
