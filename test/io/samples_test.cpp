@@ -164,7 +164,7 @@ TEST_F(Samples, AnyBytesAreUnderstoodOrRefusedInOneLine) {
   const std::size_t head = good_rows.find("\nstep,") + 1;
   std::mt19937 random(1);
   int refused = 0;
-  for (int i = 0; i < 2000; ++i) {
+  for (int i = 0; i < 300; ++i) {
     std::string bad_rows = good_rows, bad_shapes = good_shapes;
     for (std::size_t n = random() % 3; n > 0; --n)
       bad_rows[head + random() % (bad_rows.size() - head)] = ",\"\n9aE\xff\0"[random() % 8];
@@ -182,7 +182,7 @@ TEST_F(Samples, AnyBytesAreUnderstoodOrRefusedInOneLine) {
       EXPECT_EQ(std::string(invalid.what()).find('\n'), std::string::npos);
     }
   }
-  EXPECT_GT(refused, 200);
+  EXPECT_GT(refused, 30);
 }
 
 TEST_F(Samples, AreBegunOnce) {
