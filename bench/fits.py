@@ -6,7 +6,6 @@ import sys
 import time
 
 import plots
-from runs import words_of
 from table import Report, Table, at_least
 
 MATERIALS = []
@@ -47,9 +46,8 @@ class Case:
     def measure(self, runner):
         """The first of two specimens: of one alone nothing scatters."""
         name = self.title.replace(" ", "_")
-        words = words_of("--set", {**self.settings, **self.cell, **self.seeds, **self.truth}, runner.overrides)
-        runner.launch(runner.tool, name, f"config/{self.method}.yaml", [*words, "--specimens", "2"], runner.core, None,
-                      ["--quiet"]).wait()
+        runner.once(name, {**self.settings, **self.cell, **self.seeds, **self.truth}, f"config/{self.method}.yaml",
+                    ["--specimens", "2"])
         return os.path.join(runner.folder, name, "specimen_001", "curve.csv")
 
     def fit(self, runner, fit):

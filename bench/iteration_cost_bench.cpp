@@ -15,6 +15,7 @@
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
@@ -47,7 +48,7 @@ class Matrix {
  public:
   Matrix(const RodProperties& rod, const StepSettings& settings, double dt)
       : rod_(rod),
-        contact_(rod, settings.normal, settings.friction, settings.candidate_margin, settings.weighting_time),
+        contact_(rod, settings.pressure_law, settings.friction, settings.candidate_margin, settings.weighting_time),
         centreline_(rod, true),
         frames_(rod, settings),
         matrix_(static_cast<int>(rod.nodes())),
@@ -115,7 +116,7 @@ class Matrix {
 
 template <int D>
 void run(const Method& method, TestingMachine& bench) {
-  if (method.physics.contact_scheme != ContactScheme::kSmooth) throw std::runtime_error("only with contact.law smooth");
+  if (method.physics.contact_law != ContactLaw::kSmooth) throw std::runtime_error("only with contact.law smooth");
   ProgramRunner program = make_program(method, bench.longest_step());
   Matrix<D> matrix(bench.rod(), step_settings(method.specimen, method.material, method.machine, method.physics),
                    bench.longest_step());

@@ -1,12 +1,11 @@
 """Runs of drawn tests (draws.py), and what became of each."""
-import concurrent.futures
-import csv
 import math
 import os
 import shutil
 import signal
 import sys
 
+import numpy as np
 from draws import METHODS
 
 CPU_LIMIT = 300         # [s] of CPU time; more is a hang
@@ -99,34 +98,23 @@ def not_a_number(run):
 
 def run_all(runner, draws, jobs, keep=False):
     """Outcomes in the order of the draws. `keep`: what every run left stays, else only of those that did not end."""
-
-    def run(draw):
-        outcome = Outcome(draw, start(runner, draw).wait())
+    def made_of(place, run):
+        outcome = Outcome(draws[place], run)
         print(outcome.line(), file=sys.stderr, flush=True)
         if not keep and outcome.status in ("ended", "not at rest", "refused"):
-            shutil.rmtree(os.path.join(runner.folder, name_of(draw)), ignore_errors=True)
+            shutil.rmtree(run.folder, ignore_errors=True)
         return outcome
 
-    with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-        return list(pool.map(run, draws))
+    return runner.run_all([task_of(runner, draw) for draw in draws], jobs, CPU_LIMIT, made_of)
 
 
-def name_of(draw):
-    return f"{draw.seed}_{draw.number}" + ("_quick" if draw.quick else "")
-
-
-def start(runner, draw, cpu_limit=CPU_LIMIT):
+def task_of(runner, draw):
+    """Name, settings and method of a draw's run."""
+    name = f"{draw.seed}_{draw.number}" + ("_quick" if draw.quick else "")
     settings = dict(draw.settings)
     if draw.shape is not None:
-        file = os.path.join(runner.folder, name_of(draw) + ".csv")
-        write_shape(file, draw.shape)
-        settings["specimen.file"] = os.path.abspath(file)
-    return runner.start(name_of(draw), settings, METHODS[draw.values["knot"]], runner.core, cpu_limit)
-
-
-def write_shape(file, points):
-    os.makedirs(os.path.dirname(file), exist_ok=True)
-    with open(file, "w", encoding="utf-8", newline="") as out:
-        writer = csv.writer(out)
-        writer.writerows([["x", "y", "z"], ["m", "m", "m"]])
-        writer.writerows([f"{value:.9g}" for value in point] for point in points.tolist())
+        file = os.path.abspath(os.path.join(runner.folder, name + ".csv"))
+        os.makedirs(os.path.dirname(file), exist_ok=True)
+        np.savetxt(file, draw.shape, "%.9g", ",", header="x,y,z\nm,m,m", comments="")
+        settings["specimen.file"] = file
+    return name, settings, METHODS[draw.values["knot"]]

@@ -1,16 +1,13 @@
 """Whether the error that a run gives beside a reading holds what a finer run finds, over tests drawn at random."""
-import concurrent.futures
-import csv
 import os
-import statistics
 
 import plots
-import runs
+from runs import divide, known, median
 from strangers import Stranger
-from table import Report, Table, at_least, at_most, is_missing
+from table import Report, Table, at_least, at_most
 
 MATERIALS = []                     # each test draws its own
-SEED, COUNT, JOBS = 19, 40, 2
+SEED, COUNT = 19, 40
 HALVED = 4.5                       # twice the refinement of a rope at `normal`
 PRESLIDING, STEP = 5e-4, 0.025     # [h, s] of the fine run: a quarter of a rope's at `normal`, and a seventh
 TIED_HARD, FINEST = 6.0, 4 / 3     # pre-load [k_b/h^2] from which on `auto` has shorter edges, and by how much at most
@@ -20,18 +17,14 @@ WIDTH = 3.0                        # median error given over the median true dif
 READINGS = {"plateau_force": ("plateau force", "true_plateau_force"),
             "lock_extension": ("lock extension", "lock_extension"),
             "locked_stiffness": ("locked stiffness", "locked_stiffness")}
-# What the fit of the errors may choose from: of the draw, and of the run that is judged.
-DRAWN = ["rod", "handedness", "friction_coefficient", "preload", "stretching", "knot_distance", "end_to_end"]
-FOUND = ["plateau_force", "plateau_force_sd", "plateau_force_slope", "breakaway_force", "true_peak_force",
-         "lock_extension", "tied_knot_distance", "fastest_node", "drag_share", "inertia_share", "work",
-         "numerical_dissipation", "max_penetration", "newton_iterations", "motion_pattern"]
-HEADER = (["number"] + DRAWN + FOUND + ["exit_code", "fine_exit_code", "cpu_time", "fine_cpu_time"]
-          + [f"{key}_{part}" for key in READINGS for part in ("reading", "fine", "error")])
 
 
 def report(runner, _, seed=SEED, count=COUNT):
-    pairs = run_all(runner, [Stranger(seed, number) for number in range(count)])
-    write_draws(os.path.join(runner.folder, f"draws_{seed}.csv"), pairs)
+    draws = [Stranger(seed, number) for number in range(count)]
+    todo = [(f"{draw.seed}/{draw.number}/{name}", {**draw.settings, **settings}) for draw in draws
+            for name, settings in (("normal", {}), ("fine", fine_run(draw)))]
+    done = runner.run_all(todo, cpu_limit=CPU_LIMIT)
+    pairs = list(zip(draws, done[::2], done[1::2]))
     judged = {key: [Judgement(key, *pair) for pair in pairs] for key in READINGS}
     tables = [summary(judged)] + [table_of(key, judged[key]) for key in READINGS] + [table_of_runs(pairs)]
     return Report("Errors beside readings",
@@ -57,37 +50,19 @@ def fine_run(draw):
             "physics.friction.presliding": PRESLIDING, "physics.max_step": STEP}
 
 
-def run_all(runner, draws):
-    """(draw, its run, its fine run) of each."""
-    def run(draw, name, settings):
-        return runner.start(f"{draw.seed}/{draw.number}/{name}", {**draw.settings, **settings}, "config/tighten.yaml",
-                            None, CPU_LIMIT).wait()
-
-    with concurrent.futures.ThreadPoolExecutor(JOBS) as pool:
-        started = [(draw, pool.submit(run, draw, "normal", {}), pool.submit(run, draw, "fine", fine_run(draw)))
-                   for draw in draws]
-        return [(draw, one.result(), other.result()) for draw, one, other in started]
-
-
 class Judgement:
     """Of one reading of one test."""
 
     def __init__(self, key, draw, run, fine):
         unit = draw.unit_of(key)
         self.title = draw.title()
-        self.reading, self.fine = (scaled(value_of(one, READINGS[key][1]), unit) for one in (run, fine))
-        self.error = scaled(value_of(run, key + "_error"), unit)
+        self.reading, self.fine = (divide(one.reading(READINGS[key][1]), unit) for one in (run, fine))
+        self.error = divide(run.reading(key + "_error"), unit)
         self.reason = reason_of(run, key + "_error") if self.error is None else ""
         both = self.reading is not None and self.fine is not None
         self.difference = abs(self.reading - self.fine) if both else None
         nothing = self.reading is None and self.fine is None
         self.holds = nothing or (both and self.error is not None and self.difference <= self.error)
-
-
-def value_of(run, key):
-    """Of a run that went to its end."""
-    value = run.value(key) if run.exit_code == 0 else None
-    return None if is_missing(value) else value
 
 
 def reason_of(run, key):
@@ -102,36 +77,23 @@ def reason_of(run, key):
     return found[0].partition("#")[2].strip() if found else ""
 
 
-def scaled(value, unit):
-    return None if value is None else value / unit
-
-
-def median(values):
-    known = [value for value in values if value is not None]
-    return statistics.median(known) if known else None
-
-
 def summary(judged):
     table = Table("Errors that hold", [READINGS[key][0] for key in judged])
     each = list(judged.values())
-    both = [[one for one in all_ if one.difference is not None and one.error is not None] for all_ in each]
-    table.add("tests", "-", [len(all_) for all_ in each])
-    table.add("within", "-", [sum(one.holds for one in all_) for all_ in each],
-              [at_least(WITHIN * len(all_)) for all_ in each])
+    both = [[one for one in some if one.difference is not None and one.error is not None] for some in each]
+    differences = [median(divide(one.difference, abs(one.fine)) for one in some) for some in both]
+    errors = [median(divide(one.error, abs(one.reading)) for one in some) for some in both]
+    table.add("tests", "-", [len(some) for some in each])
+    table.add("within", "-", [sum(one.holds for one in some) for some in each],
+              [at_least(WITHIN * len(some)) for some in each])
     table.add("of them without a reading in both runs", "-",
-              [sum(one.reading is None and one.fine is None for one in all_) for all_ in each])
-    table.add("outside the error given", "-", [sum(not one.holds for one in all_) for all_ in both])
+              [len(some) - len(known(one.reading if one.fine is None else one.fine for one in some)) for some in each])
+    table.add("outside the error given", "-", [sum(not one.holds for one in some) for some in both])
     table.add("with a reading in one run only", "-",
-              [sum((one.reading is None) != (one.fine is None) for one in all_) for all_ in each])
-    table.add("with a reading in both runs, without an error", "-",
-              [sum(one.difference is not None and one.error is None for one in all_) for all_ in each])
-    table.add("median true difference, relative", "-",
-              [median([one.difference / abs(one.fine) for one in all_ if one.fine]) for all_ in both], None, ".2g")
-    table.add("median error given, relative", "-",
-              [median([one.error / abs(one.reading) for one in all_ if one.reading]) for all_ in both], None, ".2g")
-    table.add("median error given over median true difference", "-",
-              [runs.divide(median([one.error / abs(one.reading) for one in all_ if one.reading]),
-                           median([one.difference / abs(one.fine) for one in all_ if one.fine])) for all_ in both],
+              [sum((one.reading is None) != (one.fine is None) for one in some) for some in each])
+    table.add("median true difference, relative", "-", differences, None, ".2g")
+    table.add("median error given, relative", "-", errors, None, ".2g")
+    table.add("median error given over median true difference", "-", [divide(*two) for two in zip(errors, differences)],
               at_most(WIDTH), ".2g")
     return table
 
@@ -140,8 +102,8 @@ def table_of(key, judged):
     table = Table(READINGS[key][0].capitalize(), ["reading", "fine run", "true difference", "error given", "within",
                                                   "reason where there is none"])
     for one in judged:
-        table.add(one.title, "-", [one.reading, one.fine, one.difference, one.error, bool(one.holds),
-                                   one.reason.replace("\n", " ").replace("|", "/")], None, ".3g")
+        table.add(one.title, "-", [one.reading, one.fine, one.difference, one.error, bool(one.holds), in_a_cell(one.reason)],
+                  None, ".3g")
     return table
 
 
@@ -149,32 +111,10 @@ def table_of_runs(pairs):
     table = Table("Runs", ["exit code", "of the fine run", "motion pattern", "of the fine run: pattern", "CPU time [s]",
                            "of the fine run: CPU time [s]", "said"])
     for draw, run, fine in pairs:
-        table.add(draw.title(), "-", [run.exit_code, fine.exit_code, run.value("motion_pattern"),
-                                      fine.value("motion_pattern"), run.cpu_time, fine.cpu_time,
-                                      (run.said or fine.said).replace("\n", " ").replace("|", "/")], None, ".2f")
+        table.add(draw.title(), "-", [run.exit_code, fine.exit_code, run.value("motion_pattern"), fine.value("motion_pattern"),
+                                      run.cpu_time, fine.cpu_time, in_a_cell(run.said or fine.said)], None, ".2f")
     return table
 
 
-def write_draws(file, pairs):
-    """One row a test, for bench/fit_errors.py. Forces, lengths and stiffness are in units of k_b/h^2, h and k_b/h^3."""
-    with open(file, "w", encoding="utf-8", newline="") as out:
-        writer = csv.DictWriter(out, HEADER)
-        writer.writeheader()
-        for draw, run, fine in pairs:
-            row = {"number": draw.number, "exit_code": run.exit_code, "fine_exit_code": fine.exit_code,
-                   "cpu_time": run.cpu_time, "fine_cpu_time": fine.cpu_time}
-            row.update({name: draw.values[name] for name in DRAWN})
-            row.update({name: own_unit(draw, name, run.value(name)) for name in FOUND})
-            for key in READINGS:
-                one = Judgement(key, draw, run, fine)
-                row.update({f"{key}_reading": one.reading, f"{key}_fine": one.fine, f"{key}_error": one.error})
-            writer.writerow(row)
-
-
-def own_unit(draw, name, value):
-    units = {"force": draw.force, "extension": draw.radius, "tied_knot_distance": draw.radius,
-             "fastest_node": draw.radius, "slope": draw.force / draw.radius, "work": draw.force * draw.radius,
-             "numerical_dissipation": draw.force * draw.radius}
-    if not isinstance(value, float):
-        return value
-    return next((value / unit for end, unit in units.items() if name.endswith(end) or name == end), value)
+def in_a_cell(text):
+    return text.replace("\n", " ").replace("|", "/")

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "knot_utm/machine/step_settings.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/centreline_file.hpp"
@@ -94,7 +95,7 @@ void run(const Arguments& arguments) {
               static_cast<unsigned long long>(after.steps - before.steps),
               static_cast<unsigned long long>(after.rejected - before.rejected),
               static_cast<unsigned long long>(after.iterations - before.iterations));
-  std::printf("touching: %d\npeak_memory: %ld\n", scene.stepper->contact_reading().touching, 1024 * usage.ru_maxrss);
+  std::printf("touching: %d\npeak_memory: %ld\n", scene.stepper->readings().contact().touching, 1024 * usage.ru_maxrss);
 }
 
 }  // namespace

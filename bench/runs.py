@@ -1,4 +1,5 @@
-"""Runs of tensile_test on one core: what they took, and what they left."""
+"""Runs of tensile_test, on one core or several at a time: what they took, and what they left."""
+import concurrent.futures
 import csv
 import json
 import math
@@ -6,6 +7,7 @@ import os
 import resource
 import shlex
 import shutil
+import statistics
 import subprocess
 import sys
 
@@ -14,119 +16,85 @@ import yaml
 
 # A process counts the memory of the one it was forked from as its own: a shell is smaller than this.
 SHELLS_CHILD = ["/bin/sh", "-c", '"$@"; exit $?', "sh"]
+METHOD = "config/tighten.yaml"
+JOBS = 2  # runs at a time where their CPU time is not what is judged
+KNOT_DISTANCE, SHIFT = 0.15, 0.00037  # [m] of the shipped test, and from one perturbed start to the next
+
+
+def start(k):
+    """Settings of a perturbed start of the shipped test: its two knots are tied a little further apart each time."""
+    return {"specimen.knot_distance": round(KNOT_DISTANCE + SHIFT * k, 9)}
 
 
 class Runner:
-    """Starts tensile_test on one core, one run after the other. `core`: None for any; `verbose`: says what it starts
-    and what became of it."""
+    """Starts tensile_test. `core`: None for any; `verbose`: says what it starts and what became of it."""
 
     def __init__(self, root, tool, core, folder, overrides, verbose=True):
         self.root, self.tool, self.core, self.folder, self.overrides = root, tool, core, folder, overrides
         self.verbose = verbose
 
-    def run(self, name, settings, method="config/tighten.yaml", times=1):
+    def run(self, name, settings, method=METHOD, times=1):
         """`settings`: dotted key -> value, on top of which come those of the command line. Of several `times`, whose
         readings are the same, the one of the least CPU time: what other work on the machine adds is no part of it."""
-        runs = [self.start(name, settings, method, self.core).wait() for _ in range(times)]
+        runs = [self.once(name, settings, method) for _ in range(times)]
         return min(runs, key=lambda run: run.cpu_time)
 
-    def start(self, name, settings, method, core, cpu_limit=None):
-        """`cpu_limit` [s]: more, and the run is ended by SIGXCPU, however busy the machine."""
-        return self.launch(self.tool, name, method, words_of("--set", settings, self.overrides), core, cpu_limit,
-                           ["--quiet"])
+    def run_all(self, todo, jobs=JOBS, cpu_limit=None, made_of=lambda place, run: run):
+        """The runs of [(name, settings)] or [(name, settings, method)] in their order, some at a time on any core.
+        `made_of`: what is kept of each, at its place among them."""
+        runner = Runner(self.root, self.tool, None, self.folder, self.overrides, self.verbose)
+        with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
+            return list(pool.map(lambda place, one: made_of(place, runner.once(*one, cpu_limit=cpu_limit)),
+                                 range(len(todo)), todo))
 
-    def bench_run(self, tool, name, method, settings, others):
-        """A small executable beside tensile_test that leaves what that leaves. `others`: option -> settings."""
-        words = words_of("--set", settings, self.overrides)
-        for option, more in others.items():
-            words += words_of(option, more)
-        return self.launch(self.beside(tool), name, method, words, self.core).wait()
-
-    def beside(self, tool):
-        path = os.path.join(os.path.dirname(os.path.abspath(self.tool)), tool)
-        if not os.access(path, os.X_OK):
-            sys.exit(f"scripts/bench: {tool} is not built; configure with -DKNOT_UTM_BENCH=ON")
-        return path
-
-    def launch(self, tool, name, method, words, core, cpu_limit=None, unsaid=()):
-        """`unsaid`: arguments that a reader of the log has no need of."""
+    def once(self, name, settings, method=METHOD, more=(), cpu_limit=None):
+        """`more`: further words of the command line; `cpu_limit` [s]: more, and the run is ended by SIGXCPU, however
+        busy the machine."""
+        words = words_of("--set", settings, self.overrides) + list(more)
         out = os.path.join(self.folder, name)
         shutil.rmtree(out, ignore_errors=True)
         os.makedirs(os.path.dirname(out), exist_ok=True)
         # Relative to the root, so that no message names a folder of this machine.
-        command = [os.path.abspath(tool), method, *unsaid, "--out", os.path.relpath(out, self.root), *words]
-        if self.verbose:
-            print(f"{name}: {os.path.basename(tool)} {method} {shlex.join(words)}", file=sys.stderr, flush=True)
-
-        def confine():
-            if core is not None:
-                os.sched_setaffinity(0, {core})
-            if cpu_limit is not None:
-                resource.setrlimit(resource.RLIMIT_CPU, (cpu_limit, cpu_limit + 5))
-
+        command = [os.path.abspath(self.tool), method, "--quiet", "--out", os.path.relpath(out, self.root), *words]
+        self.say(f"{name}: {os.path.basename(self.tool)} {method} {shlex.join(words)}")
         process = subprocess.Popen(SHELLS_CHILD + command, cwd=self.root, stderr=subprocess.PIPE, text=True,
-                                   preexec_fn=confine)
-        return Started(name, out, process, self.verbose, self.root)
+                                   preexec_fn=lambda: confine(self.core, cpu_limit))
+        with process.stderr as stream:
+            said = stream.read().replace(self.root + os.sep, "")
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = os.waitstatus_to_exitcode(status)
+        run = Run(out, usage.ru_utime + usage.ru_stime, process.returncode, said.strip())
+        self.say(f"{name}: exit {run.exit_code} after {run.cpu_time:.1f} s of CPU time" +
+                 (f": {run.said}" if run.said else ""))
+        return run
 
     def bench_tool(self, tool, arguments):
         """What a small executable beside tensile_test prints as YAML."""
-        command = [self.beside(tool)] + [str(word) for word in arguments]
-        print(" ".join([tool] + command[1:]), file=sys.stderr, flush=True)
+        path = os.path.join(os.path.dirname(os.path.abspath(self.tool)), tool)
+        if not os.access(path, os.X_OK):
+            sys.exit(f"scripts/bench: {tool} is not built; configure with -DKNOT_UTM_BENCH=ON")
+        command = [path] + [str(word) for word in arguments]
+        self.say(" ".join([tool] + command[1:]))
         done = subprocess.run(SHELLS_CHILD + command, cwd=self.root, stdout=subprocess.PIPE, text=True, check=False,
-                              preexec_fn=lambda: os.sched_setaffinity(0, {self.core}))
+                              preexec_fn=lambda: confine(self.core))
         return (yaml.safe_load(done.stdout) or {}) if done.returncode == 0 else {}
 
-    def command_line(self):
-        """The command of this study, without folders of this machine."""
-        script = "scripts/" + os.path.basename(sys.argv[0])
-        return " ".join([script] + [os.path.basename(word) if os.path.isabs(word) else word
-                                    for word in sys.argv[1:]])
+    def say(self, line):
+        if self.verbose:
+            print(line, file=sys.stderr, flush=True)
 
-    def commit(self):
-        try:
-            return subprocess.run(["git", "-C", self.root, "describe", "--always", "--dirty", "--abbrev=10"],
-                                  check=True, capture_output=True, text=True).stdout.strip()
-        except (OSError, subprocess.CalledProcessError):
-            return "missing (no git here)"
 
-    def where(self):
-        return "run on any core" if self.core is None else f"run on core {self.core}"
-
-    def machine(self):
-        """CPU model, cores and how busy they were."""
-        facts = {}
-        try:
-            listed = subprocess.run(["lscpu", "-J"], check=True, capture_output=True, text=True).stdout
-            for field in json.loads(listed)["lscpu"]:
-                facts[field["field"].rstrip(":")] = field["data"]
-        except (OSError, ValueError, KeyError, subprocess.CalledProcessError):
-            pass
-        return (f"{facts.get('Model name', 'CPU model missing')}, {os.cpu_count()} cores, {self.where()}; "
-                f"load average when written {os.getloadavg()[0]:.1f}")
+def confine(core, cpu_limit=None):
+    if core is not None:
+        os.sched_setaffinity(0, {core})
+    if cpu_limit is not None:
+        resource.setrlimit(resource.RLIMIT_CPU, (cpu_limit, cpu_limit + 5))
 
 
 def words_of(option, settings, more=()):
     """Of a command line, with the option before each; JSON is YAML too."""
     entries = [f"{key}={json.dumps(value)}" for key, value in settings.items()] + list(more)
     return [word for entry in entries for word in (option, entry)]
-
-
-class Started:
-    """A run under way."""
-
-    def __init__(self, name, out, process, verbose, root):
-        self.name, self.out, self.process, self.verbose, self.root = name, out, process, verbose, root
-
-    def wait(self):
-        with self.process.stderr as stream:
-            said = stream.read().replace(self.root + os.sep, "")  # tables name no folder of this machine
-        _, status, usage = os.wait4(self.process.pid, 0)
-        self.process.returncode = os.waitstatus_to_exitcode(status)
-        run = Run(self.out, usage.ru_utime + usage.ru_stime, self.process.returncode, said.strip())
-        if self.verbose:
-            print(f"{self.name}: exit {run.exit_code} after {run.cpu_time:.1f} s of CPU time" +
-                  (f": {run.said}" if run.said else ""), file=sys.stderr, flush=True)
-        return run
 
 
 class Run:
@@ -143,9 +111,10 @@ class Run:
         """A key of result.yaml."""
         return self.result.get(key)
 
-    def ratio(self, key, other):
-        """A number of result.yaml over another number."""
-        return divide(self.value(key), other)
+    def reading(self, key):
+        """The same of a run that went to its end; what another left is not a reading."""
+        value = self.value(key) if self.exit_code == 0 else None
+        return None if is_missing(value) else value
 
     def real_time_factor(self):
         """Simulated over CPU time."""
@@ -167,25 +136,49 @@ class Run:
             columns["lower_force"] = [load + offset for load, offset in zip(columns["load_lower"], balanced)]
         return columns
 
+    def pulled(self, *keys):
+        """Columns of the pull: extension and load, or those named."""
+        pull = self.phase("pull")
+        return tuple(pull.get(key, []) for key in keys or ("extension", "load"))
+
     def slope_of_knot_distance(self):
         """de/ds: what result.yaml says of knots that slide, else by least squares over the whole pull."""
         if self.value("motion_pattern") == "sliding":
             return self.value("plateau_slope")
-        pull = self.phase("pull")
-        return least_squares_slope([(s, e) for s, e in zip(pull.get("extension", []), pull.get("knot_distance", []))
-                                    if math.isfinite(e)])
+        points = [(s, e) for s, e in zip(*self.pulled("extension", "knot_distance")) if math.isfinite(e)]
+        return float(np.polyfit(*zip(*points), 1)[0]) if len(points) > 2 else None
+
+
+def is_missing(value):
+    return value is None or (isinstance(value, float) and math.isnan(value))
 
 
 def divide(value, by):
     return None if value is None or by is None or by == 0 else value / by
 
 
-def least(values):
-    return min((value for value in values if value is not None), default=None)
+def known(values):
+    return [value for value in values if value is not None]
 
 
-def largest(values):
-    return max((value for value in values if value is not None), default=None)
+def mean(values):
+    there = known(values)
+    return statistics.fmean(there) if there else None
+
+
+def median(values):
+    there = known(values)
+    return statistics.median(there) if there else None
+
+
+def deviation(values):
+    there = known(values)
+    return statistics.stdev(there) if len(there) > 1 else None
+
+
+def standard_error(values):
+    there = known(values)
+    return divide(deviation(there), math.sqrt(len(there)))
 
 
 def relative_change(value, reference):
@@ -193,43 +186,17 @@ def relative_change(value, reference):
     return None if value is None or not reference else abs(value - reference) / abs(reference)
 
 
-def pulled(run):
-    """Extension and load while pulled."""
-    pull = run.phase("pull")
-    return pull.get("extension", []), pull.get("load", [])
-
-
-def mean_relative_difference(curve, reference, points=200):
-    """Mean of |y - y_ref|/|y_ref| over x, as far as both curves go. Curves: (x, y), x rising."""
+def mean_relative_difference(curve, reference, parts=200, averaged=1):
+    """Mean of |y - y_ref|/|y_ref| over equal parts of x, as far as both curves go; y is the mean of so many places of a
+    part. Curves: (x, y), x rising."""
     if not curve[0] or not reference[0]:
         return None
     low, high = max(curve[0][0], reference[0][0]), min(curve[0][-1], reference[0][-1])
     if low >= high:
         return None
-    x = np.linspace(low, high, points)
-    expected = np.interp(x, *reference)
-    return float(np.mean(np.abs(np.interp(x, *curve) - expected) / np.abs(expected)))
-
-
-def mean_relative_difference_of_parts(curve, reference, parts):
-    """The same of the means of y over so many equal parts of x."""
-    if not curve[0] or not reference[0]:
-        return None
-    low, high = max(curve[0][0], reference[0][0]), min(curve[0][-1], reference[0][-1])
-    if low >= high:
-        return None
-    x = low + (np.arange(parts * 50) + 0.5) * (high - low) / (parts * 50)
-    mean, expected = (np.interp(x, *one).reshape(parts, 50).mean(axis=1) for one in (curve, reference))
-    return float(np.mean(np.abs(mean - expected) / np.abs(expected)))
-
-
-def least_squares_slope(points):
-    if len(points) < 3:
-        return None
-    mean_x = sum(x for x, _ in points) / len(points)
-    mean_y = sum(y for _, y in points) / len(points)
-    spread = sum((x - mean_x) ** 2 for x, _ in points)
-    return divide(sum((x - mean_x) * (y - mean_y) for x, y in points), spread)
+    x = low + (np.arange(parts * averaged) + 0.5) * (high - low) / (parts * averaged)
+    own, expected = (np.interp(x, *one).reshape(parts, averaged).mean(axis=1) for one in (curve, reference))
+    return float(np.mean(np.abs(own - expected) / np.abs(expected)))
 
 
 def read_yaml(file):

@@ -4,8 +4,8 @@ import os
 
 import plots
 import runs
-import starts
 import yaml
+from runs import divide, mean
 from table import Report, Table, at_most, is_
 
 # A solid rod stretches at once, and its loop is read by peak and stiffness alone.
@@ -13,7 +13,6 @@ MATERIALS = ["nylon", "polypropylene", "pink_vps"]
 LEAST, LARGEST = 0.00025, 0.04  # diameters of a thread and of a hawser [m]
 FORCES = (1e-5, 1e4)  # F_0, nine decades of it [N]
 SAME_SHARE = 0.01
-SAME = at_most(SAME_SHARE)
 SAME_WORK = at_most(0.2)
 LITTLE = at_most(0.001)
 SLOW_ENOUGH = at_most(0.02)
@@ -21,10 +20,9 @@ SPEEDS = (0.1, 0.3, 3.0, 10.0)  # times the default
 LOOP, OVERHAND = "config/tighten.yaml", "config/overhand.yaml"
 NUMBERS = ("radius", "density", "stretching_stiffness", "bending_stiffness", "twisting_stiffness",
            "friction_coefficient", "tying_preload")  # nothing breaks
-READINGS = [("plateau force (true)", "true_plateau_force", "F_0", "force"),
-            ("lock extension", "lock_extension", "h", "length"),
-            ("locked stiffness", "locked_stiffness", "F_0/h", "stiffness"),
-            ("peak force (true)", "true_peak_force", "F_0", "force")]
+READINGS = [("plateau force (true)", "true_plateau_force", "F_0"), ("lock extension", "lock_extension", "h"),
+            ("locked stiffness", "locked_stiffness", "F_0/h"), ("peak force (true)", "true_peak_force", "F_0")]
+SHARES = [("share of drag in the force", "drag_share"), ("share of inertia in it", "inertia_share")]
 SAMPLING_RATE = 3.0  # the default [Hz]
 STARTS = 5           # of each speed
 
@@ -39,9 +37,8 @@ def draws():
 
 
 def report(runner, materials):
-    tables, curves = [], {}
-    for material in materials:
-        tables.append(of_sizes(runner, LOOP, material, curves))
+    curves = {}
+    tables = [of_sizes(runner, LOOP, material, curves) for material in materials]
     tables.append(of_sizes(runner, OVERHAND, materials[-1], curves))
     tables += [of_speeds(runner, material) for material in materials]
     return Report("Any size, any stiffness",
@@ -58,7 +55,9 @@ def report(runner, materials):
 
 
 def of_sizes(runner, method, material, curves):
-    shipped = numbers_of(os.path.join(runner.root, "config/materials", material + ".yaml"))
+    with open(os.path.join(runner.root, "config/materials", material + ".yaml"), encoding="utf-8") as text:
+        # YAML of this library takes 7.34e4 for a text.
+        shipped = {key: float(value) for key, value in yaml.safe_load(text).items() if key in NUMBERS}
     combinations = [(2.0 * shipped["radius"], bending_force(shipped))] + draws()
     knot = "loop" if method == LOOP else "open overhand"
     each = [runner.run(f"{material}_{knot.split()[-1]}/{k}", settings_of(shipped, d, force), method)
@@ -70,19 +69,16 @@ def of_sizes(runner, method, material, curves):
     table.add("motion pattern", "-", [run.value("motion_pattern") for run in each],
               is_(each[0].value("motion_pattern")))
     curves[title] = {}
-    for words, key, unit, kind in READINGS:
-        values = [runs.divide(run.value(key), unit_of(kind, d / 2.0, force))
-                  for run, (d, force) in zip(each, combinations)]
-        table.add(words, unit, values)
+    for words, key, unit in READINGS:
+        units = [{"F_0": force, "h": d / 2.0, "F_0/h": 2.0 * force / d}[unit] for d, force in combinations]
+        values = [divide(run.value(key), one) for run, one in zip(each, units)]
         if values[0] is None:
             continue
-        table.add(f"{words}: relative change", "-", changes(values), SAME, ".2g")
-        known = sorted((force, value / values[0]) for (_, force), value in zip(combinations, values) if value)
-        curves[title][words] = ([force for force, _ in known], [ratio for _, ratio in known])
-    iterations = [run.value("newton_iterations") for run in each]
-    table.add("Newton iterations", "-", iterations)
-    table.add("Newton iterations: relative change", "-", changes(iterations), SAME_WORK, ".2g")
-    for words, key in (("share of drag in the force", "drag_share"), ("share of inertia in it", "inertia_share")):
+        add_changes(table, words, unit, values, at_most(SAME_SHARE))
+        points = sorted((force, value / values[0]) for (_, force), value in zip(combinations, values) if value)
+        curves[title][words] = tuple(zip(*points))
+    add_changes(table, "Newton iterations", "-", [run.value("newton_iterations") for run in each], SAME_WORK)
+    for words, key in SHARES:
         table.add(words, "-", [run.value(key) for run in each], LITTLE, ".2g")
     table.add("warnings", "-", [len(run.value("warnings") or []) for run in each])
     return table
@@ -91,57 +87,40 @@ def of_sizes(runner, method, material, curves):
 def of_speeds(runner, material):
     """What pulling and tying more slowly and faster than by default moves: means over starts, as one of them scatters."""
     def over_starts(name, settings):
-        return [runner.run(f"{material}_speeds/{name}/{k}", {"material": material, **settings, **starts.start(k)})
+        return [runner.run(f"{material}_speeds/{name}/{k}", {"material": material, **settings, **runs.start(k)})
                 for k in range(STARTS)]
 
-    names, each = ["default"], [over_starts("default", {})]
-    program = each[0][0].method.get("program", [])
+    each = {"default": over_starts("default", {})}
+    program = each["default"][0].method.get("program", [])
     for step in ("pull", "tie"):
         speed = next((entry[step]["speed"] for entry in program if step in entry), None)
         for times in SPEEDS if speed else []:
-            names.append(f"{step} x{times:g}")
             settings = {f"program.{step}.speed": times * speed}
             if step == "pull":      # the load is read at the same extensions
                 settings["machine.load_cell"] = {"sampling_rate": times * SAMPLING_RATE}
-            each.append(over_starts(f"{step}_{times:g}", settings))
-    table = Table(f"{material}, speeds", names)
-    table.add("exit code", "-", [max(run.exit_code for run in some) for some in each], is_(0))
+            each[f"{step} x{times:g}"] = over_starts(f"{step}_{times:g}", settings)
+    table = Table(f"{material}, speeds", list(each))
+    table.add("exit code", "-", [max(run.exit_code for run in some) for some in each.values()], is_(0))
     warned = [any("radii a second" in text or "inertia" in text for run in some
-                  for text in run.value("warnings") or []) for some in each]
+                  for text in run.value("warnings") or []) for some in each.values()]
     table.add("warned of speed", "-", warned)
-    for words, key, unit, _ in READINGS[:3]:
-        values = [mean([run.value(key) for run in some]) for some in each]
-        if values[0] is None:
-            continue
-        table.add(words, "N" if "force" in words else "m" if unit == "h" else "N/m", values)
-        table.add(f"{words}: relative change", "-", changes(values),
-                  [None if told else SLOW_ENOUGH for told in warned], ".2g")
-    for words, key in (("share of drag in the force", "drag_share"), ("share of inertia in it", "inertia_share")):
-        table.add(words, "-", [mean([run.value(key) for run in some]) for some in each], None, ".2g")
+    for words, key, unit in READINGS[:3]:
+        values = [mean(run.value(key) for run in some) for some in each.values()]
+        if values[0] is not None:
+            add_changes(table, words, {"F_0": "N", "h": "m", "F_0/h": "N/m"}[unit], values,
+                        [None if told else SLOW_ENOUGH for told in warned])
+    for words, key in SHARES:
+        table.add(words, "-", [mean(run.value(key) for run in some) for some in each.values()], None, ".2g")
     return table
 
 
-def mean(values):
-    """None where one is."""
-    return None if None in values else sum(values) / len(values)
-
-
-def changes(values):
-    return [runs.relative_change(value, values[0]) for value in values]
-
-
-def numbers_of(file):
-    """YAML of this library takes 7.34e4 for a text."""
-    with open(file, encoding="utf-8") as text:
-        return {key: float(value) for key, value in yaml.safe_load(text).items() if key in NUMBERS}
+def add_changes(table, words, unit, values, gate):
+    table.add(words, unit, values)
+    table.add(f"{words}: relative change", "-", [runs.relative_change(value, values[0]) for value in values], gate, ".2g")
 
 
 def bending_force(material):
     return material["bending_stiffness"] / material["radius"] ** 2
-
-
-def unit_of(kind, radius, force):
-    return {"force": force, "length": radius, "stiffness": force / radius}[kind]
 
 
 def own_time(shipped, diameter, force):

@@ -20,7 +20,6 @@ import sys
 import time
 
 import launched
-import runs
 from table import Report, Table, at_most, is_
 
 METHOD = """# A short rod, pulled slowly, read at every command.
@@ -96,14 +95,14 @@ class Machine:
         return self.rospy.ServiceProxy(service, kind)()
 
     def run(self, number, look):
-        """A test on a new specimen to its end; `look(samples so far)` now and then. Returns the recorder's last status
+        """A test on a new specimen to its end; `look()` now and then. Returns the recorder's last status
         and the machine's."""
         self.call("knot/reset", self.trigger)
         launched.wait_for("start", lambda: self.call("utm/start_test", self.start).accepted)
         while True:
             said, ended = self.recorder, self.test
             if said is not None and said.run == number:
-                look(said.recorded)
+                look()
                 if said.complete and ended.run == number and ended.sequence + 1 >= said.recorded and ended.ended_by:
                     return said, ended
                 if said.error:
@@ -111,24 +110,6 @@ class Machine:
             if not self.alive():
                 sys.exit("scripts/soak: the launch ended")
             time.sleep(0.1)
-
-
-class Timeline:
-    """How many samples there were, when, and what it had cost."""
-
-    def __init__(self, pids):
-        self.pids, self.begin, self.points = pids, time.monotonic(), []
-
-    def look(self, samples):
-        cost = [launched.cpu_time(pid) for pid in self.pids.values()]
-        self.points.append((samples, time.monotonic() - self.begin, *cost))
-
-    def a_sample(self, low, high):
-        """What one sample took between two shares of all: wall time, and CPU time of each node [s]."""
-        total = self.points[-1][0]
-        first = min(self.points, key=lambda point: abs(point[0] - low * total))
-        last = min(self.points, key=lambda point: abs(point[0] - high * total))
-        return [(b - a) / max(1, last[0] - first[0]) for a, b in zip(first[1:], last[1:])]
 
 
 def rows(file):
@@ -143,17 +124,17 @@ class Soak:
         self.wishes = wishes
         self.tests = self.published = self.recorded = self.dropped = self.on_disk = self.different = 0
         self.clock_went_back = 0
-        self.memory, self.timeline, self.peak_of_recorder = [], None, 0
+        self.memory, self.seconds, self.peak_of_recorder = [], 0.0, 0
 
     def run(self):
         begin = time.monotonic()
         with launched.Launch("autostart:=false", "exit_at_end:=false", "real_time_factor:=0",
                              "method:=soak.yaml", prepare=self.write_method) as launch:
             machine = Machine(launch)
-            self.timeline = Timeline(machine.pids)
             limit = self.wishes.minutes
             while self.tests < self.wishes.resets and (limit is None or time.monotonic() - begin < 60 * limit):
                 self.one_test(launch, machine)
+                self.seconds = time.monotonic() - begin
             self.clock_went_back = machine.clock_went_back
             self.different += self.headless_differs(launch)
 
@@ -162,10 +143,7 @@ class Soak:
             file.write(METHOD.format((self.wishes.samples_a_test - BESIDE) / 1000))
 
     def one_test(self, launch, machine):
-        before = self.recorded
-
-        def look(samples):
-            self.timeline.look(before + samples)
+        def look():
             self.peak_of_recorder = max(self.peak_of_recorder, launched.memory(machine.pids["recorder_node"]))
 
         said, ended = machine.run(self.tests + 1, look)
@@ -180,7 +158,7 @@ class Soak:
         else:
             self.different += not self.same(self.first, said.directory)
             shutil.rmtree(said.directory)
-        print(f"test {self.tests}: {self.recorded} samples in {self.timeline.points[-1][1]:.0f} s, "
+        print(f"test {self.tests}: {self.recorded} samples, "
               + ", ".join(f"{node} {bytes_ / 1e6:.1f} MB" for node, bytes_ in zip(NODES, self.memory[-1])),
               file=sys.stderr, flush=True)
 
@@ -211,8 +189,7 @@ class Soak:
         counts.add("tests whose files differ from the first, or that from the headless tool", "-", [self.different],
                    is_(0))
         counts.add("times that /clock went back", "-", [self.clock_went_back], is_(0))
-        wall = self.timeline.points[-1][1]
-        counts.add("samples a second", "1/s", [self.recorded / wall])
+        counts.add("samples a second", "1/s", [self.recorded / self.seconds])
 
         memory = Table("Memory", NODES)
         memory.add("resident after the first test", "MB", [m / 1e6 for m in self.memory[0]])
@@ -221,32 +198,10 @@ class Soak:
                    [self.growth(i) for i in range(len(NODES))], at_most(0.01))
         memory.add("largest within a test, which the recorder keeps to analyse", "MB",
                    [None, None, self.peak_of_recorder / 1e6])
-
-        whole, first, last = (self.timeline.a_sample(*part) for part in ((0, 1), (0, 0.1), (0.9, 1)))
-        pace = Table("Time a sample", ["wall time"] + ["CPU time of " + node for node in NODES])
-        pace.add("all", "us", [1e6 * t for t in whole])
-        pace.add("first tenth", "us", [1e6 * t for t in first])
-        pace.add("last tenth", "us", [1e6 * t for t in last])
-        pace.add("last over first", "-", [runs.divide(b, a) for a, b in zip(first, last)])
         return Report("Soak of the launched system", " ".join([
             f"{self.tests} tests of {self.wishes.samples_a_test} samples through `utm_node`, `knot_node` and",
             f"`recorder_node` at full speed, {self.wishes.busy} loops beside them that take what they get of the",
-            "processors. One sample is one command, one answer: the machine waits for each, so that the pace is that",
-            "of the way from node to node and back."]), [counts, memory, pace])
-
-
-class Everywhere(runs.Runner):
-    """For the words above the tables."""
-
-    def __init__(self, words):
-        super().__init__(launched.ROOT, launched.TOOL, None, "", [])
-        self.words = [word for word in words if not word.startswith("results=")]
-
-    def command_line(self):
-        return " ".join(["scripts/soak"] + self.words)
-
-    def where(self):
-        return "run on any"
+            "processors. One sample is one command, one answer: the machine waits for each."]), [counts, memory])
 
 
 def main():
@@ -260,12 +215,8 @@ def main():
             loop.kill()
             loop.wait()
     report = soak.report()
-    report.write(wishes.results, "soak", Everywhere(sys.argv[1:]))
-    print(report.text())
-    failed = report.failed()
-    for line in failed:
-        print("FAILED: " + line)
-    return 1 if failed else 0
+    report.write(wishes.results, "soak")
+    return report.finish()
 
 
 if __name__ == "__main__":

@@ -1,11 +1,16 @@
 """Tables whose cells may have a gate, and the report made of them."""
 import csv
 import datetime
-import math
+import json
 import os
+import re
+import subprocess
+import sys
 
+from runs import is_missing
 
 REFERENCE = "(reference)"  # what the others are compared with
+ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 class Gate:
@@ -43,10 +48,6 @@ def text_of(value, digits=".4g"):
     if isinstance(value, float):
         return format(value, digits)
     return str(value)
-
-
-def is_missing(value):
-    return value is None or (isinstance(value, float) and math.isnan(value))
 
 
 class Table:
@@ -107,12 +108,17 @@ class Report:
     def failed(self):
         return [line for table in self.tables for line in table.failed()]
 
-    def write(self, folder, name, runner):
+    def finish(self):
+        """Prints tables and failed gates; the exit code."""
+        print(self.text())
+        for line in self.failed():
+            print("FAILED: " + line)
+        return 1 if self.failed() else 0
+
+    def write(self, folder, name, core=None):
+        """NAME.md with its picture, and NAME.csv. `core`: that the runs were confined to."""
         os.makedirs(folder, exist_ok=True)
-        head = [f"# {self.title}", "", self.introduction, "",
-                f"- Command: `{runner.command_line()}`", f"- Commit: {runner.commit()}",
-                f"- Machine: {runner.machine()}",
-                f"- Written: {datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d %H:%M} UTC", ""]
+        head = [f"# {self.title}", "", self.introduction, "", *circumstances(core), ""]
         if self.draw:
             self.draw(os.path.join(folder, name + ".png"))
             head += [f"![{self.title}]({name}.png)", ""]
@@ -127,3 +133,23 @@ class Report:
             writer.writerow(self.tables[0].CSV_HEADER)
             for table in self.tables:
                 writer.writerows(table.csv_rows())
+
+
+def circumstances(core):
+    """Command, commit, machine and time, without folders of this machine."""
+    script = "scripts/" + os.path.splitext(os.path.basename(sys.argv[0]))[0]
+    words = [re.sub(r"/\S*/", "", word) for word in sys.argv[1:]]
+    commit = said_by("git", "-C", ROOT, "describe", "--always", "--dirty", "--abbrev=10").strip()
+    facts = {field["field"].rstrip(":"): field["data"] for field in json.loads(said_by("lscpu", "-J") or "{}").get("lscpu", [])}
+    where = "any core" if core is None else f"core {core}"
+    return [f"- Command: `{' '.join([script] + words)}`", f"- Commit: {commit or 'missing (no git here)'}",
+            f"- Machine: {facts.get('Model name', 'CPU model missing')}, {os.cpu_count()} cores, run on {where}; load average "
+            f"when written {os.getloadavg()[0]:.1f}",
+            f"- Written: {datetime.datetime.now(datetime.timezone.utc):%Y-%m-%d %H:%M} UTC"]
+
+
+def said_by(*command):
+    try:
+        return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    except (OSError, subprocess.CalledProcessError):
+        return ""

@@ -1,22 +1,12 @@
-# What scripts/bench runs beside tensile_test, and the parts of a Newton iteration, timed. Built only where asked for.
-option(KNOT_UTM_BENCH "Build the executables of scripts/bench, and knot_utm_bench where Google Benchmark is found" OFF)
+# What scripts/bench runs beside tensile_test. Built only where asked for.
+option(KNOT_UTM_BENCH "Build the executables of scripts/bench" OFF)
 if(NOT KNOT_UTM_BENCH)
   return()
 endif()
 find_package(CLI11 REQUIRED)
-foreach(bench capsizing_bench capstan_bench iteration_cost_bench rolling_bench row_of_knots_bench step_parts_bench
-              tied_state_bench)
+foreach(bench iteration_cost_bench row_of_knots_bench)
   add_executable(${bench} bench/${bench}.cpp)
   target_include_directories(${bench} PRIVATE test)
   target_link_libraries(${bench} PRIVATE knot_utm_core CLI11::CLI11)
   set_target_properties(${bench} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${KNOT_UTM_EXECUTABLE_DIR}")
 endforeach()
-
-find_package(benchmark QUIET)
-if(NOT benchmark_FOUND)
-  message(STATUS "knot_utm_bench is not built: Google Benchmark was not found (libbenchmark-dev)")
-  return()
-endif()
-add_executable(knot_utm_bench bench/newton_parts_bench.cpp)
-target_link_libraries(knot_utm_bench PRIVATE knot_utm_core benchmark::benchmark)
-set_target_properties(knot_utm_bench PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${KNOT_UTM_EXECUTABLE_DIR}")

@@ -29,14 +29,22 @@ if(KNOT_UTM_WERROR)
 endif()
 target_compile_options(knot_utm_compiler INTERFACE "$<BUILD_INTERFACE:${warnings}>")
 
-if(KNOT_UTM_SANITIZE)
-  target_compile_options(knot_utm_compiler INTERFACE -fsanitize=${KNOT_UTM_SANITIZE} -fno-omit-frame-pointer
-                                                     -fno-sanitize-recover=all)
-  if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
-    target_compile_options(knot_utm_compiler INTERFACE -Wno-maybe-uninitialized) # false alarms of GCC 12 here
-  endif()
-  target_link_options(knot_utm_compiler INTERFACE -fsanitize=${KNOT_UTM_SANITIZE})
+# The options of a build under sanitizers. GCC 12 warns falsely there of what may not be initialised.
+set(sanitizer_options -fsanitize=address,undefined -fno-omit-frame-pointer -fno-sanitize-recover=all)
+if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
+  list(APPEND sanitizer_options -Wno-maybe-uninitialized)
 endif()
 
 # As a shared library too, the core may inline its own exported functions.
 target_compile_options(knot_utm_compiler INTERFACE $<BUILD_INTERFACE:-fno-semantic-interposition>)
+
+# Headers that all of some targets read are compiled once: knot_utm_precompile("TARGET..." HEADER...)
+function(knot_utm_precompile targets)
+  list(POP_FRONT targets first)
+  if(first)
+    target_precompile_headers(${first} PRIVATE ${ARGN})
+  endif()
+  foreach(target ${targets})
+    target_precompile_headers(${target} REUSE_FROM ${first})
+  endforeach()
+endfunction()

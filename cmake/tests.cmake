@@ -2,86 +2,70 @@ enable_testing()
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
-# The core's tests, one executable.
-set(core_test_sources)
-foreach(room ${core_rooms})
-  file(GLOB room_tests CONFIGURE_DEPENDS test/${room}/*_test.cpp)
-  list(APPEND core_test_sources ${room_tests})
-endforeach()
-list(APPEND core_test_sources test/rooms_test.cpp)
-add_executable(core_tests ${core_test_sources})
-target_include_directories(core_tests PRIVATE test)
-target_link_libraries(core_tests PRIVATE knot_utm_core yaml-cpp ZLIB::ZLIB GTest::gtest_main GTest::gmock)
-# Halves what the tests take to compile. A compiler cache cannot look behind precompiled headers.
-if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
-  target_precompile_headers(core_tests PRIVATE <gmock/gmock.h> <gtest/gtest.h> <Eigen/Core> <Eigen/Geometry>
-                            <functional> <string> <vector>)
+# What the tests of the core are linked with.
+set(tested_core knot_utm_core)
+if(KNOT_UTM_SANITIZED_TESTS)
+  set(tested_core knot_utm_core_sanitized)
 endif()
-# To those files only that use them: what a file does not use need not compile it anew.
-foreach(source ${core_test_sources})
-  file(STRINGS ${source} uses REGEX "KNOT_UTM_SOURCE_DIR|KNOT_UTM_TOOLS_DIR|io/command.hpp")
-  if(uses)
-    set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS
-                 KNOT_UTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}" KNOT_UTM_TOOLS_DIR="${KNOT_UTM_EXECUTABLE_DIR}")
-  endif()
-endforeach()
-add_dependencies(core_tests compare tensile_test replay_step)
-gtest_discover_tests(core_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800)
 
-# What stands on lanes, for processors without AVX2: it compiles there too. What it costs there is measured by
-# `scripts/bench registers`.
-if(KNOT_UTM_X86_64_V3 AND NOT KNOT_UTM_SANITIZE)
-  file(GLOB lane_sources CONFIGURE_DEPENDS src/numeric/*.cpp src/solver/*.cpp src/contact/*.cpp src/sim/*.cpp)
-  foreach(source ${lane_sources})
-    file(STRINGS ${source} lanes REGEX "[Ll]anes|Four|ImplicitStep" LIMIT_COUNT 1)
-    if(NOT lanes)
-      list(REMOVE_ITEM lane_sources ${source})
+# knot_utm_tests(NAME LABEL SOURCE...): an executable of GoogleTest and its tests, which carry a label for `ctest -L`. What they
+# compute is in the library, and they themselves are compiled with little optimisation.
+function(knot_utm_tests name label)
+  add_executable(${name} ${ARGN})
+  target_compile_options(${name} PRIVATE -O1)
+  target_include_directories(${name} PRIVATE test)
+  target_link_libraries(${name} PRIVATE yaml-cpp ZLIB::ZLIB GTest::gtest_main GTest::gmock)
+  # To those files only that use them: what a file does not use need not compile it anew.
+  foreach(source ${ARGN})
+    file(STRINGS ${source} uses REGEX "KNOT_UTM_SOURCE_DIR|KNOT_UTM_TOOLS_DIR|io/command.hpp")
+    if(uses)
+      set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS
+                   KNOT_UTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}" KNOT_UTM_TOOLS_DIR="${KNOT_UTM_EXECUTABLE_DIR}")
     endif()
   endforeach()
-  add_library(narrow_lanes OBJECT ${lane_sources})
-  target_compile_options(narrow_lanes PRIVATE -O0 -mno-avx)
-  target_include_directories(narrow_lanes PRIVATE include)
-  target_link_libraries(narrow_lanes PRIVATE Eigen3::Eigen knot_utm_compiler)
+  gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT 1800 LABELS "${label}\\;${name}" ${test_properties})
+endfunction()
+
+# The core's tests, one executable a room.
+set(room_tests)
+foreach(room ${core_rooms})
+  file(GLOB sources CONFIGURE_DEPENDS test/${room}/*_test.cpp)
+  if(sources)
+    knot_utm_tests(${room}_tests quick ${sources})
+    target_link_libraries(${room}_tests PRIVATE ${tested_core})
+    list(APPEND room_tests ${room}_tests)
+  endif()
+endforeach()
+add_dependencies(io_tests compare tensile_test replay_step)
+knot_utm_tests(rooms_test quick test/rooms_test.cpp)
+add_custom_target(core_tests DEPENDS ${room_tests} rooms_test)
+
+# What stands on lanes, for processors without AVX2. What it costs there is measured by `scripts/bench registers`.
+if(KNOT_UTM_X86_64_V3)
+  knot_utm_tests(narrow_lanes_tests quick test/numeric/lanes_test.cpp)
+  target_compile_options(narrow_lanes_tests PRIVATE -mno-avx)
+  target_link_libraries(narrow_lanes_tests PRIVATE Eigen3::Eigen knot_utm_compiler)
+  target_include_directories(narrow_lanes_tests PRIVATE include)
 endif()
 
-# Counts what a step takes from the heap by a malloc of its own, where no sanitizer has one.
-if(NOT KNOT_UTM_SANITIZE)
-  add_executable(allocation_test test/allocation/allocation_test.cpp)
-  target_include_directories(allocation_test PRIVATE test)
-  target_link_libraries(allocation_test PRIVATE knot_utm_core GTest::gtest_main)
-  gtest_discover_tests(allocation_test NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800)
-endif()
+# Counts what a step takes from the heap by a malloc of its own.
+knot_utm_tests(allocation_test quick test/allocation/allocation_test.cpp)
+target_link_libraries(allocation_test PRIVATE knot_utm_core)
 
 # Symmetries on random scenes. The seed is fixed: the same scenes every time. For others, and more of them, run
 # property_tests itself with RC_PARAMS="max_success=1000".
 find_package(rapidcheck REQUIRED)
 file(GLOB property_sources CONFIGURE_DEPENDS test/properties/*_test.cpp)
-add_executable(property_tests ${property_sources})
-# Their physics is in the library; optimised themselves, they take minutes to compile.
-set_source_files_properties(${property_sources} PROPERTIES COMPILE_OPTIONS -O1)
-target_include_directories(property_tests PRIVATE test)
-target_link_libraries(property_tests PRIVATE knot_utm_core rapidcheck GTest::gtest_main)
-gtest_discover_tests(property_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
-                     PROPERTIES TIMEOUT 1800 ENVIRONMENT "RC_PARAMS=seed=1 max_success=25")
-
-# What follows runs long, or runs tools and scripts. What of the code it reaches, the tests above reach too.
-if(KNOT_UTM_SANITIZE)
-  return()
-endif()
+set(test_properties ENVIRONMENT "RC_PARAMS=seed=1 max_success=25")
+knot_utm_tests(property_tests quick ${property_sources})
+unset(test_properties)
+target_link_libraries(property_tests PRIVATE ${tested_core} rapidcheck)
 
 # Physics that takes long.
 file(GLOB validation_sources CONFIGURE_DEPENDS test/validation/*_test.cpp)
-if(validation_sources)
-  add_executable(validation_tests ${validation_sources})
-  set_source_files_properties(test/validation/break_test.cpp test/validation/compliant_loop_test.cpp
-                              PROPERTIES COMPILE_DEFINITIONS "KNOT_UTM_SOURCE_DIR=\"${PROJECT_SOURCE_DIR}\"")
-  target_include_directories(validation_tests PRIVATE test)
-  target_link_libraries(validation_tests PRIVATE knot_utm_core yaml-cpp ZLIB::ZLIB GTest::gtest_main GTest::gmock)
-  if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    target_precompile_headers(validation_tests REUSE_FROM core_tests)
-  endif()
-  gtest_discover_tests(validation_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800)
-endif()
+knot_utm_tests(validation_tests slow ${validation_sources})
+target_link_libraries(validation_tests PRIVATE knot_utm_core)
 
 # What scripts/bench and scripts/stress make of their runs; the scripts themselves; README and doc/ against the code.
 add_test(NAME bench_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/bench_test.py)
@@ -90,7 +74,6 @@ add_test(NAME scripts_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/te
 add_test(NAME material_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/material_test.py)
 set_tests_properties(material_test PROPERTIES TIMEOUT 600 ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
 add_test(NAME efficiency_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/efficiency_test.py)
-add_test(NAME resave_steps_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/resave_steps_test.py)
 # Studies: their designs, their pictures, what scripts/sweep makes of small ones, the same from Python, and as jobs on this machine
 # and of Slurm.
 foreach(name design_test plots_test sweep_test python_test workflow_test)
@@ -145,16 +128,9 @@ endif()
 if(catkin_FOUND)
   # Conversions, markers and bags need no master.
   file(GLOB ros_test_sources CONFIGURE_DEPENDS test/ros/*_test.cpp)
-  add_executable(ros_tests ${ros_test_sources})
-  target_include_directories(ros_tests PRIVATE test)
-  target_link_libraries(ros_tests PRIVATE knot_utm_ros yaml-cpp GTest::gtest_main GTest::gmock)
-  target_compile_definitions(ros_tests PRIVATE KNOT_UTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-                                               KNOT_UTM_TOOLS_DIR="${KNOT_UTM_EXECUTABLE_DIR}")
+  knot_utm_tests(ros_tests quick ${ros_test_sources})
+  target_link_libraries(ros_tests PRIVATE knot_utm_ros)
   add_dependencies(ros_tests import_instron)
-  if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
-    target_precompile_headers(ros_tests PRIVATE <gmock/gmock.h> <gtest/gtest.h> <Eigen/Core> <ros/ros.h>)
-  endif()
-  gtest_discover_tests(ros_tests NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 1800)
 
   # The whole system, launched as a user does it: with the scripts, which take what stands in build/.
   set(launched_tests)
@@ -164,8 +140,8 @@ if(catkin_FOUND)
   foreach(test ${launched_tests})
     get_filename_component(name ${test} NAME_WE)
     add_test(NAME ${name} COMMAND ${CATKIN_DEVEL_PREFIX}/env.sh ${PYTHON_EXECUTABLE} -B ${test})
-    # One at a time: each is four processes already.
-    set_tests_properties(${name} PROPERTIES TIMEOUT 1000 RESOURCE_LOCK launched_system)
+    # One at a time, from the beginning: each is four processes already, which mostly wait for one another.
+    set_tests_properties(${name} PROPERTIES TIMEOUT 1000 LABELS launched COST 100 RESOURCE_LOCK launched_system)
   endforeach()
 
   if(CATKIN_ENABLE_TESTING)
@@ -179,7 +155,17 @@ if(catkin_FOUND)
     list(REMOVE_ITEM all ${before})
     if(all)
       # Each has a master of its own, but two at a time would compete for the cores.
-      set_tests_properties(${all} PROPERTIES ENVIRONMENT "ROS_HOSTNAME=localhost" TIMEOUT 1000 RUN_SERIAL TRUE)
+      set_tests_properties(${all} PROPERTIES ENVIRONMENT "ROS_HOSTNAME=localhost" TIMEOUT 1000 LABELS launched COST 100
+                                             RESOURCE_LOCK launched_system)
     endif()
+  endif()
+endif()
+
+# Headers that all tests read. A compiler cache cannot look behind precompiled headers.
+if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  knot_utm_precompile("${room_tests};validation_tests" <gmock/gmock.h> <gtest/gtest.h> <Eigen/Core> <Eigen/Geometry>
+                      <functional> <string> <vector>)
+  if(catkin_FOUND)
+    target_precompile_headers(ros_tests PRIVATE <gmock/gmock.h> <gtest/gtest.h> <Eigen/Core> <ros/ros.h>)
   endif()
 endif()

@@ -9,6 +9,7 @@
 #include "knot_utm/machine/options.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/record/sample.hpp"
 
 int main(int argc, char** argv) try {
   const std::string file = knot_utm::find_method(argc > 1 ? argv[1] : "tighten", "", {KNOT_UTM_METHODS});

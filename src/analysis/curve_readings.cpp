@@ -7,6 +7,7 @@
 #include <deque>
 #include <tuple>
 
+#include "knot_utm/record/sample.hpp"
 #include "pull_integrals.hpp"
 
 namespace knot_utm {
@@ -24,7 +25,7 @@ constexpr double kTakenIn = 0.125, kFallen = 0.1;         // of the first excess
 constexpr double kLetOut = 0.05, kLetGo = 0.5;            // of the first e; of F
 constexpr int kFewestForDrops = 20;                       // readings on the way to the lock
 
-double mean_force(const Pull& pull, const Range& range) {
+double force_over(const Pull& pull, const Range& range) {
   const Integrals part = integrate(pull, range);
   return part.force / part.width;
 }
@@ -88,7 +89,7 @@ std::optional<Drop> largest_drop(const Pull& pull, const Range& range, double wa
     while (!low.empty() && low.front() <= i) low.pop_front();
     if (low.empty()) continue;
     const Drop fall{i, low.front()};
-    // Of those that are the same the last begins where F begins to fall.
+    // Among equal falls the last one begins where F begins to fall.
     if (fall.force(pull) > 0.0 && (!out || fall.force(pull) >= out->force(pull))) out = fall;
   }
   return out;
@@ -104,8 +105,8 @@ HiddenRod as_kept(const Pull& pull, const HiddenRod& hidden, double way, std::si
   return out;
 }
 
-/// Of the rod that a knot holds: what it took in from one point to another over what it held at `first`, the largest of
-/// all knots; NaN: not known.
+/// The length of rod that a knot took in from one point to another, over what it held at `first`: the largest of all
+/// knots. NaN where it is not known.
 double taken_in(const PerKnot& first, const PerKnot& from, const PerKnot& to) {
   double most = Sample::kNone;
   for (std::size_t k = 0; k < first.size(); ++k) most = std::fmax(most, (to.at(k) - from.at(k)) / first.at(k));
@@ -219,7 +220,7 @@ std::optional<Plateau> plateau(const Pull& pull, double end) {
   out.force_slope = slope_over(pull, range);
   std::tie(out.low, out.high) = extremes(pull, range);
   const double middle = 0.5 * (range.low + range.high);
-  out.rise = 2.0 * (mean_force(pull, {middle, range.high}) - mean_force(pull, {range.low, middle}));
+  out.rise = 2.0 * (force_over(pull, {middle, range.high}) - force_over(pull, {range.low, middle}));
   return out;
 }
 
@@ -303,7 +304,7 @@ std::string why_too_few(const Pull& pull, double end) {
               static_cast<double>(within), static_cast<double>(kFewestReadings));
 }
 
-/// Of the force that the rod bears; empty: there is a plateau.
+/// Says why the force that the rod bears has no plateau; empty where it has one.
 std::string why_no_plateau(const Pull& borne, bool on_rollers, const CurveReadings& found) {
   if (!(peak_force(borne) > 0.0)) return "the specimen was never in tension";
   const std::optional<Plateau> level = plateau(borne, found.slides_to);
@@ -324,7 +325,7 @@ Pull borne_of(Pull pull) {
   return pull;
 }
 
-/// Of the force that the rod bears; empty: it locks where F rises for good.
+/// Says why the knots do not lock; empty where they lock, which is where the force rises for good.
 std::string why_no_lock(const Pull& borne, const CurveReadings& found) {
   if (found.jumped) return "a knot jumped open";
   if (!found.no_plateau.empty()) return "there is no plateau";

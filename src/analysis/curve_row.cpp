@@ -3,6 +3,8 @@
 #include <cmath>
 #include <optional>
 
+#include "knot_utm/record/sample.hpp"
+
 namespace knot_utm {
 namespace {
 

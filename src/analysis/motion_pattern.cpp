@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "knot_utm/record/choice_names.hpp"
+#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "pull_integrals.hpp"
 
 namespace knot_utm {
@@ -18,7 +20,7 @@ constexpr double kWindow = 0.03;            // of the first knot distance
 constexpr double kTurnover = 0.5;           // of rigid sliding: de/ds between sliding and stretching
 constexpr double kLeastSliding = 0.15;      // of all extension
 constexpr double kMuchSliding = 1.0 / 3.0;  // of all extension: whatever the load then does
-constexpr double kLevel = 2.0;              // times the mean load of the way on which the knots slid
+constexpr double kLoadLevel = 2.0;          // times the mean load of the way on which the knots slid
 constexpr double kGone = 0.05;              // of the largest load
 constexpr double kVanished = 0.25;          // of the tied excess length
 constexpr double kOpened = 0.05;            // of e, as where a knot jumps open while it is pulled
@@ -183,7 +185,7 @@ bool MotionPatternTracker::slid() const {
   const double whole = pull_.back().extension - start.extension;
   if (slid_ < window_ || slid_ < kLeastSliding * whole) return false;
   if (slid_ > kMuchSliding * whole) return true;
-  return came_nearer(start) || (came_nearer(first) && last.force < kLevel * mean_between(first, last));
+  return came_nearer(start) || (came_nearer(first) && last.force < kLoadLevel * mean_between(first, last));
 }
 
 /// The first at or behind s = `extension`; the last one at the latest.
@@ -192,7 +194,7 @@ const PullPoint& MotionPatternTracker::point_at(double extension) const {
                            [](const PullPoint& p, double s) { return p.extension < s; });
 }
 
-/// Of the load [N].
+/// The mean load between two points of the pull [N].
 double MotionPatternTracker::mean_between(const PullPoint& first, const PullPoint& last) const {
   const Integrals way = integrate(pull_, {first.extension, last.extension});
   return way.width > 0.0 ? way.force / way.width : first.force;

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/sample.hpp"
+
 namespace knot_utm {
 namespace {
 

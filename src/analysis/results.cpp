@@ -7,13 +7,14 @@
 #include "knot_utm/analysis/cycles.hpp"
 #include "knot_utm/analysis/pull_readings.hpp"
 #include "knot_utm/analysis/snap.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {
 
 std::optional<double> known(double value) { return std::isfinite(value) ? std::optional<double>(value) : std::nullopt; }
 
-/// Of the pull until the knots lock; to its end where they never do [m/s].
+/// The fastest node of the pull until the knots lock, or to its end where they never do [m/s].
 double fastest_node_while_sliding(const std::vector<Sample>& samples, std::optional<double> lock_extension) {
   double fastest = 0.0;
   for (const Sample& sample : samples)
@@ -40,22 +41,22 @@ std::string failure_mode(const Results& results) {
 
 /// The state that a phase begins from: the sample before its first, balanced as that one is. A balance in between has
 /// left the specimen as it was: s = 0 and F = balance_offset by its definition.
-Sample origin_of(const Sample& first, Sample before) {
+Sample origin_at(const Sample& first, Sample before) {
   if (before.balance_offset == first.balance_offset) return before;
   before.extension = 0.0;
   before.force_upper = before.balance_offset = first.balance_offset;
   return before;
 }
 
-PullPoint point_of(const Sample& sample) {
+PullPoint pull_point(const Sample& sample) {
   return {sample.time, sample.extension, sample.knot_distance, sample.force_upper, sample.normal_force};
 }
 
 /// With the state that it began from in front of it, and behind it where the rod parted as a load was held further out.
 Pull with_ends(const Pull& pull, const std::optional<Sample>& origin, const std::optional<Sample>& at_break) {
   Pull whole = pull;
-  if (origin && origin->extension < pull.front().extension) whole.insert(whole.begin(), point_of(*origin));
-  if (at_break && at_break->extension > pull.back().extension) whole.push_back(point_of(*at_break));
+  if (origin && origin->extension < pull.front().extension) whole.insert(whole.begin(), pull_point(*origin));
+  if (at_break && at_break->extension > pull.back().extension) whole.push_back(pull_point(*at_break));
   return whole;
 }
 
@@ -85,8 +86,8 @@ std::vector<Stretch> stretches(const std::vector<Sample>& samples, Phase phase) 
   return out;
 }
 
-/// Of the last hold in which the crosshead stands still, and is out with a load on the grip: where a load is held it
-/// moves, and a drawn shape that settles bears none.
+/// The relaxation in the last hold at a place that is out, with a load on the grip. Where a load is held the crosshead
+/// moves, and a drawn shape that settles bears no load.
 std::optional<Relaxation> last_relaxation(const std::vector<Sample>& samples) {
   std::optional<Relaxation> last;
   for (const Stretch& hold : stretches(samples, Phase::kHold)) {
@@ -99,7 +100,7 @@ std::optional<Relaxation> last_relaxation(const std::vector<Sample>& samples) {
   return last;
 }
 
-/// Of the last step that cycles: its cycles, whose places count from the sample before the step.
+/// The cycles of the last step that cycles. Their places count from the sample before the step.
 struct LastCycles {
   std::size_t origin = 0;
   std::vector<Cycle> closed;
@@ -109,7 +110,7 @@ LastCycles last_cycles(const std::vector<Sample>& samples) {
   const std::vector<Stretch> steps = stretches(samples, Phase::kCycle);
   if (steps.empty()) return {};
   const Stretch& step = steps.back();
-  const Sample origin = origin_of(samples[step.begin], samples[step.begin - 1]);
+  const Sample origin = origin_at(samples[step.begin], samples[step.begin - 1]);
   Path path = {{origin.extension, origin.force_upper}};
   for (std::size_t i = step.begin; i < step.end; ++i) path.push_back({samples[i].extension, samples[i].force_upper});
   return {step.begin - 1, closed_cycles(path)};
@@ -409,7 +410,7 @@ void read_whole_pull(const Course& course, Results& results) {
   const Pull& pull = course.motion().pull();
   if (pull.empty()) return;
   std::optional<Sample> origin, at_break = course.at_break();
-  if (course.before_pull()) origin = origin_of(*course.pull_begin(), *course.before_pull());
+  if (course.before_pull()) origin = origin_at(*course.pull_begin(), *course.before_pull());
   if (at_break && at_break->balance_offset != course.pull_begin()->balance_offset) at_break.reset();  // another s
   read_pull(with_ends(pull, origin, at_break), results);
 }

@@ -2,6 +2,9 @@
 
 #include <cmath>
 
+#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/sample.hpp"
+
 namespace knot_utm {
 namespace {
 

@@ -3,11 +3,13 @@
 #include <algorithm>
 
 #include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {
 
-// Of the whole extension, by choice: a wave that the pull begins with has crossed the specimen by then.
+// The start is this fraction of the whole extension, by choice: a wave that the pull begins with has crossed the
+// specimen by then.
 constexpr double kStart = 0.01;
 
 }  // namespace

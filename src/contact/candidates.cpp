@@ -5,6 +5,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "knot_utm/numeric/index.hpp"
+#include "knot_utm/rod/rod.hpp"
+
 namespace knot_utm {
 
 namespace {
@@ -60,7 +63,6 @@ class RunCollector {
   std::uint64_t taken_ = 0;
 };
 
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 std::size_t fours(std::size_t number) { return (number + kLanes - 1) / kLanes; }
 
 }  // namespace

@@ -8,12 +8,6 @@ namespace knot_utm {
 
 namespace {
 
-/// Calls use(pressure law, friction law), once for all contacts.
-template <typename Use>
-void visit_laws(const PressureLaws& normal, const Friction& friction, const Use& use) {
-  std::visit([&](const auto& pressure) { friction.visit([&](const auto& law) { use(pressure, law); }); }, normal);
-}
-
 template <typename Law>
 void evaluate_forces(const Law& law, double dt, const std::array<ContactPoint*, 4>& contacts) {
   const Four<ContactPoint> four(contacts);
@@ -36,8 +30,7 @@ void evaluate_forces(const Law& law, double dt, const std::array<ContactPoint*, 
   }
 }
 
-template <typename Pressure>
-void set_pressures(const Pressure& normal, const std::array<ContactPoint*, 4>& contacts) {
+void set_pressures(const NormalLaw& normal, const std::array<ContactPoint*, 4>& contacts) {
   const Lanes pressure = normal.pressure(Four<ContactPoint>(contacts)(&ContactPoint::overlap));
   for (std::size_t i = 0; i < 4; ++i) contacts[i]->pressure = pressure[static_cast<int>(i)];
 }
@@ -128,13 +121,13 @@ void linearise(const Pressure& normal, const Law& law, double dt, const ContactL
 }
 
 template <typename Model>
-void linearise_all(const PressureLaws& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+void linearise_all(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                    const std::vector<ContactPoint>& contacts, std::vector<Model>& models) {
   // Room for the fours that the last one fills up.
   models.resize(contacts.size() + 3);
-  visit_laws(normal, friction, [&](const auto& pressure, const auto& law) {
+  friction.visit([&](const auto& law) {
     visit_active(contacts, [&](const std::array<const ContactPoint*, 4>& four, std::size_t first) {
-      linearise(pressure, law, dt, how, four, &models[first]);
+      linearise(normal, law, dt, how, four, &models[first]);
     });
   });
 }
@@ -148,11 +141,11 @@ void evaluate_forces(const Friction& friction, double dt, std::vector<ContactPoi
   });
 }
 
-void evaluate_forces(const PressureLaws& normal, const Friction& friction, double dt,
+void evaluate_forces(const NormalLaw& normal, const Friction& friction, double dt,
                      std::vector<ContactPoint>& contacts) {
-  visit_laws(normal, friction, [&](const auto& pressure, const auto& law) {
+  friction.visit([&](const auto& law) {
     visit_active(contacts, [&](const std::array<ContactPoint*, 4>& four, std::size_t) {
-      set_pressures(pressure, four);
+      set_pressures(normal, four);
       evaluate_forces(law, dt, four);
     });
   });
@@ -169,12 +162,12 @@ FrictionMemory remember(const Friction& friction, const ContactPoint& contact, d
   return friction.visit([&](const auto& law) { return law.remember(friction_input(contact, dt), contact.z); });
 }
 
-void linearise(const PressureLaws& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                const std::vector<ContactPoint>& contacts, std::vector<ContactModel>& models) {
   linearise_all(normal, friction, dt, how, contacts, models);
 }
 
-void linearise(const PressureLaws& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                const std::vector<ContactPoint>& contacts, std::vector<RollerModel>& models) {
   linearise_all(normal, friction, dt, how, contacts, models);
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/rod/rod.hpp"
+
 namespace knot_utm {
 
 namespace {
@@ -19,12 +21,8 @@ using Row9 = Eigen::Matrix<double, 1, 9>;
 
 }  // namespace
 
-EdgeContact::EdgeContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction, double margin)
-    : normal_(std::visit(
-          [](const auto& law) {
-            return EdgeLaw{law.stiffness, law.tolerance};
-          },
-          normal)),
+EdgeContact::EdgeContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin)
+    : normal_{normal.stiffness, normal.tolerance},
       friction_(friction),
       diameter_(2.0 * rod.material.radius),
       window_(kSameContact * rod.material.radius),

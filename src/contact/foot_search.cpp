@@ -7,7 +7,7 @@ namespace knot_utm {
 
 namespace {
 
-constexpr std::size_t kLanes = 4;
+constexpr std::size_t kAbreast = 4;
 
 /// Four cubics c0 + c1 u + c2 u^2 + c3 u^3.
 struct Cubics {
@@ -66,8 +66,8 @@ struct RisingRoots {
 
 /// Four pairs side by side; where there are fewer, the last one fills up.
 struct FootSearch::Four {
-  const SegmentParabola* segment[kLanes];
-  const Lanes* point[kLanes];
+  const SegmentParabola* segment[kAbreast];
+  const Lanes* point[kAbreast];
 
   /// From the segments' first places to the points [m]
   FourVectors gap() const {
@@ -84,7 +84,7 @@ struct FootSearch::Four {
 
 FootSearch::Four FootSearch::four(const Pair* pairs, std::size_t count) const {
   Four out;
-  for (std::size_t l = 0; l < kLanes; ++l) {
+  for (std::size_t l = 0; l < kAbreast; ++l) {
     const Pair& pair = pairs[std::min(l, count - 1)];
     out.segment[l] = &parabola_[static_cast<std::size_t>(pair.segment)];
     out.point[l] = &points_[static_cast<std::size_t>(pair.point)];
@@ -119,19 +119,20 @@ void FootSearch::look(const Lanes& first, const Lanes& second, const Candidates:
 void FootSearch::find() {
   leave_near_ones();
   feet_.clear();
-  for (std::size_t i = 0; i < pairs_.size(); i += kLanes) find_feet(&pairs_[i], std::min(pairs_.size() - i, kLanes));
+  for (std::size_t i = 0; i < pairs_.size(); i += kAbreast)
+    find_feet(&pairs_[i], std::min(pairs_.size() - i, kAbreast));
 }
 
 void FootSearch::leave_near_ones() {
   std::size_t left = 0;
   const std::size_t count = pairs_.size();
-  for (std::size_t i = 0; i < count; i += kLanes) {
-    const Four four = this->four(&pairs_[i], std::min(count - i, kLanes));
+  for (std::size_t i = 0; i < count; i += kAbreast) {
+    const Four four = this->four(&pairs_[i], std::min(count - i, kAbreast));
     const FourVectors r = four.gap(), chord = four.vectors(&SegmentParabola::chord);
     // Further away from the chord than the segment and the reach together: all of it is beyond.
     const Lanes along = dot(r, chord), farthest = reach_ + four.numbers(&SegmentParabola::bulge);
     const LanesMask near = (dot(r, r) - farthest * farthest) * dot(chord, chord) < along * along;
-    for (std::size_t l = 0; l < std::min(count - i, kLanes); ++l) {
+    for (std::size_t l = 0; l < std::min(count - i, kAbreast); ++l) {
       // Hard to foretell: written down in any case, counted where it is near.
       pairs_[left] = pairs_[i + l];
       left += static_cast<std::size_t>(near[l] & 1);
@@ -145,7 +146,7 @@ void FootSearch::find_feet(const Pair* pairs, std::size_t count) {
   const FourVectors r = four.gap(), t = four.vectors(&SegmentParabola::t), k = four.vectors(&SegmentParabola::k);
   const RisingRoots roots({-dot(r, t), dot(t, t) - dot(r, k), 1.5 * dot(t, k), 0.5 * dot(k, k)});
   const std::size_t most = any(roots.found[1]) ? 2 : 1;
-  Lanes x[2][kLanes];
+  Lanes x[2][kAbreast];
   LanesMask within[2];
   for (std::size_t i = 0; i < most; ++i) {
     const Lanes& u = roots.root[i];

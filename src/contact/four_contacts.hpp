@@ -6,6 +6,7 @@
 
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/numeric/lanes.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 

@@ -9,8 +9,8 @@ namespace knot_utm {
 namespace {
 
 // Fractions of the extent of a pair.
-constexpr double kMeeting = 1e-6;    // nearer than this is a meeting; closest points are good to 1e-8
-constexpr double kRounding = 1e-12;  // more than what rounding does to n.g
+constexpr double kMeeting = 1e-6;        // nearer than this is a meeting; closest points are good to 1e-8
+constexpr double kFootRounding = 1e-12;  // more than what rounding does to n.g
 
 /// g_00 and the edges; g_10 = p + a, g_01 = p - b, g_11 = p + a - b.
 struct Gaps {
@@ -50,7 +50,7 @@ class Search {
   Search(const EdgePair& start, const EdgePair& end) : start_(start), end_(end) {
     const double extent = start_.extent() + end_.extent();
     meeting_ = kMeeting * extent;
-    rounding_ = kRounding * extent;
+    rounding_ = kFootRounding * extent;
     // An edge of no length has a nearest point as well.
     regularisation_ = rounding_ * rounding_;
     const Vec3 p = end_.p - start_.p, a = end_.a - start_.a, b = end_.b - start_.b;

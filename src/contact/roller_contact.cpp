@@ -5,6 +5,7 @@
 #include <string>
 
 #include "knot_utm/contact/centreline_curve.hpp"
+#include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
 
@@ -17,10 +18,10 @@ std::size_t memory_index(Eigen::Index nodes, std::size_t roller, int segment, in
 
 }  // namespace
 
-RollerContact::RollerContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction,
+RollerContact::RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction,
                              double farthest)
     : normal_(normal),
-      begins_(begin_of(normal)),
+      begins_(normal.begin()),
       friction_(friction),
       radius_(rod.material.radius),
       farthest_(farthest),

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "knot_utm/contact/centreline_curve.hpp"
+#include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
 
@@ -36,10 +37,10 @@ double least_curvature_factor(const Points& nodes, int segment, double u, const 
 
 }  // namespace
 
-SmoothContact::SmoothContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction,
-                             double margin, double catch_up)
+SmoothContact::SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,
+                             double catch_up)
     : normal_(normal),
-      begins_(begin_of(normal)),
+      begins_(normal.begin()),
       friction_(friction),
       diameter_(2.0 * rod.material.radius),
       window_(kSameFoot * rod.material.radius),
@@ -77,12 +78,12 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
     const auto node = static_cast<Eigen::Index>(i);
     moved_[i] = to_lanes(position.col(node).data()) - to_lanes(start.col(node).data());
   }
-  if (outwards_.size() == 0) put_outwards(start);
+  if (fraction_.size() == 0) set_fractions(start);
   search_.begin(position, segments);
   for (const int segment : segments) {
     const SegmentParabola& c = search_.parabola(segment);
-    const Lanes outwards = outwards_[segment] * c.k;
-    const auto point = [&](double u) { return c.m + u * c.t + (0.5 * u * u) * c.k - outwards; };
+    const Lanes shift = fraction_[segment] * c.k;
+    const auto point = [&](double u) { return c.m + u * c.t + (0.5 * u * u) * c.k - shift; };
     const Candidates::Run *begin = candidates_.begin(segment), *end = candidates_.end(segment);
     search_.look(point(kIntegrationPoints[0]), point(kIntegrationPoints[1]), begin, end);
   }
@@ -91,7 +92,7 @@ void SmoothContact::evaluate(const Points& position, const Points& start, double
   for (Tracked& foot : tracked_) {
     if (foot.memory.weighting < 0.0) {
       foot.memory.weighting = std::min(weighting(search_.feet()[foot.foot], position), largest_weighting(foot.memory));
-      foot.memory.outwards = outwards(search_.feet()[foot.foot], position);
+      foot.memory.offset = offset_at(search_.feet()[foot.foot], position);
       foot.memory.inside = !first_step_ && overlap(foot) > kDeepest * 0.5 * diameter_ && began_inside(foot);
     }
     if (takes_part(foot)) add_contact(foot);
@@ -142,20 +143,20 @@ void SmoothContact::recall(std::size_t row, std::size_t first) {
 }
 
 double SmoothContact::overlap(const Tracked& foot) const {
-  return diameter_ - search_.feet()[foot.foot].x[3] + foot.memory.outwards;
+  return diameter_ - search_.feet()[foot.foot].x[3] + foot.memory.offset;
 }
 
 bool SmoothContact::began_inside(const Tracked& tracked) const {
   const FootSearch::Foot& foot = search_.feet()[tracked.foot];
   const int segment = segment_of(foot.point);
-  const PointWeights wa(kIntegrationPoints[foot.point % 2], outwards_[segment]);
+  const PointWeights wa(kIntegrationPoints[foot.point % 2], fraction_[segment]);
   const SegmentWeights wb(foot.u);
   Lanes x = foot.x;
   for (int k = 0; k < 3; ++k) {
     x -= wa.value[k] * moved_[static_cast<std::size_t>(segment - 1 + k)];
     x += wb.value[k] * moved_[static_cast<std::size_t>(foot.segment - 1 + k)];
   }
-  return to_vec3(x).norm() < diameter_ + tracked.memory.outwards;
+  return to_vec3(x).norm() < diameter_ + tracked.memory.offset;
 }
 
 bool SmoothContact::takes_part(const Tracked& foot) const {
@@ -172,7 +173,7 @@ void SmoothContact::add_contact(Tracked& tracked) {
   contact.point = foot.point % 2;
   contact.a0 = segment - 1;
   contact.b0 = foot.segment - 1;
-  const PointWeights wa(u_a, outwards_[segment]);
+  const PointWeights wa(u_a, fraction_[segment]);
   const SegmentWeights wb(u);
   for (int k = 0; k < 3; ++k) {
     contact.c[k] = wa.value[k];
@@ -285,12 +286,12 @@ double SmoothContact::largest_weighting(const Memory& memory) const {
   return std::clamp(left / (kFading * 0.5 * diameter_), 0.0, 1.0);
 }
 
-double SmoothContact::outwards(const FootSearch::Foot& foot, const Points& position) const {
+double SmoothContact::offset_at(const FootSearch::Foot& foot, const Points& position) const {
   const int last = static_cast<int>(position.cols()) - 2;
   const int other = foot.u < 0.5 ? std::max(foot.segment - 1, 1) : std::min(foot.segment + 1, last);
   const double away = std::abs(foot.u - 0.5);
-  const Vec3 moved = (1.0 - away) * outwards_[foot.segment] * second_difference(position, foot.segment) +
-                     away * outwards_[other] * second_difference(position, other);
+  const Vec3 moved = (1.0 - away) * fraction_[foot.segment] * second_difference(position, foot.segment) +
+                     away * fraction_[other] * second_difference(position, other);
   return -to_vec3(foot.x).dot(moved) / foot.x[3];
 }
 
@@ -309,30 +310,30 @@ void SmoothContact::remember(const Points* accepted, MemoryList& list) const {
     memory.inside = memory.inside && overlap(tracked) > 0.0;
     memory.weighting += catch_up_ * (weighting(foot, *accepted) - memory.weighting);
     memory.weighting = std::min(memory.weighting, largest_weighting(memory));
-    memory.outwards += catch_up_ * (outwards(foot, *accepted) - memory.outwards);
+    memory.offset += catch_up_ * (offset_at(foot, *accepted) - memory.offset);
     memory.pressure = contact ? contact->pressure : 0.0;
     memory.friction = contact ? knot_utm::remember(friction_, *contact, dt_) : FrictionMemory();
   }
   while (done < list.begin.size()) list.begin[done++] = static_cast<int>(list.entries.size());
 }
 
-void SmoothContact::put_outwards(const Points& position) {
-  outwards_.setZero(position.cols());
+void SmoothContact::set_fractions(const Points& position) {
+  fraction_.setZero(position.cols());
   for (int i = 1; i + 1 < static_cast<int>(position.cols()); ++i) {
     const double turn2 = second_difference(position, i).squaredNorm() / (voronoi_[i] * voronoi_[i]);
     const double left = std::max(0.0, 1.0 - turn2 / (kSharpest * kSharpest));
-    outwards_[i] = PointWeights::kWhole * left * left;
+    fraction_[i] = PointWeights::kWhole * left * left;
   }
 }
 
 void SmoothContact::commit(const Points& position) {
-  put_outwards(position);
+  set_fractions(position);
   remember(&position, accepted_);
   first_step_ = false;
 }
 
 void SmoothContact::Memory::state(Archive& archive) {
-  archive(arclength_b, weighting, outwards, pressure, friction, inside);
+  archive(arclength_b, weighting, offset, pressure, friction, inside);
 }
 
 void SmoothContact::MemoryList::state(Archive& archive) {
@@ -345,9 +346,9 @@ void SmoothContact::MemoryList::state(Archive& archive) {
 
 void SmoothContact::state(Archive& archive) {
   archive.section("SMTJ");  // "SMTI" had no number that a friction law keeps
-  archive.list(outwards_);
-  const bool of_this_rod = outwards_.size() == 0 || outwards_.size() == arclength_.size();
-  archive.require(of_this_rod, "fractions of points outwards", "of " + std::to_string(outwards_.size()) + " nodes");
+  archive.list(fraction_);
+  const bool of_this_rod = fraction_.size() == 0 || fraction_.size() == arclength_.size();
+  archive.require(of_this_rod, "fractions of points outwards", "of " + std::to_string(fraction_.size()) + " nodes");
   archive(candidates_, accepted_, first_step_);
 }
 

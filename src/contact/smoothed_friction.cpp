@@ -4,7 +4,7 @@ namespace knot_utm {
 
 namespace {
 
-// Of the presliding displacement, on which friction that remembers turns whatever the step. With a hundredth of it
+// The least slip over which friction turns, as a fraction of the presliding displacement. With a hundredth of it
 // strands that whip at m/s in steps of microseconds took 15 iterations a step, and three draws of the stability matrix
 // went nowhere.
 constexpr double kLeastSlip = 1e-1;

@@ -367,17 +367,16 @@ void add_couples(const ContactPoint& contact, const SurfacePoint& surface, const
   if (!contact.on_roller()) add(contact.b0, contact.beta + 3, surface.s_b, on_b);
 }
 
-std::size_t linearise(const PressureLaws& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+std::size_t linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                       const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
                       std::size_t from, SurfaceModels& models) {
-  return linearise_next(
-      friction, contacts, surfaces, from, models, [&](const auto& law, const Contacts4& four, const Points4& points) {
-        const Four<const ContactPoint> of(four);
-        const OneFoot foot{of(&ContactPoint::inverse_g)};
-        const FourPressures pressures =
-            std::visit([&](const auto& pressure) { return FourPressures(pressure, how, of); }, normal);
-        FourSurfaces(pressures, law, dt, how, four, points, foot).model(models.model);
-      });
+  return linearise_next(friction, contacts, surfaces, from, models,
+                        [&](const auto& law, const Contacts4& four, const Points4& points) {
+                          const Four<const ContactPoint> of(four);
+                          const OneFoot foot{of(&ContactPoint::inverse_g)};
+                          const FourPressures pressures(normal, how, of);
+                          FourSurfaces(pressures, law, dt, how, four, points, foot).model(models.model);
+                        });
 }
 
 std::size_t linearise(const EdgeLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,

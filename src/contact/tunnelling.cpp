@@ -8,7 +8,7 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kRounding = 1e-12;  // more than what rounding does to e.d [fraction of |e||d|]
+constexpr double kPlaneRounding = 1e-12;  // more than what rounding does to e.d [fraction of |e||d|]
 
 // Edges further apart along the rod than this many pieces are not neighbours: what lies between would have to advance.
 constexpr int kNeighbours = 2;
@@ -46,7 +46,7 @@ bool TunnellingSearch::advances(const Box& edges) {
   const Lanes d = edges.low + edges.high;
   const Lanes low = d * edges.low, high = d * edges.high;
   const Lanes least = smaller(low, high), size = larger(larger(low, -low), larger(high, -high));
-  return least[0] + least[1] + least[2] > kRounding * (size[0] + size[1] + size[2]);
+  return least[0] + least[1] + least[2] > kPlaneRounding * (size[0] + size[1] + size[2]);
 }
 
 bool TunnellingSearch::set_advances(const Points& start, const Points& end) {
@@ -110,7 +110,7 @@ std::optional<Tunnelling> TunnellingSearch::search(std::size_t level, int i, int
 std::optional<Tunnelling> TunnellingSearch::edges_meet(int a, int b) const {
   if (a == parted_ || b == parted_) return std::nullopt;
   if (closed_ && a == 0 && b + 2 == start_->cols()) return std::nullopt;  // they share the node that closes the rod
-  // Of an end edge that is bare the inner half is asked: its middle goes straight as its ends do.
+  // A free end edge is tested on its inner half only; its midpoint, too, moves straight.
   const bool bare = bare_ends_ && !closed_;
   const bool inner_a = bare && a == 0, inner_b = bare && b + 2 == start_->cols();
   auto middle = [](const Points& nodes, int edge) { return Vec3(0.5 * (nodes.col(edge) + nodes.col(edge + 1))); };

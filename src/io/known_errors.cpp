@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "knot_utm/io/rest.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {

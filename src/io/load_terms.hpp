@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "knot_utm/rod/material.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm::fields {
 

@@ -150,8 +150,6 @@ void keep_own_keys(Method& method) {
   keep_own_keys<FrictionRegistry>(method.physics.friction);
   keep_own_keys<StretchingRegistry>(method.material.stretching);
   keep_own_keys<BendingRegistry>(method.material.bending);
-  keep_own_keys<TwistingRegistry>(method.material.twisting);
-  keep_own_keys<PressureRegistry>(method.material.pressure);
 }
 
 /// The method over defaults that suit its knot and material, and, once it has been read with these, what is `known` of

@@ -15,6 +15,7 @@
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_reader.hpp"
@@ -131,8 +132,6 @@ void check_effects(const Method& m) {
   check_law<FrictionRegistry>(m.physics.friction, "physics.friction.", "law");
   check_law<StretchingRegistry>(m.material.stretching, "material.", "stretching_law");
   check_law<BendingRegistry>(m.material.bending, "material.", "bending_law");
-  check_law<TwistingRegistry>(m.material.twisting, "material.", "twisting_law");
-  check_law<PressureRegistry>(m.material.pressure, "material.", "pressure_law");
 }
 
 void check_specimen(const Method& m) {

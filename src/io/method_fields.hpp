@@ -5,11 +5,9 @@
 #include <string>
 
 #include "knot_utm/contact/friction.hpp"
-#include "knot_utm/contact/pressure_laws.hpp"
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
-#include "knot_utm/rod/twisting_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 /// All keys of a method with their ranges. Reading and writing walk the same lists.
@@ -97,8 +95,6 @@ void material(Fields& f, Material& o) {
   f.optional_number("friction_couple", o.friction_couple, Range{0.0, 1.0, "-"}, "auto");
   chosen_law<StretchingRegistry>(f, "stretching_law", o.stretching);
   chosen_law<BendingRegistry>(f, "bending_law", o.bending);
-  chosen_law<TwistingRegistry>(f, "twisting_law", o.twisting);
-  chosen_law<PressureRegistry>(f, "pressure_law", o.pressure);
   f.number("bending_set", o.bending_set, Range{0.0, 1.0, "-"});
   f.optional_number("contact_stiffness", o.contact_stiffness, Range{1.0, 1e13, "N/m2"}, "auto");
   f.optional_number("tying_preload", o.tying_preload, Range{1e-9, 1e9, "N"}, "auto");
@@ -223,7 +219,7 @@ void physics(Fields& f, PhysicsOptions& o) {
     law_keys<FrictionRegistry>(friction, o.friction);
   });
   f.section("contact", [&o](auto& contact) {
-    contact.choice("law", o.contact_scheme, std::array{"smooth", "edge"});
+    contact.choice("law", o.contact_law, std::array{"smooth", "edge"});
     contact.optional_number("tolerance", o.contact_tolerance, Range{1e-3, 0.5, "of the radius"}, "auto");
   });
   f.choice("twist", o.twist, std::array{"auto", "on", "off"});

@@ -3,6 +3,7 @@
 #include "knot_utm/io/known_errors.hpp"
 #include "knot_utm/io/rest.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {

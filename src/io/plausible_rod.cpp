@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 namespace {

@@ -2,6 +2,8 @@
 
 #include <unistd.h>
 
+#include "knot_utm/record/sample.hpp"
+
 namespace knot_utm {
 
 ProgressLine::ProgressLine(std::FILE* out) : out_(out && isatty(fileno(out)) != 0 ? out : nullptr) {}

@@ -10,6 +10,7 @@
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/numeric/text_rows.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "raw_cells.hpp"
 #include "raw_head.hpp"
 #include "raw_names.hpp"

@@ -11,7 +11,7 @@ namespace {
 // Found in exports, manuals and programs that read exports of Instron (Bluehill, WaveMatrix), ZwickRoell (testXpert),
 // MTS (TestSuite, TestWorks), Shimadzu (Trapezium), Hegewald & Peschke, MTI, CellScale, Mecmesin and Tinius Olsen, and
 // the words of the test standards in other languages.
-constexpr const char* kTime =
+constexpr const char* kTimeNames =
     "time;test time;total time;elapsed time;running time;machine time;"  // English
     "zeit;prüfzeit;pruefzeit;testzeit;versuchszeit;messzeit;laufzeit;"   // German
     "czas;czas próby;czas badania;godzina;"                              // Polish
@@ -25,7 +25,7 @@ constexpr const char* kTime =
     "時間;試験時間;経過時間;測定時間";                                   // Japanese
 
 // What may be the travel of the crosshead or of an extensometer on the specimen.
-constexpr const char* kExtension =
+constexpr const char* kExtensionNames =
     "extension;tensile extension;tensile displacement;compressive extension;compressive displacement;"  // English
     "standard travel;deformation;ext;"
     "standardweg;verlängerung;verformung;"        // German
@@ -60,7 +60,7 @@ constexpr const char* kTravel =
     "位移;横梁位移;行程;橫樑位移;"                                             // Chinese
     "変位;ストローク;クロスヘッド変位;クロスヘッド;変位量;移動量";             // Japanese
 
-constexpr const char* kLoad =
+constexpr const char* kLoadNames =
     "load;force;standard force;test force;axial force;axial load;tensile force;tensile load;"  // English
     "load(linear|load);compressive load;compressive force;machine load;machine force;load cell;"
     "last;kraft;standardkraft;prüfkraft;pruefkraft;zugkraft;druckkraft;"    // German
@@ -119,9 +119,10 @@ RawQuantity quantity(const char* name, double CurveRow::*value, const std::strin
 
 const std::array<RawQuantity, 3>& raw_quantities() {
   static const std::array<RawQuantity, 3> all{
-      {quantity("time", &CurveRow::time, kTime, "", kTimeUnits, "ms, s, min or h"),
-       quantity("extension", &CurveRow::extension, kExtension, kTravel, kLengthUnits, "um, mm, cm, m, in, ft or mil"),
-       quantity("load", &CurveRow::load, kLoad, "", kForceUnits,
+      {quantity("time", &CurveRow::time, kTimeNames, "", kTimeUnits, "ms, s, min or h"),
+       quantity("extension", &CurveRow::extension, kExtensionNames, kTravel, kLengthUnits,
+                "um, mm, cm, m, in, ft or mil"),
+       quantity("load", &CurveRow::load, kLoadNames, "", kForceUnits,
                 "mN, cN, N, daN, kN, gf (g), kgf (kg, kp), lbf (lb), ozf or kip")}};
   return all;
 }

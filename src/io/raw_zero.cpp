@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {

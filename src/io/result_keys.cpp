@@ -9,6 +9,7 @@
 #include "knot_utm/io/run_warnings.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/straight_strength.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {

@@ -8,6 +8,7 @@
 #include "knot_utm/io/speed_warnings.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {

@@ -9,6 +9,7 @@
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "measured.hpp"
 
 namespace knot_utm {
@@ -88,17 +89,16 @@ ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& ma
   if (!StretchingRegistry::entry(material.stretching.law).studied) return out;
   if (study == ErrorStudy::kStraight) out.locked_stiffness = kStraightStiffness;
   const bool studied =
-      study == ErrorStudy::kFisherman && specimen.to_be_tied && physics.contact_scheme == ContactScheme::kSmooth &&
+      study == ErrorStudy::kFisherman && specimen.to_be_tied && physics.contact_law == ContactLaw::kSmooth &&
       FrictionRegistry::entry(physics.friction.law).studied && friction_couple(material, physics) == 0.0 &&
       material.bending_set == 0.0 && BendingRegistry::entry(material.bending.law).studied &&
-      TwistingRegistry::entry(material.twisting.law).studied &&
-      PressureRegistry::entry(material.pressure.law).studied && machine.roller_friction == 0.0 &&
-      rollers_hold(specimen, machine);
+      machine.roller_friction == 0.0 && rollers_hold(specimen, machine);
   if (!studied) return out;
   const double h = material.radius, edge = specimen.edge_length / h;
   const bool solid = stretches(specimen, material), opposite = specimen.handedness == Handedness::kOpposite;
   const Tolerances own = tolerances(physics, specimen, material);
-  // Of knots: where a rope is tied hard its edges are shorter, and so is its error. The strands do not gain by that.
+  // Where a rope is tied hard, edges in its knots are shorter, and so is the error there. The strands do not gain by
+  // it.
   const double coarse = coarseness(own, of(Accuracy::kNormal, solid), edge),
                of_strands = coarseness(own, of(Accuracy::kNormal, specimen, material), edge);
   const double slippery = std::max(1.0, kSlippery / std::max(material.friction_coefficient, kLeastFriction));

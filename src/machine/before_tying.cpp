@@ -11,6 +11,7 @@
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 
@@ -18,17 +19,16 @@ namespace {
 
 constexpr double kClosed = 2.0;        // radius of a coil that lies on the strands in it [h]
 constexpr double kSharpestBend = 0.5;  // of a tied knot, 1/kClosed [1/h]
-constexpr double kCoarsestEdge =
-    0.9;  // of a rope whose knots slide as with finer ones [h]: bench/before_tying.py --study meshes
-constexpr double kMostStretch = 2.0;  // strain by a pre-load up to which a law of tension was ever measured [-]
+constexpr double kCoarsestEdge = 0.9;  // of a rope whose knots slide as with finer ones [h]: doc/developers/history.md
+constexpr double kMostStretch = 2.0;   // strain by a pre-load up to which a law of tension was ever measured [-]
 // Pink VPS was tied and mounted with a linear law up to a strain of 4.8 (4.8 k_s) and with a neo-Hookean one up to 5.6
 // (2.2 k_s); at 6 and 6.8 the tail grips came to the end of their way first (config/tighten.yaml with material=pink_vps
 // and specimen.preload= at draft).
 constexpr double kLargestStrain = 5.0;  // by a pre-load [-]
 constexpr double kMuchStretch = 0.2;    // by choice: no shipped rope is stretched by a tenth of it as it is tied [-]
-// Of ropes that were tied with 2 to 8 k_b/h^2, 41 of 43 opened or jumped open with a friction of 0.3 to 0.5, and 5 of
-// 111 with more; of those with 20 to 60 k_b/h^2, 12 of 34 did (bench/results/studies/pattern_map.csv.gz, the Sobol
-// sequence).
+// The limits follow from runs of ropes. Of those that were tied with 2 to 8 k_b/h^2, 41 of 43 opened or jumped open
+// with a friction of 0.3 to 0.5, and 5 of 111 with more; of those with 20 to 60 k_b/h^2, 12 of 34 did (the Sobol
+// sequence of config/studies/pattern_map.yaml).
 constexpr double kHoldsLoosely = 0.5, kLimp = 300.0;    // friction [-]; k_s h^2/k_b of a rope [-]
 constexpr double kTightly = 20.0, kVeryTightly = 60.0;  // [k_b/h^2]
 constexpr double kMetal = 20e9;  // modulus that no polymer reaches, but metals, glass and carbon do [Pa]
@@ -46,7 +46,7 @@ double least_preload(const SpecimenOptions& specimen, const Material& material) 
   return std::min(closed * fraction * fraction, bending_force(material) / (2.0 * kClosed * kClosed));
 }
 
-/// Of a pre-load that nobody chose, not even for the material. Empty: it suits the rod.
+/// Warns of a pre-load that nobody chose, not even for the material. It is empty where the pre-load suits the rod.
 std::string automatic_warning(double preload, double stretch, const Material& material) {
   if (material.tying_preload || preload != default_preload(material)) return "";
   const double force = bending_force(material);
@@ -59,7 +59,7 @@ std::string automatic_warning(double preload, double stretch, const Material& ma
          " to " + short_number(kVeryTightly * force) + " N" + set;
 }
 
-/// Of what a tied knot asks of the outermost fibre. Empty: nothing is known to fail.
+/// Warns of a strain that the outermost fibre of a tied knot may not bear. It is empty where nothing is known to fail.
 std::string strain_warning(double strain, const Material& material) {
   const std::string needed = "tied knots strain the outermost fibre by up to " + short_number(strain);
   if (material.breaking_strain && *material.breaking_strain < strain)
@@ -78,7 +78,7 @@ std::string strain_warning(double strain, const Material& material) {
          "you know them";
 }
 
-/// Of edges that are too long for the bends of a tied rope; knots of solid rods were the same with edges of 2 h.
+/// Warns of edges that are too long for the bends of a tied rope. Knots of solid rods were the same with edges of 2 h.
 std::string mesh_warning(double edge, const Material& material) {
   const double h = material.radius;
   if (edge <= kCoarsestEdge * h || is_solid(material)) return "";

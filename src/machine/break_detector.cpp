@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "knot_utm/machine/load_control.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 

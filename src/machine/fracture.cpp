@@ -25,8 +25,7 @@ double curvature(const RodProperties& rod, const Points& position, Eigen::Index 
 
 bool can_part(const Material& material) { return material.breaking_force || material.breaking_strain; }
 
-Exposure most_exposed(const RodProperties& rod, const Points& position) {
-  const Material& material = rod.material;
+Exposure most_exposed(const Material& material, const RodProperties& rod, const Points& position) {
   Exposure out;
   double bend_before = 0.0;
   for (Eigen::Index j = 0; j < rod.edges(); ++j) {
@@ -47,7 +46,7 @@ Exposure most_exposed(const RodProperties& rod, const Points& position) {
   return out;
 }
 
-double transit_time(const Material& material, double length) {
+double transit_time(const RodMaterial& material, double length) {
   const double mass = material.density * M_PI * material.radius * material.radius;
   return length * std::sqrt(mass / material.stretching_stiffness);
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 

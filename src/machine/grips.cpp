@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
@@ -179,19 +180,19 @@ double Grips::end_to_end(double displacement) const {
 double Grips::length_around(double radius) const { return on_rollers() ? M_PI * (rollers_[1].radius + radius) : 0.0; }
 
 double Grips::force_upper(const TimeStep& step) const {
-  if (on_rollers()) return -step.roller_force(1)[2];
+  if (on_rollers()) return -step.readings().roller_force(1)[2];
   double sum = 0.0;
-  for (const FixedNode& node : upper_nodes_) sum += step.reaction(node.node)[2];
+  for (const FixedNode& node : upper_nodes_) sum += step.readings().reaction(node.node)[2];
   return sum;
 }
 
 double Grips::force_lower(const TimeStep& step) const {
-  if (on_rollers()) return step.roller_force(0)[2];
+  if (on_rollers()) return step.readings().roller_force(0)[2];
   double sum = 0.0;
   const int posts = static_cast<int>(supports_.posts.size());
-  for (int i = 0; i < posts; ++i) sum += step.roller_force(i)[2];
+  for (int i = 0; i < posts; ++i) sum += step.readings().roller_force(i)[2];
   for (const NodeForce& load : supports_.loads) sum -= load.force[2];
-  for (const FixedNode& node : lower_nodes_) sum -= step.reaction(node.node)[2];
+  for (const FixedNode& node : lower_nodes_) sum -= step.readings().reaction(node.node)[2];
   return sum;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string>
 
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/topology/overhand_strand.hpp"
 
 namespace knot_utm {
@@ -25,9 +26,10 @@ void KnotTouch::follow(const TimeStep& stepper) {
     if (strand.coil_found) coil_[k] = between(strand.top, strand.cut);
     if (coil_[k].empty()) continue;
     const int last = static_cast<int>(points.cols()) - 1;
-    on_rollers_ += stepper.roller_normal_force(k == 0 ? NodeRange{0, coil_[k].last} : NodeRange{coil_[k].first, last});
+    on_rollers_ +=
+        stepper.readings().roller_normal_force(k == 0 ? NodeRange{0, coil_[k].last} : NodeRange{coil_[k].first, last});
   }
-  between_knots_ = stepper.normal_force_between(coil_[0], coil_[1]);
+  between_knots_ = stepper.readings().normal_force_between(coil_[0], coil_[1]);
 }
 
 void KnotTouch::state(Archive& archive) {

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/record/sample.hpp"
+
 namespace knot_utm {
 
 namespace {
 
 constexpr double kCreep = 0.01;  // of the highest speed
-// Of the longest motion of a command: over less, the slope is that of what Newton's method leaves unbalanced.
+// A motion counts from this fraction of the longest one of a command on. The slope over less would be that of what
+// Newton's method leaves unbalanced.
 constexpr double kCounts = 1e-5;
 
 }  // namespace

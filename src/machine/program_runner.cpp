@@ -6,6 +6,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "knot_utm/record/sample.hpp"
+
 namespace knot_utm {
 namespace {
 
@@ -21,7 +23,7 @@ bool loads(const ProgramStep& step) {
   return pulls(step.phase) || step.phase == Phase::kPreload || (step.hold_load && step.held_load.value_or(0.0) > 0.0);
 }
 
-/// Of the crosshead as a step begins [m/s].
+/// The velocity of the crosshead as a step begins [m/s].
 double first_velocity(const ProgramStep& step) {
   switch (step.phase) {
     case Phase::kPreload:
@@ -389,7 +391,7 @@ double ProgramRunner::velocity_at_load_rate(const Sample& sample) {
   return load_control_.following(sample, std::min(wanted_load_, end), period(), s.speed);
 }
 
-/// Of a record, linear between its rows [m].
+/// The crosshead's way in the record at a time; it is linear between two rows [m].
 double ProgramRunner::recorded_way(double time) const {
   const std::vector<RecordedPlace>& recorded = step().recorded;
   const auto after = std::lower_bound(recorded.begin(), recorded.end(), time,

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "knot_utm/rod/stretching_laws.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 

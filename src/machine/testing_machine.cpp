@@ -15,6 +15,7 @@
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/machine/tied_loop.hpp"
+#include "knot_utm/record/command.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/sim/saved_step.hpp"
@@ -153,7 +154,7 @@ struct TestingMachine::Impl {
                                    : start_displacement + fraction * (command.displacement - start_displacement);
     travel_tried = travel;
     refused = false;
-    // Of what was last accepted alone: a step that is tried again at another length begins from the same.
+    // This depends on the last accepted state only, so that a step that is tried again begins from the same.
     grip_tried = frame.rigid()
                      ? travel
                      : frame.grip_after(grip, travel, grips.force_upper(*stepper), held_length(from, to), to - from);
@@ -166,7 +167,7 @@ struct TestingMachine::Impl {
     return boundary;
   }
 
-  /// Of the strands that bear on the upper grip, as mounted [m].
+  /// The length of the strands that bear on the upper grip, as mounted [m].
   double held_length(double from, double to) const {
     return loop ? loop->held_length(from, to) : grips.end_to_end(0.0);
   }
@@ -208,9 +209,9 @@ struct TestingMachine::Impl {
   bool knows_contacts() const { return status != BenchStatus::kFailed && status != BenchStatus::kBroken; }
 
   void watch_for_break(double shortest) {
-    breaks.emplace(shortest, most_exposed(stepper->rod(), stepper->state().position));
+    breaks.emplace(shortest, most_exposed(material, stepper->rod(), stepper->state().position));
     stepper->refuse_by([this](const Points& end, double dt) {
-      const std::string why = parted() ? "" : breaks->refuse(most_exposed(stepper->rod(), end), dt);
+      const std::string why = parted() ? "" : breaks->refuse(most_exposed(material, stepper->rod(), end), dt);
       refused = !why.empty();
       return why;
     });
@@ -219,7 +220,7 @@ struct TestingMachine::Impl {
   /// After an accepted step: does the rod part? The next step ends where at this pace it will.
   void judge_break(double dt) {
     if (!breaks || parted()) return;
-    const Exposure now = most_exposed(stepper->rod(), stepper->state().position);
+    const Exposure now = most_exposed(material, stepper->rod(), stepper->state().position);
     if (!breaks->judge(now, dt)) return control.at_most(breaks->next());
     message = not_by_tension(now, grips.force_upper(*stepper), grips.force_lower(*stepper));
     if (message.empty()) return part(now);
@@ -288,12 +289,12 @@ struct TestingMachine::Impl {
     s.balance_offset = cell.offset();
     s.tail_force = s.excess_length = PerKnot::unknown(static_cast<std::size_t>(knot_of(specimen).about().knots));
     if (loop) loop->read(s);
-    const ContactReading contact = stepper->contact_reading();
+    const ContactReading contact = stepper->readings().contact();
     s.max_penetration = contact.largest_overlap / material.radius;
     s.normal_force = contact.normal_force;
     s.contacts = contact.touching;
     s.fastest_node = std::sqrt(stepper->state().velocity.colwise().squaredNorm().maxCoeff());
-    const Energies energies = stepper->energies();
+    const Energies energies = stepper->readings().energies();
     s.stretching_energy = energies.stretching;
     s.bending_energy = energies.bending;
     s.twisting_energy = energies.twisting;
@@ -305,7 +306,7 @@ struct TestingMachine::Impl {
     s.plastic_loss = work.plastic;
     s.numerical_dissipation = work.numerical;
     s.reweighting_loss = work.reweighting;
-    s.moment_imbalance = stepper->loads().moment.norm();
+    s.moment_imbalance = stepper->readings().loads().moment.norm();
     s.steps = control.counters().steps;
     s.rejected_steps = control.counters().rejected;
     s.newton_iterations = control.counters().iterations;
@@ -357,7 +358,7 @@ struct TestingMachine::Impl {
                          : to < command.time ? start.displacement + speed * (to - start.time)
                                              : command.displacement;
           grip = frame.rigid() ? displacement : grip_tried;
-          work += stepper->work();
+          work += stepper->readings().work();
           if (loop) loop->follow(phase, {to, displacement, grip}, dt);
           judge_break(dt);
           substeps.push_back(read(command, to));
@@ -436,11 +437,11 @@ Eigen::VectorXd TestingMachine::tension() const {
   return impl_->stepper->tension();
 }
 std::vector<ContactForce> TestingMachine::contact_forces() const {
-  return impl_->knows_contacts() ? impl_->stepper->contact_forces() : std::vector<ContactForce>();
+  return impl_->knows_contacts() ? impl_->stepper->readings().contact_forces() : std::vector<ContactForce>();
 }
 Eigen::VectorXd TestingMachine::contact_load() const {
   if (!impl_->knows_contacts()) return {};
-  return impl_->stepper->normal_forces().cwiseQuotient(rod().voronoi_length);
+  return impl_->stepper->readings().normal_forces().cwiseQuotient(rod().voronoi_length);
 }
 void TestingMachine::state(Archive& archive) { impl_->state(archive); }
 

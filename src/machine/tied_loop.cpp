@@ -2,6 +2,10 @@
 
 #include <algorithm>
 
+#include "knot_utm/record/command.hpp"
+#include "knot_utm/record/sample.hpp"
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {

@@ -17,7 +17,14 @@ constexpr ChoiceNames<EndedBy, 11> kEndNames{{{EndedBy::kNotYet, "not yet"},
                                               {EndedBy::kUntangled, "untangled"},
                                               {EndedBy::kInterrupted, "interrupted"}}};
 
+constexpr ChoiceNames<BreakPlace, 4> kBreakPlaceNames{{{BreakPlace::kNone, "none"},
+                                                       {BreakPlace::kStrand, "strand"},
+                                                       {BreakPlace::kKnot, "knot"},
+                                                       {BreakPlace::kGrip, "grip"}}};
+
 }  // namespace
+
+const char* break_place_name(BreakPlace place) { return name_of(kBreakPlaceNames, place); }
 
 const char* ended_by_name(EndedBy end) { return name_of(kEndNames, end); }
 

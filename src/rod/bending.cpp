@@ -4,6 +4,7 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/elastic_bending.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
 
 namespace knot_utm {

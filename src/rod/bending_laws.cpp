@@ -1,17 +1,19 @@
 #include "knot_utm/rod/bending_laws.hpp"
 
+#include "knot_utm/rod/material.hpp"
+
 namespace knot_utm {
 
-BendingLaws bending_law_of(const Material& material) { return BendingRegistry::of(material.bending.law, material); }
+BendingLaws bending_law_of(const RodMaterial& material) { return BendingRegistry::of(material.bending.law, material); }
 
 bool bends_on_frames(const BendingLaws& law) { return !std::holds_alternative<ElasticBending>(law); }
 
-bool bends_on_frames(const Material& material) { return bends_on_frames(bending_law_of(material)); }
+bool bends_on_frames(const RodMaterial& material) { return bends_on_frames(bending_law_of(material)); }
 
 bool remembers(const BendingLaws& law) {
   return std::visit([](const auto& of) { return of.kRemembers; }, law);
 }
 
-bool remembers_bends(const Material& material) { return remembers(bending_law_of(material)); }
+bool remembers_bends(const RodMaterial& material) { return remembers(bending_law_of(material)); }
 
 }  // namespace knot_utm

@@ -41,7 +41,6 @@ InnerNode inner_node(const RodProperties& rod, const RodState& state, Eigen::Ind
   node.twisting.k_t = rod.material.twisting_stiffness;
   node.twisting.voronoi_length = rod.voronoi_length[i];
   if (rod.natural_twist.size() > 0) node.twisting.natural_twist = rod.natural_twist[i - 1];
-  node.twisting.law = rod.laws.twisting;
   return node;
 }
 
@@ -58,7 +57,7 @@ ElasticEnergy elastic_energy(const RodProperties& rod, const RodState& state) {
         bending.respond({node.bending.k_b, node.bending.voronoi_length, bend, node.bending.natural_curvature}).energy;
   };
   for (Eigen::Index i = 1; i + 1 < rod.nodes(); ++i)
-    std::visit([&](const auto& law) { add_node(inner_node(rod, state, i), law); }, rod.laws.bending);
+    std::visit([&](const auto& law) { add_node(inner_node(rod, state, i), law); }, rod.laws->bending);
   return energy;
 }
 

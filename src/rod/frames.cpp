@@ -3,6 +3,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "knot_utm/rod/rod.hpp"
+
 namespace knot_utm {
 
 Vec3 any_normal(const Vec3& t) {

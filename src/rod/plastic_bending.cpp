@@ -1,10 +1,11 @@
 #include "knot_utm/rod/plastic_bending.hpp"
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/rod/material.hpp"
 
 namespace knot_utm {
 
-PlasticBending PlasticBending::of(const Material& material) {
+PlasticBending PlasticBending::of(const RodMaterial& material) {
   if (!material.yield_strain)
     throw InvalidInput::sentence(
         "material.yield_strain", "none",

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/rod/rod_laws.hpp"
 
 namespace knot_utm {
 
@@ -18,10 +19,10 @@ void require_size(const char* key, Eigen::Index size, Eigen::Index expected) {
 
 }  // namespace
 
-RodProperties make_rod(const Material& material, const Eigen::VectorXd& rest_length) {
+RodProperties make_rod(const RodMaterial& material, const Eigen::VectorXd& rest_length) {
   RodProperties rod;
   rod.material = material;
-  rod.laws = RodLaws::of(material);
+  rod.laws = std::make_shared<const RodLaws>(RodLaws::of(material));
   rod.rest_length = rest_length;
   const Eigen::Index edges = rest_length.size();
   rod.voronoi_length = Eigen::VectorXd::Zero(edges + 1);
@@ -43,12 +44,12 @@ Eigen::VectorXd RodProperties::arclength() const {
   return out;
 }
 
-void Material::state(Archive& archive) {
+void RodMaterial::state(Archive& archive) {
   archive(radius, density, stretching_stiffness, bending_stiffness, twisting_stiffness);
 }
 
 void RodProperties::state(Archive& archive) {
-  archive.section("PRO3");  // "PROP" had no stretching law, "PRO2" no other laws, but all of the material
+  archive.section("PRO4");  // "PRO3" had a twisting law, "PRO2" all of the material
   archive(material);
   for (Eigen::VectorXd* each : {&rest_length, &voronoi_length, &mass, &natural_twist}) archive.list(*each);
   const Eigen::Index inner = nodes() - 2, twisted = natural_twist.size();
@@ -58,7 +59,9 @@ void RodProperties::state(Archive& archive) {
   const bool solid = positive(rest_length) && positive(voronoi_length) && positive(mass) && std::isfinite(length()) &&
                      material.radius > 0.0 && std::isfinite(material.radius);
   archive.require(solid, "rod", "one without a length, a radius or a mass");
-  archive(laws);
+  RodLaws own = archive.loads() ? RodLaws() : *laws;
+  archive(own);
+  if (archive.loads()) laws = std::make_shared<const RodLaws>(own);
 }
 
 void require_fits(const RodProperties& rod, const RodState& state) {
@@ -66,7 +69,7 @@ void require_fits(const RodProperties& rod, const RodState& state) {
   const Eigen::Index inner = rod.nodes() - 2;
   if (state.curved_at_rest())
     require_size("state.natural_curvature", state.natural_curvature.cols(), inner);
-  else if (bends_on_frames(rod.laws.bending))
+  else if (bends_on_frames(rod.laws->bending))
     throw InvalidInput("rod", "one without a memory of bends", "made with natural curvatures, be they zero");
   if (rod.natural_twist.size() > 0) require_size("rod.natural_twist", rod.natural_twist.size(), inner);
   if (state.twist.size() > 0) {

@@ -2,14 +2,11 @@
 
 namespace knot_utm {
 
-RodLaws RodLaws::of(const Material& material) {
-  return {stretching_law_of(material), bending_law_of(material), TwistingRegistry::of(material.twisting.law, material)};
-}
+RodLaws RodLaws::of(const RodMaterial& material) { return {stretching_law_of(material), bending_law_of(material)}; }
 
 void RodLaws::state(Archive& archive) {
   StretchingRegistry::archive(archive, "stretching law", stretching);
   BendingRegistry::archive(archive, "bending law", bending);
-  TwistingRegistry::archive(archive, "twisting law", twisting);
 }
 
 }  // namespace knot_utm

@@ -2,12 +2,14 @@
 
 #include <Eigen/Geometry>
 
+#include "knot_utm/rod/rod.hpp"
+
 namespace knot_utm {
 
 namespace {
 
-struct Corner {
-  Corner(const Vec3& e, const Vec3& f)
+struct TwistCorner {
+  TwistCorner(const Vec3& e, const Vec3& f)
       : length_e(e.norm()),
         length_f(f.norm()),
         u(e / length_e),
@@ -22,7 +24,7 @@ struct Corner {
   Vec3 mean;
 };
 
-StencilVector first_derivatives(const Corner& at) {
+StencilVector twist_slopes(const TwistCorner& at) {
   return on_nodes(EdgePairGradient{at.binormal / (2.0 * at.length_e), at.binormal / (2.0 * at.length_f), -1.0, 1.0});
 }
 
@@ -33,12 +35,12 @@ Mat3 cross_matrix(const Vec3& w) {
 }
 
 /// -(b (t + mean)^T + (t + mean) b^T)/(4 length^2)
-Mat3 same_edge(const Corner& at, const Vec3& tangent, double length) {
+Mat3 same_edge(const TwistCorner& at, const Vec3& tangent, double length) {
   const Mat3 product = at.binormal * (tangent + at.mean).transpose();
   return -(product + product.transpose()) / (4.0 * length * length);
 }
 
-StencilMatrix second_derivatives(const Corner& at) {
+StencilMatrix twist_curvatures(const TwistCorner& at) {
   EdgePairHessian h;
   h.ee = same_edge(at, at.u, at.length_e);
   h.ff = same_edge(at, at.v, at.length_f);
@@ -46,20 +48,23 @@ StencilMatrix second_derivatives(const Corner& at) {
   return on_nodes(h);
 }
 
-TwistingResponse<double> respond(const TwistingInput& input, double twist) {
-  const TwistedNode<double> node{input.k_t / input.voronoi_length, twist - input.natural_twist};
-  return std::visit([&](const auto& law) { return law.respond(node); }, input.law);
-}
+/// k_t/lbar [N m]
+double stiffness(const TwistingInput& input) { return input.k_t / input.voronoi_length; }
+
+/// dE/dm [N m]
+double moment(const TwistingInput& input, double twist) { return stiffness(input) * (twist - input.natural_twist); }
 
 }  // namespace
 
-double twisting_energy(const TwistingInput& input, double twist) { return respond(input, twist).energy; }
+double twisting_energy(const TwistingInput& input, double twist) {
+  const double m = moment(input, twist);
+  return 0.5 * m * m / stiffness(input);
+}
 
 StencilGradient twisting_gradient(const TwistingInput& input, const Vec3& e, const Vec3& f, double twist) {
-  const TwistingResponse<double> law = respond(input, twist);
   StencilGradient local;
-  local.energy = law.energy;
-  local.gradient = law.moment * first_derivatives(Corner(e, f));
+  local.energy = twisting_energy(input, twist);
+  local.gradient = moment(input, twist) * twist_slopes(TwistCorner(e, f));
   return local;
 }
 
@@ -71,13 +76,12 @@ Eigen::VectorXd twist_rates(const RodProperties& rod, const RodState& state) {
 }
 
 StencilLocal twisting(const TwistingInput& input, const Vec3& e, const Vec3& f, double twist) {
-  const Corner at(e, f);
-  const TwistingResponse<double> law = respond(input, twist);
-  const StencilVector slope = first_derivatives(at);
+  const TwistCorner at(e, f);
+  const StencilVector slope = twist_slopes(at);
   StencilLocal local;
-  local.energy = law.energy;
-  local.gradient = law.moment * slope;
-  local.hessian = law.tangent * slope * slope.transpose() + law.moment * second_derivatives(at);
+  local.energy = twisting_energy(input, twist);
+  local.gradient = moment(input, twist) * slope;
+  local.hessian = stiffness(input) * slope * slope.transpose() + moment(input, twist) * twist_curvatures(at);
   return local;
 }
 

@@ -4,6 +4,7 @@
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/utm_node.hpp"
 
 namespace knot_utm {

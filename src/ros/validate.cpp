@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/command.hpp"
 #include "knot_utm/record/program.hpp"
 #include "knot_utm/record/sample_fields.hpp"
 

@@ -56,7 +56,7 @@ void CentrelineTerms::predict_tensions(const std::vector<Lanes>& change, double 
 }
 
 void CentrelineTerms::add_forces(const StepStart&, const Points& x, std::vector<Lanes>& force) {
-  std::visit([&](const auto& law) { add_stretching_forces(law, x, force); }, rod_.laws.stretching);
+  std::visit([&](const auto& law) { add_stretching_forces(law, x, force); }, rod_.laws->stretching);
   if (bends_) add_bending_forces(force);
 }
 

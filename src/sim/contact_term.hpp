@@ -6,6 +6,9 @@
 
 #include "force_term.hpp"
 #include "knot_utm/contact/roller_contact.hpp"
+#include "knot_utm/numeric/index.hpp"
+#include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
 #include "knot_utm/sim/roller_turns.hpp"
 #include "knot_utm/sim/solved_step.hpp"
@@ -128,8 +131,6 @@ class ContactTerm {
     double pressure, slope;  // at the present overlap [N/m], and per overlap [N/m^2]
   };
 
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
   /// Adds the nodal forces of the force g that acts on side a of a contact.
   static void add_force(const ContactPoint& contact, const Lanes& g, std::vector<Lanes>& to) {
     for (int k = 0; k < 3; ++k) to[at(contact.a0 + k)] += contact.c[k] * g;
@@ -151,7 +152,7 @@ class ContactTerm {
   }
 
   Contacts contacts_;
-  // Of the active contacts, in order.
+  // Both lists hold one entry for each active contact, in order.
   std::vector<Model> models_;
   std::vector<LinearPressure> pressures_;
 };

@@ -1,5 +1,7 @@
 #include "diagnose_step.hpp"
 
+#include "knot_utm/rod/rod.hpp"
+
 namespace knot_utm {
 
 namespace {

@@ -10,6 +10,8 @@
 
 namespace knot_utm {
 
+struct RodProperties;
+
 /// The lists of contacts between strands and on rollers.
 using ContactLists = std::array<std::reference_wrapper<const std::vector<ContactPoint>>, 2>;
 

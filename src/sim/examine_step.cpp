@@ -4,11 +4,13 @@
 #include <optional>
 #include <sstream>
 
+#include "knot_utm/rod/rod.hpp"
+
 namespace knot_utm {
 
 namespace {
 
-/// Of point a against point b, or against where a roller ends up, in this step [m].
+/// How far point a moved in this step against point b, or against where a roller ends up [m].
 Vec3 slip(const ContactPoint& contact, const Points& increment) {
   Vec3 out = Vec3::Zero();
   for (int k = 0; k < 3; ++k) {

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
 

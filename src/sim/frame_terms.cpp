@@ -4,13 +4,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/numeric/index.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/rod/rod_laws.hpp"
 
 namespace knot_utm {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 // Well above the rounding of the factorisation, far below anything that twists: over a thousand edges, a millionth of
 // the stiffness of one.
@@ -155,8 +156,7 @@ void FrameTerms::set_tangents(const Points& position) {
 }
 
 /// m_ref, b, chi and the moment of every inner node.
-template <typename Law>
-void FrameTerms::set_twist(const Law& law) {
+void FrameTerms::set_twist() {
   const std::size_t edges = static_cast<std::size_t>(rod_.edges());
   for (std::size_t i = 1; i < edges; i += 4) {
     const FourVectors e = four(tangent_, i - 1), f = four(tangent_, i);
@@ -166,12 +166,12 @@ void FrameTerms::set_twist(const Law& law) {
     const Turns around = transport(e_n, f_n) * transport(e, e_n) * Turns{e_to_f.w, -1.0 * e_to_f.v} * transport(f_n, f);
     const Lanes turned = angle_about(f_n, around), over_chi = 1.0 / e_to_f.w;
     const Lanes twist = four(angle_, i) - four(angle_, i - 1) + four(start_twist_, i) + turned;
-    const TwistingResponse<Lanes> response = law.respond(TwistedNode<Lanes>{four(stiffness_, i), twist});
+    const Lanes stiffness = four(stiffness_, i);
     put(2.0 * over_chi * e_to_f.v, binormal_, i);
     put(over_chi, over_chi_, i);
     put(twist, twist_, i);
-    put(response.moment, moment_, i);
-    put(response.tangent, tangent_stiffness_, i);
+    put(stiffness * twist, moment_, i);
+    put(stiffness, tangent_stiffness_, i);
     put(turned, reference_twist_, i);
   }
   for (std::size_t i = 1; i < edges; ++i)
@@ -187,7 +187,7 @@ void FrameTerms::carry_directors() {
 void FrameTerms::add_forces(const StepStart&, const Points& x, std::vector<Lanes>& force) {
   const int edges = static_cast<int>(rod_.edges());
   set_tangents(x);
-  std::visit([&](const auto& law) { set_twist(law); }, rod_.laws.twisting);
+  set_twist();
   std::fill(torque_.begin(), torque_.end(), 0.0);
   for (std::size_t i = 1; i < static_cast<std::size_t>(edges); ++i) {
     const double half = 0.5 * moment_[i];
@@ -202,7 +202,7 @@ void FrameTerms::add_forces(const StepStart&, const Points& x, std::vector<Lanes
   }
   if (curved_) {
     carry_directors();
-    std::visit([&](const auto& law) { add_bending_forces(law, force); }, rod_.laws.bending);
+    std::visit([&](const auto& law) { add_bending_forces(law, force); }, rod_.laws->bending);
   }
   for (int j = 0; j < edges; ++j) {
     const double turned = angle_[at(j)] - start_->twist[j], rate = turned / dt_;
@@ -232,7 +232,7 @@ void FrameTerms::set_turn(std::size_t j, double turned) {
 TwistingInput FrameTerms::twisting_input(int i) const {
   const double whole = i == parted_ || i == parted_ + 1 ? 0.0 : 1.0;
   return {whole * rod_.material.twisting_stiffness, rod_.voronoi_length[i],
-          rod_.natural_twist.size() > 0 ? rod_.natural_twist[i - 1] : 0.0, rod_.laws.twisting};
+          rod_.natural_twist.size() > 0 ? rod_.natural_twist[i - 1] : 0.0};
 }
 
 BendingNode FrameTerms::bending_node(int i, const Eigen::Vector2d& bend) const {
@@ -262,7 +262,7 @@ FrameTerms::NodeStiffness FrameTerms::node_stiffness(int i) const {
   NodeStiffness out = NodeStiffness::Zero();
   auto elastic = out.topLeftCorner<kStencilSize, kStencilSize>();
   elastic = twisting(twisting_input(i), to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), twist(i)).hessian;
-  if (curved_) std::visit([&](const auto& law) { elastic += bending_stiffness(law, i); }, rod_.laws.bending);
+  if (curved_) std::visit([&](const auto& law) { elastic += bending_stiffness(law, i); }, rod_.laws->bending);
   return out;
 }
 
@@ -360,7 +360,7 @@ void FrameTerms::add_stiffness(StepMatrix<4>& matrix) const {
     }
     second_back.column[3] -= after.by_f;
   }
-  if (curved_) std::visit([&](const auto& law) { add_bending_stiffness(law, matrix); }, rod_.laws.bending);
+  if (curved_) std::visit([&](const auto& law) { add_bending_stiffness(law, matrix); }, rod_.laws->bending);
 }
 
 double FrameTerms::angle_change(const std::vector<Lanes>& change, int j) const {
@@ -396,8 +396,8 @@ void FrameTerms::commit(RodState& state) {
   }
   for (int i = 1; i < edges; ++i) state.reference_twist[i - 1] = reference_twist_[at(i)];
   state.reference_director = director_;
-  if (curved_ && remembers(rod_.laws.bending))
-    std::visit([&](const auto& law) { remember_bends(law, state); }, rod_.laws.bending);
+  if (curved_ && remembers(rod_.laws->bending))
+    std::visit([&](const auto& law) { remember_bends(law, state); }, rod_.laws->bending);
 }
 
 FrameTerms::Energy FrameTerms::energy(const Points& increment, const std::vector<Lanes>& force) const {
@@ -405,12 +405,11 @@ FrameTerms::Energy FrameTerms::energy(const Points& increment, const std::vector
   const int edges = static_cast<int>(rod_.edges());
   const auto turn = [&](int j) { return angle_[at(j)] - start_->twist[j]; };
   const auto edge_change = [&](int j) { return to_lanes(Vec3(increment.col(j + 1) - increment.col(j))); };
-  const auto add_elastic = [&](const auto& bends, const auto& twists) {
+  const auto add_elastic = [&](const auto& bends) {
     for (int i = 1; i < edges; ++i) {
       const double moment = moment_[at(i)], by_e = 0.5 * inverse_length_[at(i - 1)],
                    by_f = 0.5 * inverse_length_[at(i)];
-      if (stiffness_[at(i)] > 0.0)
-        out.twisting += twists.respond(TwistedNode<double>{stiffness_[at(i)], twist_[at(i)]}).energy;
+      if (stiffness_[at(i)] > 0.0) out.twisting += 0.5 * moment * moment / stiffness_[at(i)];
       out.along +=
           moment * (dot(binormal_[at(i)], by_e * edge_change(i - 1) + by_f * edge_change(i)) + turn(i) - turn(i - 1));
       if (!curved_) continue;
@@ -425,7 +424,7 @@ FrameTerms::Energy FrameTerms::energy(const Points& increment, const std::vector
       out.along += bend.gradient.dot(moved);
     }
   };
-  std::visit(add_elastic, rod_.laws.bending, rod_.laws.twisting);
+  std::visit(add_elastic, rod_.laws->bending);
   for (int j = 0; j < edges; ++j) {
     const double turned = turn(j), rate = turned / dt_, change = rate - start_->twist_rate[j];
     if (!held(j)) out.residual += force[at(j)][3] * turned;

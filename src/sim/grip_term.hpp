@@ -3,6 +3,9 @@
 #include <vector>
 
 #include "force_term.hpp"
+#include "knot_utm/numeric/index.hpp"
+#include "knot_utm/numeric/points.hpp"
+#include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
@@ -48,7 +51,6 @@ struct GripTerm {
   }
 
  private:
-  static std::size_t at(int i) { return static_cast<std::size_t>(i); }
 };
 
 }  // namespace knot_utm

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
 #include "knot_utm/sim/roller_turns.hpp"
 #include "knot_utm/sim/solved_step.hpp"

@@ -11,6 +11,7 @@
 #include "held_unknowns.hpp"
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
 #include "motion_term.hpp"
 #include "residual_norm.hpp"
@@ -48,7 +49,7 @@ struct Equation {
         centreline(rod, !state.curved_at_rest()),
         frames(rod, settings),
         strands(strand_contact(rod, settings)),
-        rollers(RollerContact(rod, settings.normal, settings.roller_friction, settings.motion_limit)),
+        rollers(RollerContact(rod, settings.pressure_law, settings.roller_friction, settings.motion_limit)),
         held(static_cast<std::size_t>(rod.nodes())),
         norm(settings),
         matrix(static_cast<int>(rod.nodes())),
@@ -87,9 +88,10 @@ struct Equation {
  private:
   static StrandContact strand_contact(const RodProperties& rod, const StepSettings& settings) {
     if constexpr (std::is_same_v<StrandContact, SmoothContact>)
-      return SmoothContact(rod, settings.normal, settings.friction, settings.candidate_margin, settings.weighting_time);
+      return SmoothContact(rod, settings.pressure_law, settings.friction, settings.candidate_margin,
+                           settings.weighting_time);
     else
-      return StrandContact(rod, settings.normal, settings.friction, settings.candidate_margin);
+      return StrandContact(rod, settings.pressure_law, settings.friction, settings.candidate_margin);
   }
 };
 

@@ -1,5 +1,8 @@
 #include "motion_term.hpp"
 
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/sim/scene.hpp"
+
 namespace knot_utm {
 
 MotionTerm::MotionTerm(const RodProperties& rod, const StepSettings& settings)

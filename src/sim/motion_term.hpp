@@ -3,6 +3,9 @@
 #include <vector>
 
 #include "force_term.hpp"
+#include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
 

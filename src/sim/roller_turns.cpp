@@ -4,13 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/numeric/index.hpp"
 #include "surface_columns.hpp"
 
 namespace knot_utm {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 double product(const std::vector<Lanes>& a, const std::vector<Lanes>& b) {
   Lanes sum = {};

@@ -1,6 +1,7 @@
 #include "knot_utm/sim/saved_step.hpp"
 
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
 

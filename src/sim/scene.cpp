@@ -31,14 +31,13 @@ void Boundary::state(Archive& archive, int nodes) {
 }
 
 void StepSettings::state(Archive& archive) {
-  archive.section("SET5");  // "SETT" had friction on centrelines only, "SET3" one pressure law, "SET4" a bending law
-  archive.choice("contact scheme", contact_scheme, ContactScheme::kEdge);
-  PressureRegistry::archive(archive, "pressure law", normal);
-  archive(friction, roller_friction, friction_couple, weighting_time, gravity, drag, spin_inertia, residual,
-          residual_from_step, residual_of_tension, residual_at_little_tension, newton_cap, motion_limit, overlap_limit,
-          candidate_margin);
+  archive.section("SET6");  // "SET5" named its pressure law, "SET4" had a bending law
+  archive.choice("contact law", contact_law, ContactLaw::kEdge);
+  archive(pressure_law, friction, roller_friction, friction_couple, weighting_time, gravity, drag, spin_inertia,
+          residual, residual_from_step, residual_of_tension, residual_at_little_tension, newton_cap, motion_limit,
+          overlap_limit, candidate_margin);
   archive.number("iterations", max_iterations, 1, kMostIterations);
-  const double reach = -2.0 * begin_of(normal);
+  const double reach = -2.0 * pressure_law.begin();
   const bool finite =
       std::isfinite(reach) && std::isfinite(candidate_margin) && reach >= 0.0 && candidate_margin >= 0.0;
   archive.require(finite, "reach of contacts", std::to_string(reach + candidate_margin) + " m");

@@ -24,10 +24,11 @@ constexpr double kLeastHeadway = 1e-5;  // [longest step]
 }  // namespace
 
 StepSummary StepControl::step(TimeStep& stepper, const Boundary& boundary, double dt, bool in_need) {
-  StepSummary summary = stepper.step(boundary, dt, in_need ? Solution::kTangents : Solution::kTangentsAbandonedEarly);
+  StepSummary summary =
+      stepper.step(boundary, dt, in_need ? SolveStrategy::kTangents : SolveStrategy::kTangentsAbandonedEarly);
   counters_.iterations += static_cast<std::uint64_t>(summary.newton.iterations);
   if (!summary.accepted() && !summary.newton.converged() && in_need) {
-    summary = stepper.step(boundary, dt, Solution::kSecants);
+    summary = stepper.step(boundary, dt, SolveStrategy::kSecants);
     counters_.iterations += static_cast<std::uint64_t>(summary.newton.iterations);
   }
   return summary;

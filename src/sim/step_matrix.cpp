@@ -4,13 +4,12 @@
 #include <cstdlib>
 #include <string>
 
+#include "knot_utm/numeric/index.hpp"
 #include "surface_columns.hpp"
 
 namespace knot_utm {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 constexpr int kRoomNodes = 4;  // of the other strand: three of a segment, one that it may slide on to
 

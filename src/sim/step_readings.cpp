@@ -3,19 +3,17 @@
 #include <Eigen/Geometry>
 #include <string>
 
+#include "knot_utm/numeric/index.hpp"
 #include "knot_utm/rod/energy.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/roller_turns.hpp"
+#include "knot_utm/sim/scene.hpp"
 
 namespace knot_utm {
 
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
-StepReadings::StepReadings(const RodProperties& rod, const RodState& state, double spin)
-    : force_(static_cast<std::size_t>(rod.nodes())) {
+StepReadings::StepReadings(const RodProperties& rod, const RodState& state, double spin,
+                           const std::vector<ContactPoint>& strands, const RollerContact& rollers)
+    : state_(state), strands_(strands), rollers_now_(rollers), force_(static_cast<std::size_t>(rod.nodes())) {
   const ElasticEnergy elastic = elastic_energy(rod, state);
   account_.energies.stretching = elastic.stretching;
   account_.energies.bending = elastic.bending;
@@ -27,23 +25,44 @@ StepReadings::StepReadings(const RodProperties& rod, const RodState& state, doub
 
 Vec3 StepReadings::reaction(int node) const { return -to_vec3(force_[at(node)]); }
 
+double StepReadings::reaction_torque(int edge) const { return state_.twist.size() == 0 ? 0.0 : -force_[at(edge)][3]; }
+
+std::vector<ContactForce> StepReadings::contact_forces() const {
+  return knot_utm::contact_forces(strands_, state_.position);
+}
+
+Eigen::VectorXd StepReadings::normal_forces() const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(state_.position.cols());
+  add_normal_forces(strands_, force);
+  add_normal_forces(rollers_now_.contacts(), force);
+  return force;
+}
+
+double StepReadings::normal_force_between(const NodeRange& a, const NodeRange& b) const {
+  return knot_utm::normal_force_between(strands_, a, b);
+}
+
+double StepReadings::roller_normal_force(const NodeRange& piece) const {
+  return knot_utm::roller_normal_force(rollers_now_.contacts(), piece);
+}
+
 StepReadings::RollerLoad StepReadings::load_on(int roller) const {
   return at(roller) < roller_load_.size() ? roller_load_[at(roller)] : RollerLoad{};
 }
 
-StepAccount& StepReadings::begin(const SolvedStep& step, const RollerContact& rollers) {
+StepAccount& StepReadings::begin(const SolvedStep& step) {
   const Energies before = account_.energies;
   account_ = StepAccount{};
   account_.before = before;
   account_.work.reweighting = before.contact;
   add_holders(step);
-  add_rollers(step, rollers);
+  add_rollers(step);
   force_ = step.force;
   first_ = false;
   return account_;
 }
 
-/// Of a force, by its mean over the step; the step itself took it as it is at the end.
+/// Adds the work of a force by its mean over the step. The step itself took the force as it is at the end.
 void StepReadings::add_work_of_boundary(double at_end, double at_begin) {
   const double mean = first_ ? at_end : 0.5 * (at_begin + at_end);
   account_.work.boundary += mean;
@@ -65,35 +84,36 @@ void StepReadings::add_holders(const SolvedStep& step) {
   }
 }
 
-void StepReadings::add_rollers(const SolvedStep& step, const RollerContact& rollers) {
+void StepReadings::add_rollers(const SolvedStep& step) {
   load_before_.swap(roller_load_);
   roller_load_.clear();
   for (std::size_t r = 0; r < step.boundary.rollers.size(); ++r) {
     const Roller& roller = step.boundary.rollers[r];
     const int number = static_cast<int>(r);
-    roller_load_.push_back({rollers.force_on(number), rollers.moment_on(roller, number, step.end)});
+    roller_load_.push_back({rollers_now_.force_on(number), rollers_now_.moment_on(roller, number, step.end)});
     account_.loads.add(roller.centre, -roller_load_[r].force);
     account_.loads.moment -= roller_load_[r].moment;
     if (r >= rollers_.size()) continue;
     const Vec3 moved = roller.centre - rollers_[r].centre;
     add_work_of_boundary(-roller_load_[r].force.dot(moved), -load_before_[r].force.dot(moved));
     if (!roller.free()) {
-      const Vec3 turn = rollers.turned(number) * roller.axis;
+      const Vec3 turn = rollers_now_.turned(number) * roller.axis;
       add_work_of_boundary(-roller_load_[r].moment.dot(turn), -load_before_[r].moment.dot(turn));
     }
   }
   rollers_ = step.boundary.rollers;
 }
 
-void StepReadings::add_free_turns(const SolvedStep& step, const RollerContact& rollers) {
+void StepReadings::add_free_turns(const SolvedStep& step) {
   for (std::size_t r = 0; r < step.boundary.rollers.size(); ++r) {
     const Roller& roller = step.boundary.rollers[r];
     if (!roller.free()) continue;
     const int number = static_cast<int>(r);
-    const double turn = rollers.turned(number), rate = turn / step.dt, faster = rate - rollers.turn(number).rate;
+    const double turn = rollers_now_.turned(number), rate = turn / step.dt,
+                 faster = rate - rollers_now_.turn(number).rate;
     account_.energies.kinetic += 0.5 * roller.inertia * rate * rate;
     account_.work.numerical += 0.5 * roller.inertia * faster * faster;
-    account_.work.residual += RollerTurns::unbalanced(step.boundary.rollers, rollers, number, step.dt) * turn;
+    account_.work.residual += RollerTurns::unbalanced(step.boundary.rollers, rollers_now_, number, step.dt) * turn;
   }
 }
 

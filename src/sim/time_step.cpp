@@ -3,19 +3,19 @@
 #include "diagnose_step.hpp"
 #include "examine_step.hpp"
 #include "increment.hpp"
+#include "increment_solver.hpp"
 #include "knot_utm/contact/tunnelling.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/energy.hpp"
-#include "solution.hpp"
 #include "watch_increment.hpp"
 
 namespace knot_utm {
 
 namespace {
 
-/// One step from its beginning to its end: the equation is solved (increment.hpp, solution.hpp), what it would do to
-/// the rod is examined, and only then does the state move on.
+/// One step from its beginning to its end: the equation is solved (increment.hpp, increment_solver.hpp), what it would
+/// do to the rod is examined, and only then does the state move on.
 template <int D, typename StrandContact>
 class ImplicitStep final : public TimeStep {
  public:
@@ -23,14 +23,15 @@ class ImplicitStep final : public TimeStep {
       : TimeStep(rod, state, settings),
         equation_(rod_, state_, settings_),
         tunnelling_(rod.nodes(), std::is_same_v<StrandContact, SmoothContact>),
-        readings_(rod_, state_, equation_.frames.kinetic_energy(state_.twist_rate)),
+        readings_(rod_, state_, equation_.frames.kinetic_energy(state_.twist_rate), equation_.strands.points(),
+                  equation_.rollers.contacts()),
         increment_(3, rod.nodes()) {}
 
-  StepSummary step(const Boundary& boundary, double dt, Solution solution) override {
+  StepSummary step(const Boundary& boundary, double dt, SolveStrategy strategy) override {
     const StepStart start{state_, boundary, dt};
     StepSummary summary;
     WorstResidual worst;
-    summary.newton = solve(start, solution, worst);
+    summary.newton = solve(start, strategy, worst);
     increment_.noalias() = equation_.x - state_.position;
     const SolvedStep step{start, equation_.x, increment_, equation_.force, equation_.held.nodes()};
     if (!summary.newton.converged()) {
@@ -53,32 +54,7 @@ class ImplicitStep final : public TimeStep {
     tunnelling_.part(edge);
   }
 
-  // ---- readings ---------------------------------------------------------------------------------------------------
-
-  Vec3 reaction(int node) const override { return readings_.reaction(node); }
-  double reaction_torque(int edge) const override { return D == 4 ? readings_.reaction_torque(edge) : 0.0; }
-  Vec3 roller_force(int roller) const override { return readings_.roller_force(roller); }
-  Vec3 roller_moment(int roller) const override { return readings_.roller_moment(roller); }
-  RollerTurn roller_turn(int roller) const override { return equation_.rollers.contacts().turn(roller); }
-  Energies energies() const override { return readings_.account().energies; }
-  ContactReading contact_reading() const override { return readings_.account().contact; }
-  StepWork work() const override { return readings_.account().work; }
-  LoadSum loads() const override { return readings_.account().loads; }
-  std::vector<ContactForce> contact_forces() const override {
-    return knot_utm::contact_forces(equation_.strands.points(), state_.position);
-  }
-  Eigen::VectorXd normal_forces() const override {
-    Eigen::VectorXd force = Eigen::VectorXd::Zero(rod_.nodes());
-    add_normal_forces(equation_.strands.points(), force);
-    add_normal_forces(equation_.rollers.points(), force);
-    return force;
-  }
-  double normal_force_between(const NodeRange& a, const NodeRange& b) const override {
-    return knot_utm::normal_force_between(equation_.strands.points(), a, b);
-  }
-  double roller_normal_force(const NodeRange& piece) const override {
-    return knot_utm::roller_normal_force(equation_.rollers.points(), piece);
-  }
+  const StepReadings& readings() const override { return readings_; }
 
   void state(Archive& archive) override {
     archive.section("STEP");
@@ -88,11 +64,11 @@ class ImplicitStep final : public TimeStep {
   }
 
  private:
-  NewtonSummary solve(const StepStart& start, Solution solution, WorstResidual& worst) {
+  NewtonSummary solve(const StepStart& start, SolveStrategy strategy, WorstResidual& worst) {
     const auto watch = [&](const Increment<D, StrandContact>& increment) {
       if (watcher_) watcher_(iterate_of(equation_, increment));
     };
-    return SolutionOf<D, StrandContact, decltype(watch)>(equation_, start, watch).by(solution, worst);
+    return IncrementSolver<D, StrandContact, decltype(watch)>(equation_, start, watch).solve(strategy, worst);
   }
 
   void commit(const SolvedStep& step) {
@@ -106,10 +82,10 @@ class ImplicitStep final : public TimeStep {
   }
 
   void account(const SolvedStep& step) {
-    StepAccount& account = readings_.begin(step, equation_.rollers.contacts());
+    StepAccount& account = readings_.begin(step);
     equation_.grips.account(step, account);
     equation_.motion.account(step, account);
-    readings_.add_free_turns(step, equation_.rollers.contacts());
+    readings_.add_free_turns(step);
     equation_.centreline.account(step, account);
     equation_.frames.account(step, account);
     readings_.add_fall_of_elastic_energy();
@@ -150,7 +126,7 @@ void TimeStep::state(Archive& archive) { archive(state_); }
 std::unique_ptr<TimeStep> TimeStep::make(const RodProperties& rod, const RodState& state,
                                          const StepSettings& settings) {
   require_fits(rod, state);
-  const bool edges = settings.contact_scheme == ContactScheme::kEdge;
+  const bool edges = settings.contact_law == ContactLaw::kEdge;
   if (state.twist.size() == 0) {
     if (edges) return std::make_unique<ImplicitStep<3, EdgeContact>>(rod, state, settings);
     return std::make_unique<ImplicitStep<3, SmoothContact>>(rod, state, settings);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/time_step.hpp"
 
 namespace knot_utm {

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "knot_utm/numeric/index.hpp"
+
 namespace knot_utm {
 
 namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
 
 /// Two lower blocks of a pivot, kept in registers while they meet all of its upper blocks: each entry of those is then
 /// read once for both.

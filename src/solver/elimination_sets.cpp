@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "knot_utm/numeric/index.hpp"
+
 namespace knot_utm {
-
-namespace {
-
-std::size_t at(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
 
 void EliminationSets::build(const Neighbours& neighbours) {
   find_pieces(neighbours);

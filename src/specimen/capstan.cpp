@@ -7,6 +7,7 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "shape_checks.hpp"
 
@@ -76,7 +77,7 @@ void check_tail_load(const SpecimenOptions& specimen, const Material& material) 
         "one that stretches the rod to at most twice its length, and not to " + text(1.0 + strain) + " times that");
 }
 
-KnotDescription description() {
+KnotDescription describe_capstan() {
   KnotDescription out;
   out.name = "capstan";
   out.title = "Strand around a post (capstan)";
@@ -91,7 +92,7 @@ double tail_load(const SpecimenOptions& specimen, const Material& material) {
       std::min(specimen_scales(material).force, kTailStrain * material.stretching_stiffness));
 }
 
-CapstanSpecimen::CapstanSpecimen() : Knot(description()) {}
+CapstanSpecimen::CapstanSpecimen() : Knot(describe_capstan()) {}
 
 SpecimenOptions CapstanSpecimen::defaults(double h) const {
   SpecimenOptions out;

@@ -15,8 +15,8 @@ namespace knot_utm {
 namespace {
 
 constexpr const char* kKey = "specimen.file";
-constexpr double kFarthest = 1000.0;      // coordinate of a point [m]
-constexpr double kLeastDistance = 1e-12;  // of neighbours: below it the way between them has no direction [m]
+constexpr double kFarthest = 1000.0;  // coordinate of a point [m]
+constexpr double kLeastStep = 1e-12;  // of neighbours: below it the way between them has no direction [m]
 
 std::optional<double> to_number(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r";
@@ -71,7 +71,7 @@ Points read_centreline(std::istream& in, const std::string& file) {
       continue;
     }
     if (!point) refuse("is \"" + shown(line) + "\", but must be three numbers x,y,z from -1000 to 1000 m");
-    if (!points.empty() && !((points.back() - *point).norm() >= kLeastDistance)) {
+    if (!points.empty() && !((points.back() - *point).norm() >= kLeastStep)) {
       refuse("is the same point as the one before it; leave it out");
     }
     points.push_back(*point);

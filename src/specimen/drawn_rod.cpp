@@ -5,15 +5,16 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/centreline_file.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
 
 namespace {
 
-constexpr double kWay = 0.04;  // of a pull, for the paper's radius [m]
+constexpr double kPulledWay = 0.04;  // of a pull, for the paper's radius [m]
 
-KnotDescription description() {
+KnotDescription describe_drawn_rod() {
   KnotDescription out;
   out.name = "file";
   out.title = "Rod of a shape from a file";
@@ -24,7 +25,7 @@ KnotDescription description() {
 
 }  // namespace
 
-DrawnRod::DrawnRod() : Knot(description()) {}
+DrawnRod::DrawnRod() : Knot(describe_drawn_rod()) {}
 
 SpecimenOptions DrawnRod::defaults(double h) const {
   SpecimenOptions out;
@@ -32,7 +33,7 @@ SpecimenOptions DrawnRod::defaults(double h) const {
   return out;
 }
 
-double DrawnRod::pull(const SpecimenOptions&, double h) const { return kWay * (h / kPaperRadius); }
+double DrawnRod::pull(const SpecimenOptions&, double h) const { return kPulledWay * (h / kPaperRadius); }
 
 void DrawnRod::check(const SpecimenOptions& specimen, double) const {
   std::error_code error;

@@ -7,6 +7,7 @@
 #include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
 #include "path.hpp"
@@ -89,7 +90,7 @@ void check_fisherman(const FishermanShape& shape) {
   }
 }
 
-/// Of equal gaps between standing part, threaded strand, tail and coil.
+/// The coil that leaves equal gaps between standing part, threaded strand, tail and coil.
 Coil coil_of(const FishermanShape& shape) {
   const double h = shape.radius;
   Coil coil{};
@@ -291,7 +292,7 @@ Centreline fisherman_loop(const FishermanShape& shape) {
 
 namespace {
 
-// Of the shipped method, for the paper's radius [m].
+// These are the lengths of the shipped method, for the paper's radius [m].
 constexpr double kKnotDistance = 0.15, kEndToEnd = 0.25, kTail = 0.03, kRollerDiameter = 0.0381, kWay = 0.12;
 constexpr double kWayOfDistance = 0.7;   // knots far apart lock after about this fraction of their distance, or less
 constexpr double kFractionOfLoop = 0.6;  // e over L, as the paper has it

@@ -6,6 +6,7 @@
 #include "knot_utm/specimen/drawn_rod.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/multiple_fisherman.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 #include "knot_utm/specimen/straight_rod.hpp"

@@ -7,6 +7,7 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/limit_text.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "path.hpp"
 #include "shape_checks.hpp"
@@ -18,7 +19,7 @@ namespace {
 constexpr double kLength = 1.0;    // of the shipped method, for the paper's radius [m]
 constexpr double kEndToEnd = 0.7;  // [of its length]
 
-/// Of rod beyond its end-to-end distance, that an overhand knot of so many turns takes up at least.
+/// The least length of rod, beyond its end-to-end distance, that an overhand knot of so many turns takes up [m].
 double taken_up(int turns, double h) { return 1.1 * (34.5 + 40.0 * turns) * h; }
 
 /// Length of the braid: the loose knot's own, but never so short that its strands would overlap.
@@ -160,7 +161,7 @@ double fitting_loop(const OverhandShape& shape, double spacing) {
                               {largest_loop(shape, smallest), longest + shape.end_to_end - shape.length}, spacing);
 }
 
-KnotDescription description() {
+KnotDescription describe_overhand() {
   KnotDescription out;
   out.name = "overhand";
   out.title = "Overhand knot";
@@ -181,7 +182,7 @@ Centreline overhand(const OverhandShape& shape) {
   return centreline;
 }
 
-OverhandKnot::OverhandKnot() : Knot(description()) {}
+OverhandKnot::OverhandKnot() : Knot(describe_overhand()) {}
 
 SpecimenOptions OverhandKnot::defaults(double h) const {
   const double r = h / kPaperRadius;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/specimen/polyline.hpp"
 
 namespace knot_utm {

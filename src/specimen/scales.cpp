@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/specimen/material.hpp"
+
 namespace knot_utm {
 
 namespace {
@@ -14,22 +16,22 @@ constexpr double kBendingTime = 2e-4;  // tau [s]
 // With 3.7 s, that of its own mass, a loose overhand in a rod of 4 m swings through its whole pull, with 0.8 s a tenth
 // of it; with 0.1 s its force is steady (doc/developers/measured.md).
 constexpr double kSlackTime = 0.1;  // of a slack loop [s]
-// Of a loop, whose drag is no less than that of this mass. A thread with tau = 1.9e-7 s, whose drag followed from its
-// own mass, coasted around its rollers at 80 m/s, in steps that led nowhere (doc/developers/measured.md).
+// The drag of a loop is no less than that of a rod with this time. A thread with tau = 1.9e-7 s, whose drag followed
+// from its own mass, coasted around its rollers at 80 m/s, in steps that led nowhere (doc/developers/measured.md).
 constexpr double kCoastingTime = 2e-5;  // tau [s]
 constexpr double kFading = 3.0;         // of motion under the drag that brings a specimen to rest [1/s]
 constexpr double kRestSpeed = 0.0063;   // [radii/s]
 
 /// Mass per length of a rod that a length bends in this time [kg/m]. No root, so that similar specimens have the same
 /// bits.
-double mass_of(double time, double length, const Material& material) {
+double mass_of(double time, double length, const RodMaterial& material) {
   const double length2 = length * length;
   return time * time * material.bending_stiffness / (length2 * length2);
 }
 
 }  // namespace
 
-SpecimenScales specimen_scales(const Material& material) {
+SpecimenScales specimen_scales(const RodMaterial& material) {
   const double h = material.radius;
   SpecimenScales out;
   out.force = material.bending_stiffness / (h * h);
@@ -39,7 +41,7 @@ SpecimenScales specimen_scales(const Material& material) {
   return out;
 }
 
-double inertia_factor(const Material& material, const PhysicsOptions& physics, double slack) {
+double inertia_factor(const RodMaterial& material, const PhysicsOptions& physics, double slack) {
   const double loop = slack / (2.0 * M_PI), own = specimen_scales(material).mass;
   double mass = mass_of(kBendingTime, material.radius, material);
   if (loop > 0.0) mass = std::min(mass, mass_of(kSlackTime, loop, material));
@@ -51,12 +53,12 @@ Material as_it_moves(Material material, const PhysicsOptions& physics, double sl
   return material;
 }
 
-double drag_to_rest(const Material& as_it_moves, bool loop) {
+double drag_to_rest(const RodMaterial& as_it_moves, bool loop) {
   const double mass = specimen_scales(as_it_moves).mass;
   return kFading * (loop ? std::max(mass, mass_of(kCoastingTime, as_it_moves.radius, as_it_moves)) : mass);
 }
 
-double settling_drag(const Material& material, double wave, double time) {
+double settling_drag(const RodMaterial& material, double wave, double time) {
   return 0.1 * time * material.bending_stiffness * std::pow(2.0 * M_PI / wave, 4);
 }
 

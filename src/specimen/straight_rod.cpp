@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "shape_checks.hpp"
 
@@ -10,9 +11,9 @@ namespace knot_utm {
 
 namespace {
 
-constexpr double kLength = 0.25;  // of the shipped method, for the paper's radius [m]
+constexpr double kShippedLength = 0.25;  // of the shipped method, for the paper's radius [m]
 
-KnotDescription description() {
+KnotDescription describe_straight_rod() {
   KnotDescription out;
   out.name = "straight";
   out.title = "Straight rod";
@@ -24,13 +25,13 @@ KnotDescription description() {
 
 }  // namespace
 
-StraightRod::StraightRod() : Knot(description()) {}
+StraightRod::StraightRod() : Knot(describe_straight_rod()) {}
 
 SpecimenOptions StraightRod::defaults(double h) const {
   const double r = h / kPaperRadius;
   SpecimenOptions out;
   out.edge_length = kPaperEdge * r;
-  out.length = kLength * r;
+  out.length = kShippedLength * r;
   return out;
 }
 

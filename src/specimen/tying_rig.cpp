@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "knot_utm/rod/isotropic_bending.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/scales.hpp"
 
 namespace knot_utm {
@@ -116,13 +117,13 @@ void TyingRig::release(double duration, double time) {
 void TyingRig::let_go(const TimeStep& stepper, double time) {
   ramp_time_ = kLetGoTime;
   ramp_from_ = tail_force_;
-  for (Clamp& clamp : clamps_) clamp.reaction = stepper.reaction(clamp.node);
+  for (Clamp& clamp : clamps_) clamp.reaction = stepper.readings().reaction(clamp.node);
   enter(Stage::kLettingGo, time);
 }
 
 void TyingRig::put_on(const TimeStep& stepper, double time) {
   ramp_time_ = kLetGoTime;
-  for (Clamp& held : far_side_) held.reaction = stepper.reaction(held.node);
+  for (Clamp& held : far_side_) held.reaction = stepper.readings().reaction(held.node);
   for (int k = 0; k < static_cast<int>(knots_.size()); ++k) {
     const Knot& knot = knots_[static_cast<std::size_t>(k)];
     (knot.tail_node == 0 ? loop_begin_ : loop_end_) = tail_begin(k, stepper);
@@ -244,7 +245,7 @@ void TyingRig::follow(const TimeStep& stepper, double time, double dt) {
       break;
     case Stage::kTailsRest:
       if (waited_for_rest(stepper, time, stage_begin_, "the tails were released")) {
-        for (Clamp& clamp : clamps_) clamp.reaction = stepper.reaction(clamp.node);
+        for (Clamp& clamp : clamps_) clamp.reaction = stepper.readings().reaction(clamp.node);
         enter(Stage::kClampsRamp, time);
       }
       break;

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/saved_step.hpp"
 #include "tool.hpp"
 
@@ -20,7 +21,7 @@ void print_scene(const SavedStep& step) {
   const Boundary& boundary = step.boundary;
   std::printf("rod of %td nodes, %g m, radius %g m%s\n", rod.nodes(), rod.length(), rod.material.radius,
               step.stepper->state().twist.size() > 0 ? ", with twist" : "");
-  std::printf("contact %s, friction %s, %g\n", settings.contact_scheme == ContactScheme::kEdge ? "edge" : "smooth",
+  std::printf("contact %s, friction %s, %g\n", settings.contact_law == ContactLaw::kEdge ? "edge" : "smooth",
               settings.friction.name(), settings.friction.coefficient());
   std::printf("%zu held nodes, %zu held edges, %zu rollers, %zu grips, %zu forces\n", boundary.fixed_nodes.size(),
               boundary.fixed_twists.size(), boundary.rollers.size(), boundary.grips.size(), boundary.forces.size());

@@ -12,8 +12,6 @@
 namespace knot_utm {
 namespace {
 
-using Vec2 = Eigen::Vector2d;
-
 constexpr int kViews = 400;          // over half of all directions: the other half sees the same
 constexpr std::size_t kBest = 8;     // of these are turned further
 constexpr double kFirstTurn = 0.1;   // half of what lies between two neighbouring views [rad]
@@ -25,11 +23,11 @@ constexpr double kTolerance = 1e-3;       // [h]
 /// The piece of the curve from one visit of a crossing to the next: a closed loop.
 struct Loop {
   Eigen::Index first, last;  ///< segments: it begins on the one and ends on the other
-  Vec2 crossing;
+  Eigen::Vector2d crossing;
 };
 
 /// By how much a step from a to b turns around p, counted where it crosses the ray from p to the right.
-int passes(const Vec2& a, const Vec2& b, const Vec2& p) {
+int passes(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& p) {
   if ((a.y() > p.y()) == (b.y() > p.y())) return 0;
   const double side = (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
   const bool rises = b.y() > a.y();
@@ -37,9 +35,9 @@ int passes(const Vec2& a, const Vec2& b, const Vec2& p) {
 }
 
 /// A curve as it is seen from one direction.
-class View {
+class HoleView {
  public:
-  View(const Points& points, const Mat3& rotation) : points_(rotation.topRows<2>() * points) {
+  HoleView(const Points& points, const Mat3& rotation) : points_(rotation.topRows<2>() * points) {
     turns_.assign(static_cast<std::size_t>(points.cols()), 0);
     for (const Crossing& crossing : crossings_of(points, rotation)) {
       const bool over_first = crossing.over < crossing.under;
@@ -54,15 +52,15 @@ class View {
   }
 
   bool has_loops() const { return !loops_.empty(); }
-  const Vec2& low() const { return low_; }
-  const Vec2& high() const { return high_; }
+  const Eigen::Vector2d& low() const { return low_; }
+  const Eigen::Vector2d& high() const { return high_; }
 
   /// Distance to the curve near its loops, negative where it does not enclose p. A curve encloses what one of the loops
   /// goes around: each crossing adds one loop to those that could be, and the face in which p lies is bounded by such.
-  double signed_distance(const Vec2& p) {
+  double signed_distance(const Eigen::Vector2d& p) {
     double least = std::numeric_limits<double>::infinity();
     for (const Segment& segment : near_) {
-      const Vec2 from = p - segment.begin;
+      const Eigen::Vector2d from = p - segment.begin;
       const double at = std::clamp(from.dot(segment.along) * segment.over_squared_length, 0.0, 1.0);
       least = std::min(least, (from - at * segment.along).squaredNorm());
     }
@@ -83,20 +81,20 @@ class View {
   void keep_near_segments() {
     const double reach = 0.5 * (high_ - low_).minCoeff();
     for (Eigen::Index i = 0; i + 1 < points_.cols(); ++i) {
-      const Vec2 a = points_.col(i), b = points_.col(i + 1);
+      const Eigen::Vector2d a = points_.col(i), b = points_.col(i + 1);
       if ((a.cwiseMin(b).array() > high_.array() + reach).any() || (a.cwiseMax(b).array() < low_.array() - reach).any())
         continue;
       near_.push_back({a, b - a, 1.0 / std::max((b - a).squaredNorm(), std::numeric_limits<double>::min())});
     }
   }
 
-  void count_turns(const Vec2& p) {
+  void count_turns(const Eigen::Vector2d& p) {
     for (Eigen::Index i = begin_; i < end_; ++i)
       turns_[static_cast<std::size_t>(i) + 1] =
           turns_[static_cast<std::size_t>(i)] + passes(points_.col(i), points_.col(i + 1), p);
   }
 
-  bool encloses(const Vec2& p) const {
+  bool encloses(const Eigen::Vector2d& p) const {
     return std::any_of(loops_.begin(), loops_.end(), [&](const Loop& loop) {
       const int between =
           turns_[static_cast<std::size_t>(loop.last)] - turns_[static_cast<std::size_t>(loop.first) + 1];
@@ -107,7 +105,7 @@ class View {
   }
 
   struct Segment {
-    Vec2 begin, along;
+    Eigen::Vector2d begin, along;
     double over_squared_length;  ///< 1/|along|^2
   };
 
@@ -115,14 +113,14 @@ class View {
   std::vector<Segment> near_;
   std::vector<Loop> loops_;
   Eigen::Index begin_ = std::numeric_limits<Eigen::Index>::max(), end_ = 0;  ///< segments in which all loops lie
-  Vec2 low_ = Vec2::Constant(std::numeric_limits<double>::infinity());
-  Vec2 high_ = -low_;
+  Eigen::Vector2d low_ = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
+  Eigen::Vector2d high_ = -low_;
   std::vector<int> turns_;  ///< around the last p, from the first loop's beginning to each point; 0 there
 };
 
 /// A square of the view, and how large a circle with its centre in there could be at most.
 struct Cell {
-  Vec2 centre;
+  Eigen::Vector2d centre;
   double half, most;
 
   bool operator<(const Cell& other) const { return most < other.most; }
@@ -171,23 +169,23 @@ EnclosedCircle largest_enclosed_circle(const Points& points, const Mat3& rotatio
                                        double larger_than) {
   EnclosedCircle best;
   if (points.cols() < 4) return best;  // three segments are the fewest of which two can cross
-  View view(points, rotation);
+  HoleView view(points, rotation);
   if (!view.has_loops()) return best;
   std::priority_queue<Cell> cells;
   // A circle within an unenclosed square reaches no further than the square does beyond the curve.
-  const auto add = [&](const Vec2& centre, double half) {
+  const auto add = [&](const Eigen::Vector2d& centre, double half) {
     const double radius = view.signed_distance(centre);
     if (radius > std::max(best.radius, larger_than)) best = {centre, radius};
     cells.push({centre, half, radius + std::sqrt(2.0) * half});
   };
-  const Vec2 size = view.high() - view.low(), middle = 0.5 * (view.low() + view.high());
+  const Eigen::Vector2d size = view.high() - view.low(), middle = 0.5 * (view.low() + view.high());
   add(middle, 0.5 * size.maxCoeff());
   while (!cells.empty() && cells.top().most > std::max(best.radius, larger_than) + tolerance) {
     const Cell cell = cells.top();
     cells.pop();
     const double half = 0.5 * cell.half;
     for (const double x : {-half, half})
-      for (const double y : {-half, half}) add(cell.centre + Vec2(x, y), half);
+      for (const double y : {-half, half}) add(cell.centre + Eigen::Vector2d(x, y), half);
   }
   return best;
 }

@@ -146,12 +146,12 @@ TEST_P(WarmStep, TakesNothingFromTheHeap) {
   EXPECT_GT(scene.taken, 0U) << "the first steps have to";
   scene.taken = 0;
   scene.way = 0.0;
-  const double force = scene.step->reaction(0).norm();
-  const int touching = scene.step->contact_reading().touching;
+  const double force = scene.step->readings().reaction(0).norm();
+  const int touching = scene.step->readings().contact().touching;
   scene.pull(0.05);
   EXPECT_GT(scene.way, 20.0 * scene.candidate_margin) << "candidates must have been searched again and again";
-  EXPECT_NE(scene.step->contact_reading().touching, touching) << "contacts must have come or gone";
-  EXPECT_GT(scene.step->reaction(0).norm(), 1.5 * force) << "the knot must have slid tighter";
+  EXPECT_NE(scene.step->readings().contact().touching, touching) << "contacts must have come or gone";
+  EXPECT_GT(scene.step->readings().reaction(0).norm(), 1.5 * force) << "the knot must have slid tighter";
   EXPECT_EQ(scene.taken, 0U);
 }
 

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "knot_utm/analysis/curve_difference.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "knot_utm/analysis/results.hpp"
+#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {

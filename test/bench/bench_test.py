@@ -9,13 +9,14 @@ import sys
 import tempfile
 import unittest
 
+import numpy as np
+
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../bench"))
 
 import convergence  # noqa: E402
 import front  # noqa: E402
 import lengths  # noqa: E402
-import peers  # noqa: E402
 import readings  # noqa: E402
 import references  # noqa: E402
 import runs  # noqa: E402
@@ -24,7 +25,6 @@ import sizes  # noqa: E402
 import specimens  # noqa: E402
 import strangers  # noqa: E402
 import tighten  # noqa: E402
-import tightness  # noqa: E402
 from table import Table, at_least, at_most, is_, within  # noqa: E402
 
 
@@ -113,13 +113,9 @@ class Runs(unittest.TestCase):
         self.assertIsNone(runs.relative_change(None, 1.0))
         self.assertIsNone(runs.relative_change(1.0, None))
 
-    def test_mean_relative_difference(self):
-        reference = ([0.0, 1.0, 2.0], [1.0, 2.0, 3.0])
-        tenth_more = ([0.0, 2.0], [1.1, 3.3])
-        self.assertAlmostEqual(runs.mean_relative_difference(tenth_more, reference), 0.1)
-        self.assertEqual(runs.mean_relative_difference(reference, reference), 0.0)
-
     def test_mean_relative_difference_is_over_what_both_have(self):
+        reference = ([0.0, 1.0, 2.0], [1.0, 2.0, 3.0])
+        self.assertAlmostEqual(runs.mean_relative_difference(([0.0, 2.0], [1.1, 3.3]), reference), 0.1)
         short, reference = ([0.0, 1.0], [2.0, 2.0]), ([0.5, 9.0], [1.0, 1.0])
         self.assertAlmostEqual(runs.mean_relative_difference(short, reference), 1.0)
         self.assertIsNone(runs.mean_relative_difference(short, ([2.0, 3.0], [1.0, 1.0])))
@@ -130,10 +126,9 @@ class Runs(unittest.TestCase):
         reference = (x, [2.0] * len(x))
         swings = (x, [2.0 + math.sin(2.0 * math.pi * 4.0 * at) for at in x])
         self.assertGreater(runs.mean_relative_difference(swings, reference), 0.3)
-        self.assertLess(runs.mean_relative_difference_of_parts(swings, reference, 4), 1e-3)
+        self.assertLess(runs.mean_relative_difference(swings, reference, 4, 50), 1e-3)
         higher = (x, [2.2] * len(x))
-        self.assertAlmostEqual(runs.mean_relative_difference_of_parts(higher, reference, 4), 0.1)
-        self.assertIsNone(runs.mean_relative_difference_of_parts(([], []), reference, 4))
+        self.assertAlmostEqual(runs.mean_relative_difference(higher, reference, 4, 50), 0.1)
 
     def test_a_runs_memory_is_not_that_of_python(self):
         ballast = bytearray(400_000_000)
@@ -192,14 +187,10 @@ class Studies(unittest.TestCase):
         cost, error = rows.pop("ours, normal")
         least = min(other for name, (other, its_error) in rows.items() if its_error <= error and "ours" not in name)
         self.assertAlmostEqual(least / cost, 5.1, 1)  # as doc/developers/performance.md says
-        self.assertFalse(front.solves_for_twist("draft, twist off"))
 
-    def test_loops_are_compared_at_the_same_shares_of_the_way_distances_and_loads(self):
+    def test_loops_are_compared_at_the_same_distances_and_loads(self):
         run = runs.Run("/nowhere", 1.0, 0, "")
         run.result = {"lock_extension": 10.0}
-        run.curve = {"phase": ["pull"] * 13, "extension": [0.0, 1.0, 1.9, 1.95, 1.99] + [float(k) for k in range(2, 10)],
-                     "load": 5 * [0.0] + 7 * [3.0] + [9.0]}
-        self.assertAlmostEqual(lengths.force_on_the_way(run), 3.0)
         # Nothing slides over the first of 10 m; from there on the knots come nearer by 2 m each.
         s = [float(k) for k in range(14)]
         distance = [max(0.1 - 0.02 * max(0.0, x - 1.0), -0.08) for x in s]
@@ -212,19 +203,7 @@ class Studies(unittest.TestCase):
         self.assertAlmostEqual(lengths.stretched_length(run, 80.0), 4.0 * 5.0 / 40.0)
         self.assertIsNone(lengths.stretched_length(run, 100.0))
         run.result = {}
-        self.assertIsNone(lengths.force_on_the_way(run))
-
-    def test_force_over_theory_is_one_where_it_holds(self):
-        h, bending, mu, length, eps = 0.0016, 9.265e-7, 0.3, 1.0, 0.15
-        run = runs.Run("/nowhere", 1.0, 0, "")
-        run.method = {"material": {"radius": h, "bending_stiffness": bending, "friction_coefficient": mu},
-                      "specimen": {"length": length}}
-        shortening = 2.0 * math.pi * h / eps ** 2
-        force = bending / h ** 2 * (0.5 * eps ** 4 + mu * 0.492 * eps ** 3)
-        run.curve = {"phase": ["hold", "pull", "pull"], "load_lower": [8.0, force - 1.0, 8.0], "balance_offset": [1.0, 1.0, 1.0],
-                     "end_to_end": [length - shortening, length - shortening, length]}
-        self.assertAlmostEqual(front.over_theory(run, eps), 1.0)
-        self.assertIsNone(front.over_theory(run, 0.05))
+        self.assertIsNone(lengths.force_at_distances(run))
 
     def test_a_row_of_knots_is_one_line_without_a_gap(self):
         folder = tempfile.TemporaryDirectory()
@@ -245,14 +224,15 @@ class FakeRunner:
 
     def run(self, name, settings):
         run = runs.Run("/nowhere", 2.0, 0, "")
-        run.method = {"material": {"radius": 0.003, "bending_stiffness": 1e-4, "friction_coefficient": 0.3}}
-        run.result = {"motion_pattern": "sliding", "simulated_time": 60.0, "preload": 50.0, "true_plateau_force": 6.0,
-                      "plateau_force_sd": 0.3, "lock_extension": 0.08, "locked_stiffness": 2e5, "true_peak_force": 7e3,
-                      "excess_length": [0.08, 0.08 - 0.002 * settings.get("specimen.preload", 50.0) / 50.0],
-                      "plateau_force_error": 0.1, "lock_extension_error": 1e-3, "locked_stiffness_error": 1e3}
-        run.settings = settings
+        slides = settings["material"] in ("nylon", "polypropylene")
+        run.result = {"simulated_time": 60.0, "locked_stiffness": 2e5, "true_peak_force": 7e3}
+        if slides:
+            run.result.update({"true_plateau_force": 6.0, "plateau_force_sd": 0.3, "lock_extension": 0.08})
         run.exit_code = self.change(name, run.result)
         return run
+
+    def run_all(self, todo):
+        return [self.run(*one) for one in todo]
 
 
 class Sizes(unittest.TestCase):
@@ -264,12 +244,7 @@ class Sizes(unittest.TestCase):
         self.assertGreaterEqual(len(forces), 12)
         self.assertEqual((min(diameters), max(diameters)), (0.00025, 0.04))
         self.assertGreaterEqual(math.log10(max(forces) / min(forces)), 9.0)
-        logs = [[math.log(value) for value in values] for values in (diameters, forces)]
-        means = [sum(values) / len(values) for values in logs]
-        covariance, *squares = (sum((a[i] - means[m]) * (b[i] - means[n]) for i in range(len(a)))
-                                for (a, m), (b, n) in (((logs[0], 0), (logs[1], 1)), ((logs[0], 0), (logs[0], 0)),
-                                                       ((logs[1], 1), (logs[1], 1))))
-        self.assertLess(abs(covariance) / math.sqrt(squares[0] * squares[1]), 0.3)
+        self.assertLess(abs(np.corrcoef(np.log(diameters), np.log(forces))[0, 1]), 0.3)
 
     def test_rods_have_the_groups_of_the_shipped_one(self):
         def groups(rod):
@@ -323,70 +298,34 @@ class SpeedOverStarts(unittest.TestCase):
         self.assertIn("polypropylene: `normal`: runs that passed is 4", failed[0])
 
 
-class Convergence(unittest.TestCase):
-    def report(self, change=lambda name, result: 0, material="polypropylene", seeds=10):
-        return convergence.report(FakeRunner(change), [material], seeds)
+class Means(unittest.TestCase):
+    """What scripts/bench specimens and convergence make of the same specimens in several variants."""
 
-    def test_what_nothing_moves_passes(self):
-        self.assertEqual(self.report().failed(), [])
+    def failed(self, change=lambda name, result: 0, material="polypropylene"):
+        return specimens.report(FakeRunner(change), [material], 4).failed()
 
-    def test_a_halving_that_moves_the_mean_fails_and_no_other_material_is_gated(self):
-        def change(name, result):
-            result["true_plateau_force"] *= 1.04 if "/edges_x1_2/" in name else 1.0
+    def test_what_nothing_moves_passes_whatever_slides(self):
+        for material in ("polypropylene", "pink_vps"):
+            self.assertEqual(self.failed(material=material), [])
+
+    def test_a_variant_that_moves_a_mean_fails_where_it_is_gated(self):
+        def change(factor, variant):
+            def changed(name, result):
+                result["lock_extension"] *= factor if variant in name else 1.0
+                return 0
+            return changed
+        line, *others = self.failed(change(1.03, "edges_x1_2/"))
+        self.assertIn("edges x1/2: relative change of the mean lock extension is 0.03", line)
+        self.assertEqual(len(others), 1)  # the same with a couple
+        self.assertEqual(self.failed(change(1.03, "edges_h_5/")), [])
+
+    def test_a_ripple_and_a_specimen_that_failed_fail(self):
+        def ripple(name, result):
+            result["plateau_force_sd"] = 0.7
             return 0
-        line, tied_alike = self.report(change).failed()
-        self.assertIn("edges x1/2: relative change of the plateau force is 0.04", line)
-        self.assertIn("at the same excess length is 0.04", tied_alike)
-        self.assertEqual(self.report(change, "nylon").failed(), [])
-
-    def test_a_halving_that_ties_tighter_is_told_apart_from_one_that_slides_at_another_force(self):
-        def change(name, result):
-            result["true_plateau_force"] = 1e3 * (0.08 - result["excess_length"][1])  # grows as knots are tied tighter
-            if "/edges_x1_2/" in name:
-                result["excess_length"] = [0.08, 0.0779]
-                result["true_plateau_force"] = 2.1
-            return 0
-        table = self.report(change).tables[0]
-        rows = {row[0]: dict(zip(table.columns, row[2])) for row in table.rows}
-        self.assertAlmostEqual(rows["relative change of the plateau force"]["edges x1/2"], 0.05)
-        here = rows["relative change of the plateau force at the same excess length"]
-        self.assertAlmostEqual(here["edges x1/2"], 0.0)
-        self.assertAlmostEqual(here["presliding halved"], 0.0)
-
-    def test_a_law_of_tightness_ends_with_its_points(self):
-        law = tightness.TightnessLaw([(2.0, 4.0), (1.0, 1.0), (3.0, 9.0)])
-        self.assertAlmostEqual(law.force_at(2.5), 6.25)
-        self.assertIsNone(law.force_at(3.1))
-        self.assertIsNone(law.force_at(None))
-        self.assertIsNone(tightness.TightnessLaw([(2.0, 4.0), (2.0, 1.0), (3.0, 9.0)]).force_at(2.5))
-        self.assertIsNone(tightness.TightnessLaw([(2.0, 4.0), (1.0, None), (3.0, 9.0)]).force_at(2.5))
-
-    def test_what_is_no_halving_is_reported_only(self):
-        def change(name, result):
-            result["lock_extension"] *= 1.5 if "/edges_x3_4/" in name else 1.0
-            return 0
-        self.assertEqual(self.report(change).failed(), [])
-
-    def test_the_ripple_of_the_worst_start_counts(self):
-        def change(name, result):
-            result["plateau_force_sd"] = 0.7 if name.endswith("as_shipped/2") else 0.3
-            return 0
-        self.assertIn("as shipped: ripple", self.report(change).failed()[0])
-
-    def test_a_run_that_failed_is_missing_listed_and_fails_its_cells(self):
-        def change(name, result):
-            result["reason"] = "no more steps"
-            return 1 if name.endswith("presliding_halved/1") else 0
-        report = self.report(change, seeds=3)
-        failed = report.failed()
-        self.assertEqual(len(failed), 5)
-        self.assertTrue(all("presliding halved" in line and "of every start" in line for line in failed))
-        self.assertEqual([row[0] for row in report.tables[-1].rows], ["polypropylene, presliding halved, start 1"])
-        self.assertEqual(report.tables[-1].rows[0][2], [1, "no more steps"])
-
-    def test_a_change_is_over_the_starts_that_both_have(self):
-        self.assertAlmostEqual(convergence.change_of_means([1.1, None, 3.3], [1.0, 9.0, 3.0]), 0.1)
-        self.assertIsNone(convergence.change_of_means([None], [1.0]))
+        self.assertIn("ripple of the plateau", self.failed(ripple)[0])
+        failed = self.failed(lambda name, result: 1 if name.endswith("presliding_x1_2/1") else 0)
+        self.assertTrue(failed and all("presliding x1/2" in line and "of every specimen" in line for line in failed))
 
     def test_what_is_halved_is_what_is_shipped(self):
         with open(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../src/machine/measured.hpp"),
@@ -395,54 +334,12 @@ class Convergence(unittest.TestCase):
         for material, name in (("nylon", "kNormal"), ("pink_vps", "kStretchingNormal")):
             step, residual, contact_tolerance, presliding, _ = [
                 float(number) for number in re.search(name + r"\{(.*?)\}", text).group(1).split(",")]
-            variants = convergence.variants_of(material)
-            for variant, halved in (("longest step halved", {"physics.max_step": step / 2}),
-                                    ("residual /10", {"physics.residual": residual / 10}),
-                                    ("contact tolerance halved", {"physics.contact.tolerance": contact_tolerance / 2}),
-                                    ("presliding halved", {"physics.friction.presliding": presliding / 2})):
-                self.assertEqual(variants[variant], halved)
-
-    def test_scatter(self):
-        self.assertAlmostEqual(convergence.scatter([1.0, 2.0, None, 3.0]), 0.5)
-        self.assertIsNone(convergence.scatter([1.0]))
-
-    def test_errors_that_hold_nine_of_ten_differences_pass_and_fewer_fail(self):
-        for outside, passes in ((7, True), (8, False)):  # of 70: seven cases of ten starts
-            def change(name, result, outside=outside):
-                if "/draft/" in name and int(name.rsplit("/", 1)[1]) < outside:
-                    result["lock_extension"] += 0.0011
-                return 0
-            failed = self.report(change).failed()
-            self.assertEqual(["lock extension: share within" in line for line in failed], [] if passes else [True])
-
-    def test_a_missing_error_is_not_within(self):
-        def change(name, result):
-            del result["plateau_force_error"]
-            return 0
-        failed = self.report(change).failed()
-        self.assertEqual(len(failed), 2)
-        self.assertIn("plateau force: share within is 0.00", failed[0])
-
-    def test_a_fine_run_has_all_but_the_accuracy_of_what_it_judges(self):
-        _, cases = convergence.run_all(FakeRunner(), "nylon", 2)
-        self.assertEqual([case.name for case in cases], ["draft", "as shipped", "pre-load x0.7", "pre-load x1.5",
-                                                         "opposite hands", "longer loop", "friction x1.3"])
-        for case in cases:
-            for run, fine in zip(case.starts, case.fine):
-                for key in ("specimen.knot_distance", "specimen.preload", "specimen.handedness",
-                            "specimen.end_to_end", "material"):
-                    self.assertEqual(run.settings.get(key), fine.settings.get(key))
-                self.assertEqual(fine.settings["specimen.refinement"], 4.5)
-
-    def test_knots_that_do_not_slide_are_judged_by_their_peak(self):
-        def change(name, result):
-            for key in ("true_plateau_force", "plateau_force_sd", "lock_extension"):
-                result[key] = None
-            return 0
-        report = self.report(change, "pink_vps")
-        self.assertEqual(report.failed(), [])
-        self.assertIn("scatter of the peak force", report.text())
-        self.assertNotIn("lack a reading", report.text())
+            variants = {**specimens.gated_variants(material), **convergence.others(material)}
+            for variant, changed in (("longest step x1/2", {"physics.max_step": step / 2}),
+                                     ("residual /10", {"physics.residual": residual / 10}),
+                                     ("contact tolerance x1/4", {"physics.contact.tolerance": contact_tolerance / 4}),
+                                     ("presliding x1/2", {"physics.friction.presliding": presliding / 2})):
+                self.assertEqual(variants[variant], changed)
 
 
 class References(unittest.TestCase):

@@ -102,7 +102,7 @@ class Outcomes(unittest.TestCase):
             out.write("#!/bin/sh\n" + script + "\n")
         os.chmod(tool, 0o755)
         runner = runs.Runner(folder.name, tool, None, folder.name, [], verbose=False)
-        return outcomes.Outcome(DRAWS[0], outcomes.start(runner, DRAWS[0], cpu_limit=1).wait()).status
+        return outcomes.Outcome(DRAWS[0], runner.once(*outcomes.task_of(runner, DRAWS[0]), cpu_limit=1)).status
 
     def test_of_programs_that_really_end_so(self):
         self.assertEqual(self.started("kill -SEGV $$"), "crash")

@@ -10,6 +10,7 @@
 #include "contact/strands.hpp"
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 namespace {

@@ -7,6 +7,8 @@
 
 #include "contact/nodal_forces.hpp"
 #include "knot_utm/contact/closest_points.hpp"
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "reference.hpp"
 #include "rod/finite_difference.hpp"
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 

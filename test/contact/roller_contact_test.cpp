@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 
 #include "contact/nodal_forces.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/roller_turns.hpp"
 #include "rod/finite_difference.hpp"
 #include "sim/scenes.hpp"
@@ -190,15 +191,14 @@ TEST(RollerContact, ARodPressedOnARollerRestsOnItWithItsWholeWeight) {
   settings.gravity = Vec3(0.0, 0.0, -9.81);
   settings.drag = 1.0;
   RodState state = straight_state(rod);
-  state.position.row(2).setConstant(
-      -std::get<NormalLaw>(settings.normal).overlap_at(rod.mass.sum() / rod.length() * 9.81));
+  state.position.row(2).setConstant(-settings.pressure_law.overlap_at(rod.mass.sum() / rod.length() * 9.81));
   const std::unique_ptr<TimeStep> stepper = TimeStep::make(rod, state, settings);
   Boundary boundary;
   boundary.rollers = {plane_below(material.radius)};
   const double weight = 9.81 * rod.mass.sum();
   for (int i = 0; i < 50; ++i) ASSERT_TRUE(stepper->step(boundary, 0.01).accepted());
-  EXPECT_NEAR(stepper->roller_force(0)[2], -weight, 1e-3 * weight);
-  EXPECT_LT(std::abs(stepper->roller_force(0)[0]), 1e-9);
+  EXPECT_NEAR(stepper->readings().roller_force(0)[2], -weight, 1e-3 * weight);
+  EXPECT_LT(std::abs(stepper->readings().roller_force(0)[0]), 1e-9);
 }
 
 TEST(RollerContact, AStepThatFailsLeavesTheReadingsOfTheLastOne) {
@@ -211,16 +211,16 @@ TEST(RollerContact, AStepThatFailsLeavesTheReadingsOfTheLastOne) {
   Boundary boundary;
   boundary.rollers = {plane_below(material.radius)};
   for (int i = 0; i < 5; ++i) ASSERT_TRUE(stepper->step(boundary, 0.01).accepted());
-  const Vec3 force = stepper->roller_force(0);
-  const double contact_energy = stepper->energies().contact;
+  const Vec3 force = stepper->readings().roller_force(0);
+  const double contact_energy = stepper->readings().energies().contact;
   const Points position = stepper->state().position;
   ASSERT_LT(force[2], 0.0);
   ASSERT_GT(contact_energy, 0.0);
 
   boundary.rollers[0].centre[2] += 10.0 * material.radius;  // into the rod, further than a step may move it
   EXPECT_FALSE(stepper->step(boundary, 0.01).accepted());
-  EXPECT_EQ(stepper->roller_force(0), force);
-  EXPECT_EQ(stepper->energies().contact, contact_energy);
+  EXPECT_EQ(stepper->readings().roller_force(0), force);
+  EXPECT_EQ(stepper->readings().energies().contact, contact_energy);
   EXPECT_EQ(stepper->state().position, position);
 }
 

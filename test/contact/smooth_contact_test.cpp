@@ -10,6 +10,9 @@
 #include "contact/candidate_pairs.hpp"
 #include "contact/nodal_forces.hpp"
 #include "knot_utm/contact/centreline_curve.hpp"
+#include "knot_utm/machine/step_settings.hpp"
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "rod/finite_difference.hpp"
 
 namespace knot_utm {
@@ -132,9 +135,7 @@ TEST(NormalLaw, IsMadeOfAMaterial) {
   Material material;
   material.radius = 0.01;
   material.bending_stiffness = 2e-6;
-  const auto made = [&] {
-    return std::get<NormalLaw>(PressureRegistry::of(material.pressure.law, material, PressureScales{3e-5}));
-  };
+  const auto made = [&] { return normal_law(material, 3e-5); };
   EXPECT_NEAR(made().stiffness, 6e4, 1e-9 * 6e4);
   EXPECT_EQ(made().tolerance, 3e-5);
   EXPECT_GT(made().stiffens_at(), made().tolerance);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
@@ -22,7 +23,7 @@ struct TwoStrandsOfARod {
     position.resize(3, second + two.cols());
     position << one, Vec3(300.0, 400.0, 500.0), two;
     const Eigen::Index edges = position.cols() - 1;
-    Material material;
+    RodMaterial material;
     material.radius = kRadius;
     rod = make_rod(material, (position.rightCols(edges) - position.leftCols(edges)).colwise().norm());
   }

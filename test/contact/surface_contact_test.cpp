@@ -13,8 +13,10 @@
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/roller_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/roller_turns.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "rod/finite_difference.hpp"
 
 namespace knot_utm {

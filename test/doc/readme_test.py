@@ -104,13 +104,6 @@ class Readme(unittest.TestCase):
                     self.assertAlmostEqual(float(facts[key].split()[0]), result[key], delta=steps[key], msg=f"{name}: {key}")
         self.assertEqual(seen, {"rviz.png", "tighten.png"})
 
-    def test_the_log_in_the_picture_rolls_as_the_program_has_it(self):
-        """As test/sim/surface_friction_test.cpp: half as far as the plank, or not at all."""
-        facts = texts_of(os.path.join(IMAGES, "rolling.png"))
-        for scene, share in (("surface", 0.5), ("centreline", 0.0)):
-            plank, log = (float(way) for way in re.findall(r"([\d.]+) h", facts[scene]))
-            self.assertAlmostEqual(log, share * plank, delta=0.01, msg=facts[scene])
-
     def test_method_runs(self):
         method = os.path.join(self.home.name, "method.yaml")
         with open(method, "w", encoding="utf-8") as text:

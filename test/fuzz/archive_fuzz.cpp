@@ -12,6 +12,7 @@
 #include "fuzz/target.hpp"
 #include "knot_utm/io/checkpoint.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/sim/saved_step.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
@@ -132,7 +133,7 @@ std::string good_step() {
   state.position.row(2) = rod.arclength().transpose();
   state.velocity = Points::Zero(3, rod.nodes());
   StepSettings settings;
-  settings.normal = NormalLaw{1e5, 1e-5, 1e-5};
+  settings.pressure_law = NormalLaw{1e5, 1e-5, 1e-5};
   settings.residual = 1e-6;
   settings.newton_cap = settings.motion_limit = settings.overlap_limit = settings.candidate_margin = 1e-3;
   Boundary boundary;
@@ -173,9 +174,7 @@ std::string with(const std::string& good, const std::string& text) {
   return out;
 }
 
-}  // namespace
-
-void fuzz(const std::string& text) {
+void fuzz_archive(const std::string& text) {
   static Resumed resumed;
   static const std::string step = good_step(), checkpoint = resumed.good();
   const auto step_written = [](const std::string& file) { return written(file); };
@@ -195,5 +194,8 @@ void fuzz(const std::string& text) {
   hold_checkpoint(file_of("checkpoint", with_random_numbers(text)));
   hold_checkpoint(file_of("checkpoint", with(state_of("checkpoint", checkpoint), text)));
 }
+const FuzzTarget archive("archive", fuzz_archive);
+
+}  // namespace
 
 }  // namespace knot_utm

@@ -8,10 +8,18 @@
 
 namespace knot_utm {
 
-/// A fuzz target is one file, test/fuzz/NAME_fuzz.cpp, that defines this function: gives any bytes to one parser, and
-/// holds what comes out against what it promises. The parser's InvalidInput may leave it and nothing else may.
-/// Its seeds stand in test/fuzz/corpus/NAME/, inputs that once failed in test/fuzz/regressions/NAME/.
-void fuzz(const std::string& text);
+/// A fuzz target gives any bytes to one parser, and holds what comes out against what it promises. The parser's
+/// InvalidInput may leave it and nothing else may. A source in test/fuzz has for each of its targets a line
+///
+///     const FuzzTarget method("method", fuzz_method);
+///
+/// from which scripts/fuzz and the build take its name. Its seeds, and inputs that once failed, are in the folder of
+/// that name in test/fuzz/inputs.tar.xz.
+struct FuzzTarget {
+  using Fuzz = void (*)(const std::string& text);
+
+  FuzzTarget(const std::string& name, Fuzz fuzz);
+};
 
 /// A promise of the parser. Broken, it ends the process, which libFuzzer takes for a crash and ctest for a failure.
 inline void promise(bool kept, const char* what) {

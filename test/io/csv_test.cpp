@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/centreline_file.hpp"
 
 namespace knot_utm {

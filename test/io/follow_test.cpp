@@ -18,6 +18,7 @@
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {

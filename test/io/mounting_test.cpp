@@ -13,9 +13,9 @@ namespace {
 
 class Mounting : public OwnFolder {};
 
-/// A run of bench/results/studies/pattern_map.csv.gz, of a rod nearly as soft as a solid one that was stretched by 70
-/// %: once released its loop lies across the places of the rollers. They cut into it, the load rose to 1e10 N, and the
-/// solver gave up or the rod parted before it was pulled.
+/// A run of config/studies/pattern_map.yaml, of a rod nearly as soft as a solid one that was stretched by 70 %: once
+/// released its loop lies across the places of the rollers. They cut into it, the load rose to 1e10 N, and the solver
+/// gave up or the rod parted before it was pulled.
 TEST_F(Mounting, OfALoopThatLiesAcrossARollersPlaceHasNoLoad) {
   const Answer answer = answer_of(tool(
       "tensile_test",

@@ -10,6 +10,7 @@
 
 #include "io/command.hpp"
 #include "io/own_folder.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 namespace {

@@ -14,9 +14,7 @@ namespace {
 using testing::HasSubstr;
 
 /// The dialects: files as Bluehill writes them, of the same five readings. The fuzz target has them too.
-std::string dialect(const std::string& name) {
-  return std::string(KNOT_UTM_SOURCE_DIR) + "/test/fuzz/corpus/raw_data/" + name;
-}
+std::string dialect(const std::string& name) { return std::string(KNOT_UTM_SOURCE_DIR) + "/test/io/raw_data/" + name; }
 
 std::vector<CurveRow> read(const std::string& name) { return read_raw_data(read_input(dialect(name)), dialect(name)); }
 

@@ -10,15 +10,14 @@
 #include "knot_utm/io/raw_data.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {
 
 using testing::HasSubstr;
 
-std::string fixture(const std::string& name) {
-  return std::string(KNOT_UTM_SOURCE_DIR) + "/test/fuzz/corpus/raw_data/" + name;
-}
+std::string fixture(const std::string& name) { return std::string(KNOT_UTM_SOURCE_DIR) + "/test/io/raw_data/" + name; }
 
 struct Reading {
   double time, extension, load;  // [s], [mm], [N]

@@ -12,6 +12,7 @@
 #include "io/command.hpp"
 #include "io/own_folder.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/saved_step.hpp"
 #include "sim/scenes.hpp"
 

@@ -9,6 +9,7 @@
 
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {

@@ -12,6 +12,7 @@
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
 namespace {

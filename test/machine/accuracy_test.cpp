@@ -166,7 +166,7 @@ TEST(Tolerances, EdgesAreShorterInRopesThatAreTiedHard) {
 
 TEST(ReadingErrors, AreNotGivenWhereNoStudySays) {
   Loop edge, smoothed, untied, overhand, rolling, set, rough, rubber, straight;
-  edge.physics.contact_scheme = ContactScheme::kEdge;
+  edge.physics.contact_law = ContactLaw::kEdge;
   smoothed.physics.friction.law = law_named("smoothed");
   untied.specimen.to_be_tied = false;
   overhand.specimen.knot = knot_named("overhand");

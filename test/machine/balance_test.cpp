@@ -11,6 +11,8 @@
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/record/command.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "rod/materials.hpp"
 

@@ -5,6 +5,8 @@
 
 #include <vector>
 
+#include "knot_utm/record/sample.hpp"
+
 namespace knot_utm {
 namespace {
 

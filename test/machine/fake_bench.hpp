@@ -5,6 +5,7 @@
 #include <limits>
 #include <vector>
 
+#include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {

@@ -9,6 +9,7 @@
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"
@@ -127,13 +128,13 @@ TEST(Fracture, ABenchWhoseRodPartedAnswersEveryCommandWithTheSame) {
   EXPECT_EQ(answer.message, last.message);
 }
 
-class FractureOfAnOverhand : public testing::TestWithParam<std::tuple<ContactScheme, TwistMode>> {};
+class FractureOfAnOverhand : public testing::TestWithParam<std::tuple<ContactLaw, TwistMode>> {};
 
 TEST_P(FractureOfAnOverhand, EndsTheTestAndChangesNothingBefore) {
   const auto [contact, twist] = GetParam();
   PhysicsOptions physics;
   physics.accuracy = Accuracy::kDraft;
-  physics.contact_scheme = contact;
+  physics.contact_law = contact;
   physics.twist = twist;
   ProgramStep settle;
   settle.phase = Phase::kHold;
@@ -157,10 +158,10 @@ TEST_P(FractureOfAnOverhand, EndsTheTestAndChangesNothingBefore) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, FractureOfAnOverhand,
-                         testing::Combine(testing::Values(ContactScheme::kSmooth, ContactScheme::kEdge),
+                         testing::Combine(testing::Values(ContactLaw::kSmooth, ContactLaw::kEdge),
                                           testing::Values(TwistMode::kOn, TwistMode::kOff)),
                          [](const auto& test) {
-                           return std::string(std::get<0>(test.param) == ContactScheme::kSmooth ? "smooth" : "edge") +
+                           return std::string(std::get<0>(test.param) == ContactLaw::kSmooth ? "smooth" : "edge") +
                                   (std::get<1>(test.param) == TwistMode::kOn ? "WithTwist" : "");
                          });
 
@@ -176,7 +177,7 @@ TEST(Fracture, StrainOfTheOutermostFibreIsThatOfTensionAndOfBending) {
   for (int i = 0; i < 20; ++i)
     state.position.col(i + 1) = state.position.col(i) + edge * Vec3(std::cos(kTurn * i), std::sin(kTurn * i), 0.0);
   const double strain = (kStretch - 1.0) + material.radius * kStretch / kRadius;  // kappa is over the length at rest
-  EXPECT_NEAR(most_exposed(rod, state.position).fraction, strain / 0.2, 1e-12);
+  EXPECT_NEAR(most_exposed(material, rod, state.position).fraction, strain / 0.2, 1e-12);
   EXPECT_TRUE(can_part(material));
   EXPECT_FALSE(can_part(nylon()));
 }
@@ -189,18 +190,17 @@ TEST(Fracture, OfTwoLimitsTheNearerOneCounts) {
   state.position = Points::Zero(3, 5);
   for (int i = 1; i < 5; ++i) state.position(2, i) = state.position(2, i - 1) + (i == 3 ? 0.01001 : 0.01);
   const double tension = material.stretching_stiffness * 1e-3;
-  const Exposure by_force = most_exposed(rod, state.position);
+  const Exposure by_force = most_exposed(material, rod, state.position);
   EXPECT_EQ(by_force.edge, 2);
   EXPECT_NEAR(by_force.fraction, tension / 100.0, 1e-9);
   EXPECT_EQ(by_force.limit, BreakLimit::kForce);
   EXPECT_NEAR(by_force.value, tension, 1e-7);
-  RodProperties strained = rod;
-  strained.material.breaking_strain = 1e-4;
-  EXPECT_NEAR(most_exposed(strained, state.position).fraction, 10.0, 1e-9);
-  EXPECT_EQ(most_exposed(strained, state.position).limit, BreakLimit::kStrain);
-  EXPECT_NEAR(most_exposed(strained, state.position).value, 1e-3, 1e-12);
+  material.breaking_strain = 1e-4;
+  EXPECT_NEAR(most_exposed(material, rod, state.position).fraction, 10.0, 1e-9);
+  EXPECT_EQ(most_exposed(material, rod, state.position).limit, BreakLimit::kStrain);
+  EXPECT_NEAR(most_exposed(material, rod, state.position).value, 1e-3, 1e-12);
   state.position.row(2) *= 0.9;  // nothing is under tension
-  EXPECT_EQ(most_exposed(rod, state.position).edge, -1);
+  EXPECT_EQ(most_exposed(material, rod, state.position).edge, -1);
 }
 
 TEST(Fracture, ItsMessageNamesTheLimitThatWasReached) {

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "knot_utm/record/sample.hpp"
+
 namespace knot_utm {
 namespace {
 

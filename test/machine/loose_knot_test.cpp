@@ -6,6 +6,10 @@
 #include <cmath>
 
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/record/command.hpp"
+#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/sample.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "machine/overhand_specimen.hpp"
 
 namespace knot_utm {
@@ -49,7 +53,7 @@ double force_of_overhand(const PhysicsOptions& physics) {
 TEST(LooseKnot, ForceIsNotLostInTheResidual) {
   PhysicsOptions usual, exact;
   usual.accuracy = exact.accuracy = Accuracy::kDraft;
-  usual.contact_scheme = exact.contact_scheme = ContactScheme::kEdge;
+  usual.contact_law = exact.contact_law = ContactLaw::kEdge;
   exact.residual = 1e-7;
   const double force = force_of_overhand(exact);
   EXPECT_GT(force, 0.1);

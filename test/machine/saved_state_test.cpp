@@ -13,6 +13,7 @@
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"
@@ -181,7 +182,7 @@ Scene on_a_compliant_frame() {
   return out;
 }
 
-Scene overhand(const std::string& name, const char* friction, ContactScheme contact) {
+Scene overhand(const std::string& name, const char* friction, ContactLaw contact) {
   Scene out{name, {}, pink_vps(), {}, {}, {step(Phase::kHold, 1.0), step(Phase::kBalance), pull(0.05)}, 11};
   out.specimen = overhand_specimen(0.4, 0.15, 0.006);
   out.machine.grips = GripKind::kClamps;
@@ -189,7 +190,7 @@ Scene overhand(const std::string& name, const char* friction, ContactScheme cont
   out.physics.accuracy = Accuracy::kDraft;
   out.physics.twist = TwistMode::kOn;
   out.physics.friction.law = law_named(friction);
-  out.physics.contact_scheme = contact;
+  out.physics.contact_law = contact;
   return out;
 }
 
@@ -292,11 +293,11 @@ TEST_P(SavedState, GoesOnToTheSameBits) {
 INSTANTIATE_TEST_SUITE_P(
     Scenes, SavedState,
     testing::Values(straight(), on_a_compliant_frame(), programmed(), broken(),
-                    overhand("overhandWithTwist", "memory", ContactScheme::kSmooth),
-                    overhand("smoothedFriction", "smoothed", ContactScheme::kSmooth),
-                    overhand("edgeContact", "memory", ContactScheme::kEdge), loop("loop", polypropylene(), 20.0, 0.01),
+                    overhand("overhandWithTwist", "memory", ContactLaw::kSmooth),
+                    overhand("smoothedFriction", "smoothed", ContactLaw::kSmooth),
+                    overhand("edgeContact", "memory", ContactLaw::kEdge), loop("loop", polypropylene(), 20.0, 0.01),
                     twisted_loop(), rolling(twisted_loop(), "rollingLoop"),
-                    rolling(overhand("", "memory", ContactScheme::kEdge), "rollingEdges"),
+                    rolling(overhand("", "memory", ContactLaw::kEdge), "rollingEdges"),
                     with_a_set(rolling(loop("", polypropylene(), 20.0, 0.002), ""), "loopWithASet"),
                     on_turning_rollers(loop("", polypropylene(), 20.0, 0.002), "freeRollers", RollerRotation::kFree),
                     on_turning_rollers(rolling(twisted_loop(), ""), "rollingOnDrivenRollers", RollerRotation::kTurned)),
@@ -316,10 +317,10 @@ TEST(SavedBench, OfAnotherSpecimenIsRefused) {
   Scene coarse = straight();
   coarse.specimen.edge_length = 0.0063;
   EXPECT_THAT(complaint(straight(), coarse.begin().saved()), testing::HasSubstr("nodes: found 43, expected 53"));
-  const Scene twisted = overhand("", "memory", ContactScheme::kSmooth);
+  const Scene twisted = overhand("", "memory", ContactLaw::kSmooth);
   Scene without = twisted, edge = twisted;
   without.physics.twist = TwistMode::kOff;
-  edge.physics.contact_scheme = ContactScheme::kEdge;
+  edge.physics.contact_law = ContactLaw::kEdge;
   EXPECT_NE(complaint(twisted, without.begin().saved()), "");
   EXPECT_NE(complaint(twisted, edge.begin().saved()), "");
   EXPECT_EQ(complaint(twisted, twisted.begin().saved()), "");

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "knot_utm/rod/stretching_laws.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 namespace {

@@ -11,6 +11,9 @@
 
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/command.hpp"
+#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "rod/materials.hpp"
 

@@ -7,6 +7,9 @@
 #include <string>
 
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/record/command.hpp"
+#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "rod/materials.hpp"

@@ -7,6 +7,7 @@
 
 #include "contact/candidate_pairs.hpp"
 #include "knot_utm/contact/candidates.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "properties/random.hpp"
 
 namespace knot_utm::properties {

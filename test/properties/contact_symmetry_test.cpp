@@ -7,6 +7,7 @@
 #include "contact/nodal_forces.hpp"
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "properties/random.hpp"
 
 namespace knot_utm::properties {
@@ -60,12 +61,12 @@ struct Touching {
 
   explicit Touching(double friction) {
     const std::vector<int> numbers = random_numbers(RandomScene::kNumbers);
-    scene = RandomScene(numbers, ContactScheme::kSmooth, false).scene();
+    scene = RandomScene(numbers, ContactLaw::kSmooth, false).scene();
     presliding = 0.02 * scene.rod.material.radius;
     scene.settings.friction = MemoryFriction{friction, presliding};
     position = scene.state.position + scene.dt * scene.state.velocity;
     const StepSettings& s = scene.settings;
-    Contact contact(scene.rod, s.normal, s.friction, s.candidate_margin);
+    Contact contact(scene.rod, s.pressure_law, s.friction, s.candidate_margin);
     contact.begin(position);
     contact.evaluate(position, scene.state.position, scene.dt);
     contacts = contact.contacts();

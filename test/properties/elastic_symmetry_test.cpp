@@ -42,7 +42,7 @@ struct Rod {
   }
   /// Stiffest a node can be: two edges' stretching, and bending and twisting over edges of l.
   double stiffness() const {
-    const Material& m = rod.material;
+    const RodMaterial& m = rod.material;
     const double l = rod.rest_length.minCoeff();
     return 4.0 * m.stretching_stiffness / l + 64.0 * (m.bending_stiffness + m.twisting_stiffness) / (l * l * l);
   }
@@ -56,7 +56,7 @@ struct Rod {
 
 Rod random_rod() {
   const std::vector<int> numbers = random_numbers(RandomScene::kNumbers);
-  const Scene scene = RandomScene(numbers, ContactScheme::kSmooth, true).scene();
+  const Scene scene = RandomScene(numbers, ContactLaw::kSmooth, true).scene();
   Rod out{scene.rod, scene.state};
   initialise_frames(&out.state);
   const Eigen::Index edges = out.rod.edges(), inner = edges - 1;

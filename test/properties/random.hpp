@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "knot_utm/numeric/points.hpp"
 #include "properties/symmetries.hpp"
 
 namespace knot_utm::properties {

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <vector>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/time_step.hpp"
 
 namespace knot_utm::properties {
@@ -53,10 +55,10 @@ inline Outcome run(const Scene& scene) {
   const std::vector<FixedNode>& held = scene.boundary.back().fixed_nodes;
   out.reaction.resize(3, static_cast<Eigen::Index>(held.size()));
   for (std::size_t i = 0; i < held.size(); ++i)
-    out.reaction.col(static_cast<Eigen::Index>(i)) = step->reaction(held[i].node);
-  out.energies = step->energies();
-  out.contact = step->contact_reading();
-  out.work = step->work();
+    out.reaction.col(static_cast<Eigen::Index>(i)) = step->readings().reaction(held[i].node);
+  out.energies = step->readings().energies();
+  out.contact = step->readings().contact();
+  out.work = step->readings().work();
   return out;
 }
 
@@ -76,10 +78,10 @@ class RandomScene {
  public:
   static constexpr std::size_t kNumbers = 40;
 
-  RandomScene(const std::vector<int>& numbers, ContactScheme law, bool twist) : numbers_(numbers) {
+  RandomScene(const std::vector<int>& numbers, ContactLaw law, bool twist) : numbers_(numbers) {
     Scene& s = scene_;
     s.twist = twist;
-    Material material;
+    RodMaterial material;
     material.radius = h_;
     material.density = 1000.0;
     material.bending_stiffness = 1e-4;
@@ -95,8 +97,8 @@ class RandomScene {
     const double bending_time = h_ * h_ * std::sqrt(material.density * M_PI * h_ * h_ / material.bending_stiffness);
     s.dt = bending_time * between(0.1, 0.5);
     s.settings.weighting_time = between(1.0, 10.0) * s.dt;
-    s.settings.contact_scheme = law;
-    s.settings.normal = NormalLaw{300.0 * material.bending_stiffness / std::pow(h_, 4), 0.02 * h_, 0.05 * h_};
+    s.settings.contact_law = law;
+    s.settings.pressure_law = NormalLaw{300.0 * material.bending_stiffness / std::pow(h_, 4), 0.02 * h_, 0.05 * h_};
     s.settings.friction = MemoryFriction{between(0.0, 0.4), 0.02 * h_};
     s.settings.roller_friction = SmoothedFriction{between(0.0, 0.6), 0.02 * h_ / s.dt};
     s.settings.gravity = random_vector() * 0.005 * h_ / (s.dt * s.dt);

@@ -4,13 +4,14 @@
 
 #include <functional>
 
+#include "knot_utm/rod/rod.hpp"
 #include "properties/random.hpp"
 
 namespace knot_utm::properties {
 namespace {
 
 struct Kind {
-  ContactScheme law;
+  ContactLaw law;
   bool twist;
   double couple = 0.0;  // of friction at the surface
 };
@@ -138,12 +139,11 @@ TEST_P(StepSymmetry, ScenesTouchAndSlide) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Laws, StepSymmetry,
-                         testing::Values(Kind{ContactScheme::kSmooth, false}, Kind{ContactScheme::kSmooth, true},
-                                         Kind{ContactScheme::kEdge, false}, Kind{ContactScheme::kEdge, true},
-                                         Kind{ContactScheme::kSmooth, true, 1.0},
-                                         Kind{ContactScheme::kEdge, true, 0.5}),
+                         testing::Values(Kind{ContactLaw::kSmooth, false}, Kind{ContactLaw::kSmooth, true},
+                                         Kind{ContactLaw::kEdge, false}, Kind{ContactLaw::kEdge, true},
+                                         Kind{ContactLaw::kSmooth, true, 1.0}, Kind{ContactLaw::kEdge, true, 0.5}),
                          [](const auto& kind) {
-                           return std::string(kind.param.law == ContactScheme::kEdge ? "edge" : "smooth") +
+                           return std::string(kind.param.law == ContactLaw::kEdge ? "edge" : "smooth") +
                                   (kind.param.twist ? "Twist" : "") + (kind.param.couple > 0.0 ? "Rolling" : "");
                          });
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "properties/scene.hpp"
 
 namespace knot_utm::properties {
@@ -68,7 +70,7 @@ inline Friction scaled(const Friction& friction, const Units& units) {
 }
 
 inline Scene scaled(Scene scene, const Units& units) {
-  Material material = scene.rod.material;
+  RodMaterial material = scene.rod.material;
   material.radius *= units.length;
   material.density *= units.mass() / (units.length * units.length * units.length);
   material.stretching_stiffness *= units.force;
@@ -79,7 +81,7 @@ inline Scene scaled(Scene scene, const Units& units) {
   scene.state.velocity *= units.speed();
   scene.dt *= units.time;
   StepSettings& settings = scene.settings;
-  auto& normal = std::get<NormalLaw>(settings.normal);
+  auto& normal = settings.pressure_law;
   normal.stiffness *= units.stress();
   normal.tolerance *= units.length;
   normal.stiffening *= units.length;

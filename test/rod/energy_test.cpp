@@ -6,6 +6,9 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/specimen/material.hpp"
+#include "rod/own_laws.hpp"
 
 namespace knot_utm {
 namespace {
@@ -99,7 +102,7 @@ TEST(Energy, OfBendingIsThatOfTheRodsLaw) {
   constexpr Eigen::Index kEdges = 8;
   constexpr double kLength = 0.1, kAngle = 0.3, kKept = 0.2, kHardening = 0.25;
   RodProperties rod = make_rod(material(), Eigen::VectorXd::Constant(kEdges, kLength));
-  rod.laws.bending = PlasticBending{10.0 * kAngle / kLength, kHardening};
+  set_law(rod, PlasticBending{10.0 * kAngle / kLength, kHardening});
   RodState state = arc(kEdges, kLength, kAngle);
   initialise_frames(&state);
   state.natural_curvature = Eigen::Matrix2Xd::Zero(2, kEdges - 1);

@@ -5,6 +5,8 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "knot_utm/rod/rod.hpp"
+
 namespace knot_utm {
 namespace {
 

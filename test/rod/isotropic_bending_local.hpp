@@ -1,5 +1,6 @@
 #pragma once
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/isotropic_bending.hpp"
 
 namespace knot_utm {

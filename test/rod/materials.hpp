@@ -1,6 +1,6 @@
 #pragma once
 
-#include "knot_utm/rod/material.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 

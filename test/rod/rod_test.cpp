@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "knot_utm/specimen/material.hpp"
+
 namespace knot_utm {
 namespace {
 

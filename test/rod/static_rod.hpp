@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stretching.hpp"
@@ -250,7 +251,7 @@ class StaticRod {
 
 /// A rod of unit bending stiffness, n edges of length l.
 inline RodProperties unit_rod(Eigen::Index n, double l, double stretching_stiffness, double twisting_stiffness = 1.0) {
-  Material material;
+  RodMaterial material;
   material.radius = 0.01;
   material.density = 1.0;
   material.bending_stiffness = 1.0;

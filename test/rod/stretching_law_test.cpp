@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "knot_utm/rod/stretching_laws.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 namespace {

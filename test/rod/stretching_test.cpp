@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "knot_utm/specimen/material.hpp"
 #include "rod/finite_difference.hpp"
+#include "rod/own_laws.hpp"
 
 namespace knot_utm {
 namespace {
@@ -40,7 +42,7 @@ TEST_P(StretchingOf, AnEdgeOfARodIsTheSame) {
   material.radius = material.density = 1.0;
   material.stretching_stiffness = kStiffness;
   RodProperties rod = make_rod(material, Eigen::VectorXd::Constant(1, kRest));
-  rod.laws.stretching = law;
+  set_law(rod, law);
   Points position = Points::Zero(3, 2);
   position.col(1) = edge;
   const StretchingResponse response = respond(rod, stretched_edge(rod, position, 0));

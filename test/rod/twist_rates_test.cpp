@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/twisting.hpp"
 #include "rod/materials.hpp"
 

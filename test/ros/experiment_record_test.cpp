@@ -4,6 +4,7 @@
 
 #include "knot_utm/io/compared_curves.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/experiment_node.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 

@@ -9,6 +9,8 @@
 #include <memory>
 #include <utility>
 
+#include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 
 namespace knot_utm {
@@ -21,7 +23,7 @@ class Balance {
       : stepper_(std::move(stepper)),
         settings_(settings),
         control_(options(longest, settings.motion_limit)),
-        begin_(stepper_->energies()),
+        begin_(stepper_->readings().energies()),
         before_(stepper_->state()) {}
 
   /// `boundary(to)` as it stands at the end of a step, `each()` after every accepted one.
@@ -44,8 +46,8 @@ class Balance {
 
   /// What StepWork's identity leaves, and what rounding may leave of it [J].
   double gap() const {
-    return sum_.boundary - (stepper_->energies().total() - begin_.total()) - sum_.friction - sum_.drag - sum_.plastic -
-           sum_.numerical - sum_.reweighting - sum_.residual;
+    return sum_.boundary - (stepper_->readings().energies().total() - begin_.total()) - sum_.friction - sum_.drag -
+           sum_.plastic - sum_.numerical - sum_.reweighting - sum_.residual;
   }
   double rounding() const { return 1e-12 * gross_; }
   /// Newton's residual at every node times the nodes' ways [J].
@@ -76,10 +78,10 @@ class Balance {
 
   void follow(const Boundary& boundary, double dt, const StepSummary& summary) {
     const RodState before = std::exchange(before_, stepper_->state());
-    const StepWork work = stepper_->work();
+    const StepWork work = stepper_->readings().work();
     sum_ += work;
-    for (const double part :
-         {work.boundary, work.friction, work.drag, work.numerical, work.reweighting, stepper_->energies().total()})
+    for (const double part : {work.boundary, work.friction, work.drag, work.numerical, work.reweighting,
+                              stepper_->readings().energies().total()})
       gross_ += std::abs(part);
     const RodState& now = stepper_->state();
     residual_ = summary.newton.residual;
@@ -100,18 +102,19 @@ class Balance {
     const Points& x = now.position;
     force_.setZero();
     moment_.setZero();
-    for (const FixedNode& held : boundary.fixed_nodes) load(x.col(held.node), stepper_->reaction(held.node));
+    for (const FixedNode& held : boundary.fixed_nodes) load(x.col(held.node), stepper_->readings().reaction(held.node));
     for (const FixedTwist& held : boundary.fixed_twists) {
       const Vec3 tangent = (x.col(held.edge + 1) - x.col(held.edge)).normalized();
-      load(Vec3::Zero(), Vec3::Zero(), stepper_->reaction_torque(held.edge) * tangent);
+      load(Vec3::Zero(), Vec3::Zero(), stepper_->readings().reaction_torque(held.edge) * tangent);
     }
     for (std::size_t r = 0; r < boundary.rollers.size(); ++r) {
       const int number = static_cast<int>(r);
-      load(boundary.rollers[r].centre, -stepper_->roller_force(number), -stepper_->roller_moment(number));
+      load(boundary.rollers[r].centre, -stepper_->readings().roller_force(number),
+           -stepper_->readings().roller_moment(number));
     }
     largest_load_ = force_.norm();
     for (const FixedNode& held : boundary.fixed_nodes)
-      largest_load_ = std::max(largest_load_, stepper_->reaction(held.node).norm());
+      largest_load_ = std::max(largest_load_, stepper_->readings().reaction(held.node).norm());
     largest_moment_ = moment_.norm();
     for (const NodeForce& force : boundary.forces) load(x.col(force.node), force.force);
     for (int i = 0; i < static_cast<int>(rod.nodes()); ++i) {
@@ -119,9 +122,9 @@ class Balance {
       load(x.col(i),
            rod.mass[i] * (settings_.gravity - change / dt) - settings_.drag * rod.voronoi_length[i] * velocity);
     }
-    read_force_ = stepper_->loads().force;
-    read_moment_ = stepper_->loads().moment + stepper_->contact_reading().couple;
-    load(Vec3::Zero(), Vec3::Zero(), stepper_->contact_reading().couple);
+    read_force_ = stepper_->readings().loads().force;
+    read_moment_ = stepper_->readings().loads().moment + stepper_->readings().contact().couple;
+    load(Vec3::Zero(), Vec3::Zero(), stepper_->readings().contact().couple);
   }
 
   std::unique_ptr<TimeStep> stepper_;

@@ -11,6 +11,7 @@
 
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "sim/drawn_overhand.hpp"
 #include "sim/scenes.hpp"
 
@@ -35,11 +36,11 @@ TEST(EnergyBalance, AVibratingRodLosesWhatImplicitEulerTakes) {
     settings.motion_limit = settings.newton_cap = 1.0;
     Balance balance(TimeStep::make(rod, state, settings), settings, dt);
     const Boundary free;
-    const double begin = balance.stepper().energies().total();
+    const double begin = balance.stepper().readings().energies().total();
     const int steps = 40;
     balance.run(steps * dt, [&](double) -> const Boundary& { return free; });
     const double left = begin * std::pow(1.0 + omega * omega * dt * dt, -steps);
-    EXPECT_NEAR(balance.stepper().energies().total(), left, balance.residual_bound() + 1e-9 * begin);
+    EXPECT_NEAR(balance.stepper().readings().energies().total(), left, balance.residual_bound() + 1e-9 * begin);
     EXPECT_NEAR(balance.sum().numerical, begin - left, balance.residual_bound() + 1e-9 * begin);
     EXPECT_LT(std::abs(balance.sum().residual), balance.residual_bound());
     EXPECT_LT(std::abs(balance.gap()), balance.rounding());
@@ -62,7 +63,7 @@ struct Incline {
     settings.motion_limit = settings.newton_cap = 10.0;
     normal_force = rod.mass.sum() * kGravity * std::cos(angle);
     RodState state = straight_state(rod);
-    state.position.row(2).setConstant(-std::get<NormalLaw>(settings.normal).overlap_at(normal_force / rod.length()));
+    state.position.row(2).setConstant(-settings.pressure_law.overlap_at(normal_force / rod.length()));
     boundary.rollers = {plane_below(material.radius)};
     balance = std::make_unique<Balance>(TimeStep::make(rod, state, settings), settings, 0.01);
   }
@@ -105,7 +106,7 @@ enum class Kind { kStraight, kOverhand, kFallsOnARoller, kCurved };
 struct Scene {
   Kind kind;
   bool twist;
-  ContactScheme law;
+  ContactLaw law;
   double friction;
   double couple = 0.0;  // of friction at the surface
   Turns turns = Turns::kNot;
@@ -113,7 +114,7 @@ struct Scene {
   std::string name() const {
     static const char* const kinds[] = {"Straight", "Overhand", "FallsOnARoller", "Curved"};
     return std::string(kinds[static_cast<int>(kind)]) + (twist ? "WithTwist" : "") +
-           (law == ContactScheme::kEdge ? "BetweenEdges" : "") + (friction > 0.0 ? "AndFriction" : "") +
+           (law == ContactLaw::kEdge ? "BetweenEdges" : "") + (friction > 0.0 ? "AndFriction" : "") +
            (couple > 0.0 ? "AtTheSurface" : "") + (couple > 0.0 && couple < 1.0 ? "InPart" : "") +
            (turns == Turns::kFreely   ? "ThatIsFree"
             : turns == Turns::kDriven ? "ThatIsDriven"
@@ -134,11 +135,11 @@ struct Running {
     if (scene.kind == Kind::kCurved) material.stretching_stiffness = 1e3;
     material.twisting_stiffness = material.bending_stiffness;
     StepSettings settings = closed_form_settings(material);
-    settings.contact_scheme = scene.law;
+    settings.contact_law = scene.law;
     settings.gravity = Vec3(0.5, 0.0, -kGravity);
     settings.drag = 1.0;
     settings.friction = settings.roller_friction = MemoryFriction{scene.friction, 1e-3 * material.radius};
-    settings.normal =
+    settings.pressure_law =
         NormalLaw{300.0 * material.bending_stiffness / std::pow(material.radius, 4.0), 0.05 * material.radius};
     settings.friction_couple = scene.couple;
     // A spin without inertia is in equilibrium, and so is the sum of all moments.
@@ -217,7 +218,7 @@ TEST_P(EnergyOf, EverySceneClosesStepByStep) {
   EXPECT_GT(scene.balance->sum().drag, 0.0);
   EXPECT_EQ(scene.balance->sum().friction > 0.0, GetParam().friction > 0.0);
   // The energies that the balance goes by are those of the state.
-  const Energies energies = scene.balance->stepper().energies();
+  const Energies energies = scene.balance->stepper().readings().energies();
   const ElasticEnergy elastic = elastic_energy(scene.balance->stepper().rod(), scene.balance->stepper().state());
   EXPECT_NEAR(energies.stretching, elastic.stretching, 1e-9 * energies.total());
   EXPECT_NEAR(energies.bending, elastic.bending, 1e-9 * energies.total());
@@ -238,25 +239,23 @@ TEST_P(LoadsOn, EverySceneSumToNothing) {
 std::string name_of(const testing::TestParamInfo<Scene>& scene) { return scene.param.name(); }
 
 // What is curved spins with inertia, of which the sums of loads do not know.
-INSTANTIATE_TEST_SUITE_P(Curved, EnergyOf, testing::Values(Scene{Kind::kCurved, true, ContactScheme::kSmooth, 0.0}),
+INSTANTIATE_TEST_SUITE_P(Curved, EnergyOf, testing::Values(Scene{Kind::kCurved, true, ContactLaw::kSmooth, 0.0}),
                          name_of);
 
 const auto kScenes = testing::Values(
-    Scene{Kind::kStraight, false, ContactScheme::kSmooth, 0.0},
-    Scene{Kind::kStraight, true, ContactScheme::kSmooth, 0.0},
-    Scene{Kind::kOverhand, false, ContactScheme::kSmooth, 0.0},
-    Scene{Kind::kOverhand, false, ContactScheme::kSmooth, 0.3},
-    Scene{Kind::kOverhand, true, ContactScheme::kSmooth, 0.3}, Scene{Kind::kOverhand, true, ContactScheme::kEdge, 0.3},
-    Scene{Kind::kFallsOnARoller, false, ContactScheme::kSmooth, 0.4},
-    Scene{Kind::kFallsOnARoller, true, ContactScheme::kSmooth, 0.0},
-    Scene{Kind::kOverhand, true, ContactScheme::kSmooth, 0.3, 1.0},
-    Scene{Kind::kOverhand, true, ContactScheme::kSmooth, 0.3, 0.4},
-    Scene{Kind::kOverhand, true, ContactScheme::kEdge, 0.3, 1.0},
-    Scene{Kind::kFallsOnARoller, true, ContactScheme::kSmooth, 0.4, 1.0},
-    Scene{Kind::kFallsOnARoller, false, ContactScheme::kSmooth, 0.4, 0.0, Turns::kFreely},
-    Scene{Kind::kFallsOnARoller, false, ContactScheme::kSmooth, 0.4, 0.0, Turns::kDriven},
-    Scene{Kind::kFallsOnARoller, true, ContactScheme::kSmooth, 0.4, 1.0, Turns::kFreely},
-    Scene{Kind::kFallsOnARoller, true, ContactScheme::kSmooth, 0.4, 1.0, Turns::kDriven});
+    Scene{Kind::kStraight, false, ContactLaw::kSmooth, 0.0}, Scene{Kind::kStraight, true, ContactLaw::kSmooth, 0.0},
+    Scene{Kind::kOverhand, false, ContactLaw::kSmooth, 0.0}, Scene{Kind::kOverhand, false, ContactLaw::kSmooth, 0.3},
+    Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3}, Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3},
+    Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4},
+    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.0},
+    Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 1.0},
+    Scene{Kind::kOverhand, true, ContactLaw::kSmooth, 0.3, 0.4},
+    Scene{Kind::kOverhand, true, ContactLaw::kEdge, 0.3, 1.0},
+    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0},
+    Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kFreely},
+    Scene{Kind::kFallsOnARoller, false, ContactLaw::kSmooth, 0.4, 0.0, Turns::kDriven},
+    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kFreely},
+    Scene{Kind::kFallsOnARoller, true, ContactLaw::kSmooth, 0.4, 1.0, Turns::kDriven});
 INSTANTIATE_TEST_SUITE_P(Balance, EnergyOf, kScenes, name_of);
 INSTANTIATE_TEST_SUITE_P(Balance, LoadsOn, kScenes, name_of);
 

@@ -8,6 +8,7 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "sim/balance.hpp"
 #include "sim/scenes.hpp"
@@ -57,21 +58,22 @@ TEST(BendingSet, AFreeRodComesToRestWithTheShareOfItsBend) {
   balance.run(20.0, [&](double) -> const Boundary& { return free; });
   const Points& now = balance.stepper().state().position;
   for (int i = 1; i < kEdges; ++i) EXPECT_NEAR(turning_angle(now, i), kShare * turning_angle(bent, i), 1e-5) << i;
-  EXPECT_LT(balance.stepper().energies().elastic(), 1e-6 * balance.sum().numerical) << "all of it was let go";
+  EXPECT_LT(balance.stepper().readings().energies().elastic(), 1e-6 * balance.sum().numerical)
+      << "all of it was let go";
 }
 
 /// What is stored above the new rest, (1 - share)^2 of it, is still there; the rest is lost in the next step.
 TEST(BendingSet, LosesTheEnergyThatItTakes) {
   const Arc arc;
   std::unique_ptr<TimeStep> stepper = TimeStep::make(arc.rod, arc.state, arc.settings);
-  const double before = stepper->energies().bending;
+  const double before = stepper->readings().energies().bending;
   stepper->take_set(kShare);
   Boundary held;
   for (int i = 0; i <= kEdges; ++i) held.fixed_nodes.push_back({i, arc.state.position.col(i)});
   Balance balance(std::move(stepper), arc.settings, 0.02);
   balance.run(0.02, [&](double) -> const Boundary& { return held; });
   const double left = (1.0 - kShare) * (1.0 - kShare) * before;
-  EXPECT_NEAR(balance.stepper().energies().bending, left, 1e-9 * before);
+  EXPECT_NEAR(balance.stepper().readings().energies().bending, left, 1e-9 * before);
   EXPECT_NEAR(balance.sum().numerical, before - left, 1e-9 * before);
   EXPECT_LT(std::abs(balance.gap()), balance.rounding());
 }
@@ -94,7 +96,7 @@ TEST(BendingSet, AHeldBendResistsBeingRolled) {
     const double expected = arc.material.bending_stiffness / arc.material.radius * kShare * 0.5 *
                             (before * before + behind * behind) * std::sin(phi);
     // Half of it from either node, whose edge is turned against its rest by phi, and the other edge, too.
-    EXPECT_NEAR(std::abs(stepper->reaction_torque(j)), expected, 0.01 * expected) << j;
+    EXPECT_NEAR(std::abs(stepper->readings().reaction_torque(j)), expected, 0.01 * expected) << j;
   }
 }
 

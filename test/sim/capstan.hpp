@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "sim/scenes.hpp"
 
@@ -37,7 +39,7 @@ inline double surface_exponent(double mu, double eta) {
 /// A rod of bending stiffness 1 around a shaft of a radius near 1, pulled at T1 or more.
 inline StepSettings capstan_settings(const Material& material, double t1, double tolerance, double residual) {
   StepSettings settings = closed_form_settings(material);
-  settings.normal = NormalLaw{2e3 * t1, tolerance};
+  settings.pressure_law = NormalLaw{2e3 * t1, tolerance};
   settings.residual = residual * t1;
   settings.residual_of_tension = 0.0;
   settings.newton_cap = 0.05;
@@ -142,7 +144,9 @@ struct Capstan {
             boundary.fixed_nodes[0].position = from + kSpeed * to * pull;
           return boundary;
         },
-        [&](double, double dt, const StepSummary&) { sum += kSpeed * dt * stepper->reaction(last).norm() / t1; });
+        [&](double, double dt, const StepSummary&) {
+          sum += kSpeed * dt * stepper->readings().reaction(last).norm() / t1;
+        });
     if (!gave_up.empty()) throw std::runtime_error(gave_up);
     counters.steps += control.counters().steps;
     counters.rejected += control.counters().rejected;

@@ -55,11 +55,11 @@ TEST(AFreeRoller, TurnsWithTheRodAndTakesNothingFromItsTension) {
     const double rho = scene.boundary.rollers[0].radius + Capstan::kRadius;
     scene.boundary.rollers[0].inertia = 1e-3;
     EXPECT_NEAR(scene.ratio(), 1.0, 3e-4) << t1;
-    const double from = scene.stepper->roller_turn(0).angle;
+    const double from = scene.stepper->readings().roller_turn(0).angle;
     scene.pull_by(0.5, 0.01);
     const double tilt = std::hypot(1.0, Capstan::kPitch / (2.0 * M_PI));  // of the helix against the roller's turn
-    EXPECT_NEAR(scene.stepper->roller_turn(0).angle - from, 0.5 / rho / tilt, 2e-3 * 0.5) << t1;
-    EXPECT_LT(std::abs(scene.stepper->roller_moment(0)[0]), 1e-5 * t1 * rho);
+    EXPECT_NEAR(scene.stepper->readings().roller_turn(0).angle - from, 0.5 / rho / tilt, 2e-3 * 0.5) << t1;
+    EXPECT_LT(std::abs(scene.stepper->readings().roller_moment(0)[0]), 1e-5 * t1 * rho);
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 #include "sim/scenes.hpp"
 
@@ -37,7 +39,8 @@ struct DrawnOverhand {
 inline StepSettings sliding_settings(const Material& material) {
   StepSettings out = closed_form_settings(material);
   out.friction = MemoryFriction{material.friction_coefficient, 1e-3 * material.radius};
-  out.normal = NormalLaw{300.0 * material.bending_stiffness / std::pow(material.radius, 4.0), 0.05 * material.radius};
+  out.pressure_law =
+      NormalLaw{300.0 * material.bending_stiffness / std::pow(material.radius, 4.0), 0.05 * material.radius};
   out.drag = 1.0;
   out.residual = 1e-4;
   return out;

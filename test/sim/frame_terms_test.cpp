@@ -9,7 +9,9 @@
 
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "rod/finite_difference.hpp"
+#include "rod/own_laws.hpp"
 
 namespace knot_utm {
 namespace {
@@ -112,7 +114,7 @@ Eigen::MatrixXd stiffness_of(const FrameTerms& terms) {
 /// Where bends yield, too: their tangent couples the two curvatures.
 TEST_P(FrameTermsOf, StiffnessIsTheForcesDerivative) {
   for (const BendingLaws& law : {BendingLaws(ElasticBending()), BendingLaws(PlasticBending{0.1, 0.2})}) {
-    rod.laws.bending = law;
+    set_law(rod, law);
     FrameTerms terms(rod, settings);
     const Eigen::MatrixXd expected =
         -finite_difference([&](const Eigen::VectorXd& y) { return force_at(terms, y); }, trial, 1e-3);

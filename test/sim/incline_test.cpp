@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "reference.hpp"
 #include "sim/scenes.hpp"
@@ -28,7 +29,7 @@ struct Incline {
     // Pressed in by its own weight already, so that nothing falls.
     RodState state = straight_state(rod);
     const double weight = rod.mass.sum() / rod.length() * kGravity * std::cos(angle);
-    state.position.row(2).setConstant(-std::get<NormalLaw>(settings.normal).overlap_at(weight));
+    state.position.row(2).setConstant(-settings.pressure_law.overlap_at(weight));
     stepper = TimeStep::make(rod, state, settings);
     boundary.rollers = {plane_below(material.radius)};
   }

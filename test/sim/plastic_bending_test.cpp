@@ -7,6 +7,7 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "rod/own_laws.hpp"
 #include "sim/balance.hpp"
 #include "sim/scenes.hpp"
 
@@ -36,7 +37,7 @@ struct Strip {
     rod = make_rod(material, Eigen::VectorXd::Constant(kEdges, material.radius));
     settings = closed_form_settings(material);
     settings.drag = 5.0;
-    rod.laws.bending = PlasticBending{kYield * kTurn / kEdges / material.radius, kHardening};
+    set_law(rod, PlasticBending{kYield * kTurn / kEdges / material.radius, kHardening});
     state = straight_state(rod);
     state.natural_curvature.setZero(2, rod.nodes() - 2);
     state.position = arc(kTurn / kEdges, material.radius);
@@ -79,15 +80,15 @@ TEST(PlasticBending, AReleasedStripKeepsWhatItsMomentDoesNotHold) {
 TEST(PlasticBending, ANewStepperBeginsWithTheEnergyOfTheLastOne) {
   const Strip strip;
   const std::unique_ptr<TimeStep> stepper = TimeStep::make(strip.rod, strip.state, strip.settings);
-  const double drawn = stepper->energies().bending;
+  const double drawn = stepper->readings().energies().bending;
   Boundary held;
   for (int i = 0; i <= kEdges; ++i) held.fixed_nodes.push_back({i, strip.state.position.col(i)});
   ASSERT_TRUE(stepper->step(held, 0.02).accepted());
-  const double stored = stepper->energies().bending;
-  EXPECT_NEAR(drawn, stored + stepper->work().plastic, 1e-9 * drawn);
-  EXPECT_GT(stepper->work().plastic, 0.0);
+  const double stored = stepper->readings().energies().bending;
+  EXPECT_NEAR(drawn, stored + stepper->readings().work().plastic, 1e-9 * drawn);
+  EXPECT_GT(stepper->readings().work().plastic, 0.0);
   const std::unique_ptr<TimeStep> next = TimeStep::make(strip.rod, stepper->state(), strip.settings);
-  EXPECT_NEAR(next->energies().bending, stored, 1e-9 * stored);
+  EXPECT_NEAR(next->readings().energies().bending, stored, 1e-9 * stored);
 }
 
 TEST(PlasticBending, NeedsARodThatRemembersItsBends) {

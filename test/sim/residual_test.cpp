@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "knot_utm/rod/rod.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {

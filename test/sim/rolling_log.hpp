@@ -4,7 +4,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "sim/scenes.hpp"
 

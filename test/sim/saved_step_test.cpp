@@ -9,6 +9,9 @@
 
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/command.hpp"
+#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "machine/overhand_specimen.hpp"
 #include "sim/scenes.hpp"
@@ -73,7 +76,7 @@ TEST_P(SavedTimeStep, ComesToTheSameBitsElsewhere) {
   EXPECT_EQ(there, here);
   EXPECT_EQ(elsewhere.stepper->state().position, scene.stepper->state().position);
   EXPECT_EQ(elsewhere.stepper->state().twist, scene.stepper->state().twist);
-  EXPECT_EQ(elsewhere.stepper->roller_force(0), scene.stepper->roller_force(0));
+  EXPECT_EQ(elsewhere.stepper->readings().roller_force(0), scene.stepper->readings().roller_force(0));
 }
 
 INSTANTIATE_TEST_SUITE_P(Twist, SavedTimeStep, testing::Bool(),
@@ -96,7 +99,7 @@ TEST(WatchedTimeStep, IsToldOfEveryIterate) {
   EXPECT_EQ(seen.back().tolerance, summary.newton.tolerance);
   EXPECT_GT(seen.back().touching, 0);
   EXPECT_EQ(seen.back().roller, 0);
-  EXPECT_GT(seen.back().overlap, begin_of(scene.stepper->settings().normal));
+  EXPECT_GT(seen.back().overlap, scene.stepper->settings().pressure_law.begin());
   EXPECT_LE(std::abs(seen.back().arclengths[0] - scene.stepper->rod().arclength()[7]), 2 * braided_rope().radius);
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "rod/materials.hpp"
 
@@ -13,10 +15,10 @@ inline Material braided_rope() {
 }
 
 /// The settings that scenes of closed forms start from.
-inline StepSettings closed_form_settings(const Material& material) {
+inline StepSettings closed_form_settings(const RodMaterial& material) {
   const double h = material.radius;
   StepSettings out;
-  out.normal = NormalLaw{2.0 * material.stretching_stiffness / (h * h), 0.05 * h};
+  out.pressure_law = NormalLaw{2.0 * material.stretching_stiffness / (h * h), 0.05 * h};
   out.friction = MemoryFriction{0.0, 1e-3 * h};
   out.roller_friction = out.friction;
   out.residual = 1e-8;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "sim/scenes.hpp"
 
@@ -29,7 +30,7 @@ TEST(SpringHold, GivesWayByForceOverStiffness) {
   double work = 0.0;
   for (int k = 0; k < 400; ++k) {
     ASSERT_TRUE(stepper->step(boundary, 0.05).accepted());
-    work += stepper->work().boundary;
+    work += stepper->readings().work().boundary;
   }
   const Vec3 moved = stepper->state().position.col(4) - hold.place;
   const Vec3 expected(1e-4, -1e-4, 2e-4);

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <numeric>
+#include <stdexcept>
 #include <vector>
 
+#include "knot_utm/rod/rod.hpp"
 #include "sim/scenes.hpp"
 
 namespace knot_utm {
@@ -17,10 +19,10 @@ class ScriptedStep : public TimeStep {
  public:
   ScriptedStep() : TimeStep(make_rod(braided_rope(), Eigen::VectorXd::Constant(4, 0.01)), RodState{}) {}
 
-  StepSummary step(const Boundary& /*boundary*/, double dt, Solution solution) override {
+  StepSummary step(const Boundary& /*boundary*/, double dt, SolveStrategy strategy) override {
     StepSummary out;
-    (solution == Solution::kSecants ? by_secants : by_tangents).push_back(dt);
-    if (solution != Solution::kSecants && only_secants) out.reason = "it ran in circles";
+    (strategy == SolveStrategy::kSecants ? by_secants : by_tangents).push_back(dt);
+    if (strategy != SolveStrategy::kSecants && only_secants) out.reason = "it ran in circles";
     out.newton.iterations = iterations;
     out.largest_motion = speed * dt;
     out.largest_slip = slip_speed * dt;
@@ -36,19 +38,7 @@ class ScriptedStep : public TimeStep {
   }
   static std::string text() { return diagnosis().text(); }
   void part(int) override {}
-  Vec3 reaction(int /*node*/) const override { return Vec3::Zero(); }
-  double reaction_torque(int /*edge*/) const override { return 0.0; }
-  Vec3 roller_force(int /*roller*/) const override { return Vec3::Zero(); }
-  Vec3 roller_moment(int /*roller*/) const override { return Vec3::Zero(); }
-  RollerTurn roller_turn(int /*roller*/) const override { return {}; }
-  Energies energies() const override { return {}; }
-  ContactReading contact_reading() const override { return {}; }
-  StepWork work() const override { return {}; }
-  LoadSum loads() const override { return {}; }
-  std::vector<ContactForce> contact_forces() const override { return {}; }
-  Eigen::VectorXd normal_forces() const override { return {}; }
-  double normal_force_between(const NodeRange&, const NodeRange&) const override { return 0.0; }
-  double roller_normal_force(const NodeRange&) const override { return 0.0; }
+  const StepReadings& readings() const override { throw std::logic_error("nothing is read of it"); }
 
   double longest_good = 1.0;  // [s]
   double speed = 0.0;         // [m/s]

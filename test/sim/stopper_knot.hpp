@@ -11,9 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/centreline.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 #include "knot_utm/specimen/polyline.hpp"
 
@@ -175,7 +178,7 @@ struct StopperKnot {
 
   StepSettings settings() const {
     StepSettings out;
-    out.normal = NormalLaw{300.0, options.contact_tolerance, 0.015};
+    out.pressure_law = NormalLaw{300.0, options.contact_tolerance, 0.015};
     out.friction = MemoryFriction{options.friction, options.presliding};
     out.roller_friction = out.friction;
     out.friction_couple = options.couple;
@@ -290,7 +293,8 @@ struct StopperKnot {
   void seat() {
     pull_while(1000.0, [&] {
       double on_hole = 0.0;
-      for (int i = 0; i < static_cast<int>(boundary.rollers.size()); ++i) on_hole -= stepper->roller_force(i)[2];
+      for (int i = 0; i < static_cast<int>(boundary.rollers.size()); ++i)
+        on_hole -= stepper->readings().roller_force(i)[2];
       return on_hole < kSeating;
     });
   }
@@ -330,10 +334,10 @@ struct StopperKnot {
   Reading read() const {
     Reading out;
     out.way = way;
-    out.force = -(stepper->reaction(0) + stepper->reaction(1))[2];
-    out.torque = stepper->reaction_torque(0);
+    out.force = -(stepper->readings().reaction(0) + stepper->readings().reaction(1))[2];
+    out.torque = stepper->readings().reaction_torque(0);
     out.passed = at_hole() - passed_before_;
-    out.twisting = stepper->energies().twisting;
+    out.twisting = stepper->readings().energies().twisting;
     out.shape = shape_from(at_hole());
     return out;
   }

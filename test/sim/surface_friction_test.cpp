@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "reference.hpp"
 #include "sim/capstan.hpp"
@@ -56,7 +57,7 @@ struct AcrossAnIncline {
     settings.motion_limit = settings.newton_cap = 10.0;
     RodState state = straight_state(rod);
     const double weight = rod.mass.sum() / rod.length() * kGravity * std::cos(angle);
-    state.position.row(2).setConstant(-std::get<NormalLaw>(settings.normal).overlap_at(weight));
+    state.position.row(2).setConstant(-settings.pressure_law.overlap_at(weight));
     initialise_frames(&state);
     stepper = TimeStep::make(rod, state, settings);
     boundary.rollers = {plane_below(material.radius)};
@@ -108,7 +109,8 @@ TEST(RollingLog, GoesHalfTheWayOfThePlank) {
   EXPECT_NEAR(moved, way / (1.0 + 0.5 * scene.apart() / h), scene.presliding());
   EXPECT_NEAR(moved, h * (scene.turned() - turned), scene.presliding());
   // It rolls for nothing.
-  EXPECT_LT(std::abs(scene.stepper->roller_force(0)[0]), 2e-3 * scene.stepper->contact_reading().normal_force);
+  EXPECT_LT(std::abs(scene.stepper->readings().roller_force(0)[0]),
+            2e-3 * scene.stepper->readings().contact().normal_force);
 }
 
 /// Until the plank slides it bends the middle of the log forward by 0.008 h. The ends stand off the floor and swing
@@ -145,7 +147,7 @@ struct CrossedRods {
     material.twisting_stiffness = 2e-5;
     const int nodes = 2 * (kStrand + 1) + 2;
     StepSettings settings = closed_form_settings(material);
-    settings.normal = NormalLaw{1e5, 0.005 * kRadius};
+    settings.pressure_law = NormalLaw{1e5, 0.005 * kRadius};
     settings.friction = MemoryFriction{kFriction, kPresliding};
     settings.friction_couple = couple;
     settings.spin_inertia = false;
@@ -182,7 +184,7 @@ struct CrossedRods {
       return boundary;
     });
     double force = 0.0;
-    for (int i = 0; i <= kStrand; ++i) force += stepper->reaction(i)[0];
+    for (int i = 0; i <= kStrand; ++i) force += stepper->readings().reaction(i)[0];
     return force;
   }
 };
@@ -191,7 +193,7 @@ TEST(R14CrossedRods, RollElasticallyThenSlip) {
   CrossedRods scene(1.0);
   const double pressed = [&] {
     scene.force_at(0.0, 1e-9, 1);
-    return scene.stepper->contact_reading().normal_force;
+    return scene.stepper->readings().contact().normal_force;
   }();
   const double h = CrossedRods::lever(), limit = CrossedRods::kFriction * pressed;
   const double roll = 2.0 * scene.rod.material.twisting_stiffness / (scene.free_length() * h * h);
@@ -209,7 +211,8 @@ TEST(R14CrossedRods, RollElasticallyThenSlip) {
 TEST(R14CrossedRods, HalfTheCoupleRollsFourTimesAsStiffly) {
   CrossedRods scene(0.5);
   scene.force_at(0.0, 1e-9, 1);
-  const double h = CrossedRods::lever(), limit = CrossedRods::kFriction * scene.stepper->contact_reading().normal_force;
+  const double h = CrossedRods::lever(),
+               limit = CrossedRods::kFriction * scene.stepper->readings().contact().normal_force;
   const double roll = 4.0 * 2.0 * scene.rod.material.twisting_stiffness / (scene.free_length() * h * h);
   const double together = 1.0 / (1.0 / roll + CrossedRods::kPresliding / limit);
   const double way = 0.5 * limit / together;
@@ -318,7 +321,7 @@ struct SurfaceCapstan {
   }
   /// T2/T1
   double ratio() {
-    return mean([this] { return stepper->reaction(last).norm() / boundary.forces[0].force.norm(); });
+    return mean([this] { return stepper->readings().reaction(last).norm() / boundary.forces[0].force.norm(); });
   }
 };
 
@@ -359,9 +362,9 @@ TEST(R15CapstanFree, AFreeShaftTurnsWithTheCentrelineAndTakesNothing) {
     SurfaceCapstan scene(0.5, 100.0, 32.0, couple);
     scene.boundary.rollers[0].inertia = 1e-3;
     EXPECT_NEAR(scene.ratio(), 1.0, 0.01) << couple;
-    const double from = scene.stepper->roller_turn(0).angle;
+    const double from = scene.stepper->readings().roller_turn(0).angle;
     scene.pull_by(0.5);
-    EXPECT_NEAR(std::abs(scene.stepper->roller_turn(0).angle - from), 0.5, 2e-3) << couple;
+    EXPECT_NEAR(std::abs(scene.stepper->readings().roller_turn(0).angle - from), 0.5, 2e-3) << couple;
   }
 }
 

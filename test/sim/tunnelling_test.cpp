@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "rod/materials.hpp"
 #include "sim/drawn_overhand.hpp"
@@ -24,7 +25,7 @@ constexpr const char* kPassage = "strands would pass through each other at ";
 /// One rod: a strand along x, a wide bend, and a strand along y three radii above the first, thrown down at it.
 struct Thrown {
   static constexpr int kStrand = 21, kBend = 24;
-  ContactScheme law;
+  ContactLaw law;
   double radius;
   double way;  // of the strand thrown, in the step that is tried [radii]
 
@@ -58,10 +59,10 @@ struct Thrown {
   }
   std::unique_ptr<TimeStep> stepper() const {
     StepSettings settings = closed_form_settings(material());
-    settings.contact_scheme = law;
+    settings.contact_law = law;
     settings.candidate_margin = radius;
     settings.newton_cap = settings.motion_limit = settings.overlap_limit = std::numeric_limits<double>::infinity();
-    settings.residual = 1e-6 * std::get<NormalLaw>(settings.normal).stiffness * radius * radius;
+    settings.residual = 1e-6 * settings.pressure_law.stiffness * radius * radius;
     RodState state;
     state.position = shape();
     state.velocity = Points::Zero(3, nodes());
@@ -136,14 +137,13 @@ TEST_P(NothingPassesThrough, ShorterStepsGetThereAndTheStrandsStop) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Throws, NothingPassesThrough,
-                         testing::Values(Thrown{ContactScheme::kSmooth, 3e-3, 6.0},
-                                         Thrown{ContactScheme::kSmooth, 3e-3, 40.0},
-                                         Thrown{ContactScheme::kSmooth, 1e-4, 40.0},
-                                         Thrown{ContactScheme::kEdge, 3e-3, 6.0},
-                                         Thrown{ContactScheme::kEdge, 1e-4, 40.0}),
+                         testing::Values(Thrown{ContactLaw::kSmooth, 3e-3, 6.0},
+                                         Thrown{ContactLaw::kSmooth, 3e-3, 40.0},
+                                         Thrown{ContactLaw::kSmooth, 1e-4, 40.0}, Thrown{ContactLaw::kEdge, 3e-3, 6.0},
+                                         Thrown{ContactLaw::kEdge, 1e-4, 40.0}),
                          [](const auto& scene) {
                            const Thrown& thrown = scene.param;
-                           return std::string(thrown.law == ContactScheme::kEdge ? "edge" : "smooth") +
+                           return std::string(thrown.law == ContactLaw::kEdge ? "edge" : "smooth") +
                                   (thrown.radius < 1e-3 ? "Thin" : "Thick") +
                                   std::to_string(static_cast<int>(thrown.way)) + "RadiiAStep";
                          });
@@ -151,9 +151,9 @@ INSTANTIATE_TEST_SUITE_P(Throws, NothingPassesThrough,
 TEST(StrandsThrownAtEachOther, PressWhereOneStepBringsThemIntoEachOther) {
   // With the limits of a step as a test has them, neither strand alone gets from beyond the gap within which feet are
   // followed to where a foot is deep inside. Both together do.
-  const Thrown scene{ContactScheme::kSmooth, 3e-3, 0.78};
+  const Thrown scene{ContactLaw::kSmooth, 3e-3, 0.78};
   StepSettings settings = closed_form_settings(scene.material());
-  settings.residual = 1e-6 * std::get<NormalLaw>(settings.normal).stiffness * scene.radius * scene.radius;
+  settings.residual = 1e-6 * settings.pressure_law.stiffness * scene.radius * scene.radius;
   RodState state;
   state.position = scene.shape();
   state.velocity = Points::Zero(3, Thrown::nodes());
@@ -203,7 +203,7 @@ TEST(TunnellingOfASimulation, IsNeverSeenWhereAnOverhandIsPulledTight) {
     }
   }
   EXPECT_GE(pulled, 0.12);
-  EXPECT_GT(stepper->contact_reading().touching, 50) << "it must have been pulled tight";
+  EXPECT_GT(stepper->readings().contact().touching, 50) << "it must have been pulled tight";
   EXPECT_GT(accepted, 100);
 }
 

@@ -10,8 +10,10 @@
 
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "reference.hpp"
 
 namespace knot_utm {
@@ -42,7 +44,7 @@ struct Bare {
     for (int i = 0; i <= kEdges; ++i) state.position(0, i) = kEdge * i;
     state.velocity = Points::Zero(3, kEdges + 1);
     initialise_frames(&state);
-    settings.normal = NormalLaw{1.0, 1e-3};
+    settings.pressure_law = NormalLaw{1.0, 1e-3};
     settings.drag = 100.0;
     settings.residual = 1e-9;
     settings.newton_cap = 0.1;
@@ -94,10 +96,10 @@ TEST(Twist, AClampThatTurnsStoresTheEnergyOfAShaft) {
     bare.boundary.fixed_twists = {{0, 0.0}, {kLast, angle}};
     bare.settings.drag = 0.0;
     for (int k = 0; k < 60; ++k) bare.go(1.0);
-    EXPECT_NEAR(bare.step->energies().twisting, 0.6 * angle * angle / (2.0 * length), 1e-6 * angle * angle);
-    EXPECT_NEAR(bare.step->reaction_torque(kLast), 0.6 * angle / length, 1e-6 * angle);
-    EXPECT_NEAR(bare.step->reaction_torque(0), -0.6 * angle / length, 1e-6 * angle);
-    EXPECT_LT(bare.step->energies().bending, 1e-20);
+    EXPECT_NEAR(bare.step->readings().energies().twisting, 0.6 * angle * angle / (2.0 * length), 1e-6 * angle * angle);
+    EXPECT_NEAR(bare.step->readings().reaction_torque(kLast), 0.6 * angle / length, 1e-6 * angle);
+    EXPECT_NEAR(bare.step->readings().reaction_torque(0), -0.6 * angle / length, 1e-6 * angle);
+    EXPECT_LT(bare.step->readings().energies().bending, 1e-20);
   }
 }
 
@@ -172,7 +174,7 @@ TEST_P(Natural, ShapeIsTheRodAtRest) {
   bare.begin();
   bare.settle(100.0);
   const RodState& end = bare.step->state();
-  const Energies energies = bare.step->energies();
+  const Energies energies = bare.step->readings().energies();
   EXPECT_LT(energies.bending + energies.twisting + energies.stretching, 1e-12);
   for (int i = 1; i < kEdges; ++i) {
     const Vec3 e = end.position.col(i) - end.position.col(i - 1), f = end.position.col(i + 1) - end.position.col(i);

@@ -6,7 +6,9 @@
 #include <memory>
 #include <string>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/sim/time_step.hpp"
 
@@ -23,7 +25,7 @@ struct TwistedRod {
   double shortening = 0.0, turn = 0.0;  // of the ends [m], of the far clamp [rad]
 
   TwistedRod(double radius, double twisting_stiffness, int edges, double edge_length) {
-    Material material;
+    RodMaterial material;
     material.radius = radius;
     material.density = 1.0 / (M_PI * radius * radius);
     material.bending_stiffness = 1.0;
@@ -31,7 +33,7 @@ struct TwistedRod {
     material.stretching_stiffness = 1e5;
     rod = make_rod(material, Eigen::VectorXd::Constant(edges, edge_length));
     settings.spin_inertia = false;
-    settings.normal = NormalLaw{1.0, 0.05 * radius};
+    settings.pressure_law = NormalLaw{1.0, 0.05 * radius};
     settings.max_iterations = 40;
   }
 
@@ -81,8 +83,10 @@ struct TwistedRod {
   }
 
   /// Force along the rod at the far clamp, and moment about it.
-  double tension() const { return step->reaction(last_node() - 1).x() + step->reaction(last_node()).x(); }
-  double moment() const { return step->reaction_torque(last_node() - 1); }
+  double tension() const {
+    return step->readings().reaction(last_node() - 1).x() + step->readings().reaction(last_node()).x();
+  }
+  double moment() const { return step->readings().reaction_torque(last_node() - 1); }
   double fastest() const { return step->state().velocity.colwise().norm().maxCoeff(); }
 
  private:

@@ -7,6 +7,9 @@
 
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/command.hpp"
+#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/scales.hpp"
 #include "reference.hpp"
 #include "rod/materials.hpp"

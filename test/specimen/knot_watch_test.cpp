@@ -5,8 +5,10 @@
 #include <cmath>
 
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/record/command.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/overhand.hpp"
 
 namespace knot_utm {

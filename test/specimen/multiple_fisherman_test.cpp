@@ -8,6 +8,8 @@
 
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
 #include "knot_utm/topology/knot_invariants.hpp"
 #include "knot_utm/topology/overhand_strand.hpp"

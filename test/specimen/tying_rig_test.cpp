@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/fisherman.hpp"
 #include "rod/materials.hpp"
@@ -45,7 +46,7 @@ struct Loop {
     state.position = centreline.points;
     state.velocity = Points::Zero(3, state.position.cols());
     StepSettings settings;
-    settings.normal = NormalLaw{300.0 * bend / (h * h), 0.1 * h, 0.02 * h};
+    settings.pressure_law = NormalLaw{300.0 * bend / (h * h), 0.1 * h, 0.02 * h};
     settings.friction = MemoryFriction{material.friction_coefficient, 4e-3 * h};
     settings.drag = 0.1;
     settings.residual = 1e-4 * bend;

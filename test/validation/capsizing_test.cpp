@@ -1,11 +1,12 @@
 // A figure-eight knot that stops a rod in a hole flips, because friction at the surface twists its strands (Johanns and
-// Reis). Loads are those of coarse edges; `scripts/bench capsizing` has converged ones.
+// Reis). Loads are those of coarse edges; doc/developers/benchmarks.md has converged ones.
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/topology/knot_invariants.hpp"
 #include "sim/stopper_knot.hpp"
 

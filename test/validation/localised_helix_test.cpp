@@ -1,6 +1,7 @@
 #include <cmath>
 #include <string>
 
+#include "knot_utm/rod/rod.hpp"
 #include "reference.hpp"
 #include "sim/twisted_rod.hpp"
 

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "knot_utm/contact/smooth_contact.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "knot_utm/specimen/overhand.hpp"
@@ -38,7 +40,7 @@ class LooseKnot {
   explicit LooseKnot(const LooseKnotOptions& options)
       : options_(options), radius_(1.0 / (options.eps * options.eps)), force_(0.5 / (radius_ * radius_)) {
     const double e = 2.0 * M_PI * radius_, end_to_end = 2.0 * options.tail * radius_ + braid_length();
-    Material material;
+    RodMaterial material;
     material.radius = 1.0;
     material.bending_stiffness = 1.0;
     material.twisting_stiffness = 2.0 / 3.0;
@@ -77,9 +79,9 @@ class LooseKnot {
   const TimeStep& stepper() const { return *stepper_; }
   double end_shortening() const { return rod_.length() - (upper_ - lower_).norm(); }
   double eps() const { return std::sqrt(2.0 * M_PI / end_shortening()); }
-  double force() const { return released_ ? 0.0 : stepper_->reaction(static_cast<int>(last()))[2]; }
+  double force() const { return released_ ? 0.0 : stepper_->readings().reaction(static_cast<int>(last()))[2]; }
   /// Of one strand on the other.
-  double normal_force() const { return stepper_->contact_reading().normal_force; }
+  double normal_force() const { return stepper_->readings().contact().normal_force; }
 
   /// |Delta(-1)|: 2 turns + 1 for the overhand.
   std::int64_t determinant() const {
@@ -89,7 +91,7 @@ class LooseKnot {
   /// Of the present shape, without memory.
   std::vector<ContactPoint> contacts() const {
     const Points& x = stepper_->state().position;
-    SmoothContact contact(rod_, settings_.normal, settings_.friction, settings_.candidate_margin);
+    SmoothContact contact(rod_, settings_.pressure_law, settings_.friction, settings_.candidate_margin);
     contact.begin(x);
     contact.evaluate(x, x, 1.0);
     return contact.contacts();
@@ -209,7 +211,7 @@ class LooseKnot {
 
   void start(const RodState& state, const Friction& friction) {
     // Overlaps of about a quarter of the tolerance.
-    settings_.normal = NormalLaw{48.0 * force_ / options_.tolerance, options_.tolerance};
+    settings_.pressure_law = NormalLaw{48.0 * force_ / options_.tolerance, options_.tolerance};
     settings_.friction = friction;
     settings_.friction_couple = options_.couple;
     settings_.spin_inertia = false;

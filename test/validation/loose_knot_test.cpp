@@ -227,7 +227,7 @@ TEST(K3_LooseTrefoil, TouchesAlongAnIntervalAndAtTwoPoints) {
   hold_against("K3 loose trefoil: share of the last point", 0.32, high / all, 0.05);
   hold_against("K3 loose trefoil: place of the first point [sqrt(h R)]", -3.8, low_moment / low, 0.05);
   hold_against("K3 loose trefoil: place of the last point [sqrt(h R)]", 3.8, high_moment / high, 0.05);
-  EXPECT_LT(knot.stepper().contact_reading().largest_overlap, 0.004);
+  EXPECT_LT(knot.stepper().readings().contact().largest_overlap, 0.004);
   RecordProperty("widest gap between them [h]", text(widest_gap));
 }
 

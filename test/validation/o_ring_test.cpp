@@ -9,6 +9,7 @@
 
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/step_control.hpp"
 #include "reference.hpp"
 #include "sim/capstan.hpp"
@@ -68,7 +69,7 @@ struct Ring {
     settings.friction_couple = options.couple;
     settings.spin_inertia = false;
 
-    const double at = 1.0 - std::get<NormalLaw>(settings.normal).overlap_at(options.tension);
+    const double at = 1.0 - settings.pressure_law.overlap_at(options.tension);
     RodState state;
     state.position.resize(3, nodes);
     state.velocity = Points::Zero(3, nodes);
@@ -120,18 +121,18 @@ struct Ring {
   }
 
   /// Axial force of the whole ring on the shaft.
-  double force() const { return stepper->roller_force(0)[0] * 2.0 * M_PI / turned; }
+  double force() const { return stepper->readings().roller_force(0)[0] * 2.0 * M_PI / turned; }
   /// That of the pusher and the clamps on the ring.
   double pushed() const {
     double sum = 0.0;
-    for (const FixedNode& held : boundary.fixed_nodes) sum += stepper->reaction(held.node)[0];
+    for (const FixedNode& held : boundary.fixed_nodes) sum += stepper->readings().reaction(held.node)[0];
     for (const SpringHold& held : boundary.holds) sum += held.force(stepper->state().position.col(held.node))[0];
     return sum * 2.0 * M_PI / turned;
   }
   /// What friction can bear.
   double limit() const {
     const NodeRange all{0, static_cast<int>(stepper->rod().nodes()) - 1};
-    return options.friction * stepper->roller_normal_force(all) * 2.0 * M_PI / turned;
+    return options.friction * stepper->readings().roller_normal_force(all) * 2.0 * M_PI / turned;
   }
   /// By how much the sections have rolled, the mean and the range [rad].
   double rolled() const { return std::abs(stepper->state().twist.mean()); }

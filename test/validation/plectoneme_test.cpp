@@ -4,6 +4,7 @@
 #include <string>
 
 #include "knot_utm/contact/centreline_curve.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "reference.hpp"
 #include "sim/twisted_rod.hpp"
 
@@ -27,7 +28,7 @@ struct Plectoneme {
 
   Plectoneme(double edge_length, double turn)
       : rod(kRadius, 1.0, static_cast<int>(std::lround(kLength / edge_length)), edge_length), edge(edge_length) {
-    rod.settings.normal = NormalLaw{0.5, 0.05 * kRadius, 0.02 * kRadius};
+    rod.settings.pressure_law = NormalLaw{0.5, 0.05 * kRadius, 0.02 * kRadius};
     rod.settings.drag = 0.02;
     rod.settings.residual = 1e-6;
     rod.settings.newton_cap = 0.2 * kRadius;

@@ -6,6 +6,9 @@
 #include <cmath>
 
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/record/command.hpp"
+#include "knot_utm/record/phase.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "rod/materials.hpp"
 
 namespace knot_utm {

@@ -1,10 +1,11 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "knot_utm/record/sample.hpp"
+#include "knot_utm/record/per_knot.hpp"
 
 namespace knot_utm {
 
@@ -14,14 +15,15 @@ namespace knot_utm {
 /// The alignment to a cache line is part of the results: it decides how the compiler vectorises the sums over a pull,
 /// and so in which order they are added. Another alignment would change the last bits of readings.
 struct alignas(64) PullPoint {
-  double time;                           ///< [s]
-  double extension;                      ///< s [m]
-  double knot_distance = Sample::kNone;  ///< e [m]
-  double force = 0.0;                    ///< F, the force on the upper grip [N]
-  double normal_force = Sample::kNone;   ///< sum of the normal forces of all contacts between strands [N]
+  double time;                                                      ///< [s]
+  double extension;                                                 ///< s [m]
+  double knot_distance = std::numeric_limits<double>::quiet_NaN();  ///< e [m]
+  double force = 0.0;                                               ///< F, the force on the upper grip [N]
+  double normal_force =
+      std::numeric_limits<double>::quiet_NaN();  ///< sum of the normal forces of all contacts between strands [N]
   /// The force that the rod bears, without the zero, noise and other errors of the load cell [N]. NaN: not known, and
   /// `force` is used instead.
-  double borne = Sample::kNone;
+  double borne = std::numeric_limits<double>::quiet_NaN();
 };
 using Pull = std::vector<PullPoint>;
 

@@ -1,12 +1,14 @@
 #pragma once
 
+#include <limits>
 #include <vector>
 
 #include "knot_utm/analysis/curve_readings.hpp"
 #include "knot_utm/record/program.hpp"
-#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
+
+struct Sample;
 
 /// One row of curve.csv: what a testing machine records of a test.
 struct CurveRow {
@@ -14,12 +16,12 @@ struct CurveRow {
   /// Travel of the crosshead since balance [m]. It equals s where the frame is rigid.
   double extension = 0.0;
   double load = 0.0;                     ///< [N]
-  double knot_distance = Sample::kNone;  ///< e [m]; NaN: there are no two knots
+  double knot_distance = std::numeric_limits<double>::quiet_NaN();  ///< e [m]; NaN: there are no two knots
   double end_to_end = 0.0;               ///< L [m]; NaN: not known, as in a measured curve
-  double load_lower = Sample::kNone;     ///< on the lower grip, balanced as `load` is [N]; NaN: not known, as measured
+  double load_lower = std::numeric_limits<double>::quiet_NaN();     ///< on the lower grip, balanced as `load` is [N]; NaN: not known, as measured
   Phase phase = Phase::kIdle;
   /// s, on a compliant frame [m]; NaN: the frame is rigid, or s is not known
-  double corrected_extension = Sample::kNone;
+  double corrected_extension = std::numeric_limits<double>::quiet_NaN();
   double balance_offset = 0.0;  ///< by which the true force is larger than both loads [N]
   PerKnot excess_length{};      ///< of each knot [m]; not a column of curve.csv
 };

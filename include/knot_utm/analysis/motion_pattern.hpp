@@ -5,9 +5,10 @@
 #include <optional>
 
 #include "knot_utm/analysis/curve_readings.hpp"
-#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
+
+struct Sample;
 
 /// How a fisherman's loop responds to the pull.
 enum class MotionPattern {
@@ -95,8 +96,8 @@ class MotionPatternTracker {
  private:
   /// Excess length of a knot [m]. NaN: not known, or there is no such knot.
   struct Excess {
-    double tied = Sample::kNone;
-    double last = Sample::kNone;  ///< last value of the pull
+    double tied = std::numeric_limits<double>::quiet_NaN();
+    double last = std::numeric_limits<double>::quiet_NaN();  ///< last value of the pull
   };
 
   void add_tied(const Sample& sample);
@@ -124,12 +125,12 @@ class MotionPatternTracker {
   double first_sliding_ = 0.0;  ///< extension at which de/ds was first below q [m]
   double last_sliding_ = 0.0;   ///< extension at which de/ds last rose through q, or at which it was last below q [m]
   double peak_ = 0.0;           ///< largest F [N]
-  std::array<Excess, PerKnot::kMost> excess_;  ///< of each knot
-  double tied_distance_ = Sample::kNone;       ///< e once the knots are tied and released [m]
-  std::optional<double> type_lost_;            ///< time since which the knot type has been another one [s]
-  double borne_ = 0.0;                         ///< F of the last sample of a pull or a hold [N]
-  bool crossed_ = false;                       ///< the rod has passed through itself
-  bool jumped_ = false;                        ///< a knot jumped open
+  std::array<Excess, PerKnot::kMost> excess_;                        ///< of each knot
+  double tied_distance_ = std::numeric_limits<double>::quiet_NaN();  ///< e once the knots are tied and released [m]
+  std::optional<double> type_lost_;  ///< time since which the knot type has been another one [s]
+  double borne_ = 0.0;               ///< F of the last sample of a pull or a hold [N]
+  bool crossed_ = false;             ///< the rod has passed through itself
+  bool jumped_ = false;              ///< a knot jumped open
   bool broken_ = false;
 };
 

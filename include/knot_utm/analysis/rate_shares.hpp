@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "knot_utm/record/sample.hpp"
-
 namespace knot_utm {
+
+struct Sample;
 
 /// How far a pull is from a quasi-static one, whose forces do not depend on time. For each value, the change of an
 /// energy in a time step is divided by the change of s in that step, which gives a force. The value is the median of

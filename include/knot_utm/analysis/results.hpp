@@ -12,9 +12,10 @@
 #include "knot_utm/analysis/rate_shares.hpp"
 #include "knot_utm/analysis/start_of_pull.hpp"
 #include "knot_utm/record/ended_by.hpp"
-#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
+
+struct Sample;
 
 /// The work of the grips and what became of it [J]. Each part is computed by its own formula (StepWork).
 struct EnergyParts {
@@ -66,7 +67,7 @@ struct Results {
   std::optional<double> true_jump_force;
   std::optional<double> true_force_after_jump;
 
-  // Of a specimen that is no loop of two knots (snap.hpp).
+  // A specimen that is no loop of two knots may have these (snap.hpp).
   std::optional<double> snap_extension;  ///< s at which it snapped into another shape [m]
   std::optional<double> snap_drop;       ///< by how much F fell then [N]
 

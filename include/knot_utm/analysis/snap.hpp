@@ -3,9 +3,9 @@
 #include <optional>
 #include <vector>
 
-#include "knot_utm/record/sample.hpp"
-
 namespace knot_utm {
+
+struct Sample;
 
 /// A rod with one knot or none that snaps from one shape into another while it is pulled, as an overhand that inverts
 /// or a stopper that capsizes.

@@ -4,9 +4,9 @@
 #include <optional>
 #include <vector>
 
-#include "knot_utm/record/sample.hpp"
-
 namespace knot_utm {
+
+struct Sample;
 
 /// True forces on both grips at one time [N].
 struct GripForces {

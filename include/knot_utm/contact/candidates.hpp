@@ -2,10 +2,13 @@
 
 #include <vector>
 
+#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/lanes.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
+
+struct RodProperties;
 
 /// Contacts are followed, from zero force on, up to this gap [h].
 inline constexpr double kReachMargin = 0.3;

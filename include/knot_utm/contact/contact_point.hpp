@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "knot_utm/contact/friction.hpp"
-#include "knot_utm/contact/pressure_laws.hpp"
+#include "knot_utm/contact/normal_law.hpp"
 #include "knot_utm/numeric/lanes.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 
@@ -112,8 +112,7 @@ Real predicted_pressure(const Real& prediction, const Real& of_tangent) {
 void evaluate_forces(const Friction& friction, double dt, std::vector<ContactPoint>& contacts);
 
 /// The same with the pressure from the overlap.
-void evaluate_forces(const PressureLaws& normal, const Friction& friction, double dt,
-                     std::vector<ContactPoint>& contacts);
+void evaluate_forces(const NormalLaw& normal, const Friction& friction, double dt, std::vector<ContactPoint>& contacts);
 
 /// The friction law's input for a contact that has been evaluated.
 FrictionInput<Vec3> friction_input(const ContactPoint& contact, double dt);
@@ -122,9 +121,9 @@ FrictionMemory remember(const Friction& friction, const ContactPoint& contact, d
 
 /// The consistent linearisation of `evaluate_forces`, which includes the motion of the foot; the weight w is constant.
 /// `models` are those of the active contacts, in order; unused ones may follow.
-void linearise(const PressureLaws& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                const std::vector<ContactPoint>& contacts, std::vector<ContactModel>& models);
-void linearise(const PressureLaws& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+void linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                const std::vector<ContactPoint>& contacts, std::vector<RollerModel>& models);
 
 }  // namespace knot_utm

@@ -8,6 +8,7 @@
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/contact/edge_law.hpp"
 #include "knot_utm/contact/surface_contact.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 
@@ -52,7 +53,7 @@ class EdgeContact {
  public:
   using Model = EdgeContactModel;
 
-  EdgeContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction, double margin);
+  EdgeContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin);
 
   /// As SmoothContact's.
   void act_at_surface(double couple, const SectionTurns& turns) {
@@ -83,7 +84,7 @@ class EdgeContact {
     return knot_utm::linearise(normal_, friction_, dt, how, contacts_, surfaces_, moving_, from, models);
   }
 
-  /// Of one of `contacts()`.
+  /// The motion of one of `contacts()` in this step.
   ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;
 
   /// The evaluated state becomes the one that the next step remembers.
@@ -92,7 +93,7 @@ class EdgeContact {
   /// Energy of the pressure law per length of rod [N]
   double energy(double overlap) const { return normal_.energy(overlap); }
 
-  /// Of the last accepted step.
+  /// Saves or loads what the last accepted step left.
   void state(Archive& archive);
 
  private:

@@ -4,6 +4,7 @@
 
 #include "knot_utm/contact/centreline_curve.hpp"
 #include "knot_utm/contact/foot_sieve.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 

@@ -4,7 +4,7 @@
 
 #include "knot_utm/contact/candidates.hpp"
 #include "knot_utm/numeric/lanes.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "knot_utm/contact/friction_options.hpp"
+#include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/lanes.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 

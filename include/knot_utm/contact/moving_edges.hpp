@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 

@@ -3,16 +3,13 @@
 #include <cmath>
 #include <limits>
 
-#include "knot_utm/contact/pressure_law.hpp"
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/lanes.hpp"
-#include "knot_utm/numeric/law_keys.hpp"
-#include "knot_utm/rod/material.hpp"
 
 namespace knot_utm {
 
-/// A pressure law (pressure_law.hpp) of two strands of radius h: the line pressure p [N/m] as a function of the
-/// overlap D = 2h - d [m] of two centrelines at distance d,
+/// The pressure law of two strands of radius h: the line pressure p [N/m] as a function of the overlap D = 2h - d [m]
+/// of two centrelines at distance d,
 ///
 ///     p = K s (1 + (s/c)^4),      s = (D + delta/2)^2 / (2 delta)  for |D| < delta/2,   s = D beyond, 0 before,
 ///
@@ -20,19 +17,13 @@ namespace knot_utm {
 /// to the material and do not change with the mesh, the step or the run. The contact tolerance delta only rounds the
 /// corner where strands just touch, symmetrically about D = 0. A contact with a pressure above K delta/2 does not
 /// depend on it.
+///
+/// EdgeLaw (edge_law.hpp) has the same interface for one contact at a time. pressure, slope and overlap_at are
+/// templates: of a double, or of Lanes for four contacts side by side.
 struct NormalLaw {
-  static constexpr const char* kName = "normal";
-  static constexpr NoKeys kKeys{};
-  static constexpr bool kStudied = true;
-
   double stiffness = 0.0;                                       ///< K [N/m^2]
   double tolerance = 0.0;                                       ///< delta [m]
   double stiffening = std::numeric_limits<double>::infinity();  ///< c [m]
-
-  static NormalLaw of(const Material& material, const PressureScales& scales) {
-    constexpr double kStiffeningDepth = 0.015;  // c: at the kN of a locked knot a rod gives 5 % [h]
-    return {default_contact_stiffness(material), scales.tolerance, kStiffeningDepth * material.radius};
-  }
 
   void state(Archive& archive) { archive(stiffness, tolerance, stiffening); }
 

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "knot_utm/contact/return_mapping.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 

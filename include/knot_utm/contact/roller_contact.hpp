@@ -5,8 +5,11 @@
 #include <vector>
 
 #include "knot_utm/contact/surface_contact.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
+
+struct RodProperties;
 
 /// A cylinder of unlimited length, on which the rod may lie.
 struct Roller {
@@ -56,7 +59,7 @@ class RollerContact {
 
   /// `farthest`: the largest motion of a node in an accepted step [m]. Segments that are further from all rollers when
   /// a step begins are left out of that step.
-  RollerContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction, double farthest);
+  RollerContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double farthest);
 
   /// As SmoothContact's.
   void act_at_surface(double couple, const SectionTurns& turns) {
@@ -68,7 +71,7 @@ class RollerContact {
   /// Rotation of a roller in this step [rad]: the prescribed one, or that of the present iterate where it is free.
   double turned(int roller) const { return turned_[static_cast<std::size_t>(roller)]; }
   void turn_on(int roller, double by) { turned_[static_cast<std::size_t>(roller)] += by; }
-  /// Of the last accepted step.
+  /// How far a roller had turned after the last accepted step.
   RollerTurn turn(int roller) const {
     const auto number = static_cast<std::size_t>(roller);
     return number < turn_.size() ? turn_[number] : RollerTurn();
@@ -97,7 +100,7 @@ class RollerContact {
   /// From now on the rod has parted at an edge, and segments that reach into it touch nothing.
   void part(int edge) { parted_ = edge; }
 
-  /// Of one of `contacts()`.
+  /// The motion of one of `contacts()` in this step.
   ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;
 
   /// What the rod does to a roller, as last evaluated: force [N], and moment about the roller's centre [N m].
@@ -109,9 +112,9 @@ class RollerContact {
   void commit(const std::vector<Roller>& rollers);
 
   /// e(D) of the pressure law [N]
-  double energy(double overlap) const { return energy_of(normal_, overlap); }
+  double energy(double overlap) const { return normal_.energy(overlap); }
 
-  /// Of the last accepted step.
+  /// Saves or loads what the last accepted step left.
   void state(Archive& archive);
 
  private:
@@ -120,7 +123,7 @@ class RollerContact {
     int segment;
   };
 
-  /// Of a place from a roller's axis [m].
+  /// The distance of a place from a roller's axis [m].
   static double distance(const Roller& roller, const Vec3& x);
   /// Distance of a segment's node from the axis beyond which no part of the segment touches [m].
   double limit(const Roller& roller, int segment) const;
@@ -131,7 +134,7 @@ class RollerContact {
   std::size_t index_of(const ContactPoint& contact) const;
   double lever_of(const ContactPoint& contact) const;
 
-  PressureLaws normal_;
+  NormalLaw normal_;
   double begins_;  // overlap at which its pressure begins [m]
   Friction friction_;
   double dt_ = 0.0;  // of this step [s]

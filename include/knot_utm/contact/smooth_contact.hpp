@@ -7,6 +7,7 @@
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/contact/foot_search.hpp"
 #include "knot_utm/contact/surface_contact.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 
@@ -32,7 +33,7 @@ class SmoothContact {
   using Model = ContactModel;
 
   /// `catch_up`: relaxation time with which omega and o follow the shape [s].
-  SmoothContact(const RodProperties& rod, const PressureLaws& normal, const Friction& friction, double margin,
+  SmoothContact(const RodProperties& rod, const NormalLaw& normal, const Friction& friction, double margin,
                 double catch_up = 0.05);
 
   /// From now on friction acts at the surfaces of the strands, whose sections transmit the fraction `couple` of its
@@ -68,16 +69,17 @@ class SmoothContact {
     return knot_utm::linearise(normal_, friction_, dt, how, contacts_, surfaces_, from, models);
   }
 
-  /// Of one of `contacts()`. The overlap at the beginning neglects the third order in the motion of the foot.
+  /// The motion of one of `contacts()` in this step. The overlap at the beginning neglects the third order in the
+  /// motion of the foot.
   ContactMotion motion(const ContactPoint& contact, const Points& position, const Points& start) const;
 
   /// The evaluated state becomes the one that the next step remembers. `position` is what was last evaluated.
   void commit(const Points& position);
 
   /// e(D) of the pressure law [N]
-  double energy(double overlap) const { return energy_of(normal_, overlap); }
+  double energy(double overlap) const { return normal_.energy(overlap); }
 
-  /// Of the last accepted step.
+  /// Saves or loads what the last accepted step left.
   void state(Archive& archive);
 
  private:
@@ -85,7 +87,7 @@ class SmoothContact {
   struct Memory {
     double arclength_b;
     double weighting;  // omega
-    double outwards;   // o: the strand of the foot lies this far outwards of its spline, towards the point [m]
+    double offset;     // o: the strand of the foot lies this far outwards of its spline, towards the point [m]
     double pressure;   // predicted; < 0: none
     FrictionMemory friction;
     bool pressed = false;  // at the beginning of the step
@@ -109,7 +111,7 @@ class SmoothContact {
   };
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  /// Of an integration point, by its number in search_.
+  /// The segment of an integration point, which goes by its number in search_.
   int segment_of(int point) const { return candidates_.segments()[static_cast<std::size_t>(point / 2)]; }
   std::size_t row_of(int point) const { return static_cast<std::size_t>(2 * segment_of(point) + point % 2); }
 
@@ -118,7 +120,7 @@ class SmoothContact {
   std::size_t follow(std::size_t foot);
   /// Gives the feet of a point, which are tracked from `first` on, their memories from the last iterate.
   void recall(std::size_t row, std::size_t first);
-  /// Of a foot and its point [m]
+  /// The overlap of a foot and its point [m]
   double overlap(const Tracked& foot) const;
   /// Whether the foot and its point already overlapped when the step began.
   bool began_inside(const Tracked& foot) const;
@@ -131,16 +133,16 @@ class SmoothContact {
   void set_slip(ContactPoint& contact) const;
   void add_surface(const ContactPoint& contact, const SegmentParabola& a, const SegmentParabola& b, double u_b);
   void remember(const Points* position, MemoryList& list) const;
-  /// Sets outwards_ for an accepted position, before the first step for its start. It falls to zero where the rod is
+  /// Sets fraction_ for an accepted position, before the first step for its start. It falls to zero where the rod is
   /// bent more sharply than its edges resolve.
-  void put_outwards(const Points& position);
+  void set_fractions(const Points& position);
   double weighting(const FootSearch::Foot& foot, const Points& position) const;
   /// Upper bound of a foot's weighting factor. It falls to zero towards the end of the spline, where a strand slips
   /// off, because a force that vanished there suddenly would leave steps, however short, without a solution.
   double largest_weighting(const Memory& memory) const;
-  double outwards(const FootSearch::Foot& foot, const Points& position) const;
+  double offset_at(const FootSearch::Foot& foot, const Points& position) const;
 
-  PressureLaws normal_;
+  NormalLaw normal_;
   double begins_;  // overlap at which its pressure begins [m]
   Friction friction_;
   double dt_ = 0.0;  // of this step [s]
@@ -149,7 +151,7 @@ class SmoothContact {
   double reach_;               // of centrelines within which feet are followed [m]
   Eigen::VectorXd arclength_;  // of the nodes
   Eigen::VectorXd voronoi_;
-  Eigen::VectorXd outwards_;  // fraction of the second difference by which a segment stands outwards; at first empty
+  Eigen::VectorXd fraction_;  // fraction of the second difference by which a segment stands outwards; at first empty
   Candidates candidates_;
   FootSearch search_;
   std::vector<Tracked> tracked_;

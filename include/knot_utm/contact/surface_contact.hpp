@@ -5,6 +5,7 @@
 
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/contact/edge_law.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 
@@ -116,7 +117,7 @@ struct SurfaceModels {
 /// The consistent linearisation of `evaluate_forces` and add_couples, as `linearise` of contact_point.hpp, of the next
 /// four active contacts from number `from` on, or as many as are left. `surfaces`: one for each of `contacts`. Returns
 /// the number from which to go on.
-std::size_t linearise(const PressureLaws& normal, const Friction& friction, double dt, const ContactLinearisation& how,
+std::size_t linearise(const NormalLaw& normal, const Friction& friction, double dt, const ContactLinearisation& how,
                       const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
                       std::size_t from, SurfaceModels& models);
 
@@ -125,8 +126,7 @@ std::size_t linearise(const EdgeLaw& normal, const Friction& friction, double dt
                       const std::vector<ContactPoint>& contacts, const std::vector<SurfacePoint>& surfaces,
                       const std::vector<EdgeFeet>& feet, std::size_t from, SurfaceModels& models);
 
-/// Of contacts with friction at the surface: calls visit(number of the contact, its SurfaceModel) for each active one,
-/// in order.
+/// Calls visit(number of the contact, its SurfaceModel) for each active contact with friction at the surface, in order.
 template <typename Contacts, typename Visit>
 void linearise_surfaces(const Contacts& contacts, const ContactLinearisation& how, double dt, Visit visit) {
   SurfaceModels models;

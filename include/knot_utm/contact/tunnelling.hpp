@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "knot_utm/numeric/block.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 
@@ -44,7 +44,7 @@ class TunnellingSearch {
   struct Box {
     Lanes low, high;
   };
-  /// Of a piece of the rod, over the whole motion.
+  /// What a piece of the rod passes through in the whole motion.
   struct Piece {
     Box place;    // of its points [m]
     Box advance;  // of its edges, as vectors [m]

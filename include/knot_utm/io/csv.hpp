@@ -6,10 +6,11 @@
 #include <vector>
 
 #include "knot_utm/analysis/curve_row.hpp"
-#include "knot_utm/record/sample.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
+
+struct Sample;
 
 /// Writes curve.csv and curve_full.csv. Row 1 holds the names of the columns and row 2 their units; one row for each
 /// sample follows. Columns are separated by commas. Every number has the shortest form that reads back to the same

@@ -13,8 +13,8 @@
 #include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/program.hpp"
-#include "knot_utm/rod/material.hpp"
 #include "knot_utm/sim/options.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {

@@ -3,9 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/rod/material.hpp"
-
 namespace knot_utm {
+
+struct Material;
 
 /// The rod in numbers that a person can check: "36.4 g/m at a diameter of 6.35 mm, E = 2.32 GPa stretched, ...".
 std::string rod_in_words(const Material& material);

@@ -4,8 +4,9 @@
 #include <vector>
 
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/numeric/points.hpp"
+#include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
 

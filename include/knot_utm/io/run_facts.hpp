@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,7 +10,7 @@
 #include "knot_utm/io/report_options.hpp"
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/machine/options.hpp"
-#include "knot_utm/record/sample.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 
@@ -19,7 +20,7 @@ struct RunFacts {
   std::vector<std::string> foreseen;  ///< warnings known before anything was tied, one line each
   /// further warnings, other than those that follow from the results, one line each
   std::vector<std::string> warnings;
-  double preload = Sample::kNone;     ///< F_p [N]; NaN: nothing was tied
+  double preload = std::numeric_limits<double>::quiet_NaN();  ///< F_p [N]; NaN: nothing was tied
   ReadingErrors errors;               ///< relative errors of the readings from mesh and tolerances [-]
   Margin margin;                      ///< safety margin of the knot, where it was asked for
   double wall_time = 0.0;             ///< [s]

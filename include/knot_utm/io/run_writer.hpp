@@ -13,8 +13,7 @@
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/io/samples.hpp"
 #include "knot_utm/io/shape_series.hpp"
-#include "knot_utm/record/sample.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/topology/loop_turn.hpp"
 
 namespace knot_utm {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knot_utm/io/record.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 

@@ -3,11 +3,12 @@
 #include <optional>
 
 #include "knot_utm/machine/options.hpp"
-#include "knot_utm/rod/material.hpp"
 #include "knot_utm/sim/options.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
+
+struct Material;
 
 /// The tolerances of an accuracy, or those that the method sets instead.
 struct Tolerances {

@@ -3,11 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/rod/material.hpp"
 #include "knot_utm/sim/options.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
+
+struct Material;
 
 /// What is known about the knots that a pre-load ties before any time step.
 ///
@@ -22,7 +23,7 @@ namespace knot_utm {
 ///
 ///   R = sqrt(k_b exp(pi mu)/(2 F_p)),     F_p(closed) = exp(pi mu) k_b/(8 h^2).
 ///
-/// Measured over mu = 0.1 to 0.8 and F_p h^2/k_b = 0.02 to 20 (bench/before_tying.py --study coils): a coil that is
+/// Measured over mu = 0.1 to 0.8 and F_p h^2/k_b = 0.02 to 20 (doc/developers/history.md): a coil that is
 /// tied with F_p(closed) stays wider by 0.2 to 0.7 h than one that is tied with 20 k_b/h^2. A pull below exp(pi mu)
 /// k_b/(2 R_0^2) does not move the drawn coil, R_0 = 4.7 h.
 ///

@@ -4,9 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/record/sample.hpp"
+#include "knot_utm/numeric/archive.hpp"
 
 namespace knot_utm {
+
+struct Sample;
 
 /// What a testing machine takes for a break: the `ends` section of a method. It judges loads only. A rod that parts in
 /// the simulation (fracture.hpp) ends the test without it.

@@ -15,7 +15,7 @@ class BreakWatch {
   /// `shortest`: steps are no shorter than this for a break that is near [s]. `start`: exposure before the first step.
   BreakWatch(double shortest, const Exposure& start) : shortest_(shortest), before_(start.fraction) {}
 
-  /// Of a step that would lead to an exposure in the time dt [s]. Empty: it is accepted, or why it is not.
+  /// Says why a step is refused that would lead to an exposure in the time dt [s]; empty where it is accepted.
   std::string refuse(const Exposure& to, double dt) const;
 
   /// To be called after every accepted step. Returns whether the rod has parted. Where it has not, `next` is how long

@@ -1,7 +1,8 @@
 #pragma once
 
-#include "knot_utm/record/sample.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 
@@ -26,10 +27,10 @@ struct Exposure {
 
 bool can_part(const Material& material);  ///< it has a limit
 
-Exposure most_exposed(const RodProperties& rod, const Points& position);
+Exposure most_exposed(const Material& material, const RodProperties& rod, const Points& position);
 
 /// Time that a wave of tension takes along a length [m] of the rod: length sqrt(rho pi h^2/k_s) [s].
-double transit_time(const Material& material, double length);
+double transit_time(const RodMaterial& material, double length);
 
 /// Whether another strand lies against an edge, nearer than 2.2 h to it and further than 5 h along the rod.
 bool lies_in_knot(const RodProperties& rod, const Points& position, int edge);

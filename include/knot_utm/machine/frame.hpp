@@ -1,9 +1,10 @@
 #pragma once
 
 #include "knot_utm/machine/options.hpp"
-#include "knot_utm/rod/material.hpp"
 
 namespace knot_utm {
+
+struct Material;
 
 /// The machine's frame, load train and crosshead drive as one spring of stiffness K [N/m] between the crosshead, which
 /// travels D, and the upper grip, which moves by g less: F = K (D - g) at rest, F the force of the specimen on the

@@ -3,11 +3,12 @@
 #include <vector>
 
 #include "knot_utm/machine/options.hpp"
-#include "knot_utm/rod/material.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
+
+struct Material;
 
 /// A body that holds or bears the specimen, for pictures: a cylinder for a roller or a post, a block for a clamp or
 /// another holder of a node.

@@ -5,6 +5,7 @@
 
 #include "knot_utm/machine/loop_pins.hpp"
 #include "knot_utm/machine/options.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/centreline.hpp"

@@ -1,12 +1,10 @@
 #pragma once
 
-#include "knot_utm/record/sample.hpp"
+#include "knot_utm/numeric/archive.hpp"
 
 namespace knot_utm {
 
-/// The force on the upper grip less that which the cell reads as zero [N]. Steps that end, turn or are controlled by a
-/// load use it instead of readings, so that the cell's errors and sampling rate do not change a test.
-inline double balanced_load(const Sample& sample) { return sample.force_upper - sample.balance_offset; }
+struct Sample;
 
 /// Moves the crosshead by the load. It uses only what a testing machine knows: the loads and displacements so far.
 ///

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "knot_utm/numeric/archive.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/scene.hpp"
 
 namespace knot_utm {

@@ -8,11 +8,13 @@
 
 #include "knot_utm/machine/break_detector.hpp"
 #include "knot_utm/machine/load_control.hpp"
+#include "knot_utm/record/command.hpp"
 #include "knot_utm/record/ended_by.hpp"
 #include "knot_utm/record/program.hpp"
-#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
+
+struct Sample;
 
 /// The test program as a state machine: it gets samples and gives commands, and depends on nothing else.
 ///

@@ -1,9 +1,11 @@
 #pragma once
 
 #include "knot_utm/machine/program_runner.hpp"
-#include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {
+
+struct Command;
+struct Sample;
 
 /// Runs a whole test, or the rest of one: the program's commands go to the bench and its samples back until the test
 /// has ended. `observe(command, sample)` sees each answer before the program does and may call `program.stop()`.

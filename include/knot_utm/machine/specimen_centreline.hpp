@@ -1,12 +1,13 @@
 #pragma once
 
 #include "knot_utm/machine/options.hpp"
-#include "knot_utm/rod/material.hpp"
 #include "knot_utm/sim/options.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
+
+struct Material;
 
 /// The rod's centreline in the machine before anything moves, with the lower grip at the origin, pulled along +z, and
 /// with the edges of the chosen accuracy. Throws InvalidInput where the specimen does not fit the machine.

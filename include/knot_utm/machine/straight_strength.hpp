@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "knot_utm/rod/material.hpp"
-
 namespace knot_utm {
+
+struct Material;
 
 /// Tension at which a straight rod parts [N]: the least of the breaking force F_b and the tension at a strain of the
 /// breaking strain eps_b by the rod's stretching law, k_s eps_b where that is linear (fracture.hpp). Empty where the

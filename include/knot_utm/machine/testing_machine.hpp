@@ -5,13 +5,17 @@
 #include <vector>
 
 #include "knot_utm/machine/options.hpp"
-#include "knot_utm/record/sample.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/contact_force.hpp"
 #include "knot_utm/sim/options.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
+
+struct Command;
+struct Material;
+struct Sample;
 
 /// The specimen on the machine: rod, grips, rollers, tying rig, frame and load cell, stepped by commands.
 /// The same class serves tests without and with ROS; the same commands give the same bits.

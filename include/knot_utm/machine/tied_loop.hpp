@@ -6,10 +6,14 @@
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/knot_touch.hpp"
 #include "knot_utm/machine/take_up.hpp"
-#include "knot_utm/record/sample.hpp"
+#include "knot_utm/record/phase.hpp"
 #include "knot_utm/specimen/tying_rig.hpp"
 
 namespace knot_utm {
+
+struct Command;
+struct Material;
+struct Sample;
 
 /// A loop on the machine with its two knots. The rig ties and releases them, the loop is put on the grips, its slack is
 /// taken up, and the knots are read. Where the program ties nothing, the rig is idle, and the knots are read as well.

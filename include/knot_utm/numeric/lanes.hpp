@@ -25,7 +25,7 @@ inline Lanes to_lanes(const Eigen::Vector3d& v) { return Lanes{v[0], v[1], v[2],
 inline Lanes to_lanes(const double* v) { return Lanes{v[0], v[1], v[2], 0.0}; }
 inline Eigen::Vector3d to_vec3(const Lanes& v) { return {v[0], v[1], v[2]}; }
 
-/// Of the first three lanes.
+/// The scalar product of the first three lanes.
 inline double dot(const Lanes& a, const Lanes& b) {
   const Lanes products = a * b;
   return products[0] + products[1] + products[2];

@@ -25,7 +25,7 @@ struct LawKey {
   double plain;  ///< value that may stand although the law does not have the key, as in older methods; NaN: none
 };
 
-/// Of a law without keys.
+/// The keys of a law that has none.
 using NoKeys = std::array<LawKey, 0>;
 
 /// A law of one kind as a method gives it: which, and its keys. `Number`: an enumeration that counts the laws of that

@@ -23,4 +23,21 @@ enum class EndedBy {
 const char* ended_by_name(EndedBy end);  ///< "not yet", "break", "extension", "load", "travel", ...
 std::optional<EndedBy> ended_by_named(const std::string& name);  ///< the other way; nothing for a name that is none
 
+/// Whether the specimen is the knot that it began as.
+enum class KnotType {
+  kKept,
+  kChanged,  ///< it came undone, or is another one now
+  kCrossed   ///< the rod ran through itself
+};
+
+/// Where a rod parted.
+enum class BreakPlace {
+  kNone,    ///< it is whole
+  kStrand,  ///< where it lies free
+  kKnot,    ///< where another strand lies against it
+  kGrip     ///< on a roller, or where a clamp or node holds it
+};
+
+const char* break_place_name(BreakPlace place);  ///< "none", "strand", "knot", "grip"
+
 }  // namespace knot_utm

@@ -5,26 +5,11 @@
 #include <string>
 
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/record/ended_by.hpp"
 #include "knot_utm/record/per_knot.hpp"
-#include "knot_utm/record/program.hpp"
+#include "knot_utm/record/phase.hpp"
 
 namespace knot_utm {
-
-/// A command: the motion of the crosshead until `time`. The simulation answers it with a sample of the same time.
-struct Command {
-  std::uint64_t sequence = 0;  ///< counts commands from 0; the answering sample carries the same number
-  double time = 0.0;           ///< [s]
-  double displacement = 0.0;   ///< crosshead displacement at `time`, moving linearly since the last command [m]
-  double velocity = 0.0;       ///< of the crosshead [m/s]
-  int step = 0;                ///< index of the program's step; -1 before the first
-  Phase phase = Phase::kIdle;
-  double speed = 0.0;      ///< of the step: tie: speed of the tail grips [m/s]
-  double duration = 0.0;   ///< of the step: release [s]
-  bool balance = false;    ///< zero the load cell and the extension before moving on
-  bool read_cell = false;  ///< `time` is a sampling instant of the load cell: `load` is its reading
-
-  void state(Archive& archive);
-};
 
 /// State of the simulation after a command.
 enum class BenchStatus {
@@ -34,23 +19,6 @@ enum class BenchStatus {
   kBroken,           ///< the rod parted; `message` says where
   kFailed            ///< the simulation gave up; `message` says why
 };
-
-/// Whether the specimen is the knot that it began as.
-enum class KnotType {
-  kKept,
-  kChanged,  ///< it came undone, or is another one now
-  kCrossed   ///< the rod ran through itself
-};
-
-/// Where a rod parted.
-enum class BreakPlace {
-  kNone,    ///< it is whole
-  kStrand,  ///< where it lies free
-  kKnot,    ///< where another strand lies against it
-  kGrip     ///< on a roller, or where a clamp or node holds it
-};
-
-const char* break_place_name(BreakPlace place);  ///< "none", "strand", "knot", "grip"
 
 /// One reading of the whole bench. Only `load` has the errors of the load cell. The meaning, the unit and the allowed
 /// values of each field stand in record/sample_fields.hpp.
@@ -101,5 +69,9 @@ struct Sample {
 
   void state(Archive& archive);
 };
+
+/// The force on the upper grip less that which the cell reads as zero [N]. Steps that end, turn or are controlled by a
+/// load use it instead of readings, so that the cell's errors and sampling rate do not change a test.
+inline double balanced_load(const Sample& sample) { return sample.force_upper - sample.balance_offset; }
 
 }  // namespace knot_utm

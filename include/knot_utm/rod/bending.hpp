@@ -1,11 +1,13 @@
 #pragma once
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/bending_law.hpp"
 #include "knot_utm/rod/frames.hpp"
-#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/stencil.hpp"
 
 namespace knot_utm {
+
+struct RodState;
 
 /// Bending at one inner node from material curvatures, with natural curvature.
 ///

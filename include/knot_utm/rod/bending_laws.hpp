@@ -14,15 +14,15 @@ using BendingLaws = std::variant<ElasticBending, PlasticBending>;
 using BendingRegistry = LawRegistry<BendingLaws>;
 
 /// The law that a material names, with its parameters. Throws InvalidInput where one is missing.
-BendingLaws bending_law_of(const Material& material);
+BendingLaws bending_law_of(const RodMaterial& material);
 
 /// Whether the rod bends by this law and not by the elastic one, which a rod without natural curvature has in a form of
 /// its own (isotropic_bending.hpp). The rod then needs frames and RodState::natural_curvature, be it zero.
 bool bends_on_frames(const BendingLaws& law);
-bool bends_on_frames(const Material& material);
+bool bends_on_frames(const RodMaterial& material);
 
 /// Whether the law has an internal variable that changes from step to step.
 bool remembers(const BendingLaws& law);
-bool remembers_bends(const Material& material);
+bool remembers_bends(const RodMaterial& material);
 
 }  // namespace knot_utm

@@ -3,9 +3,10 @@
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
 #include "knot_utm/rod/bending_law.hpp"
-#include "knot_utm/rod/material.hpp"
 
 namespace knot_utm {
+
+struct RodMaterial;
 
 /// E = k_b/(2 lbar) |kappa - kappabar|^2: the rod springs back to its natural curvature. A rod without natural
 /// curvature bends by the same law without frames (isotropic_bending.hpp).
@@ -15,7 +16,7 @@ struct ElasticBending {
   static constexpr bool kStudied = true;
   static constexpr bool kRemembers = false;
 
-  static ElasticBending of(const Material& /*material*/) { return {}; }
+  static ElasticBending of(const RodMaterial& /*material*/) { return {}; }
 
   BendingResponse respond(const BendingNode& node) const {
     const double stiffness = node.k_b / node.voronoi_length;

@@ -1,10 +1,13 @@
 #pragma once
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/bending.hpp"
-#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/rod/twisting.hpp"
 
 namespace knot_utm {
+
+struct RodProperties;
+struct RodState;
 
 /// Elastic energy of a whole rod [J], the sum over its edges and inner nodes:
 ///   E = sum_j E_s(e_j) + sum_i E_b(i) + sum_i E_t(i)

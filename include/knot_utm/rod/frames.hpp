@@ -1,8 +1,10 @@
 #pragma once
 
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
+
+struct RodState;
 
 /// Frames along a discrete rod, one orthonormal right-handed triad on each edge.
 ///

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/turning_angle.hpp"
 
 namespace knot_utm {

@@ -2,10 +2,11 @@
 
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
-#include "knot_utm/rod/material.hpp"
 #include "knot_utm/rod/stretching_law.hpp"
 
 namespace knot_utm {
+
+struct RodMaterial;
 
 /// T = k_s (lambda - 1),   W = T^2/(2 k_s).
 struct LinearStretching {
@@ -13,7 +14,7 @@ struct LinearStretching {
   static constexpr NoKeys kKeys{};
   static constexpr bool kStudied = true;
 
-  static LinearStretching of(const Material& /*material*/) { return {}; }
+  static LinearStretching of(const RodMaterial& /*material*/) { return {}; }
 
   StretchingResponse respond(const StretchedEdge& edge) const {
     const double tension = edge.k_s * (edge.stretch - 1.0);

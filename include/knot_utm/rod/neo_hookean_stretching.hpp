@@ -2,10 +2,11 @@
 
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
-#include "knot_utm/rod/material.hpp"
 #include "knot_utm/rod/stretching_law.hpp"
 
 namespace knot_utm {
+
+struct RodMaterial;
 
 /// A bar of rubber that keeps its volume: an incompressible neo-Hookean solid of shear modulus k_s/(3 A), A being the
 /// section at rest, under uniaxial tension,
@@ -22,7 +23,7 @@ struct NeoHookeanStretching {
   static constexpr NoKeys kKeys{};
   static constexpr bool kStudied = false;
 
-  static NeoHookeanStretching of(const Material& /*material*/) { return {}; }
+  static NeoHookeanStretching of(const RodMaterial& /*material*/) { return {}; }
 
   StretchingResponse respond(const StretchedEdge& edge) const {
     const double lambda = edge.stretch, inverse = 1.0 / lambda, third = edge.k_s / 3.0;

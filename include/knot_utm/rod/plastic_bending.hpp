@@ -5,9 +5,10 @@
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/law_keys.hpp"
 #include "knot_utm/rod/bending_law.hpp"
-#include "knot_utm/rod/material.hpp"
 
 namespace knot_utm {
+
+struct RodMaterial;
 
 /// Elastic-plastic bending with linear kinematic hardening: two springs in parallel. One has the fraction r of the
 /// bending stiffness and stays elastic. The other has the fraction 1 - r and bears at most its yield moment, in
@@ -34,7 +35,7 @@ struct PlasticBending {
 
   PlasticBending() = default;
   PlasticBending(double kappa_y, double r) : yield_curvature(kappa_y), hardening(r) {}
-  static PlasticBending of(const Material& material);
+  static PlasticBending of(const RodMaterial& material);
 
   BendingResponse respond(const BendingNode& node) const {
     const double whole = node.k_b / node.voronoi_length, stiff = hardening * whole, yields = whole - stiff;

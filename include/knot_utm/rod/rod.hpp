@@ -1,16 +1,15 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 
 #include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/material.hpp"
-#include "knot_utm/rod/rod_laws.hpp"
 
 namespace knot_utm {
 
-using Vec3 = Eigen::Vector3d;
-using Mat3 = Eigen::Matrix3d;
-using Points = Eigen::Matrix3Xd;  ///< one column a point [m]
+struct RodLaws;
 
 /// Whether all of them are numbers, and none is further than 1000 km from the origin.
 bool are_places(const Points& points);
@@ -18,12 +17,12 @@ bool are_places(const Points& points);
 /// What stays constant while the rod moves: N nodes, N-1 edges, N-2 inner nodes.
 /// Symbols: l_j rest length of edge j, lbar_i = (l_{i-1}+l_i)/2 Voronoi length of node i.
 struct RodProperties {
-  Material material;
-  RodLaws laws;
-  Eigen::VectorXd rest_length;     ///< l_j [m], N-1
-  Eigen::VectorXd voronoi_length;  ///< lbar_i [m], N (half an edge at the ends)
-  Eigen::VectorXd mass;            ///< m_i [kg], N
-  Eigen::VectorXd natural_twist;   ///< m-bar of inner node i+1 [rad], N-2; empty: untwisted
+  RodMaterial material;
+  std::shared_ptr<const RodLaws> laws;  ///< of stretching and bending (rod_laws.hpp)
+  Eigen::VectorXd rest_length;          ///< l_j [m], N-1
+  Eigen::VectorXd voronoi_length;       ///< lbar_i [m], N (half an edge at the ends)
+  Eigen::VectorXd mass;                 ///< m_i [kg], N
+  Eigen::VectorXd natural_twist;        ///< m-bar of inner node i+1 [rad], N-2; empty: untwisted
 
   Eigen::Index nodes() const { return voronoi_length.size(); }
   Eigen::Index edges() const { return rest_length.size(); }
@@ -36,7 +35,7 @@ struct RodProperties {
 };
 
 /// Straight, untwisted rod of the given rest lengths, by the laws of its material: masses rho pi h^2 lbar_i.
-RodProperties make_rod(const Material& material, const Eigen::VectorXd& rest_length);
+RodProperties make_rod(const RodMaterial& material, const Eigen::VectorXd& rest_length);
 
 /// What moves, and what the laws of the rod remember. Twist members are empty where the scene does not solve for twist.
 struct RodState {

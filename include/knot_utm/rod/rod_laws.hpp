@@ -2,7 +2,6 @@
 
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/rod/stretching_laws.hpp"
-#include "knot_utm/rod/twisting_laws.hpp"
 
 namespace knot_utm {
 
@@ -11,10 +10,9 @@ struct RodLaws {
   StretchingLaws stretching;  ///< of its edges
   BendingLaws bending;        ///< of its inner nodes; without a natural curvature in the state the elastic one
                               ///< (isotropic_bending.hpp), which is all that require_fits allows there
-  TwistingLaws twisting;      ///< of its inner nodes, where the state has a frame
 
   /// Those that a material names. Throws InvalidInput where a value of theirs is missing.
-  static RodLaws of(const Material& material);
+  static RodLaws of(const RodMaterial& material);
 
   void state(Archive& archive);
 };

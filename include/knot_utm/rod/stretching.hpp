@@ -1,6 +1,8 @@
 #pragma once
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/rod/rod_laws.hpp"
 
 namespace knot_utm {
 
@@ -46,7 +48,7 @@ inline StretchedEdge stretched_edge(const RodProperties& rod, const Points& posi
 
 /// Response of the rod's own law to it.
 inline StretchingResponse respond(const RodProperties& rod, const StretchedEdge& edge) {
-  return std::visit([&](const auto& law) { return law.respond(edge); }, rod.laws.stretching);
+  return std::visit([&](const auto& law) { return law.respond(edge); }, rod.laws->stretching);
 }
 
 }  // namespace knot_utm

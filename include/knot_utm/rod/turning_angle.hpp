@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 

@@ -1,12 +1,14 @@
 #pragma once
 
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/stencil.hpp"
-#include "knot_utm/rod/twisting_laws.hpp"
 
 namespace knot_utm {
 
-/// Twisting at one inner node by a law E(m - mbar) (twisting_law.hpp).
+struct RodProperties;
+struct RodState;
+
+/// Twisting at one inner node, E = k_t/(2 lbar) (m - mbar)^2.
 ///
 ///   m = theta_f - theta_e + m_ref
 ///
@@ -30,7 +32,6 @@ struct TwistingInput {
   double k_t = 0.0;             ///< [N m^2]
   double voronoi_length = 0.0;  ///< lbar [m]
   double natural_twist = 0.0;   ///< mbar [rad]
-  TwistingLaws law;
 };
 
 double twisting_energy(const TwistingInput& input, double twist);

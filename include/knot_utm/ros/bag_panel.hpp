@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/ros/color_scale.hpp"
 
 namespace knot_utm {

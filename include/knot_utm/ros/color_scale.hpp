@@ -4,7 +4,7 @@
 #include <std_msgs/ColorRGBA.h>
 
 #include "knot_utm/machine/options.hpp"
-#include "knot_utm/rod/material.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 

@@ -13,8 +13,8 @@
 
 #include "knot_utm/analysis/motion_pattern.hpp"
 #include "knot_utm/io/record.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
 

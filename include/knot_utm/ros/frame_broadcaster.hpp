@@ -4,6 +4,7 @@
 #include <tf2_msgs/TFMessage.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/ros/latecomers.hpp"
 #include "knot_utm/ros/machine_frames.hpp"
 

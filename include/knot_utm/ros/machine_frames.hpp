@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/ros/views.hpp"
 
 namespace knot_utm {

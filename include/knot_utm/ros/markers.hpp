@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "knot_utm/machine/grip_bodies.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/ros/color_scale.hpp"
 #include "knot_utm/sim/contact_force.hpp"
 

@@ -16,6 +16,7 @@
 #include "knot_utm/io/claimed_folder.hpp"
 #include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/io/samples.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/order_of_test.hpp"

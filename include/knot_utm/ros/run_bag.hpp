@@ -7,6 +7,7 @@
 #include "knot_utm/io/method.hpp"
 #include "knot_utm/io/record.hpp"
 #include "knot_utm/machine/grips.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/ros/bag_panel.hpp"
 #include "knot_utm/ros/bag_writer.hpp"
 #include "knot_utm/ros/machine_frames.hpp"

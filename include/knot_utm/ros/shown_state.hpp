@@ -5,8 +5,8 @@
 #include <chrono>
 #include <string>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "knot_utm/rod/rod.hpp"
 
 namespace knot_utm {
 

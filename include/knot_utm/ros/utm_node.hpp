@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "knot_utm/machine/program_runner.hpp"
+#include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/batch_place.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/method_setup.hpp"

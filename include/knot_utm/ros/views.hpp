@@ -3,8 +3,10 @@
 #include <vector>
 
 #include "knot_utm/machine/grip_bodies.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/knot_places.hpp"
+#include "knot_utm/specimen/material.hpp"
 
 namespace knot_utm {
 

@@ -2,12 +2,16 @@
 
 #include <vector>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/rod/stretching_law.hpp"
 #include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
 #include "knot_utm/sim/step_matrix.hpp"
 
 namespace knot_utm {
+
+struct RodProperties;
 
 /// Forces and stiffness of a whole centreline: stretching (stretching.hpp) of every edge by the rod's law, and
 /// isotropic bending (isotropic_bending.hpp) of every inner node. The two share the tangents.
@@ -32,7 +36,7 @@ class CentrelineTerms {
   /// Largest |tension| of an edge at that position [N].
   double largest_tension() const { return largest_tension_; }
 
-  /// Of the one or two edges that end at a node.
+  /// The largest |tension| of the one or two edges that end at a node [N].
   double largest_tension_at(int node) const {
     const std::size_t j = static_cast<std::size_t>(node);
     const double ahead = j < tension_.size() ? std::abs(tension_[j]) : 0.0;
@@ -67,7 +71,7 @@ class CentrelineTerms {
   template <typename Law>
   void add_stretching_forces(const Law& law, const Points& position, std::vector<Lanes>& force);
   void add_bending_forces(std::vector<Lanes>& force);
-  /// Of the position that was evaluated last.
+  /// An edge in the position that was evaluated last.
   StretchedEdge stretched(std::size_t edge) const {
     return {stretching_stiffness_[edge], rod_.rest_length[static_cast<Eigen::Index>(edge)], stretch_[edge]};
   }

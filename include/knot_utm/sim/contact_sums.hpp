@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "knot_utm/contact/contact_point.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/contact_force.hpp"
 
 namespace knot_utm {
@@ -26,7 +27,7 @@ double roller_normal_force(const std::vector<ContactPoint>& contacts, const Node
 /// a smooth centreline a strand would pull at its neighbours.
 void add_normal_forces(const std::vector<ContactPoint>& contacts, Eigen::VectorXd& force);
 
-/// Of the contacts that a law has evaluated at `position`, those between strands that touch.
+/// The forces of those contacts that touch between strands; a law has evaluated all of them at `position`.
 std::vector<ContactForce> contact_forces(const std::vector<ContactPoint>& contacts, const Points& position);
 
 }  // namespace knot_utm

@@ -4,6 +4,7 @@
 
 #include "knot_utm/contact/surface_contact.hpp"
 #include "knot_utm/numeric/block.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/bending.hpp"
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stencil.hpp"
@@ -87,7 +88,7 @@ class FrameTerms {
   NodeStiffness node_stiffness(int i) const;
   EdgeStiffness edge_stiffness(int j) const;
 
-  /// Of edge j, as FrameTerms says [1/m].
+  /// The lean of edge j, as FrameTerms says [1/m].
   Vec3 lean(int j) const { return to_vec3(lean_[static_cast<std::size_t>(j)]); }
 
   /// Spins of the edges in this step, at the trial positions; only where friction acts at the surface.
@@ -134,8 +135,7 @@ class FrameTerms {
   template <typename Law>
   void add_bending_stiffness(const Law& law, StepMatrix<4>& matrix) const;
   void set_tangents(const Points& position);
-  template <typename Law>
-  void set_twist(const Law& law);
+  void set_twist();
   void carry_directors();
   void set_turn(std::size_t edge, double turned);
 
@@ -163,7 +163,8 @@ class FrameTerms {
   const RodState* start_ = nullptr;
   double dt_ = 0.0;
   std::vector<char> held_;  // N
-  // Of edges and nodes. Lists that are computed four at a time have room for three more behind the last entry.
+  // These lists hold a value for each edge or node. Lists that are computed four at a time have room for three more
+  // behind the last entry.
   std::vector<Lanes> start_tangent_;       // t^n
   std::vector<Lanes> edge_, tangent_;      // e_j, t_j of the trial positions
   std::vector<double> inverse_length_;     // 1/|e_j|

@@ -46,7 +46,7 @@ class RollerTurns {
   /// Turns the rollers by `factor` times the last solution.
   void move(RollerContact& contact, double factor) const;
 
-  /// Of one free roller.
+  /// What the equation of one free roller adds to the system.
   struct Border {
     int roller = 0;
     double radius = 0.0;                  ///< [m]
@@ -54,7 +54,7 @@ class RollerTurns {
     double diagonal = 0.0, torque = 0.0;  ///< D; tau with the pressures of the linear models [N m]
     double change = 0.0;                  ///< dpsi [rad]
   };
-  /// Of the n-th free roller.
+  /// What the n-th free roller adds.
   const Border& border(std::size_t n) const { return borders_[n]; }
 
  private:

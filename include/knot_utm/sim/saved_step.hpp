@@ -19,7 +19,7 @@ struct SavedStep {
   /// secants.
   StepSummary try_again() {
     StepSummary summary = stepper->step(boundary, dt);
-    if (!summary.newton.converged()) summary = stepper->step(boundary, dt, Solution::kSecants);
+    if (!summary.newton.converged()) summary = stepper->step(boundary, dt, SolveStrategy::kSecants);
     return summary;
   }
 };

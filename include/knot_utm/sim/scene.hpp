@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "knot_utm/contact/roller_contact.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/options.hpp"
 
 namespace knot_utm {
@@ -79,9 +79,9 @@ struct Boundary {
 
 /// What a time step needs to know besides rod and boundary; constant during a run.
 struct StepSettings {
-  ContactScheme contact_scheme = ContactScheme::kSmooth;  ///< of strands; rollers touch the smooth centreline
-  PressureLaws normal;                                    ///< between strands, and on rollers
-  Friction friction;                                      ///< between strands
+  ContactLaw contact_law = ContactLaw::kSmooth;  ///< of strands; rollers touch the smooth centreline
+  NormalLaw pressure_law;                        ///< between strands, and on rollers
+  Friction friction;                             ///< between strands
   Friction roller_friction;
   double friction_couple =
       0.0;  ///< eta: friction acts at the surfaces (surface_contact.hpp); 0: on the centrelines [-]

@@ -3,10 +3,12 @@
 #include <vector>
 
 #include "knot_utm/numeric/lanes.hpp"
-#include "knot_utm/rod/rod.hpp"
-#include "knot_utm/sim/scene.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
+
+struct Boundary;
+struct RodState;
 
 /// The start and the boundary of one time step. All of it stays unchanged until the step has ended.
 struct StepStart {

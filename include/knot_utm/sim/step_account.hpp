@@ -3,7 +3,7 @@
 #include <Eigen/Geometry>
 
 #include "knot_utm/numeric/archive.hpp"
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 

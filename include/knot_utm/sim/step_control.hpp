@@ -13,8 +13,8 @@ namespace knot_utm {
 /// Step-size control: time steps become longer where Newton's method converges in few iterations, nodes move little and
 /// strands slip little against each other, and shorter otherwise. A step that was not accepted is tried again with half
 /// its length. After some failures in a row Newton's method is no longer abandoned early, and is tried once more with
-/// secants before the step is halved again (Solution). A run that hardly advances over very many iterations is given
-/// up. Source: Hairer, Wanner 1996 (step-size control).
+/// secants before the step is halved again (SolveStrategy). A run that hardly advances over very many iterations is
+/// given up. Source: Hairer, Wanner 1996 (step-size control).
 class StepControl {
  public:
   struct Options {

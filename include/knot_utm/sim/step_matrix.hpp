@@ -8,6 +8,7 @@
 #include "knot_utm/contact/contact_point.hpp"
 #include "knot_utm/contact/edge_contact.hpp"
 #include "knot_utm/contact/surface_contact.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/solver/block_matrix.hpp"
 
 namespace knot_utm {
@@ -59,7 +60,7 @@ class StepMatrix {
   /// Block (first + k, first + l), k, l < 3.
   Block<D>& band(int first, int k, int l) { return block(stencil(first)[static_cast<std::size_t>(3 * k + l)]); }
   const Stencil& stencil(int node) const { return present_.stencils[static_cast<std::size_t>(node)]; }
-  /// Of the n-th active contact.
+  /// The blocks of the n-th active contact.
   const ContactBlocks& contact_blocks(std::size_t n) const { return present_.located[n].blocks; }
 
   /// Adds the stiffness of a contact, between strands the n-th active one.

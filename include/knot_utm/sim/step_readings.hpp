@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "knot_utm/contact/roller_contact.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/contact_sums.hpp"
 #include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
@@ -13,23 +14,40 @@ namespace knot_utm {
 /// went. The terms of the step (time_step.cpp) enter their parts into the account that `begin` opens.
 class StepReadings {
  public:
-  /// Of a rod before its first step; `spin`: kinetic energy of its edges' spin [J].
-  StepReadings(const RodProperties& rod, const RodState& state, double spin);
+  /// The readings of a rod before its first step; `spin` is the kinetic energy of its edges' spin [J]. It reads the
+  /// contacts of strands and rollers from where they are kept.
+  StepReadings(const RodProperties& rod, const RodState& state, double spin, const std::vector<ContactPoint>& strands,
+               const RollerContact& rollers);
 
   /// Opens the account of a step and enters the holders of the rod: fixed nodes and frames, and rollers.
-  StepAccount& begin(const SolvedStep& step, const RollerContact& rollers);
+  StepAccount& begin(const SolvedStep& step);
   /// Kinetic energy and numerical loss of free rollers.
-  void add_free_turns(const SolvedStep& step, const RollerContact& rollers);
+  void add_free_turns(const SolvedStep& step);
   /// By how much the elastic energies, all of which must be in the account, have fallen.
   void add_fall_of_elastic_energy();
 
-  /// Force of a node's holder on it [N]; torque of the holder of an edge's material frame [N m].
+  /// Force of a fixed node's holder on the rod, from the residual of the step's equations there [N].
   Vec3 reaction(int node) const;
-  double reaction_torque(int edge) const { return -force_[static_cast<std::size_t>(edge)][3]; }
-  /// Force of the rod on a roller [N], and its moment about the roller's centre [N m]; zero where there is none.
+  /// Torque about an edge's tangent that the holder of its material frame exerts on the rod [N m].
+  double reaction_torque(int edge) const;
+  /// Force of the rod on a roller [N], and its moment about the roller's centre [N m]; zero before the first accepted
+  /// step, and where there is no such roller.
   Vec3 roller_force(int roller) const { return load_on(roller).force; }
   Vec3 roller_moment(int roller) const { return load_on(roller).moment; }
-  const StepAccount& account() const { return account_; }
+  /// How far a roller has turned about its axis since the first step, and its rate.
+  RollerTurn roller_turn(int roller) const { return rollers_now_.turn(roller); }
+
+  const Energies& energies() const { return account_.energies; }
+  const ContactReading& contact() const { return account_.contact; }
+  const StepWork& work() const { return account_.work; }
+  const LoadSum& loads() const { return account_.loads; }
+
+  // These read the contacts of the last step that was tried: after an accepted step, before the next one is tried.
+  std::vector<ContactForce> contact_forces() const;
+  /// Sum of the normal forces of strands and rollers on each node [N].
+  Eigen::VectorXd normal_forces() const;
+  double normal_force_between(const NodeRange& a, const NodeRange& b) const;
+  double roller_normal_force(const NodeRange& piece) const;
 
   void state(Archive& archive);
 
@@ -43,8 +61,11 @@ class StepReadings {
   RollerLoad load_on(int roller) const;
   void add_work_of_boundary(double at_end, double at_begin);
   void add_holders(const SolvedStep& step);
-  void add_rollers(const SolvedStep& step, const RollerContact& rollers);
+  void add_rollers(const SolvedStep& step);
 
+  const RodState& state_;
+  const std::vector<ContactPoint>& strands_;
+  const RollerContact& rollers_now_;
   StepAccount account_;
   bool first_ = true;
   std::vector<Lanes> force_;  // SolvedStep::force

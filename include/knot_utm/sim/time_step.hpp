@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "knot_utm/numeric/points.hpp"
+#include "knot_utm/rod/rod.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/step_diagnosis.hpp"
 #include "knot_utm/sim/step_readings.hpp"
@@ -17,7 +19,7 @@ namespace knot_utm {
 /// predicted tensions and pressures, and is abandoned early where a shorter step costs less. kSecants, for iterates
 /// that run in a cycle, linearises friction by secants and, from there, by tangents; if that fails, secants are tried
 /// again with each change halved, up to three times. The equations and their tolerance are the same in all of them.
-enum class Solution { kTangents, kTangentsAbandonedEarly, kSecants };
+enum class SolveStrategy { kTangents, kTangentsAbandonedEarly, kSecants };
 
 /// How one time step went.
 struct StepSummary {
@@ -63,8 +65,8 @@ class TimeStep {
   /// the state (initialise_frames). Throws InvalidInput where rod and state do not fit together.
   static std::unique_ptr<TimeStep> make(const RodProperties& rod, const RodState& state, const StepSettings& settings);
 
-  StepSummary step(const Boundary& boundary, double dt) { return step(boundary, dt, Solution::kTangents); }
-  virtual StepSummary step(const Boundary& boundary, double dt, Solution solution) = 0;
+  StepSummary step(const Boundary& boundary, double dt) { return step(boundary, dt, SolveStrategy::kTangents); }
+  virtual StepSummary step(const Boundary& boundary, double dt, SolveStrategy strategy) = 0;
 
   /// The rod parts at an edge between two steps. From the next one on nothing holds its two ends together, and the
   /// energy that was stored there is lost as `StepWork::numerical`. To be called once at most; not saved by `state`.
@@ -90,26 +92,8 @@ class TimeStep {
   /// From now on `watcher` is called with every iterate; an empty one ends that.
   void watch(std::function<void(const Iterate&)> watcher) { watcher_ = std::move(watcher); }
 
-  /// Force of a fixed node's holder on the rod, from the residual of the step's equations there [N].
-  virtual Vec3 reaction(int node) const = 0;
-  /// Torque about an edge's tangent that the holder of its material frame exerts on the rod [N m].
-  virtual double reaction_torque(int edge) const = 0;
-  /// Force of the rod on a roller [N], and its moment about the roller's centre [N m]; zero before the first accepted
-  /// step.
-  virtual Vec3 roller_force(int roller) const = 0;
-  virtual Vec3 roller_moment(int roller) const = 0;
-  /// How far a roller has turned about its axis since the first step, and its rate.
-  virtual RollerTurn roller_turn(int roller) const = 0;
-  virtual Energies energies() const = 0;
-  virtual ContactReading contact_reading() const = 0;
-  virtual StepWork work() const = 0;
-  virtual LoadSum loads() const = 0;
-  /// Of the last step that was tried: to be read after an accepted step, before the next one is tried.
-  virtual std::vector<ContactForce> contact_forces() const = 0;
-  /// Sum of the normal forces of strands and rollers on each node; to be read at the same time [N].
-  virtual Eigen::VectorXd normal_forces() const = 0;
-  virtual double normal_force_between(const NodeRange& a, const NodeRange& b) const = 0;
-  virtual double roller_normal_force(const NodeRange& piece) const = 0;
+  /// What the last accepted step did to everything around the rod, and where its work went.
+  virtual const StepReadings& readings() const = 0;
   /// Tension of each edge [N]; of a parted one none.
   Eigen::VectorXd tension() const;
 

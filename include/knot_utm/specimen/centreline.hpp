@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 
@@ -33,8 +33,8 @@ struct DrawnLoop {
 struct Centreline {
   Points points;        ///< nodes in order along the rod [m]
   bool closed = false;  ///< the last node lies on the first
-  /// Of a loop, for the rig that ties the knots: [0] the lower knot at the rod's first end, [1] the upper one at its
-  /// last.
+  /// The knots of a loop, for the rig that ties them: [0] the lower one at the rod's first end, [1] the upper one at
+  /// its last.
   std::vector<KnotLandmarks> knots;
   double upper_apex = 0.0;  ///< of a loop: arclength of the top of the loop, on the upper roller [m]
   double lower_apex = 0.0;  ///< of a loop: arclength of the bottom of the loop [m]

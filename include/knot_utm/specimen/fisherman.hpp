@@ -69,7 +69,7 @@ class FishermanKnot : public Knot {
   static KnotDescription description();
 
  private:
-  /// Of each tail.
+  /// How often each tail is wound around.
   virtual int windings(const SpecimenOptions&) const { return 1; }
 };
 

@@ -5,12 +5,13 @@
 #include <utility>
 #include <vector>
 
-#include "knot_utm/rod/material.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/specimen/centreline.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
+
+struct Material;
 
 /// The properties of the machine and of the accuracy on which a centreline depends.
 struct Mounting {
@@ -62,7 +63,7 @@ class Knot {
   virtual ~Knot() = default;
 
   const KnotDescription& about() const { return about_; }
-  /// Of its own keys and of those that all knots have, `knot` and `edge_length`.
+  /// Whether it takes a key: one of its own, or one that all knots have (`knot`, `edge_length`).
   bool has(const std::string& key) const;
 
   /// The values of `auto` for a rod of radius h [m]. Keys that the knot does not have keep their plain values, so that

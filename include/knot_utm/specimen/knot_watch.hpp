@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/topology/knot_invariants.hpp"
 

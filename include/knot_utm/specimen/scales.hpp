@@ -1,9 +1,11 @@
 #pragma once
 
-#include "knot_utm/rod/material.hpp"
 #include "knot_utm/sim/options.hpp"
 
 namespace knot_utm {
+
+struct Material;
+struct RodMaterial;
 
 /// Radius of the source paper's rods [m]. All default lengths are given for this radius and scale with that of the rod.
 constexpr double kPaperRadius = 0.003175;
@@ -27,14 +29,14 @@ struct SpecimenScales {
   double mass = 0.0;        ///< m, mass per length from the material's density [kg/m]
   double rest_speed = 0.0;  ///< slower than this it is at rest [m/s]
 };
-SpecimenScales specimen_scales(const Material& material);
+SpecimenScales specimen_scales(const RodMaterial& material);
 
 /// Accelerated mass over the rod's own (`physics.inertia`) [-]. `auto` is the mass of tau = 2e-4 s, about that of the
 /// paper's ropes, so that similar specimens move alike, but never more than the rod's own mass. It is also so little
 /// that a slack loop comes to rest: of `slack` [m], the length of rod beyond the distance of its ends, a loop of radius
 /// R = slack/2 pi springs in the time R^2 sqrt(m/k_b), which is 0.1 s at most. The weight always follows from the rod's
 /// own mass.
-double inertia_factor(const Material& material, const PhysicsOptions& physics, double slack);
+double inertia_factor(const RodMaterial& material, const PhysicsOptions& physics, double slack);
 
 /// The same material with the density of its accelerated mass.
 Material as_it_moves(Material material, const PhysicsOptions& physics, double slack);
@@ -42,9 +44,9 @@ Material as_it_moves(Material material, const PhysicsOptions& physics, double sl
 /// Drag per length of `physics.drag: auto` [N s/m^2]: motion of the whole specimen decays to 1/e in a third of a
 /// second. c = 3/s m, which is 1.2e-7 s k_b/h^4 for every rod with tau = 2e-4 s. Nothing else stops a loop that coasts
 /// around rollers without friction, however light it is: its drag is that of tau = 2e-5 s at least.
-double drag_to_rest(const Material& as_it_moves, bool loop);
+double drag_to_rest(const RodMaterial& as_it_moves, bool loop);
 
 /// Drag per length with which bends of wavelength `wave` [m] relax in about a tenth of `time` [s]; [N s/m^2].
-double settling_drag(const Material& material, double wave, double time);
+double settling_drag(const RodMaterial& material, double wave, double time);
 
 }  // namespace knot_utm

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/time_step.hpp"
 #include "knot_utm/specimen/centreline.hpp"

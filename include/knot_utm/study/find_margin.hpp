@@ -5,8 +5,8 @@
 #include "knot_utm/analysis/margin.hpp"
 #include "knot_utm/machine/options.hpp"
 #include "knot_utm/record/program.hpp"
-#include "knot_utm/rod/material.hpp"
 #include "knot_utm/sim/options.hpp"
+#include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {
 
@@ -13,9 +13,9 @@ struct EnclosedCircle {
   double radius = 0.0;  ///< 0: the curve encloses nothing
 };
 
-/// Of an open curve through `points`, straight from each to the next, as seen along the third row of `rotation`. The
-/// radius is too small by at most `tolerance`, which is more than 0, and never too large. Only circles with a radius
-/// above `larger_than` are looked for.
+/// The largest circle that an open curve encloses, as seen along the third row of `rotation`. The curve goes straight
+/// from each of `points` to the next. The radius is too small by at most `tolerance`, which is more than 0, and never
+/// too large. Only circles with a radius above `larger_than` are looked for.
 EnclosedCircle largest_enclosed_circle(const Points& points, const Mat3& rotation, double tolerance,
                                        double larger_than = 0.0);
 

@@ -4,7 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "knot_utm/rod/rod.hpp"
+#include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/topology/overhand_strand.hpp"
 
 namespace knot_utm {

@@ -2,6 +2,7 @@
 
 #include <optional>
 
+#include "knot_utm/numeric/points.hpp"
 #include "knot_utm/rod/frames.hpp"
 
 namespace knot_utm {

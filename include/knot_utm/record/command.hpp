@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstdint>
+
+#include "knot_utm/numeric/archive.hpp"
+#include "knot_utm/record/phase.hpp"
+
+namespace knot_utm {
+
+/// A command: the motion of the crosshead until `time`. The simulation answers it with a sample of the same time.
+struct Command {
+  std::uint64_t sequence = 0;  ///< counts commands from 0; the answering sample carries the same number
+  double time = 0.0;           ///< [s]
+  double displacement = 0.0;   ///< crosshead displacement at `time`, moving linearly since the last command [m]
+  double velocity = 0.0;       ///< of the crosshead [m/s]
+  int step = 0;                ///< index of the program's step; -1 before the first
+  Phase phase = Phase::kIdle;
+  double speed = 0.0;      ///< of the step: tie: speed of the tail grips [m/s]
+  double duration = 0.0;   ///< of the step: release [s]
+  bool balance = false;    ///< zero the load cell and the extension before moving on
+  bool read_cell = false;  ///< `time` is a sampling instant of the load cell: `load` is its reading
+
+  void state(Archive& archive);
+};
+
+}  // namespace knot_utm

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <string>
+
+#include "knot_utm/rod/material.hpp"
+
+namespace knot_utm {
+
+/// The `material` section of a method: what the rod is made of, and how it rubs, is tied and parts.
+struct Material : RodMaterial {
+  std::string name;
+  double friction_coefficient = 0.0;        ///< mu [-]
+  std::optional<double> friction_couple;    ///< eta [-]; unset: default_friction_couple
+  double bending_set = 0.0;                 ///< fraction of the bend in its tied knots that the rod keeps at rest [-]
+  std::optional<double> contact_stiffness;  ///< K [N/m^2], of the pressure law; unset: default_contact_stiffness
+  std::optional<double> tying_preload;      ///< F_p [N]; unset: default_preload
+  std::optional<double> breaking_force;     ///< F_b, tension at which it parts [N]; unset: it does not
+  std::optional<double> breaking_strain;    ///< eps_b of its outermost fibre (machine/fracture.hpp) [-]; unset: none
+  std::string load_cell;                    ///< name of the load cell that suits it
+  std::string notes;
+};
+
+/// Pre-load F_p of `specimen.preload: auto` [N]: the material's own, else 4 k_b/h^2, with which a knot holds together
+/// once its tails are let go, but at most half of the breaking force.
+inline double default_preload(const Material& material) {
+  const double holds = 4.0 * material.bending_stiffness / (material.radius * material.radius);
+  return material.tying_preload.value_or(material.breaking_force ? std::min(holds, 0.5 * *material.breaking_force)
+                                                                 : holds);
+}
+
+/// Contact stiffness K of `auto` [N/m^2]: the material's own, else 300 k_b/h^4. Strands that are pressed together by
+/// the force k_b/h^2 over a length h of rod then overlap by h/300.
+inline double default_contact_stiffness(const Material& material) {
+  const double h2 = material.radius * material.radius;
+  return material.contact_stiffness.value_or(300.0 * material.bending_stiffness / (h2 * h2));
+}
+
+/// Fraction eta of friction's couple that the section transmits: the material's own, else none. A bundle of fibres that
+/// slide past one another carries the couple by a shift of its line of tension. A solid rod transmits all of it, but
+/// its knots then roll open, which those of the source paper did not (doc/model.md, section 5).
+inline double default_friction_couple(const Material& material) { return material.friction_couple.value_or(0.0); }
+
+}  // namespace knot_utm
