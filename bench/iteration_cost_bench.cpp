@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "knot_utm/contact/smooth_contact.hpp"
-#include "knot_utm/io/method.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/record/sample.hpp"

@@ -38,12 +38,8 @@ foreach(header ${public_headers})
   install(FILES include/knot_utm/${header} DESTINATION include/knot_utm/${room})
 endforeach()
 install(DIRECTORY config DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
-# roslaunch and rosrun look for panel_node here, too.
 if(catkin_FOUND)
-  install(DIRECTORY panel DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} USE_SOURCE_PERMISSIONS
-          PATTERN "__pycache__" EXCLUDE)
+  install(PROGRAMS python/knot_utm/panel/panel_node DESTINATION ${CATKIN_PACKAGE_BIN_DESTINATION})
 endif()
 install(DIRECTORY python/knot_utm/ DESTINATION ${CATKIN_PACKAGE_PYTHON_DESTINATION} FILES_MATCHING PATTERN "*.py"
-        PATTERN "__pycache__" EXCLUDE)
-install(DIRECTORY report DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} FILES_MATCHING PATTERN "*.py" PATTERN "*.j2"
-        PATTERN "*.js" PATTERN "*.csv" PATTERN "__pycache__" EXCLUDE)
+        PATTERN "*.j2" PATTERN "*.js" PATTERN "*.csv" PATTERN "__pycache__" EXCLUDE PATTERN "workflow" EXCLUDE)

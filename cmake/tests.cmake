@@ -67,27 +67,33 @@ file(GLOB validation_sources CONFIGURE_DEPENDS test/validation/*_test.cpp)
 knot_utm_tests(validation_tests slow ${validation_sources})
 target_link_libraries(validation_tests PRIVATE knot_utm_core)
 
+# Tests in Python find the package and what they share without being told where they are.
+set(python_environment "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}"
+                       "PYTHONPATH=${PROJECT_SOURCE_DIR}/python:${PROJECT_SOURCE_DIR}/test/python" PYTHONDONTWRITEBYTECODE=1)
+
 # What scripts/bench and scripts/stress make of their runs; the scripts themselves; README and doc/ against the code.
 add_test(NAME bench_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/bench_test.py)
 add_test(NAME stress_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/bench/stress_test.py)
-add_test(NAME scripts_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/scripts_test.py)
-add_test(NAME material_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/material_test.py)
-set_tests_properties(material_test PROPERTIES TIMEOUT 600 ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
-add_test(NAME efficiency_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/scripts/efficiency_test.py)
+add_test(NAME scripts_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/python/scripts/scripts_test.py)
+add_test(NAME material_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/python/scripts/material_test.py)
+set_tests_properties(material_test PROPERTIES TIMEOUT 600 ENVIRONMENT "${python_environment}")
+add_test(NAME efficiency_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/python/scripts/efficiency_test.py)
+set_tests_properties(efficiency_test PROPERTIES ENVIRONMENT "${python_environment}")
 # Studies: their designs, their pictures, what scripts/sweep makes of small ones, the same from Python, and as jobs on this machine
 # and of Slurm.
 foreach(name design_test plots_test sweep_test python_test workflow_test)
-  add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/sweep/${name}.py)
+  add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/python/sweep/${name}.py)
   set_tests_properties(${name} PROPERTIES TIMEOUT 600 SKIP_RETURN_CODE 77
-                       ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
+                       ENVIRONMENT "${python_environment}")
 endforeach()
 # Fits: their parts against closed forms, and what scripts/fit finds of hidden values.
 foreach(name interval_test fit_test)
-  add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/fit/${name}.py)
+  add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/python/fit/${name}.py)
   set_tests_properties(${name} PROPERTIES TIMEOUT 600 SKIP_RETURN_CODE 77
-                       ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
+                       ENVIRONMENT "${python_environment}")
 endforeach()
 add_test(NAME doc_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/doc_test.py)
+set_tests_properties(doc_test PROPERTIES ENVIRONMENT "${python_environment}")
 
 # The recipe for a friction law in CONTRIBUTING.md, by following it.
 add_test(NAME friction_law_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/contributing/friction_law_test.py)
@@ -99,17 +105,18 @@ add_test(NAME site_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/
 set_tests_properties(site_test PROPERTIES SKIP_RETURN_CODE 77)
 
 # The panel beside the picture in rviz.
-add_test(NAME panel_test COMMAND ${PYTHON_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/test/panel/panel_test.py)
+add_test(NAME panel_test COMMAND ${PYTHON_EXECUTABLE} -B ${PROJECT_SOURCE_DIR}/test/python/panel/panel_test.py)
+set_tests_properties(panel_test PROPERTIES ENVIRONMENT "${python_environment}")
 
 # The report: what is made of a run, and what a browser and a printer make of that.
 foreach(name report_test certificate_test figures_test comparison_test batch_test browser_test export_test movie_test)
-  add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/report/${name}.py)
-  set_tests_properties(${name} PROPERTIES TIMEOUT 1800 ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
+  add_test(NAME ${name} COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/python/report/${name}.py)
+  set_tests_properties(${name} PROPERTIES TIMEOUT 1800 ENVIRONMENT "${python_environment}")
 endforeach()
 
 # README's numbers, method and lines, by running them.
 add_test(NAME readme_test COMMAND ${PYTHON_EXECUTABLE} ${PROJECT_SOURCE_DIR}/test/doc/readme_test.py)
-set_tests_properties(readme_test PROPERTIES TIMEOUT 600 ENVIRONMENT "KNOT_UTM_TOOLS_DIR=${KNOT_UTM_EXECUTABLE_DIR}")
+set_tests_properties(readme_test PROPERTIES TIMEOUT 600 ENVIRONMENT "${python_environment}")
 
 # The tutorial, from a clone on, which gets what stands in build/.
 if(KNOT_UTM_EXECUTABLE_DIR STREQUAL "${PROJECT_SOURCE_DIR}/build/devel/lib/knot_utm")

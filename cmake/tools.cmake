@@ -4,6 +4,8 @@ file(GLOB tools CONFIGURE_DEPENDS src/tools/*.cpp)
 if(NOT catkin_FOUND)
   list(FILTER tools EXCLUDE REGEX import_instron)  # writes nothing but a bag
 endif()
+set_source_files_properties(src/tools/compare.cpp src/tools/tensile_test.cpp PROPERTIES
+                            COMPILE_DEFINITIONS KNOT_UTM_PYTHON_DIR="${PROJECT_SOURCE_DIR}/python")
 foreach(source ${tools})
   get_filename_component(name ${source} NAME_WE)
   knot_utm_executable(${name} ${source})

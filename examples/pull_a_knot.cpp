@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "knot_utm/analysis/results.hpp"
-#include "knot_utm/io/method.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/machine/options.hpp"
 #include "knot_utm/machine/run_test.hpp"
@@ -14,7 +14,7 @@
 int main(int argc, char** argv) try {
   const std::string file = knot_utm::find_method(argc > 1 ? argv[1] : "tighten", "", {KNOT_UTM_METHODS});
   const std::vector<std::string> settings(argv + (argc > 2 ? 2 : argc), argv + argc);
-  const knot_utm::Method method = knot_utm::load_method(file, settings);
+  const knot_utm::Method method = knot_utm::load_test(file, settings);
   knot_utm::TestingMachine bench(method.specimen, method.material, method.machine, method.physics);
   knot_utm::ProgramRunner program = knot_utm::make_program(method, bench.longest_step());
 

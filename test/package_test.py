@@ -20,10 +20,11 @@ SETTINGS = ["physics.accuracy=draft", "program.pull.until.extension=0.03"]
 HAS_PANDAS = all(importlib.util.find_spec(name) for name in ("pandas", "tables", "scipy", "tqdm", "matplotlib"))
 HAS_MESSAGES = os.path.isdir(os.path.join(BUILD, "devel/lib/python3/dist-packages/knot_utm/msg"))
 RUN = """
+import os
 import knot_utm
 from knot_utm import tool
 run = knot_utm.run("straight", "run", **{"physics.accuracy": "draft"})
-print(knot_utm.__file__, tool.tensile_test(), tool.find_method("usp_881_knot_pull", ""), tool.SHARE + "/report/make_report.py",
+print(knot_utm.__file__, tool.tensile_test(), tool.find_method("usp_881_knot_pull", ""), os.path.dirname(knot_utm.__file__) + "/report/__main__.py",
       run.results["peak_force"])
 """
 MESSAGES = """

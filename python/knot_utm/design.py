@@ -7,7 +7,7 @@ import numpy as np
 from scipy import stats
 
 from knot_utm.errors import WrongInput
-from knot_utm.yaml_text import text_of
+from knot_utm.yaml_text import is_number, text_of
 
 MOST_RUNS = 1_000_000
 RANGE = "{from, to, steps, scale: linear or log}"
@@ -180,7 +180,3 @@ def _number(where, given, part):
     if not is_number(value):
         raise WrongInput(f"{where}.{part} is {text_of(value)}, but must be a number")
     return float(value)
-
-
-def is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)

@@ -72,15 +72,19 @@ def package_version():
 
 
 @functools.cache
+def listing(name):
+    """A table that tensile_test prints, as rows by column: results, method-keys, knots or phases."""
+    return list(csv.DictReader(_said("--list-" + name).splitlines()))
+
+
 def result_keys():
     """[{key, unit, kind, group, meaning}] of result.yaml."""
-    return list(csv.DictReader(_said("--list-results").splitlines()))
+    return listing("results")
 
 
-@functools.cache
 def method_keys():
     """The keys that methods may have, but for those of sections that do not act on the test, such as analysis."""
-    return tuple(row["key"] for row in csv.DictReader(_said("--list-method-keys").splitlines()))
+    return tuple(row["key"] for row in listing("method-keys"))
 
 
 def find_method(name, folder):

@@ -4,27 +4,24 @@ import os
 import signal
 import threading
 from collections import Counter
-from concurrent.futures import ThreadPoolExecutor, as_completed
-
-from tqdm import tqdm
 
 from knot_utm import tool
 from knot_utm.errors import Interrupted, WrongInput
+from knot_utm.runner import Runner
 from knot_utm.sweep_folder import RESULT, STATISTICS
 from knot_utm.yaml_text import described, load
 
 INTERRUPTED = "interrupted"  # the reason of a run that may go on
 
 
-class Work:
+class Work(Runner):
     """What is done for a study, until it is done or stopped."""
 
     def __init__(self, study, folder, runs, beginnings):
         """`runs`: the names of all; `beginnings`: {run: (name, Beginning)} of those that share one."""
+        super().__init__()
         self.study, self.folder, self.runs, self.beginnings = study, folder, runs, beginnings
-        self.stopped = None  # why
         self.begun = []  # names of the beginnings that runs began with
-        self._live = set()
         self._handlers = {}
 
     def __enter__(self):
@@ -36,12 +33,6 @@ class Work:
     def __exit__(self, *_):
         for code, handler in self._handlers.items():
             signal.signal(code, handler)
-
-    def stop(self, why):
-        """No run begins any more, and those in flight are lost."""
-        self.stopped = self.stopped or why
-        for process in list(self._live):
-            process.kill()
 
     @contextlib.contextmanager
     def stopping(self):
@@ -58,7 +49,7 @@ class Work:
 
     def check(self, points, jobs):
         """Raises WrongInput where tensile_test would refuse one of them."""
-        reasons = self._each(self._refusal, points, jobs, "checked")
+        reasons = self.each(self._refusal, points.items(), jobs, "checked")
         refused = [(point, why) for point, why in zip(points.values(), reasons) if why]
         self.require_all()
         if refused:
@@ -70,22 +61,9 @@ class Work:
         """Makes each of them, and before that each beginning that several of them share."""
         shared = dict(self.beginnings[run] for run in points if run in self.beginnings)
         wanted = Counter(self.beginnings[run][0] for run in points if run in self.beginnings)
-        self._each(self._tie, {name: beginning for name, beginning in shared.items()
-                               if wanted[name] > 1 and not os.path.exists(self.folder.tied(name))}, jobs, "tied")
-        self._each(self._make, points, jobs, "run")
-
-    def _each(self, do, points, jobs, what):
-        """`do(run, point)` for all, some at a time; what each returned, in their order."""
-        with ThreadPoolExecutor(jobs) as pool, tqdm(total=len(points), desc=what, unit="run", disable=None) as bar:
-            futures = [pool.submit(do, run, point) for run, point in points.items()]
-            try:
-                for future in as_completed(futures):
-                    future.result()
-                    bar.update()
-            except BaseException as error:
-                self.stop(str(error))
-                raise
-            return [future.result() for future in futures]
+        self.each(self._tie, [(name, beginning) for name, beginning in shared.items()
+                              if wanted[name] > 1 and not os.path.exists(self.folder.tied(name))], jobs, "tied")
+        self.each(self._make, points.items(), jobs, "run")
 
     def _refusal(self, _run, point):
         return None if self.stopped else tool.refusal(self.study.method, point)
@@ -96,7 +74,7 @@ class Work:
         if self.stopped:
             return
         with self.stopping(), self.folder.making(place) as part:
-            code, said = self._wait(self._start(beginning.point, part, "--stop-before", str(beginning.step)))
+            code, said = self._wait(beginning.point, part, "--stop-before", str(beginning.step))
             if code > 0 and tool.is_of_a_full_disk(said):
                 self.stop(said.partition(";")[0].replace(part, place))
             elif code == 0 and not self.stopped and os.path.exists(os.path.join(part, "checkpoint")):
@@ -107,7 +85,7 @@ class Work:
         if self.stopped:
             return
         with self.stopping(), self.folder.making(self.folder.of(run)) as part:
-            code, said = self._go_on(run, point, part) or self._wait(self._start(point, part))
+            code, said = self._go_on(run, point, part) or self._wait(point, part)
             if not self.stopped:
                 self._keep(part, run, point, code, said.replace(part, self.folder.of(run)))
 
@@ -116,24 +94,14 @@ class Work:
         name = self.beginnings[run][0] if run in self.beginnings else ""
         if not name or not os.path.exists(self.folder.tied(name)):
             return None
-        code, said = self._wait(self._start(point, part, "--begin-with", self.folder.tied(name)))
+        code, said = self._wait(point, part, "--begin-with", self.folder.tied(name))
         if code == tool.REFUSED:
             return None
         self.begun.append(name)
         return code, said
 
-    def _start(self, point, part, *more):
-        more += ("--jobs", "1") if self.study.repeat > 1 else ()
-        process = tool.start(self.study.method, point, part, *more)
-        self._live.add(process)
-        if self.stopped:  # between the question and the start
-            process.kill()
-        return process
-
-    def _wait(self, process):
-        _, stderr = process.communicate()
-        self._live.discard(process)
-        return process.returncode, tool.said_by(stderr)
+    def _wait(self, point, part, *more):
+        return self.wait(self.study.method, point, part, *more, *(("--jobs", "1") if self.study.repeat > 1 else ()))
 
     def _keep(self, part, run, point, code, said):
         """What became of a run that ended by itself, or was ended by another than the sweep."""

@@ -1,4 +1,5 @@
 """YAML as tensile_test reads and writes it."""
+import math
 import re
 
 import yaml
@@ -50,6 +51,11 @@ def text_of(value):
 def described(settings):
     """{key: value} in words."""
     return ", ".join(f"{key}={text_of(value)}" for key, value in settings.items())
+
+
+def is_number(value):
+    """Whether a value that was read is one; infinity, yes and no are none."""
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def value_of(text):

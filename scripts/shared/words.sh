@@ -27,3 +27,9 @@ refuse_options() {
     case $word in -*) refuse "it has no option $word" ;; esac
   done
 }
+
+# Becomes a program of the package python/knot_utm, by Debian's Python with Debian's packages: run_module MODULE WORD...
+run_module() {
+  local module=$1
+  exec env -u PYTHONHOME PYTHONPATH="$root/python" OPENBLAS_NUM_THREADS=1 /usr/bin/python3 -sPB -m "knot_utm.$module" "${@:2}"
+}

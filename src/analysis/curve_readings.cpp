@@ -318,13 +318,6 @@ std::string why_no_plateau(const Pull& borne, bool on_rollers, const CurveReadin
   return why_not_level(*level, found.rises_at.has_value());
 }
 
-/// What the rod bears.
-Pull borne_of(Pull pull) {
-  for (PullPoint& point : pull)
-    if (std::isfinite(point.borne)) point.force = point.borne;
-  return pull;
-}
-
 /// Says why the knots do not lock; empty where they lock, which is where the force rises for good.
 std::string why_no_lock(const Pull& borne, const CurveReadings& found) {
   if (found.jumped) return "a knot jumped open";
@@ -351,9 +344,16 @@ void read_plateau(const Pull& pull, CurveReadings& out) {
 
 }  // namespace
 
-CurveReadings curve_readings(const Pull& pull, bool on_rollers, const HiddenRod& hidden) {
+Pull borne_of(Pull pull) {
+  for (PullPoint& point : pull)
+    if (std::isfinite(point.borne)) point.force = point.borne;
+  return pull;
+}
+
+CurveReadings curve_readings(const Pull& pull, bool on_rollers, const HiddenRod& hidden, const KnotsOfPull& knots) {
   CurveReadings out;
-  out.no_plateau = out.no_lock_by_load = "nothing was pulled";
+  out.no_lock_by_load = "nothing was pulled";
+  out.no_plateau = knots.lost.empty() ? out.no_lock_by_load : knots.lost;
   if (pull.empty()) return out;
   const Pull borne = borne_of(pull);
   out.rises_at = lock_by_load(borne);
@@ -369,12 +369,21 @@ CurveReadings curve_readings(const Pull& pull, bool on_rollers, const HiddenRod&
     out.force_after_jump = pull[out.jumped->to].force;
   }
   out.no_plateau = why_no_plateau(borne, on_rollers, out);
-  if (out.no_plateau.empty()) read_plateau(pull, out);
   out.no_lock_by_load = why_no_lock(borne, out);
+  const bool level = out.no_plateau.empty();
+  if (!knots.lost.empty())
+    out.no_plateau = knots.lost;
+  else if (level)
+    out.no_plateau = knots.not_sliding;
+  if (out.no_plateau.empty())
+    read_plateau(pull, out);
+  else if (out.no_lock_by_load.empty())
+    out.no_lock_by_load = "there is no plateau";
   if (out.no_lock_by_load.empty()) out.lock_extension_by_load = out.rises_at;
-  if (!out.jumped && (out.rises_at || !out.plateau_force))
+  if (!out.jumped && (out.rises_at || !level))
     out.locked = locked_part(pull, out.rises_at.value_or(pull.front().extension));
-  if (out.locked) out.locked_stiffness = out.locked->stiffness;
+  const bool holds = !knots.untangled && (!knots.slid_to_end || out.rises_at);
+  if (out.locked && holds) out.locked_stiffness = out.locked->stiffness;
   return out;
 }
 

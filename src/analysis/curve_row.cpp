@@ -8,14 +8,10 @@
 namespace knot_utm {
 namespace {
 
-double own_extension(const CurveRow& row) {
-  return std::isfinite(row.corrected_extension) ? row.corrected_extension : row.extension;
-}
-
 constexpr double kSameZero = 1e-9;  // far above rounding, far below what anybody measures [m]
 
 PullPoint point_of(const CurveRow& row, ExtensionOf extension) {
-  const double s = extension == ExtensionOf::kMachine ? row.extension : own_extension(row);
+  const double s = extension == ExtensionOf::kMachine ? travel_of(row) : row.extension;
   PullPoint point{row.time, s, row.knot_distance, row.load};
   point.borne = row.load_lower + row.balance_offset;
   return point;
@@ -56,10 +52,7 @@ CurveRow curve_row(const Sample& sample) {
   CurveRow row;
   row.time = sample.time;
   row.extension = sample.extension;
-  if (!std::isnan(sample.raw_extension)) {
-    row.extension = sample.raw_extension;
-    row.corrected_extension = sample.extension;
-  }
+  row.crosshead_travel = sample.raw_extension;
   row.load = sample.load;
   row.knot_distance = sample.knot_distance;
   row.end_to_end = sample.end_to_end;
@@ -70,9 +63,13 @@ CurveRow curve_row(const Sample& sample) {
   return row;
 }
 
+double travel_of(const CurveRow& row) {
+  return std::isfinite(row.crosshead_travel) ? row.crosshead_travel : row.extension;
+}
+
 bool balanced_between(const CurveRow& before, const CurveRow& after) {
-  const double zero_before = before.end_to_end - own_extension(before);
-  const double zero_after = after.end_to_end - own_extension(after);
+  const double zero_before = before.end_to_end - before.extension;
+  const double zero_after = after.end_to_end - after.extension;
   return before.end_to_end > 0.0 && std::abs(zero_after - zero_before) > kSameZero;
 }
 

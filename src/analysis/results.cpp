@@ -148,34 +148,31 @@ Pull true_pull_of(std::vector<CurveRow> rows, const std::vector<Sample>& reading
   return pull;
 }
 
-void drop_plateau(const std::string& why, CurveReadings& curve) {
-  for (std::optional<double>* reading : {&curve.plateau_force, &curve.plateau_force_sd, &curve.plateau_force_low,
-                                         &curve.plateau_force_high, &curve.plateau_force_slope, &curve.breakaway_force})
-    reading->reset();
-  curve.no_plateau = why;
-  if (!curve.lock_extension_by_load) return;
-  curve.lock_extension_by_load.reset();
-  curve.no_lock_by_load = "there is no plateau";
-}
-
-/// A level force is a sliding force only where knots slide.
-void drop_what_does_not_slide(MotionPattern pattern, CurveReadings& curve) {
-  if (curve.plateau_force && pattern == MotionPattern::kStretching) {
-    drop_plateau("the load is level, but the knots do not slide: they stretch", curve);
-  } else if (curve.plateau_force && pattern == MotionPattern::kNone) {
-    drop_plateau("the load is level, but only two knots that slide towards each other have a plateau", curve);
+/// What the motion of the knots tells of their sliding force. What is pulled without a knot, or with one that opened
+/// before, has none of the knot that was tied, and a level force is a sliding force only where knots slide.
+KnotsOfPull knots_of(const Results& results) {
+  KnotsOfPull knots;
+  switch (results.motion_pattern) {
+    case MotionPattern::kSliding:
+      knots.slid_to_end = !results.lock_extension;
+      break;
+    case MotionPattern::kStretching:
+      knots.not_sliding = "the load is level, but the knots do not slide: they stretch";
+      break;
+    case MotionPattern::kNone:
+      knots.not_sliding = "the load is level, but only two knots that slide towards each other have a plateau";
+      break;
+    case MotionPattern::kUntangling:
+      knots.untangled = true;
+      if (results.knot_type == KnotType::kCrossed)
+        knots.lost = "the rod ran through itself";
+      else if (results.untangled_at)
+        knots.lost = "the knot came undone";
+      else if (results.opened_when_mounted)
+        knots.lost = "a knot opened as the loop was mounted";
+      break;
   }
-}
-
-/// What is pulled without a knot, or with one that opened before, has no sliding force of the knot that was tied.
-void drop_what_an_opened_knot_has_none_of(Results& results) {
-  if (results.knot_type == KnotType::kCrossed)
-    drop_plateau("the rod ran through itself", results.curve);
-  else if (results.untangled_at)
-    drop_plateau("the knot came undone", results.curve);
-  else if (results.opened_when_mounted)
-    drop_plateau("a knot opened as the loop was mounted", results.curve);
-  results.curve.locked_stiffness.reset();
+  return knots;
 }
 
 // A tail that brushes along a roller bears less [of the true force].
@@ -186,19 +183,15 @@ void keep_first(const Sample& sample, double force, double least, std::optional<
   if (!first && force > least) first = sample.extension;
 }
 
-/// What the loads alone tell.
-void read_loads(const std::vector<Sample>& readings, bool on_rollers, Results& results) {
-  const std::vector<CurveRow> rows = rows_of(readings);
-  results.curve = curve_readings(pull_of(rows), on_rollers, hidden_rod_of(rows));
-}
-
 /// Less than this fraction of the largest force of a compression is what its rest left [-].
 constexpr double kTensile = 1e-3;
 
 /// What loads and the motion of the knots tell together.
-void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>& at_break, Results& results) {
+void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>& at_break, bool on_rollers,
+                Results& results) {
   const std::vector<CurveRow> rows = rows_of(readings);
   const Pull pull = pull_of(rows), true_pull = true_pull_of(rows, readings);
+  results.curve = curve_readings(pull, on_rollers, hidden_rod_of(rows), knots_of(results));
   if (const std::optional<Drop>& jumped = results.curve.jumped) {
     results.true_jump_force = true_pull[jumped->from].force;
     results.true_force_after_jump = true_pull[jumped->to].force;
@@ -215,10 +208,6 @@ void read_curve(const std::vector<Sample>& readings, const std::optional<Sample>
   }
   results.never_in_tension = !pull.empty() && !results.true_peak_force;
   if (results.never_in_tension) results.curve.peak_force.reset();
-  const bool locked = results.lock_extension || results.curve.rises_at;
-  if (results.motion_pattern == MotionPattern::kSliding && !locked) results.curve.locked_stiffness.reset();
-  drop_what_does_not_slide(results.motion_pattern, results.curve);
-  if (results.motion_pattern == MotionPattern::kUntangling) drop_what_an_opened_knot_has_none_of(results);
   if (!results.curve.plateau_force) return;
   const double end = results.curve.slides_to;
   results.true_plateau_force = plateau(true_pull, end)->force;
@@ -350,8 +339,10 @@ class Course {
   const Sample* tied_ = nullptr;
 };
 
-void read_motion(const std::vector<Sample>& samples, MotionPatternTracker& motion, Results& results) {
-  motion.set_jumped(results.curve.jumped.has_value());
+void read_motion(const std::vector<Sample>& samples, const std::vector<Sample>& readings, bool on_rollers,
+                 MotionPatternTracker& motion, Results& results) {
+  const std::vector<CurveRow> rows = rows_of(readings);
+  motion.set_jumped(jump(borne_of(pull_of(rows)), on_rollers, hidden_rod_of(rows)).has_value());
   results.opened_when_mounted = motion.opened_when_mounted();
   results.motion_pattern = motion.pattern();
   results.motion_pattern_confidence = motion.confidence();
@@ -424,11 +415,10 @@ Results analyse(const std::vector<Sample>& samples, const std::vector<Sample>& r
   if (samples.empty()) return results;
   Course course(samples, on_rollers, results);
   read_end(samples.back(), results);
-  read_loads(readings, on_rollers, results);
-  read_motion(samples, course.motion(), results);
+  read_motion(samples, readings, on_rollers, course.motion(), results);
   read_tied(course, results);
   read_snap(samples, results);
-  read_curve(readings, course.at_break(), results);
+  read_curve(readings, course.at_break(), on_rollers, results);
   course.read_balances();
   results.at_start = forces_at_start(samples);
   read_gauge_length(course, results);

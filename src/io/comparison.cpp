@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 
-#include "knot_utm/io/yaml_lines.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/numeric/yaml_lines.hpp"
 #include "knot_utm/record/sample.hpp"
 
 namespace knot_utm {

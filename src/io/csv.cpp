@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "knot_utm/io/cannot_write.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
@@ -30,10 +31,12 @@ constexpr std::array<Column, 6> kColumns{{{"time", sample_unit("time"), &CurveRo
 constexpr const char* kPhase = "phase";
 constexpr const char* kPhaseUnit = sample_unit(kPhase);
 constexpr Column kBalance = {"balance_offset", sample_unit("balance_offset"), &CurveRow::balance_offset};
-constexpr Column kCorrected = {"corrected_extension", sample_unit("extension"), &CurveRow::corrected_extension};
+constexpr Column kTravel = {"crosshead_travel", sample_unit("raw_extension"), &CurveRow::crosshead_travel};
+/// Earlier versions called s so, and the travel of the crosshead `extension`.
+constexpr Column kEarlier = {"corrected_extension", sample_unit("extension"), &CurveRow::crosshead_travel};
 
 std::vector<Column> behind_the_phase(bool compliant_frame) {
-  return compliant_frame ? std::vector<Column>{kBalance, kCorrected} : std::vector<Column>{kBalance};
+  return compliant_frame ? std::vector<Column>{kBalance, kTravel} : std::vector<Column>{kBalance};
 }
 
 void open(std::ofstream& out, const std::string& file) {
@@ -116,7 +119,7 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
   const std::vector<std::string_view> names = cells(head[0]);
   const std::vector<std::string_view> units = cells(head[1]);
   std::vector<Column> columns(kColumns.begin(), kColumns.end());
-  for (const Column& column : {kBalance, kCorrected})
+  for (const Column& column : {kBalance, kTravel, kEarlier})
     if (std::find(names.begin(), names.end(), column.name) != names.end()) columns.push_back(column);
   std::vector<std::size_t> places;
   for (const Column& column : columns) places.push_back(place(file, names, units, column.name, column.unit));
@@ -144,6 +147,7 @@ std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
     const std::optional<Phase> known = phase_named(phase);
     if (!known) throw InvalidInput(file, key + ": phase", "\"" + phase + "\"", "a phase of a test, such as pull");
     row.phase = *known;
+    if (columns.back().name == kEarlier.name) std::swap(row.extension, row.crosshead_travel);
     rows.push_back(row);
   }
   if (!text.fault().empty()) throw InvalidInput::sentence("rows", "too many", text.fault()).in_file(file);

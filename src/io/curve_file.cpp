@@ -95,7 +95,8 @@ std::vector<CurveRow> read_course(const std::string& file, const RawOptions& opt
   const auto first = std::find_if(rows.begin(), rows.end(), pulled);
   if (first == rows.end()) return {};
   const auto begin = first == rows.begin() ? first : first - 1;
-  if (begin != first && balanced_between(*begin, *first)) begin->extension = 0.0;  // zero is where it stood
+  if (begin != first && balanced_between(*begin, *first))
+    begin->extension = begin->crosshead_travel = 0.0;  // zero is where it stood
   const auto end = std::find_if(rows.rbegin(), rows.rend(), pulled).base();
   for (auto row = begin; row != end; ++row) {
     const std::string reading = "reading " + std::to_string(row - rows.begin() + 1);

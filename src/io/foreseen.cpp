@@ -90,7 +90,7 @@ class NeverReached {
   }
   void fracture(const std::string& key, const ProgramStep& step) {
     const Until& until = step.until;
-    const bool parts = m_.material.breaking_force || m_.material.breaking_strain || m_.ends.breaks.on();
+    const bool parts = m_.material.breaking_force || m_.material.breaking_strain || m_.ends.break_at_fraction_of_peak;
     if (!until.broken || until.extension || until.load || until.time || parts) return;
     all_.push_back(key +
                    ".break is the only end of the pull, but nothing breaks this rod, so that the pull goes on to "

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "config_library.hpp"
-#include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -81,14 +80,11 @@ Specification read_specification(const YAML::Node& node, const std::string& file
   if (!node.IsDefined() || node.IsNull()) return specification;
   if (!node.IsMap())
     throw InvalidInput(file, key, as_given(node), "a map such as {peak_force: {min: 100}}, of numbers of result.yaml");
-  const std::vector<std::string> known = result_numbers();
   for (const auto& item : node) {
     Requirement required;
     required.key = one_line(item.first);
     const std::string path = key + "." + required.key;
     const auto is_it = [&](const Requirement& other) { return other.key == required.key; };
-    if (std::find(known.begin(), known.end(), required.key) == known.end())
-      throw InvalidInput::unknown_key(key, required.key, one_line(item.second), known, "a specification").in_file(file);
     if (std::any_of(specification.begin(), specification.end(), is_it))
       throw InvalidInput::sentence(path, one_line(item.second), shown(path) + " stands twice; give it once")
           .in_file(file);
@@ -174,8 +170,6 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
         read_load_cell(reader.take("load_cell"), file, method.material, defaults.machine.load_cell, library, automatic);
   });
   method.program = read_program(top.take("program"), file, defaults, automatic);
-  // Without effect they keep their plain value.
-  if (known && known->ends.breaks.drop) method.ends.breaks.drop_extension = defaults.drop_extension;
   if (known) set_creep(known->physics.friction.law, defaults.slip_tolerance, method.physics.friction);
   top.section("ends", [&](Reader& reader) { fields::ends(reader, method.ends); });
   top.section("physics", [&](Reader& reader) { fields::physics(reader, method.physics); });
@@ -244,9 +238,8 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     }
     if (!method.report.logo.empty())
       method.report.logo = fs::absolute(folder / method.report.logo).lexically_normal().string();
-    for (std::size_t i = 0; i < method.program.size(); ++i)
-      if (method.program[i].phase == Phase::kFollow)
-        read_record(folder, "program." + std::to_string(i) + ".follow", method.program[i]);
+    for (ProgramStep& step : method.program)
+      if (!step.record.empty()) step.record = fs::absolute(folder / step.record).lexically_normal().string();
     check_method(method);
     keep_own_keys(method);
     keep_automatic(noted, method);

@@ -65,43 +65,21 @@ void check_law(const LawOptions<Number>& given, const std::string& section, cons
   }
 }
 
-/// A `Fields` (method_fields.hpp) that keeps the keys of a specimen and their values as messages show them. Numbers
-/// have all their digits, so that equal texts are equal values. A value that is not set is empty.
-class Texts {
- public:
-  using Range = fields::Range;
-  void number(const char* key, double& value, const Range&) { add(key, format_number(value)); }
-  void scaled_number(const char* key, double& value, const Range&) { add(key, format_number(value)); }
-  void optional_number(const char* key, std::optional<double>& value, const Range&, const char*) {
-    add(key, value ? format_number(*value) : "");
-  }
-  void integer(const char* key, int& value, int, int) { add(key, std::to_string(value)); }
-  void text(const char* key, std::string& value) { add(key, value); }
-  void flag(const char* key, bool& value) { add(key, value ? "true" : "false"); }
-  template <class Enum, class Names>
-  void choice(const char* key, Enum& value, const Names& names) {
-    add(key, names[static_cast<std::size_t>(value)]);
-  }
-
-  static std::vector<std::pair<const char*, std::string>> of(SpecimenOptions specimen) {
-    Texts texts;
-    fields::specimen(texts, specimen);
-    return texts.all_;
-  }
-
- private:
-  void add(const char* key, const std::string& value) { all_.emplace_back(key, value); }
-
-  std::vector<std::pair<const char*, std::string>> all_;
-};
+/// The keys of a specimen, each with its value as a message shows it.
+YAML::Node keys_of(SpecimenOptions specimen) {
+  fields::Writer writer;
+  fields::specimen(writer, specimen);
+  return writer.map();
+}
 
 /// A key of `specimen` that its knot does not have is without effect.
 void check_keys_of_knot(const SpecimenOptions& specimen) {
-  const auto given = Texts::of(specimen), unset = Texts::of(SpecimenOptions());
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    const char* key = given[i].first;
-    has_effect(knot_of(specimen).has(key), (std::string("specimen.") + key).c_str(), given[i].second, unset[i].second,
-               "for knot: " + knots_with(key));
+  const YAML::Node given = keys_of(specimen), unset = keys_of(SpecimenOptions());
+  for (const auto& item : given) {
+    const std::string key = item.first.Scalar(), value = item.second.Scalar();
+    const YAML::Node plain = unset[key];
+    has_effect(knot_of(specimen).has(key), ("specimen." + key).c_str(), value,
+               plain.IsDefined() ? plain.Scalar() : std::string(), "for knot: " + knots_with(key));
   }
 }
 
@@ -196,19 +174,6 @@ void check_load(const std::string& key, double load, double highest, const char*
     reject(key, load, std::string("at most the load cell's ") + what + ", " + format_number(highest) + " N");
 }
 
-/// A record that is faster than any testing machine is in other units than it says, or is none.
-void check_record(const ProgramStep& step, const std::string& key) {
-  for (std::size_t i = 1; i < step.recorded.size(); ++i) {
-    const RecordedPlace &from = step.recorded[i - 1], &to = step.recorded[i];
-    const double speed = std::abs(to.displacement - from.displacement) / (to.time - from.time);
-    if (speed > kFastestCrosshead)
-      throw InvalidInput::sentence(key, step.record,
-                                   key + ": the crosshead of " + shown(step.record) + " moves at " +
-                                       format_number(speed) + " m/s at " + format_number(from.time) +
-                                       " s, but must be no faster than " + format_number(kFastestCrosshead) + " m/s");
-  }
-}
-
 void check_step(const ProgramStep& step, const std::string& key, double capacity) {
   if (step.phase == Phase::kPreload) check_load(key + ".load", step.load, capacity);
   if (step.phase == Phase::kPull && step.until.load) check_load(key + ".until.load", *step.until.load, capacity);
@@ -230,7 +195,6 @@ void check_step(const ProgramStep& step, const std::string& key, double capacity
     if (step.cycles == 0 && !step.until.time)
       throw InvalidInput::sentence(key, "no end", key + " has no end: give count, time or both");
   }
-  if (step.phase == Phase::kFollow) check_record(step, key + ".record");
 }
 
 void check_ends(const Method& m) {
@@ -238,14 +202,6 @@ void check_ends(const Method& m) {
   const double overload = m.machine.load_cell.overload;
   if (m.ends.load && std::isfinite(overload)) check_load("ends.load", *m.ends.load, overload * capacity, "stop");
   if (m.ends.load && std::isinf(overload)) check_load("ends.load", *m.ends.load, capacity);
-  if (m.ends.arming_load) check_load("ends.arming_load", *m.ends.arming_load, capacity);
-  const BreakDetection& breaks = m.ends.breaks;
-  const BreakDetection unset;
-  has_effect(breaks.on(), "ends.arming_load", m.ends.arming_load.value_or(0.0), 0.0,
-             "with break_at_fraction_of_peak, sharp_drop or drop");
-  has_effect(breaks.sharp_drop.has_value(), "ends.sharp_drop_time", breaks.sharp_drop_time, unset.sharp_drop_time,
-             "with sharp_drop");
-  has_effect(breaks.drop.has_value(), "ends.drop_extension", breaks.drop_extension, unset.drop_extension, "with drop");
 }
 
 void check_pull(const Method& m, const ProgramStep& step, const std::string& key) {

@@ -14,7 +14,6 @@ namespace {
 constexpr double kLeastTravel = 1.0, kLargestTravel = 100.0;  // [m]
 constexpr double kTravelOverWay = 2.0;                        // slack and balance take some of the crosshead's way, too
 
-constexpr double kDropExtension = 1e-3;  // for the paper's radius [m]
 constexpr double kCreep = 1.0 / 3.3;  // friction that creeps is Coulomb's well above this fraction of the slowest pull
 
 constexpr double kMarginOfCell = 2.5;                            // over the strength of one strand: a loop has two
@@ -85,7 +84,6 @@ Defaults defaults(KnotKind kind, const Material& material, const Method* known) 
   out.machine.travel = std::min(std::max({kLeastTravel, kLeastTravel * r, kTravelOverWay * asked}), kLargestTravel);
   out.machine.load_cell.capacity = capacity(material, known);
   out.slip_tolerance = kCreep * slowest_pull(known ? known->program : Program{}, r);
-  out.drop_extension = kDropExtension * r;
   return out;
 }
 

@@ -18,7 +18,6 @@ struct Defaults {
   double scale = 1.0;           ///< radius of the rod over that of the paper's rods; speeds are scaled by it, too [-]
   double way = 0.0;             ///< extension of a pull whose `until.extension` is auto [m]
   double slip_tolerance = 0.0;  ///< slip tolerance of a friction law that creeps [m/s]
-  double drop_extension = 0.0;  ///< extension of the break criterion `drop` [m]
 };
 
 /// The defaults for a knot of this material. `known`: the method as it was read with the defaults of knot and material

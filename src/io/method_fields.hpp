@@ -202,12 +202,7 @@ template <class Fields>
 void ends(Fields& f, EndOptions& o) {
   f.optional_number("load", o.load, Range{1e-6, 1e8, "N"}, "auto");
   f.optional_number("time", o.time, Range{1e-3, 1e8, "s"}, "none");
-  f.optional_number("arming_load", o.arming_load, Range{0.0, 1e8, "N"}, "auto");
-  f.optional_number("break_at_fraction_of_peak", o.breaks.fraction_of_peak, Range{0.0, 0.99, "of the peak"}, "none");
-  f.optional_number("sharp_drop", o.breaks.sharp_drop, Range{0.01, 2.0, "of the peak"}, "none");
-  f.number("sharp_drop_time", o.breaks.sharp_drop_time, Range{1e-3, 1e3, "s"});
-  f.optional_number("drop", o.breaks.drop, Range{0.01, 2.0, "of the peak"}, "none");
-  f.scaled_number("drop_extension", o.breaks.drop_extension, Range{1e-5, 10.0, "m"});
+  f.optional_number("break_at_fraction_of_peak", o.break_at_fraction_of_peak, Range{0.0, 0.99, "of the peak"}, "none");
 }
 
 template <class Fields>

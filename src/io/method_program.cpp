@@ -2,11 +2,8 @@
 
 #include <algorithm>
 #include <optional>
-#include <system_error>
 #include <vector>
 
-#include "knot_utm/io/curve_file.hpp"
-#include "knot_utm/io/raw_zero.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "method_reader.hpp"
@@ -49,35 +46,11 @@ Program read_program(const YAML::Node& node, const std::string& file, const fiel
     reader.note_automatic(automatic);
     fields::step(reader, step, defaults.way);
     reader.finish();
+    if (step.phase == Phase::kFollow && step.record.empty())
+      throw InvalidInput::missing(path + ".follow.record", "a curve.csv, or raw data of a testing machine");
     program.push_back(step);
   }
   return program;
-}
-
-void read_record(const std::filesystem::path& folder, const std::string& follow, ProgramStep& step) {
-  const std::string key = follow + ".record";
-  if (step.record.empty()) throw InvalidInput::missing(key, "a curve.csv, or raw data of a testing machine");
-  const RawSpelling spelling{follow + ".", ": ", false};
-  const RawOptions options = raw_options(step.words, spelling);
-  const std::filesystem::path given = std::filesystem::absolute(folder / step.record).lexically_normal();
-  step.record = curve_file_of(given.string(), options);
-  std::error_code error;
-  if (!std::filesystem::is_regular_file(step.record, error)) throw InvalidInput::cannot_read(step.record, key);
-  step.recorded.clear();
-  step.read.clear();
-  const std::vector<CurveRow> course =
-      read_course(step.record, options, [&](const std::string& line) { step.read.push_back(line); });
-  const std::string unused = without_effect(step.words, spelling, step.record != given.string());
-  if (!unused.empty() && has_its_zero(course))
-    step.read.push_back(step.record + ": the curve is one of knot_utm, for which " + unused);
-  for (const CurveRow& row : course) {
-    const RecordedPlace place{row.time - course.front().time, row.extension - course.front().extension};
-    if (step.recorded.empty() || place.time > step.recorded.back().time) step.recorded.push_back(place);
-  }
-  if (step.recorded.size() < 2)
-    throw InvalidInput::sentence(
-        key, step.record,
-        key + ": " + shown(step.record) + " has fewer than 2 readings of the pull at different times");
 }
 
 }  // namespace knot_utm

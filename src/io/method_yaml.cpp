@@ -22,48 +22,31 @@ void leave_out_idle_keys(const Method& m, YAML::Node& root) {
   for (const std::string& key : idle) root["specimen"].remove(key);
   if (!knot.about().loop) root["machine"].remove("roller_diameter");
   if (!rollers_hold(m.specimen, m.machine)) root["machine"].remove("far_side");
-  if (!m.ends.breaks.sharp_drop) root["ends"].remove("sharp_drop_time");
-  if (!m.ends.breaks.drop) root["ends"].remove("drop_extension");
 }
 
 }  // namespace
 
 std::string method_yaml(const Method& method) {
   Method m = method;
-  YAML::Node root;
-  Writer specimen;
-  fields::specimen(specimen, m.specimen);
-  root["specimen"] = specimen.map();
-  Writer material;
-  fields::material(material, m.material);
-  root["material"] = material.map();
-  Writer machine;
-  fields::machine(machine, m.machine);
-  YAML::Node machine_map = machine.map();
-  Writer cell;
-  fields::load_cell(cell, m.machine.load_cell);
-  machine_map["load_cell"] = cell.map();
-  root["machine"] = machine_map;
+  Writer top;
+  top.section("specimen", [&](Writer& f) { fields::specimen(f, m.specimen); });
+  top.section("material", [&](Writer& f) { fields::material(f, m.material); });
+  top.section("machine", [&](Writer& f) {
+    fields::machine(f, m.machine);
+    f.section("load_cell", [&](Writer& cell) { fields::load_cell(cell, m.machine.load_cell); });
+  });
+  YAML::Node root = top.map();
   for (ProgramStep& step : m.program) {
-    Writer writer;
-    fields::step(writer, step);
-    YAML::Node entry_map;
-    entry_map[phase_name(step.phase)] = writer.map();
+    Writer entry;
+    entry.section(phase_name(step.phase), [&](Writer& f) { fields::step(f, step); });
+    YAML::Node entry_map = entry.map();
     entry_map.SetStyle(YAML::EmitterStyle::Flow);
     root["program"].push_back(entry_map);
   }
-  Writer ends;
-  fields::ends(ends, m.ends);
-  root["ends"] = ends.map();
-  Writer physics;
-  fields::physics(physics, m.physics);
-  root["physics"] = physics.map();
-  Writer analysis;
-  fields::analysis(analysis, m.analysis);
-  root["analysis"] = analysis.map();
-  Writer report;
-  fields::report(report, m.report);
-  root["report"] = report.map();
+  top.section("ends", [&](Writer& f) { fields::ends(f, m.ends); });
+  top.section("physics", [&](Writer& f) { fields::physics(f, m.physics); });
+  top.section("analysis", [&](Writer& f) { fields::analysis(f, m.analysis); });
+  top.section("report", [&](Writer& f) { fields::report(f, m.report); });
   for (Requirement& required : m.specification) {
     Writer limits;
     fields::requirement(limits, required);

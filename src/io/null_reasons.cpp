@@ -1,7 +1,6 @@
 #include "knot_utm/io/null_reasons.hpp"
 
 #include "knot_utm/io/known_errors.hpp"
-#include "knot_utm/io/rest.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/record/sample.hpp"
 

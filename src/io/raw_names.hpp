@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "knot_utm/io/csv.hpp"
+#include "knot_utm/analysis/curve_row.hpp"
 
 /// The names of columns and units in exports of testing machines. This is data: a new name is a new entry.
 namespace knot_utm {

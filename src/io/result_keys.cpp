@@ -5,7 +5,6 @@
 #include <iterator>
 
 #include "knot_utm/io/null_reasons.hpp"
-#include "knot_utm/io/rest.hpp"
 #include "knot_utm/io/run_warnings.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/machine/straight_strength.hpp"
@@ -46,6 +45,10 @@ Number fact(const Source& of) {
   return of.facts.*Member;
 }
 template <auto Member>
+Number error(const Source& of) {
+  return of.errors.*Member;
+}
+template <auto Member>
 Count counted(const Source& of) {
   return of.results.*Member;
 }
@@ -53,20 +56,6 @@ template <auto Member>
 std::vector<double> of_knots(const Source& of) {
   const PerKnot& values = of.results.*Member;
   return {values.begin(), values.end()};
-}
-
-Number fraction_of(const Number& reading, const Number& fraction) {
-  return reading && fraction ? Number(std::abs(*reading) * *fraction) : std::nullopt;
-}
-Number plateau_force_error(const Source& of) {
-  return fraction_of(of.results.true_plateau_force, of.errors.plateau_force);
-}
-Number peak_force_error(const Source& of) { return fraction_of(of.results.true_peak_force, of.errors.peak_force); }
-Number lock_extension_error(const Source& of) {
-  return fraction_of(of.results.lock_extension, of.errors.lock_extension);
-}
-Number locked_stiffness_error(const Source& of) {
-  return fraction_of(of.results.curve.locked_stiffness, of.errors.locked_stiffness);
 }
 
 /// Of the load cell, at a true force.
@@ -205,8 +194,8 @@ constexpr ResultKey kKeys[] = {
      why_no_plateau},
     {"plateau_force_slope", "N/m", kCurve, "Slope of the force over the extension within the plateau",
      curve<&C::plateau_force_slope>, why_no_plateau},
-    {"plateau_force_error", "N", kBeside, "Estimated numerical error of the plateau force", plateau_force_error,
-     why_no_plateau_error},
+    {"plateau_force_error", "N", kBeside, "Estimated numerical error of the plateau force",
+     error<&ReadingErrors::plateau_force>, why_no_plateau_error},
     {"plateau_slope", "-", kCurve,
      "Slope de/ds of the knot distance within the plateau; \u2013\u20602 is rigid sliding on rollers",
      result<&R::plateau_slope>, why_no_plateau},
@@ -234,16 +223,16 @@ constexpr ResultKey kKeys[] = {
      result<&R::first_contact_extension>, why_no_contact},
     {"lock_extension", "m", kCurve, "Lock extension, where the motion of the knots shows that they lock",
      result<&R::lock_extension>, why_no_lock},
-    {"lock_extension_error", "m", kBeside, "Estimated numerical error of the lock extension", lock_extension_error,
-     why_no_lock_error},
+    {"lock_extension_error", "m", kBeside, "Estimated numerical error of the lock extension",
+     error<&ReadingErrors::lock_extension>, why_no_lock_error},
     {"lock_extension_by_load", "m", kCurve,
      "Lock extension by the load alone, where it last rises through twice the plateau",
      curve<&C::lock_extension_by_load>, why_no_lock_by_load},
     {"locked_stiffness", "N/m", kCurve, "Locked stiffness", curve<&C::locked_stiffness>, why_no_stiffness},
     {"locked_stiffness_error", "N/m", kBeside, "Estimated numerical error of the locked stiffness",
-     locked_stiffness_error, why_no_stiffness_error},
+     error<&ReadingErrors::locked_stiffness>, why_no_stiffness_error},
     {"peak_force", "N", kCurve, "Peak force", curve<&C::peak_force>, why_no_peak},
-    {"peak_force_error", "N", kBeside, "Estimated numerical error of the peak force", peak_force_error,
+    {"peak_force_error", "N", kBeside, "Estimated numerical error of the peak force", error<&ReadingErrors::peak_force>,
      why_no_peak_error},
 
     // Without what the balance has set to zero.
@@ -374,6 +363,14 @@ bool ResultKey::is_number() const {
 const std::vector<ResultKey>& result_keys() {
   static const std::vector<ResultKey> keys(std::begin(kKeys), std::end(kKeys));
   return keys;
+}
+
+std::string result_keys_csv() {
+  std::string all = "key,unit,kind,group,table,meaning\n";
+  for (const ResultKey& key : result_keys())
+    all += std::string(key.name) + ',' + key.unit + ',' + key.kind() + ',' + key.group + ',' +
+           std::to_string(key.table()) + ",\"" + key.meaning + "\"\n";
+  return all;
 }
 
 }  // namespace knot_utm

@@ -4,7 +4,7 @@
 
 #include "knot_utm/io/known_errors.hpp"
 #include "knot_utm/io/result_keys.hpp"
-#include "knot_utm/io/yaml_lines.hpp"
+#include "knot_utm/numeric/yaml_lines.hpp"
 
 namespace knot_utm {
 namespace {
@@ -39,21 +39,6 @@ std::string result_yaml(const Results& results, const RunFacts& facts) {
     return key == keys.end() ? "" : key->why_null(source);
   });
   return lines.all();
-}
-
-std::vector<std::string> result_numbers() {
-  std::vector<std::string> names;
-  for (const ResultKey& key : result_keys())
-    if (key.is_number()) names.emplace_back(key.name);
-  return names;
-}
-
-std::string result_keys_csv() {
-  std::string all = "key,unit,kind,group,table,meaning\n";
-  for (const ResultKey& key : result_keys())
-    all += std::string(key.name) + ',' + key.unit + ',' + key.kind() + ',' + key.group + ',' +
-           std::to_string(key.table()) + ",\"" + key.meaning + "\"\n";
-  return all;
 }
 
 }  // namespace knot_utm

@@ -2,9 +2,7 @@
 
 #include <cmath>
 
-#include "knot_utm/io/gravity_warnings.hpp"
 #include "knot_utm/io/known_errors.hpp"
-#include "knot_utm/io/rest.hpp"
 #include "knot_utm/io/speed_warnings.hpp"
 #include "knot_utm/machine/load_cell.hpp"
 #include "knot_utm/numeric/number.hpp"
@@ -99,11 +97,26 @@ std::vector<std::string> events(const Results& results) {
   return all;
 }
 
+std::vector<std::string> gravity_warnings(const Results& results, const RunFacts& facts) {
+  constexpr double kHeavy = 0.01;  // weight over the sliding force, or the largest one
+  std::vector<std::string> all;
+  if (!(facts.weight > 0.0)) return all;
+  const bool slides = results.true_plateau_force.has_value();
+  const double force = results.true_plateau_force.value_or(results.true_peak_force.value_or(0.0));
+  if (facts.weight > kHeavy * force && force > 0.0)
+    all.push_back("the rod weighs " + short_number(facts.weight) + " N, " + short_number(100.0 * facts.weight / force) +
+                  " % of the " + (slides ? "sliding" : "largest") +
+                  " force: physics.gravity bends strands and tails and may change that force by several times this "
+                  "share; a run without it tells");
+  return all;
+}
+
 std::string accuracy_warning(const Results& results, const ReadingErrors& errors) {
   constexpr double kUnsure = 0.1;
-  if (!results.true_plateau_force || results.curve.jump_force || errors.plateau_force.value_or(0.0) <= kUnsure)
-    return {};
-  return "the plateau force may be off by " + format_number(std::round(100.0 * *errors.plateau_force)) +
+  if (!errors.plateau_force) return {};
+  const double share = *errors.plateau_force / std::abs(*results.true_plateau_force);
+  if (!(share > kUnsure)) return {};
+  return "the plateau force may be off by " + format_number(std::round(100.0 * share)) +
          " %; a finer physics.accuracy, a higher specimen.refinement or several specimens tell more";
 }
 

@@ -40,7 +40,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method)
     : folder_(folder),
       curve_((fs::path(folder) / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
       full_curve_((fs::path(folder) / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)) {
-  known_.errors = reading_errors(method.specimen, method.material, method.machine, method.physics);
+  known_.errors = relative_errors(method.specimen, method.material, method.machine, method.physics);
   known_.material = method.material;
   for (const NodeForce& load : knot_of(method.specimen).supports(method.specimen, method.material).loads)
     known_.dead_load += load.force.norm();

@@ -1,5 +1,9 @@
 #include "knot_utm/io/verdict.hpp"
 
+#include <algorithm>
+
+#include "knot_utm/io/result_keys.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/number.hpp"
 
 namespace knot_utm {
@@ -17,6 +21,15 @@ std::string reason(const Requirement& required, const std::optional<double>& val
 }
 
 }  // namespace
+
+void check_specification(const Specification& specification) {
+  std::vector<std::string> known;
+  for (const ResultKey& key : result_keys())
+    if (key.is_number()) known.emplace_back(key.name);
+  for (const Requirement& required : specification)
+    if (std::find(known.begin(), known.end(), required.key) == known.end())
+      throw InvalidInput::unknown_key("specification", required.key, "", known, "a specification");
+}
 
 Verdict verdict(const Specification& specification, const YamlLines& results) {
   Verdict verdict;

@@ -82,10 +82,10 @@ bool hardly_closed(double plateau_force, const Material& material) {
   return plateau_force < kHardlyClosed * material.bending_stiffness / (h * h);
 }
 
-ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
-                             const PhysicsOptions& physics) {
+RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
+                               const PhysicsOptions& physics) {
   const ErrorStudy study = knot_of(specimen).about().error_study;
-  ReadingErrors out;
+  RelativeErrors out;
   if (!StretchingRegistry::entry(material.stretching.law).studied) return out;
   if (study == ErrorStudy::kStraight) out.locked_stiffness = kStraightStiffness;
   const bool studied =

@@ -116,9 +116,9 @@ void write_curve_bag(const std::string& file, const std::vector<CurveRow>& rows)
     // Readings may be closer to each other than their times tell; their stamps pair them with their commands.
     stamp = std::max(test_stamp(-start, row.time), stamp + ros::Duration(0, 1));
     const double passed = row.time - command.time;
-    command.velocity = passed > 0.0 ? (row.extension - command.displacement) / passed : 0.0;
+    command.velocity = passed > 0.0 ? (travel_of(row) - command.displacement) / passed : 0.0;
     command.time = row.time;
-    command.displacement = row.extension;
+    command.displacement = travel_of(row);
     command.phase = row.phase;
     command.read_cell = true;
     sample.load = row.load;

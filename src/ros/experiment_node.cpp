@@ -101,7 +101,7 @@ void ExperimentNode::publish(const CurveRow& row, const ros::Time& stamp) {
   Command place;
   place.sequence = next_;
   place.time = row.time;
-  place.displacement = row.extension;
+  place.displacement = travel_of(row);
   place.phase = Phase::kFollow;
   place.read_cell = true;
   crosshead_.publish(to_message(place, run_, stamp));

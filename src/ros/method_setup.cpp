@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "knot_utm/io/curve_file.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/io/raw_zero.hpp"
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/io/shipped.hpp"
@@ -68,7 +69,7 @@ std::string following(const std::string& data, const RecordWords& words, const P
 
 /// A method whose overrides are called what a launch calls them.
 Method load(const std::string& file, const std::vector<std::string>& overrides) {
-  return load_method(file, overrides, "overrides:");
+  return load_test(file, overrides, nullptr, "overrides:");
 }
 
 /// Reads the record of the words. Where it cannot be read, that is said in the words of a launch.

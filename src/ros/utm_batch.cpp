@@ -2,6 +2,7 @@
 #include <utility>
 
 #include "knot_utm/io/claimed_folder.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/ros/order_of_test.hpp"

@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "knot_utm/analysis/statistics.hpp"
-#include "knot_utm/io/key_units.hpp"
+#include "knot_utm/io/method_keys.hpp"
 #include "knot_utm/io/result_keys.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/machine/program_runner.hpp"

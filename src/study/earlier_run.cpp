@@ -6,6 +6,7 @@
 #include <set>
 
 #include "knot_utm/io/checkpoint.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"

@@ -8,6 +8,7 @@
 #include "knot_utm/io/checkpoint.hpp"
 #include "knot_utm/io/claimed_folder.hpp"
 #include "knot_utm/io/foreseen.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/run_warnings.hpp"
 #include "knot_utm/io/samples.hpp"

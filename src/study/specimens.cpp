@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/numeric/random.hpp"

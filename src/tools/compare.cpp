@@ -21,6 +21,7 @@
 #include "knot_utm/ros/curve_bag.hpp"
 #endif
 #include "add_raw_options.hpp"
+#include "make_report.hpp"
 #include "tool.hpp"
 
 namespace knot_utm {
@@ -94,8 +95,8 @@ int run(Arguments arguments) {
   std::vector<std::string> beyond;
   if (arguments.tolerance) beyond = beyond_tolerance(comparison, *arguments.tolerance);
   for (const std::string& line : beyond) tell(line);
-  if (arguments.report) write_report(page, arguments.command);
-  return beyond.empty() ? kDone : kFailed;
+  const bool reported = !arguments.report || make_report(page, arguments.command);
+  return beyond.empty() && reported ? kDone : kFailed;
 }
 
 }  // namespace

@@ -11,26 +11,26 @@
 
 #include "knot_utm/io/command_hint.hpp"
 #include "knot_utm/io/foreseen.hpp"
-#include "knot_utm/io/key_units.hpp"
 #include "knot_utm/io/knot_advice.hpp"
 #include "knot_utm/io/latest_link.hpp"
-#include "knot_utm/io/method.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/io/method_keys.hpp"
 #include "knot_utm/io/plausible_rod.hpp"
 #include "knot_utm/io/progress_line.hpp"
-#include "knot_utm/io/report.hpp"
-#include "knot_utm/io/result_yaml.hpp"
+#include "knot_utm/io/result_keys.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/io/summary.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/known_names.hpp"
+#include "knot_utm/record/phase.hpp"
 #include "knot_utm/study/batch.hpp"
 #include "knot_utm/study/headless_run.hpp"
 #include "knot_utm/study/specimens.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/run_bag.hpp"
 #endif
+#include "make_report.hpp"
 #include "tool.hpp"
 
 namespace knot_utm {
@@ -157,10 +157,13 @@ HeadlessOutcome run_and_tell(const Arguments& arguments, const Method& method) {
   return run_headless(method, options);
 }
 
-void tell_report(const Arguments& arguments, const std::string& folder) {
-  write_report(folder, arguments.command);
+/// Makes the report where one is asked for. Returns whether that, or nothing, was made.
+bool report(const Arguments& arguments, const std::string& folder) {
+  if (!arguments.report) return true;
+  if (!make_report(folder, arguments.command)) return false;
   if (!arguments.quiet)
     std::printf("the report is in %s/report.html and %s/report.pdf\n", folder.c_str(), folder.c_str());
+  return true;
 }
 
 void tell_end(const Arguments& arguments, const BatchOutcome& outcome, int ended) {
@@ -200,9 +203,9 @@ int run_all_specimens(const Arguments& arguments, const Method& method) {
   const BatchOutcome outcome = run_batch(method, options);
   progress.end();
   tell_end(arguments, outcome, tested);
-  if (arguments.report && !outcome.interrupted) tell_report(arguments, outcome.folder);
   const bool none_counts = static_cast<int>(outcome.rejected.size()) == outcome.specimens;
-  return outcome.interrupted || none_counts ? kFailed : kDone;
+  const bool done = !outcome.interrupted && report(arguments, outcome.folder) && !none_counts;
+  return done ? kDone : kFailed;
 }
 
 void check_one(const Method& method) {
@@ -251,11 +254,10 @@ int run(const Arguments& arguments) {
     return kDone;
   }
   if (!arguments.from_samples.empty()) return make_anew(arguments);
-  const Method method = load_method(arguments.method, arguments.overrides);
+  const Method method = load_test(arguments.method, arguments.overrides, [&](const std::string& line) {
+    if (!arguments.quiet) std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
+  });
   require_batch(arguments, method);
-  if (!arguments.quiet)
-    for (const ProgramStep& step : method.program)
-      for (const std::string& line : step.read) std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
   if (arguments.check) return check(method);
   if (arguments.list_keys) return list_keys(method);
   if (arguments.overwrite) require_no_method_in(folder_of(arguments, method), arguments.method);
@@ -270,8 +272,8 @@ int run(const Arguments& arguments) {
   else if (!arguments.quiet)
     std::printf("the test stopped before %s, after %.1f s; others can begin with %s\n", arguments.stop_before.c_str(),
                 outcome.results.simulated_time, outcome.folder.c_str());
-  if (arguments.report) tell_report(arguments, outcome.folder);
-  return stopped || (outcome.ended && !outcome.failed) ? kDone : kFailed;
+  const bool done = report(arguments, outcome.folder) && (stopped || (outcome.ended && !outcome.failed));
+  return done ? kDone : kFailed;
 }
 
 /// --list, which prints what comes with the package, and does no more.
@@ -296,6 +298,14 @@ void add_listing(CLI::App& app, const char* name, std::string (*table)(), const 
     throw CLI::Success();
   };
   app.add_flag_callback(name, print, what + ", and do no more");
+}
+
+std::string phases_csv() {
+  std::string text = "name,prepares,forms,pulls\n";
+  for (const PhaseTraits& one : all_phases())
+    text += std::string(one.name) + (one.prepares ? ",1" : ",0") + (one.forms ? ",1" : ",0") +
+            (one.pulls ? ",1\n" : ",0\n");
+  return text;
 }
 
 /// Where the method stands and where the results go, once all words are read.
@@ -363,6 +373,7 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   add_listing(app, "--list-results", result_keys_csv, "say which keys result.yaml has, with unit, kind and meaning");
   add_listing(app, "--list-method-keys", method_keys_csv, "say which keys methods may have, with label and unit");
   add_listing(app, "--list-knots", knots_csv, "say which knots there are, and their keys");
+  add_listing(app, "--list-phases", phases_csv, "say which phases a test has: which prepare it, form a knot, and pull");
   const std::optional<int> code = parse(app, kTool, argc, argv, [&] {
     if (method->empty() && resume->empty() && show->empty() && from_samples->empty())
       throw CLI::RequiredError("METHOD");

@@ -1,7 +1,6 @@
 #!/usr/bin/python3
 """README.md and doc/ against the code: keys and their ranges, launch arguments, names, tests, files, links."""
 import ast
-import csv
 import glob
 import json
 import os
@@ -10,6 +9,8 @@ import unittest
 import xml.etree.ElementTree
 
 import yaml
+
+from knot_utm import tool
 
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "../..")
 SCREEN = 50  # lines
@@ -146,7 +147,7 @@ class Measured(unittest.TestCase):
 class Results(unittest.TestCase):
     """doc/results.md against the table of the keys, which the program writes (tensile_test --list-results)."""
     page = text("doc/results.md")
-    units = {row["key"]: row["unit"] for row in csv.DictReader(text("report/result_keys.csv").splitlines())}
+    units = {row["key"]: row["unit"] for row in tool.result_keys()}
 
     def test_has_every_key_and_its_unit(self):
         self.assertGreater(len(self.units), 20)

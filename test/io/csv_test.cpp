@@ -98,7 +98,7 @@ TEST_F(Csv, TheTrueForceIsTheBalancedOneAndItsOffset) {
   EXPECT_EQ(pull_of(read_curve(path_)).at(0).borne, 5.0);
 }
 
-TEST_F(Csv, OfACompliantFrameTheCorrectedExtensionIsTheLastColumn) {
+TEST_F(Csv, OfACompliantFrameTheTravelOfTheCrossheadIsTheLastColumn) {
   Sample sample;
   sample.extension = 0.01;
   sample.raw_extension = 0.0125;
@@ -106,19 +106,20 @@ TEST_F(Csv, OfACompliantFrameTheCorrectedExtensionIsTheLastColumn) {
   CurveWriter writer(path_, true);
   writer.write(sample);
   EXPECT_EQ(text(),
-            "time,extension,load,knot_distance,end_to_end,load_lower,phase,balance_offset,corrected_extension\n"
+            "time,extension,load,knot_distance,end_to_end,load_lower,phase,balance_offset,crosshead_travel\n"
             "s,m,N,m,m,N,-,N,m\n"
-            "0,0.0125,0,nan,0,0,pull,0,0.01\n");
-  const std::vector<CurveRow> rows = read_curve(path_);
-  ASSERT_EQ(rows.size(), 1u);
-  EXPECT_EQ(rows[0].extension, 0.0125);
-  EXPECT_EQ(rows[0].corrected_extension, 0.01);
-  EXPECT_TRUE(std::isnan(curve_row(Sample()).corrected_extension));
-  const std::string names = "time,extension,load,knot_distance,end_to_end,load_lower,phase,corrected_extension\n";
-  EXPECT_THAT(complaint(names + "s,m,N,m,m,N,-,mm\n"),
-              HasSubstr("row 2: the unit of corrected_extension is \"mm\", but must be m"));
-  EXPECT_THAT(complaint(names + "s,m,N,m,m,N,-,m\n0,0,0,0,0,0,pull,x\n"),
-              HasSubstr("corrected_extension is \"x\", but must be a number"));
+            "0,0.01,0,nan,0,0,pull,0,0.0125\n");
+  const std::string names = "time,extension,load,knot_distance,end_to_end,load_lower,phase,";
+  std::istringstream earlier(names + "corrected_extension\ns,m,N,m,m,N,-,m\n0,0.0125,0,nan,0,0,pull,0.01\n");
+  for (const CurveRow& row : {read_curve(path_).at(0), read_curve(earlier, "earlier").at(0)}) {
+    EXPECT_EQ(row.extension, 0.01);
+    EXPECT_EQ(travel_of(row), 0.0125);
+  }
+  EXPECT_EQ(travel_of(curve_row(Sample())), 0.0);
+  EXPECT_THAT(complaint(names + "crosshead_travel\ns,m,N,m,m,N,-,mm\n"),
+              HasSubstr("row 2: the unit of crosshead_travel is \"mm\", but must be m"));
+  EXPECT_THAT(complaint(names + "crosshead_travel\ns,m,N,m,m,N,-,m\n0,0,0,0,0,0,pull,x\n"),
+              HasSubstr("crosshead_travel is \"x\", but must be a number"));
 }
 
 TEST_F(Csv, WrongCurvesAreNamed) {

@@ -15,7 +15,7 @@
 #include "io/own_folder.hpp"
 #include "knot_utm/io/csv.hpp"
 #include "knot_utm/io/curve_file.hpp"
-#include "knot_utm/io/method.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/sample.hpp"
@@ -53,10 +53,10 @@ class Follow : public OwnFolder {
   }
 
   /// A method that follows a file of test/io/raw.
-  static Method following(const std::string& file, const std::string& keys) {
+  static Method following(const std::string& file, const std::string& keys, const Tell& tell = nullptr) {
     const std::string source = KNOT_UTM_SOURCE_DIR;
-    return load_method(source + "/config/straight.yaml",
-                       {"program=[{follow: {record: '" + source + "/test/io/raw/" + file + "', " + keys + "}}]"});
+    return load_test(source + "/config/straight.yaml",
+                     {"program=[{follow: {record: '" + source + "/test/io/raw/" + file + "', " + keys + "}}]"}, tell);
   }
 
   static std::string refusal(const std::string& rows) {
@@ -135,14 +135,15 @@ TEST_F(Follow, ARecordIsReadAsTheStepSays) {
                                "load is column 3 in N"},
                           Case{"neg_ext.csv", "invert: falling", {4.5, 2.25e-3}, "the sign of extension"},
                           Case{"neg_load.csv", "invert: both", {4.5, -2.25e-3}, "the sign of extension and load"}}) {
-    const Method method = following(one.file, one.keys);
+    std::vector<std::string> told;
+    const Method method = following(one.file, one.keys, [&](const std::string& line) { told.push_back(line); });
     const ProgramStep& step = method.program.front();
     EXPECT_NEAR(step.recorded.back().time, one.last.time, 1e-9) << one.file;
     EXPECT_NEAR(step.recorded.back().displacement, one.last.displacement, 1e-12) << one.file;
-    EXPECT_THAT(step.read, testing::Contains(HasSubstr(one.told))) << one.file;
+    EXPECT_THAT(told, testing::Contains(HasSubstr(one.told))) << one.file;
     // Resolved, it says the same.
     std::ofstream(in("method.yaml")) << method_yaml(method);
-    EXPECT_EQ(load_method(in("method.yaml")).program.front().recorded.back().displacement,
+    EXPECT_EQ(load_test(in("method.yaml")).program.front().recorded.back().displacement,
               step.recorded.back().displacement);
   }
 }
@@ -194,10 +195,10 @@ TEST_F(Follow, TheFolderOfTheRecordIsNotWrittenTo) {
   };
   const std::string before = content();
   const auto of_ours = [&](const std::string& record) {
-    return load_method(KNOT_UTM_SOURCE_DIR "/config/straight.yaml",
-                       {"program=[{follow: {record: " + in(record) + "}}]"})
-        .program.front()
-        .read;
+    std::vector<std::string> told;
+    load_test(KNOT_UTM_SOURCE_DIR "/config/straight.yaml", {"program=[{follow: {record: " + in(record) + "}}]"},
+              [&](const std::string& line) { told.push_back(line); });
+    return told;
   };
   EXPECT_THAT(of_ours("source, units: load=lbf"),
               testing::ElementsAre(HasSubstr("for which program.0.follow.units changes nothing")));

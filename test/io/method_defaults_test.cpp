@@ -52,7 +52,7 @@ TEST_P(EveryRod, HasDefaultsThatNobodyRefuses) {
 
 /// Of a thread and of a hawser, in numbers.
 TEST(MethodDefaults, OfAThreadAndOfAHawserFollowFromTheRadius) {
-  const std::vector<std::string> ends{"ends.drop=0.5", "physics.friction.law=smoothed"};
+  const std::vector<std::string> ends{"physics.friction.law=smoothed"};
   for (const double h : {1.25e-4, 0.02}) {
     std::vector<std::string> set = ends;
     set.push_back(material(h, 1e9, 1e3));
@@ -61,7 +61,6 @@ TEST(MethodDefaults, OfAThreadAndOfAHawserFollowFromTheRadius) {
     EXPECT_NEAR(m.program[0].speed, 3.14961 * h, 1e-5 * h);
     EXPECT_NEAR(m.program[4].speed, 1.03937 * h, 1e-5 * h);
     EXPECT_NEAR(*m.physics.friction.value("slip_tolerance"), 0.314961 * h, 1e-5 * h);
-    EXPECT_NEAR(m.ends.breaks.drop_extension, 0.314961 * h, 1e-5 * h);
     EXPECT_FALSE(m.physics.drag);
     EXPECT_FALSE(m.physics.inertia);
     // Friction that creeps is Coulomb's only where the pull is faster than that.

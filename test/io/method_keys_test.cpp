@@ -6,22 +6,11 @@
 #include <set>
 
 #include "knot_utm/contact/friction.hpp"
-#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 namespace {
-
-std::string report_file(const std::string& name) {
-  return read_whole(std::string(KNOT_UTM_SOURCE_DIR) + "/report/" + name);
-}
-
-/// After a change: tensile_test --list-method-keys > report/method_keys.csv
-TEST(MethodKeys, AreThoseOfTheReport) { EXPECT_EQ(report_file("method_keys.csv"), method_keys_csv()); }
-
-/// After a change: tensile_test --list-knots > report/knots.csv
-TEST(MethodKeys, OfKnotsAreThoseOfTheReport) { EXPECT_EQ(report_file("knots.csv"), knots_csv()); }
 
 TEST(MethodKeys, StandThereOnceAndHaveALabelAndAUnit) {
   std::set<std::string> seen;

@@ -1,5 +1,3 @@
-#include "knot_utm/io/method.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
@@ -10,6 +8,7 @@
 #include <limits>
 
 #include "knot_utm/contact/friction.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/io/shipped.hpp"
 #include "knot_utm/rod/bending_laws.hpp"
 #include "knot_utm/specimen/knot.hpp"
@@ -184,10 +183,9 @@ TEST(Method, EveryStepWritesBackToTheSame) {
   const std::string copy = ::testing::TempDir() + "knot_utm_round_trip_steps.yaml";
   const std::string record = ::testing::TempDir() + "knot_utm_record.csv";
   std::ofstream(record) << "Time (s),Extension (mm),Load (N)\n5.0,1.0,0.5\n6.0,2.5,1.5\n8.0,2.0,1.0\n";
-  const Method method = load_method(
+  const Method method = load_test(
       kTighten,
-      {"ends={load: 4000, time: 600, break_at_fraction_of_peak: 0.4, arming_load: 50, sharp_drop: 0.3, drop: "
-       "0.2, drop_extension: 0.002}",
+      {"ends={load: 4000, time: 600, break_at_fraction_of_peak: 0.4}",
        "program=[{preload: {load: 5, load_rate: 2, balance: false}}, {pull: {load_rate: 10, until: {load: 50}}}, "
        "{hold: {duration: 3, control: load, load: 20}}, {cycle: {extension: [0.001, 0.002], count: 3}}, {cycle: "
        "{load: [1, 2], time: 9}}, {return: {extension: 0.001, load: 1}}, {follow: {record: " +
@@ -203,10 +201,10 @@ TEST(Method, EveryStepWritesBackToTheSame) {
   EXPECT_NEAR(recorded[1].displacement, 1.5e-3, 1e-15);
   EXPECT_NEAR(recorded[2].displacement, 1e-3, 1e-15);
   EXPECT_EQ(method.ends.load, 4000.0);
-  EXPECT_EQ(method.ends.breaks.drop_extension, 0.002);
+  EXPECT_EQ(method.ends.break_at_fraction_of_peak, 0.4);
   const std::string text = method_yaml(method);
   std::ofstream(copy) << text;
-  EXPECT_EQ(method_yaml(load_method(copy)), text);
+  EXPECT_EQ(method_yaml(load_test(copy)), text);
   fs::remove(copy);
   fs::remove(record);
 }
@@ -215,7 +213,7 @@ TEST(Method, ARecordIsNoFasterThanACrosshead) {
   const std::string record = ::testing::TempDir() + "knot_utm_fast_record.csv";
   std::ofstream(record) << "Time (s),Extension (m),Load (N)\n0,0,0\n1.0,1.5,0.5\n";
   try {
-    load_method(kTighten, {"program=[{follow: {record: " + record + "}}]"});
+    load_test(kTighten, {"program=[{follow: {record: " + record + "}}]"});
     ADD_FAILURE();
   } catch (const InvalidInput& invalid) {
     EXPECT_THAT(invalid.what(), HasSubstr("moves at 1.5 m/s at 0 s, but must be no faster than 0.5 m/s"));
@@ -297,17 +295,15 @@ TEST(Method, AsItIsWrittenItHasNoKeysWithoutEffect) {
   for (const char* key : {"knot", "turns", "length", "end_to_end", "edge_length"})
     EXPECT_TRUE(overhand["specimen"][key].IsDefined()) << key;
   for (const char* key : {"roller_diameter", "far_side"}) EXPECT_FALSE(overhand["machine"][key].IsDefined()) << key;
-  const YAML::Node loop = YAML::Load(method_yaml(load_method(kConfig + "tighten.yaml", {"ends.drop=0.5"})));
+  const YAML::Node loop = YAML::Load(method_yaml(load_method(kConfig + "tighten.yaml")));
   for (const char* key : {"roller_diameter", "far_side"}) EXPECT_TRUE(loop["machine"][key].IsDefined()) << key;
-  EXPECT_TRUE(loop["ends"]["drop_extension"].IsDefined());
-  EXPECT_FALSE(loop["ends"]["sharp_drop_time"].IsDefined());
 }
 
 TEST(Method, SaysWhichValuesAutoGave) {
   const Method method = load_method(kTighten, {"specimen.tail=0.04", "machine.travel=2", "specimen.preload=auto"});
   for (const char* key : {"specimen.edge_length", "specimen.preload", "machine.roller_diameter", "program.0.tie.speed"})
     EXPECT_EQ(method.automatic.count(key), 1u) << key;
-  for (const char* key : {"specimen.tail", "machine.travel", "specimen.length", "ends.drop_extension"})
+  for (const char* key : {"specimen.tail", "machine.travel", "specimen.length"})
     EXPECT_EQ(method.automatic.count(key), 0u) << key;
   // As written and read again, but for what has another value by then.
   const std::string text = method_yaml(method);

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "command.hpp"
-#include "knot_utm/io/method.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/io/raw_data.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
@@ -119,8 +119,8 @@ TEST(RawNames, CompareAndFollowTakeThem) {
   EXPECT_EQ(answer.code, 0) << answer.text;
   EXPECT_THAT(answer.text, HasSubstr("rms_difference: 0"));
   const Method method =
-      load_method(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml",
-                  {"program=[{follow: {record: '" + fixture("own_names.csv") + "', columns: '" + kOwnNames + "'}}]"});
+      load_test(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml",
+                {"program=[{follow: {record: '" + fixture("own_names.csv") + "', columns: '" + kOwnNames + "'}}]"});
   ASSERT_EQ(method.program.front().recorded.size(), 2u);
   EXPECT_NEAR(method.program.front().recorded.back().displacement, 1e-3, 1e-12);
 }

@@ -1,4 +1,4 @@
-// What becomes a page, and what is said where none can be made. The page itself: test/report.
+// What a page on a comparison is made of. The page itself: test/python/report.
 
 #include "knot_utm/io/report.hpp"
 
@@ -6,7 +6,6 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
-#include <stdexcept>
 
 #include "io/own_folder.hpp"
 #include "knot_utm/io/command_hint.hpp"
@@ -17,7 +16,6 @@ namespace knot_utm {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::HasSubstr;
 
 TEST(CommandLine, IsOneThatAShellReads) {
   const char* words[] = {"tensile_test", "--set", "program.pull.until={extension: 0.03}", "it's", ""};
@@ -34,18 +32,6 @@ class ReportIn : public OwnFolder {
 
   const Pull a_{{0.0, 0.0, 0.0, 1.5}, {1.0, 0.25, 0.0, 2.0}};
 };
-
-TEST_F(ReportIn, AFolderWithoutResultsIsRefusedInOneLine) {
-  try {
-    write_report(folder(), "no command");
-    FAIL() << "a report of nothing";
-  } catch (const std::runtime_error& error) {
-    EXPECT_THAT(error.what(), HasSubstr("report: " + folder() +
-                                        ": none of result.yaml, comparison.yaml, statistics.yaml, fit.yaml is there"));
-    EXPECT_EQ(std::string(error.what()).find('\n'), std::string::npos);
-  }
-  EXPECT_FALSE(fs::exists(file("report.html")));
-}
 
 TEST_F(ReportIn, AComparisonIsItsYamlAndBothPulls) {
   write_comparison(file("new/folder"), "a: x\n", a_, a_, "x", "y");

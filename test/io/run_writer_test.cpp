@@ -11,7 +11,6 @@
 #include <sstream>
 
 #include "knot_utm/contact/sampled_centreline.hpp"
-#include "knot_utm/io/gravity_warnings.hpp"
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/io/run_warnings.hpp"

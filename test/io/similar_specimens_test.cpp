@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "knot_utm/analysis/results.hpp"
-#include "knot_utm/io/method.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/key_units.hpp"
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/io/method_keys.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/limit_text.hpp"
@@ -130,7 +130,7 @@ const std::vector<std::string> kAll{"specimen.", "material.", "machine.", "progr
 const std::vector<std::string> kOfTheSpecimen{"specimen.", "program."};
 
 TEST(TrueRange, OfALoopAndItsMachine) {
-  const std::vector<std::string> with{"ends.drop=0.5", "ends.sharp_drop=0.5", "machine.roller_friction=0.1",
+  const std::vector<std::string> with{"ends.break_at_fraction_of_peak=0.5", "machine.roller_friction=0.1",
                                       "machine.roller_rotation=turned", "machine.roller_rate=1"};
   expect_true_ranges({shipped("tighten"), with}, kAll, 60);
 }

@@ -66,7 +66,6 @@ TEST(LedSteps, ABalanceByTheOperatorMovesNoHeldLoadAndIsNoBreak) {
   ProgramStep hold = step(Phase::kHold, 0.0033, 5.0);
   hold.hold_load = true;
   ProgramRunner::Limits limits;
-  limits.breaks.sharp_drop = 0.5;
   limits.breaks.fraction_of_peak = 0.5;
   ProgramRunner program({pull(0.01), hold}, 3.0, 0.1, limits);
   FakeBench bench;
@@ -281,7 +280,7 @@ TEST(LedSteps, UnloadingAsProgrammedIsNoBreak) {
   hold.hold_load = true;
   hold.held_load = 2.0;
   ProgramRunner::Limits limits;
-  limits.breaks.fraction_of_peak = limits.breaks.sharp_drop = limits.breaks.drop = 0.5;
+  limits.breaks.fraction_of_peak = 0.5;
   ProgramRunner program({pull(0.01), hold}, 3.0, 0.1, limits);
   EXPECT_NEAR(run(FakeBench(), program).samples.back().load, 2.0, 1e-9);
   EXPECT_EQ(program.ended_by(), EndedBy::kProgram) << program.reason();

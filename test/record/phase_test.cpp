@@ -3,9 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
 namespace knot_utm {
 namespace {
 
@@ -32,17 +29,6 @@ TEST(Phase, HasTraitsThatGoTogether) {
   }
   EXPECT_THAT(step_names(), testing::ElementsAre("tie", "release", "mount", "preload", "balance", "pull", "hold",
                                                  "cycle", "return", "follow"));
-}
-
-TEST(Phase, HasTheTraitsThatTheReportReads) {
-  std::ostringstream expected;
-  expected << "name,is_step,prepares,forms,ends_by_itself,moves,pulls,can_break\n";
-  for (const PhaseTraits& t : all_phases())
-    expected << t.name << ',' << t.is_step << ',' << t.prepares << ',' << t.forms << ',' << t.ends_by_itself << ','
-             << t.moves << ',' << t.pulls << ',' << t.can_break << '\n';
-  std::ostringstream read;
-  read << std::ifstream(std::string(KNOT_UTM_SOURCE_DIR) + "/report/phases.csv").rdbuf();
-  EXPECT_EQ(read.str(), expected.str());
 }
 
 }  // namespace

@@ -107,8 +107,8 @@ TEST_F(CurveBag, OfASimulatedTestIsItsCurve) {
   ASSERT_EQ(rows.size(), 2u);  // of readings alone
   EXPECT_EQ(rows[1].time, 1.5);
   EXPECT_EQ(rows[0].extension, 0.01);
-  EXPECT_EQ(rows[1].extension, 0.035);
-  EXPECT_EQ(rows[1].corrected_extension, 0.03);
+  EXPECT_EQ(rows[1].extension, 0.03);
+  EXPECT_EQ(rows[1].crosshead_travel, 0.035);
   EXPECT_EQ(rows[1].load, 6.0);
   EXPECT_EQ(rows[1].knot_distance, 0.15);
 }

@@ -44,7 +44,7 @@ class LateAndSlowTest(unittest.TestCase):
             subprocess.run([tool, method, '--out', headless, '--quiet', '--set', 'machine.stiffness=1e6',
                             '--set', 'machine.load_cell.accuracy=0.005'], check=True)
             with open(os.path.join(headless, 'curve.csv'), encoding='utf-8') as curve:
-                self.assertTrue(curve.readline().endswith(',phase,balance_offset,corrected_extension\n'))
+                self.assertTrue(curve.readline().endswith(',phase,balance_offset,crosshead_travel\n'))
             for name in ['curve.csv', 'curve_full.csv', 'final_shape.csv', 'method.yaml', 'test.bag']:
                 self.assertTrue(filecmp.cmp(os.path.join(status.directory, name), os.path.join(headless, name), shallow=False), name)
         finally:

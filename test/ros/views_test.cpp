@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/io/method.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/ros/markers.hpp"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "knot_utm/io/method.hpp"
+#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/record/sample.hpp"

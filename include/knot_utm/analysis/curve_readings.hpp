@@ -144,6 +144,17 @@ struct CurveReadings {
   std::optional<LockedPart> locked;        ///< the part of the curve from which it was read
 };
 
+/// What is known of the knots of a pull beside its curve.
+struct KnotsOfPull {
+  std::string lost;          ///< why there is no sliding force, such as "the knot came undone"; empty: there may be one
+  std::string not_sliding;   ///< why a level force is none of sliding; empty: it may be one
+  bool untangled = false;    ///< then there is no stiffness either
+  bool slid_to_end = false;  ///< then there is no stiffness, unless F rises for good
+};
+
+/// The pull with the force that the rod bears as F, where that is known.
+Pull borne_of(Pull pull);
+
 /// Reads a curve. `on_rollers`: if it is that of a loop, rollers hold it, not two of its nodes. `hidden` may be empty.
 ///
 /// Whether there is a plateau, a lock or a jump is decided by the force that the rod bears (`PullPoint::borne`), where
@@ -172,6 +183,7 @@ struct CurveReadings {
 /// if there is no plateau, or if it lies between two readings that are further apart than a twentieth of the extension
 /// up to it. In simulations of the shipped materials that lock, s_l is larger by 1 to 5 % than the lock extension from
 /// the distance of the knots (`Results::lock_extension`), because F doubles only after the knots have begun to hold.
-CurveReadings curve_readings(const Pull& pull, bool on_rollers, const HiddenRod& hidden = {});
+CurveReadings curve_readings(const Pull& pull, bool on_rollers, const HiddenRod& hidden = {},
+                             const KnotsOfPull& knots = {});
 
 }  // namespace knot_utm

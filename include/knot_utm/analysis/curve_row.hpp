@@ -12,21 +12,24 @@ struct Sample;
 
 /// One row of curve.csv: what a testing machine records of a test.
 struct CurveRow {
-  double time = 0.0;  ///< [s]
-  /// Travel of the crosshead since balance [m]. It equals s where the frame is rigid.
-  double extension = 0.0;
-  double load = 0.0;                     ///< [N]
+  double time = 0.0;       ///< [s]
+  double extension = 0.0;  ///< s [m]; of a measured curve: what the machine calls its extension
+  double load = 0.0;       ///< [N]
   double knot_distance = std::numeric_limits<double>::quiet_NaN();  ///< e [m]; NaN: there are no two knots
-  double end_to_end = 0.0;               ///< L [m]; NaN: not known, as in a measured curve
-  double load_lower = std::numeric_limits<double>::quiet_NaN();     ///< on the lower grip, balanced as `load` is [N]; NaN: not known, as measured
+  double end_to_end = 0.0;                                          ///< L [m]; NaN: not known, as in a measured curve
+  double load_lower = std::numeric_limits<double>::quiet_NaN();  ///< on the lower grip, balanced as `load` is [N]; NaN:
+                                                                 ///< not known, as measured
   Phase phase = Phase::kIdle;
-  /// s, on a compliant frame [m]; NaN: the frame is rigid, or s is not known
-  double corrected_extension = std::numeric_limits<double>::quiet_NaN();
+  /// since balance, on a compliant frame [m]; NaN: the frame is rigid, where it is s, or nothing but it is known
+  double crosshead_travel = std::numeric_limits<double>::quiet_NaN();
   double balance_offset = 0.0;  ///< by which the true force is larger than both loads [N]
   PerKnot excess_length{};      ///< of each knot [m]; not a column of curve.csv
 };
 
 CurveRow curve_row(const Sample& sample);
+
+/// Travel of the crosshead since balance [m].
+double travel_of(const CurveRow& row);
 
 /// Whether load and extension were zeroed between two rows. They were if L - s differs, since nothing else changes that
 /// difference. Raw data have no L; they count as having one zero throughout.

@@ -15,7 +15,7 @@ struct Sample;
 /// Writes curve.csv and curve_full.csv. Row 1 holds the names of the columns and row 2 their units; one row for each
 /// sample follows. Columns are separated by commas. Every number has the shortest form that reads back to the same
 /// double, and "nan" stands for a value that does not exist. Each row is passed to the operating system before `write`
-/// returns, so a run that is killed keeps what it measured. The last column, corrected_extension, is written for a
+/// returns, so a run that is killed keeps what it measured. The last column, crosshead_travel, is written for a
 /// compliant frame only.
 class CurveWriter {
  public:
@@ -34,9 +34,9 @@ class CurveWriter {
   std::size_t rows_ = 0;
 };
 
-/// Reads a file of CurveWriter, with or without corrected_extension. Columns are found by name, in any order, and
-/// unknown ones are ignored. Throws InvalidInput where the file cannot be read, a column is missing, a unit differs, a
-/// row is malformed, or there are more rows than TextRows allows.
+/// Reads a file of CurveWriter, with or without crosshead_travel, also of earlier versions. Columns are found by name,
+/// in any order, and unknown ones are ignored. Throws InvalidInput where the file cannot be read, a column is missing,
+/// a unit differs, a row is malformed, or there are more rows than TextRows allows.
 std::vector<CurveRow> read_curve(const std::string& file);
 /// The same from a stream; `file` is its name in messages.
 std::vector<CurveRow> read_curve(std::istream& in, const std::string& file);

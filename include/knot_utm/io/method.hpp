@@ -5,12 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/analysis_options.hpp"
 #include "knot_utm/io/report_options.hpp"
-#include "knot_utm/io/specimens_options.hpp"
 #include "knot_utm/machine/end_options.hpp"
 #include "knot_utm/machine/options.hpp"
-#include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/record/program.hpp"
 #include "knot_utm/sim/options.hpp"
@@ -18,6 +15,33 @@
 #include "knot_utm/specimen/options.hpp"
 
 namespace knot_utm {
+
+/// The `analysis` section of a method: which further evaluations are asked for, beyond those of every test.
+struct AnalysisOptions {
+  bool margin = false;  ///< safety margin of a knot that slides (analysis/margin.hpp)
+};
+
+/// How a value of the method scatters from specimen to specimen. With x0 the value in the method and d the spread:
+///
+///     normal      x0 (1 + d z), where z is standard normal, limited to 3 standard deviations; d is the cv
+///     log_normal  x0 exp(d z), with the same z
+///     uniform     x0 (1 + d u), where u is uniform from -1 to 1
+enum class ScatterLaw { kNormal, kLogNormal, kUniform };
+
+struct Scatter {
+  std::string key;  ///< dotted key of the method, as `--set` takes it
+  ScatterLaw law = ScatterLaw::kNormal;
+  double spread = 0.0;  ///< d [-]
+};
+
+inline constexpr int kMostSpecimens = 10000;
+
+/// The `specimens` section of a method: how many specimens are tested, and how they differ.
+struct SpecimensOptions {
+  int count = 1;
+  unsigned seed = 1;
+  std::vector<Scatter> scatter;
+};
 
 /// A test method with everything resolved: the content of a method file.
 struct Method {
@@ -42,7 +66,8 @@ struct Method {
 ///   2. share/knot_utm/config of the installation to which the running executable belongs,
 ///   3. the config/ of the sources from which it was built.
 /// After reading, `specimen.preload` and the load cell are resolved. `specimen.file`, `report.logo` and the records
-/// that are followed are absolute paths.
+/// that are followed are absolute paths. Records are not read, nor is a specification compared with the results that
+/// there are: load_test (io/load_test.hpp) does that.
 ///
 /// Each override has the form "dotted.key=YAML", as `--set` takes it. An entry of a list is named by its index from 0
 /// or, in the program, by the name of the step ("program.pull.speed"). A key inside a material or load cell that is
@@ -68,9 +93,6 @@ std::string method_yaml(const Method& method);
 /// The number that `method_yaml` of a single specimen has at a dotted key, as overrides name it ("program.pull.speed").
 /// Empty where no number stands at the key.
 std::optional<double> number_at(const Method& method, const std::string& key);
-
-/// The runner of the method's program. `longest_step`: longest time step of the simulation [s].
-ProgramRunner make_program(const Method& method, double longest_step);
 
 /// Checks values that must go together, as `load_method` does. Throws InvalidInput.
 void check_method(const Method& method);

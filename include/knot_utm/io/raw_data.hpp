@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/csv.hpp"
+#include "knot_utm/analysis/curve_row.hpp"
 #include "knot_utm/io/raw_options.hpp"
 
 namespace knot_utm {

@@ -6,11 +6,6 @@
 
 namespace knot_utm {
 
-/// Writes report.html and report.pdf into the folder of a run or of a comparison. They are made by the Python code in
-/// `report/`, run by /usr/bin/python3. `command`: the command that the page names as its origin. Throws
-/// std::runtime_error with one line where they cannot be made; nothing else in the folder changes.
-void write_report(const std::string& folder, const std::string& command);
-
 /// Writes the input of a report on a comparison: comparison.yaml, as printed, and the two curves as compared, a.csv and
 /// b.csv. Makes the folder and returns its path.
 ///

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "knot_utm/analysis/results.hpp"
+#include "knot_utm/io/known_errors.hpp"
 #include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/io/verdict.hpp"
 
@@ -71,8 +72,12 @@ constexpr char kCertificate[] = "certificate";  ///< among the checks of the cer
 }  // namespace result_place
 
 /// All keys of result.yaml, in the order of the file. result.yaml, the keys that a specification may name, and
-/// report/result_keys.csv with the labels and units of the report are made from this table. Tests compare
+/// labels and units of the report (`tensile_test --list-results`) are made from this table. Tests compare
 /// doc/results.md with it. A new key is one row of this table and one row of doc/results.md.
 const std::vector<ResultKey>& result_keys();
+
+/// The table of the keys as CSV with the columns key, unit, kind, group, table and meaning: the content of
+/// report/result_keys.csv.
+std::string result_keys_csv();
 
 }  // namespace knot_utm

@@ -12,12 +12,4 @@ namespace knot_utm {
 /// Among the warnings, those that follow from the results come first.
 std::string result_yaml(const Results& results, const RunFacts& facts);
 
-/// The keys of result.yaml that are numbers, whether or not a test has a value of them. A specification may name these
-/// keys.
-std::vector<std::string> result_numbers();
-
-/// The table of the keys as CSV with the columns key, unit, kind, group, table and meaning: the content of
-/// report/result_keys.csv.
-std::string result_keys_csv();
-
 }  // namespace knot_utm

@@ -21,7 +21,7 @@ struct RunFacts {
   /// further warnings, other than those that follow from the results, one line each
   std::vector<std::string> warnings;
   double preload = std::numeric_limits<double>::quiet_NaN();  ///< F_p [N]; NaN: nothing was tied
-  ReadingErrors errors;               ///< relative errors of the readings from mesh and tolerances [-]
+  RelativeErrors errors;              ///< relative errors of the readings from mesh and tolerances [-]
   Margin margin;                      ///< safety margin of the knot, where it was asked for
   double wall_time = 0.0;             ///< [s]
   std::uint64_t peak_memory = 0;      ///< largest memory of the process [bytes]; 0: not known

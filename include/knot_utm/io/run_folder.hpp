@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/record/ended_by.hpp"
 
 namespace knot_utm {
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "knot_utm/io/report_options.hpp"
-#include "knot_utm/io/yaml_lines.hpp"
+#include "knot_utm/numeric/yaml_lines.hpp"
 
 namespace knot_utm {
 
@@ -14,6 +14,9 @@ struct Verdict {
   std::optional<bool> passed;       ///< empty: there are no requirements
   std::vector<std::string> failed;  ///< one line for each requirement that was not met, with the reason
 };
+
+/// Throws InvalidInput where the specification names a key that is no number of result.yaml.
+void check_specification(const Specification& specification);
 
 /// Compares the results with the specification. A number that the test does not have meets no requirement.
 Verdict verdict(const Specification& specification, const YamlLines& results);

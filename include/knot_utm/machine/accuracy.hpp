@@ -26,11 +26,10 @@ Tolerances tolerances(const PhysicsOptions& physics, const SpecimenOptions& spec
 
 /// Estimated numerical errors of readings, as fractions of the readings [-]. Empty where no convergence study covers
 /// the case.
-struct ReadingErrors {
+struct RelativeErrors {
   std::optional<double> plateau_force;
   std::optional<double> lock_extension;
   std::optional<double> locked_stiffness;
-  std::optional<double> peak_force = std::nullopt;  ///< follows from the others (known_errors.hpp)
 };
 
 /// Each error is meant to contain 95 % of the differences from a run at `fine` with edges half as long, a quarter of
@@ -39,8 +38,8 @@ struct ReadingErrors {
 /// the length of the loop. Other edges and tolerances raise or lower it. The contribution of the edges is proportional
 /// to the square of their length. Those of contact tolerance, presliding displacement, longest step and residual are
 /// proportional to their values.
-ReadingErrors reading_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
-                             const PhysicsOptions& physics);
+RelativeErrors relative_errors(const SpecimenOptions& specimen, const Material& material, const MachineOptions& machine,
+                               const PhysicsOptions& physics);
 
 /// Whether knots slide under so small a force [N] that they are hardly closed. What the mesh then does to the readings
 /// is not known.

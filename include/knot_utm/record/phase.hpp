@@ -9,8 +9,8 @@ namespace knot_utm {
 /// The phases of a test. A program is a list of steps, one phase each.
 enum class Phase { kIdle, kTie, kRelease, kMount, kPreload, kBalance, kPull, kHold, kCycle, kReturn, kFollow, kDone };
 
-/// What the rest of the package needs to know of a phase. The table of them stands in phase.cpp; the report reads the
-/// same from report/phases.csv.
+/// What the rest of the package needs to know of a phase. The table of them stands in phase.cpp; the report reads
+/// it from `tensile_test --list-phases`.
 struct PhaseTraits {
   Phase phase;
   const char* name;     ///< in methods, messages and curve files

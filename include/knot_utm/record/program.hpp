@@ -51,8 +51,7 @@ struct ProgramStep {
   double return_extension = 0.0;                 ///< return: to this extension [m]
   std::string record;                            ///< follow: the file of the record
   RecordWords words;                             ///< and how it is read
-  std::vector<RecordedPlace> recorded;           ///< and what it says, times ascending from 0
-  std::vector<std::string> read;                 ///< and what of it was read, as a user should see
+  std::vector<RecordedPlace> recorded;           ///< and what it says once it has been read, times ascending from 0
 };
 
 using Program = std::vector<ProgramStep>;

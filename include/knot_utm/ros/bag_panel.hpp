@@ -14,7 +14,7 @@ namespace knot_utm {
 std::string condition_of(const Sample& sample, const std::string& motion_pattern);
 
 /// The readings and the force-extension curve of a test as markers. A bag that has them shows what the panel beside
-/// rviz shows (panel/), while nothing of this package runs. They stand at fixed places in the picture of
+/// rviz shows (python/knot_utm/panel), while nothing of this package runs. They stand at fixed places in the picture of
 /// config/bag.rviz, in front of everything else: the readings at its left, the curve at its right. Where large loads
 /// hide those of sliding, the curve is drawn once more with these alone.
 class BagPanel {

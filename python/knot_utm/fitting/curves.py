@@ -1,5 +1,4 @@
 """A pull, as load over extension, of a record or of a run."""
-import math
 import os
 import subprocess
 import tempfile
@@ -49,12 +48,13 @@ def pull_of_table(table):
     rows = np.flatnonzero(table["phase"].isin(PULLS))
     if len(rows) < 2:
         return None
-    extension, load = (table[name].to_numpy(float)[rows] for name in ("extension", "load"))
+    travel = "crosshead_travel" if "crosshead_travel" in table else "extension"
+    extension, load = (table[name].to_numpy(float)[rows] for name in (travel, "load"))
     if rows[0] > 0:
         before, first = (table.iloc[row] for row in (rows[0] - 1, rows[0]))
-        own = "corrected_extension" if "corrected_extension" in table else "extension"
-        balanced = abs((before["end_to_end"] - before[own]) - (first["end_to_end"] - first[own])) > SAME_ZERO
-        extension = np.concatenate([[0.0 if balanced else before["extension"]], extension])
+        zeros = [row["end_to_end"] - row["extension"] for row in (before, first)]
+        balanced = abs(zeros[1] - zeros[0]) > SAME_ZERO
+        extension = np.concatenate([[0.0 if balanced else before[travel]], extension])
         load = np.concatenate([[0.0 if balanced else before["load"]], load])
     finite = np.isfinite(extension) & np.isfinite(load)
     pull = Pull(extension[finite], load[finite])
@@ -104,7 +104,3 @@ def _known(file, pull):
     if pull is None:
         raise WrongInput(f"{file}: nothing is pulled in it, or it has fewer than two readings of a pull")
     return pull
-
-
-def is_number(value):
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)

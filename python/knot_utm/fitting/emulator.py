@@ -42,9 +42,6 @@ class Emulator:
         told = [process.at(inside) for process in self.processes]
         return np.stack([mean for mean, _ in told], axis=1), np.stack([variance for _, variance in told], axis=1)
 
-    def curve(self, place):
-        return self.mean + self.weights(place[None])[0][0] @ self.components
-
 
 class Known:
     """In place of an emulator, where the curve is known."""

@@ -9,10 +9,12 @@ standard deviation). S is the scatter from specimen to specimen (scatter.py).
 The systematic error of the cell is one more mode, which stands apart because it moves all records of one cell together. It is a
 bound, and over sqrt(3) it is a standard deviation. As class_error of tensile_test has it, it is the accuracy times the true
 load, or the floor where the true load is below it."""
+from collections import defaultdict
+
 import numpy as np
 
+from knot_utm.design import is_number
 from knot_utm.errors import WrongInput
-from knot_utm.fitting.curves import is_number
 
 ROUNDING, ROUNDING_OF_LARGEST = 1e-4, 1e-6  # of a load, of the largest load: of curves straight from point to point
 
@@ -31,7 +33,7 @@ def of_single_means(record, cell, means):
 
 def of_the_cell(cell, means, result):
     """The mode of its systematic error [N]."""
-    true_load = means + (result.get("balance_offset") if is_number(result.get("balance_offset")) else 0.0)
+    true_load = means + _numbers(result)["balance_offset"]
     floor = _number(cell, "floor") * _number(cell, "capacity")
     return np.where(np.abs(true_load) < floor, floor, _number(cell, "accuracy") * means) / np.sqrt(3.0)
 
@@ -44,19 +46,19 @@ def require_known(record, cell, scatter):
 
 
 def _numerical(s, means, result):
-    """Modes of the plateau, of the lock and of the locked stiffness, as far as a result has them."""
-    value = {key: result.get(key) if is_number(result.get(key)) else None
-             for reading in ("plateau_force", "lock_extension", "locked_stiffness") for key in (reading, reading + "_error")}
-    lock = value["lock_extension"]
-    before = s < lock if lock is not None else np.ones(len(s), bool)
-    if value["plateau_force"] and value["plateau_force_error"]:
-        yield np.where(before, 0.5 * value["plateau_force_error"] / value["plateau_force"] * means, 0.0)
-    if lock is not None and value["lock_extension_error"] and len(s) > 1:
-        yield np.where(s > 0.9 * lock, -0.5 * value["lock_extension_error"] * np.gradient(means, s), 0.0)
-    if value["locked_stiffness"] and value["locked_stiffness_error"]:
-        begins = np.interp(lock, s, means) if lock is not None else 0.0
-        behind = ~before if lock is not None else before
-        yield np.where(behind, 0.5 * value["locked_stiffness_error"] / value["locked_stiffness"] * (means - begins), 0.0)
+    """Modes of the plateau, of the lock and of the locked stiffness; zero, as far as a result does not have them."""
+    of = _numbers(result)
+    lock = of.get("lock_extension", np.inf)
+    plateau, stiffness = (0.5 * of[key + "_error"] / (of[key] or np.inf) for key in ("plateau_force", "locked_stiffness"))
+    begins = np.interp(lock, s, means) if np.isfinite(lock) else 0.0
+    yield np.where(s < lock, plateau * means, 0.0)
+    yield np.where(s > 0.9 * lock, -0.5 * of["lock_extension_error"] * np.gradient(means, s), 0.0)
+    yield np.where((s >= lock) | np.isinf(lock), stiffness * (means - begins), 0.0)
+
+
+def _numbers(result):
+    """Of a result, zero for those that it does not have."""
+    return defaultdict(float, {key: value for key, value in result.items() if is_number(value)})
 
 
 def _number(cell, key):

@@ -3,8 +3,8 @@ import math
 import re
 from dataclasses import dataclass
 
+from knot_utm.design import is_number
 from knot_utm.errors import WrongInput
-from knot_utm.fitting.curves import is_number
 from knot_utm.yaml_text import text_of
 
 OFFSET = re.compile(r"record(?:\.([1-9]\d*))?\.(force|extension)_offset")
@@ -21,12 +21,8 @@ class FreeKey:
     low: float
     high: float
 
-    @property
-    def is_logarithmic(self):
-        return self.low > 0 and self.high > LOGARITHMIC * self.low
-
     def value(self, place):
-        if self.is_logarithmic:
+        if self.low > 0 and self.high > LOGARITHMIC * self.low:
             return self.low * (self.high / self.low) ** place
         return self.low + (self.high - self.low) * place
 

@@ -1,8 +1,8 @@
 """How specimens of one kind differ: what is drawn of each, and the covariance of their curves."""
-import csv
 import os
 
 import numpy as np
+import pandas as pd
 
 from knot_utm.fitting.keys import value_at
 from knot_utm.fitting.runs import read_model
@@ -16,11 +16,10 @@ class Batch:
 
     def __init__(self, folder):
         self.method = load(os.path.join(folder, "method.yaml"))
-        with open(os.path.join(folder, "specimens.csv"), encoding="utf-8", newline="") as file:
-            rows = list(csv.DictReader(file))[1:]  # behind the units
-        keys = [name for name in rows[0] if "." in name]
-        self.draws = [{key: float(row[key]) / value_at(self.method, key) for key in keys} for row in rows]
-        self.models = [read_model(os.path.join(folder, f"specimen_{number:03d}")) for number in range(1, len(rows) + 1)]
+        table = pd.read_csv(os.path.join(folder, "specimens.csv"), skiprows=[1], float_precision="round_trip")
+        keys = [name for name in table if "." in name]
+        self.draws = [{key: float(row[key]) / value_at(self.method, key) for key in keys} for _, row in table.iterrows()]
+        self.models = [read_model(os.path.join(folder, f"specimen_{number:03d}")) for number in range(1, len(table) + 1)]
 
     def drawn(self, number, settings):
         """Settings of one specimen: what is drawn goes with what is set."""

@@ -162,20 +162,8 @@ class Search:
         self.low, self.high = np.zeros(len(keys)), np.ones(len(keys))
         self.count = 0
 
-    @staticmethod
-    def most_runs(keys, inputs):
-        """Of one record."""
-        first, more = Search._runs_of(inputs)
-        return first + (MOST_WAVES + ends.CHECKS) * more + (ends.CHECKS + 1) * 2 * keys * ends.SPECIMENS
-
-    @staticmethod
-    def _runs_of(inputs):
-        """(of the first wave, of each other)"""
-        return 8 * inputs + 2, 4 * inputs + 2
-
     def go(self):
-        first, _ = self._runs_of(len(self.inputs))
-        self.add(profiles.sobol(len(self.keys), first, 1))
+        self.add(profiles.sobol(len(self.keys), 8 * len(self.inputs) + 2, 1))
         self.best = np.full(len(self.keys), 0.5)
         self.learn(0)
         for wave in range(1, MOST_WAVES + 1):
@@ -189,7 +177,7 @@ class Search:
 
     def wave(self, number):
         """More runs, in a new box; whether the box is no longer smaller."""
-        low, high, places = self._kept(number, self._runs_of(len(self.inputs))[1])
+        low, high, places = self._kept(number, 4 * len(self.inputs) + 2)
         shrunk = np.any((high - low)[self.inputs] < SHRUNK * (self.high - self.low)[self.inputs])
         self.add(places)
         self.low, self.high = low, high

@@ -70,7 +70,7 @@ class ReplayTest(unittest.TestCase):
                      '/utm/crosshead': Latest('utm/crosshead', Crosshead)}
             clock = Latest('/clock', Clock)
             status = Latest('utm/status', TestStatus)
-            panel = subprocess.Popen([os.path.join(ROOT, 'panel/panel_node')],
+            panel = subprocess.Popen([os.path.join(ROOT, 'python/knot_utm/panel/panel_node')],
                                      env=dict(os.environ, ROS_LOG_DIR=replay.log))
             self.addCleanup(panel.wait, LAST_RESORT)
             self.addCleanup(panel.terminate)

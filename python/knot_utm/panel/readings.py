@@ -1,0 +1,209 @@
+"""What the panel shows, as it comes in messages: the latest readings, the curve, and beside it those of earlier tests and
+of a record."""
+import collections
+import math
+import statistics
+
+# Phases before the zero of the pull (tensile_test --list-phases, prepares): the balance is the zero.
+PREPARATION = {'', 'idle', 'tie', 'release', 'mount', 'preload', 'done'}
+BROKEN, FAILED = 3, 4  # status of a KnotState
+KEPT, CROSSED = 0, 2   # its knot_type
+PAUSED, ENDED = 2, 3               # of a TestStatus
+MANY = 8.0  # loads above this many of those of sliding hide them: these are shown again, alone
+ENDS = {'break': 'broke', 'untangled': 'came undone', 'solver': 'the physics gave up',
+        'operator': 'ended by the operator', 'program': 'ended with its program'}
+MOST_WAITING = 1000  # states that wait for the reading of the load cell of the same stamp, and the other way round
+CURVES = 20  # that are shown, this one among them
+
+# What the curve takes of a state. `zero`: its balance offset; `slides`: whether the knots slide.
+Place = collections.namedtuple('Place', 'run phase extension zero slides')
+
+
+def place_of(state):
+    slides = state.motion_pattern == 'sliding' and not state.locked
+    return Place(state.run, state.phase, state.extension, state.balance_offset, slides)
+
+
+class Pairs:
+    """Two coordinates of a point that come in two messages of the same stamp, in any order."""
+
+    def __init__(self):
+        self._waiting = ({}, {})
+        self._order = collections.deque()
+
+    def add(self, which, stamp, value):
+        """which: 0 for the coordinate along the curve, 1 for the other. Both, where this one was the second; else None."""
+        other = self._waiting[1 - which].pop(stamp, None)
+        if other is not None:
+            return (value, other) if which == 0 else (other, value)
+        self._waiting[which][stamp] = value
+        self._order.append((which, stamp))
+        while len(self._order) > MOST_WAITING:
+            old_which, old_stamp = self._order.popleft()
+            self._waiting[old_which].pop(old_stamp, None)
+        return None
+
+
+class Readings:
+    """All that is known of the test that runs. Lengths in m, forces in N."""
+
+    def __init__(self):
+        self.material = ''
+        self.knot = ''
+        self.bar = None  # the colour bar, as the message has it
+        self._status = None  # of the test, as the message has it
+        self._begin()
+
+    def _begin(self):
+        self.stamp = -1.0
+        self.state = None
+        self._pairs = Pairs()
+        self._curves = {}  # number of the test -> points, in the order of the tests
+        self._begin_test()
+
+    def _begin_test(self):
+        self.load = math.nan
+        self.load_at_break = None
+        self._zero = None     # balance offset of the curve
+        self._sliding = []    # loads while the knots slid
+        self._measured_pairs = Pairs()
+        self._measured = []
+
+    def take_method(self, method):
+        """method: the method of the test as a map."""
+        self.material = str(method.get('material', {}).get('name', ''))
+        self.knot = str(method.get('specimen', {}).get('knot', ''))
+
+    def take_state(self, stamp, state):
+        """state: a KnotState, or what has its fields. With an earlier stamp everything begins anew, as where a bag is played
+        again."""
+        if stamp < self.stamp:
+            self._begin()
+        elif self.state is not None and state.run != self.state.run:
+            self._begin_test()
+        self.stamp = stamp
+        self.state = state
+        if state.status == BROKEN:
+            self._take_break(state)
+        else:
+            self._take_point(self._pairs.add(0, stamp, place_of(state)))
+
+    def take_status(self, status):
+        """status: a TestStatus, or what has its fields."""
+        self._status = status
+
+    def take_load(self, stamp, load):
+        self.load = load
+        self._take_point(self._pairs.add(1, stamp, load))
+
+    def _take_break(self, state):
+        """The largest load of the command in which the rod parts is that of the break; it has none behind that."""
+        if self.load_at_break is None:
+            self.load_at_break = state.highest_load
+            self._take_point((place_of(state), state.highest_load))
+
+    def _take_point(self, point):
+        """Nothing that was read before the zero belongs to the curve: neither tying and mounting nor another zero."""
+        if point is None or point[0].phase in PREPARATION:
+            return
+        place, load = point
+        if self.state is not None and place.run == self.state.run:
+            if place.zero != self._zero:
+                self._curves.pop(place.run, None)
+                self._sliding = []
+            self._zero = place.zero
+            if place.slides:
+                self._sliding.append(load)
+        self._curves.setdefault(place.run, []).append((place.extension, load))
+        if len(self._curves) > CURVES:
+            del self._curves[next(iter(self._curves))]
+
+    def take_measured_extension(self, stamp, extension):
+        self._take_measured(self._measured_pairs.add(0, stamp, extension))
+
+    def take_measured_load(self, stamp, load):
+        self._take_measured(self._measured_pairs.add(1, stamp, load))
+
+    def _take_measured(self, point):
+        if point is not None:
+            self._measured.append(point)
+
+    def curve(self):
+        """Extension and load at each reading of the load cell in this test."""
+        return list(self._curves.get(self.state.run, [])) if self.state else []
+
+    def earlier(self):
+        """The curves of the tests before this one."""
+        return [list(points) for run, points in self._curves.items() if self.state and run != self.state.run]
+
+    def measured(self):
+        """The same of the experiment, as its topics have it."""
+        return list(self._measured)
+
+    def small_load(self):
+        """A load [N] up to which the loads are to be shown once more, because larger ones hide those of sliding; else
+        None."""
+        if not self._sliding:
+            return None
+        usual = statistics.median(self._sliding)
+        largest = max(load for _, load in self.curve())
+        return 2.5 * usual if 0.0 < MANY * usual < largest else None
+
+    def colours_are_known(self):
+        """What the colours of a rod show that has parted is not known, where it is a force."""
+        return self.load_at_break is None or self.bar is None or self.bar.quantity != 'tension'
+
+    def how_it_stands(self):
+        """The state of the test in words."""
+        state, status = self.state, self._status
+        is_of_this = status is not None and status.run == state.run
+        ended_by = status.ended_by if is_of_this and status.state == ENDED else None
+        words = []
+        if state.status == BROKEN:
+            words.append(ENDS['break'])
+        elif state.status == FAILED:
+            words.append(ENDS['solver'])
+        elif state.knot_type == CROSSED:
+            words.append('ran through itself')
+        elif state.motion_pattern == 'untangling':
+            words.append('a knot opened' if state.knot_type == KEPT else ENDS['untangled'])
+        if ended_by is not None:
+            end = ENDS.get(ended_by, 'ended by ' + ended_by if ended_by else 'ended')
+            words.append('ended' if end in words else end)
+        return ', '.join(words) or ('paused' if is_of_this and status.state == PAUSED else 'running')
+
+    def table(self):
+        """Rows of name, value and unit."""
+        state = self.state
+        if state is None:
+            return [('material', self.material or '–', ''), ('knot', self.knot or '–', '')]
+        pattern = 'locked' if state.locked else state.motion_pattern
+        return [
+            ('time', '%.1f' % state.time, 's'),
+            ('material', self.material or '–', ''),
+            ('knot', self.knot or '–', ''),
+            ('state', self.how_it_stands(), ''),
+            ('phase', state.phase or '–', ''),
+            ('motion pattern', pattern or '–', ''),
+            ('extension', millimetres(state.extension), 'mm'),
+            self._row_of_load(),
+            ('knot distance', millimetres(state.knot_distance), 'mm'),
+            ('end-to-end distance', millimetres(state.end_to_end), 'mm'),
+        ]
+
+    def _row_of_load(self):
+        if self.load_at_break is not None:
+            return ('load at the break', number(self.load_at_break), 'N')
+        return ('load', number(self.state.load if math.isnan(self.load) else self.load), 'N')
+
+
+def millimetres(metres):
+    return '–' if math.isnan(metres) else '%.1f' % (1e3 * metres)
+
+
+def number(value):
+    """Four digits, without an exponent where they are enough."""
+    if math.isnan(value):
+        return '–'
+    value += 0.0  # no minus before a zero
+    return '%.0f' % value if abs(value) >= 1e4 else '%.4g' % value

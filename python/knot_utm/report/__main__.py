@@ -1,0 +1,48 @@
+"""Writes report.html and report.pdf into the folder of a test, of a batch of specimens, of a comparison, or of a fit.
+
+    scripts/report FOLDER [--command TEXT] [--version VERSION]
+
+The page names TEXT as the command that made it, and VERSION of knot_utm.
+"""
+import importlib
+import os
+import shlex
+import sys
+
+from knot_utm.report.commands import CannotReport, in_one_line, OneLineParser
+
+# The function that makes a page, by the file that tells what a folder holds. The first is the newest where it holds two:
+# `compare` takes no folder of a run, and tests take away what older tests and comparisons left.
+PAGES = {"result.yaml": "page.report_on_run", "comparison.yaml": "comparison.report_on_comparison",
+         "statistics.yaml": "batch_page.report_on_batch", "fit.yaml": "fit.report_on_fit"}
+
+
+def main():
+    parser = OneLineParser(prog="report", description="Writes report.html and report.pdf into the folder of "
+                                     "a test, of a batch of specimens, of a comparison, or of a fit.")
+    parser.add_argument("folder", help="that tensile_test, a recorder, compare --report or scripts/fit wrote")
+    parser.add_argument("--command", help="that the page names as the one that made it")
+    parser.add_argument("--version", help="of knot_utm, that made it", default="")
+    arguments = parser.parse_args()
+    if not os.path.isdir(arguments.folder):
+        parser.error(f"{arguments.folder}: no such folder")
+    command = arguments.command or "scripts/report " + shlex.quote(arguments.folder)
+    with in_one_line("report"):
+        make(arguments.folder, command, arguments.version)
+
+
+def make(folder, command, version):
+    maker = next((PAGES[name] for name in PAGES if os.path.exists(os.path.join(folder, name))), None)
+    if maker is None:
+        raise CannotReport(f"{folder}: none of {', '.join(PAGES)} is there")
+    module, function = maker.split(".")
+    html = getattr(importlib.import_module(f"knot_utm.report.{module}"), function)(folder, command, version)
+    from knot_utm.report import page, typefaces
+
+    page.write(folder, html)
+    if line := typefaces.told(typefaces.without_typeface(html)):
+        print("report:", line, file=sys.stderr)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,126 @@
+"""The points of a test that its curve and its pictures have in common: a, b, c …, and where the load was largest."""
+import numpy as np
+
+from knot_utm.report.quantities import shown
+from knot_utm.report.run import PULLING
+
+
+class Mark:
+    """`names`: what happened there; several where they fall together. Time [s], extension [m], load [N]; NaN: none is
+    known, behind a break."""
+
+    def __init__(self, names, time, extension, load):
+        self.names, self.time, self.extension, self.load = names, time, extension, load
+        self.letter = ""
+
+    def title(self):
+        return ", ".join(self.names)
+
+
+def time_of_break(marks):
+    """[s]; None: the rod is whole."""
+    return next((mark.time for mark in marks if "break" in mark.names), None)
+
+
+def marks_of(run):
+    """Start of the pull, a knot's jump, lock, largest load, break and end, in order of time; none where nothing was tested."""
+    tested = run.tested()
+    if not len(tested):
+        return []
+    pull = run.pull()
+    begin = pull if len(pull) else tested
+    found = [("start of the pull" if len(pull) else "start", begin, 0)]
+    found += reached(pull, "a knot jumped open", run.value("jump_extension"))
+    found += reached(pull, "lock", run.value("lock_extension"))
+    largest = largest_load(run)
+    if largest:
+        found.append((largest.name, largest.rows, largest.row))
+    found += reached(pull, "break", run.value("break_extension"))
+    all_marks = [Mark([name], rows["time"][i], rows["extension"][i], rows["load"][i]) for name, rows, i in found]
+    all_marks.append(end_of(run.curve.tested()))
+    if run.time_of_break() is not None:
+        all_marks[-1].load = np.nan
+    return together(all_marks, 0.01 * (tested["time"][-1] - tested["time"][0]), 0.05 * float(np.abs(tested["load"]).max()))
+
+
+def end_of(curve):
+    """The mark at the end, and the only one of a test that ended before anything was pulled."""
+    mark = Mark(["end of the test"], curve["time"][-1], curve["extension"][-1], curve["load"][-1])
+    mark.letter = "a"
+    return mark
+
+
+def reached(pull, name, extension):
+    """The row of the pull that is nearest to an extension; none where there is none."""
+    if extension is None or not len(pull):
+        return []
+    return [(name, pull, int(np.argmin(np.abs(pull["extension"] - extension))))]
+
+
+def together(marks, soon, near):
+    """Marks within `soon` [s] and `near` [N] of the one before become one with it, at the later time; a break lies
+    between others. Then they get their letters."""
+    merged = []
+    for mark in sorted(marks, key=lambda mark: mark.time):
+        if merged and mark.time - merged[-1].time <= soon and abs(mark.load - merged[-1].load) <= near:
+            mark.names = merged.pop().names + mark.names
+        merged.append(mark)
+    for number, mark in enumerate(merged):
+        mark.letter = chr(ord("a") + number)
+    return merged
+
+
+# ---- the largest load: the place of the reading that peak_force of result.yaml is. It is a peak of the curve only where the
+# load fell behind it: a test that was stopped while the load rose has a largest load, but no peak.
+
+NEAR = 0.01  # of the pull: a largest load within this of its end was reached there
+
+# How a test ended that nobody and no program stopped.
+NOT_STOPPED = {"solver": "the physics gave up", "untangled": "the knot came undone", "operator": "the operator stopped the test",
+               "not yet": "the record ends", "interrupted": "the test was cut off"}
+
+
+class LargestLoad:
+    """`rows`, `row`: where it is. `name`: of its mark. `where`: the rest of a sentence that begins with its value.
+    `is_peak`: the load fell behind it."""
+
+    def __init__(self, rows, row, name, where, is_peak):
+        self.rows, self.row, self.name, self.where, self.is_peak = rows, row, name, where, is_peak
+
+
+def largest_load(run):
+    """None: nothing was pulled."""
+    value, pulled, read = run.value("peak_force"), pulled_of(run.tested()), pulled_of(run.tested(run.readings))
+    if value is None or not len(pulled):
+        return None
+    broke, rows = run.value("break_extension"), read if len(read) else pulled
+    row = int(np.argmax(rows["load"]))
+    if broke is not None and (value > rows["load"][row] or in_length(run, rows["extension"][row]) == in_length(run, broke)):
+        row = int(np.argmin(np.abs(pulled["extension"] - broke)))  # where it parted the load is read, too
+        return LargestLoad(pulled, row, "peak", f"where the rod parted, at {in_length(run, broke)}", True)
+    place, end = float(rows["extension"][row]), float(pulled["extension"].max())
+    if row < len(rows) - 1 and end - place > NEAR * float(np.ptp(pulled["extension"])):
+        return LargestLoad(rows, row, "peak", f"at an extension of {in_length(run, place)}", True)
+    where = f"at {in_length(run, place)}, "
+    if broke is not None:
+        return LargestLoad(rows, row, "peak", where + "before the rod parted", True)
+    if set(pulled.phase) == {"cycle"}:
+        return LargestLoad(rows, row, "largest load", where + "at the upper turning point of the cycles", False)
+    where += f"{'where' if in_length(run, place) == in_length(run, end) else 'before'} {end_of_pull(run, pulled)}"
+    return LargestLoad(rows, row, "largest load", where, False)
+
+
+def pulled_of(curve):
+    return curve.where(np.isin(curve.phase, PULLING))
+
+
+def end_of_pull(run, pulled):
+    """Why the load went no higher."""
+    if run.tested()["time"][-1] > pulled["time"][-1]:
+        return "the pull ended"
+    return NOT_STOPPED.get(run.result.get("ended_by"), "the test was stopped")
+
+
+def in_length(run, metres):
+    unit = run.units.length
+    return f"{shown(float(metres), unit.scale)} {unit.name}"

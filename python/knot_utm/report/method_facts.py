@@ -1,0 +1,174 @@
+"""A method as a person reads it: what was tested, on what, and how; and what a laboratory says of a test by a standard."""
+from knot_utm import tool
+from knot_utm.report import quantities
+from knot_utm.report.quantities import is_number, number, Unit
+from knot_utm.report.run import PULLING
+
+# Labels and units of dotted keys.
+LABELS = {row["key"]: row["label"] for row in tool.listing("method-keys")}
+UNITS = {row["key"]: row["unit"] for row in tool.listing("method-keys")}
+# What a knot is called, and the keys that are shown of it.
+TITLES = {row["knot"]: row["title"] for row in tool.listing("knots")}
+KEYS_OF_KNOTS = {row["knot"]: row["keys"].split() for row in tool.listing("knots")}
+# How a unit of a method is shown, where that is not as in a result.
+KINDS = {**quantities.KINDS, "m/s": "speed", "N/s": "force_rate", "of the radius": "of the radius",
+         "of capacity": "of its capacity", "of k_b/h2": "k_b/h²", "of friction_coefficient": "of the friction coefficient"}
+# Labels where the rod lies around a post.
+ON_POST = {"machine.roller_friction": "Friction coefficient of the rod on the post"}
+NOT_FACTS = ("name", "notes", "tying_preload", "seed", "load_cell")
+
+
+def place_of(key):
+    """A dotted key without the number of a step or of an entry."""
+    return ".".join(part for part in key.split(".") if not part.isdigit())
+
+
+def label_of(key):
+    """Of a dotted key. One that is not known here is shown as it stands."""
+    return LABELS.get(place_of(key), key.split(".")[-1].replace("_", " "))
+
+
+def unit_of(key, units):
+    unit = UNITS.get(place_of(key), "-")
+    written = unit.replace("2", "²").replace("3", "³")
+    if key.startswith("physics.") and unit in ("N/m", "m/s"):
+        return Unit(written)  # parameters of the model are in SI
+    return units.of(KINDS.get(unit, written))
+
+
+def text_of(key, value, units):
+    unit = unit_of(key, units)
+    if is_number(value):
+        return f"{number(value * unit.scale)} {unit.name}".strip()
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if value in (float("inf"), ".inf"):
+        return {"machine.stiffness": "rigid", "machine.load_cell.overload": "none"}.get(key, "∞")
+    if isinstance(value, dict):
+        return ", ".join(f"{label_of(f'{key}.{name}')} {text_of(f'{key}.{name}', part, units)}"
+                         for name, part in value.items())
+    if isinstance(value, list):
+        return vector(value, unit) if all(map(is_number, value)) else ", ".join(map(str, value))
+    return str(value)
+
+
+def vector(values, unit):
+    return f"[{', '.join(number(value * unit.scale) for value in values)}] {unit.name}".strip()
+
+
+class Facts:
+    """What is said of the keys of a method, in the units of a page."""
+
+    def __init__(self, method, units):
+        self.units, self.around_post = units, lies_around_post(method)
+        self.automatic = method.get("automatic") or {}
+
+    def of(self, place, section, keys=None):
+        """[(label, text)] of the keys that are there and have a value. `place`: the section's dotted key."""
+        names = [name for name in (keys or section) if section.get(name) is not None and name not in NOT_FACTS]
+        return [(self.label(f"{place}.{name}"), self.text(f"{place}.{name}", section[name])) for name in names]
+
+    def label(self, key):
+        return ON_POST[key] if self.around_post and key in ON_POST else sentence(label_of(key))
+
+    def text(self, key, value):
+        """Says of a number whether anybody chose it."""
+        return text_of(key, value, self.units) + (" (auto)" if key in self.automatic else "")
+
+
+def sentence(label):
+    return label[:1].upper() + label[1:]
+
+
+def knot_of(method):
+    return TITLES.get(method["specimen"]["knot"], str(method["specimen"]["knot"]))
+
+
+def lies_around_post(method):
+    return "post_diameter" in KEYS_OF_KNOTS.get(method.get("specimen", {}).get("knot"), ())
+
+
+def post_diameter(method):
+    """Of the post around which the specimen lies [m]; None: there is none."""
+    return method["specimen"]["post_diameter"] if lies_around_post(method) else None
+
+
+def without_idle_keys(method):
+    """Without the keys that do nothing in this method, and would say what it is not."""
+    def without(section, *keys):
+        return {key: value for key, value in section.items() if key not in keys}
+
+    material, machine, physics = method["material"], method["machine"], method.get("physics", {})
+    if not material.get("bending_set"):
+        material = without(material, "bending_set")
+    if not material.get("friction_couple") and isinstance(physics.get("friction"), dict):
+        physics = {**physics, "friction": without(physics["friction"], "at")}
+    if machine.get("roller_rotation", "fixed") != "turned":
+        machine = without(machine, "roller_rate")
+    if not machine.get("roller_friction"):
+        machine = without(machine, "roller_rotation")
+    if lies_around_post(method):
+        material = without(material, "friction_coefficient", "friction_couple")  # the rod touches the post alone
+    return {**method, "material": material, "machine": machine, "physics": physics}
+
+
+def method_facts(method, units):
+    """[(title, [(label, text)], remark)]"""
+    method = without_idle_keys(method)
+    specimen, material, machine = method["specimen"], method["material"], method["machine"]
+    cell = machine.get("load_cell")
+    cell = cell if isinstance(cell, dict) else {}
+    facts = Facts(method, units)
+    return [
+        ("Specimen", [("Knot", knot_of(method)), *facts.of("specimen", specimen, KEYS_OF_KNOTS.get(specimen["knot"]))], ""),
+        ("Material", [("Name", str(material.get("name", "own"))), *facts.of("material", material)], material.get("notes") or ""),
+        ("Machine", [*facts.of("machine", machine),
+                     *([("Load cell", str(cell["name"]))] if "name" in cell else []), *facts.of("machine.load_cell", cell)],
+         cell.get("notes") or ""),
+        ("Physics", facts.of("physics", method.get("physics", {})), ""),
+        *([("When the test ends", facts.of("ends", method["ends"]), "")] if method.get("ends") else []),
+    ]
+
+
+def program(method, units):
+    """[(step, what it asks for)]"""
+    facts = Facts(method, units)
+    return [(name, step_text(f"program.{number}.{name}", keys or {}, facts))
+            for number, step in enumerate(method.get("program", [])) for name, keys in step.items()]
+
+
+def step_text(step, keys, facts):
+    parts = []
+    for name, value in keys.items():
+        key = f"{step}.{name}"
+        if name == "until" and isinstance(value, dict):
+            ends = ["break" if end == "break" else f"{label_of(f'{key}.{end}')} {facts.text(f'{key}.{end}', part)}"
+                    for end, part in value.items() if part is not False]
+            parts.append("until " + " or ".join(ends))
+        else:
+            parts.append(f"{label_of(key)} {facts.text(key, value)}")
+    return ", ".join(parts)
+
+
+def particulars(report, method, gauge_length, units, specimens=""):
+    """[(key, label, text)]; empty where `report` names no standard."""
+    if not report.get("standard"):
+        return []
+    found = [("gauge_length", "Gauge length", with_unit_of(gauge_length, units.length)),
+             ("speed", "Speed of the crosshead", with_unit_of(speed_of(method), units.rate)),
+             ("specimens", "Specimens", specimens)]
+    return [row for row in found if row[2]]
+
+
+def with_unit_of(value, unit):
+    return f"{number(value * unit.scale)} {unit.name}" if is_number(value) else ""
+
+
+def speed_of(method):
+    """Of the last step that pulls [m/s]; None where the load decides it, or where nothing pulls."""
+    steps = [keys or {} for step in method.get("program", []) for name, keys in step.items() if name in PULLING]
+    return None if not steps or is_number(steps[-1].get("load_rate")) else steps[-1].get("speed")
+
+
+def counted(tested, rejected):
+    return f"{tested} tested, {tested - rejected} count, {rejected} discarded"

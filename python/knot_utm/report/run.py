@@ -1,0 +1,208 @@
+"""A test as tensile_test or the recorder left it in a folder."""
+import csv
+import os
+import re
+
+import numpy as np
+import yaml
+
+from knot_utm import tool
+from knot_utm.report.commands import CannotReport
+from knot_utm.report.quantities import is_number, units_of, with_unit
+
+
+def phases(trait):
+    """Names of the phases that have a trait."""
+    return tuple(row["name"] for row in tool.listing("phases") if row[trait] == "1")
+
+
+PULLING = phases("pulls")  # the specimen is pulled further than before
+PREPARATION = phases("prepares")  # it is made, mounted and zeroed, before the test proper
+FORMING = phases("forms")  # it is tied, or let go once it is tied
+
+
+class Curve:
+    """curve.csv or curve_full.csv: columns by name, SI, and the phase of every row."""
+
+    def __init__(self, columns, phase):
+        self.columns, self.phase = columns, phase
+
+    def __getitem__(self, name):
+        return self.columns[name]
+
+    def __len__(self):
+        return len(self.phase)
+
+    def where(self, mask):
+        return Curve({name: column[mask] for name, column in self.columns.items()}, self.phase[mask])
+
+    def tested(self):
+        """The rows of the test proper."""
+        return self.where(~np.isin(self.phase, PREPARATION))
+
+    def pull(self):
+        """The rows that pull and reach a new largest extension: what the readings are of."""
+        pulled = self.where(np.isin(self.phase, PULLING))
+        if not len(pulled):
+            return pulled
+        before = np.concatenate([[-np.inf], np.maximum.accumulate(pulled["extension"])[:-1]])
+        return pulled.where(pulled["extension"] > before)
+
+    def has_compliant_frame(self):
+        return "crosshead_extension" in self.columns
+
+    def has_knot_distance(self):
+        return bool(np.isfinite(self["knot_distance"]).any())
+
+
+class Run:
+    def __init__(self, folder):
+        self.folder = folder
+        self.method = read_yaml(os.path.join(folder, "method.yaml"))
+        self.report = texts_of(os.path.join(folder, "method.yaml"), "report")
+        self.units = units_of(self.report)
+        self.result = read_yaml(os.path.join(folder, "result.yaml"))
+        self.reasons = reasons_in(os.path.join(folder, "result.yaml"))
+        self.readings = read_curve(os.path.join(folder, "curve.csv"))
+        self.curve = read_curve(os.path.join(folder, "curve_full.csv"))
+
+    def value(self, key):
+        """A number of result.yaml; None where the test has none."""
+        value = self.result.get(key)
+        return value if is_number(value) else None
+
+    def has_knot(self):
+        return self.reasons.get("knot_efficiency") != "there is no knot"
+
+    def given_strength(self):
+        """The breaking force of the material with its unit, where the rod parted at it; else None. What is read at such a
+        break follows from it."""
+        force = self.method["material"].get("breaking_force")
+        parted = self.value("break_extension") is not None and "at a tension of" in (self.result.get("reason") or "")
+        return with_unit(force, self.units.force) if parted and is_number(force) else None
+
+    def not_predicted(self):
+        """Keys whose value would only repeat what was given."""
+        return [key for key, why in self.reasons.items() if why.startswith("not predicted")]
+
+    def pull(self):
+        """The pull, up to the break."""
+        pull, broke = self.curve.pull(), self.value("break_extension")
+        return pull if broke is None else pull.where(pull["extension"] <= broke)
+
+    def time_of_break(self):
+        """[s]; None: the rod is whole. Of the rows at the extension of the break it is the one behind which the load
+        falls."""
+        broke = self.value("break_extension")
+        if broke is None or not len(self.curve):
+            return None
+        load, away = self.curve["load"], np.abs(self.curve["extension"] - broke)
+        rows = np.flatnonzero(away <= np.nanmin(away) + 1e-9)
+        falls = load[rows] - load[np.minimum(rows + 1, len(load) - 1)]
+        return float(self.curve["time"][rows[np.argmax(falls)]])
+
+    def tested(self, curve=None):
+        """The rows of the test proper, up to the break: behind it no force is known. `curve`: the one of all time steps,
+        or `readings`."""
+        tested, broke = (self.curve if curve is None else curve).tested(), self.time_of_break()
+        return tested if broke is None else tested.where(tested["time"] <= broke)
+
+    def place_at(self, time):
+        """Extension [m] and load [N] at a time; None before the test proper and behind a break."""
+        tested = self.tested()
+        behind = self.time_of_break() is not None and len(tested) and time > tested["time"][-1]
+        if behind or not len(tested) or time < tested["time"][0]:
+            return None
+        return tuple(float(np.interp(time, tested["time"], tested[name])) for name in ("extension", "load"))
+
+    def words_at(self, time):
+        """What happens at a time."""
+        phase = self.curve.phase[min(int(np.searchsorted(self.curve["time"], time)), len(self.curve) - 1)]
+        place, broke = self.place_at(time), self.time_of_break()
+        said = f"{phase}, {time:.2f} s"
+        if place:
+            return f"{said}: s = {with_unit(place[0], self.units.length)}, F = {with_unit(place[1], self.units.force)}"
+        return said + (": the rod has parted" if broke is not None and time > broke else "")
+
+    def offset(self):
+        """True force less load [N]."""
+        return self.value("balance_offset") or 0.0
+
+    def load_cell_floor(self):
+        """Below this load the cell's error is no longer a share of the reading [N]; None: the method says nothing."""
+        cell = self.method.get("machine", {}).get("load_cell")
+        if not isinstance(cell, dict) or not is_number(cell.get("floor")) or not is_number(cell.get("capacity")):
+            return None
+        return cell["floor"] * cell["capacity"] or None
+
+
+def read_text(file, errors="strict"):
+    try:
+        with open(file, encoding="utf-8", errors=errors, newline="") as text:
+            return text.read()
+    except (OSError, UnicodeDecodeError) as why:
+        raise CannotReport(f"{file}: cannot be read: {getattr(why, 'strerror', None) or why}") from why
+
+
+def printable(text):
+    """Names of files are bytes, which need not be text: such bytes as YAML too writes them, and reads them back."""
+    return text.encode("utf-8", "backslashreplace").decode("utf-8")
+
+
+def read_yaml(file, errors="strict"):
+    try:
+        content = yaml.safe_load(printable(read_text(file, errors)))
+    except yaml.YAMLError as why:
+        raise CannotReport(f"{file}: not YAML: {' '.join(str(why).split())}") from why
+    if not isinstance(content, dict):
+        raise CannotReport(f"{file}: a map is needed")
+    return content
+
+
+def reasons_in(file):
+    """Why values of a file are null, by key, as the program says it behind them."""
+    return dict(re.findall(r"^(\w+): null  # (.*)$", read_text(file), re.MULTILINE))
+
+
+def texts_of(file, key):
+    """A map of a YAML file with every value as it is written: a specimen's name may be 0012, a date is what it says."""
+    found = yaml.load(printable(read_text(file)), Loader=yaml.BaseLoader).get(key)
+    return found if isinstance(found, dict) else {}
+
+
+def read_columns(file):
+    """Columns by name, as text."""
+    return read_table(file)[0]
+
+
+def read_table(file):
+    """Columns and their units by name, as text; row 1 has names, row 2 units."""
+    rows = list(csv.reader(read_text(file).splitlines()))
+    if len(rows) < 2 or any(len(row) != len(rows[0]) for row in rows):
+        raise CannotReport(f"{file}: not a table with a row of names and a row of units")
+    columns = list(zip(*rows[2:])) if len(rows) > 2 else [()] * len(rows[0])
+    return dict(zip(rows[0], columns)), dict(zip(rows[0], rows[1]))
+
+
+def numbers(file, name, column):
+    try:
+        return np.array(column, dtype=float)
+    except ValueError as why:
+        raise CannotReport(f"{file}: {name}: {why}") from why
+
+
+def read_curve(file):
+    columns = read_columns(file)
+    for name in ("time", "extension", "load", "knot_distance", "end_to_end", "phase"):
+        if name not in columns:
+            raise CannotReport(f"{file}: no column {name}")
+    phase = np.array(columns.pop("phase"), dtype=str)
+    curve = Curve({name: numbers(file, name, column) for name, column in columns.items()}, phase)
+    if "crosshead_travel" in columns:  # the frame is compliant
+        travel = curve["crosshead_travel"]
+        curve.columns["crosshead_extension"] = np.where(np.isfinite(travel), travel, curve["extension"])
+    if "corrected_extension" in columns:  # the same of a run by an earlier version
+        own = curve["corrected_extension"]
+        curve.columns["crosshead_extension"] = curve["extension"]
+        curve.columns["extension"] = np.where(np.isfinite(own), own, curve["extension"])
+    return curve

@@ -1,0 +1,137 @@
+"""The rod as it lay over the time of a test: from its shapes.csv or its bag, else the final shape alone."""
+import os
+
+import numpy as np
+
+from knot_utm.report.commands import CannotReport
+from knot_utm.report.run import numbers, read_columns
+
+SHAPE, STATE = "knot/shape", "knot/state"
+
+
+class Shape:
+    """`time` of the test [s]; `points`: the nodes [m]. `tension`: of each edge [N]; `twist`: of each node [rad/m];
+    `contact_force`: that presses on each node, per length [N/m]. None: not known."""
+
+    def __init__(self, time, points, tension=None, twist=None, contact_force=None):
+        self.time, self.points, self.tension = time, points, tension
+        self.twist, self.contact_force = twist, contact_force
+
+
+class Series:
+    """Shapes in order of their `times` [s]; `shape(i)` gives one."""
+
+    def __init__(self, times, shape):
+        self.times, self.shape = np.asarray(times, dtype=float), shape
+
+    def __len__(self):
+        return len(self.times)
+
+    def at(self, time, broke=None):
+        """The shape nearest to a time; of a time before the rod `broke` one from before that."""
+        return self.shape(nearest(self.times, time, broke))
+
+
+def pieces(shape, whole):
+    """Slices of the nodes between which the rod has parted; a lone node cannot be drawn. `whole`: a shape before that.
+    An edge that has grown twice as much as the usual one is no longer there: a rod does not stretch so unevenly."""
+    if len(shape.points) != len(whole.points):
+        return [slice(0, len(shape.points))]
+    growth = lengths(shape) / lengths(whole)
+    gaps = np.flatnonzero(growth > 2.0 * np.median(growth)) + 1
+    ends = [0, *gaps.tolist(), len(shape.points)]
+    return [slice(a, b) for a, b in zip(ends[:-1], ends[1:]) if b - a >= 2]
+
+
+def lengths(shape):
+    return np.linalg.norm(np.diff(shape.points, axis=0), axis=1)
+
+
+def series_of(run):
+    """All shapes that the folder of a run has, and what is to be said of them: a line, or nothing."""
+    file, bag = (os.path.join(run.folder, name) for name in ("shapes.csv", "test.bag"))
+    if os.path.exists(file):
+        return series_of_csv(file), ""
+    if not os.path.exists(bag):
+        return only_the_final(run), ("There is no shapes.csv and no test.bag, so only the final shape is shown, without "
+                                     "tensions.")
+    try:
+        return series_of_bag(bag), ""
+    except ModuleNotFoundError as missing:
+        why = f"{missing} (Debian: python3-rosbag)"
+    except Exception as error:  # a bag is read by code that its own content chooses: anything may go wrong
+        why = " ".join(str(error).split()) or type(error).__name__
+    return only_the_final(run), f"test.bag cannot be read, so only the final shape is shown, without tensions: {why}"
+
+
+def shapes_at(series, times, broke=None, final=None):
+    """The shape nearest to each time, in the order of `times`, or the only one that there is. Of a time before the rod
+    `broke` a shape that is from before that, of a later one the `final` shape where none is from behind it."""
+    if len(series) == 1:
+        return [series.shape(0)]
+    found = [series.at(time, broke) for time in times]
+    return [final if broke is not None and final and shape.time <= broke < time else shape for shape, time in zip(found, times)]
+
+
+def only_the_final(run):
+    shape = final_shape(run)
+    return Series([shape.time], lambda _: shape)
+
+
+def series_of_csv(file):
+    columns = {name: numbers(file, name, column) for name, column in read_columns(file).items()}
+    missing = {"time", "node", "x", "y", "z", "tension", "twist", "contact_force"} - set(columns)
+    begins = np.flatnonzero(columns["node"] == 0) if not missing else []
+    if not len(begins):
+        raise CannotReport(f"{file}: no column {sorted(missing)[0]}" if missing else f"{file}: it holds no shape")
+    ends = [*begins[1:], len(columns["node"])]
+
+    def shape(i):
+        rows = slice(begins[i], ends[i])
+        points = np.column_stack([columns[name][rows] for name in ("x", "y", "z")])
+        return Shape(float(columns["time"][begins[i]]), points, known(columns["tension"][rows][:-1]),
+                     known(filled(columns["twist"][rows])), known(columns["contact_force"][rows]))
+
+    return Series(columns["time"][begins], shape)
+
+
+def filled(twist):
+    """It is measured between two edges: the end nodes have that of their neighbours."""
+    return np.concatenate([twist[1:2], twist[1:-1], twist[-2:-1]]) if len(twist) > 2 else twist
+
+
+def known(values):
+    return values if np.isfinite(values).all() else None
+
+
+def final_shape(run):
+    file = os.path.join(run.folder, "final_shape.csv")
+    columns = read_columns(file)
+    points = np.column_stack([numbers(file, name, columns.get(name, ())) for name in ("x", "y", "z")])
+    return Shape(run.curve["time"][-1] if len(run.curve) else 0.0, points, None)
+
+
+def nearest(seconds, time, broke):
+    i = int(np.argmin(np.abs(seconds - time)))
+    return i - 1 if broke is not None and i > 0 and time <= broke < seconds[i] else i
+
+
+def series_of_bag(file):
+    import rosbag
+
+    with rosbag.Bag(file) as bag:
+        topics = bag.get_type_and_topic_info().topics
+        shape, state = (next(topic for topic in sorted(topics) if topic.strip("/").endswith(name))
+                        for name in (SHAPE, STATE))
+        # Stamps run on over all tests of one launch; the state knows both times.
+        first = next(bag.read_messages(topics=[state]))
+        begin = first.message.header.stamp.to_sec() - first.message.time
+        shapes = [shape_of(entry.message, entry.timestamp.to_sec() - begin) for entry in bag.read_messages(topics=[shape])]
+    if not shapes:
+        raise ValueError("it holds no shape")
+    return Series([one.time for one in shapes], lambda i: shapes[i])
+
+
+def shape_of(message, time):
+    points = np.array([(point.x, point.y, point.z) for point in message.points])
+    return Shape(time, points, known(np.array(message.tension)))

@@ -1,0 +1,104 @@
+"""The rod as a thing to turn in a browser: what turnable.js needs of a test, and the library that draws it."""
+import base64
+import json
+import os
+
+import numpy as np
+from matplotlib.ticker import MaxNLocator
+
+from knot_utm.report.colours import colour_scales, node_values
+from knot_utm.report.curve_figures import small_loads
+from knot_utm.report.curves import few_points
+from knot_utm.report.quantities import number
+from knot_utm.report.rod_pictures import rollers, UNKNOWN
+from knot_utm.report.run import read_text
+from knot_utm.report.shapes import pieces
+
+LIBRARY = "/usr/share/javascript/three"  # Debian: libjs-three
+SCRIPTS = [os.path.join(LIBRARY, "three.min.js"), os.path.join(LIBRARY, "examples/js/controls/OrbitControls.js"),
+           os.path.join(os.path.dirname(os.path.abspath(__file__)), "turnable.js")]
+MOST = 120     # shapes; a bag has as many as the load cell has readings
+KNOWN = 255    # colours; the next number is that of what is not known
+FINEST = 65535  # places along an axis are whole numbers up to this
+
+
+def turnable(run, series, marks):
+    """{scripts, data} of a page; None where the library is not installed."""
+    if not all(os.path.exists(file) for file in SCRIPTS):
+        return None
+    return {"scripts": [read_text(file) for file in SCRIPTS],
+            # No "<" that could end the element that holds it.
+            "data": json.dumps(content(run, series, marks), separators=(",", ":")).replace("<", "\\u003c")}
+
+
+def content(run, series, marks):
+    """Lengths are in mm."""
+    chosen = np.unique(np.linspace(0, len(series) - 1, min(MOST, len(series))).astype(int))
+    shapes = [series.shape(int(i)) for i in chosen]
+    points = 1e3 * np.array([shape.points for shape in shapes])
+    low, high = points.min(axis=(0, 1)), points.max(axis=(0, 1))
+    step = np.maximum(high - low, 1e-6) / FINEST
+    scales = colour_scales(shapes, run.method["material"]["radius"], run.units)
+    wheels = [rollers(run, shape) for shape in shapes]
+    return {"radius": 1e3 * run.method["material"]["radius"], "nodes": points.shape[1],
+            "times": [shape.time for shape in shapes], "first": first_shown(shapes, marks),
+            "low": low.tolist(), "step": step.tolist(), "points": encoded(np.rint((points - low) / step), "<u2"),
+            "pieces": [pieces_where_parted(shape, shapes[0]) for shape in shapes], "unknown": list(UNKNOWN),
+            "quantities": [coloured(scale, shapes) for scale in scales],
+            "rollers": [[z for z, _ in one] for one in wheels], "roller_radius": wheels[0][0][1] if wheels[0] else 0.0,
+            "curve": curve_of(run), "states": [state(run, shape) for shape in shapes]}
+
+
+def encoded(values, kind):
+    return base64.b64encode(np.ascontiguousarray(values).astype(kind).tobytes()).decode("ascii")
+
+
+def first_shown(shapes, marks):
+    """The shape that the page begins with: at the lock, where there is one, else at the end of the test, but whole."""
+    mark = next((mark for mark in marks if "lock" in mark.names), marks[-1] if marks else None)
+    whole = [i for i, shape in enumerate(shapes) if pieces_where_parted(shape, shapes[0]) is None]
+    return min(whole, key=lambda i: abs(shapes[i].time - mark.time)) if mark else whole[-1]
+
+
+def pieces_where_parted(shape, whole):
+    """[[first node, node behind the last]]; None: it is whole."""
+    found = pieces(shape, whole)
+    return None if found == [slice(0, len(shape.points))] else [[one.start, one.stop] for one in found]
+
+
+def coloured(scale, shapes):
+    values = [node_values(shape).get(scale.name) for shape in shapes]
+    places = [np.full(len(shape.points), KNOWN) if of_nodes is None else np.rint((KNOWN - 1) * scale.places(of_nodes))
+              for shape, of_nodes in zip(shapes, values)]
+    palette = np.rint(255.0 * scale.colours(np.linspace(0.0, 1.0, KNOWN))[:, :3])
+    return {"label": scale.label(), "ticks": scale.ticks(), "palette": encoded(palette, "u1"),
+            "places": encoded(places, "u1")}
+
+
+def curve_of(run):
+    """Load over extension in the units of the page; None: nothing was tested."""
+    tested = run.tested()
+    if not len(tested):
+        return None
+    extension, load = run.units.length.scale * tested["extension"], run.units.force.scale * tested["load"]
+    rows = few_points(extension, load)
+    small = small_loads(run.value, tested["load"], run.units.force.scale)
+    return {"x": axis(np.append(extension, 0.0), f"extension [{run.units.length.name}]", 8),
+            "ys": [axis(np.append(load, 0.0), f"load [{run.units.force.name}]", 4),
+                   *([axis(np.array(small), f"small loads [{run.units.force.name}]", 4)] if small else [])],
+            "rows": [[float(f"{s:.5g}"), float(f"{force:.5g}")] for s, force in zip(extension[rows], load[rows])]}
+
+
+def axis(values, label, most):
+    low, high = float(values.min()), float(values.max())
+    high = high if high > low else low + 1.0
+    ticks = [float(tick) for tick in MaxNLocator(most).tick_values(low, high) if low <= tick <= high]
+    return {"label": label, "low": low, "high": high, "ticks": [(tick, number(tick)) for tick in ticks]}
+
+
+def state(run, shape):
+    """What is said of a shape, and where it lies on the curve; None: the test proper has not begun, or the rod has
+    parted."""
+    place = run.place_at(shape.time)
+    return {"words": run.words_at(shape.time),
+            "place": place and [run.units.length.scale * place[0], run.units.force.scale * place[1]]}

@@ -1,0 +1,181 @@
+#!/usr/bin/python3
+"""scripts/: each answers --help before it sets up or builds, in one style, and refuses what it does not know; set-up says
+what it will do; a build folder that was moved is built anew; nothing needs what set-up does not install."""
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+ROOT = os.path.realpath(os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../.."))
+SCRIPTS = sorted(name for name in os.listdir(os.path.join(ROOT, "scripts"))
+                 if os.access(os.path.join(ROOT, "scripts", name), os.X_OK)
+                 and os.path.isfile(os.path.join(ROOT, "scripts", name)))
+# Commands that a minimal Debian lacks, and set-up does not install.
+ABSENT = ("git", "ps", "pgrep", "pkill", "killall", "curl", "wget", "xauth", "ip", "netstat", "lsof", "file",
+          "unzip", "zip", "xz", "bc", "time", "hostname", "ping", "xdg-open", "xxd", "jq", "strace", "gdb", "rsync")
+
+
+def text(*path):
+    with open(os.path.join(ROOT, *path), encoding="utf-8", errors="replace") as file:
+        return file.read()
+
+
+def run(*command, **options):
+    return subprocess.run(command, check=False, text=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, **options)
+
+
+def tree(folder):
+    return sorted(os.path.join(where, name) for where, folders, files in os.walk(folder) for name in folders + files)
+
+
+class Help(unittest.TestCase):
+    def test_every_script_answers_before_it_does_anything(self):
+        self.assertGreater(len(SCRIPTS), 13)
+        with tempfile.TemporaryDirectory() as folder:
+            # Nothing to build, and nothing that could be needed for it.
+            for part in ("scripts", "launch"):
+                shutil.copytree(os.path.join(ROOT, part), os.path.join(folder, part))
+            tools = os.path.join(folder, "tools")
+            os.mkdir(tools)
+            for tool in ("bash", "basename", "dirname", "readlink", "sed"):
+                os.symlink(shutil.which(tool), os.path.join(tools, tool))
+            before = tree(folder)
+            for name in SCRIPTS:
+                script = os.path.join(folder, "scripts", name)
+                with open(script, encoding="utf-8") as file:
+                    # Without the modules that set-up installs.
+                    interpreter = ["/usr/bin/python3", "-S"] if "python3" in file.readline() else ["/bin/bash"]
+                for words in (["--help"], ["-h"], ["word", "--help"]):
+                    if words[0] == "word" and "python3" in interpreter[0]:
+                        continue
+                    said = run(*interpreter, script, *words, cwd=folder, env={"PATH": tools})
+                    self.assertEqual((said.returncode, said.stderr), (0, ""), name)
+                    self.assertTrue(said.stdout.startswith(f"usage: scripts/{name}"), said.stdout)
+                    self.assertRegex(said.stdout, r"(?m)^examples:\n +", name)
+                    self.assertRegex(said.stdout, r"(?m)^exit codes: 0 ", name)
+            self.assertEqual(tree(folder), before)
+
+    def test_tighten_names_every_argument(self):
+        said = run(os.path.join(ROOT, "scripts/tighten"), "--help").stdout
+        for name in re.findall(r'<arg name="(\w+)"', text("launch/tighten.launch")):
+            self.assertRegex(said, rf"(?m)^  {name} \[", name)
+
+    def test_unknown_options_are_refused(self):
+        for name in SCRIPTS:
+            said = run(os.path.join(ROOT, "scripts", name), "--nonsense", "x",
+                       env={**os.environ, "KNOT_UTM_SKIP_BUILD": "1"})
+            self.assertEqual(said.returncode, 2, f"{name}: {said.stdout}{said.stderr}")
+            self.assertTrue(said.stderr.strip(), name)
+
+
+class Setup(unittest.TestCase):
+    # Instead of what would change the machine.
+    INSTEAD = r"""
+        dpkg-query() { :; }
+        env() {
+          case $* in
+            *" update") if [ -n "$LOCK" ] && mkdir "$LOCK" 2>/dev/null; then echo "E: Could not get lock $LOCK." >&2; return 100; fi ;;
+            *) printf "%s\n" pmstatus:g++:7.5:Preparing dlstatus:1:60.0:Retrieving "Unpacking g++" pmstatus:g++:100:Ready ;;
+          esac
+        }
+        sleep() { :; }
+        id() { echo 0; }
+        apt-get() { printf %s "$APT"; }
+        getent() { return "$NO_LOCALHOST"; }
+        tee() { sed "s|^|to $2: |" >&2; }
+        . "$0/scripts/setup" """
+
+    def said(self, apt="", no_localhost=0, lock="", tests=""):
+        done = run("/bin/bash", "-euc", self.INSTEAD, ROOT,
+                   env={**os.environ, "APT": apt, "NO_LOCALHOST": str(no_localhost), "DISPLAY": "", "LOCK": lock,
+                        "knot_utm_tests": tests})
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout, done.stderr
+
+    def test_says_what_it_will_install(self):
+        apt = ("Building dependency tree...\n'http://x/a.deb' a.deb 10 SHA256:1\n"
+               "2 upgraded, 424 newly installed, 0 to remove and 1 not upgraded.\nNeed to get 266 MB of archives.\n"
+               "After this operation, 1,254 MB of additional disk space will be used.\n")
+        said, _ = self.said(apt)
+        self.assertRegex(said, r"installing 424 Debian packages \(266 MB to load, 1,254 MB on disk\), those named below "
+                               r"and what they need:\n  g\+\+ .* rosbash ")
+        self.assertRegex(said, r"\nscripts/test will add 424 Debian packages \(266 MB to load, 1,254 MB on disk\): chromium .*ffmpeg")
+        self.assertNotIn("scripts/test will add", self.said(apt, tests="1")[0])
+
+    def test_says_so_too_where_apt_says_it_otherwise(self):
+        for apt in ("", "nothing that anybody knows\n"):
+            self.assertRegex(self.said(apt)[0], r"installing \d+ Debian packages, those named below and what they need:\s")
+
+    def test_shows_that_it_works(self):
+        said = self.said()[0]
+        self.assertIn("\n  installing: 0 %\n  loading: 50 %\n  installing: 100 %\n", said)
+        self.assertNotIn("Unpacking", said)
+
+    def test_waits_for_another_program_that_installs(self):
+        with tempfile.TemporaryDirectory() as folder:
+            said, errors = self.said(lock=os.path.join(folder, "lock"))
+        self.assertEqual(said.count("another program installs packages: waiting for it to end"), 1, said)
+        self.assertEqual(errors, "")
+        self.assertIn("installing: 100 %", said)
+
+    def test_says_what_it_changes(self):
+        said, changed = self.said(no_localhost=2)
+        self.assertIn("/etc/hosts", said)
+        self.assertEqual(changed, "to /etc/hosts: 127.0.0.1 localhost\n")
+        self.assertNotIn("/etc/hosts", "".join(self.said()))
+
+
+class BuildFolder(unittest.TestCase):
+    def build(self, root):
+        done = run(os.path.join(root, "scripts/build"))
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assertTrue(os.path.exists(os.path.join(root, "build/made")))
+        return done.stdout.count("it is built anew")
+
+    def test_that_was_moved_or_copied_is_built_anew(self):
+        with tempfile.TemporaryDirectory() as folder:
+            one, other, copy = (os.path.join(folder, name) for name in ("one", "other", "copy"))
+            os.mkdir(one)
+            shutil.copytree(os.path.join(ROOT, "scripts"), os.path.join(one, "scripts"))
+            with open(os.path.join(one, "CMakeLists.txt"), "w", encoding="utf-8") as file:
+                file.write("cmake_minimum_required(VERSION 3.18)\nproject(one NONE)\n"
+                           "add_custom_target(make ALL touch ${CMAKE_BINARY_DIR}/made)\n")
+            self.assertEqual(self.build(one), 0)
+            self.assertEqual(self.build(one), 0)
+            os.rename(one, other)
+            self.assertEqual(self.build(other), 1)
+            self.assertEqual(self.build(other), 0)
+            shutil.copytree(other, copy)
+            self.assertEqual(self.build(copy), 1)
+            os.symlink(copy, one)
+            self.assertEqual(self.build(one), 0, "another name of the same folder")
+
+    def test_of_every_script_is_looked_at(self):
+        for name in SCRIPTS:
+            for folder in re.findall(r'cmake -S "\$root" -B ("[^"]*")', text("scripts", name)):
+                self.assertIn(f"forget_moved {folder} \"$root\"", text("scripts", name), name)
+
+
+class Commands(unittest.TestCase):
+    def test_are_there_on_a_minimal_machine(self):
+        words = "|".join(re.escape(word) for word in ABSENT)
+        in_shell = re.compile(rf"(?:^|[|;&(]|\$\(|\b(?:then|do|exec|command|if|!))\s*({words})(?=\s|$)")
+        in_code = re.compile(rf"""(?<![\w)\]])\[\s*["']({words})["']|["'](?:/usr/bin/)?({words}) -""")
+        for folder in ("scripts", "test", "bench", "python/knot_utm/report", "cmake", ".ci", "launch"):
+            for file in tree(os.path.join(ROOT, folder)):
+                if not os.path.isfile(file) or os.path.splitext(file)[1] not in ("", ".py", ".sh", ".cpp", ".hpp", ".cmake"):
+                    continue
+                lines = text(file).splitlines()
+                shell = file.endswith(".sh") or bool(lines and re.match(r"#!.*sh$", lines[0]))
+                for line in lines:
+                    found = (in_shell if shell else in_code).search(line.split("#")[0] if shell else line)
+                    # The tutorial's clone is a copy where there is no git; benches name the commit where there is one.
+                    if found and not any(word in line for word in ("command git", '"git", "-C", self.root, "describe"')):
+                        self.fail(f"{os.path.relpath(file, ROOT)}: {line.strip()}")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,406 @@
+#!/usr/bin/python3
+"""scripts/sweep on small studies: what its table holds, what it does when it is cut short, and what it refuses. Skipped, with
+exit code 77, where a module is not installed."""
+import csv
+import io
+import json
+import os
+import re
+import resource
+import shlex
+import signal
+import subprocess
+import unittest
+
+from sweeps import CONFIG, LENGTHS, REAL, ROOT, Sweeps, content, write  # first: it finds the packages
+
+import numpy as np
+import pandas as pd
+
+import knot_utm
+from knot_utm import tool
+from knot_utm.plots import figure
+from knot_utm.yaml_text import load
+
+OF_THE_MACHINE = {"wall_time", "real_time_factor", "peak_memory"}
+
+
+def rows(text):
+    return list(csv.reader(io.StringIO(text.decode())))
+
+
+class TheTable(Sweeps):
+    def test_has_names_and_units_and_what_each_run_would_have_alone(self):
+        self.sweep("out")
+        names, units, *runs = rows(self.table("out"))
+        listed = subprocess.run([REAL, "--list-results"], check=True, text=True, stdout=subprocess.PIPE).stdout
+        expected = [["physics.accuracy", "-"], ["specimen.length", "m"], ["exit_code", "-"], ["error", "-"]]
+        for row in csv.DictReader(listed.splitlines()):
+            ends = (".0", ".1") if row["kind"] == "pair" else ("",)
+            expected += [[row["key"] + end, row["unit"]] for end in ends if row["key"] not in OF_THE_MACHINE]
+        self.assertEqual([list(pair) for pair in zip(names, units)], expected + [["run", "-"]])
+        self.assertEqual([run[:4] for run in runs], [["draft", str(length), "0", ""] for length in LENGTHS])
+        for run in runs:
+            alone = self.path("alone", run[1])
+            subprocess.run([REAL, CONFIG + "/straight.yaml", "--quiet", "--out", alone, "--set", "physics.accuracy=draft",
+                            "--set", "specimen.length=" + run[1]], check=True)
+            self.assertEqual(content(alone, "curve_full.csv"), content(self.path("out/runs"), run[-1], "curve_full.csv"))
+            result = load(os.path.join(alone, "result.yaml"))
+            for name, shown in zip(names[4:-1], run[4:-1]):
+                value = result.get(name)
+                if isinstance(value, float):
+                    self.assertEqual(float(shown), value, name)
+                elif isinstance(value, bool):
+                    self.assertEqual(shown, str(value).lower(), name)
+                else:
+                    self.assertEqual(shown, "" if value in (None, []) else str(value), name)
+
+    def test_in_hdf5_is_that_of_csv(self):
+        self.sweep("out")
+        file = self.path("out", "table.h5")
+        stored = pd.read_hdf(file)
+        read = pd.read_csv(self.path("out", "table.csv"), skiprows=[1], float_precision="round_trip")
+        self.assertEqual(list(stored.columns), list(read.columns))
+        for name in stored.columns:
+            if pd.api.types.is_numeric_dtype(stored[name]):
+                np.testing.assert_array_equal(stored[name], read[name].astype(float), name)
+            else:
+                self.assertEqual(list(stored[name]), list(read[name].fillna("").astype(str)), name)
+        self.assertEqual(stored["specimen.length"].dtype, float)
+        with pd.HDFStore(file, "r") as store:
+            units = json.loads(store.get_storer("runs").attrs.units)
+        self.assertEqual(list(units.items()), list(zip(*rows(self.table("out"))[:2])))
+
+    def test_is_the_same_whatever_the_jobs(self):
+        self.sweep("one", "--jobs", "1")
+        self.sweep("two", "--jobs", "2")
+        self.assertEqual(self.table("one"), self.table("two"))
+
+    def test_has_a_row_for_runs_that_fail_and_says_why(self):
+        write(self.study, f"""
+            method: {CONFIG}/tighten.yaml
+            vary: {{physics.accuracy: [draft], material.friction_coefficient: [0.05]}}""")
+        self.sweep("out")
+        names, _, run = rows(self.table("out"))
+        run = dict(zip(names, run))
+        self.assertEqual((run["exit_code"], run["ended_by"]), ("1", "untangled"))
+        self.assertEqual(run["error"], run["reason"])
+        self.assertTrue(run["error"])
+
+    def test_has_a_row_for_runs_that_crash_which_are_tried_again(self):
+        self.sweep("out", KILL_AT=f"specimen.length={LENGTHS[1]}")
+        _, _, *runs = rows(self.table("out"))
+        self.assertEqual([run[2:4] for run in runs], [["0", ""], ["139", "killed by SIGSEGV"], ["0", ""], ["0", ""]])
+        self.sweep("out")
+        self.sweep("whole")
+        self.assertEqual(self.table("out"), self.table("whole"))
+        self.assertEqual(sorted(self.started()), sorted(2 * LENGTHS + LENGTHS[1:2]))
+
+    def test_has_a_row_for_runs_that_others_interrupt_which_are_tried_again(self):
+        self.sweep("out", "--jobs", "1", INTERRUPT_AT=f"specimen.length={LENGTHS[1]}")
+        _, _, *runs = rows(self.table("out"))
+        self.assertEqual([run[2:4] for run in runs], [["0", ""], ["1", "interrupted"], ["0", ""], ["0", ""]])
+        self.sweep("out")
+        self.sweep("whole")
+        self.assertEqual(self.table("out"), self.table("whole"))
+
+    def test_has_a_row_a_point_where_points_are_the_same_run(self):
+        write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{physics.accuracy: [draft], specimen.length: [0.2, 0.2]}}")
+        self.sweep("out")
+        _, _, one, other = rows(self.table("out"))
+        self.assertEqual(one, other)
+        self.assertEqual(self.started(), [0.2])
+
+    def test_has_the_units_of_every_key(self):
+        units = tool.key_units(CONFIG + "/tighten.yaml", {})
+        fields = content(ROOT, "src/io/method_fields.hpp").decode()
+        checked = 0
+        for section, body in re.findall(r"^void (\w+)\(Fields& f(.*?)\n\}$", fields, re.MULTILINE | re.DOTALL):
+            where = {"load_cell": "machine.load_cell"}.get(section, section)
+            for key, unit in re.findall(r'\bf\.\w*(?:number|vector)\("(\w+)", [^;]*?Range\{[^,]+,[^,]+, "([^"]+)"\}', body):
+                if where not in ("step", "requirement"):
+                    self.assertEqual(units[f"{where}.{key}"], unit, key)
+                    checked += 1
+        self.assertGreater(checked, 40)
+        for key, unit in (("program.pull.until.extension", "m"), ("program.pull.speed", "m/s"), ("program.1.release.duration", "s"),
+                          ("physics.friction.presliding", "of the radius"), ("material", "-"), ("specimen.turns", "-")):
+            self.assertEqual(units.get(key, "-"), unit, key)
+
+
+class Plots(Sweeps):
+    MAP = f"""
+        method: {CONFIG}/straight.yaml
+        vary:
+          physics.accuracy: [draft]
+          material: [nylon, polypropylene]
+          specimen.length: [0.1, 0.2, 0.3]
+          program.pull.speed: [1e-4, 1e-2]"""
+
+    def test_of_one_number_are_lines_by_the_words(self):
+        write(self.study, self.MAP.replace("[1e-4, 1e-2]", "[1e-3]"))
+        table = knot_utm.sweep(self.study, self.path("out"))
+        panels = figure(table, list(table.columns[:4]), "peak_force").axes
+        self.assertEqual((panels[0].get_xlabel(), panels[0].get_ylabel()), ("specimen.length [m]", "peak_force [N]"))
+        names = [text.get_text() for text in panels[0].get_legend().get_texts()]
+        self.assertEqual(names, ["nylon", "polypropylene"])
+        for name, line in zip(names, panels[0].get_lines()[::3]):  # behind each the two caps of its bars
+            rows = table[table["material"] == name]
+            np.testing.assert_array_equal(line.get_xdata(), rows["specimen.length"])
+            np.testing.assert_array_equal(line.get_ydata(), rows["peak_force"])
+
+    def test_of_two_numbers_are_maps(self):
+        write(self.study, self.MAP)
+        self.sweep("out", "--plot", "peak_force", "--plot", "locked_stiffness")
+        for name in ("peak_force", "locked_stiffness"):
+            self.assertTrue(content(self.path("out", name + ".png")).startswith(b"\x89PNG"))
+        table = knot_utm.sweep(self.study, self.path("out"))
+        panels = figure(table, list(table.columns[:4]), "peak_force").axes
+        self.assertEqual([panel.get_title() for panel in panels[:2]], ["nylon", "polypropylene"])
+        for panel in panels[:2]:
+            rows = table[table["material"] == panel.get_title()].sort_values(["program.pull.speed", "specimen.length"])
+            np.testing.assert_array_equal(panel.collections[0].get_array().ravel(), rows["peak_force"])
+            self.assertEqual((panel.get_xscale(), panel.get_yscale()), ("linear", "log"))
+            np.testing.assert_allclose(panel.get_xlim(), (0.05, 0.35))
+            np.testing.assert_allclose(panel.get_ylim(), (1e-5, 1e-1))
+
+    def test_of_points_anywhere_are_a_panel_a_number(self):
+        write(self.study, f"""
+            method: {CONFIG}/straight.yaml
+            design: sobol
+            runs: 8
+            vary: {{physics.accuracy: [draft], specimen.length: {{from: 0.1, to: 0.2}}, material.density: {{from: 900, to: 999}}}}""")
+        table = knot_utm.sweep(self.study, self.path("out"))
+        panels = figure(table, list(table.columns[:3]), "peak_force").axes
+        for panel, key in zip(panels, ("specimen.length", "material.density")):
+            np.testing.assert_array_equal(panel.get_lines()[0].get_xdata(), table[key])
+
+    def test_of_what_is_no_number_are_refused(self):
+        for name in ("reason", "peak"):
+            said = self.sweep("out", "--plot", name, code=2)
+            self.assertIn(f"--plot is {name}", said)
+            self.assertFalse(os.path.exists(self.path("out")))
+
+
+class CutShort(Sweeps):
+    def test_by_a_kill_loses_the_runs_in_flight_only(self):
+        process, held = self.held("out", f"specimen.length={LENGTHS[2]}")
+        process.kill()
+        process.communicate()
+        self.assertEqual(held.read(), "", "the run in flight has died with the sweep")
+        self.assertEqual(len(self.whole_runs("out")), 2)
+        self.assertEqual(self.started(), LENGTHS[:3])
+        self.sweep("out", "--jobs", "1")
+        self.assertEqual(self.started(), LENGTHS[:3] + LENGTHS[2:])
+        self.sweep("whole")
+        self.assertEqual(self.table("out"), self.table("whole"))
+        self.assertEqual(sorted(os.listdir(self.path("out/runs"))), sorted(self.whole_runs("out")), "no remains")
+
+    def test_by_a_signal_writes_the_table_so_far_and_says_how_to_go_on(self):
+        for number, code in enumerate((signal.SIGINT, signal.SIGTERM)):
+            out = f"out{number}"
+            process, held = self.held(out, f"specimen.length={LENGTHS[2]}")
+            process.send_signal(code)
+            _, said = process.communicate()
+            self.assertEqual(held.read(), "", "the run in flight is stopped")
+            self.assertEqual(process.returncode, 1)
+            goes_on = shlex.join([os.path.join(ROOT, "scripts/sweep"), self.study, "--out", self.path(out), "--jobs", "1"])
+            self.assertIn(f"it was interrupted, with 2 of 4 runs done; the same command goes on: {goes_on}\n", said)
+            self.assertEqual([run[1] for run in rows(self.table(out))[2:]], [str(length) for length in LENGTHS[:2]])
+            self.assertEqual(sorted(os.listdir(self.path(out, "runs"))), sorted(self.whole_runs(out)), "no remains")
+            self.sweep(out)
+            self.assertEqual(len(rows(self.table(out))), 6)
+            for name in ("held", "never"):
+                os.remove(self.path(name))
+
+    def test_by_a_full_disk_goes_on_when_there_is_room(self):
+        # As large as a file may become: enough for the method, too little for what is measured.
+        said = self.sweep("out", code=1, limit=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000)))
+        self.assertRegex(said, r"cannot write \S+: file too large, with 0 of 4 runs done; the same command goes on: ")
+        self.assertEqual(self.whole_runs("out"), [])
+        self.sweep("out")
+        self.sweep("whole")
+        self.assertEqual(self.table("out"), self.table("whole"))
+
+    def test_a_full_disk_keeps_the_runs_that_it_had_room_for(self):
+        self.sweep("out", "--jobs", "1")
+        write(self.study, content(self.study).decode().replace(str(LENGTHS[-1]), f"{LENGTHS[-1]}, 0.5"))
+        said = self.sweep("out", code=1, limit=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000)))
+        self.assertIn("file too large", said)
+        self.sweep("out")
+        self.assertEqual(self.started().count(LENGTHS[0]), 1)
+        self.assertEqual([run[1] for run in rows(self.table("out"))[2:]], [str(length) for length in LENGTHS + [0.5]])
+
+    def test_only_one_sweep_is_at_work_in_a_folder(self):
+        process, _ = self.held("out", f"specimen.length={LENGTHS[0]}")
+        self.assertIn("another sweep is at work in " + self.path("out"), self.sweep("out", code=2))
+        process.terminate()
+        process.communicate()
+
+
+class Repeated(Sweeps):
+    SCATTERED = """
+        method: method.yaml
+        vary: {physics.accuracy: [draft], specimen.length: [0.2, 0.3]}
+        repeat: 3"""
+
+    def setUp(self):
+        super().setUp()
+        method = content(CONFIG, "straight.yaml").decode()
+        write(self.path("method.yaml"), method + "specimens: {scatter: {material.breaking_force: {normal: 0.1}}}\n")
+        write(self.study, self.SCATTERED)
+
+    def test_a_row_is_a_specimen_of_a_batch(self):
+        self.sweep("out", "--jobs", "2")
+        names, units, *runs = rows(self.table("out"))
+        self.assertEqual((names[:5], units[2]), (["physics.accuracy", "specimen.length", "specimen", "exit_code", "error"], "-"))
+        self.assertEqual([run[1:4] for run in runs], [[length, number, "0"] for length in ("0.2", "0.3") for number in "123"])
+        forces = [run[names.index("peak_force")] for run in runs]
+        for length, peaks in (("0.2", forces[:3]), ("0.3", forces[3:])):
+            self.assertEqual(len(set(peaks)), 3, "they scatter")
+            alone = self.path("alone", length)
+            subprocess.run([REAL, self.path("method.yaml"), "--quiet", "--out", alone, "--specimens", "3", "--set",
+                            "physics.accuracy=draft", "--set", "specimen.length=" + length], check=True)
+            self.assertEqual(list(map(float, peaks)), [load(os.path.join(alone, f"specimen_00{i}/result.yaml"))["peak_force"]
+                                                       for i in (1, 2, 3)])
+        self.sweep("one", "--jobs", "1")
+        self.assertEqual(self.table("one"), self.table("out"))
+        self.sweep("out")
+        self.assertEqual(self.started().count(0.2), 2, "not run again")
+
+    def test_rejected_specimens_say_why(self):
+        write(self.study, f"""
+            method: {CONFIG}/tighten.yaml
+            vary: {{physics.accuracy: [draft], material.friction_coefficient: [0.05]}}
+            repeat: 2""")
+        self.sweep("out")
+        names, _, *runs = rows(self.table("out"))
+        for run in runs:
+            run = dict(zip(names, run))
+            self.assertEqual((run["exit_code"], run["ended_by"]), ("1", "untangled"))
+            self.assertIn("undone", run["error"])
+
+    def test_a_batch_that_crashes_is_as_many_rows_and_tried_again(self):
+        self.sweep("out", KILL_AT="specimen.length=0.2")
+        _, _, *runs = rows(self.table("out"))
+        self.assertEqual([run[3:5] for run in runs], [["139", "killed by SIGSEGV"]] * 3 + [["0", ""]] * 3)
+        self.sweep("out")
+        self.assertEqual([run[3:5] for run in rows(self.table("out"))[2:]], [["0", ""]] * 6)
+
+
+class TiedOnce(Sweeps):
+    PULLED = f"""
+        method: {CONFIG}/tighten.yaml
+        vary:
+          physics.accuracy: [draft]
+          material: [polypropylene]
+          program.pull.until.extension: """
+
+    def started_with(self, option):
+        return content(self.log).decode().count(f" {option} ")
+
+    def test_pulled_often_has_the_bits_of_runs_from_the_start(self):
+        write(self.study, self.PULLED + "[0.004, 0.006, 0.008]")
+        process = self.start("out")
+        told, said = process.communicate()
+        self.assertEqual(process.returncode, 0, said)
+        self.assertRegex(told, r"3 runs began with tied specimens that they share, 1 in all, which saved \d+\.\d s of computing")
+        self.assertEqual((self.started_with("--stop-before"), self.started_with("--begin-with")), (1, 3))
+        _, _, *runs = rows(self.table("out"))
+        for run in runs:
+            self.sweep("alone", "--only", run[-1])
+            for name in ("curve.csv", "curve_full.csv", "final_shape.csv", "method.yaml"):
+                self.assertEqual(content(self.path("out/runs", run[-1]), name), content(self.path("alone/runs", run[-1]), name))
+        self.assertEqual(self.started_with("--begin-with"), 3, "a run alone is one from the start")
+        self.sweep("alone", "--only", "table")
+        self.assertEqual(self.table("out"), self.table("alone"))
+        # Others that are pulled later begin with the same specimen.
+        write(self.study, self.PULLED + "[0.004, 0.006, 0.008, 0.005]")
+        self.sweep("out")
+        self.assertEqual((self.started_with("--stop-before"), self.started_with("--begin-with")), (1, 4))
+
+    def test_what_does_not_suit_begins_at_the_start(self):
+        # The way of the crosshead, which belongs to the machine, is twice the largest extension, at least 1 m.
+        write(self.path("method.yaml"), """
+            specimen: {knot: straight}
+            material: nylon
+            machine: {grips: clamps}
+            program: [hold: {duration: 1}, pull: {speed: 0.01, until: {extension: 0.001, break: true}}]""")
+        write(self.study, "method: method.yaml\nvary: {program.pull.until.extension: [0.001, 0.002, 5]}")
+        self.sweep("out")
+        self.assertEqual((self.started_with("--stop-before"), self.started_with("--begin-with")), (1, 3))
+        names, _, *runs = rows(self.table("out"))
+        self.assertEqual([run[names.index("ended_by")] for run in runs], ["extension", "extension", "break"])
+        self.assertEqual(len(content(self.log).decode().splitlines()), 5, "the third run was started twice")
+
+
+class Content(Sweeps):
+    def test_of_a_study_that_grows_is_kept(self):
+        self.sweep("out", "--jobs", "1")
+        write(self.study, content(self.study).decode().replace("[0.1, ", "[0.25, 0.1, "))
+        self.sweep("out")
+        self.assertEqual(self.started(), LENGTHS + [0.25])
+        self.assertEqual([run[1] for run in rows(self.table("out"))[2:]], [str(length) for length in [0.25] + LENGTHS])
+
+    def test_that_changed_is_run_anew(self):
+        os.mkdir(self.path("materials"))
+        method = content(CONFIG, "straight.yaml").decode().replace("material: nylon", "material: mine")
+        material = content(CONFIG, "materials/nylon.yaml").decode()
+        write(self.path("method.yaml"), method)
+        write(self.path("materials/mine.yaml"), material)
+        write(self.study, "method: method.yaml\nvary: {physics.accuracy: [draft], specimen.length: [0.2]}")
+        self.sweep("out")
+        first = rows(self.table("out"))[2][-1]
+        write(self.path("method.yaml"), "# Only said otherwise.\n" + method)
+        self.sweep("out")
+        self.assertEqual((self.started(), rows(self.table("out"))[2][-1]), ([0.2], first))
+        write(self.path("materials/mine.yaml"), re.sub(r"(?m)^radius: \S+", "radius: 0.003", material))
+        self.sweep("out")
+        second = rows(self.table("out"))[2][-1]
+        self.assertEqual(self.started(), [0.2, 0.2])
+        write(self.path("method.yaml"), method.replace("grips: clamps", "grips: nodes"))
+        self.sweep("out")
+        self.assertEqual(self.started(), [0.2, 0.2, 0.2])
+        self.assertEqual(len({first, second, rows(self.table("out"))[2][-1]}), 3)
+        self.assertEqual(len(self.whole_runs("out")), 3)
+
+
+class Refused(Sweeps):
+    def refused(self, *words):
+        said = self.sweep("out", code=2)
+        self.assertEqual(said.count("\n"), 1, said)
+        for word in (self.study, *words):
+            self.assertIn(word, said)
+        self.assertFalse(os.path.exists(self.path("out")))
+        self.assertEqual(self.started(), [])
+
+    def test_before_the_first_run_starts(self):
+        write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{specimen.length: [0.2, 0.3, -1, -2]}}")
+        self.refused("specimen.length=-1", "specimen.length is -1", "2 of 4 runs")
+
+    def test_an_unknown_key(self):
+        write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{specimen.lenght: [0.2]}}")
+        self.refused(self.study + ": vary.specimen.lenght is no key of a method; did you mean specimen.length?")
+
+    def test_a_wrong_study(self):
+        write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{specimen.length: [0.2]}}\ndesign: star")
+        self.refused("design is star")
+
+    def test_a_folder_with_a_table_of_another_kind(self):
+        os.makedirs(self.path("out"))
+        write(self.path("out/table.csv"), "mine")
+        write(self.study, f"method: {CONFIG}/straight.yaml\nvary: {{specimen.length: [0.2]}}")
+        self.assertIn("table.csv exists already and is not of a sweep", self.sweep("out", code=2))
+        self.assertEqual(os.listdir(self.path("out")), ["table.csv"])
+
+    def test_no_study_and_no_place(self):
+        self.study = self.path("absent.yaml")
+        self.refused("no such file")
+        write(self.path("out"), "a file")
+        self.study = write(self.path("study.yaml"), f"method: {CONFIG}/straight.yaml\nvary: {{specimen.length: [0.2]}}")
+        self.assertIn("cannot make the folder", self.sweep("out", code=2))
+        self.assertIn("--jobs is 0", self.sweep("out", "--jobs", "0", code=2))
+        self.assertIn("star is no run of " + self.study, self.sweep("out", "--only", "star", code=2))
+
+
+if __name__ == "__main__":
+    unittest.main()
