@@ -219,9 +219,9 @@ class Walk:
     @step("Ctrl-C in a live test")
     def interrupted_live(self):
         process = self.start("scripts/tighten", "rviz:=false", "out:=out/stopped", "-p", str(self.port))
-        curve = self.path("out/stopped/curve.csv")
+        samples = self.path("out/stopped/samples.csv")
         launched.wait_for("the test runs", lambda: process.poll() is not None or
-                          (os.path.exists(curve) and len(self.text("out/stopped/curve.csv").splitlines()) > 5))
+                          (os.path.exists(samples) and len(self.text("out/stopped/samples.csv").splitlines()) > 20))
         os.killpg(process.pid, signal.SIGINT)
         code, said = self.end(process)
         expect(code == 1, f"exit code {code}: {one_line(said)}")

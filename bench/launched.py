@@ -76,6 +76,17 @@ def memory(pid):
         return 1024 * int(re.search(r'VmRSS:\s+(\d+)', file.read())[1])
 
 
+def reading_times(folder):
+    """When the load cell was read so far [s], by samples.csv in a folder; none where it is not there."""
+    try:
+        with open(os.path.join(folder, 'samples.csv'), encoding='utf-8') as file:
+            names, *rows = (line.split(',') for line in file.read().splitlines(keepends=True) if line.endswith('\n'))
+    except (OSError, ValueError):
+        return []
+    read, time_ = names.index('command_read_cell'), names.index('command_time')
+    return [float(row[time_]) for row in rows if row[0] == 'answer' and row[read] == '1']
+
+
 class Launch:
     """tighten.launch, or another one that `command` starts, under way in a folder of its own; `with` ends it."""
 
@@ -142,13 +153,9 @@ class Launch:
         except OSError:
             return False
 
-    def rows(self):
-        """Complete rows of the curve so far."""
-        try:
-            with open(os.path.join(self.out, 'curve.csv'), encoding='utf-8') as file:
-                return max(0, file.read().count('\n') - 2)
-        except OSError:
-            return 0
+    def rows(self, specimen=''):
+        """Readings of the load cell so far, in samples.csv."""
+        return len(reading_times(os.path.join(self.out, specimen)))
 
     def wait_for_rows(self, rows):
         def are_there():

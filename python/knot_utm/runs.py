@@ -12,7 +12,7 @@ from knot_utm.errors import RunFailed, RunWarning, WrongInput
 from knot_utm.readings import Readings, plot_curve, shown
 from knot_utm.yaml_text import load
 
-OF_A_RUN = ("result.yaml", "statistics.yaml", "journal")  # where one of them is, tensile_test takes another folder
+OF_A_RUN = ("result.yaml", "statistics.yaml", "samples.csv")  # where one of them is, tensile_test takes another folder
 
 
 @dataclass(frozen=True, eq=False, repr=False)

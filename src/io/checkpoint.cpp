@@ -22,15 +22,14 @@ Checkpoint::Checkpoint(const std::string& folder, const std::string& method)
     : file_((fs::path(folder) / "checkpoint").string()),
       method_(static_cast<std::int64_t>(crc32_z(0, reinterpret_cast<const Bytef*>(method.data()), method.size()))) {}
 
-void Checkpoint::visit(Archive& archive, TestingMachine& bench, ProgramRunner& program,
-                       std::uint64_t& journal_bytes) const {
+void Checkpoint::visit(Archive& archive, TestingMachine& bench, ProgramRunner& program) const {
   archive.same("checksum of method.yaml", method_);
-  archive(journal_bytes, program, bench);
+  archive(program, bench);
 }
 
-void Checkpoint::write(TestingMachine& bench, ProgramRunner& program, std::uint64_t journal_bytes) const {
+void Checkpoint::write(TestingMachine& bench, ProgramRunner& program) const {
   Archive archive(kKind);
-  visit(archive, bench, program, journal_bytes);
+  visit(archive, bench, program);
   write_whole(file_, archive.bytes());
 }
 
@@ -39,22 +38,14 @@ bool Checkpoint::is_there() const {
   return fs::exists(file_, error);
 }
 
-std::uint64_t Checkpoint::load(TestingMachine& bench, ProgramRunner& program) const {
+void Checkpoint::load(TestingMachine& bench, ProgramRunner& program) const {
   Archive archive(kKind, read_whole(file_), file_);
-  std::uint64_t journal_bytes = 0;
-  visit(archive, bench, program, journal_bytes);
+  visit(archive, bench, program);
   archive.end();
   // A command is at most a longest step ahead; twice that leaves room for rounding.
   const double ahead = program.last().time - bench.time();
   archive.require(ahead >= 0.0 && ahead <= 2.0 * bench.longest_step(), "next command",
                   format_number(ahead) + " s ahead of the physics");
-  return journal_bytes;
-}
-
-void Checkpoint::remove() const {
-  std::error_code error;
-  fs::remove(file_, error);
-  fs::remove(file_ + ".part", error);
 }
 
 }  // namespace knot_utm

@@ -21,7 +21,8 @@ bool holds_another(const fs::path& folder, const std::string& yaml) {
   std::error_code error;
   const fs::path before = folder / kOfComparison.front();
   if (fs::is_regular_file(before, error)) return read_whole(before.string()) != yaml;
-  for (const char* name : {"a.csv", "b.csv", "report.html", "report.pdf", "result.yaml", "statistics.yaml", "journal"})
+  for (const char* name :
+       {"a.csv", "b.csv", "report.html", "report.pdf", "result.yaml", "statistics.yaml", "samples.csv"})
     if (fs::is_regular_file(folder / name, error)) return true;
   return false;
 }

@@ -12,7 +12,8 @@
 #include <system_error>
 
 #include "knot_utm/io/cannot_write.hpp"
-#include "knot_utm/io/journal.hpp"
+#include "knot_utm/io/command_hint.hpp"
+#include "knot_utm/io/samples.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
@@ -25,13 +26,13 @@ const std::string kResolved = "# Everything resolved: runs again to the same cur
 constexpr const char* kFailedStep = "failed_step.bin";
 constexpr const char* kSpecimen = "specimen_";  // and a number, the folder of one
 
-/// What a run writes from its beginning; its checkpoint is of no use without the journal.
-constexpr std::array<const char*, 5> kWritten{"method.yaml", "specimen.csv", "curve.csv", "curve_full.csv",
-                                              "comparison.yaml"};
+/// What a run writes over when it begins, or leaves to who made it.
+constexpr std::array<const char*, 3> kWritten{"method.yaml", "specimen.csv", "comparison.yaml"};
 /// What it takes away when it begins.
-constexpr std::array<const char*, 10> kOld{"result.yaml",     "final_shape.csv", "shapes.csv", "test.bag",
+constexpr std::array<const char*, 15> kOld{"samples.csv",     "shapes.bin",      "curve.csv",  "curve_full.csv",
+                                           "result.yaml",     "final_shape.csv", "shapes.csv", "test.bag",
                                            "saved.bag",       "report.html",     "report.pdf", kFailedStep,
-                                           "statistics.yaml", "specimens.csv"};
+                                           "statistics.yaml", "specimens.csv",   "checkpoint"};
 
 /// What `compare --report` left; curves a.csv and b.csv without its comparison.yaml are somebody else's.
 void remove_comparison(const fs::path& folder) {
@@ -135,7 +136,7 @@ std::string specimen_folder(const std::string& folder, int number) {
   return (fs::path(folder) / name.data()).string();
 }
 
-bool holds_results(const std::string& folder) {
+bool holds_run(const std::string& folder) {
   std::error_code error;
   const auto stands = [&](const char* name) { return fs::is_regular_file(fs::path(folder) / name, error); };
   return std::any_of(kWritten.begin(), kWritten.end(), stands) || std::any_of(kOld.begin(), kOld.end(), stands) ||
@@ -154,16 +155,6 @@ std::vector<std::string> specimen_folders(const std::string& folder) {
   return found;
 }
 
-bool holds_run(const std::string& folder) {
-  std::error_code error;
-  return holds_results(folder) || fs::exists(journal_file(folder), error);
-}
-
-bool holds_unfinished_run(const std::string& folder) {
-  std::error_code error;
-  return fs::exists(journal_file(folder), error) && !has_complete_result(folder);
-}
-
 std::string numbered_folder(const std::string& folder, int number) {
   if (number == 1) return folder;
   fs::path path = fs::path(folder).lexically_normal();
@@ -174,13 +165,16 @@ std::string numbered_folder(const std::string& folder, int number) {
 }
 
 bool has_complete_result(const std::string& folder) {
-  const std::optional<std::string> ended_by = result_of(folder, "ended_by");
-  return ended_by && *ended_by != ended_by_name(EndedBy::kNotYet) && !was_interrupted(folder);
+  const std::optional<std::string> ended_by = result_of(folder, "ended_by"), reason = result_of(folder, "reason");
+  const bool interrupted = reason && *reason == '"' + std::string(kInterrupted) + '"';
+  return ended_by && *ended_by != ended_by_name(EndedBy::kNotYet) && !interrupted;
 }
 
-bool was_interrupted(const std::string& folder) {
-  const std::optional<std::string> reason = result_of(folder, "reason");
-  return reason && *reason == '"' + std::string(kInterrupted) + '"';
+std::string what_stands(const std::string& folder) {
+  std::error_code error;
+  if (!fs::exists(samples_file(folder), error)) return "";
+  return "; what was measured until then stands in " + samples_file(folder) +
+         ", make the results of it by: " + command_line({program_beside("tensile_test"), "--from-samples", folder});
 }
 
 std::string failed_step_file(const std::string& folder) { return (fs::path(folder) / kFailedStep).string(); }

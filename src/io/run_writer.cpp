@@ -21,14 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string begin(const std::string& folder, const Method& method) {
-  make_run_folder(folder);
-  begin_run_folder(folder, method);
-  return folder;
-}
-
-/// Of the accelerated mass over the rod's own. The shape may lie in the folder of the run, which does not keep it
-/// there.
+/// The accelerated mass over the rod's own.
 double inertia_of(const Method& method) {
   const Centreline centreline = specimen_centreline(method.specimen, method.material, method.machine, method.physics);
   return inertia_factor(method.material, method.physics, slack_of(method.specimen, centreline));
@@ -43,10 +36,8 @@ bool holds_its_knot(const Results& results) {
 
 }  // namespace
 
-RunWriter::RunWriter(const std::string& folder, const Method& method) : RunWriter(folder, method, inertia_of(method)) {}
-
-RunWriter::RunWriter(const std::string& folder, const Method& method, double inertia)
-    : folder_(begin(folder, method)),
+RunWriter::RunWriter(const std::string& folder, const Method& method)
+    : folder_(folder),
       curve_((fs::path(folder) / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
       full_curve_((fs::path(folder) / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)) {
   known_.errors = relative_errors(method.specimen, method.material, method.machine, method.physics);
@@ -71,7 +62,7 @@ RunWriter::RunWriter(const std::string& folder, const Method& method, double ine
   if (method.analysis.margin)
     known_.margin.reason = "only tensile_test makes the runs for the margin: run method.yaml of this folder with it";
   known_.load_cell = method.machine.load_cell;
-  known_.inertia = inertia;
+  known_.inertia = inertia_of(method);
   for (const std::string& warning : speed_warnings(method)) known_.warnings.push_back(warning);
   for (const ProgramStep& step : method.program)
     if (pulls(step.phase)) known_.pull_speed = std::max(known_.pull_speed, step.speed);
@@ -139,6 +130,37 @@ void RunWriter::finish(const Results& results, const RunFacts& facts, const Poin
   if (with_shape.ends_with_hold && facts.one_knot_in_a_strand && holds_its_knot(results) && final_shape.cols() > 0)
     with_shape.knot_hole = hole_diameter(sampled_centreline(final_shape), facts.material.radius);
   write_whole((fs::path(folder_) / "result.yaml").string(), result_yaml(results, with_shape));
+}
+
+MadeResults make_results(const std::string& folder, const Method& method, const ResultsOptions& options) {
+  SamplesReader samples(folder);
+  RunWriter writer(folder, method);
+  const FurtherWriter further = options.further ? options.further(folder, method) : FurtherWriter();
+  Record record;
+  while (samples.next(record)) {
+    writer.add(record);
+    if (further.add) further.add(record);
+  }
+  if (further.close) further.close();
+  MadeResults made;
+  const TestEnd end = samples.end().value_or(options.without_end);
+  made.results = writer.results(end.ended_by);
+  made.facts = writer.facts();
+  made.facts.reason = end.reason;
+  made.facts.wall_time = record.wall_time;
+  if (!options.ran_here) made.facts.peak_memory = 0;
+  std::vector<std::string>& warnings = made.facts.warnings;
+  warnings.insert(warnings.end(), options.warnings.begin(), options.warnings.end());
+  const std::uint64_t sent = samples.records() > 0 ? record.command.sequence + 1 : 0;
+  if (const std::uint64_t missing = sent - samples.records() + options.missing_at_end; missing > 0)
+    warnings.push_back(std::to_string(missing) + " commands of the test were not recorded");
+  if (samples.torn_bytes() > 0)
+    warnings.emplace_back("the last command in samples.csv was cut off as it was written, and is left out");
+  if (options.margin) made.facts.margin = options.margin(made.results);
+  made.rows = writer.rows();
+  made.full_rows = writer.full_rows();
+  writer.finish(made.results, made.facts, samples.final_shape());
+  return made;
 }
 
 }  // namespace knot_utm

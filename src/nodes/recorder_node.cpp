@@ -18,8 +18,7 @@ int main(int argc, char** argv) {
   // A file as large as is allowed is an error like a full disk, which says what was being written.
   std::signal(SIGXFSZ, SIG_IGN);
   return knot_utm::run_node(argc, argv, "recorder_node", kHelp, [&] {
-    knot_utm::Keeper keeper;
     const ros::NodeHandle node = knot_utm::join_ros(argc, argv, "recorder_node");
-    return knot_utm::RecorderNode(node, knot_utm::read_test_setup(node).out, keeper).spin();
+    return knot_utm::RecorderNode(node, knot_utm::read_test_setup(node).out).spin();
   });
 }

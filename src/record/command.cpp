@@ -4,7 +4,7 @@
 
 namespace knot_utm {
 
-// In the order of the journal: another one is another version of it (src/io/journal.cpp).
+// In the order of a checkpoint: another one is another version of it.
 void Command::state(Archive& archive) {
   archive(sequence, time, displacement, velocity, step);
   archive.choice("phase", phase, last_of(phase));

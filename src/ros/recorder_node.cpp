@@ -10,13 +10,13 @@
 #include "knot_utm/io/claimed_folder.hpp"
 #include "knot_utm/io/command_hint.hpp"
 #include "knot_utm/io/latest_link.hpp"
-#include "knot_utm/io/recovery.hpp"
 #include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
-#include "knot_utm/ros/journal_bag.hpp"
 #include "knot_utm/ros/knot_node.hpp"
 #include "knot_utm/ros/master_parameters.hpp"
+#include "knot_utm/ros/run_bag.hpp"
 
 namespace knot_utm {
 namespace {
@@ -26,7 +26,6 @@ namespace fs = std::filesystem;
 constexpr std::uint32_t kQueue = 4 * KnotNode::kKeptAnswers;
 constexpr double kLastRecords = 1.0;             // wall time for what is under way once the machine died [s]
 constexpr double kPatience = 2.0;                // wall time to wait for a record that is missing [s]
-constexpr double kPatienceWithKeeper = 60.0;     // wall time that a recovery may take [s]
 constexpr double kPatienceAtEnd = 10.0;          // the same for the final shape [s]
 constexpr double kAcknowledgePeriod = 0.005;     // wall time between acknowledgements [s]
 constexpr double kDiagnosticsPeriod = 1.0;       // wall time [s]
@@ -37,27 +36,14 @@ double seconds_since(std::chrono::steady_clock::time_point then) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - then).count();
 }
 
-bool has_journal_of(const std::string& folder, const std::string& test) {
-  try {
-    return !test.empty() && JournalReader(folder).header().test == test;
-  } catch (const InvalidInput&) {
-    return false;  // none, or one that nobody can read
-  }
-}
-
 EndedBy ended_by_from_name(const std::string& name) { return ended_by_named(name).value_or(EndedBy::kNotYet); }
 
 }  // namespace
 
-RecorderNode::Run::Run(const std::string& folder_, const Method& method_, JournalWriter journal_)
-    : folder(folder_),
-      method(method_),
-      journal(std::move(journal_)),
-      writer(folder_, method),
-      bag((fs::path(folder_) / "test.bag").string(), method) {}
+RecorderNode::Run::Run(ClaimedFolder claimed_, const Method& method_)
+    : claimed(std::move(claimed_)), folder(claimed.path()), method(method_) {}
 
-RecorderNode::RecorderNode(const ros::NodeHandle& node, const std::string& out, Keeper& keeper)
-    : node_(node), keeper_(keeper), diagnostics_(node) {
+RecorderNode::RecorderNode(const ros::NodeHandle& node, const std::string& out) : node_(node), diagnostics_(node) {
   order_.out = out;
   const ros::SubscriberStatusCallback come = [this](const ros::SingleSubscriberPublisher& s) { on_come(s); };
   const ros::SubscriberStatusCallback gone = [this](const ros::SingleSubscriberPublisher& s) { on_gone(s); };
@@ -124,22 +110,19 @@ void RecorderNode::begin_run(const Crosshead& first) {
   begin_batch(id_of_test(run + 1 - static_cast<std::uint32_t>(order_.place.number)));
   if (!order_.place.alone()) take_up_specimen();
   if (completed_before_) return;
-  // That of a specimen is known even where the recorder before died between making it and telling it.
-  const std::string before =
-      batch_ ? batch_->folder_of(order_.place.number) : told_folder(names::kFolderOfTest, test_id_);
-  if (!before.empty()) {
-    if (go_on(before)) return;
-    if (first.sequence > 0 && has_complete_result(before)) {
-      throw std::runtime_error("the recorder of this test was stopped; " + before +
-                               " holds a result, which the rest of the test would write over");
-    }
-  }
   const Method method = batch_ ? batch_->method_of(order_.place.number) : method_of(order_);
-  if (batch_ && holds_run(before)) throw std::runtime_error(before + " holds another run, which is not written over");
-  ClaimedFolder claimed = claim(batch_ ? before : order_.out, method, test_id_);
-  if (!test_id_.empty()) tell_master(names::kFolderOfTest, test_id_ + " " + claimed.folder);
-  run_ = std::make_unique<Run>(claimed.folder, method, std::move(claimed.journal));
-  watch(claimed.folder);
+  const std::string before = told_folder(names::kFolderOfTest, test_id_);
+  if (!before.empty() && fs::exists(samples_file(before))) return go_on(before);
+  const std::string asked = batch_ ? batch_->folder_of(order_.place.number) : order_.out;
+  if (batch_ && before.empty() && holds_run(asked))
+    throw std::runtime_error(asked + " holds another run, which is not written over");
+  // Of a recorder that died before it had recorded anything.
+  ClaimedFolder claimed = before.empty() ? claim(asked, method) : ClaimedFolder(before);
+  // Before anything is written, so that whoever follows finds it.
+  if (!test_id_.empty()) tell_master(names::kFolderOfTest, test_id_ + " " + claimed.path());
+  begin_run_folder(claimed.path(), method);
+  run_ = std::make_unique<Run>(std::move(claimed), method);
+  run_->samples.emplace(run_->folder);
 }
 
 /// What a recorder that died has left to do of a specimen whose result is complete.
@@ -162,13 +145,14 @@ void RecorderNode::begin_batch(const std::string& id) {
   const std::string before = told_folder(names::kFolderOfBatch, id);
   if (!before.empty()) {
     batch_folder_ = before;
-    if (!holds_unfinished_run(before)) return;
-    batch_.emplace(RecordedBatch::go_on(method, {before, JournalWriter::go_on(before, kPatienceWithKeeper)}));
+    if (!is_complete_batch(before)) batch_.emplace(method, ClaimedFolder(before));
     return;
   }
-  batch_.emplace(RecordedBatch::begin(method, claim(order_.out, method, "")));
-  batch_folder_ = batch_->folder();
-  if (!id.empty()) tell_master(names::kFolderOfBatch, id + " " + batch_->folder());
+  ClaimedFolder claimed = claim(order_.out, method);
+  batch_folder_ = claimed.path();
+  begin_run_folder(batch_folder_, method);
+  batch_.emplace(method, std::move(claimed));
+  if (!id.empty()) tell_master(names::kFolderOfBatch, id + " " + batch_folder_);
 }
 
 std::string RecorderNode::id_of_test(std::uint32_t run) const {
@@ -176,10 +160,10 @@ std::string RecorderNode::id_of_test(std::uint32_t run) const {
   return node_.getParam(names::kTestId, machine) ? machine + "/" + std::to_string(run) : "";
 }
 
-ClaimedFolder RecorderNode::claim(const std::string& asked, const Method& method, const std::string& test) {
+ClaimedFolder RecorderNode::claim(const std::string& asked, const Method& method) {
   require_no_record_in(asked, method);
-  ClaimedFolder claimed = claim_folder(asked, journal_header(method, test));
-  if (claimed.folder != asked) ROS_WARN("%s", moved_notice(asked, claimed.folder).c_str());
+  ClaimedFolder claimed = ClaimedFolder::first_free(asked);
+  if (claimed.path() != asked) ROS_WARN("%s", moved_notice(asked, claimed.path()).c_str());
   return claimed;
 }
 
@@ -190,30 +174,17 @@ std::string RecorderNode::told_folder(const char* parameter, const std::string& 
   return !id.empty() && told.rfind(begin, 0) == 0 ? told.substr(begin.size()) : "";
 }
 
-bool RecorderNode::go_on(const std::string& folder) {
-  if (!has_journal_of(folder, test_id_)) return false;
-  // The keeper of the recorder before may be recovering the folder.
-  JournalWriter journal = JournalWriter::go_on(folder, kPatienceWithKeeper);
-  JournalReader reader(folder);
-  // A new run takes away what an old one left; this one goes on.
-  const std::string failed_step = failed_step_file(folder);
-  const std::string step = fs::exists(failed_step) ? read_whole(failed_step) : "";
-  run_ = std::make_unique<Run>(folder, journalled_method(folder, reader.header()), std::move(journal));
-  if (!step.empty()) write_whole(failed_step, step);
-  watch(folder);
+void RecorderNode::go_on(const std::string& folder) {
+  ClaimedFolder claimed(folder);
+  run_ = std::make_unique<Run>(std::move(claimed), load_method((fs::path(folder) / "method.yaml").string()));
+  SamplesReader reader(folder);
   Record record;
   while (reader.next(record)) keep(record);
-  run_->journal.truncate_to(reader.good_bytes());
+  run_->samples.emplace(folder, reader);
   run_->dropped = run_->next - run_->recorded;
   run_->begin -= std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(record.wall_time));
   ROS_WARN("the recorder goes on with %s after %llu commands", folder.c_str(),
            static_cast<unsigned long long>(run_->recorded));
-  return true;
-}
-
-void RecorderNode::watch(const std::string& folder) {
-  if (!keeper_.watch(fs::absolute(folder).string()))
-    ROS_WARN("the keeper has died: should the recorder be killed, too, write its results by `rosrun knot_utm recover`");
 }
 
 void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
@@ -247,7 +218,7 @@ void RecorderNode::on_record(const KnotRecord::ConstPtr& record) {
 void RecorderNode::write(const KnotRecord& record) {
   Record kept = from_message(record);
   kept.wall_time = seconds_since(run_->begin);
-  run_->journal.append(kept);
+  run_->samples->append(kept);
   keep(kept);
   run_->stamp = record.command.header.stamp;
 }
@@ -257,8 +228,8 @@ void RecorderNode::keep_failed_step(const KnotRecord& record) {
 }
 
 void RecorderNode::keep(const Record& record) {
-  run_->writer.add(record);
-  run_->bag.add(record);
+  run_->full_rows += record.steps.size();
+  if (cell_reading(record)) ++run_->rows;
   if (record.shape.cols() > 0) {
     run_->shape = record.shape;
     run_->shape_sequence = record.command.sequence;
@@ -306,9 +277,14 @@ void RecorderNode::finish_when_ready() {
   if (all && (shape || run_->failed || test_.reason == kPhysicsDied)) {
     finish_as_told("");
   } else if (waited_ - run_->progress > kPatienceAtEnd) {
-    if (!all) run_->dropped += test_.sequence + 1 - run_->next;
+    if (!all) miss_the_end();
     finish_as_told("the physics did not answer at the end of the test");
   }
+}
+
+void RecorderNode::miss_the_end() {
+  run_->missing_at_end = test_.sequence + 1 - run_->next;
+  run_->dropped += run_->missing_at_end;
 }
 
 void RecorderNode::finish_as_told(const std::string& warning) {
@@ -320,7 +296,7 @@ void RecorderNode::finish_early() {
   if (test_.state == TestStatus::ENDED && test_.run == run_number_) {
     const bool all = run_->next > test_.sequence;
     if (!all && batch_) return interrupt("the last records of the test never arrived");
-    if (!all) run_->dropped += test_.sequence + 1 - run_->next;
+    if (!all) miss_the_end();
     finish_as_told("");
   } else if (!master_answers()) {
     // Its launch then ends the nodes in any order: that of the machine may be gone before this one.
@@ -337,26 +313,33 @@ void RecorderNode::cut_off(const std::string& why) {
   finish(EndedBy::kInterrupted, why, "");
 }
 
-void RecorderNode::write_results(EndedBy ended_by, const std::string& reason, const std::string& warning) {
+void RecorderNode::write_results(const TestEnd& end, const std::string& warning) {
+  run_->samples->end(end, run_->shape);
+  ResultsOptions options;
+  if (!warning.empty()) options.warnings.push_back(warning);
+  options.missing_at_end = run_->missing_at_end;
+  make_files("test.bag", options);
+}
+
+void RecorderNode::make_files(const std::string& bag_name, ResultsOptions options) {
   Run& run = *run_;
-  run.bag.close();
-  RunFacts facts = run.writer.facts();
-  facts.reason = reason;
-  facts.wall_time = seconds_since(run.begin);
-  if (!warning.empty()) facts.warnings.push_back(warning);
-  if (run.dropped > 0)
-    facts.warnings.push_back(std::to_string(run.dropped) + " commands of the test were not recorded");
-  run.writer.finish(run.writer.results(ended_by), facts, run.shape);
+  std::unique_ptr<RunBag> bag;
+  options.further = [&](const std::string& folder, const Method& method) {
+    bag = std::make_unique<RunBag>((fs::path(folder) / bag_name).string(), method);
+    return FurtherWriter{[&](const Record& record) { bag->add(record); }, [&] { bag->close(); }};
+  };
+  const MadeResults made = make_results(run.folder, run.method, options);
+  run.rows = made.rows;
+  run.full_rows = made.full_rows;
+  run.bag_messages = bag->messages();
 }
 
 void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std::string& warning) {
   Run& run = *run_;
   try {
-    write_results(ended_by, reason, warning);
+    write_results({ended_by, reason}, warning);
     // Whoever begins anew from here on has nothing left to do.
     if (ros::ok() && !test_id_.empty()) tell_master(names::kRecordedTest, test_id_);
-    run.journal.remove();
-    keeper_.release();
   } catch (const std::exception& error) {
     return fail(error.what());
   }
@@ -366,7 +349,7 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
              command_line({script_path("replay-step"), failed_step}).c_str());
   if (run.dropped > 0)
     ROS_WARN("%llu commands of the test were not recorded", static_cast<unsigned long long>(run.dropped));
-  ROS_INFO("%zu readings were written to %s", run.writer.rows(), run.folder.c_str());
+  ROS_INFO("%zu readings were written to %s", run.rows, run.folder.c_str());
   if (batch_ && !conclude_specimen()) return;
   if (!batch_) point_latest_to(run.folder);
   run.complete = true;
@@ -374,9 +357,8 @@ void RecorderNode::finish(EndedBy ended_by, const std::string& reason, const std
 
 void RecorderNode::interrupt(const std::string& why) {
   try {
-    // As an interrupted test without ROS: its journal stays, and `tensile_test --resume` tests the specimen once more.
-    write_results(EndedBy::kNotYet, kInterrupted, why);
-    keeper_.release();
+    // As an interrupted test without ROS: `tensile_test --resume` tests the specimen once more.
+    write_results({EndedBy::kNotYet, kInterrupted}, why);
     run_->complete = true;
     ROS_WARN("%s: %s is left to be tested again", why.c_str(), order_.place.text().c_str());
   } catch (const std::exception& error) {
@@ -405,11 +387,7 @@ void RecorderNode::tell_master(const char* parameter, const std::string& text) c
 
 void RecorderNode::fail(const std::string& why) {
   error_ = why;
-  if (run_) {
-    // What is written to a disk without room would be no better for the keeper.
-    keeper_.release();
-    error_ += how_to_recover(run_->folder);
-  }
+  if (run_) error_ += what_stands(run_->folder);
   ROS_ERROR("%s", error_.c_str());
 }
 
@@ -421,11 +399,9 @@ bool RecorderNode::on_save(std_srvs::Trigger::Request& /*request*/, std_srvs::Tr
   }
   if (!run_->complete && error_.empty()) {
     try {
-      save_bag(run_->folder, run_->method, (fs::path(run_->folder) / "saved.bag").string());
-      RunFacts facts = run_->writer.facts();
-      facts.reason = "saved while the test was running";
-      facts.wall_time = seconds_since(run_->begin);
-      run_->writer.finish(run_->writer.results(EndedBy::kNotYet), facts, run_->shape);
+      ResultsOptions options;
+      options.without_end.reason = "saved while the test was running";
+      make_files("saved.bag", options);
     } catch (const std::exception& error) {
       fail(error.what());
     }
@@ -446,9 +422,9 @@ void RecorderNode::publish_status() {
     status.recorded = run_->recorded;
     status.dropped = run_->dropped;
     status.next_sequence = run_->next;
-    status.curve_rows = run_->writer.rows();
-    status.full_rows = run_->writer.full_rows();
-    status.bag_messages = run_->bag.messages();
+    status.curve_rows = run_->rows;
+    status.full_rows = run_->full_rows;
+    status.bag_messages = run_->bag_messages;
     status.directory = run_->folder;
   }
   if (!run_ && completed_before_) status.directory = completed_folder_;
@@ -473,9 +449,9 @@ void RecorderNode::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status)
   status.add("folder", run_->folder);
   status.add("commands recorded", run_->recorded);
   status.add("commands dropped", run_->dropped);
-  status.add("rows", run_->writer.rows());
-  status.add("rows of time steps", run_->writer.full_rows());
-  status.add("messages in the bag", run_->bag.messages());
+  status.add("rows", run_->rows);
+  status.add("rows of time steps", run_->full_rows);
+  status.add("messages in the bag", run_->bag_messages);
 }
 
 }  // namespace knot_utm

@@ -112,7 +112,7 @@ int UtmNode::spin() {
     }
   }
   // ROS may be shut down by now.
-  if (!batch_directory_.empty() && holds_unfinished_run(batch_directory_))
+  if (!batch_directory_.empty() && !is_complete_batch(batch_directory_))
     std::printf("not all specimens of the batch in %s were tested; test the others by: %s\n", batch_directory_.c_str(),
                 command_to_resume(batch_directory_).c_str());
   std::fflush(stdout);

@@ -101,10 +101,8 @@ class SideBySide {
   HeadlessOptions options_of(const DrawnSpecimen& specimen) {
     HeadlessOptions out;
     out.folder = specimen_folder(folder_, specimen.number);
-    out.resume = holds_unfinished_run(out.folder);
-    out.overwrite = !out.resume;  // what stands there is an earlier batch's, which the whole one writes over
+    out.overwrite = true;  // what stands there was cut off, or is an earlier batch's, which the whole one writes over
     out.shapes = options_.shapes;
-    out.checkpoint_period = options_.checkpoint_period;
     out.interrupted = [this] { return stops(); };
     const int number = specimen.number;
     out.notice = [this, number](const std::string& line) {
@@ -127,13 +125,11 @@ class SideBySide {
   std::string fault_;
 };
 
-/// The journal of the batch's folder has no records: it holds the folder, and stands there until the batch has ended.
-ClaimedFolder folder_of_batch(const Method& method, const BatchOptions& options) {
+ClaimedFolder folder_of_batch(const BatchOptions& options) {
   const std::string& asked = options.folder;
-  if (options.resume) return {asked, JournalWriter::go_on(asked, 0.0)};
-  if (options.overwrite) return {asked, JournalWriter(asked, journal_header(method))};
-  ClaimedFolder claimed = claim_folder(asked, journal_header(method));
-  if (claimed.folder != asked && options.notice) options.notice(moved_notice(asked, claimed.folder));
+  if (options.resume || options.overwrite) return ClaimedFolder(asked);
+  ClaimedFolder claimed = ClaimedFolder::first_free(asked);
+  if (claimed.path() != asked && options.notice) options.notice(moved_notice(asked, claimed.path()));
   return claimed;
 }
 
@@ -145,30 +141,38 @@ void remove_specimens(const std::string& folder) {
 
 }  // namespace
 
+bool is_complete_batch(const std::string& folder) {
+  const fs::path method = fs::path(folder) / "method.yaml";
+  std::error_code error;
+  if (!fs::exists(method, error) || !fs::exists(statistics_file(folder), error)) return false;
+  for (int number = load_method(method.string()).specimens.count; number > 0; --number)
+    if (!has_complete_result(specimen_folder(folder, number))) return false;
+  return true;
+}
+
 BatchOutcome run_batch(const Method& method, const BatchOptions& options) {
-  if (options.resume && fs::exists(statistics_file(options.folder)) && !holds_unfinished_run(options.folder))
+  if (options.resume && is_complete_batch(options.folder))
     throw InvalidInput::sentence("--resume", options.folder,
                                  "cannot resume " + shown(options.folder) + ": all of its specimens have been tested");
   const std::vector<DrawnSpecimen> specimens = draw_specimens(method);
   require_no_record_in(options.folder, method);
-  ClaimedFolder claimed = folder_of_batch(method, options);
-  if (options.overwrite && !options.resume) remove_specimens(claimed.folder);
-  if (!options.resume) begin_run_folder(claimed.folder, method);
-  SideBySide tests(claimed.folder, specimens, options);
+  const ClaimedFolder claimed = folder_of_batch(options);
+  if (options.overwrite && !options.resume) remove_specimens(claimed.path());
+  if (!options.resume) begin_run_folder(claimed.path(), method);
+  SideBySide tests(claimed.path(), specimens, options);
   tests.tell_of_all(foreseen_warnings(method));
   tests.run();
   tests.tell();
   BatchOutcome out;
-  out.folder = claimed.folder;
+  out.folder = claimed.path();
   out.specimens = static_cast<int>(specimens.size());
   out.interrupted = tests.interrupted();
   if (!tests.fault().empty()) throw std::runtime_error(tests.fault());
   if (out.interrupted) return out;
-  BatchTable table(claimed.folder);
+  BatchTable table(claimed.path());
   for (const DrawnSpecimen& specimen : specimens) table.add(specimen);
   table.write();
   out.rejected = table.rejected();
-  claimed.journal.remove();
   return out;
 }
 

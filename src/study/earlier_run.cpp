@@ -11,6 +11,7 @@
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
 
@@ -44,8 +45,12 @@ std::string bytes_of(Command command) {
 
 }  // namespace
 
-EarlierRun::EarlierRun(const std::string& folder, const Method& method, TestingMachine& bench, ProgramRunner& program)
+EarlierRun::EarlierRun(const std::string& folder, const std::string& out, const Method& method, TestingMachine& bench,
+                       ProgramRunner& program)
     : folder_(folder) {
+  std::error_code error;
+  if (std::filesystem::equivalent(folder, out, error))
+    throw unsuited(folder, "the run would write over it: choose another folder by --out");
   const std::string file = (std::filesystem::path(folder) / "method.yaml").string();
   if (!std::filesystem::exists(file)) throw unsuited(folder, "it holds no run");
   method_ = load_method(file);
@@ -54,8 +59,8 @@ EarlierRun::EarlierRun(const std::string& folder, const Method& method, TestingM
     throw unsuited(folder, "it has no checkpoint; make one by tensile_test --stop-before, such as --stop-before pull");
   check_method(method);
   ProgramRunner its_own = make_program(method_, bench.longest_step());
-  bytes_ = checkpoint.load(bench, its_own);
-  follow(program);
+  checkpoint.load(bench, its_own);
+  follow(program, its_own.last().sequence);
 }
 
 void EarlierRun::check_method(const Method& method) const {
@@ -70,31 +75,28 @@ void EarlierRun::check_method(const Method& method) const {
         throw unsuited(folder_, std::string(section) + "." + key + " is " + its + " there, and " + own + " here");
     }
   }
-  if (JournalReader(folder_).header().specimen != journal_header(method).specimen)
+  if (knot_of(method.specimen).has("file") && read_whole(method_.specimen.file) != read_whole(method.specimen.file))
     throw unsuited(folder_, "the shape of its specimen is another one");
 }
 
 /// The program sees all answers once more, without any physics, and must have asked the same.
-void EarlierRun::follow(ProgramRunner& program) const {
-  JournalReader journal(folder_);
+void EarlierRun::follow(ProgramRunner& program, std::uint64_t records) const {
+  SamplesReader samples(folder_);
   Record record;
-  while (journal.good_bytes() < bytes_ && journal.next(record)) {
+  while (samples.next(record)) {
     if (bytes_of(record.command) != bytes_of(program.last()))
       throw unsuited(
           folder_, "the programs differ from " + format_number(record.command.time) + " s on, before that run stopped");
     program.next(record.answer);
     if (program.ended()) throw unsuited(folder_, "this test ends before that run stopped");
   }
-  if (journal.good_bytes() != bytes_) throw unsuited(folder_, "its journal is damaged");
+  if (samples.records() != records) throw unsuited(folder_, "its samples.csv is damaged");
 }
 
-double EarlierRun::replay(const std::function<void(const Record&)>& add, JournalWriter& journal) const {
-  JournalReader records(folder_);
+double EarlierRun::replay(SamplesWriter& samples) const {
+  SamplesReader earlier(folder_);
   Record record;
-  while (records.good_bytes() < bytes_ && records.next(record)) {
-    journal.append(record);
-    add(record);
-  }
+  while (earlier.next(record)) samples.append(record);
   return record.wall_time;
 }
 

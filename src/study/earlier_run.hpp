@@ -1,11 +1,10 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 
-#include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/method.hpp"
+#include "knot_utm/io/samples.hpp"
 #include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 
@@ -17,20 +16,20 @@ namespace knot_utm {
 class EarlierRun {
  public:
   /// Brings machine and program, which have just been made from `method`, to the state in which the run in `folder`
-  /// stopped. Throws InvalidInput (key "--begin-with") where there is no such run, or where it does not suit the
-  /// method.
-  EarlierRun(const std::string& folder, const Method& method, TestingMachine& bench, ProgramRunner& program);
+  /// stopped. Throws InvalidInput (key "--begin-with") where there is no such run, where it does not suit the method,
+  /// or where the new run would write over it in `out`.
+  EarlierRun(const std::string& folder, const std::string& out, const Method& method, TestingMachine& bench,
+             ProgramRunner& program);
 
-  /// Passes every record to `add` and to the journal of the new run. Returns the wall time of the earlier run [s].
-  double replay(const std::function<void(const Record&)>& add, JournalWriter& journal) const;
+  /// Appends every record to the samples of the new run. Returns the wall time of the earlier run [s].
+  double replay(SamplesWriter& samples) const;
 
  private:
   void check_method(const Method& method) const;
-  void follow(ProgramRunner& program) const;
+  void follow(ProgramRunner& program, std::uint64_t records) const;
 
   std::string folder_;
   Method method_;
-  std::uint64_t bytes_ = 0;  ///< length of its journal
 };
 
 }  // namespace knot_utm

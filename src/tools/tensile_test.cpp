@@ -42,7 +42,7 @@ volatile std::sig_atomic_t stop_asked = 0;
 
 void ask_to_stop(int /*signal*/) { stop_asked = 1; }
 
-/// The first Ctrl-C interrupts the test, which `--resume` takes up again; the second one ends the program.
+/// The first Ctrl-C interrupts the test; the second one ends the program.
 void set_signals() {
   struct sigaction action {};
   action.sa_handler = ask_to_stop;
@@ -57,13 +57,13 @@ struct Arguments {
   std::string method;
   std::vector<std::string> overrides;
   std::string out;
-  std::string resume;       // a folder; empty: a new test
-  std::string begin_with;   // the folder of a run that stopped; empty: from the start
-  std::string stop_before;  // a step of the program; empty: none
-  std::string show;         // a folder, of which the main readings are printed; no test
-  int specimens = 0;        // 0: as many as the method says
-  int jobs = 0;             // 0: as many as there are processors
-  double checkpoint = 5.0;  // wall time between two [s]; 0: none
+  std::string resume;        // the folder of a batch; empty: a new test
+  std::string from_samples;  // the folder of a run, whose results are made anew; no test
+  std::string begin_with;    // the folder of a run that stopped; empty: from the start
+  std::string stop_before;   // a step of the program; empty: none
+  std::string show;          // a folder, of which the main readings are printed; no test
+  int specimens = 0;         // 0: as many as the method says
+  int jobs = 0;              // 0: as many as there are processors
   bool overwrite = false;
   bool quiet = false;
   bool report = false;
@@ -85,10 +85,9 @@ std::string folder_of(const Arguments& arguments, const Method& method) {
   return arguments.out.empty() ? "out/" + method.name : arguments.out;
 }
 
-void tell_interruption(const Arguments& arguments, const HeadlessOutcome& outcome) {
-  std::fprintf(stderr, "%s: the test was interrupted after %.1f s; what was measured is in %s; go on with: %s\n", kTool,
-               outcome.results.simulated_time, outcome.folder.c_str(),
-               command_line({arguments.program, "--resume", outcome.folder}).c_str());
+void tell_interruption(const HeadlessOutcome& outcome) {
+  std::fprintf(stderr, "%s: the test was interrupted after %.1f s; what was measured is in %s\n", kTool,
+               outcome.results.simulated_time, outcome.folder.c_str());
 }
 
 /// The main readings, and where all of them are.
@@ -131,16 +130,9 @@ std::optional<int> step_to_stop_before(const Arguments& arguments, const Method&
                                    listed(steps, " and "));
 }
 
-HeadlessOutcome run_and_tell(const Arguments& arguments, const Method& method) {
-  ProgressLine progress(arguments.quiet ? nullptr : stderr);
+HeadlessOptions options_in(const std::string& folder, ProgressLine& progress) {
   HeadlessOptions options;
-  options.folder = folder_of(arguments, method);
-  options.resume = !arguments.resume.empty();
-  options.overwrite = arguments.overwrite;
-  options.checkpoint_period = arguments.checkpoint;
-  options.shapes = arguments.shapes || arguments.report;
-  options.begin_with = arguments.begin_with;
-  options.stop_before = step_to_stop_before(arguments, method);
+  options.folder = folder;
 #ifdef KNOT_UTM_HAS_ROS
   options.further = bag_in;
 #endif
@@ -149,6 +141,16 @@ HeadlessOutcome run_and_tell(const Arguments& arguments, const Method& method) {
     progress.end();
     std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
   };
+  return options;
+}
+
+HeadlessOutcome run_and_tell(const Arguments& arguments, const Method& method) {
+  ProgressLine progress(arguments.quiet ? nullptr : stderr);
+  HeadlessOptions options = options_in(folder_of(arguments, method), progress);
+  options.overwrite = arguments.overwrite;
+  options.shapes = arguments.shapes || arguments.report;
+  options.begin_with = arguments.begin_with;
+  options.stop_before = step_to_stop_before(arguments, method);
   options.progress = [&](const Sample& sample, const ProgramRunner& program, double wall_time) {
     progress.show(sample, program, wall_time);
   };
@@ -187,7 +189,6 @@ int run_all_specimens(const Arguments& arguments, const Method& method) {
   options.resume = !arguments.resume.empty();
   options.overwrite = arguments.overwrite;
   options.shapes = arguments.shapes;
-  options.checkpoint_period = arguments.checkpoint;
   ProgressLine progress(arguments.quiet ? nullptr : stderr);
   options.interrupted = [] { return stop_asked != 0; };
   options.notice = [&](const std::string& line) {
@@ -230,26 +231,44 @@ int list_keys(const Method& method) {
   return kDone;
 }
 
+int make_anew(const Arguments& arguments) {
+  ProgressLine progress(nullptr);
+  const HeadlessOutcome outcome = results_from_samples(options_in(arguments.from_samples, progress));
+  if (!arguments.quiet) tell_summary(outcome.folder, "result.yaml", "");
+  if (arguments.report) tell_report(arguments, outcome.folder);
+  return kDone;
+}
+
+/// Of a single test there is nothing to go on with.
+void require_batch(const Arguments& arguments, const Method& method) {
+  if (arguments.resume.empty() || method.specimens.count > 1) return;
+  throw InvalidInput::sentence("--resume", arguments.resume,
+                               "--resume goes on with a batch, but " + shown(arguments.resume) +
+                                   " holds a single test: run it anew, or make the results of what was measured by "
+                                   "--from-samples");
+}
+
 int run(const Arguments& arguments) {
   if (!arguments.show.empty()) {
     std::fputs(run_summary(arguments.show).c_str(), stdout);
     return kDone;
   }
+  if (!arguments.from_samples.empty()) return make_anew(arguments);
   const Method method = load_test(arguments.method, arguments.overrides, [&](const std::string& line) {
     if (!arguments.quiet) std::fprintf(stderr, "%s: %s\n", kTool, line.c_str());
   });
+  require_batch(arguments, method);
   if (arguments.check) return check(method);
   if (arguments.list_keys) return list_keys(method);
   if (arguments.overwrite) require_no_method_in(folder_of(arguments, method), arguments.method);
   if (method.specimens.count > 1) return run_all_specimens(arguments, method);
-  if (!arguments.resume.empty()) require_resumable(arguments.resume);
   const HeadlessOutcome outcome = run_and_tell(arguments, method);
   const bool stopped = !outcome.ended && !arguments.stop_before.empty() && stop_asked == 0;
   const std::string latest = stopped ? "" : point_latest_to(outcome.folder);
   if (outcome.ended)
     tell_end(outcome, method, latest, arguments.quiet);
   else if (!stopped)
-    tell_interruption(arguments, outcome);
+    tell_interruption(outcome);
   else if (!arguments.quiet)
     std::printf("the test stopped before %s, after %.1f s; others can begin with %s\n", arguments.stop_before.c_str(),
                 outcome.results.simulated_time, outcome.folder.c_str());
@@ -292,7 +311,7 @@ std::string phases_csv() {
 /// Where the method stands and where the results go, once all words are read.
 void settle(Arguments& arguments) {
   if (arguments.specimens > 0) arguments.overrides.push_back("specimens.count=" + std::to_string(arguments.specimens));
-  if (!arguments.show.empty()) return;
+  if (!arguments.show.empty() || !arguments.from_samples.empty()) return;
   if (arguments.resume.empty()) {
     arguments.method = find_method(arguments.method);
     return;
@@ -314,8 +333,8 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
                          ->allow_extra_args(false);
   CLI::Option* out =
       app.add_option("--out", arguments.out, "the folder to write to; unless given, out/ and the method's name");
-  CLI::Option* resume =
-      app.add_option("--resume", arguments.resume, "continue the test in this folder, which was cut off");
+  CLI::Option* resume = app.add_option("--resume", arguments.resume,
+                                       "test those specimens of the batch in this folder that were not tested");
   CLI::Option* overwrite =
       app.add_flag("--overwrite", arguments.overwrite,
                    "replace the run that the folder holds; else the next free folder is taken, -2, -3, ...");
@@ -330,12 +349,12 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
       "begin where the test in this folder stopped, which is one of the same specimen with --stop-before");
   CLI::Option* stop_before =
       app.add_option("--stop-before", arguments.stop_before,
-                     "stop the test before this step of its program; --resume or --begin-with goes on from there");
+                     "stop the test before this step of its program; --begin-with goes on from there");
   for (CLI::Option* one : {begin_with, stop_before}) one->excludes(specimens)->excludes(resume);
   resume->excludes(method)->excludes(set)->excludes(out)->excludes(overwrite)->excludes(specimens);
-  app.add_option("--checkpoint", arguments.checkpoint, "the wall-clock time between two checkpoints [s]; 0 for none")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
+  CLI::Option* from_samples = app.add_option(
+      "--from-samples", arguments.from_samples,
+      "only make the results of the run in this folder anew from its samples.csv, also where it was cut off");
   app.add_flag("--quiet", arguments.quiet, "say only what went wrong");
   app.add_flag("--report", arguments.report, "also write report.html and report.pdf");
   app.add_flag(
@@ -348,14 +367,16 @@ std::optional<int> read_arguments(int argc, char** argv, Arguments& arguments) {
   CLI::Option* show =
       app.add_option("--show", arguments.show, "only print the main readings of the test or batch in this folder");
   for (CLI::Option* one : {check, list_keys}) one->excludes(resume);
-  show->excludes(method)->excludes(resume);
+  for (CLI::Option* one : {show, from_samples}) one->excludes(method)->excludes(resume);
+  from_samples->excludes(show)->excludes(out);
   add_list(app);
   add_listing(app, "--list-results", result_keys_csv, "say which keys result.yaml has, with unit, kind and meaning");
   add_listing(app, "--list-method-keys", method_keys_csv, "say which keys methods may have, with label and unit");
   add_listing(app, "--list-knots", knots_csv, "say which knots there are, and their keys");
   add_listing(app, "--list-phases", phases_csv, "say which phases a test has: which prepare it, form a knot, and pull");
   const std::optional<int> code = parse(app, kTool, argc, argv, [&] {
-    if (method->empty() && resume->empty() && show->empty()) throw CLI::RequiredError("METHOD");
+    if (method->empty() && resume->empty() && show->empty() && from_samples->empty())
+      throw CLI::RequiredError("METHOD");
   });
   if (code) return code;
   settle(arguments);

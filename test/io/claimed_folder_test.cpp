@@ -25,7 +25,7 @@ using ::testing::Not;
 class ClaimedFolderOf : public OwnFolder {
  protected:
   static std::string in(const std::string& name) { return folder() + "/" + name; }
-  static std::string claimed(const std::string& asked) { return claim_folder(asked, JournalHeader()).folder; }
+  static std::string claimed(const std::string& asked) { return ClaimedFolder::first_free(asked).path(); }
 };
 
 TEST_F(ClaimedFolderOf, ARunIsTheOneAskedForWhereNothingWouldBeLost) {
@@ -37,26 +37,24 @@ TEST_F(ClaimedFolderOf, ARunIsTheOneAskedForWhereNothingWouldBeLost) {
 
 TEST_F(ClaimedFolderOf, ARunIsTheNextFreeOneWhereSomethingWould) {
   for (const char* name : {"result.yaml", "curve.csv", "curve_full.csv", "method.yaml", "specimen.csv", "test.bag",
-                           "saved.bag", "final_shape.csv", "shapes.csv", "journal", "comparison.yaml", "report.html",
-                           "report.pdf", "failed_step.bin"}) {
+                           "saved.bag", "final_shape.csv", "shapes.csv", "samples.csv", "comparison.yaml",
+                           "report.html", "report.pdf", "failed_step.bin"}) {
     const std::string asked = in(std::string(name) + "_is_there");
     fs::create_directories(asked);
     write_whole(asked + "/" + name, "measured");
     EXPECT_EQ(free_folder(asked), asked + "-2") << name;
     EXPECT_EQ(claimed(asked), asked + "-2") << name;
-    EXPECT_EQ(claimed(asked + "/"), asked + "-3") << name;
+    EXPECT_EQ(claimed(asked + "/"), asked + "-2") << name;
     EXPECT_EQ(read_whole(asked + "/" + name), "measured");
     EXPECT_EQ(std::distance(fs::directory_iterator(asked), fs::directory_iterator()), 1) << name;
   }
 }
 
 TEST_F(ClaimedFolderOf, TwoRunsAtOnceAreTwoFolders) {
-  const ClaimedFolder first = claim_folder(in("run"), JournalHeader());
-  const ClaimedFolder second = claim_folder(in("run"), JournalHeader());
-  EXPECT_EQ(first.folder, in("run"));
-  EXPECT_EQ(second.folder, in("run-2"));
-  EXPECT_THAT(moved_notice(in("run"), second.folder),
-              AllOf(HasSubstr(in("run") + " holds a run that has not ended"), HasSubstr(in("run-2"))));
+  const ClaimedFolder first = ClaimedFolder::first_free(in("run")), second = ClaimedFolder::first_free(in("run"));
+  EXPECT_EQ(first.path(), in("run"));
+  EXPECT_EQ(second.path(), in("run-2"));
+  EXPECT_THROW(ClaimedFolder{in("run")}, InvalidInput);
 }
 
 TEST_F(ClaimedFolderOf, AFolderThatCannotBeMadeIsRefused) {
@@ -102,15 +100,6 @@ TEST_F(KeptRun, IsLeftAsItIsUnlessItMayBeOverwritten) {
     EXPECT_NE(read_whole(in(first + "/result.yaml")), result) << "its wall time is another one";
     EXPECT_FALSE(fs::exists(in(first + "-3")));
   }
-  EXPECT_EQ(test("--overwrite --resume own").code, 2);
-}
-
-TEST_F(KeptRun, NoRecoveryGoesOverIt) {
-  ASSERT_EQ(test("--quiet --out own").code, 0);
-  { const ClaimedFolder cut = claim_folder(in("cut"), JournalHeader()); }
-  const std::string result = read_whole(in("own/result.yaml"));
-  EXPECT_EQ(answer_of(tool("recover", "'" + in("cut") + "' --out '" + in("own") + "'")).code, 2);
-  EXPECT_EQ(read_whole(in("own/result.yaml")), result);
 }
 
 TEST(Tools, TellTheSameVersion) {

@@ -83,7 +83,6 @@ TEST_F(PlainMessages, OfTensileTest) {
       {"tighten.yaml --out --quiet", "--out needs a value, but the option --quiet follows it"},
       {"tighten.yaml another.yaml",
        "\"another.yaml\" is one argument too many; see " KNOT_UTM_TOOLS_DIR "/tensile_test --help"},
-      {"tighten.yaml --checkpoint -1", "--checkpoint is -1, but must be a number of at least 0"},
       {"tighten.yaml --set",
        "--set needs a value: dotted.key=YAML, instead of what the method says; may be given more than once"},
       {"tighten.yaml --out wrong.bin", "cannot make the folder \"wrong.bin\": not a directory"},
@@ -91,6 +90,7 @@ TEST_F(PlainMessages, OfTensileTest) {
        "--stop-before pul names no step to stop before: give the number of a step from 1 on, or a name "
        "that stands once in the program, whose steps are 0 tie, 1 release, 2 mount, 3 balance and 4 pull"},
       {"--resume nowhere", "cannot read nowhere/method.yaml: no such file"},
+      {"--from-samples nowhere", "there is no samples.csv in nowhere from which results can be made"},
   };
   for (const Mistake& mistake : mistakes)
     EXPECT_EQ(said("tensile_test", mistake.arguments), "tensile_test: " + mistake.answer);
@@ -123,7 +123,6 @@ TEST_F(PlainMessages, OfTheOtherTools) {
             "replay_step: text.csv: the time step cannot be loaded: first line: found that of a foreign file, expected "
             "\"knot_utm time step, version " +
                 version() + "\"");
-  EXPECT_EQ(said("recover", "."), "recover: cannot read ./journal: no such file");
 }
 
 }  // namespace

@@ -180,20 +180,5 @@ TEST(Listing, SaysWhatComesWithThePackage) {
       "knots?\n");
 }
 
-/// What an interrupted test says can be pasted as it is.
-TEST_F(Summary, AHintCanBePasted) {
-  const std::string begin = "cd '" + folder() + "' && ";
-  const Answer stopped = answer_of(begin + tool("tensile_test",
-                                                "straight --set physics.accuracy=draft --stop-before pull "
-                                                "--out 'it is mine'"));
-  ASSERT_EQ(stopped.code, 0) << stopped.text;
-  const Answer settled = answer_of(begin + tool("recover", "'it is mine'"));
-  const std::string says = "go on with: ";
-  ASSERT_THAT(settled.text, HasSubstr(says));
-  const Answer gone_on = answer_of(begin + settled.text.substr(settled.text.find(says) + says.size()));
-  EXPECT_EQ(gone_on.code, 0) << gone_on.text;
-  EXPECT_THAT(gone_on.text, HasSubstr("all results are in it is mine/result.yaml"));
-}
-
 }  // namespace
 }  // namespace knot_utm

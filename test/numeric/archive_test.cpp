@@ -162,7 +162,7 @@ TEST(Archive, TellsWhatDoesNotFit) {
   EXPECT_THROW(text(word), InvalidInput);
 }
 
-/// As a journal has it, which frames it itself.
+/// As a file of shapes has it, which frames it itself.
 TEST(Archive, BareIsTheStateAlone) {
   const Things things = some();
   std::string bytes = "before";

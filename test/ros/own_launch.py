@@ -35,6 +35,10 @@ class OwnLaunch:
         except (OSError, xmlrpc.client.Error):
             return None
 
+    def is_told(self, parameter):
+        """Whether a node has set it."""
+        return bool(xmlrpc.client.ServerProxy(self.uri).hasParam('/test', '/' + parameter)[2])
+
     def kill(self, node, by=signal.SIGKILL):
         """The process that the node was."""
         process = self.pid(node)

@@ -14,7 +14,6 @@
 #include <set>
 
 #include "knot_utm/io/run_folder.hpp"
-#include "knot_utm/ros/journal_bag.hpp"
 
 namespace knot_utm {
 namespace {
@@ -128,41 +127,6 @@ TEST_F(TestBagTest, ARodThatPartsIsSeenToPart) {
     last = texts_of(*m.instantiate<visualization_msgs::MarkerArray>());
   for (const char* words : {"state: broke", "load at the break 321 N", "tension not known"})
     EXPECT_THAT(last, testing::HasSubstr(words));
-}
-
-/// One after the other what a run does, with a spring's records.
-void write_run(const std::string& folder, const Method& method, std::uint64_t records, bool end) {
-  JournalWriter journal(folder, journal_header(method));
-  RunWriter writer(folder, method);
-  RunBag bag(folder + "/test.bag", method);
-  for (std::uint64_t i = 0; i < records; ++i) {
-    const Record r = record(i);
-    journal.append(r);
-    writer.add(r);
-    bag.add(r);
-  }
-  if (end) bag.close();
-}
-
-TEST_F(TestBagTest, RecoveredFromTheJournalItIsTheSameToTheByte) {
-  const Method method = straight();
-  write_run(file("ended"), method, 40, true);
-  write_run(file("killed"), method, 40, false);
-  fs::resize_file(file("killed/test.bag"), 100);
-  {
-    Recovery recovery(file("killed"), file("killed"));
-    recover_with_bag(recovery);
-  }
-  EXPECT_EQ(read_whole(file("killed/test.bag")), read_whole(file("ended/test.bag")));
-}
-
-TEST_F(TestBagTest, SavedWhileTheTestGoesOnItCanBeRead) {
-  const Method method = straight();
-  JournalWriter journal(folder_.string(), journal_header(method));
-  journal.append(record(0));
-  save_bag(folder_.string(), method, file("saved.bag"));
-  journal.append(record(1));
-  EXPECT_EQ(count(file("saved.bag"), "/knot/state"), 1u);
 }
 
 /// A file that may not grow stands for a disk that is full.

@@ -69,7 +69,6 @@ class BatchTest(unittest.TestCase):
             self.assert_same_as_headless(os.path.join(OUT, name), os.path.join('batch', name), FILES)
             self.assertTrue(os.path.exists(os.path.join(OUT, name, 'test.bag')))
         self.assert_same_as_headless(OUT, 'batch', ['method.yaml', 'specimens.csv', 'statistics.yaml'])
-        self.assertFalse(os.path.exists(OUT + '/journal'))
         # They differ, so that a specimen tested thrice would be seen.
         forces = load(OUT, 'statistics.yaml')['peak_force']
         self.assertEqual(forces['n'], 3)

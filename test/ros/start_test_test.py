@@ -197,7 +197,7 @@ class StartTestTest(unittest.TestCase):
         self.wait_for_end(start_test(), 5)
         self.assert_same_as_headless(OUT + '-4', 'straight', LAUNCHED)
         with open(OUT + '-4/curve.csv', encoding='utf-8') as curve:
-            self.assertTrue(curve.readline().endswith(',phase,balance_offset,corrected_extension\n'))
+            self.assertTrue(curve.readline().endswith(',phase,balance_offset,crosshead_travel\n'))
         self.assertEqual(self.material(), 'nylon')
 
 

@@ -9,7 +9,6 @@
 #include <fstream>
 
 #include "knot_utm/analysis/statistics.hpp"
-#include "knot_utm/io/journal.hpp"
 #include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/study/specimens.hpp"
@@ -103,19 +102,6 @@ TEST_F(Batch, InterruptedAndResumedItLeavesTheSameStatistics) {
   EXPECT_EQ(written("statistics.yaml") + written("specimens.csv"), whole);
   EXPECT_EQ(fs::last_write_time(specimen_folder(options.folder, 1) + "/curve.csv"), first) << "was tested twice";
   EXPECT_THROW(run_batch(again, options), InvalidInput) << "there is nothing to resume";
-}
-
-TEST_F(Batch, OneGoesOnWhereAnyProgramBeganIt) {
-  run_batch(method, options);
-  const std::string whole = written("statistics.yaml");
-  // The journal of a test that ROS began names that test.
-  const std::string second = specimen_folder(options.folder, 2);
-  fs::remove(second + "/result.yaml");
-  { JournalWriter(options.folder, journal_header(method, "")); }
-  { JournalWriter(second, journal_header(draw_specimen(method, 2).method, "13221-5/2")); }
-  options.resume = true;
-  run_batch(load_method(options.folder + "/method.yaml"), options);
-  EXPECT_EQ(written("statistics.yaml"), whole);
 }
 
 TEST_F(Batch, DoesNotTakeASpecimenThatAnotherOneLeft) {

@@ -1,23 +1,35 @@
 #pragma once
 
-#include <string>
+#include <dirent.h>
 
-#include "knot_utm/io/journal.hpp"
+#include <memory>
+#include <string>
 
 namespace knot_utm {
 
-/// The folder of a new run. The journal in it is locked, so that no other run can use the folder.
-struct ClaimedFolder {
-  std::string folder;
-  JournalWriter journal;
+/// The folder of a run or a batch, which no other program writes to as long as this object is there. The operating
+/// system holds the claim, and lets it go when the process ends, however it does.
+class ClaimedFolder {
+ public:
+  /// Makes the folder where it is not there, and claims it whatever it holds. Throws InvalidInput (key "--out") where
+  /// it cannot be made, or another program is writing to it.
+  explicit ClaimedFolder(const std::string& folder);
+
+  /// The folder or, where that holds a run already (complete, cut off or under way), the first free one of `folder-2`,
+  /// `folder-3` and so on, so that nothing measured is overwritten. Throws InvalidInput where it cannot be made.
+  static ClaimedFolder first_free(const std::string& folder);
+
+  const std::string& path() const { return path_; }
+
+ private:
+  ClaimedFolder() : folder_(nullptr, &closedir) {}
+  bool claim(const std::string& folder);
+
+  std::string path_;
+  std::unique_ptr<DIR, int (*)(DIR*)> folder_;
 };
 
-/// Begins a run in `folder`. Where that folder holds a run already (complete, cut off or still running), the first free
-/// one of `folder-2`, `folder-3` and so on is used, so that nothing measured is overwritten. Throws as JournalWriter
-/// does.
-ClaimedFolder claim_folder(const std::string& folder, const JournalHeader& header);
-
-/// The folder that claim_folder would use now.
+/// The folder that ClaimedFolder::first_free would use now.
 std::string free_folder(const std::string& folder);
 
 /// The notice for the user when a run goes to another folder than the one asked for.

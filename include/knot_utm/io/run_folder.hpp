@@ -44,18 +44,14 @@ std::string specimen_folder(const std::string& folder, int number);
 /// All such folders that there are.
 std::vector<std::string> specimen_folders(const std::string& folder);
 
-/// Whether the folder contains something that a run there would overwrite or remove: results, a method, a report, a
-/// comparison, or the folder of a specimen. `holds_run` also counts a journal, which a run has from its beginning until
-/// its results are complete.
-bool holds_results(const std::string& folder);
+/// Whether the folder contains something that a run there would overwrite or remove: samples, results, a method, a
+/// report, a comparison, or the folder of a specimen.
 bool holds_run(const std::string& folder);
-/// Whether the folder holds a run that is still going on, was cut off or was interrupted.
-bool holds_unfinished_run(const std::string& folder);
 
 /// The folder with this number in the sequence `folder`, `folder-2`, `folder-3` and so on, which begins at 1.
 std::string numbered_folder(const std::string& folder, int number);
 
-/// The `reason` in result.yaml of a test that was interrupted. The journal of such a test allows it to be resumed.
+/// The `reason` in result.yaml of a test that was interrupted.
 inline constexpr const char* kInterrupted = "interrupted";
 
 /// Whether the folder has the result of a test that ended. A test that was interrupted has not ended.
@@ -63,8 +59,10 @@ bool has_complete_result(const std::string& folder);
 
 /// The value of a key in the result.yaml of a folder, as it stands there; empty where there is none.
 std::optional<std::string> result_of(const std::string& folder, const std::string& key);
-/// Whether the folder has the result of a test that was interrupted.
-bool was_interrupted(const std::string& folder);
+
+/// The end of an error message for a run that cannot write any more: what stands, and how to make results of it. Empty
+/// where nothing stands.
+std::string what_stands(const std::string& folder);
 
 /// The path of the file with the time step that the simulation could not solve (sim/saved_step.hpp), for
 /// scripts/replay-step.

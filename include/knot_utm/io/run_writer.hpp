@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -9,26 +11,50 @@
 #include "knot_utm/io/record.hpp"
 #include "knot_utm/io/result_yaml.hpp"
 #include "knot_utm/io/run_facts.hpp"
+#include "knot_utm/io/samples.hpp"
 #include "knot_utm/io/shape_series.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/topology/loop_turn.hpp"
 
 namespace knot_utm {
 
-struct Sample;
+/// Writes a further file of a run's folder, such as a bag.
+struct FurtherWriter {
+  std::function<void(const Record&)> add;
+  std::function<void()> close;  ///< called after the last record
+};
 
-/// Writes all files of a run into its folder, in a test without ROS as well as in the recorder:
-///   method.yaml      from the beginning, with the centreline beside it as specimen.csv where the specimen is a file
+/// What the samples of a run do not say. Functions may be empty.
+struct ResultsOptions {
+  /// Makes the writer of a further file in this folder.
+  std::function<FurtherWriter(const std::string& folder, const Method& method)> further;
+  std::function<Margin(const Results&)> margin;  ///< finds the safety margin
+  TestEnd without_end;                           ///< how the test ended where its samples do not say so
+  std::vector<std::string> warnings;             ///< further ones, one line each
+  std::uint64_t missing_at_end = 0;              ///< commands of the test behind the last that was recorded
+  bool ran_here = true;  ///< whether this process ran the test, so that its memory is the test's
+};
+
+struct MadeResults {
+  Results results;
+  RunFacts facts;
+  std::size_t rows = 0, full_rows = 0;  ///< of curve.csv and curve_full.csv
+};
+
+/// Makes the files of a run from samples.csv in its folder: those of RunWriter, and a further one. This is done at the
+/// end of a test with and without ROS, and by `tensile_test --from-samples`. Throws InvalidInput where there are no
+/// samples that can be read, and std::runtime_error where a file cannot be written.
+MadeResults make_results(const std::string& folder, const Method& method, const ResultsOptions& options);
+
+/// Writes what is made of the records of a run into its folder:
 ///   curve.csv        one row for each reading of the load cell (cell_reading)
 ///   curve_full.csv   one row for each accepted time step
-///   result.yaml, final_shape.csv   at the end; until then the folder has none, not even those of an earlier run
+///   result.yaml, final_shape.csv   at the end
 ///   shapes.csv       with those two, where records have readings of the rod (ShapeSeries)
 ///
-/// Make it once all input has been checked and a JournalWriter holds the folder. All functions throw std::runtime_error
-/// where a file cannot be written.
+/// The folder must be there (begin_run_folder). All functions throw std::runtime_error where a file cannot be written.
 class RunWriter {
  public:
-  /// Makes the folder. Throws InvalidInput (key "--out") where that cannot be done.
   RunWriter(const std::string& folder, const Method& method);
 
   /// Adds one record. If the simulation failed, only the time steps that it still made are added.
@@ -45,8 +71,6 @@ class RunWriter {
   std::size_t full_rows() const { return full_curve_.rows(); }  ///< rows of curve_full.csv
 
  private:
-  RunWriter(const std::string& folder, const Method& method, double inertia);
-
   std::string folder_;
   RunFacts known_;
   std::vector<Sample> samples_;              ///< all accepted time steps; the last one of a command is its answer

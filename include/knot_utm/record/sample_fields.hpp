@@ -45,10 +45,9 @@ SampleField(const char*, const char*, Allowed, const char*, Member) -> SampleFie
 #name, unit, Allowed::allowed, meaning, [](auto& sample) -> auto& { return sample.name; } \
   }
 
-/// All fields of a sample, in the order of the journal: another order is another version of it
-/// (src/io/journal.cpp). From these rows come the journal, the message with both of its conversions and its check, and
-/// the units in curve files. A new field is a row here, a member of Sample and a line of msg/KnotState.msg; tests
-/// compare the three.
+/// All fields of a sample, in the order of samples.csv. From these rows come samples.csv, the message with both of its
+/// conversions and its check, and the units in curve files. A new field is a row here, a member of Sample and a line of
+/// msg/KnotState.msg; tests compare the three.
 inline constexpr auto kSampleFields = std::make_tuple(
     KNOT_UTM_FIELD(sequence, "-", kAny, "of the command that this answers"),
     KNOT_UTM_FIELD(time, "s", kNotNegative, "time of the test"),

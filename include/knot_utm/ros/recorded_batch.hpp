@@ -10,16 +10,14 @@
 namespace knot_utm {
 
 /// The folder of a batch whose specimens are tested under ROS, one after the other. It has the files that run_batch
-/// writes. Its tables are written after each test, for the specimens so far. Its journal, which has no records, is
-/// removed once all specimens have been tested; until then `tensile_test --resume` can test the others.
+/// writes. Its tables are written after each test, for the specimens so far. `tensile_test --resume` can test the
+/// others.
 class RecordedBatch {
  public:
-  /// Begins a batch in a claimed folder. Throws as begin_run_folder does.
-  static RecordedBatch begin(const Method& method, ClaimedFolder claimed);
-  /// Goes on with the batch of a recorder that has died.
-  static RecordedBatch go_on(const Method& method, ClaimedFolder claimed);
+  /// A batch in a folder that has been begun (begin_run_folder), be it by a recorder that has died.
+  RecordedBatch(const Method& method, ClaimedFolder claimed);
 
-  const std::string& folder() const { return claimed_.folder; }
+  const std::string& folder() const { return claimed_.path(); }
 
   /// The method of a specimen, and the folder for its files. Throws InvalidInput where it would be refused.
   const Method& method_of(int number);
@@ -30,8 +28,6 @@ class RecordedBatch {
   bool conclude(int number);
 
  private:
-  RecordedBatch(const Method& method, ClaimedFolder claimed);
-
   Method method_;
   ClaimedFolder claimed_;
   std::vector<DrawnSpecimen> drawn_;  ///< those so far

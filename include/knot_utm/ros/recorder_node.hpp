@@ -13,14 +13,13 @@
 #include <optional>
 #include <string>
 
-#include "knot_utm/io/journal.hpp"
+#include "knot_utm/io/claimed_folder.hpp"
 #include "knot_utm/io/run_writer.hpp"
+#include "knot_utm/io/samples.hpp"
 #include "knot_utm/numeric/points.hpp"
-#include "knot_utm/ros/keeper.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/order_of_test.hpp"
 #include "knot_utm/ros/recorded_batch.hpp"
-#include "knot_utm/ros/run_bag.hpp"
 
 namespace knot_utm {
 
@@ -28,15 +27,15 @@ namespace knot_utm {
 /// waits, because the machine asks for it again. A record that does not come is counted as dropped. A test goes to the
 /// given folder or, where that holds a run, to the first free one beside it with the suffix "-2", "-3" and so on. The
 /// specimens of a batch go to the folder of the batch (recorded_batch.hpp). The service recorder/save writes
-/// result.yaml as of now, and saved.bag, the bag so far.
+/// the results as of now, and saved.bag, the bag so far.
 ///
-/// A record is acknowledged once it is in the journal. A recorder that is restarted during a test continues from the
-/// journal of that test, because the machine and the simulation keep what is not acknowledged. The files are then the
-/// same as those of one recorder.
+/// A record is acknowledged once it is in samples.csv, from which all other files are made at the end of the test. A
+/// recorder that is restarted during a test goes on in the samples.csv of that test, because the machine and the
+/// simulation keep what is not acknowledged. The files are then the same as those of one recorder.
 class RecorderNode {
  public:
   /// `out`: the folder that is told before the first test.
-  RecorderNode(const ros::NodeHandle& node, const std::string& out, Keeper& keeper);
+  RecorderNode(const ros::NodeHandle& node, const std::string& out);
 
   /// Runs until ROS is shut down. A test that has not ended then, or whose machine died, is closed with the reason; in
   /// a batch it is left to be tested again.
@@ -48,15 +47,17 @@ class RecorderNode {
 
   /// The test that is being written.
   struct Run {
-    Run(const std::string& folder_, const Method& method_, JournalWriter journal_);
+    Run(ClaimedFolder claimed_, const Method& method_);
+    ClaimedFolder claimed;
     std::string folder;
     Method method;
-    JournalWriter journal;
-    RunWriter writer;
-    RunBag bag;
-    std::uint64_t next = 0;      ///< sequence number of the next record
-    std::uint64_t recorded = 0;  ///< number of records written
+    std::optional<SamplesWriter> samples;
+    std::size_t rows = 0, full_rows = 0;  ///< of the curves
+    std::uint64_t bag_messages = 0;       ///< of the bag, once it is written
+    std::uint64_t next = 0;               ///< sequence number of the next record
+    std::uint64_t recorded = 0;           ///< number of records written
     std::uint64_t dropped = 0;
+    std::uint64_t missing_at_end = 0;                     ///< those of them behind the last record
     std::map<std::uint64_t, KnotRecord::ConstPtr> early;  ///< records that arrived before record `next`
     Points shape;                                         ///< the latest
     std::uint64_t shape_sequence = 0;                     ///< sequence number of the record with that shape
@@ -80,9 +81,8 @@ class RecorderNode {
   std::string id_of_test(std::uint32_t run) const;  ///< unique among all machines; empty: not known
   /// The folder that an earlier recorder told by this parameter for this id; empty: none.
   std::string told_folder(const char* parameter, const std::string& id) const;
-  static ClaimedFolder claim(const std::string& asked, const Method& method, const std::string& test);
-  bool go_on(const std::string& folder);
-  void watch(const std::string& folder);
+  static ClaimedFolder claim(const std::string& asked, const Method& method);
+  void go_on(const std::string& folder);
   void write(const KnotRecord& record);
   void keep_failed_step(const KnotRecord& record);
   void keep(const Record& record);
@@ -95,7 +95,9 @@ class RecorderNode {
   void cut_off(const std::string& why);             ///< the test ended, and neither machine nor operator ended it
   void finish(EndedBy ended_by, const std::string& reason, const std::string& warning);
   void interrupt(const std::string& why);  ///< leaves the specimen of a batch to be tested again
-  void write_results(EndedBy ended_by, const std::string& reason, const std::string& warning);
+  void miss_the_end();                     ///< the last records of the test will not come
+  void write_results(const TestEnd& end, const std::string& warning);
+  void make_files(const std::string& bag_name, ResultsOptions options);
   void tell_master(const char* parameter, const std::string& text) const;
   void fail(const std::string& why);
   bool is_complete() const { return run_ ? run_->complete : completed_before_; }
@@ -103,7 +105,6 @@ class RecorderNode {
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
   ros::NodeHandle node_;
-  Keeper& keeper_;
   std::uint32_t run_number_ = 0;
   std::string test_id_;                 ///< unique id of the test that is being written; empty: not known
   TestOrder order_;                     ///< of the test that is being written

@@ -13,11 +13,10 @@ namespace knot_utm {
 /// How a batch is run. A batch is a test of all specimens of a method. Functions may be empty, except `interrupted`.
 struct BatchOptions {
   std::string folder;
-  int jobs = 1;                    ///< number of specimens that are tested at the same time
-  bool resume = false;             ///< continues the interrupted batch in `folder`
-  bool overwrite = false;          ///< overwrites the contents of `folder`, instead of using the next free folder
-  bool shapes = false;             ///< also writes shapes.csv of each specimen
-  double checkpoint_period = 5.0;  ///< wall time between two checkpoints of a specimen [s]; 0: no checkpoints
+  int jobs = 1;            ///< number of specimens that are tested at the same time
+  bool resume = false;     ///< continues the interrupted batch in `folder`
+  bool overwrite = false;  ///< overwrites the contents of `folder`, instead of using the next free folder
+  bool shapes = false;     ///< also writes shapes.csv of each specimen
 
   std::function<bool()> interrupted;                    ///< whether to stop; called by several threads
   std::function<void(const std::string& line)> notice;  ///< receives warnings, once all tests have ended
@@ -32,10 +31,14 @@ struct BatchOutcome {
   std::vector<Rejected> rejected;
 };
 
-/// Tests all specimens of a method. For each it writes the files of a single test into a folder of its own. Then it
-/// writes its tables, as BatchTable does. They have the same bytes however many specimens were tested at the
-/// same time. Throws InvalidInput, before anything is written, where a specimen would be refused. Throws
-/// std::runtime_error where a file cannot be written; the batch can then be resumed.
+/// Whether all specimens of the batch in a folder have been tested and its tables written.
+bool is_complete_batch(const std::string& folder);
+
+/// Tests all specimens of a method, or those that an interrupted batch has not tested to their end. For each it writes
+/// the files of a single test into a folder of its own. Then it writes its tables, as BatchTable does. They have the
+/// same bytes however many specimens were tested at the same time. Throws InvalidInput, before anything is written,
+/// where a specimen would be refused. Throws std::runtime_error where a file cannot be written; the batch can then be
+/// resumed.
 BatchOutcome run_batch(const Method& method, const BatchOptions& options);
 
 }  // namespace knot_utm

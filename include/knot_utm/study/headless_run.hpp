@@ -6,26 +6,18 @@
 
 #include "knot_utm/analysis/results.hpp"
 #include "knot_utm/io/method.hpp"
-#include "knot_utm/io/record.hpp"
+#include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/machine/program_runner.hpp"
 
 namespace knot_utm {
 
-/// Writes the records of a run to a further file of its folder, such as a bag.
-struct FurtherWriter {
-  std::function<void(const Record&)> add;
-  std::function<void()> close;  ///< called after the last record
-};
-
 /// How a test is run without ROS. Functions may be empty, except `interrupted`.
 struct HeadlessOptions {
   std::string folder;              ///< folder to write to
-  bool resume = false;             ///< continues the interrupted run in `folder`
   bool overwrite = false;          ///< overwrites the contents of `folder`, instead of using the next free folder
   std::string begin_with;          ///< folder of a run from whose last state this run begins; empty: from the start
   std::optional<int> stop_before;  ///< step of the program before which the run stops, as if it were interrupted there
-  bool shapes = false;             ///< also writes shapes.csv; a resumed run does so where it began with it
-  double checkpoint_period = 5.0;  ///< wall time between two checkpoints [s]; 0: no checkpoints
+  bool shapes = false;             ///< also writes shapes.csv
 
   /// Makes the writer of a further file in this folder.
   std::function<FurtherWriter(const std::string& folder, const Method& method)> further;
@@ -38,21 +30,21 @@ struct HeadlessOptions {
 /// How a headless run ended.
 struct HeadlessOutcome {
   std::string folder;            ///< folder that holds what was measured
-  std::optional<EndedBy> ended;  ///< empty: it was interrupted, and can be resumed
+  std::optional<EndedBy> ended;  ///< empty: it was interrupted, or stopped before a step
   std::string reason;            ///< reason of the end, one line
   bool failed = false;           ///< the simulation gave up
   std::string failed_step;       ///< file with the time step that could not be solved; empty: there is none
   Results results;               ///< what was measured
-  double wall_time = 0.0;        ///< wall time of the whole test, including that before it was resumed [s]
+  double wall_time = 0.0;        ///< wall time of the whole test, including that of the run with which it began [s]
 };
 
-/// Throws InvalidInput (key "--resume") where the run in the folder cannot be resumed, because it has ended or is still
-/// running. Changes nothing.
-void require_resumable(const std::string& folder);
-
-/// Runs the test of a method, or what is left of it, and writes all files of its folder. If it is interrupted, it
-/// leaves a checkpoint and its journal. Throws InvalidInput, before anything is written, where method and folder do not
-/// go together. Throws std::runtime_error where a file cannot be written; the message says how to recover.
+/// Runs the test of a method and writes all files of its folder. A run that stops before a step also leaves a
+/// checkpoint. Throws InvalidInput, before anything is written, where method and folder do not go together. Throws
+/// std::runtime_error where a file cannot be written; the message says what stands.
 HeadlessOutcome run_headless(const Method& method, const HeadlessOptions& options);
+
+/// Makes the files of the run in `options.folder` anew from its samples. Throws InvalidInput (key "--from-samples")
+/// where it has none, and else as make_results does.
+HeadlessOutcome results_from_samples(const HeadlessOptions& options);
 
 }  // namespace knot_utm

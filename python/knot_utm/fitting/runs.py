@@ -61,7 +61,7 @@ class Runs(Runner):
     def _wait(self, settings, out, *more):
         if self.stopped:
             raise Interrupted(self.stopped)
-        code, said = self.wait(self.method, settings, out, "--overwrite", "--checkpoint", "0", *more)
+        code, said = self.wait(self.method, settings, out, "--overwrite", *more)
         if code > 0 and tool.is_of_a_full_disk(said):
             raise RuntimeError(said)
         return code, said

@@ -13,7 +13,7 @@ import xmlrpc.client
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../../bench'))
 
-from launched import METHOD, ROOT, Headless, Launch, free_port, wait_for
+from launched import METHOD, ROOT, Headless, Launch, free_port, reading_times, wait_for
 
 HOLD = 'program.hold.duration=10'
 
@@ -26,11 +26,6 @@ def connection(launch):
         found = [one[6] for one in recorder.getBusInfo('/test')[2]
                  if one[1] == '/utm_node' and one[2] == 'o' and one[4] == '/recorder/status']
     return found[0] if found else None
-
-
-def last_time(launch):
-    """Of the last whole row that is written [s]."""
-    return float(launch.text('curve.csv').rsplit('\n', 2)[1].split(',')[0])
 
 
 def cut(process, said):
@@ -101,11 +96,11 @@ class NodesDieTest(unittest.TestCase):
     def test_connection_lost(self):
         with Launch('method:=' + METHOD, 'rviz:=false') as launch:
             launch.wait_for_rows(3)
-            before, time = connection(launch), last_time(launch)
+            before, time = connection(launch), reading_times(launch.out)[-1]
             cut(launch.pid('recorder_node'), before)
             wait_for('another connection', lambda: connection(launch) not in (None, before))
             # In real time, which is longer than the recorder waits for the last records of a machine that died.
-            wait_for('what follows', lambda: last_time(launch) > time + 3.0 or
+            wait_for('what follows', lambda: reading_times(launch.out)[-1] > time + 3.0 or
                      os.path.exists(os.path.join(launch.out, 'result.yaml')))
             subprocess.run(['rosservice', 'call', '/utm/stop_test'], env=launch.environment, stdout=subprocess.DEVNULL,
                            check=True)

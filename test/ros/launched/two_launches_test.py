@@ -66,7 +66,6 @@ class TwoLaunchesTest(unittest.TestCase):
         self.assertEqual((launch.result('ended_by'), launch.result('reason')), ('operator', 'stopped by the operator'))
         for name in FILES:
             self.assertTrue(os.path.exists(os.path.join(launch.out, name)), name)
-        self.assertFalse(os.path.exists(os.path.join(launch.out, 'journal')))
 
     def test_second_is_refused_or_has_its_own_namespace(self):
         port = self.master()
