@@ -21,6 +21,7 @@
 #include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/order_of_test.hpp"
+#include "knot_utm/study/batch.hpp"
 
 namespace knot_utm {
 namespace {
