@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "knot_utm/contact/smooth_contact.hpp"
-#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/machine/step_settings.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/run/load_test.hpp"
 #include "knot_utm/sim/centreline_terms.hpp"
 #include "knot_utm/sim/frame_terms.hpp"
 #include "knot_utm/sim/step_matrix.hpp"

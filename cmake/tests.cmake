@@ -17,7 +17,7 @@ function(knot_utm_tests name label)
   target_link_libraries(${name} PRIVATE yaml-cpp ZLIB::ZLIB GTest::gtest_main GTest::gmock)
   # To those files only that use them: what a file does not use need not compile it anew.
   foreach(source ${ARGN})
-    file(STRINGS ${source} uses REGEX "KNOT_UTM_SOURCE_DIR|KNOT_UTM_TOOLS_DIR|io/command.hpp")
+    file(STRINGS ${source} uses REGEX "KNOT_UTM_SOURCE_DIR|KNOT_UTM_TOOLS_DIR|run/command.hpp")
     if(uses)
       set_property(SOURCE ${source} APPEND PROPERTY COMPILE_DEFINITIONS
                    KNOT_UTM_SOURCE_DIR="${PROJECT_SOURCE_DIR}" KNOT_UTM_TOOLS_DIR="${KNOT_UTM_EXECUTABLE_DIR}")

@@ -3,11 +3,11 @@
 
 #include <filesystem>
 
-#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/record/ended_by.hpp"
 #include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/method_setup.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/run/run_folder.hpp"
 
 namespace {
 

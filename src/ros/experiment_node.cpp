@@ -6,9 +6,9 @@
 
 #include <utility>
 
-#include "knot_utm/io/raw_options.hpp"
-#include "knot_utm/io/raw_zero.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/raw/raw_options.hpp"
+#include "knot_utm/raw/raw_zero.hpp"
 #include "knot_utm/record/program.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"

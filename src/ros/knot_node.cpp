@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 
-#include "knot_utm/io/run_warnings.hpp"
 #include "knot_utm/machine/grips.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
@@ -13,6 +12,7 @@
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/urdf.hpp"
 #include "knot_utm/study/specimens.hpp"
+#include "knot_utm/verdict/run_warnings.hpp"
 
 namespace knot_utm {
 namespace {

@@ -10,17 +10,17 @@
 #include <utility>
 #include <vector>
 
-#include "knot_utm/io/curve_file.hpp"
-#include "knot_utm/io/load_test.hpp"
-#include "knot_utm/io/raw_zero.hpp"
-#include "knot_utm/io/run_facts.hpp"
-#include "knot_utm/io/shipped.hpp"
+#include "knot_utm/method/shipped.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/raw/raw_zero.hpp"
 #include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/loopback.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/order_of_test.hpp"
+#include "knot_utm/run/curve_file.hpp"
+#include "knot_utm/run/load_test.hpp"
 #include "knot_utm/study/specimens.hpp"
+#include "knot_utm/verdict/run_facts.hpp"
 
 namespace knot_utm {
 namespace {

@@ -4,9 +4,9 @@
 
 #include <optional>
 
-#include "knot_utm/io/command_hint.hpp"
 #include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/run/command_hint.hpp"
 
 namespace knot_utm {
 namespace {

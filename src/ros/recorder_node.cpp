@@ -7,16 +7,16 @@
 #include <stdexcept>
 #include <utility>
 
-#include "knot_utm/io/claimed_folder.hpp"
-#include "knot_utm/io/command_hint.hpp"
-#include "knot_utm/io/latest_link.hpp"
-#include "knot_utm/io/run_folder.hpp"
-#include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/knot_node.hpp"
 #include "knot_utm/ros/master_parameters.hpp"
 #include "knot_utm/ros/run_bag.hpp"
+#include "knot_utm/run/claimed_folder.hpp"
+#include "knot_utm/run/command_hint.hpp"
+#include "knot_utm/run/latest_link.hpp"
+#include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/run/run_writer.hpp"
 
 namespace knot_utm {
 namespace {

@@ -1,13 +1,13 @@
 // The tests of a batch, one after the other. A test that stands alone is a batch of one.
 #include <utility>
 
-#include "knot_utm/io/claimed_folder.hpp"
-#include "knot_utm/io/load_test.hpp"
-#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/machine/accuracy.hpp"
 #include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/order_of_test.hpp"
 #include "knot_utm/ros/utm_node.hpp"
+#include "knot_utm/run/claimed_folder.hpp"
+#include "knot_utm/run/load_test.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/study/specimens.hpp"
 
 namespace knot_utm {

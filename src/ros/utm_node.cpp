@@ -13,15 +13,15 @@
 #include <utility>
 
 #include "clock_pace.hpp"
-#include "knot_utm/io/knot_advice.hpp"
-#include "knot_utm/io/progress_line.hpp"
-#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/ros/conversions.hpp"
 #include "knot_utm/ros/gate.hpp"
 #include "knot_utm/ros/launched.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/order_of_test.hpp"
+#include "knot_utm/run/progress_line.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/study/batch.hpp"
+#include "knot_utm/verdict/knot_advice.hpp"
 
 namespace knot_utm {
 namespace {

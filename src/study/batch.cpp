@@ -12,12 +12,12 @@
 #include <stdexcept>
 #include <thread>
 
-#include "knot_utm/io/claimed_folder.hpp"
-#include "knot_utm/io/foreseen.hpp"
-#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
+#include "knot_utm/run/claimed_folder.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/study/specimens.hpp"
+#include "knot_utm/verdict/foreseen.hpp"
 
 namespace knot_utm {
 

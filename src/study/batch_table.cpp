@@ -8,11 +8,11 @@
 #include <stdexcept>
 
 #include "knot_utm/analysis/statistics.hpp"
-#include "knot_utm/io/method_keys.hpp"
-#include "knot_utm/io/result_keys.hpp"
-#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/machine/program_runner.hpp"
+#include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/verdict/result_keys.hpp"
 
 namespace knot_utm {
 

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <set>
 
-#include "knot_utm/io/checkpoint.hpp"
-#include "knot_utm/io/load_test.hpp"
-#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/archive.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/run/checkpoint.hpp"
+#include "knot_utm/run/load_test.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {

@@ -3,10 +3,10 @@
 #include <cstdint>
 #include <string>
 
-#include "knot_utm/io/method.hpp"
-#include "knot_utm/io/samples.hpp"
 #include "knot_utm/machine/program_runner.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/method/method.hpp"
+#include "knot_utm/run/samples.hpp"
 
 namespace knot_utm {
 

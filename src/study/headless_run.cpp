@@ -5,18 +5,18 @@
 #include <stdexcept>
 
 #include "earlier_run.hpp"
-#include "knot_utm/io/checkpoint.hpp"
-#include "knot_utm/io/claimed_folder.hpp"
-#include "knot_utm/io/foreseen.hpp"
-#include "knot_utm/io/load_test.hpp"
-#include "knot_utm/io/run_folder.hpp"
-#include "knot_utm/io/run_warnings.hpp"
-#include "knot_utm/io/samples.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/rod/twisting.hpp"
+#include "knot_utm/run/checkpoint.hpp"
+#include "knot_utm/run/claimed_folder.hpp"
+#include "knot_utm/run/load_test.hpp"
+#include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/run/samples.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/study/find_margin.hpp"
+#include "knot_utm/verdict/foreseen.hpp"
+#include "knot_utm/verdict/run_warnings.hpp"
 
 namespace knot_utm {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/numeric/random.hpp"
+#include "knot_utm/run/load_test.hpp"
 
 namespace knot_utm {
 

@@ -2,7 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "knot_utm/io/raw_options.hpp"
+#include "knot_utm/raw/raw_options.hpp"
 
 namespace knot_utm {
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/command_hint.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
+#include "knot_utm/run/command_hint.hpp"
 
 namespace knot_utm {
 

@@ -8,15 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "knot_utm/io/cannot_write.hpp"
-#include "knot_utm/io/command_hint.hpp"
-#include "knot_utm/io/compared_curves.hpp"
-#include "knot_utm/io/curve_file.hpp"
-#include "knot_utm/io/raw_zero.hpp"
-#include "knot_utm/io/report.hpp"
-#include "knot_utm/io/summary.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/raw/compared_curves.hpp"
+#include "knot_utm/raw/raw_zero.hpp"
+#include "knot_utm/run/cannot_write.hpp"
+#include "knot_utm/run/command_hint.hpp"
+#include "knot_utm/run/curve_file.hpp"
+#include "knot_utm/run/report.hpp"
+#include "knot_utm/run/summary.hpp"
 #ifdef KNOT_UTM_HAS_ROS
 #include "knot_utm/ros/curve_bag.hpp"
 #endif

@@ -5,10 +5,10 @@
 #include <vector>
 
 #include "add_raw_options.hpp"
-#include "knot_utm/io/curve_file.hpp"
-#include "knot_utm/io/raw_zero.hpp"
-#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/raw/raw_zero.hpp"
 #include "knot_utm/ros/curve_bag.hpp"
+#include "knot_utm/run/curve_file.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "tool.hpp"
 
 int main(int argc, char** argv) {

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <vector>
 
-#include "knot_utm/io/run_facts.hpp"
+#include "knot_utm/verdict/run_facts.hpp"
 
 namespace knot_utm {
 

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/rod/rod.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/sim/saved_step.hpp"
 #include "tool.hpp"
 

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "command_line_fault.hpp"
-#include "knot_utm/io/run_facts.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/verdict/run_facts.hpp"
 
 namespace knot_utm {
 

@@ -79,8 +79,8 @@ class Method(unittest.TestCase):
 
     def test_has_every_key(self):
         keys = re.findall(r'\b(?:f|top|friction|contact|until|units)\.\w+\("(\w+)"',
-                          text("src/io/method_fields.hpp") + text("src/io/method.cpp"))
-        keys += re.findall(r'(?:number|integer|text|flag|choice|vector)\("(\w+)"', text("src/io/method_fields.hpp"))
+                          text("src/method/method_fields.hpp") + text("src/method/method.cpp"))
+        keys += re.findall(r'(?:number|integer|text|flag|choice|vector)\("(\w+)"', text("src/method/method_fields.hpp"))
         self.assertGreater(len(keys), 80)
         # As scripts/fuzz finds them.
         spans = [span for line in self.page.splitlines() for span in re.findall(r"`([^`]+)`", line)]
@@ -100,7 +100,7 @@ class Method(unittest.TestCase):
     def test_ranges_are_those_of_the_code(self):
         allowed = {}  # a name may stand in two sections, with a range in each
         for key, low, high in re.findall(r'number\("(\w+)", [\w.]+, Range\{([^,]+), ([^,]+),',
-                                         text("src/io/method_fields.hpp")):
+                                         text("src/method/method_fields.hpp")):
             allowed.setdefault(key, []).append([float(low), float(high.replace("kInfinity", "inf"))])
         checked = 0
         for word, found in self.rows.items():
@@ -112,7 +112,7 @@ class Method(unittest.TestCase):
         self.assertGreater(checked, 20)
 
     def test_lengths_of_texts_are_those_of_the_code(self):
-        found = re.findall(r'short_text\("(\w+)", [\w.]+, (\d+)\)', text("src/io/method_fields.hpp"))
+        found = re.findall(r'short_text\("(\w+)", [\w.]+, (\d+)\)', text("src/method/method_fields.hpp"))
         self.assertGreater(len(found), 5)
         for key, most in found:
             if key != "logo":  # a path

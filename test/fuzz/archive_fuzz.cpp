@@ -10,9 +10,9 @@
 
 #include "fuzz/scratch_folder.hpp"
 #include "fuzz/target.hpp"
-#include "knot_utm/io/checkpoint.hpp"
-#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/run/checkpoint.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/sim/saved_step.hpp"
 #include "knot_utm/specimen/knot.hpp"
 

@@ -5,9 +5,9 @@
 #include <string>
 
 #include "knot_utm/contact/friction.hpp"
-#include "knot_utm/io/method.hpp"
-#include "knot_utm/io/run_warnings.hpp"
+#include "knot_utm/method/method.hpp"
 #include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/verdict/run_warnings.hpp"
 
 namespace knot_utm {
 namespace {

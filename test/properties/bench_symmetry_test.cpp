@@ -4,10 +4,10 @@
 #include <cstdio>
 #include <string>
 
-#include "knot_utm/io/csv.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/run/csv.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "knot_utm/specimen/overhand.hpp"

@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "knot_utm/io/compared_curves.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/raw/compared_curves.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/experiment_node.hpp"
 #include "knot_utm/ros/method_setup.hpp"
@@ -71,7 +71,7 @@ TEST(ExperimentRecord, IsReadAsTheLaunchSays) {
   words.method = "straight";
   words.shipped_methods = KNOT_UTM_SOURCE_DIR "/config";
   const auto with = [&](const char* data, const RecordWords& record) {
-    words.data = std::string(KNOT_UTM_SOURCE_DIR "/test/io/raw/") + data;
+    words.data = std::string(KNOT_UTM_SOURCE_DIR "/test/raw/files/") + data;
     words.record = record;
     return set_up(words);
   };

@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <set>
 
-#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/run/run_folder.hpp"
 
 namespace knot_utm {
 namespace {

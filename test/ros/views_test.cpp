@@ -7,11 +7,11 @@
 #include <algorithm>
 #include <cmath>
 
-#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/names.hpp"
+#include "knot_utm/run/load_test.hpp"
 
 namespace knot_utm {
 namespace {

@@ -9,8 +9,8 @@
 #include <fstream>
 
 #include "knot_utm/analysis/statistics.hpp"
-#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/study/specimens.hpp"
 
 namespace knot_utm {

@@ -8,8 +8,8 @@
 #include <fstream>
 #include <iterator>
 
-#include "knot_utm/io/run_folder.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/run/run_folder.hpp"
 
 namespace knot_utm {
 namespace {

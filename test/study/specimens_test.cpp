@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "knot_utm/analysis/statistics.hpp"
-#include "knot_utm/io/method_keys.hpp"
+#include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 
 namespace knot_utm {

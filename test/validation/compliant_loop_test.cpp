@@ -6,10 +6,10 @@
 #include <cmath>
 #include <string>
 
-#include "knot_utm/io/load_test.hpp"
 #include "knot_utm/machine/run_test.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/run/load_test.hpp"
 
 namespace knot_utm {
 namespace {

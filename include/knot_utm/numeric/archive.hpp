@@ -27,7 +27,7 @@ namespace knot_utm {
 ///
 /// A file is one line of text with the kind of state and the version of this package, the length of what follows [8
 /// bytes], the state, and a CRC-32 of all of it [4 bytes]. Numbers are binary and little-endian. A bare archive is the
-/// state alone, for files that have a format of their own, as that of the shapes has (io/samples.hpp).
+/// state alone, for files that have a format of their own, as that of the shapes has (run/samples.hpp).
 ///
 /// Loading throws InvalidInput where the file is damaged, of another kind or version, or the state of another object.
 /// The object that it was loaded into is then unusable. Loading takes no more memory than a small multiple of the

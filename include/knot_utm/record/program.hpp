@@ -29,7 +29,7 @@ struct RecordedPlace {
   double time = 0.0, displacement = 0.0;  ///< since the record began [s], [m]
 };
 
-/// How a user says that the raw data of a record are to be read (io/raw_options.hpp); empty where nothing is said.
+/// How a user says that the raw data of a record are to be read (raw/raw_options.hpp); empty where nothing is said.
 struct RecordWords {
   std::string columns, units, specimen, invert;
 };

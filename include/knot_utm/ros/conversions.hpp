@@ -12,9 +12,9 @@
 #include <string>
 
 #include "knot_utm/analysis/motion_pattern.hpp"
-#include "knot_utm/io/record.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/record/sample.hpp"
+#include "knot_utm/run/record.hpp"
 
 namespace knot_utm {
 

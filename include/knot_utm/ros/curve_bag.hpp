@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/csv.hpp"
+#include "knot_utm/run/csv.hpp"
 
 namespace knot_utm {
 

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/raw_options.hpp"
+#include "knot_utm/raw/raw_options.hpp"
 
 namespace knot_utm {
 
-/// Whether the record gets its zero where its crosshead begins to move, as `compare --balance` does (io/raw_zero.hpp).
+/// Whether the record gets its zero where its crosshead begins to move, as `compare --balance` does (raw/raw_zero.hpp).
 enum class RecordBalance {
   kAuto,  ///< raw data get it; a curve of ours has its own
   kYes,   ///< the same, and says so where the record has its own

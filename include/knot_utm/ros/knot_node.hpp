@@ -12,8 +12,8 @@
 #include <string>
 
 #include "knot_utm/analysis/motion_pattern.hpp"
-#include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/method/method.hpp"
 #include "knot_utm/ros/order_of_test.hpp"
 #include "knot_utm/ros/show.hpp"
 

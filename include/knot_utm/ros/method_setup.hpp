@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/method.hpp"
-#include "knot_utm/io/raw_options.hpp"
 #include "knot_utm/machine/program_runner.hpp"
+#include "knot_utm/method/method.hpp"
+#include "knot_utm/raw/raw_options.hpp"
 
 namespace knot_utm {
 

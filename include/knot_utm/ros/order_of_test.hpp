@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "knot_utm/io/method.hpp"
+#include "knot_utm/method/method.hpp"
 
 namespace knot_utm {
 

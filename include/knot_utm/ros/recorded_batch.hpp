@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/claimed_folder.hpp"
-#include "knot_utm/io/run_folder.hpp"
+#include "knot_utm/run/claimed_folder.hpp"
+#include "knot_utm/run/run_folder.hpp"
 #include "knot_utm/study/batch.hpp"
 
 namespace knot_utm {

@@ -13,13 +13,13 @@
 #include <optional>
 #include <string>
 
-#include "knot_utm/io/claimed_folder.hpp"
-#include "knot_utm/io/run_writer.hpp"
-#include "knot_utm/io/samples.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/ros/names.hpp"
 #include "knot_utm/ros/order_of_test.hpp"
 #include "knot_utm/ros/recorded_batch.hpp"
+#include "knot_utm/run/claimed_folder.hpp"
+#include "knot_utm/run/run_writer.hpp"
+#include "knot_utm/run/samples.hpp"
 
 namespace knot_utm {
 

@@ -11,8 +11,8 @@
 #include <memory>
 #include <string>
 
-#include "knot_utm/io/method.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/method/method.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/ros/show.hpp"
 

@@ -4,15 +4,15 @@
 #include <string>
 
 #include "knot_utm/analysis/motion_pattern.hpp"
-#include "knot_utm/io/method.hpp"
-#include "knot_utm/io/record.hpp"
 #include "knot_utm/machine/grips.hpp"
+#include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/ros/bag_panel.hpp"
 #include "knot_utm/ros/bag_writer.hpp"
 #include "knot_utm/ros/machine_frames.hpp"
 #include "knot_utm/ros/markers.hpp"
 #include "knot_utm/ros/views.hpp"
+#include "knot_utm/run/record.hpp"
 
 namespace knot_utm {
 

@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "knot_utm/io/method.hpp"
+#include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/points.hpp"
 #include "knot_utm/ros/machine_frames.hpp"
 #include "knot_utm/ros/markers.hpp"

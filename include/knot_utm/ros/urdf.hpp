@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "knot_utm/io/method.hpp"
+#include "knot_utm/method/method.hpp"
 #include "knot_utm/numeric/points.hpp"
 
 namespace knot_utm {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "knot_utm/io/method.hpp"
+#include "knot_utm/method/method.hpp"
 #include "knot_utm/study/batch_table.hpp"
 #include "knot_utm/study/headless_run.hpp"
 

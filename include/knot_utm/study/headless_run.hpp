@@ -5,9 +5,9 @@
 #include <string>
 
 #include "knot_utm/analysis/results.hpp"
-#include "knot_utm/io/method.hpp"
-#include "knot_utm/io/run_writer.hpp"
 #include "knot_utm/machine/program_runner.hpp"
+#include "knot_utm/method/method.hpp"
+#include "knot_utm/run/run_writer.hpp"
 
 namespace knot_utm {
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "knot_utm/io/method.hpp"
+#include "knot_utm/method/method.hpp"
 
 namespace knot_utm {
 

@@ -1,6 +1,6 @@
 """How far a result may be trusted, and whether it is what the user asked for: each check with value, limit and verdict.
 
-The limits of trust are those at which the program itself warns (src/io/run_warnings.cpp, whose names they bear). What has
+The limits of trust are those at which the program itself warns (src/verdict/run_warnings.cpp, whose names they bear). What has
 no limit has no verdict, and stands among the results alone.
 """
 from knot_utm.report.quantities import is_number, number, quantity_of

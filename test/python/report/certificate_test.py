@@ -19,7 +19,7 @@ def setUpModule():
 
 class Certificate(unittest.TestCase):
     def test_limits_are_those_of_the_program(self):
-        source = read(ROOT, "include/knot_utm/io/run_warnings.hpp") + read(ROOT, "src/io/run_warnings.cpp")
+        source = read(ROOT, "include/knot_utm/verdict/run_warnings.hpp") + read(ROOT, "src/verdict/run_warnings.cpp")
         for name, limit in certificate.LIMITS.items():
             self.assertEqual(float(re.search(rf"constexpr double {name} = ([\d.]+);", source).group(1)), limit, name)
         gate = re.search(r'"force_balance_error".*?at_most\(([\d.]+)\)', read(ROOT, "bench/tighten.py"), re.DOTALL)

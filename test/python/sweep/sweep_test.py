@@ -113,7 +113,7 @@ class TheTable(Sweeps):
 
     def test_has_the_units_of_every_key(self):
         units = tool.key_units(CONFIG + "/tighten.yaml", {})
-        fields = content(ROOT, "src/io/method_fields.hpp").decode()
+        fields = content(ROOT, "src/method/method_fields.hpp").decode()
         checked = 0
         for section, body in re.findall(r"^void (\w+)\(Fields& f(.*?)\n\}$", fields, re.MULTILINE | re.DOTALL):
             where = {"load_cell": "machine.load_cell"}.get(section, section)

@@ -1,0 +1,100 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "knot_utm/machine/end_options.hpp"
+#include "knot_utm/machine/options.hpp"
+#include "knot_utm/method/report_options.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/program.hpp"
+#include "knot_utm/sim/options.hpp"
+#include "knot_utm/specimen/material.hpp"
+#include "knot_utm/specimen/options.hpp"
+
+namespace knot_utm {
+
+/// The `analysis` section of a method: which further evaluations are asked for, beyond those of every test.
+struct AnalysisOptions {
+  bool margin = false;  ///< safety margin of a knot that slides (analysis/margin.hpp)
+};
+
+/// How a value of the method scatters from specimen to specimen. With x0 the value in the method and d the spread:
+///
+///     normal      x0 (1 + d z), where z is standard normal, limited to 3 standard deviations; d is the cv
+///     log_normal  x0 exp(d z), with the same z
+///     uniform     x0 (1 + d u), where u is uniform from -1 to 1
+enum class ScatterLaw { kNormal, kLogNormal, kUniform };
+
+struct Scatter {
+  std::string key;  ///< dotted key of the method, as `--set` takes it
+  ScatterLaw law = ScatterLaw::kNormal;
+  double spread = 0.0;  ///< d [-]
+};
+
+inline constexpr int kMostSpecimens = 10000;
+
+/// The `specimens` section of a method: how many specimens are tested, and how they differ.
+struct SpecimensOptions {
+  int count = 1;
+  unsigned seed = 1;
+  std::vector<Scatter> scatter;
+};
+
+/// A test method with everything resolved: the content of a method file.
+struct Method {
+  std::string name;  ///< name of the method file, without folder and extension
+  SpecimenOptions specimen;
+  Material material;
+  MachineOptions machine;
+  Program program;
+  EndOptions ends;
+  PhysicsOptions physics;
+  AnalysisOptions analysis;
+  ReportOptions report;
+  Specification specification;
+  SpecimensOptions specimens;
+  std::map<std::string, std::string>
+      automatic;  ///< dotted keys whose values `auto` gave, and these as they are written
+};
+
+/// Reads a method file. Materials and load cells are given as maps in the method, or by name. A name is looked up as
+/// materials/NAME.yaml or load_cells/NAME.yaml in these places, in this order:
+///   1. the method's own folder, its config/ and its ../config,
+///   2. share/knot_utm/config of the installation to which the running executable belongs,
+///   3. the config/ of the sources from which it was built.
+/// After reading, `specimen.preload` and the load cell are resolved. `specimen.file`, `report.logo` and the records
+/// that are followed are absolute paths. Records are not read, nor is a specification compared with the results that
+/// there are: load_test (run/load_test.hpp) does that.
+///
+/// Each override has the form "dotted.key=YAML", as `--set` takes it. An entry of a list is named by its index from 0
+/// or, in the program, by the name of the step ("program.pull.speed"). A key inside a material or load cell that is
+/// given by name changes a copy of it. Overrides whose keys have fewer parts are applied first; others keep the order
+/// given.
+///
+/// `option`: what messages call an override.
+///
+/// Throws InvalidInput with one line that names file, key, value and what is allowed. Reasons are a file that is
+/// missing, longer than 64 KiB or not YAML, an unknown or repeated key, a value of the wrong type or out of range, and
+/// values that do not go together.
+Method load_method(const std::string& file, const std::vector<std::string>& overrides = {},
+                   const std::string& option = "--set");
+
+/// The same for the text of a method. `file`: the path of the text, or the path that it would have.
+Method parse_method(const std::string& text, const std::string& file, const std::vector<std::string>& overrides = {},
+                    const std::string& option = "--set");
+
+/// The method as YAML. `load_method` reads it back to the same method. It contains every value, so no other files are
+/// needed than `specimen.file`, `report.logo` and records that are followed.
+std::string method_yaml(const Method& method);
+
+/// The number that `method_yaml` of a single specimen has at a dotted key, as overrides name it ("program.pull.speed").
+/// Empty where no number stands at the key.
+std::optional<double> number_at(const Method& method, const std::string& key);
+
+/// Checks values that must go together, as `load_method` does. Throws InvalidInput.
+void check_method(const Method& method);
+
+}  // namespace knot_utm

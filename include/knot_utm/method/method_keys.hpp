@@ -1,0 +1,43 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "knot_utm/method/method.hpp"
+
+namespace knot_utm {
+
+/// The dotted key of a number of a method, as overrides name it, and its unit.
+struct KeyUnit {
+  std::string key;
+  std::string unit;  ///< "-": dimensionless
+};
+
+/// All numbers that this method may have, whether set or not. The keys of a program step are listed with the step's
+/// index and name, and with its name alone where that occurs once.
+std::vector<KeyUnit> key_units(const Method& method);
+
+/// The unit of the number at a dotted key of the method: "m/s" for "program.pull.speed". Empty where the method has no
+/// such number.
+std::string unit_of_key(const Method& method, const std::string& key);
+
+/// A key that a method may have, as a report shows it.
+struct MethodKey {
+  std::string key;    ///< dotted: "machine.load_cell.noise"; of a step by its name: "program.pull.speed"
+  std::string label;  ///< in words
+  std::string unit;   ///< as method_fields.hpp has it; "-": none
+};
+
+/// Every key of specimen, material, machine, program, ends and physics that some method may have: those of all knots,
+/// laws and steps. Their names and units come from the fields of a method (method_fields.hpp). A key is called by its
+/// name in words, unless the table of labels in method_keys.cpp has better ones.
+std::vector<MethodKey> method_keys();
+
+/// The same as CSV: key, label, unit. The report reads it from `tensile_test --list-method-keys`.
+std::string method_keys_csv();
+
+/// What a report calls each knot, and the keys of `specimen` that it shows of it, as CSV: knot, title, keys. The
+/// report reads it from `tensile_test --list-knots`.
+std::string knots_csv();
+
+}  // namespace knot_utm

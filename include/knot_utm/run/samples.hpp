@@ -1,0 +1,110 @@
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "knot_utm/record/ended_by.hpp"
+#include "knot_utm/run/record.hpp"
+
+namespace knot_utm {
+
+/// How a test ended.
+struct TestEnd {
+  EndedBy ended_by = EndedBy::kNotYet;
+  std::string reason;  ///< one line; empty: as programmed
+};
+
+/// The samples of a run, from which all its other files are made (run_writer.hpp):
+///
+///   samples.csv   row 1 has the names of the columns and row 2 their units. A row of the kind `step` is a time step, a
+///                 row `answer` is a command with its answer, and the row `end`, which repeats the last answer, says
+///                 how the test ended. A cell is empty where its row has no such value. Every number reads back to the
+///                 same bits.
+///   shapes.bin    the rod at each reading of the load cell, which fits no row: for each shape the length of what
+///                 follows [8 bytes, little-endian], then the shape as a bare Archive saves it.
+///
+/// The rows of a command are passed to the operating system, by one write, before the command counts as answered. They
+/// therefore outlive the process, however it ends. A power failure may lose what the system has not yet written to the
+/// disk.
+std::string samples_file(const std::string& folder);
+
+/// Reads the records in order, up to the last command that is whole.
+class SamplesReader {
+ public:
+  /// Throws InvalidInput where the folder has no samples.csv, or one with other columns than this version writes.
+  explicit SamplesReader(const std::string& folder);
+
+  /// Reads the next record. False where no whole command is left. Throws InvalidInput, which names row and column,
+  /// where a whole row cannot be understood.
+  bool next(Record& record);
+
+  std::uint64_t records() const { return records_; }  ///< number of records read so far
+  /// How the test ended, once `next` has returned false; nothing where its samples do not say so.
+  const std::optional<TestEnd>& end() const { return end_; }
+  const Points& final_shape() const { return final_shape_; }  ///< the last known shape; no columns: none is known
+  /// Bytes of a last command that was cut off, once `next` has returned false.
+  std::uint64_t torn_bytes() const { return bytes_ - whole_bytes_; }
+
+ private:
+  friend class SamplesWriter;
+  /// A shape without its row.
+  struct Shape {
+    std::uint64_t sequence = 0;
+    Points points;
+    Eigen::VectorXd tension;
+    std::optional<RodReadings> readings;
+    void state(Archive& archive);
+  };
+  static constexpr std::uint64_t kFinal = UINT64_MAX;  ///< sequence of the shape at the end of the test
+
+  bool take_shape(std::uint64_t sequence);  ///< whether the next shape in the file, which is then `shape_`, has it
+
+  std::string file_, shapes_file_;
+  std::ifstream in_, shapes_in_;
+  std::string line_;
+  std::uint64_t row_ = 2;
+  std::uint64_t bytes_ = 0, whole_bytes_ = 0, shapes_whole_bytes_ = 0;
+  std::uint64_t records_ = 0;
+  std::optional<TestEnd> end_;
+  Sample last_;  ///< the last answer
+  Points final_shape_;
+  Shape shape_;
+  std::uint64_t shape_bytes_ = 0;  ///< length of `shape_` in the file, where it was read and not yet taken; else 0
+};
+
+/// Appends to the samples of a run whose folder is claimed (claimed_folder.hpp). All functions throw CannotWrite, and
+/// then leave the file as it was, so that it ends with a whole command.
+class SamplesWriter {
+ public:
+  /// Begins the files of a new run, of which none may be there.
+  explicit SamplesWriter(const std::string& folder);
+  /// Goes on behind what a reader of the same folder has read, and cuts off what is torn.
+  SamplesWriter(const std::string& folder, const SamplesReader& read);
+
+  void append(const Record& record);
+  /// Says how the test ended. `final_shape`: the rod then; no columns: it is not known.
+  void end(const TestEnd& end, const Points& final_shape);
+
+ private:
+  /// A file that is written without a buffer.
+  struct File {
+    File(std::string path_, const char* mode);
+    void append(const std::string& bytes);
+    void cut(std::uint64_t bytes);
+
+    std::string path;
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file;
+    std::uint64_t size = 0;
+  };
+  void append(const SamplesReader::Shape& shape);
+
+  File rows_, shapes_;
+  Sample last_;         ///< the last answer
+  std::string buffer_;  ///< a member so that its memory is reused
+};
+
+}  // namespace knot_utm

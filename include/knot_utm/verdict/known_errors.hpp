@@ -1,0 +1,36 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "knot_utm/analysis/results.hpp"
+#include "knot_utm/verdict/run_facts.hpp"
+
+namespace knot_utm {
+
+/// Why the specimen was not at rest when its pull began, as one sentence; empty: it was. At rest tying and release have
+/// ended in time, and both grips bear the same force, apart from the rod's weight.
+std::string why_not_at_rest(const Results& results, const RunFacts& facts);
+
+/// Whether the knots slid until the end without locking. A load that rose all the same rose while they were still
+/// sliding.
+bool slid_to_the_end(const Results& results);
+
+/// Whether knots whose errors were studied slid under so small a force that they were hardly closed.
+bool knots_hardly_closed(const Results& results, const RunFacts& facts);
+
+/// Bounds on the errors of the readings of a test, each in the unit of its reading.
+struct ReadingErrors {
+  std::optional<double> plateau_force;     ///< [N]
+  std::optional<double> lock_extension;    ///< [m]
+  std::optional<double> locked_stiffness;  ///< [N/m]
+  std::optional<double> peak_force;        ///< follows from the others [N]
+};
+
+/// The errors consist of the effects of mesh and tolerances (`RunFacts::errors`) and, for forces and their slopes, of
+/// those of drag, inertia and the noise of the load cell. They are empty where the specimen had not come to rest, a
+/// knot opened or the knots were hardly closed, since no convergence study covers these cases. Those of more than half
+/// of the reading are left out.
+ReadingErrors known_errors(const Results& results, const RunFacts& facts);
+
+}  // namespace knot_utm

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "knot_utm/analysis/results.hpp"
+#include "knot_utm/verdict/known_errors.hpp"
+#include "knot_utm/verdict/run_facts.hpp"
+#include "knot_utm/verdict/verdict.hpp"
+
+namespace knot_utm {
+
+/// Everything from which result.yaml is made.
+struct ResultSource {
+  const Results& results;
+  const RunFacts& facts;
+  ReadingErrors errors;  ///< known_errors of these two
+  Verdict verdict;       ///< the verdict on the specification
+};
+
+/// Functions that read the value of a key. The type of the value is the kind of the key, and an empty value is written
+/// as null.
+template <typename Value>
+using ReadAs = Value (*)(const ResultSource&);
+using ReadNumber = ReadAs<std::optional<double>>;
+using ReadCount = ReadAs<std::optional<std::uint64_t>>;
+using ReadFlag = ReadAs<std::optional<bool>>;
+using ReadWord = ReadAs<const char*>;  ///< one of a fixed set of words, written without quotes; never empty
+using ReadText = ReadAs<std::string>;
+using ReadNumbers = ReadAs<std::vector<double>>;  ///< one number for each knot
+using ReadList = ReadAs<std::vector<std::string>>;
+using ReadResult = std::variant<ReadNumber, ReadCount, ReadFlag, ReadWord, ReadText, ReadNumbers, ReadList>;
+
+/// The reason why a key is null, in a few words. It is either constant or depends on the test. Empty: no reason is
+/// needed.
+class NullReason {
+ public:
+  using Find = std::string (*)(const ResultSource&);
+
+  constexpr NullReason(const char* always = "") : always_(always) {}
+  constexpr NullReason(Find find) : find_(find) {}
+
+  std::string operator()(const ResultSource& source) const { return find_ ? find_(source) : always_; }
+
+ private:
+  const char* always_ = "";
+  Find find_ = nullptr;
+};
+
+/// One key of result.yaml.
+struct ResultKey {
+  const char* name;
+  const char* unit;     ///< "-": dimensionless
+  const char* group;    ///< where the report shows it: the title of a table, or one of result_place
+  const char* meaning;  ///< label in the report
+  ReadResult read;
+  NullReason why_null;
+
+  const char* kind() const;  ///< "number", "count", "flag", "word", "text", "numbers" or "list"
+  int table() const;         ///< number of the report's table in which it stands, from 1; 0: another place
+  bool is_number() const;    ///< whether it is a number or a count; only these may have requirements
+};
+
+/// Places of the report other than its tables of results.
+namespace result_place {
+constexpr char kHead[] = "head";      ///< at the top of the page
+constexpr char kBeside[] = "beside";  ///< in the row of the reading whose name is the beginning or the end of its own
+constexpr char kCertificate[] = "certificate";  ///< among the checks of the certificate
+}  // namespace result_place
+
+/// All keys of result.yaml, in the order of the file. result.yaml, the keys that a specification may name, and
+/// labels and units of the report (`tensile_test --list-results`) are made from this table. Tests compare
+/// doc/results.md with it. A new key is one row of this table and one row of doc/results.md.
+const std::vector<ResultKey>& result_keys();
+
+/// The table of the keys as CSV with the columns key, unit, kind, group, table and meaning: the content of
+/// report/result_keys.csv.
+std::string result_keys_csv();
+
+}  // namespace knot_utm

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "knot_utm/analysis/margin.hpp"
+#include "knot_utm/machine/accuracy.hpp"
+#include "knot_utm/machine/options.hpp"
+#include "knot_utm/method/report_options.hpp"
+#include "knot_utm/specimen/material.hpp"
+
+namespace knot_utm {
+
+/// Facts about a run that do not follow from its samples. What follows from the samples is in `Results`.
+struct RunFacts {
+  std::string reason;                 ///< why the test ended, one line; empty: as programmed
+  std::vector<std::string> foreseen;  ///< warnings known before anything was tied, one line each
+  /// further warnings, other than those that follow from the results, one line each
+  std::vector<std::string> warnings;
+  double preload = std::numeric_limits<double>::quiet_NaN();  ///< F_p [N]; NaN: nothing was tied
+  RelativeErrors errors;              ///< relative errors of the readings from mesh and tolerances [-]
+  Margin margin;                      ///< safety margin of the knot, where it was asked for
+  double wall_time = 0.0;             ///< [s]
+  std::uint64_t peak_memory = 0;      ///< largest memory of the process [bytes]; 0: not known
+  double inertia = 1.0;               ///< accelerated mass over the rod's own mass [-]
+  double weight = 0.0;                ///< weight of the rod [N]; 0: no gravity acts
+  double slid_along = 0.0;            ///< largest motion of a loop on rollers along their axes [m]
+  Material material;                  ///< material of the rod
+  int strands = 1;                    ///< number of strands that bear the load: two of a loop
+  bool may_hold_a_knot = false;       ///< as the specimen is made
+  bool one_knot_in_a_strand = false;  ///< one knot, and the specimen is no loop
+  bool ends_with_hold = false;        ///< the crosshead stands at the end, so that a knot could be measured
+  std::optional<double> knot_hole;    ///< hole_diameter at the end of the test, of one knot in a strand [m]
+  double dead_load = 0.0;             ///< constant force on the specimen's other end [N]; 0: there is none
+  double knot_distance = 0.0;         ///< knot distance at which the knots were to be tied [m]; 0: none were tied
+  double pull_speed = 0.0;            ///< largest programmed speed of a pull [m/s]; 0: there is none
+  LoadCellOptions load_cell;          ///< load cell that read the forces
+  Specification specification;        ///< requirements on the results
+  std::string version;                ///< version of this package
+};
+
+/// The largest memory that this process has used so far [bytes].
+std::uint64_t peak_memory();
+
+/// The version of this package, such as "1.2.3".
+std::string version();
+
+}  // namespace knot_utm

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "knot_utm/method/report_options.hpp"
+#include "knot_utm/numeric/yaml_lines.hpp"
+
+namespace knot_utm {
+
+/// Whether a test meets its specification.
+struct Verdict {
+  std::optional<bool> passed;       ///< empty: there are no requirements
+  std::vector<std::string> failed;  ///< one line for each requirement that was not met, with the reason
+};
+
+/// Throws InvalidInput where the specification names a key that is no number of result.yaml.
+void check_specification(const Specification& specification);
+
+/// Compares the results with the specification. A number that the test does not have meets no requirement.
+Verdict verdict(const Specification& specification, const YamlLines& results);
+
+}  // namespace knot_utm

@@ -1,0 +1,72 @@
+#include "config_library.hpp"
+
+#include <set>
+#include <system_error>
+
+#include "knot_utm/method/shipped.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/known_names.hpp"
+#include "yaml_text.hpp"
+
+namespace knot_utm {
+
+namespace fs = std::filesystem;
+
+ConfigLibrary::ConfigLibrary(const fs::path& method_folder) {
+  add(method_folder);
+  add(method_folder / "config");
+  add(method_folder / ".." / "config");
+  add(fs::current_path());
+  for (const std::string& folder : shipped_folders()) add(folder);
+}
+
+std::vector<std::string> ConfigLibrary::names(const std::string& kind) const {
+  std::error_code error;
+  std::set<std::string> known;
+  for (const fs::path& folder : folders_) {
+    for (fs::directory_iterator file(folder / kind, error), end; !error && file != end; file.increment(error)) {
+      if (file->path().extension() == ".yaml") known.insert(file->path().stem().string());
+    }
+  }
+  return {known.begin(), known.end()};
+}
+
+std::string ConfigLibrary::allowed(const std::string& kind) const {
+  return "a name (" + listed(names(kind), ", ") + ") or a map";
+}
+
+fs::path ConfigLibrary::find(const std::string& kind, const std::string& name, const std::string& key) const {
+  std::error_code error;
+  for (const fs::path& folder : folders_) {
+    for (const fs::path& candidate : {folder / kind / (name + ".yaml"), folder / name}) {
+      if (!name.empty() && fs::is_regular_file(candidate, error)) return candidate;
+    }
+  }
+  const fs::path file(name);
+  if (file.has_parent_path() || file.extension() == ".yaml") throw InvalidInput::cannot_read(name, key);
+  throw InvalidInput::unknown_name(key, name, allowed(kind), names(kind));
+}
+
+void ConfigLibrary::add(const fs::path& folder) {
+  std::error_code error;
+  if (fs::is_directory(folder, error)) folders_.push_back(folder.lexically_normal());
+}
+
+YAML::Node named_map(const fs::path& file) {
+  YAML::Node map = read_yaml(file);
+  if (map.IsMap() && !map["name"].IsDefined()) map["name"] = file.stem().string();
+  return map;
+}
+
+std::string material_name(const YAML::Node& method) {
+  const YAML::Node node = method["material"];
+  return node.IsDefined() && node.IsScalar() ? node.Scalar() : "";
+}
+
+std::optional<std::string> load_cell_name(const YAML::Node& node, const std::string& of_material) {
+  std::string given = node.IsDefined() && node.IsScalar() ? node.Scalar() : "auto";
+  if (given != "auto") return given;
+  return of_material.empty() ? std::nullopt : std::optional<std::string>(of_material);
+}
+
+}  // namespace knot_utm

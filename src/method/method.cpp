@@ -1,0 +1,257 @@
+#include "knot_utm/method/method.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "config_library.hpp"
+#include "knot_utm/machine/testing_machine.hpp"
+#include "knot_utm/numeric/known_names.hpp"
+#include "knot_utm/specimen/knot.hpp"
+#include "method_defaults.hpp"
+#include "method_fields.hpp"
+#include "method_overrides.hpp"
+#include "method_program.hpp"
+#include "method_reader.hpp"
+#include "specimens_section.hpp"
+#include "yaml_text.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using fields::as_given;
+using fields::one_line;
+using fields::Reader;
+
+Material read_material(const YAML::Node& node, const std::string& file, const ConfigLibrary& library) {
+  Material material;
+  if (!node.IsDefined() || node.IsNull()) {
+    throw InvalidInput::missing("material", library.allowed("materials")).in_file(file);
+  }
+  if (!node.IsScalar() && !node.IsMap())
+    throw InvalidInput(file, "material", as_given(node), library.allowed("materials"));
+  if (node.IsScalar()) {
+    const fs::path path = library.find("materials", node.Scalar(), "material");
+    Reader reader(read_yaml(path), path.string(), "", "a material");
+    fields::material(reader, material);
+    reader.finish();
+    if (material.name.empty()) material.name = path.stem().string();
+  } else {
+    Reader reader(node, file, "material");
+    fields::material(reader, material);
+    reader.finish();
+    if (material.name.empty()) material.name = "own";
+  }
+  return material;
+}
+
+LoadCellOptions read_load_cell(const YAML::Node& node, const std::string& file, const Material& material,
+                               const LoadCellOptions& by_default, const ConfigLibrary& library,
+                               std::vector<std::string>& automatic) {
+  LoadCellOptions cell = by_default;
+  const std::optional<std::string> name = load_cell_name(node, material.load_cell);
+  if (node.IsSequence()) throw InvalidInput(file, "machine.load_cell", as_given(node), library.allowed("load_cells"));
+  if (node.IsDefined() && !node.IsNull() && !node.IsScalar()) {
+    Reader reader(node, file, "machine.load_cell");
+    reader.note_automatic(automatic);
+    fields::load_cell(reader, cell);
+    reader.finish();
+    if (cell.name.empty()) cell.name = "own";
+  } else if (!name) {
+    cell.name = "auto";
+    automatic.emplace_back("machine.load_cell.capacity");
+  } else {
+    const fs::path path = library.find("load_cells", *name, "machine.load_cell");
+    Reader reader(read_yaml(path), path.string(), "", "a load cell");
+    fields::load_cell(reader, cell);
+    reader.finish();
+    if (cell.name.empty()) cell.name = path.stem().string();
+  }
+  return cell;
+}
+
+Specification read_specification(const YAML::Node& node, const std::string& file) {
+  const std::string key = "specification";
+  Specification specification;
+  if (!node.IsDefined() || node.IsNull()) return specification;
+  if (!node.IsMap())
+    throw InvalidInput(file, key, as_given(node), "a map such as {peak_force: {min: 100}}, of numbers of result.yaml");
+  for (const auto& item : node) {
+    Requirement required;
+    required.key = one_line(item.first);
+    const std::string path = key + "." + required.key;
+    const auto is_it = [&](const Requirement& other) { return other.key == required.key; };
+    if (std::any_of(specification.begin(), specification.end(), is_it))
+      throw InvalidInput::sentence(path, one_line(item.second), shown(path) + " stands twice; give it once")
+          .in_file(file);
+    Reader reader(item.second, file, path);
+    fields::requirement(reader, required);
+    reader.finish();
+    if (!required.min && !required.max) throw InvalidInput::missing(path, "min, max or both").in_file(file);
+    if (required.min && required.max && *required.min > *required.max)
+      throw InvalidInput(file, path, one_line(item.second), "a map whose min is no larger than its max");
+    specification.push_back(required);
+  }
+  return specification;
+}
+
+/// As the method.yaml of a run has it.
+std::map<std::string, std::string> read_automatic(const YAML::Node& node, const std::string& file) {
+  std::map<std::string, std::string> found;
+  if (!node.IsDefined() || node.IsNull()) return found;
+  if (!node.IsMap())
+    throw InvalidInput(file, "automatic", as_given(node),
+                       "a map of keys and the values that auto gave them, as method.yaml of a run has it");
+  for (const auto& item : node) found[one_line(item.first)] = one_line(item.second);
+  return found;
+}
+
+/// What `auto` gave: what this reading noted and what an earlier one did, as far as the values are still the same.
+void keep_automatic(const std::vector<std::string>& noted, Method& method) {
+  const std::map<std::string, std::string> earlier = std::move(method.automatic);
+  method.automatic.clear();
+  const YAML::Node values = YAML::Load(method_yaml(method));
+  const auto written = [&](const std::string& key) {
+    const YAML::Node value = value_at(values, key);
+    return value.IsDefined() && value.IsScalar() ? value.Scalar() : "";
+  };
+  for (const std::string& key : noted)
+    if (!written(key).empty()) method.automatic[key] = written(key);
+  for (const auto& [key, value] : earlier)
+    if (written(key) == value) method.automatic[key] = value;
+}
+
+/// The speed with which friction may creep, where its law has one.
+void set_creep(FrictionLaw law, double speed, FrictionOptions& friction) {
+  for (const LawKey& key : FrictionRegistry::keys())
+    if (key.otherwise == LawDefault::kCreep && FrictionRegistry::entry(law).has(key.name))
+      friction.set(key.name, speed);
+}
+
+/// A law has the plain values of its own keys that were not given. Keys of other laws, which have no effect, go.
+template <class Registry, class Number>
+void keep_own_keys(LawOptions<Number>& law) {
+  const LawEntry& chosen = Registry::entry(law.law);
+  for (const LawKey& key : Registry::keys()) {
+    if (!chosen.has(key.name)) law.set(key.name, std::nullopt);
+    if (chosen.has(key.name) && key.otherwise == LawDefault::kPlain) law.set(key.name, law.number(key));
+  }
+}
+
+void keep_own_keys(Method& method) {
+  keep_own_keys<FrictionRegistry>(method.physics.friction);
+  keep_own_keys<StretchingRegistry>(method.material.stretching);
+  keep_own_keys<BendingRegistry>(method.material.bending);
+}
+
+/// The method over defaults that suit its knot and material, and, once it has been read with these, what is `known` of
+/// the rest. Notes the keys whose values are `automatic`.
+Method read_method(const YAML::Node& root, const std::string& file, const ConfigLibrary& library, const Method* known,
+                   std::vector<std::string>& automatic) {
+  Method method;
+  Reader top(root, file, "");
+  top.note_automatic(automatic);
+  method.material = read_material(top.take("material"), file, library);
+  Reader specimen(top.take("specimen"), file, "specimen");
+  specimen.note_automatic(automatic);
+  fields::knot(specimen, method.specimen.knot);
+  const fields::Defaults defaults = fields::defaults(method.specimen.knot, method.material, known);
+  method.specimen = defaults.specimen;
+  fields::specimen(specimen, method.specimen);
+  specimen.finish();
+  method.machine = defaults.machine;
+  top.section("machine", [&](Reader& reader) {
+    fields::machine(reader, method.machine);
+    method.machine.load_cell =
+        read_load_cell(reader.take("load_cell"), file, method.material, defaults.machine.load_cell, library, automatic);
+  });
+  method.program = read_program(top.take("program"), file, defaults, automatic);
+  if (known) set_creep(known->physics.friction.law, defaults.slip_tolerance, method.physics.friction);
+  top.section("ends", [&](Reader& reader) { fields::ends(reader, method.ends); });
+  top.section("physics", [&](Reader& reader) { fields::physics(reader, method.physics); });
+  top.section("analysis", [&](Reader& reader) { fields::analysis(reader, method.analysis); });
+  top.section("report", [&](Reader& reader) { fields::report(reader, method.report); });
+  method.specification = read_specification(top.take("specification"), file);
+  bool usual_scatter = true;
+  method.specimens = read_specimens(top.take("specimens"), file, usual_scatter);
+  if (usual_scatter) method.specimens.scatter = default_scatter(method);
+  method.automatic = read_automatic(top.take("automatic"), file);
+  top.finish();
+  return method;
+}
+
+/// Whether a value of this key may be refused only as the rod is laid, which does not take long.
+bool is_soon_laid(const std::string& key, const SpecimenOptions& specimen) {
+  constexpr double kFewEdges = 8000.0;
+  const double length = std::max({specimen.length, specimen.end_to_end, specimen.knot_distance, specimen.tail});
+  const bool may_be = key.rfind("specimen.", 0) == 0 || key == "machine.roller_diameter";
+  return may_be && length < kFewEdges * specimen.edge_length;
+}
+
+}  // namespace
+
+Method load_method(const std::string& file, const std::vector<std::string>& overrides, const std::string& option) {
+  const std::string text = read_text(file);
+  try {
+    return parse_method(text, file, overrides, option);
+  } catch (const OutOfRange& wrong) {
+    if (wrong.file != file) throw;
+    throw narrowed(wrong, [&](const std::string& override) {
+      std::vector<std::string> with = overrides;
+      with.push_back(override);
+      const Method method = parse_method(text, file, with, option);
+      if (is_soon_laid(wrong.key, method.specimen))
+        TestingMachine(method.specimen, method.material, method.machine, method.physics);
+    });
+  }
+}
+
+Method parse_method(const std::string& text, const std::string& file, const std::vector<std::string>& overrides,
+                    const std::string& option) {
+  const fs::path path(file);
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  YAML::Node root = parse_yaml(text, file);
+  try {
+    const ConfigLibrary library(folder);
+    if (!root.IsMap())
+      throw InvalidInput("the file", as_given(root), "a map with the keys specimen, material, machine and program");
+    apply_overrides(root, overrides, option, library);
+
+    std::vector<std::string> noted_first, noted;
+    const Method first = read_method(root, file, library, nullptr, noted_first);
+    Method method = read_method(root, file, library, &first, noted);
+    method.name = path.stem().string();
+    method.specimen.to_be_tied = std::any_of(method.program.begin(), method.program.end(),
+                                             [](const ProgramStep& step) { return step.phase == Phase::kTie; });
+
+    const Material& material = method.material;
+    if (!method.specimen.preload && knot_of(method.specimen).has("preload")) {
+      method.specimen.preload = default_preload(material);
+      noted.emplace_back("specimen.preload");
+    }
+    if (!method.specimen.file.empty()) {
+      method.specimen.file = fs::absolute(folder / method.specimen.file).lexically_normal().string();
+    }
+    if (!method.report.logo.empty())
+      method.report.logo = fs::absolute(folder / method.report.logo).lexically_normal().string();
+    for (ProgramStep& step : method.program)
+      if (!step.record.empty()) step.record = fs::absolute(folder / step.record).lexically_normal().string();
+    check_method(method);
+    keep_own_keys(method);
+    keep_automatic(noted, method);
+    return method;
+  } catch (const OutOfRange&) {
+    throw;
+  } catch (const InvalidInput& invalid) {
+    if (invalid.key == option) throw;  // an override stands in no file
+    throw invalid.in_file(file);
+  } catch (const YAML::Exception& yaml) {
+    throw InvalidInput::sentence("the file", yaml.msg, "the file is no method: " + yaml_fault(yaml)).in_file(file);
+  }
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,292 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <system_error>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "knot_utm/machine/before_tying.hpp"
+#include "knot_utm/machine/grips.hpp"
+#include "knot_utm/machine/step_settings.hpp"
+#include "knot_utm/method/method.hpp"
+#include "knot_utm/numeric/limit_text.hpp"
+#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/sample.hpp"
+#include "knot_utm/rod/bending_laws.hpp"
+#include "knot_utm/specimen/knot.hpp"
+#include "method_reader.hpp"
+#include "specimens_section.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void reject(const std::string& key, double value, const std::string& allowed) {
+  throw InvalidInput(key, format_number(value), allowed);
+}
+
+/// A key that another choice leaves without effect may stand in a method only with the value that it has anyway.
+template <class Value>
+void has_effect(bool has, const char* key, const Value& value, const Value& unset, const std::string& where) {
+  if (has || value == unset) return;
+  std::string given;
+  if constexpr (std::is_arithmetic_v<Value>) {
+    given = format_number(value);
+  } else {
+    given = value;
+  }
+  throw InvalidInput::sentence(
+      key, given, std::string(key) + " is " + shown(given) + ", but has an effect only " + where + "; leave it out");
+}
+
+/// A step of the program that cannot stand where it stands, and why not.
+[[noreturn]] void misplaced(const std::string& key, const std::string& name, const std::string& why) {
+  throw InvalidInput::sentence(key, name, key + ": " + name + " " + why);
+}
+
+/// A law has all keys that it needs, and none of another law.
+/// `section`: where its keys stand, with a dot; `chosen_by`: the key that names it.
+template <class Registry, class Number>
+void check_law(const LawOptions<Number>& given, const std::string& section, const std::string& chosen_by) {
+  const LawEntry& law = Registry::entry(given.law);
+  for (const LawKey& key : Registry::keys()) {
+    const std::string name = section + key.name;
+    const std::optional<double> value = given.value(key.name);
+    const bool own = law.has(key.name);
+    if (own && !value && key.otherwise == LawDefault::kNone)
+      throw InvalidInput::missing(name, fields::number_text({key.min, key.max, key.unit}) + ", which " + chosen_by +
+                                            ": " + law.name + " needs");
+    if (value) has_effect(own, name.c_str(), *value, key.plain, "with " + chosen_by + ": " + Registry::with(key.name));
+  }
+}
+
+/// The keys of a specimen, each with its value as a message shows it.
+YAML::Node keys_of(SpecimenOptions specimen) {
+  fields::Writer writer;
+  fields::specimen(writer, specimen);
+  return writer.map();
+}
+
+/// A key of `specimen` that its knot does not have is without effect.
+void check_keys_of_knot(const SpecimenOptions& specimen) {
+  const YAML::Node given = keys_of(specimen), unset = keys_of(SpecimenOptions());
+  for (const auto& item : given) {
+    const std::string key = item.first.Scalar(), value = item.second.Scalar();
+    const YAML::Node plain = unset[key];
+    has_effect(knot_of(specimen).has(key), ("specimen." + key).c_str(), value,
+               plain.IsDefined() ? plain.Scalar() : std::string(), "for knot: " + knots_with(key));
+  }
+}
+
+void check_effects(const Method& m) {
+  const SpecimenOptions& s = m.specimen;
+  check_keys_of_knot(s);
+
+  const MachineOptions& machine = m.machine;
+  const MachineOptions bare;
+  const bool loop = knot_of(s).about().loop;
+  has_effect(loop, "machine.roller_diameter", machine.roller_diameter, bare.roller_diameter, "for knot: " + loops());
+  const bool rollers = machine.grips == GripKind::kRollers;
+  const bool on_posts = !knot_of(s).supports(s, m.material).posts.empty();
+  has_effect(rollers || on_posts, "machine.roller_friction", machine.roller_friction, bare.roller_friction,
+             "with grips: rollers or knot: " + knots_with("post_diameter"));
+  has_effect(rollers && machine.roller_friction > 0.0, "machine.roller_rotation",
+             std::string(fields::kRotations[static_cast<std::size_t>(machine.roller_rotation)]),
+             std::string(fields::kRotations[0]),
+             std::string("with a roller_friction above 0") + (rollers ? "" : " of grips: rollers"));
+  has_effect(machine.roller_rotation == RollerRotation::kTurned, "machine.roller_rate", machine.roller_rate,
+             bare.roller_rate, "with roller_rotation: turned");
+  if (machine.roller_rotation == RollerRotation::kTurned && machine.roller_rate == 0.0)
+    reject("machine.roller_rate", machine.roller_rate, "other than 0 where rollers are turned");
+  const bool held = machine.far_side == FarSide::kHeld;
+  has_effect(rollers_hold(s, machine), "machine.far_side", std::string(held ? "held" : "free"), std::string("held"),
+             "for knot: " + loops() + ", with grips: rollers");
+
+  check_law<FrictionRegistry>(m.physics.friction, "physics.friction.", "law");
+  check_law<StretchingRegistry>(m.material.stretching, "material.", "stretching_law");
+  check_law<BendingRegistry>(m.material.bending, "material.", "bending_law");
+}
+
+void check_specimen(const Method& m) {
+  const SpecimenOptions& s = m.specimen;
+  const double h = m.material.radius;
+  if (knot_of(s).about().knots > 0 && s.edge_length > 2.0 * h) {
+    reject("specimen.edge_length", s.edge_length, "at most twice the radius, " + most_text(2.0 * h) + " m");
+  }
+  knot_of(s).check(s, h);
+  const double apart = s.end_to_end - 2.0 * h;
+  if (m.machine.grips == GripKind::kRollers && !(m.machine.roller_diameter < apart))
+    reject("machine.roller_diameter", m.machine.roller_diameter,
+           "less than " + most_text(apart) + " m, specimen.end_to_end less the diameter of the rod");
+  const std::optional<double>& breaking = m.material.breaking_force;
+  if (s.to_be_tied && s.preload && breaking && *breaking <= *s.preload) {
+    reject("material.breaking_force", *breaking,
+           "more than specimen.preload, " + format_number(*s.preload) + " N, the force that ties the knots");
+  }
+  check_ends(s);
+}
+
+/// Friction at the surface turns strands about themselves, which only a rod with twist can do.
+void check_twist(const Method& m) {
+  if (m.physics.twist != TwistMode::kOff || knot_of(m.specimen).about().straight) return;
+  if (friction_rolls(m.material, m.machine, m.physics))
+    throw InvalidInput::sentence("physics.twist", "off",
+                                 "physics.twist is off, but friction at the surface twists the rod: set "
+                                 "physics.friction.at: centreline or material.friction_couple: 0 to go without");
+  if (m.specimen.to_be_tied && m.material.bending_set > 0.0)
+    throw InvalidInput::sentence("physics.twist", "off",
+                                 "physics.twist is off, but material.bending_set curves the rod at rest, which takes "
+                                 "part in its twist: set material.bending_set: 0 to go without");
+}
+
+void check_bending(const Method& m) {
+  const bool remembers = remembers_bends(m.material);  // throws where its law misses a value
+  if (remembers && m.material.bending_set > 0.0)
+    throw InvalidInput::sentence(
+        "material.bending_set", format_number(m.material.bending_set),
+        "material.bending_set makes the rod keep a share of its bends at once, and "
+        "this material.bending_law makes it keep what the law remembers: give one of the two only");
+  if (bends_on_frames(m.material) && m.physics.twist == TwistMode::kOff)
+    throw InvalidInput::sentence(
+        "physics.twist", "off",
+        "physics.twist is off, but a rod of this material.bending_law bends on frames, which take part in its twist: "
+        "set material.bending_law: elastic to go without");
+}
+
+void check_machine(const Method& m) {
+  const LoadCellOptions& cell = m.machine.load_cell;
+  if (cell.resolution >= cell.capacity) {
+    reject("machine.load_cell.resolution", cell.resolution,
+           "less than capacity, " + format_number(cell.capacity) + " N");
+  }
+  if (m.machine.grips == GripKind::kRollers && !knot_of(m.specimen).about().loop) {
+    throw InvalidInput("machine.grips", "rollers", "nodes or clamps: rollers hold only a loop, knot: " + loops());
+  }
+}
+
+void check_load(const std::string& key, double load, double highest, const char* what = "capacity") {
+  if (std::abs(load) > highest)
+    reject(key, load, std::string("at most the load cell's ") + what + ", " + format_number(highest) + " N");
+}
+
+void check_step(const ProgramStep& step, const std::string& key, double capacity) {
+  if (step.phase == Phase::kPreload) check_load(key + ".load", step.load, capacity);
+  if (step.phase == Phase::kPull && step.until.load) check_load(key + ".until.load", *step.until.load, capacity);
+  if (step.phase == Phase::kReturn && step.until.load) check_load(key + ".load", *step.until.load, capacity);
+  if (step.phase == Phase::kHold && step.held_load) {
+    has_effect(step.hold_load, (key + ".load").c_str(), *step.held_load, Sample::kNone, "with control: load");
+    check_load(key + ".load", *step.held_load, capacity);
+  }
+  if (step.phase == Phase::kCycle) {
+    if (step.extension_turns.has_value() == step.load_turns.has_value())
+      throw InvalidInput::sentence(key, step.load_turns ? "extension and load" : "neither extension nor load",
+                                   key + " has " +
+                                       (step.load_turns ? "both extension and load" : "neither extension nor load") +
+                                       ": give one of them");
+    if (step.load_turns) {
+      check_load(key + ".load", step.load_turns->low, capacity);
+      check_load(key + ".load", step.load_turns->high, capacity);
+    }
+    if (step.cycles == 0 && !step.until.time)
+      throw InvalidInput::sentence(key, "no end", key + " has no end: give count, time or both");
+  }
+}
+
+void check_ends(const Method& m) {
+  const double capacity = m.machine.load_cell.capacity;
+  const double overload = m.machine.load_cell.overload;
+  if (m.ends.load && std::isfinite(overload)) check_load("ends.load", *m.ends.load, overload * capacity, "stop");
+  if (m.ends.load && std::isinf(overload)) check_load("ends.load", *m.ends.load, capacity);
+}
+
+void check_pull(const Method& m, const ProgramStep& step, const std::string& key) {
+  const std::optional<double> longest = knot_of(m.specimen).longest_pull(m.specimen, m.material.radius);
+  if (!longest || step.phase != Phase::kPull || !step.until.extension || *step.until.extension <= *longest) return;
+  if (*longest <= 0.0)
+    reject("specimen.tail", m.specimen.tail,
+           "more than " + least_text(m.specimen.tail - *longest) +
+               " m, so that the rod's lower end does not lie on the post");
+  reject(key + ".pull.until.extension", *step.until.extension,
+         "at most " + most_text(*longest) + " m, where the rod's lower end comes to the post: a longer " +
+             "specimen.tail allows more");
+}
+
+void check_program(const Method& m) {
+  const bool loop = knot_of(m.specimen).about().loop;
+  const std::string loop_only = "needs specimen.knot: " + loops() + "; begin the program with another step";
+  bool pulled = false;
+  for (std::size_t i = 0; i < m.program.size(); ++i) {
+    const ProgramStep& step = m.program[i];
+    const std::string key = "program." + std::to_string(i);
+    const std::string name = phase_name(step.phase);
+    switch (step.phase) {
+      case Phase::kTie:
+        if (i != 0) misplaced(key, name, "can only be the first step");
+        if (!loop) misplaced(key, name, loop_only);
+        break;
+      case Phase::kRelease:
+        if (i != 1 || m.program[0].phase != Phase::kTie) misplaced(key, name, "can only stand right after tie");
+        break;
+      case Phase::kMount:
+        if (!loop) misplaced(key, name, loop_only);
+        if (pulled) misplaced(key, name, "can only stand before the first step that moves the crosshead");
+        pulled = true;
+        break;
+      default:
+        pulled |= moves(step.phase);
+        break;
+    }
+    if (step.phase == Phase::kPull && !step.until.extension && !step.until.load && !step.until.time &&
+        !step.until.broken) {
+      throw InvalidInput::missing(key + ".pull.until", "one or more of extension, load, time and break");
+    }
+    check_step(step, key + "." + name, m.machine.load_cell.capacity);
+    check_pull(m, step, key);
+  }
+}
+
+bool pulls_anything(const Method& m) {
+  return std::any_of(m.program.begin(), m.program.end(), [](const ProgramStep& step) { return pulls(step.phase); });
+}
+
+void check_analysis(const Method& m) {
+  const bool has = m.specimen.to_be_tied && pulls_anything(m);
+  has_effect(has, "analysis.margin", std::string(m.analysis.margin ? "true" : "false"), std::string("false"),
+             "with a program that ties the knots and pulls them");
+}
+
+/// A page embeds its logo: larger than this it is a photograph [bytes].
+constexpr std::uintmax_t kLargestLogo = 2'000'000;
+
+void check_report(const Method& m) {
+  if (m.report.logo.empty()) return;
+  std::error_code error;
+  const std::string ending = fs::path(m.report.logo).extension().string();
+  const std::uintmax_t size = fs::file_size(m.report.logo, error);
+  if (error || size > kLargestLogo || (ending != ".png" && ending != ".svg"))
+    throw InvalidInput("report.logo", "\"" + m.report.logo + "\"",
+                       "a .png or .svg file of at most 2 MB, its path counted from the method's folder");
+}
+
+}  // namespace
+
+void check_method(const Method& method) {
+  check_specimen(method);
+  check_machine(method);
+  check_bending(method);
+  check_twist(method);
+  check_program(method);
+  check_ends(method);
+  check_effects(method);
+  check_analysis(method);
+  check_report(method);
+  check_scatter(method);
+  if (method.specimen.to_be_tied && pulls_anything(method)) check_tying(method.specimen, method.material);
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,204 @@
+#include "knot_utm/method/method_keys.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "knot_utm/record/program.hpp"
+#include "knot_utm/specimen/knot.hpp"
+#include "method_fields.hpp"
+
+namespace knot_utm {
+namespace {
+
+/// A key of a method that a walk over its fields came by.
+struct WalkedKey {
+  std::string key;   ///< dotted, as overrides name it
+  std::string unit;  ///< "-": none
+  bool number;
+};
+
+/// A `Fields` (method_fields.hpp) that keeps the keys.
+class KeyWalk {
+ public:
+  KeyWalk(std::string path, std::vector<WalkedKey>& found) : path_(std::move(path)), found_(found) {}
+
+  using Range = fields::Range;
+  void number(const char* key, double&, const Range& range) { add_number(key, range.unit); }
+  void scaled_number(const char* key, double&, const Range& range) { add_number(key, range.unit); }
+  void required_number(const char* key, double&, const Range& range) { add_number(key, range.unit); }
+  template <class... Words>
+  void optional_number(const char* key, std::optional<double>&, const Range& range, Words...) {
+    add_number(key, range.unit);
+  }
+  template <class Integer>
+  void integer(const char* key, Integer&, Integer, Integer) {
+    add_number(key, "-");
+  }
+  void text(const char* key, std::string&) { add_other(key); }
+  void short_text(const char* key, std::string&, std::size_t) { add_other(key); }
+  void flag(const char* key, bool&) { add_other(key); }
+  template <class Enum, class Names>
+  void choice(const char* key, Enum&, const Names&) {
+    add_other(key);
+  }
+  void vector(const char* key, Eigen::Vector3d&, const Range& range) {
+    for (const char* axis : {"", ".0", ".1", ".2"}) add_number(key + std::string(axis), range.unit);
+  }
+  void turns(const char* key, std::optional<TurningPoints>&, const Range& range) {
+    for (const char* end : {"", ".0", ".1"}) add_number(key + std::string(end), range.unit);
+  }
+  template <class Body>
+  void section(const char* key, Body body) {
+    KeyWalk inner(path_ + key + ".", found_);
+    body(inner);
+  }
+
+ private:
+  void add_number(const std::string& key, const char* unit) { found_.push_back({path_ + key, unit, true}); }
+  void add_other(const char* key) { found_.push_back({path_ + key, "-", false}); }
+
+  std::string path_;
+  std::vector<WalkedKey>& found_;
+};
+
+std::vector<WalkedKey> walked_keys(const Method& method) {
+  Method m = method;
+  std::vector<WalkedKey> found;
+  KeyWalk top("", found);
+  top.section("specimen", [&](KeyWalk& f) { fields::specimen(f, m.specimen); });
+  top.section("material", [&](KeyWalk& f) { fields::material(f, m.material); });
+  top.section("machine", [&](KeyWalk& f) {
+    fields::machine(f, m.machine);
+    f.section("load_cell", [&](KeyWalk& cell) { fields::load_cell(cell, m.machine.load_cell); });
+  });
+  for (std::size_t i = 0; i < m.program.size(); ++i) {
+    const std::string name = phase_name(m.program[i].phase);
+    std::vector<std::string> names{std::to_string(i) + "." + name};
+    if (step_called(m.program, name)) names.push_back(name);
+    for (const std::string& entry : names) {
+      KeyWalk step("program." + entry + ".", found);
+      fields::step(step, m.program[i]);
+    }
+  }
+  top.section("ends", [&](KeyWalk& f) { fields::ends(f, m.ends); });
+  top.section("physics", [&](KeyWalk& f) { fields::physics(f, m.physics); });
+  return found;
+}
+
+struct Label {
+  const char* key;
+  const char* words;
+};
+
+/// Of keys whose names alone would not tell a reader enough.
+constexpr Label kLabels[] = {
+    {"specimen.handedness", "Handedness of the two overhands"},
+    {"specimen.file", "Shape from"},
+    {"specimen.knot_distance", "Knot distance e"},
+    {"specimen.end_to_end", "End to end L"},
+    {"specimen.length", "Length of rod"},
+    {"specimen.tail", "Tails"},
+    {"specimen.preload", "Pre-load F_p"},
+    {"specimen.wrap", "Angle around the post"},
+    {"specimen.edge_length", "Edge length of the mesh"},
+    {"specimen.refinement", "Refinement within the knots"},
+    {"material.friction_couple", "Share of friction's couple that sections take"},
+    {"material.hardening", "Share of the bending stiffness that does not yield"},
+    {"material.bending_set", "Share of the tied bend that sets"},
+    {"machine.roller_rotation", "Rollers"},
+    {"machine.roller_rate", "Rate of the rollers"},
+    {"machine.far_side", "Far side of the loop"},
+    {"machine.stiffness", "Frame stiffness"},
+    {"machine.load_cell.capacity", "Capacity of the cell"},
+    {"machine.load_cell.sampling_rate", "Readings of the cell"},
+    {"machine.load_cell.accuracy", "Accuracy of the cell"},
+    {"machine.load_cell.floor", "Floor of the cell"},
+    {"machine.load_cell.resolution", "Resolution of the cell"},
+    {"machine.load_cell.noise", "Noise of the cell, standard deviation"},
+    {"machine.load_cell.drift", "Drift of the cell"},
+    {"machine.load_cell.overload", "Stop of the cell"},
+    {"ends.break_at_fraction_of_peak", "Break at no more than"},
+    {"physics.friction.at", "Friction acts at the"},
+    {"physics.inertia", "Mass that is accelerated"},
+    {"physics.max_step", "Longest step"},
+};
+
+/// Of an entry of a list, or of a step that goes by its number.
+bool is_numbered(const std::string& key) {
+  for (std::size_t begin = 0; begin <= key.size();) {
+    const std::size_t end = std::min(key.find('.', begin), key.size());
+    if (key.find_first_not_of("0123456789", begin) >= end) return true;
+    begin = end + 1;
+  }
+  return false;
+}
+
+/// The name of a key in words: "contact stiffness" of "material.contact_stiffness".
+std::string words_of(const std::string& key) {
+  std::string words = key.substr(key.rfind('.') + 1);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+/// A method with every step that there is.
+Method with_every_step() {
+  Method method;
+  for (const std::string& name : step_names()) {
+    ProgramStep step;
+    step.phase = *phase_named(name);
+    step.hold_load = true;
+    method.program.push_back(step);
+  }
+  return method;
+}
+
+}  // namespace
+
+std::vector<KeyUnit> key_units(const Method& method) {
+  std::vector<KeyUnit> found;
+  for (const WalkedKey& one : walked_keys(method))
+    if (one.number) found.push_back({one.key, one.unit});
+  return found;
+}
+
+std::string unit_of_key(const Method& method, const std::string& key) {
+  for (const KeyUnit& one : key_units(method))
+    if (one.key == key) return one.unit;
+  return "";
+}
+
+std::vector<MethodKey> method_keys() {
+  std::vector<MethodKey> keys;
+  for (const WalkedKey& one : walked_keys(with_every_step()))
+    if (!is_numbered(one.key)) keys.push_back({one.key, words_of(one.key), one.unit});
+  for (const Label& label : kLabels) {
+    const auto key = std::find_if(keys.begin(), keys.end(), [&](const MethodKey& one) { return one.key == label.key; });
+    if (key == keys.end()) throw std::logic_error(std::string(label.key) + " has a label, but is no key of a method");
+    key->label = label.words;
+  }
+  return keys;
+}
+
+std::string method_keys_csv() {
+  std::string all = "key,label,unit\n";
+  for (const MethodKey& one : method_keys()) all += one.key + ",\"" + one.label + "\"," + one.unit + "\n";
+  return all;
+}
+
+std::string knots_csv() {
+  // The mesh comes last.
+  const char *const kEdges = "edge_length", *const kRefinement = "refinement";
+  std::string all = "knot,title,keys\n";
+  for (const Knot* knot : knots()) {
+    const KnotDescription& about = knot->about();
+    all += std::string(about.name) + ",\"" + about.title + "\",";
+    for (const std::string& key : about.keys)
+      if (key != kRefinement) all += key + " ";
+    all += kEdges;
+    if (knot->has(kRefinement)) all += std::string(" ") + kRefinement;
+    all += "\n";
+  }
+  return all;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,74 @@
+// The method written as YAML.
+#include "knot_utm/machine/grips.hpp"
+#include "knot_utm/method/method.hpp"
+#include "knot_utm/specimen/knot.hpp"
+#include "method_overrides.hpp"
+#include "method_reader.hpp"
+#include "specimens_section.hpp"
+
+namespace knot_utm {
+
+using fields::Writer;
+
+namespace {
+
+/// Keys that another choice leaves without effect have plain values, which suit no rod, and would say what the test is
+/// not.
+void leave_out_idle_keys(const Method& m, YAML::Node& root) {
+  const Knot& knot = knot_of(m.specimen);
+  std::vector<std::string> idle;
+  for (const auto& item : root["specimen"])
+    if (!knot.has(item.first.Scalar())) idle.push_back(item.first.Scalar());
+  for (const std::string& key : idle) root["specimen"].remove(key);
+  if (!knot.about().loop) root["machine"].remove("roller_diameter");
+  if (!rollers_hold(m.specimen, m.machine)) root["machine"].remove("far_side");
+}
+
+}  // namespace
+
+std::string method_yaml(const Method& method) {
+  Method m = method;
+  Writer top;
+  top.section("specimen", [&](Writer& f) { fields::specimen(f, m.specimen); });
+  top.section("material", [&](Writer& f) { fields::material(f, m.material); });
+  top.section("machine", [&](Writer& f) {
+    fields::machine(f, m.machine);
+    f.section("load_cell", [&](Writer& cell) { fields::load_cell(cell, m.machine.load_cell); });
+  });
+  YAML::Node root = top.map();
+  for (ProgramStep& step : m.program) {
+    Writer entry;
+    entry.section(phase_name(step.phase), [&](Writer& f) { fields::step(f, step); });
+    YAML::Node entry_map = entry.map();
+    entry_map.SetStyle(YAML::EmitterStyle::Flow);
+    root["program"].push_back(entry_map);
+  }
+  top.section("ends", [&](Writer& f) { fields::ends(f, m.ends); });
+  top.section("physics", [&](Writer& f) { fields::physics(f, m.physics); });
+  top.section("analysis", [&](Writer& f) { fields::analysis(f, m.analysis); });
+  top.section("report", [&](Writer& f) { fields::report(f, m.report); });
+  for (Requirement& required : m.specification) {
+    Writer limits;
+    fields::requirement(limits, required);
+    YAML::Node limits_map = limits.map();
+    limits_map.SetStyle(YAML::EmitterStyle::Flow);
+    root["specification"][required.key] = limits_map;
+  }
+  leave_out_idle_keys(method, root);
+  // A single specimen is the one that the method describes.
+  if (m.specimens.count > 1) root["specimens"] = specimens_map(m.specimens);
+  for (const auto& [key, value] : m.automatic) root["automatic"][key] = value;
+  YAML::Emitter out;
+  out << root;
+  return std::string(out.c_str()) + "\n";
+}
+
+std::optional<double> number_at(const Method& method, const std::string& key) {
+  Method one = method;
+  one.specimens.count = 1;
+  const YAML::Node value = value_at(YAML::Load(method_yaml(one)), key);
+  if (!value.IsDefined() || !value.IsScalar()) return std::nullopt;
+  return parse_number(value.Scalar());
+}
+
+}  // namespace knot_utm

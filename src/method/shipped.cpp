@@ -1,0 +1,136 @@
+#include "knot_utm/method/shipped.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <system_error>
+
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/known_names.hpp"
+#include "knot_utm/specimen/knot.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where methods lie in each of the shipped folders. What else lies there, such as materials, is no method.
+std::vector<std::string> folders_of_methods(const std::vector<std::string>& shipped) {
+  std::vector<std::string> folders;
+  for (const std::string& folder : shipped) {
+    folders.push_back(folder);
+    folders.push_back(folder + "/standards");
+  }
+  return folders;
+}
+
+std::vector<std::string> names_of_methods(const std::vector<std::string>& shipped) {
+  std::set<std::string> names;
+  for (const std::string& folder : folders_of_methods(shipped)) {
+    std::error_code error;
+    for (fs::directory_iterator file(folder, error), end; !error && file != end; file.increment(error))
+      if (file->path().extension() == ".yaml") names.insert(file->path().stem().string());
+  }
+  return {names.begin(), names.end()};
+}
+
+/// The first sentence of the comment at the head of a file.
+std::string head_of(const fs::path& file) {
+  std::ifstream lines(file);
+  std::string comment;
+  for (std::string line; std::getline(lines, line) && line.rfind("# ", 0) == 0;)
+    comment += (comment.empty() ? "" : " ") + line.substr(2);
+  // A figure behind the point, as in "Figs. 8", ends no sentence.
+  for (std::size_t stop = comment.find(". "); stop != std::string::npos; stop = comment.find(". ", stop + 1))
+    if (std::isupper(static_cast<unsigned char>(comment[stop + 2])) != 0) return comment.substr(0, stop + 1);
+  return comment;
+}
+
+/// What lies in a subfolder of the shipped folders: names and what the files say of themselves.
+std::map<std::string, std::string> shipped_in(const std::string& subfolder, const std::vector<std::string>& shipped) {
+  std::map<std::string, std::string> found;
+  for (const std::string& folder : shipped) {
+    std::error_code error;
+    for (fs::directory_iterator file(folder + "/" + subfolder, error), end; !error && file != end;
+         file.increment(error))
+      if (file->path().extension() == ".yaml") found.emplace(file->path().stem().string(), head_of(file->path()));
+  }
+  return found;
+}
+
+std::map<std::string, std::string> titles_of_knots() {
+  std::map<std::string, std::string> found;
+  for (const Knot* knot : knots()) found.emplace(knot->about().name, knot->about().title);
+  return found;
+}
+
+/// What can be listed, and where it lies in the shipped folders; of knots the program knows itself.
+struct Listed {
+  const char* kind;
+  const char* subfolder;
+};
+constexpr Listed kListed[] = {{"methods", ""},
+                              {"materials", "materials"},
+                              {"knots", nullptr},
+                              {"standards", "standards"},
+                              {"studies", "studies"}};
+
+std::string listing_of(const Listed& what, const std::vector<std::string>& shipped) {
+  const std::map<std::string, std::string> found =
+      what.subfolder == nullptr ? titles_of_knots() : shipped_in(what.subfolder, shipped);
+  std::size_t width = 0;
+  for (const auto& [name, about] : found) width = std::max(width, name.size());
+  std::string out;
+  for (const auto& [name, about] : found) out += name + std::string(width + 2 - name.size(), ' ') + about + "\n";
+  return out;
+}
+
+}  // namespace
+
+std::string shipped_listing(const std::string& kind, const std::vector<std::string>& shipped) {
+  std::string all;
+  std::vector<std::string> kinds;
+  for (const Listed& what : kListed) {
+    if (kind == what.kind) return listing_of(what, shipped);
+    all += (all.empty() ? "" : "\n") + std::string(what.kind) + ":\n" + listing_of(what, shipped);
+    kinds.emplace_back(what.kind);
+  }
+  if (kind.empty()) return all;
+  throw InvalidInput::unknown_name("--list", kind, listed(kinds), kinds);
+}
+
+std::vector<std::string> shipped_folders() {
+  std::vector<std::string> folders;
+  std::error_code error;
+  const fs::path executable = fs::read_symlink("/proc/self/exe", error);
+  if (!error)
+    folders.push_back(
+        fs::weakly_canonical(executable.parent_path() / ".." / ".." / "share" / "knot_utm" / "config", error));
+  folders.emplace_back(KNOT_UTM_CONFIG_DIR);
+  return folders;
+}
+
+std::string find_method(const std::string& method, const std::string& base, const std::vector<std::string>& shipped) {
+  const fs::path given = fs::path(base) / method;
+  std::error_code error;
+  const auto is_file = [&](const fs::path& file) { return fs::is_regular_file(file, error); };
+  if (is_file(given)) return given.string();
+  const bool has_folder = method.find('/') != std::string::npos;
+  for (const std::string& folder : has_folder ? shipped : folders_of_methods(shipped)) {
+    for (const std::string& name : {method, method + ".yaml"})
+      if (const fs::path place = fs::path(folder) / name; is_file(place)) return place.string();
+  }
+  const bool is_name = !method.empty() && !has_folder && !fs::path(method).has_extension();
+  if (is_name && !fs::exists(given, error)) {
+    const std::vector<std::string> names = names_of_methods(shipped);
+    throw InvalidInput::unknown_name("the method", method,
+                                     "a file, or one of those that come with the package (" + listed(names, ", ") + ")",
+                                     names);
+  }
+  return given.string();
+}
+
+}  // namespace knot_utm

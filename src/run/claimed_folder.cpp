@@ -1,0 +1,45 @@
+#include "knot_utm/run/claimed_folder.hpp"
+
+#include <sys/file.h>
+
+#include <cerrno>
+
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/run/run_folder.hpp"
+
+namespace knot_utm {
+
+ClaimedFolder::ClaimedFolder(const std::string& folder) : ClaimedFolder() {
+  if (!claim(folder))
+    throw InvalidInput::sentence("--out", folder, "another run is writing to the folder " + shown(folder));
+}
+
+ClaimedFolder ClaimedFolder::first_free(const std::string& folder) {
+  for (int number = 1;; ++number) {
+    const std::string candidate = numbered_folder(folder, number);
+    ClaimedFolder claimed;
+    // Another run may have written its results between the look and the claim.
+    if (!holds_run(candidate) && claimed.claim(candidate) && !holds_run(candidate)) return claimed;
+  }
+}
+
+bool ClaimedFolder::claim(const std::string& folder) {
+  make_run_folder(folder);
+  path_ = folder;
+  folder_.reset(opendir(folder.c_str()));
+  if (!folder_) throw InvalidInput::cannot_write("--out", folder, errno);
+  // A file system without locks leaves it to samples.csv, which nobody begins twice.
+  return flock(dirfd(folder_.get()), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+std::string free_folder(const std::string& folder) {
+  int number = 1;
+  while (holds_run(numbered_folder(folder, number))) ++number;
+  return numbered_folder(folder, number);
+}
+
+std::string moved_notice(const std::string& asked, const std::string& used) {
+  return asked + " holds a run already, which stays as it is; this one is written to " + used;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,169 @@
+#include "knot_utm/run/csv.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/numeric/text_rows.hpp"
+#include "knot_utm/record/sample_fields.hpp"
+#include "knot_utm/run/cannot_write.hpp"
+
+namespace knot_utm {
+namespace {
+
+struct Column {
+  const char* name;
+  const char* unit;
+  double CurveRow::*value;
+};
+
+constexpr std::array<Column, 6> kColumns{{{"time", sample_unit("time"), &CurveRow::time},
+                                          {"extension", sample_unit("extension"), &CurveRow::extension},
+                                          {"load", sample_unit("load"), &CurveRow::load},
+                                          {"knot_distance", sample_unit("knot_distance"), &CurveRow::knot_distance},
+                                          {"end_to_end", sample_unit("end_to_end"), &CurveRow::end_to_end},
+                                          {"load_lower", sample_unit("force_lower"), &CurveRow::load_lower}}};
+constexpr const char* kPhase = "phase";
+constexpr const char* kPhaseUnit = sample_unit(kPhase);
+constexpr Column kBalance = {"balance_offset", sample_unit("balance_offset"), &CurveRow::balance_offset};
+constexpr Column kTravel = {"crosshead_travel", sample_unit("raw_extension"), &CurveRow::crosshead_travel};
+/// Earlier versions called s so, and the travel of the crosshead `extension`.
+constexpr Column kEarlier = {"corrected_extension", sample_unit("extension"), &CurveRow::crosshead_travel};
+
+std::vector<Column> behind_the_phase(bool compliant_frame) {
+  return compliant_frame ? std::vector<Column>{kBalance, kTravel} : std::vector<Column>{kBalance};
+}
+
+void open(std::ofstream& out, const std::string& file) {
+  out.open(file, std::ios::binary | std::ios::trunc);
+  if (!out) throw CannotWrite(file);
+}
+
+std::vector<std::string_view> cells(std::string_view line) {
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  std::vector<std::string_view> result;
+  for (;;) {
+    const std::size_t comma = line.find(',');
+    result.push_back(line.substr(0, comma));
+    if (comma == std::string_view::npos) return result;
+    line.remove_prefix(comma + 1);
+  }
+}
+
+/// Where a column stands, its unit checked.
+std::size_t place(const std::string& file, const std::vector<std::string_view>& names,
+                  const std::vector<std::string_view>& units, const char* name, const char* unit) {
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw InvalidInput::sentence("row 1", name,
+                                 "row 1 names no column " + std::string(name) + ", which a curve.csv has")
+        .in_file(file);
+  const std::size_t index = static_cast<std::size_t>(found - names.begin());
+  const std::string given = index < units.size() ? "\"" + std::string(units[index]) + "\"" : "missing";
+  if (index >= units.size() || units[index] != unit)
+    throw InvalidInput(file, "row 2: the unit of " + std::string(name), given, unit);
+  return index;
+}
+
+}  // namespace
+
+CurveWriter::CurveWriter(const std::string& file, bool compliant_frame)
+    : file_(file), compliant_frame_(compliant_frame) {
+  open(out_, file);
+  std::string names;
+  std::string units;
+  for (const Column& column : kColumns) {
+    names += std::string(column.name) + ',';
+    units += std::string(column.unit) + ',';
+  }
+  names += kPhase;
+  units += kPhaseUnit;
+  for (const Column& column : behind_the_phase(compliant_frame)) {
+    names += std::string(",") + column.name;
+    units += std::string(",") + column.unit;
+  }
+  out_ << names << '\n' << units << '\n' << std::flush;
+}
+
+void CurveWriter::write(const CurveRow& row) {
+  std::string line;
+  // Adding zero turns -0 into 0.
+  for (const Column& column : kColumns) line += format_number(row.*column.value + 0.0) + ',';
+  line += phase_name(row.phase);
+  for (const Column& column : behind_the_phase(compliant_frame_)) line += ',' + format_number(row.*column.value + 0.0);
+  out_ << line << '\n' << std::flush;
+  if (!out_) throw CannotWrite(file_);
+  ++rows_;
+}
+
+std::vector<CurveRow> read_curve(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw InvalidInput::cannot_read(file);
+  return read_curve(in, file);
+}
+
+std::vector<CurveRow> read_curve(std::istream& in, const std::string& file) {
+  TextRows text(in);
+  std::array<std::string, 2> head;  // names and units
+  for (std::string& row : head) {
+    if (!text.next())
+      throw InvalidInput::sentence("rows", "fewer than 2", "a curve.csv begins with a row of names and a row of units")
+          .in_file(file);
+    row = text.text();
+  }
+  const std::vector<std::string_view> names = cells(head[0]);
+  const std::vector<std::string_view> units = cells(head[1]);
+  std::vector<Column> columns(kColumns.begin(), kColumns.end());
+  for (const Column& column : {kBalance, kTravel, kEarlier})
+    if (std::find(names.begin(), names.end(), column.name) != names.end()) columns.push_back(column);
+  std::vector<std::size_t> places;
+  for (const Column& column : columns) places.push_back(place(file, names, units, column.name, column.unit));
+  const std::size_t phase_place = place(file, names, units, kPhase, kPhaseUnit);
+
+  std::vector<CurveRow> rows;
+  while (text.next()) {
+    const std::string key = "row " + std::to_string(text.number());
+    const std::vector<std::string_view> values = cells(text.text());
+    if (values.size() != names.size()) {
+      throw InvalidInput::sentence(key, text.text(),
+                                   key + " has " + std::to_string(values.size()) + " columns, but must have " +
+                                       std::to_string(names.size()) + " as row 1 has")
+          .in_file(file);
+    }
+    CurveRow row;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      const std::optional<double> value = parse_number(values[places[i]]);
+      if (!value)
+        throw InvalidInput(file, key + ": " + columns[i].name, "\"" + std::string(values[places[i]]) + "\"",
+                           "a number");
+      row.*columns[i].value = *value;
+    }
+    const std::string phase(values[phase_place]);
+    const std::optional<Phase> known = phase_named(phase);
+    if (!known) throw InvalidInput(file, key + ": phase", "\"" + phase + "\"", "a phase of a test, such as pull");
+    row.phase = *known;
+    if (columns.back().name == kEarlier.name) std::swap(row.extension, row.crosshead_travel);
+    rows.push_back(row);
+  }
+  if (!text.fault().empty()) throw InvalidInput::sentence("rows", "too many", text.fault()).in_file(file);
+  return rows;
+}
+
+void write_centreline(const std::string& file, const Points& points) {
+  std::ofstream out;
+  open(out, file);
+  out << "x,y,z\nm,m,m\n";
+  for (Eigen::Index i = 0; i < points.cols(); ++i) {
+    out << format_number(points(0, i)) << ',' << format_number(points(1, i)) << ',' << format_number(points(2, i))
+        << '\n';
+  }
+  out.close();
+  if (!out) throw CannotWrite(file);
+}
+
+}  // namespace knot_utm

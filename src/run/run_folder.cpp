@@ -1,0 +1,213 @@
+#include "knot_utm/run/run_folder.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <system_error>
+
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/run/cannot_write.hpp"
+#include "knot_utm/run/command_hint.hpp"
+#include "knot_utm/run/samples.hpp"
+#include "knot_utm/specimen/knot.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kResolved = "# Everything resolved: runs again to the same curve.\n";
+constexpr const char* kFailedStep = "failed_step.bin";
+constexpr const char* kSpecimen = "specimen_";  // and a number, the folder of one
+
+/// What a run writes over when it begins, or leaves to who made it.
+constexpr std::array<const char*, 3> kWritten{"method.yaml", "specimen.csv", "comparison.yaml"};
+/// What it takes away when it begins.
+constexpr std::array<const char*, 15> kOld{"samples.csv",     "shapes.bin",      "curve.csv",  "curve_full.csv",
+                                           "result.yaml",     "final_shape.csv", "shapes.csv", "test.bag",
+                                           "saved.bag",       "report.html",     "report.pdf", kFailedStep,
+                                           "statistics.yaml", "specimens.csv",   "checkpoint"};
+
+/// What `compare --report` left; curves a.csv and b.csv without its comparison.yaml are somebody else's.
+void remove_comparison(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::remove(folder / "comparison.yaml", error)) return;
+  for (const char* curve : {"a.csv", "b.csv"}) fs::remove(folder / curve, error);
+}
+
+void put_copy(const fs::path& file, const fs::path& copy) {
+  std::error_code error;
+  // A run repeated from its own folder reads this very file.
+  if (fs::equivalent(file, copy, error)) return;
+  fs::copy_file(file, copy, fs::copy_options::overwrite_existing, error);
+  if (error) throw CannotWrite(copy.string(), error.value());
+}
+
+std::string logo_beside(const Method& method) { return "logo" + fs::path(method.report.logo).extension().string(); }
+
+}  // namespace
+
+std::optional<std::string> result_of(const std::string& folder, const std::string& key) {
+  std::ifstream result(fs::path(folder) / "result.yaml");
+  const std::string begin = key + ": ";
+  for (std::string line; std::getline(result, line);) {
+    if (line.rfind(begin, 0) == 0) return line.substr(begin.size());
+  }
+  return std::nullopt;
+}
+
+void make_folder(const std::string& folder, const char* argument) {
+  std::error_code error, other;
+  fs::create_directories(folder, error);
+  if (fs::is_directory(folder, other)) return;
+  throw InvalidInput::sentence(argument, folder,
+                               "cannot make the folder \"" + shown(folder) + "\": " + reason_of(error.value()));
+}
+
+void require_new_file(const char* argument, const std::string& file, const std::vector<std::string>& inputs,
+                      bool overwrite, const std::string& begins) {
+  std::error_code error;
+  const auto refuse = [&](const std::string& why) {
+    throw InvalidInput::sentence(argument, file, std::string(argument) + ": " + shown(file) + why);
+  };
+  for (const std::string& input : inputs)
+    if (fs::equivalent(file, input, error)) refuse(" is an input, and would be written over: give another name");
+  if (!fs::exists(fs::symlink_status(file, error))) return;
+  if (!overwrite) refuse(" exists already: give another name, or --overwrite");
+  if (begins.empty() || !fs::is_regular_file(file, error)) return;
+  std::ifstream in(file, std::ios::binary);
+  std::string head(begins.size(), '\0');
+  in.read(head.data(), static_cast<std::streamsize>(head.size()));
+  if (head != begins) refuse(" is a file of another kind, which --overwrite does not replace: give another name");
+}
+
+void make_run_folder(const std::string& folder) { make_folder(folder, "--out"); }
+
+std::string method_file_text(const Method& method) {
+  Method own = method;
+  if (knot_of(own.specimen).has("file")) own.specimen.file = "specimen.csv";
+  if (!own.report.logo.empty()) own.report.logo = logo_beside(method);
+  return kResolved + method_yaml(own);
+}
+
+void require_no_record_in(const std::string& folder, const Method& method) {
+  std::error_code error;
+  for (const ProgramStep& step : method.program)
+    if (step.phase == Phase::kFollow && fs::equivalent(fs::path(step.record).parent_path(), folder, error))
+      throw InvalidInput::sentence("--out", folder,
+                                   "the method follows " + shown(step.record) + ", which stands in the folder " +
+                                       shown(folder) + " itself: choose another folder to write to");
+}
+
+void require_no_method_in(const std::string& folder, const std::string& method_file) {
+  std::error_code error;
+  const fs::path written = fs::path(folder) / "method.yaml";
+  if (!fs::equivalent(written, method_file, error) || read_whole(method_file).rfind(kResolved, 0) == 0) return;
+  throw InvalidInput::sentence(
+      "--out", folder,
+      "the run would write over its own method, " + shown(written.string()) + ": choose another folder to write to");
+}
+
+void begin_run_folder(const std::string& folder, const Method& method) {
+  std::error_code error;
+  require_no_record_in(folder, method);
+  if (knot_of(method.specimen).has("file")) put_copy(method.specimen.file, fs::path(folder) / "specimen.csv");
+  if (!method.report.logo.empty()) put_copy(method.report.logo, fs::path(folder) / logo_beside(method));
+  // Not before the specimen has been read: it may be the shape that the last run left here.
+  for (const char* old : kOld) fs::remove(fs::path(folder) / old, error);
+  remove_comparison(folder);
+  try {
+    write_whole((fs::path(folder) / "method.yaml").string(), method_file_text(method));
+  } catch (const CannotWrite& why) {
+    if (why.out_of_room()) throw;
+    throw InvalidInput::cannot_write("--out", folder, why.error);
+  }
+}
+
+std::string specimen_folder(const std::string& folder, int number) {
+  std::array<char, 32> name{};
+  std::snprintf(name.data(), name.size(), "%s%03d", kSpecimen, number);
+  return (fs::path(folder) / name.data()).string();
+}
+
+bool holds_run(const std::string& folder) {
+  std::error_code error;
+  const auto stands = [&](const char* name) { return fs::is_regular_file(fs::path(folder) / name, error); };
+  return std::any_of(kWritten.begin(), kWritten.end(), stands) || std::any_of(kOld.begin(), kOld.end(), stands) ||
+         !specimen_folders(folder).empty();
+}
+
+std::vector<std::string> specimen_folders(const std::string& folder) {
+  std::vector<std::string> found;
+  std::error_code error;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    const std::string name = entry.path().filename().string();
+    const bool numbered = name.rfind(kSpecimen, 0) == 0 && name.size() >= std::strlen(kSpecimen) + 3 &&
+                          name.find_first_not_of("0123456789", std::strlen(kSpecimen)) == std::string::npos;
+    if (numbered && entry.is_directory(error)) found.push_back(entry.path().string());
+  }
+  return found;
+}
+
+std::string numbered_folder(const std::string& folder, int number) {
+  if (number == 1) return folder;
+  fs::path path = fs::path(folder).lexically_normal();
+  if (!path.has_filename()) path = path.parent_path();
+  std::error_code error;
+  if (path == "." || path.filename() == "..") path = fs::weakly_canonical(path, error);
+  return path.string() + "-" + std::to_string(number);
+}
+
+bool has_complete_result(const std::string& folder) {
+  const std::optional<std::string> ended_by = result_of(folder, "ended_by"), reason = result_of(folder, "reason");
+  const bool interrupted = reason && *reason == '"' + std::string(kInterrupted) + '"';
+  return ended_by && *ended_by != ended_by_name(EndedBy::kNotYet) && !interrupted;
+}
+
+std::string what_stands(const std::string& folder) {
+  std::error_code error;
+  if (!fs::exists(samples_file(folder), error)) return "";
+  return "; what was measured until then stands in " + samples_file(folder) +
+         ", make the results of it by: " + command_line({program_beside("tensile_test"), "--from-samples", folder});
+}
+
+std::string failed_step_file(const std::string& folder) { return (fs::path(folder) / kFailedStep).string(); }
+
+void write_whole(const std::string& file, const std::string& text) {
+  const std::string part = file + ".part";
+  std::ofstream out(part, std::ios::binary | std::ios::trunc);
+  out << text;
+  out.close();
+  std::error_code error;
+  if (!out) {
+    const CannotWrite why(file);
+    fs::remove(part, error);
+    throw why;
+  }
+  fs::rename(part, file, error);
+  if (error) throw CannotWrite(file, error.value());
+}
+
+std::string read_whole(const std::string& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::ostringstream all;
+  if (in.peek() != std::ifstream::traits_type::eof()) all << in.rdbuf();
+  if (!in) throw std::runtime_error(InvalidInput::cannot_read(file).what());
+  return all.str();
+}
+
+std::string read_input(const std::string& file) {
+  try {
+    return read_whole(file);
+  } catch (const std::runtime_error&) {
+    throw InvalidInput::cannot_read(file);
+  }
+}
+
+}  // namespace knot_utm

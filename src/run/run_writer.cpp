@@ -1,0 +1,166 @@
+#include "knot_utm/run/run_writer.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "knot_utm/contact/sampled_centreline.hpp"
+#include "knot_utm/machine/grips.hpp"
+#include "knot_utm/machine/specimen_centreline.hpp"
+#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/specimen/knot.hpp"
+#include "knot_utm/specimen/scales.hpp"
+#include "knot_utm/topology/knot_hole.hpp"
+#include "knot_utm/verdict/foreseen.hpp"
+#include "knot_utm/verdict/result_yaml.hpp"
+#include "knot_utm/verdict/speed_warnings.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The accelerated mass over the rod's own.
+double inertia_of(const Method& method) {
+  const Centreline centreline = specimen_centreline(method.specimen, method.material, method.machine, method.physics);
+  return inertia_factor(method.material, method.physics, slack_of(method.specimen, centreline));
+}
+
+/// Of a loop around its rollers, by choice: half of the diameter of the default roller [h].
+constexpr double kLargestLoopTurn = 6.0;
+
+bool holds_its_knot(const Results& results) {
+  return results.break_place == BreakPlace::kNone && results.knot_type == KnotType::kKept;
+}
+
+}  // namespace
+
+RunWriter::RunWriter(const std::string& folder, const Method& method)
+    : folder_(folder),
+      curve_((fs::path(folder) / "curve.csv").string(), std::isfinite(method.machine.stiffness)),
+      full_curve_((fs::path(folder) / "curve_full.csv").string(), std::isfinite(method.machine.stiffness)) {
+  known_.errors = relative_errors(method.specimen, method.material, method.machine, method.physics);
+  known_.material = method.material;
+  for (const NodeForce& load : knot_of(method.specimen).supports(method.specimen, method.material).loads)
+    known_.dead_load += load.force.norm();
+  const KnotDescription& knot = knot_of(method.specimen).about();
+  known_.strands = knot.loop ? 2 : 1;
+  known_.may_hold_a_knot = knot.may_hold_a_knot();
+  known_.one_knot_in_a_strand = knot.knots == 1 && !knot.loop;
+  if (method.specimen.to_be_tied) known_.knot_distance = method.specimen.knot_distance;
+  if (method.machine.roller_rotation == RollerRotation::kTurned)
+    known_.warnings.push_back(
+        "the rollers are driven: what holds the far side bears a part of the load, and the two grips read different "
+        "forces");
+  if (method.specimen.to_be_tied) known_.preload = method.specimen.preload.value_or(Sample::kNone);
+  known_.foreseen = foreseen_warnings(method);
+  weight_per_length_ =
+      method.physics.gravity.norm() * method.material.density * M_PI * method.material.radius * method.material.radius;
+  if (rollers_hold(method.specimen, method.machine)) radius_on_rollers_ = method.material.radius;
+  far_side_held_ = method.machine.far_side == FarSide::kHeld;
+  if (method.analysis.margin)
+    known_.margin.reason = "only tensile_test makes the runs for the margin: run method.yaml of this folder with it";
+  known_.load_cell = method.machine.load_cell;
+  known_.inertia = inertia_of(method);
+  for (const std::string& warning : speed_warnings(method)) known_.warnings.push_back(warning);
+  for (const ProgramStep& step : method.program)
+    if (pulls(step.phase)) known_.pull_speed = std::max(known_.pull_speed, step.speed);
+  known_.specification = method.specification;
+  known_.version = version();
+}
+
+void RunWriter::add(const Record& record) {
+  const Sample& sample = record.answer;
+  for (const Sample& step : record.steps) {
+    // A bench that has failed answers with the last good step again.
+    if (!samples_.empty() && step.time <= samples_.back().time) continue;
+    full_curve_.write(step);
+    samples_.push_back(step);
+  }
+  if (sample.status == BenchStatus::kFailed) return;
+  const bool mounted = sample.phase != Phase::kIdle && !forms(sample.phase);
+  const bool whole = sample.status != BenchStatus::kBroken;
+  if (mounted && record.shape.cols() > 0 && whole) turn_.add(record.shape);
+  if (record.shape.cols() > 1 && whole)
+    length_ = (record.shape.rightCols(record.shape.cols() - 1) - record.shape.leftCols(record.shape.cols() - 1))
+                  .colwise()
+                  .norm()
+                  .sum();
+  shapes_.add(record);
+  const Sample* reading = cell_reading(record);
+  if (reading && (readings_.empty() || reading->time > readings_.back().time)) {
+    curve_.write(*reading);
+    readings_.push_back(*reading);
+  }
+  if (samples_.empty() || sample.time > samples_.back().time) {
+    samples_.push_back(sample);
+  } else {
+    samples_.back() = sample;
+  }
+}
+
+Results RunWriter::results(EndedBy ended_by) const {
+  return analyse(samples_, readings_, ended_by, radius_on_rollers_.has_value());
+}
+
+RunFacts RunWriter::facts() const {
+  RunFacts facts = known_;
+  facts.peak_memory = peak_memory();
+  facts.weight = weight_per_length_ * length_;
+  if (radius_on_rollers_) facts.slid_along = turn_.along();
+  if (radius_on_rollers_ && turn_.largest() > kLargestLoopTurn * *radius_on_rollers_)
+    facts.warnings.push_back(
+        "the loop turned around its rollers by " + format_number(std::round(turn_.largest() / *radius_on_rollers_)) +
+        " radii of the rod, which carries its knots along" + (facts.weight > 0.0 ? ": physics.gravity turns it" : "") +
+        (far_side_held_
+             ? ", though machine.far_side holds it: fixed rollers with machine.roller_friction would keep it in place"
+             : "; machine.far_side: held or machine.roller_friction keeps it in place"));
+  return facts;
+}
+
+void RunWriter::finish(const Results& results, const RunFacts& facts, const Points& final_shape) {
+  if (final_shape.cols() > 0) write_centreline((fs::path(folder_) / "final_shape.csv").string(), final_shape);
+  if (!shapes_.empty()) {
+    if (samples_.back().status == BenchStatus::kBroken) shapes_.add_parted(samples_.back().time, final_shape);
+    write_whole((fs::path(folder_) / "shapes.csv").string(), shapes_.csv());
+  }
+  RunFacts with_shape = facts;
+  with_shape.ends_with_hold = !samples_.empty() && samples_.back().phase == Phase::kHold;
+  if (with_shape.ends_with_hold && facts.one_knot_in_a_strand && holds_its_knot(results) && final_shape.cols() > 0)
+    with_shape.knot_hole = hole_diameter(sampled_centreline(final_shape), facts.material.radius);
+  write_whole((fs::path(folder_) / "result.yaml").string(), result_yaml(results, with_shape));
+}
+
+MadeResults make_results(const std::string& folder, const Method& method, const ResultsOptions& options) {
+  SamplesReader samples(folder);
+  RunWriter writer(folder, method);
+  const FurtherWriter further = options.further ? options.further(folder, method) : FurtherWriter();
+  Record record;
+  while (samples.next(record)) {
+    writer.add(record);
+    if (further.add) further.add(record);
+  }
+  if (further.close) further.close();
+  MadeResults made;
+  const TestEnd end = samples.end().value_or(options.without_end);
+  made.results = writer.results(end.ended_by);
+  made.facts = writer.facts();
+  made.facts.reason = end.reason;
+  made.facts.wall_time = record.wall_time;
+  if (!options.ran_here) made.facts.peak_memory = 0;
+  std::vector<std::string>& warnings = made.facts.warnings;
+  warnings.insert(warnings.end(), options.warnings.begin(), options.warnings.end());
+  const std::uint64_t sent = samples.records() > 0 ? record.command.sequence + 1 : 0;
+  if (const std::uint64_t missing = sent - samples.records() + options.missing_at_end; missing > 0)
+    warnings.push_back(std::to_string(missing) + " commands of the test were not recorded");
+  if (samples.torn_bytes() > 0)
+    warnings.emplace_back("the last command in samples.csv was cut off as it was written, and is left out");
+  if (options.margin) made.facts.margin = options.margin(made.results);
+  made.rows = writer.rows();
+  made.full_rows = writer.full_rows();
+  writer.finish(made.results, made.facts, samples.final_shape());
+  return made;
+}
+
+}  // namespace knot_utm

@@ -1,0 +1,301 @@
+#include "knot_utm/run/summary.hpp"
+
+#include <yaml-cpp/yaml.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/run/run_folder.hpp"
+#include "knot_utm/verdict/result_keys.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A unit, and how many of it are one of the unit of result.yaml.
+struct ShownUnit {
+  std::string name;
+  double scale;
+};
+
+ShownUnit shown_unit(const std::string& unit, double size) {
+  if (unit == "-" || unit == "0 to 1") return {"", 1.0};
+  if (unit.rfind("of ", 0) == 0) return {"% " + unit, 100.0};
+  const std::string begin = unit.substr(0, unit.find('/')), rest = unit.substr(begin.size());
+  if (begin == "m") return size != 0.0 && size < 1e-4 ? ShownUnit{"µm" + rest, 1e6} : ShownUnit{"mm" + rest, 1e3};
+  if (begin != "N" && begin != "J") return {unit, 1.0};
+  if (size >= 1e3) return {"k" + unit, 1e-3};
+  if (size >= 0.1 || size == 0.0) return {unit, 1.0};
+  return size >= 1e-4 ? ShownUnit{"m" + unit, 1e3} : ShownUnit{"µ" + unit, 1e6};
+}
+
+std::string with_decimals(double value, int decimals) {
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), "%.*f", std::max(decimals, 0), value);
+  return text.data();
+}
+
+/// The place of the last of so many digits, counted behind the point. A 9.97 of two digits is 10.
+int decimals_of(double value, int digits) {
+  if (value == 0.0) return 0;
+  std::array<char, 400> text{};
+  std::snprintf(text.data(), text.size(), "%.*e", digits - 1, value);
+  const char* exponent = std::strchr(text.data(), 'e');
+  return exponent ? digits - 1 - std::atoi(exponent + 1) : 0;
+}
+
+/// Beside a value an error that is smaller by this much is one of rounding.
+constexpr double kRounding = 1e-6;
+
+/// The digits of a value and of its error, which is empty where there is none.
+struct Digits {
+  std::string value, error;
+};
+
+/// With four digits, or so that the last digit is the second one of the error.
+Digits digits_of(double value, double error) {
+  constexpr int kMost = 9;  // behind the point; a value below that is written with an exponent
+  const bool known = error > kRounding * std::abs(value);
+  const int decimals = known ? decimals_of(error, 2) : decimals_of(value, 4);
+  if (!std::isfinite(value) || decimals > kMost) return {short_number(value), ""};
+  return {with_decimals(value, decimals), known ? with_decimals(error, decimals) : ""};
+}
+
+std::string with_unit(const std::string& number, const ShownUnit& unit) {
+  return unit.name.empty() ? number : number + " " + unit.name;
+}
+
+/// "4.98 N" where `reading_text` is "4.98 ± 0.24 N".
+std::string text_without_error(double value, const std::string& unit, double error) {
+  const ShownUnit shown = shown_unit(unit, std::abs(value));
+  return with_unit(digits_of(value * shown.scale, error * shown.scale).value, shown);
+}
+
+/// Whether a loss is so small beside the energy of the pull that it says nothing: that of an elastic rod.
+bool is_rounding(const std::string& key, double value, const std::optional<double>& energy) {
+  return key == "hysteresis" && energy && std::abs(value) < kRounding * *energy;
+}
+
+/// A line that begins with the name of a reading.
+std::string line_of(const std::string& label, const std::string& words) {
+  constexpr std::size_t kColumn = 22;
+  return "  " + label + std::string(label.size() < kColumn ? kColumn - label.size() : 1, ' ') + words + "\n";
+}
+
+/// A reading of the summary. `error`: the key of its error, empty where it has none.
+struct SummaryRow {
+  const char* key;
+  const char* label;
+  const char* error;
+};
+
+/// In this order, as many as there are and as fit.
+constexpr SummaryRow kRows[] = {
+    {"jump_force", "knot jumped open at", ""},
+    {"plateau_force", "plateau force", "plateau_force_error"},
+    {"lock_extension", "lock extension", "lock_extension_error"},
+    {"locked_stiffness", "locked stiffness", "locked_stiffness_error"},
+    {"force_ratio", "force ratio", ""},
+    {"peak_force", "largest load", "peak_force_error"},
+    {"break_extension", "extension at break", ""},
+    {"elongation_at_break", "elongation at break", ""},
+    {"relaxation", "relaxation", ""},
+    {"hysteresis", "hysteresis", ""},
+    {"knotability", "knotability", ""},
+};
+constexpr std::size_t kMostRows = 6;
+
+/// A file that a run wrote.
+class ResultFile {
+ public:
+  explicit ResultFile(const std::string& file) {
+    try {
+      root_ = YAML::Load(read_input(file));
+    } catch (const YAML::Exception& error) {
+      throw InvalidInput::sentence("file", file, shown(file) + " is not the result of a run: " + shown(error.msg));
+    }
+    if (!root_.IsMap()) throw InvalidInput::sentence("file", file, shown(file) + " is not the result of a run");
+  }
+
+  std::string word(const std::string& key) const { return word_in(root_[key]); }
+  std::optional<double> number(const std::string& key) const { return parse_number(word(key)); }
+  std::size_t count(const std::string& key) const {
+    const YAML::Node list = root_[key];
+    return list.IsDefined() && list.IsSequence() ? list.size() : 0;
+  }
+  /// One of the statistics of a reading.
+  std::optional<double> statistic(const std::string& key, const char* which) const {
+    const YAML::Node of = root_[key];
+    return of.IsDefined() && of.IsMap() ? parse_number(word_in(of[which])) : std::nullopt;
+  }
+
+  /// The same number of every entry of a list.
+  std::vector<double> numbers(const std::string& list, const char* key) const {
+    std::vector<double> out;
+    const YAML::Node all = root_[list];
+    if (!all.IsDefined() || !all.IsSequence()) return out;
+    for (const YAML::Node& one : all)
+      if (const auto value = one.IsMap() ? parse_number(word_in(one[key])) : std::nullopt) out.push_back(*value);
+    return out;
+  }
+
+ private:
+  static std::string word_in(const YAML::Node& node) { return node && node.IsScalar() ? node.Scalar() : ""; }
+  YAML::Node root_;
+};
+
+std::string unit_of(const std::string& key) {
+  const std::vector<ResultKey>& keys = result_keys();
+  const auto found = std::find_if(keys.begin(), keys.end(), [&](const ResultKey& one) { return one.name == key; });
+  return found == keys.end() ? "-" : found->unit;
+}
+
+/// What belongs to a reading and is no error.
+std::string beside(const std::string& key, const ResultFile& result, double error) {
+  const auto reading = [&](const char* of) {
+    return text_without_error(result.number(of).value_or(NAN), unit_of(of), error);
+  };
+  if (key == "plateau_force" && result.number("plateau_force_low") && result.number("plateau_force_high"))
+    return ", between " + reading("plateau_force_low") + " and " + reading("plateau_force_high");
+  if (key == "jump_force" && result.number("jump_extension"))
+    return " and an extension of " + reading("jump_extension");
+  return "";
+}
+
+std::string run_lines(const ResultFile& result) {
+  std::string out = "the test ended by " + result.word("ended_by");
+  const std::optional<double> time = result.number("simulated_time"), factor = result.number("real_time_factor");
+  if (time && factor)
+    out += " after " + with_decimals(*time, 1) + " s, at " + with_decimals(*factor, 1) + " times real time";
+  out += "\n";
+  const std::string pattern = result.word("motion_pattern");
+  const std::optional<double> confidence = result.number("motion_pattern_confidence");
+  if (pattern != "none" && confidence)
+    out += line_of("motion pattern", pattern + " (confidence " + with_decimals(*confidence, 2) + ")");
+  std::size_t rows = 0;
+  for (const SummaryRow& row : kRows) {
+    const std::optional<double> value = result.number(row.key);
+    // Nobody misses a plateau of a rod without two knots.
+    const bool missed = std::string(row.key) == "plateau_force" && (pattern != "none" || result.number("jump_force"));
+    const std::string none = missed ? result.word("no_plateau_because") : "";
+    if (!value && (none.empty() || none == "null")) continue;
+    if (value && is_rounding(row.key, *value, result.number("energy_to_peak"))) continue;
+    if (rows++ == kMostRows) break;
+    const double error = result.number(row.error).value_or(0.0);
+    out += line_of(row.label, value ? reading_text(*value, unit_of(row.key), error) + beside(row.key, result, error)
+                                    : "none: " + none);
+  }
+  const std::string passed = result.word("specification_passed");
+  if (passed == "true" || passed == "false")
+    out += line_of("specification",
+                   passed == "true"
+                       ? "met"
+                       : "not met in " + std::to_string(result.count("specification_failed")) + " of its requirements");
+  return out;
+}
+
+/// How many of the specimens that count meet the specification; empty where there is none.
+std::string batch_verdict(const ResultFile& batch, const std::string& folder) {
+  const std::vector<double> rejected = batch.numbers("rejected", "specimen");
+  std::size_t met = 0, not_met = 0;
+  for (const std::string& own : specimen_folders(folder)) {
+    const double number = *parse_number(own.substr(own.find_last_of('_') + 1));
+    if (std::find(rejected.begin(), rejected.end(), number) != rejected.end()) continue;
+    std::error_code error;
+    const fs::path file = fs::path(own) / "result.yaml";
+    if (number > batch.number("specimens").value_or(0.0) || !fs::is_regular_file(file, error)) continue;
+    const std::string passed = ResultFile(file.string()).word("specification_passed");
+    met += passed == "true";
+    not_met += passed == "false";
+  }
+  if (met + not_met == 0) return "";
+  return line_of("specification",
+                 "met by " + std::to_string(met) + " of " + std::to_string(met + not_met) + " specimens");
+}
+
+std::string batch_lines(const ResultFile& result, const std::string& folder) {
+  const double all = result.number("specimens").value_or(0.0);
+  const auto rejected = static_cast<double>(result.count("rejected"));
+  std::string out = with_decimals(all - rejected, 0) + " of " + with_decimals(all, 0) + " specimens count\n";
+  std::size_t rows = 0;
+  for (const SummaryRow& row : kRows) {
+    const std::optional<double> mean = result.statistic(row.key, "mean"), sd = result.statistic(row.key, "sd");
+    if (!mean) continue;
+    // Readings of both signs may have a mean of nothing.
+    const double largest = std::max(std::abs(*mean), sd.value_or(0.0));
+    if (is_rounding(row.key, largest, result.statistic("energy_to_peak", "mean"))) continue;
+    if (rows++ == kMostRows) break;
+    const double n = result.statistic(row.key, "n").value_or(0.0);
+    out += line_of(row.label, reading_text(*mean, unit_of(row.key), sd.value_or(0.0)) + " (mean" +
+                                  (sd ? " ± standard deviation" : "") + " of " + with_decimals(n, 0) + ")");
+  }
+  return out + batch_verdict(result, folder);
+}
+
+/// A reading of both curves. Empty: neither has it.
+std::string compared(const char* label, const std::optional<double>& a, const std::optional<double>& b,
+                     const std::string& unit) {
+  if (!a && !b) return "";
+  constexpr std::size_t kColumn = 16;
+  const auto cell = [&](const std::optional<double>& value) {
+    std::string text = value ? reading_text(*value, unit) : "none";
+    if (text.size() < kColumn) text.append(kColumn - text.size(), ' ');
+    return text;
+  };
+  std::string change = "-";
+  if (a && b && *a != 0.0) {
+    const double percent = 100.0 * (*b - *a) / std::abs(*a);
+    if (std::abs(percent) < 0.05)
+      change = "0.0 %";  // without a sign
+    else
+      change = (percent > 0.0 ? "+" : "") + with_decimals(percent, std::abs(percent) < 10.0 ? 1 : 0) + " %";
+  }
+  return line_of(label, cell(a) + cell(b) + change);
+}
+
+}  // namespace
+
+std::string reading_text(double value, const std::string& unit, double error) {
+  const ShownUnit shown = shown_unit(unit, std::abs(value));
+  const Digits digits = digits_of(value * shown.scale, error * shown.scale);
+  return with_unit(digits.value + (digits.error.empty() ? "" : " ± " + digits.error), shown);
+}
+
+std::string run_summary(const std::string& folder) {
+  const fs::path batch = fs::path(folder) / "statistics.yaml";
+  std::error_code error;
+  if (fs::is_regular_file(batch, error)) return batch_lines(ResultFile(batch.string()), folder);
+  return run_lines(ResultFile((fs::path(folder) / "result.yaml").string()));
+}
+
+std::string comparison_summary(const Comparison& comparison, const std::string& file_a, const std::string& file_b) {
+  const CurveReadings &a = comparison.a, &b = comparison.b;
+  std::string out = "A is " + shown(file_a) + ", B is " + shown(file_b) + "\n";
+  out += line_of("", "A               B               B - A");
+  out += compared("plateau force", a.plateau_force, b.plateau_force, "N");
+  out += compared("breakaway force", a.breakaway_force, b.breakaway_force, "N");
+  out += compared("knot jumped open at", a.jump_force, b.jump_force, "N");
+  out += compared("lock, by the load", a.lock_extension_by_load, b.lock_extension_by_load, "m");
+  out += compared("locked stiffness", a.locked_stiffness, b.locked_stiffness, "N/m");
+  out += compared("largest load", a.peak_force, b.peak_force, "N");
+  if (!comparison.difference) return out;
+  const CurveDifference& d = *comparison.difference;
+  const std::string share = d.load > 0.0 ? " (" + with_decimals(100.0 * d.rms / d.load, 2) + " % of A's largest)" : "";
+  const auto apart = [&](double force) { return reading_text(force < kRounding * d.load ? 0.0 : force, "N"); };
+  out += "from " + reading_text(d.common.low, "m") + " to " + reading_text(d.common.high, "m") +
+         ", which both have, the loads differ by " + apart(d.rms) + share + " RMS, at most by " +
+         apart(std::abs(d.largest)) + " at " + reading_text(d.largest_at, "m") + "\n";
+  return out;
+}
+
+}  // namespace knot_utm

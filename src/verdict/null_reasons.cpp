@@ -1,0 +1,165 @@
+#include "null_reasons.hpp"
+
+#include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/sample.hpp"
+#include "knot_utm/verdict/known_errors.hpp"
+
+namespace knot_utm {
+namespace {
+
+constexpr const char* kNoClass = "the load cell has neither accuracy nor floor";
+
+/// `reason` of a reading that any pull has.
+std::string of_the_pull(const ResultSource& source, const std::string& reason) {
+  const std::string not_pulled = why_not_pulled(source);
+  return not_pulled.empty() ? reason : not_pulled;
+}
+
+std::string why_they_did_not_lock(const Results& results) {
+  if (results.knot_type == KnotType::kCrossed) return "the rod ran through itself";
+  if (results.untangled_at) return "the knot came undone";
+  if (results.curve.jump_force)
+    return "a knot jumped open at " + short_number(*results.curve.jump_force) +
+           " N, and the load-extension curve after it is that of another knot";
+  if (results.opened_when_mounted) return "a knot opened as the loop was mounted";
+  switch (results.motion_pattern) {
+    case MotionPattern::kSliding:
+      return "the knots still slid at the end of the pull";
+    case MotionPattern::kStretching:
+      return "the motion pattern is stretching";
+    case MotionPattern::kUntangling:
+    case MotionPattern::kNone:
+      break;
+  }
+  return "only two knots that slide towards each other lock, and there are none";
+}
+
+std::string why_the_load_has_no_stiffness(const Results& results) {
+  if (results.motion_pattern == MotionPattern::kNone && !results.curve.jump_force)
+    return "the load has no rise with three readings or more";
+  if (results.curve.jump_force || results.opened_when_mounted || results.motion_pattern != MotionPattern::kSliding)
+    return why_they_did_not_lock(results);
+  if (results.curve.rises_at) return "the load was read fewer than three times between the lock and the peak";
+  return results.lock_extension ? "the lock does not show in the load" : why_they_did_not_lock(results);
+}
+
+/// `no_reading`: why there is no reading that could be off; empty: there is one. `studied`: the error of mesh and
+/// tolerances, which is larger than half of the reading where a reading has no error all the same.
+std::string why_no_error(const ResultSource& source, const std::string& no_reading,
+                         const std::optional<double>& studied) {
+  const Results& results = source.results;
+  if (!why_not_at_rest(results, source.facts).empty()) return "unknown: the specimen was not at rest as its pull began";
+  if (results.curve.jump_force) return "unknown: a knot jumped open, which no convergence study covers";
+  if (results.opened_when_mounted)
+    return "unknown: a knot opened as the loop was mounted, which no convergence study covers";
+  if (knots_hardly_closed(results, source.facts))
+    return "unknown: the knots were hardly closed, which no convergence study covers";
+  if (!no_reading.empty()) return no_reading;
+  return studied ? "unknown: the estimate is more than half of the reading"
+                 : "unknown: no convergence study covers this case";
+}
+
+}  // namespace
+
+std::string why_not_pulled(const ResultSource& source) {
+  if (source.results.true_peak_force) return "";
+  return source.results.never_in_tension ? "the specimen was never in tension" : "nothing was pulled";
+}
+
+std::string why_no_peak(const ResultSource& source) {
+  return of_the_pull(source, source.results.curve.peak_force ? "" : "the load never rose above its balanced zero");
+}
+
+std::string why_no_margin(const ResultSource& source) {
+  const std::string& reason = source.facts.margin.reason;
+  return reason.empty() ? "the method does not ask for analysis.margin" : reason;
+}
+
+std::string why_no_plateau(const ResultSource& source) {
+  return source.results.curve.no_plateau.empty() ? "" : "see no_plateau_because";
+}
+
+std::string why_no_plateau_error(const ResultSource& source) {
+  return why_no_error(source, why_no_plateau(source), source.facts.errors.plateau_force);
+}
+
+std::string why_no_drop(const ResultSource& source) {
+  return of_the_pull(source, "the load was read fewer than 20 times before the lock");
+}
+
+std::string why_no_place_of_drop(const ResultSource& source) {
+  return source.results.curve.largest_drop ? of_the_pull(source, "the load only rose before the lock")
+                                           : why_no_drop(source);
+}
+
+std::string why_no_contact(const ResultSource& source) {
+  return of_the_pull(source, "no two knots touched each other while pulled");
+}
+
+std::string why_no_lock(const ResultSource& source) {
+  return of_the_pull(source, source.results.lock_extension ? "" : why_they_did_not_lock(source.results));
+}
+
+std::string why_no_lock_error(const ResultSource& source) {
+  return why_no_error(source, why_no_lock(source), source.facts.errors.lock_extension);
+}
+
+std::string why_no_lock_by_load(const ResultSource& source) {
+  return of_the_pull(source, source.results.curve.no_lock_by_load);
+}
+
+std::string why_no_stiffness(const ResultSource& source) {
+  const Results& results = source.results;
+  return of_the_pull(source, results.curve.locked_stiffness ? "" : why_the_load_has_no_stiffness(results));
+}
+
+std::string why_no_stiffness_error(const ResultSource& source) {
+  const std::string no_reading = why_no_stiffness(source);
+  const bool slides = no_reading.empty() && slid_to_the_end(source.results);
+  return why_no_error(source, slides ? why_they_did_not_lock(source.results) : no_reading,
+                      source.facts.errors.locked_stiffness);
+}
+
+std::string why_no_peak_error(const ResultSource& source) { return why_no_error(source, why_no_peak(source), {}); }
+
+std::string why_no_snap(const ResultSource& source) {
+  return of_the_pull(source,
+                     source.results.tied_knot_distance ? "a loop of two knots has jump_force" : "nothing snapped");
+}
+
+std::string why_no_chord(const ResultSource& source) {
+  return of_the_pull(source, "the true force was never below a tenth of the peak");
+}
+
+std::string why_no_break(const ResultSource& source) {
+  if (source.results.break_extension) return "it did not break in a pull";
+  return source.results.break_place == BreakPlace::kNone ? "the rod did not break"
+                                                         : "the rod parted before anything pulled it";
+}
+
+std::string why_no_efficiency(const ResultSource& source) {
+  if (!source.facts.may_hold_a_knot) return "there is no knot";
+  if (!source.results.break_extension) return why_no_break(source);
+  if (source.facts.material.breaking_force)
+    return "not predicted: the rod parts where its tension is material.breaking_force, which was given";
+  return of_the_pull(source, "the material has no breaking strain");
+}
+
+std::string why_no_hole(const ResultSource& source) {
+  if (!source.facts.one_knot_in_a_strand) return "the specimen is no strand with one knot";
+  if (source.results.break_place != BreakPlace::kNone) return "the rod broke";
+  if (!source.facts.ends_with_hold) return "the test does not end with a hold, in which a knot is measured";
+  return source.results.knot_type == KnotType::kKept ? "no shape of the rod is known" : "the knot is another one";
+}
+
+std::string why_no_touch(const ResultSource& source) {
+  return of_the_pull(source, "no roller bore on a knot or its tail while pulled");
+}
+
+std::string why_no_cell_error(const ResultSource& source) { return of_the_pull(source, kNoClass); }
+
+std::string why_no_cell_error_in_plateau(const ResultSource& source) {
+  return source.results.true_plateau_force ? kNoClass : why_no_plateau(source);
+}
+
+}  // namespace knot_utm

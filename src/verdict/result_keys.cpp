@@ -1,0 +1,376 @@
+#include "knot_utm/verdict/result_keys.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "knot_utm/machine/load_cell.hpp"
+#include "knot_utm/machine/straight_strength.hpp"
+#include "knot_utm/record/sample.hpp"
+#include "knot_utm/verdict/run_warnings.hpp"
+#include "null_reasons.hpp"
+
+namespace knot_utm {
+namespace {
+
+using Source = ResultSource;
+using Number = std::optional<double>;
+using Count = std::optional<std::uint64_t>;
+using Flag = std::optional<bool>;
+
+// What is a member of something is read by its name.
+
+template <auto Member>
+Number result(const Source& of) {
+  return of.results.*Member;
+}
+template <auto Member>
+Number curve(const Source& of) {
+  return of.results.curve.*Member;
+}
+template <auto Member>
+Number rate(const Source& of) {
+  return of.results.rate.*Member;
+}
+template <auto Member>
+Number energy(const Source& of) {
+  return of.results.energy ? Number((*of.results.energy).*Member) : std::nullopt;
+}
+template <auto Member>
+Number margin(const Source& of) {
+  return of.facts.margin.*Member;
+}
+template <auto Member>
+Number fact(const Source& of) {
+  return of.facts.*Member;
+}
+template <auto Member>
+Number error(const Source& of) {
+  return of.errors.*Member;
+}
+template <auto Member>
+Count counted(const Source& of) {
+  return of.results.*Member;
+}
+template <auto Member>
+std::vector<double> of_knots(const Source& of) {
+  const PerKnot& values = of.results.*Member;
+  return {values.begin(), values.end()};
+}
+
+/// Of the load cell, at a true force.
+template <auto Force>
+Number class_error_at(const Source& of) {
+  const Number& force = of.results.*Force;
+  return force ? class_error(of.facts.load_cell, *force) : std::nullopt;
+}
+
+Number moment_balance_error(const Source& of) {
+  const Number& arm = of.results.moment_arm;
+  return arm ? Number(*arm / of.facts.material.radius) : std::nullopt;
+}
+
+// Without friction the ratio is 1, but for what the solver leaves.
+constexpr double kBearsItsLoad = 0.99;
+
+/// Of a strand that slides all along its posts: what pulls it bears more than the load at its other end.
+Number force_ratio(const Source& of) {
+  const Number& force = of.results.steady_force;
+  const double load = of.facts.dead_load;
+  if (!of.results.true_peak_force || !force || !(load > 0.0) || *force < kBearsItsLoad * load) return std::nullopt;
+  return *force / load;
+}
+std::string why_no_force_ratio(const Source& of) {
+  if (!(of.facts.dead_load > 0.0)) return "no dead load pulls the specimen's other end";
+  if (!of.results.true_peak_force) return why_not_pulled(of);
+  if (of.results.break_extension) return "the rod broke";
+  return of.results.steady_force ? "the strand does not slide: it bears less than its tail load"
+                                 : "the force is not steady: the strand does not slide all along the post yet";
+}
+
+template <auto Part>
+Number elongation(const Source& of) {
+  return of.results.elongations ? Number((*of.results.elongations).*Part) : std::nullopt;
+}
+
+/// Of what as many straight rods would bear. A breaking force parts a knotted rod at the tension of a straight one, so
+/// that it predicts nothing; a breaking strain is that of the outermost fibre, also where the knot bends it.
+Number knot_efficiency(const Source& of) {
+  const Number strength = straight_strength(of.facts.material);
+  if (!of.facts.may_hold_a_knot || !of.results.break_extension || !of.results.true_peak_force || !strength ||
+      of.facts.material.breaking_force)
+    return std::nullopt;
+  return *of.results.true_peak_force / (of.facts.strands * *strength);
+}
+
+Number knotability(const Source& of) {
+  return of.facts.knot_hole ? Number(*of.facts.knot_hole / (2.0 * of.facts.material.radius)) : std::nullopt;
+}
+
+template <auto Force>
+Number held(const Source& of) {
+  return of.results.relaxation ? Number((*of.results.relaxation).*Force) : std::nullopt;
+}
+Number relaxation(const Source& of) {
+  return of.results.relaxation ? Number(of.results.relaxation->lost()) : std::nullopt;
+}
+
+Number real_time_factor(const Source& of) {
+  const double wall = of.facts.wall_time;
+  return wall > 0.0 ? of.results.simulated_time / wall : 0.0;
+}
+
+const char* motion_pattern(const Source& of) { return motion_pattern_name(of.results.motion_pattern); }
+const char* ended_by(const Source& of) { return ended_by_name(of.results.ended_by); }
+const char* break_place(const Source& of) { return break_place_name(of.results.break_place); }
+const char* version_of(const Source& of) { return of.facts.version.c_str(); }
+std::string reason(const Source& of) { return of.facts.reason; }
+std::string failure_mode(const Source& of) { return of.results.failure_mode; }
+std::string no_plateau_because(const Source& of) { return of.results.curve.no_plateau; }
+std::vector<std::string> warnings(const Source& of) { return all_warnings(of.results, of.facts); }
+std::vector<std::string> specification_failed(const Source& of) { return of.verdict.failed; }
+Flag specification_passed(const Source& of) { return of.verdict.passed; }
+Flag not_equilibrated(const Source& of) { return !why_not_at_rest(of.results, of.facts).empty(); }
+Flag knot_type_preserved(const Source& of) { return of.results.knot_type == KnotType::kKept; }
+Count seed(const Source& of) { return of.facts.load_cell.seed; }
+Count peak_memory_of(const Source& of) { return of.facts.peak_memory > 0 ? Count(of.facts.peak_memory) : std::nullopt; }
+
+constexpr const char* kHappened = "What happened";
+constexpr const char* kCurve = "Force and extension";
+constexpr const char* kKnots = "The knots";
+constexpr const char* kEnergy = "Energy of the pull";
+constexpr const char* kComputation = "The computation";
+constexpr const char* kHead = result_place::kHead;
+constexpr const char* kBeside = result_place::kBeside;
+constexpr const char* kCertificate = result_place::kCertificate;
+
+/// The tables of the report, in their order.
+constexpr const char* kTables[] = {kHappened, kCurve, kKnots, kEnergy, kComputation};
+constexpr const char* kOfGauge = "of the gauge length";
+
+constexpr const char* kNoReason = "";  // never null, or that goes without saying
+constexpr const char* kNoJump = "no knot jumped open";
+constexpr const char* kNoHold = "the crosshead was not held under a load";
+constexpr const char* kNoCycle = "no cycle was closed";
+constexpr const char* kNoKnots = "there are no two knots";
+constexpr const char* kNoLoop = "the specimen is no loop";
+
+using R = Results;
+using C = CurveReadings;
+using F = RunFacts;
+using E = EnergyParts;
+using L = Elongations;
+
+constexpr ResultKey kKeys[] = {
+    // How the test went.
+    {"motion_pattern", "-", kHappened, "Motion pattern", motion_pattern, kNoReason},
+    {"motion_pattern_confidence", "0 to 1", kHappened, "Confidence in the motion pattern, from 0 to 1",
+     result<&R::motion_pattern_confidence>, kNoReason},
+    {"ended_by", "-", kHappened, "What ended the test", ended_by, kNoReason},
+    {"reason", "-", kHead, "Why the test ended", reason, kNoReason},
+    {"warnings", "-", kHead, "Warnings", warnings, kNoReason},
+    {"not_equilibrated", "-", kCertificate, "Whether the specimen was not at rest as its pull began", not_equilibrated,
+     kNoReason},
+
+    // The knots as they were tied.
+    {"preload", "N", kKnots, "Pre-load by which each overhand was tied", fact<&F::preload>, "nothing was tied"},
+    {"tied_knot_distance", "m", kKnots, "Knot distance once tied", result<&R::tied_knot_distance>, kNoKnots},
+    {"excess_length", "m", kKnots, "Length of rod within each knot once tied", of_knots<&R::tied_excess_length>,
+     kNoLoop},
+    {"final_excess_length", "m", kKnots, "Length of rod within each knot at the end", of_knots<&R::final_excess_length>,
+     kNoLoop},
+    {"opened_when_mounted", "m", kKnots,
+     "How much nearer the knots came as the loop was mounted and one of them opened", result<&R::opened_when_mounted>,
+     "no knot opened as the loop was mounted"},
+
+    // While the knots slide.
+    {"plateau_force", "N", kCurve, "Plateau force, the mean while the knots slide", curve<&C::plateau_force>,
+     why_no_plateau},
+    {"plateau_force_sd", "N", kCurve, "Standard deviation of the plateau force", curve<&C::plateau_force_sd>,
+     why_no_plateau},
+    {"plateau_force_low", "N", kCurve, "Smallest force within the plateau", curve<&C::plateau_force_low>,
+     why_no_plateau},
+    {"plateau_force_high", "N", kCurve, "Largest force within the plateau", curve<&C::plateau_force_high>,
+     why_no_plateau},
+    {"plateau_force_slope", "N/m", kCurve, "Slope of the force over the extension within the plateau",
+     curve<&C::plateau_force_slope>, why_no_plateau},
+    {"plateau_force_error", "N", kBeside, "Estimated numerical error of the plateau force",
+     error<&ReadingErrors::plateau_force>, why_no_plateau_error},
+    {"plateau_slope", "-", kCurve,
+     "Slope de/ds of the knot distance within the plateau; \u2013\u20602 is rigid sliding on rollers",
+     result<&R::plateau_slope>, why_no_plateau},
+    {"breakaway_force", "N", kCurve, "Breakaway force, the largest before the plateau", curve<&C::breakaway_force>,
+     why_no_plateau},
+    {"margin_friction", "-", kCurve, "Share of the friction coefficient that may be missing before the knots open",
+     margin<&Margin::friction>, why_no_margin},
+    {"margin_preload", "-", kCurve, "Share of the pre-load that may be missing before the knots open",
+     margin<&Margin::preload>, why_no_margin},
+    {"force_ratio", "-", kCurve, "Mean true force over the second half of a pull that slides, over the tail load",
+     force_ratio, why_no_force_ratio},
+    {"no_plateau_because", "-", kCurve, "Why there is no plateau", no_plateau_because, "there is a plateau"},
+    {"largest_drop", "N", kCurve, "Largest sudden fall of the force before the lock", curve<&C::largest_drop>,
+     why_no_drop},
+    {"largest_drop_at", "m", kCurve, "Extension at which it began", curve<&C::largest_drop_at>, why_no_place_of_drop},
+    {"jump_force", "N", kCurve, "Force at which a knot jumped open", curve<&C::jump_force>, kNoJump},
+    {"jump_extension", "m", kCurve, "Extension at which it jumped open", curve<&C::jump_extension>, kNoJump},
+    {"force_after_jump", "N", kCurve, "Force that was left when it had jumped", curve<&C::force_after_jump>, kNoJump},
+    {"snap_extension", "m", kCurve, "Extension at which the knot snapped into another shape",
+     result<&R::snap_extension>, why_no_snap},
+    {"snap_drop", "N", kCurve, "Force by which the load fell as it snapped", result<&R::snap_drop>, why_no_snap},
+
+    // Where the knots lock, and what the loop is like then.
+    {"first_contact_extension", "m", kCurve, "Extension at which the two knots first touch each other",
+     result<&R::first_contact_extension>, why_no_contact},
+    {"lock_extension", "m", kCurve, "Lock extension, where the motion of the knots shows that they lock",
+     result<&R::lock_extension>, why_no_lock},
+    {"lock_extension_error", "m", kBeside, "Estimated numerical error of the lock extension",
+     error<&ReadingErrors::lock_extension>, why_no_lock_error},
+    {"lock_extension_by_load", "m", kCurve,
+     "Lock extension by the load alone, where it last rises through twice the plateau",
+     curve<&C::lock_extension_by_load>, why_no_lock_by_load},
+    {"locked_stiffness", "N/m", kCurve, "Locked stiffness", curve<&C::locked_stiffness>, why_no_stiffness},
+    {"locked_stiffness_error", "N/m", kBeside, "Estimated numerical error of the locked stiffness",
+     error<&ReadingErrors::locked_stiffness>, why_no_stiffness_error},
+    {"peak_force", "N", kCurve, "Peak force", curve<&C::peak_force>, why_no_peak},
+    {"peak_force_error", "N", kBeside, "Estimated numerical error of the peak force", error<&ReadingErrors::peak_force>,
+     why_no_peak_error},
+
+    // Without what the balance has set to zero.
+    {"true_plateau_force", "N", kBeside, "Plateau force, the true one", result<&R::true_plateau_force>, why_no_plateau},
+    {"true_breakaway_force", "N", kBeside, "Breakaway force, the true one", result<&R::true_breakaway_force>,
+     why_no_plateau},
+    {"true_peak_force", "N", kBeside, "Peak force, the true one", result<&R::true_peak_force>, why_not_pulled},
+    {"true_jump_force", "N", kBeside, "True force at which a knot jumped open", result<&R::true_jump_force>, kNoJump},
+    {"true_force_after_jump", "N", kBeside, "True force that was left when it had jumped",
+     result<&R::true_force_after_jump>, kNoJump},
+    {"balance_offset", "N", kCurve, "Balance offset, by which the true force is larger than the load",
+     result<&R::balance_offset>, why_not_pulled},
+
+    // Where the rod parted or the knot came undone.
+    {"break_extension", "m", kCurve, "Extension at break", result<&R::break_extension>, why_no_break},
+    {"break_arclength", "m", kCurve, "Place of the break, measured along the rod", result<&R::break_arclength>,
+     why_no_break},
+    {"break_place", "-", kCurve, "What touched the rod at the place of the break", break_place, kNoReason},
+    {"knot_efficiency", "of the strength without a knot", kCurve,
+     "Knot efficiency, the strength with the knot over that of as many straight strands", knot_efficiency,
+     why_no_efficiency},
+    {"knot_inner_diameter", "m", kKnots, "Inner diameter of the knot at the end, that of the thickest straight pin",
+     fact<&F::knot_hole>, why_no_hole},
+    {"knotability", "-", kKnots, "Knotability, the inner diameter of the knot over the diameter of the rod",
+     knotability, why_no_hole},
+    {"failure_mode", "-", kHappened, "Failure mode", failure_mode, "the specimen did not fail"},
+    {"roller_touched_at", "m", kHappened, "Extension from which a roller bore on a knot or its tail",
+     result<&R::roller_touched_at>, why_no_touch},
+    {"untangled_at", "s", kHappened, "Time at which the knot came undone", result<&R::untangled_at>,
+     "the knot did not come undone"},
+    {"knot_type_preserved", "-", kCertificate, "Whether the knot remained the same knot", knot_type_preserved,
+     kNoReason},
+
+    // What the run should be judged by.
+    {"max_penetration", "of the radius", kCertificate, "Deepest contact", result<&R::max_penetration>, kNoReason},
+    {"fastest_node", "m/s", kKnots, "Largest speed of a node until the knots lock", result<&R::fastest_node>,
+     kNoReason},
+    {"drag_share", "-", kEnergy, "Share of drag in the force", rate<&RateShares::drag>, why_not_pulled},
+    {"inertia_share", "-", kEnergy, "Share of inertia in the force", rate<&RateShares::inertia>, why_not_pulled},
+    {"numerical_share", "-", kEnergy, "Share of numerical dissipation in the force", rate<&RateShares::numerical>,
+     why_not_pulled},
+    {"force_balance_error", "-", kCertificate,
+     "Difference of the forces at both grips, as a share of the largest force", result<&R::force_balance_error>,
+     why_not_pulled},
+    {"moment_balance_error", "-", kComputation,
+     "Moment of friction at the surfaces of strands that acts on their centrelines, over force times radius",
+     moment_balance_error, why_not_pulled},
+
+    // Where the work went.
+    {"work", "J", kEnergy, "Work of the grips", energy<&E::work>, why_not_pulled},
+    {"stored_energy", "J", kEnergy, "Energy stored in rod and contacts", energy<&E::stored>, why_not_pulled},
+    {"kinetic_energy", "J", kEnergy, "Kinetic energy at the end", result<&R::kinetic_energy>, why_not_pulled},
+    {"friction_loss", "J", kEnergy, "Energy lost to friction", energy<&E::friction>, why_not_pulled},
+    {"plastic_loss", "J", kEnergy, "Energy lost as bends yield", energy<&E::plastic>, why_not_pulled},
+    {"drag_loss", "J", kEnergy, "Energy lost to drag", energy<&E::drag>, why_not_pulled},
+    {"numerical_dissipation", "J", kEnergy, "Energy lost in the time steps (numerical dissipation)",
+     energy<&E::numerical>, why_not_pulled},
+    {"reweighting_loss", "J", kEnergy, "Energy lost as the weights of contacts change", energy<&E::reweighting>,
+     why_not_pulled},
+    {"energy_balance_error", "-", kCertificate, "Error of the energy balance, as a share of the largest energy",
+     result<&R::energy_balance_error>, why_not_pulled},
+
+    // More of the curve, as standards ask for it.
+    {"load_cell_error", "N", kCurve, "Error of the load cell at the largest load, by its class",
+     class_error_at<&R::true_peak_force>, why_no_cell_error},
+    {"plateau_load_cell_error", "N", kCurve, "Error of the load cell within the plateau, by its class",
+     class_error_at<&R::true_plateau_force>, why_no_cell_error_in_plateau},
+    {"energy_to_peak", "J", kCurve, "Energy up to the largest load", result<&R::energy_to_peak>, why_not_pulled},
+    {"energy_to_break", "J", kCurve, "Energy up to the break", result<&R::energy_to_break>, why_no_break},
+    {"chord_stiffness", "N/m", kCurve, "Chord stiffness", result<&R::chord_stiffness>, why_no_chord},
+    {"secant_stiffness", "N/m", kCurve, "Secant stiffness", result<&R::secant_stiffness>, why_not_pulled},
+    {"tangent_stiffness", "N/m", kCurve, "Tangent stiffness", result<&R::tangent_stiffness>, why_not_pulled},
+    {"hold_force_begin", "N", kCurve, "Force at the beginning of the last hold", held<&Relaxation::from>, kNoHold},
+    {"hold_force_end", "N", kCurve, "Force at the end of the last hold", held<&Relaxation::to>, kNoHold},
+    {"relaxation", "-", kCurve, "Relaxation, the share of the force that the last hold lost", relaxation, kNoHold},
+    {"cycles", "-", kCurve, "Cycles that were completed", counted<&R::cycles>, kNoReason},
+    {"hysteresis", "J", kCurve, "Energy lost in one cycle (hysteresis)", result<&R::hysteresis>, kNoCycle},
+    {"gauge_length", "m", kCurve, "Gauge length, between the grips where the pull begins", result<&R::gauge_length>,
+     why_not_pulled},
+    {"elongation_total", kOfGauge, kCurve, "Total elongation, at the outermost place of the last cycle",
+     elongation<&L::total>, kNoCycle},
+    {"elongation_elastic", kOfGauge, kCurve, "Elastic elongation, which the last cycle gives back",
+     elongation<&L::elastic>, kNoCycle},
+    {"elongation_residual", kOfGauge, kCurve, "Residual elongation, at the end of the last cycle",
+     elongation<&L::residual>, kNoCycle},
+    {"elongation_working", kOfGauge, kCurve, "Working elongation in the last cycle, over the length where it ends",
+     elongation<&L::working>, kNoCycle},
+    {"elongation_at_break", kOfGauge, kCurve, "Elongation at break", result<&R::elongation_at_break>, why_no_break},
+
+    // What the run cost.
+    {"steps", "-", kComputation, "Time steps", counted<&R::steps>, kNoReason},
+    {"rejected_steps", "-", kComputation, "Time steps that were made again, shorter", counted<&R::rejected_steps>,
+     kNoReason},
+    {"newton_iterations", "-", kComputation, "Iterations of Newton's method", counted<&R::newton_iterations>,
+     kNoReason},
+    {"simulated_time", "s", kComputation, "Duration of the test", result<&R::simulated_time>, kNoReason},
+    {"wall_time", "s", kComputation, "Duration of the computation", fact<&F::wall_time>, kNoReason},
+    {"real_time_factor", "-", kComputation, "Duration of the test over that of the computation", real_time_factor,
+     kNoReason},
+    {"peak_memory", "bytes", kComputation, "Largest memory in use", peak_memory_of, "not known"},
+    {"seed", "-", kComputation, "Seed of the load cell's noise", seed, kNoReason},
+    {"version", "-", kComputation, "Version of knot_utm", version_of, kNoReason},
+
+    // Whether it is what was asked for.
+    {"specification_passed", "-", kHead, "Whether the test meets its specification", specification_passed,
+     "the method has no specification"},
+    {"specification_failed", "-", kHead, "Requirements that are not met", specification_failed, kNoReason},
+};
+
+}  // namespace
+
+const char* ResultKey::kind() const {
+  constexpr std::array kKinds{"number", "count", "flag", "word", "text", "numbers", "list"};
+  static_assert(kKinds.size() == std::variant_size_v<ReadResult>);
+  return kKinds[read.index()];
+}
+
+int ResultKey::table() const {
+  const auto found = std::find_if(std::begin(kTables), std::end(kTables),
+                                  [this](const char* title) { return std::string(title) == group; });
+  return found == std::end(kTables) ? 0 : static_cast<int>(found - std::begin(kTables)) + 1;
+}
+
+bool ResultKey::is_number() const {
+  return std::holds_alternative<ReadNumber>(read) || std::holds_alternative<ReadCount>(read);
+}
+
+const std::vector<ResultKey>& result_keys() {
+  static const std::vector<ResultKey> keys(std::begin(kKeys), std::end(kKeys));
+  return keys;
+}
+
+std::string result_keys_csv() {
+  std::string all = "key,unit,kind,group,table,meaning\n";
+  for (const ResultKey& key : result_keys())
+    all += std::string(key.name) + ',' + key.unit + ',' + key.kind() + ',' + key.group + ',' +
+           std::to_string(key.table()) + ",\"" + key.meaning + "\"\n";
+  return all;
+}
+
+}  // namespace knot_utm

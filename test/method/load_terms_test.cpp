@@ -1,0 +1,67 @@
+// Loads of a program that are given in terms of the material.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "knot_utm/method/method.hpp"
+
+namespace knot_utm {
+namespace {
+
+using ::testing::HasSubstr;
+
+const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
+
+Method straight(std::vector<std::string> overrides) { return load_method(kConfig + "straight.yaml", overrides); }
+
+std::string refused(const std::vector<std::string>& overrides) {
+  try {
+    straight(overrides);
+  } catch (const InvalidInput& invalid) {
+    return invalid.what();
+  }
+  return "";
+}
+
+TEST(LoadTerms, APercentageIsOfTheBreakingForceOfTheMaterial) {
+  const Method m =
+      straight({"material.breaking_force=1700",
+                "program=[{preload: {load: 2.5%}}, {cycle: {load: [10 %, 50 %], count: 3}}, {hold: {duration: 1, "
+                "control: load, load: 1e1 %}}, {pull: {until: {load: 80%}}}]"});
+  EXPECT_DOUBLE_EQ(m.program[0].load, 42.5);
+  EXPECT_DOUBLE_EQ(m.program[1].load_turns->low, 170.0);
+  EXPECT_DOUBLE_EQ(m.program[1].load_turns->high, 850.0);
+  EXPECT_DOUBLE_EQ(*m.program[2].held_load, 170.0);
+  EXPECT_DOUBLE_EQ(*m.program[3].until.load, 1360.0);
+}
+
+TEST(LoadTerms, WholePercentagesOfWholeForcesAreWhole) {
+  const Method m = straight({"material.breaking_force=1700", "program.0={preload: {load: 7 %}}"});
+  EXPECT_EQ(m.program[0].load, 119.0);
+}
+
+TEST(LoadTerms, TheReferenceTensionIsAnEighthOfTheSquaredDiameter) {
+  const Method m = straight({"material.radius=0.008", "program.0={preload: {load: reference_tension}}"});
+  EXPECT_DOUBLE_EQ(m.program[0].load, 320.0);  // 16 mm: 256 / 8 = 32 daN
+}
+
+TEST(LoadTerms, AreWrittenAsNewtons) {
+  const Method m = straight({"material.breaking_force=1700", "program.0={preload: {load: 50 %}}"});
+  EXPECT_THAT(method_yaml(m), HasSubstr("load: 850"));
+  EXPECT_EQ(method_yaml(parse_method(method_yaml(m), "method.yaml")), method_yaml(m));
+}
+
+TEST(LoadTerms, WhatIsNoneIsRefused) {
+  EXPECT_THAT(
+      refused({"material.breaking_force=none", "program.0={preload: {load: 50 %}}"}),
+      HasSubstr("program.0.preload.load: cannot take \"50 %\": the material has no breaking_force, of which this "
+                "is a percentage"));
+  for (const char* term : {"fifty %", "\"%\"", "\" %\"", "half", "50 percent"})
+    EXPECT_THAT(refused({std::string("program.0={preload: {load: ") + term + "}}"}),
+                HasSubstr("a percentage of material.breaking_force, such as \"50 %\", or reference_tension"))
+        << term;
+  EXPECT_THAT(refused({"program.0={preload: {load: -5 %}}"}), HasSubstr("1e-6 to 1e8 N"));
+  EXPECT_THAT(refused({"material.breaking_force=50 %"}), HasSubstr("a number from 1e-6 to 1e8 (in N)"));
+}
+
+}  // namespace
+}  // namespace knot_utm

@@ -1,0 +1,322 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+
+#include "knot_utm/contact/friction.hpp"
+#include "knot_utm/method/shipped.hpp"
+#include "knot_utm/rod/bending_laws.hpp"
+#include "knot_utm/run/load_test.hpp"
+#include "knot_utm/specimen/knot.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+const std::string kConfig = std::string(KNOT_UTM_SOURCE_DIR) + "/config/";
+const std::string kTighten = kConfig + "tighten.yaml";
+
+TEST(Method, TightenIsThePapersTest) {
+  const Method m = load_method(kTighten);
+  EXPECT_EQ(m.name, "tighten");
+  EXPECT_EQ(m.specimen.knot, knot_named("fisherman"));
+  EXPECT_EQ(m.specimen.handedness, Handedness::kSame);
+  EXPECT_EQ(m.specimen.knot_distance, 0.15);
+  EXPECT_EQ(m.specimen.end_to_end, 0.25);
+  EXPECT_EQ(m.specimen.preload, 150.0);
+  EXPECT_EQ(m.specimen.edge_length, 0.0032);
+  EXPECT_EQ(m.material.name, "nylon");
+  EXPECT_EQ(m.material.stretching_stiffness, 7.34e4);
+  EXPECT_EQ(m.machine.grips, GripKind::kRollers);
+  EXPECT_EQ(m.machine.load_cell.name, "50kN");
+  EXPECT_EQ(m.machine.load_cell.capacity, 50e3);
+  EXPECT_TRUE(std::isinf(m.machine.stiffness));
+  ASSERT_EQ(m.program.size(), 5u);
+  EXPECT_EQ(m.program[0].phase, Phase::kTie);
+  EXPECT_EQ(m.program[1].phase, Phase::kRelease);
+  EXPECT_EQ(m.program[1].duration, 3.0);
+  EXPECT_EQ(m.program[2].phase, Phase::kMount);
+  EXPECT_EQ(m.program[3].phase, Phase::kBalance);
+  EXPECT_EQ(m.program[4].phase, Phase::kPull);
+  EXPECT_EQ(m.program[4].speed, 0.0033);
+  EXPECT_EQ(m.program[4].until.extension, 0.12);
+  EXPECT_TRUE(m.program[4].until.broken);
+  EXPECT_FALSE(m.program[4].until.load);
+  EXPECT_STREQ(FrictionRegistry::entry(m.physics.friction.law).name, "memory");
+  EXPECT_EQ(m.physics.contact_law, ContactLaw::kSmooth);
+  EXPECT_EQ(m.physics.twist, TwistMode::kAuto);
+  EXPECT_EQ(m.physics.accuracy, Accuracy::kNormal);
+}
+
+struct PaperMaterial {
+  const char* name;
+  double stretching, bending, friction, preload;
+  const char* cell;
+};
+
+TEST(Method, MaterialsAreThoseOfThePapersTable) {
+  for (const PaperMaterial& row : {PaperMaterial{"nylon", 7.34e4, 4.31e-5, 0.46, 150.0, "50kN"},
+                                   PaperMaterial{"polypropylene", 3.90e4, 1.18e-4, 0.63, 50.0, "50kN"},
+                                   PaperMaterial{"pink_vps", 1.70, 4.34e-6, 0.54, 1.7, "20N"},
+                                   PaperMaterial{"green_vps", 22.15, 5.67e-5, 0.37, 20.0, "50kN"}}) {
+    const Method m = load_method(kTighten, {std::string("material=") + row.name});
+    EXPECT_EQ(m.material.name, row.name);
+    EXPECT_EQ(m.material.radius, 0.003175);
+    EXPECT_EQ(m.material.stretching_stiffness, row.stretching);
+    EXPECT_EQ(m.material.bending_stiffness, row.bending);
+    EXPECT_EQ(m.material.friction_coefficient, row.friction);
+    EXPECT_EQ(m.specimen.preload, row.preload);
+    EXPECT_EQ(m.machine.load_cell.name, row.cell);
+  }
+}
+
+TEST(Method, EveryShippedFileLoads) {
+  int methods = 0;
+  for (const auto& file : fs::directory_iterator(kConfig)) {
+    if (file.path().extension() != ".yaml") continue;
+    EXPECT_NO_THROW(load_method(file.path().string())) << file.path();
+    ++methods;
+  }
+  EXPECT_GE(methods, 4);
+  for (const auto& file : fs::directory_iterator(kConfig + "materials")) {
+    EXPECT_NO_THROW(load_method(kTighten, {"material=" + file.path().stem().string()})) << file.path();
+  }
+  for (const auto& file : fs::directory_iterator(kConfig + "load_cells")) {
+    EXPECT_NO_THROW(load_method(kTighten, {"machine.load_cell=" + file.path().stem().string()})) << file.path();
+  }
+}
+
+TEST(Method, EveryStandardLoadsAndSaysWhatItIsAndWhatIsNotSimulated) {
+  int standards = 0;
+  for (const auto& file : fs::directory_iterator(kConfig + "standards")) {
+    const std::string name = file.path().stem().string();
+    EXPECT_EQ(find_method(name), file.path().string()) << "it has a name of its own";
+    EXPECT_EQ(find_method("standards/" + name), file.path().string());
+    const Method method = load_method(find_method(name));
+    EXPECT_NE(method.report.standard, "") << name;
+    EXPECT_NE(method.report.conditioning, "") << name;
+    EXPECT_NE(method.report.terminations, "") << name;
+    EXPECT_THAT(method.report.notes, HasSubstr("Not simulated: ")) << name;
+    ++standards;
+  }
+  EXPECT_GE(standards, 5);
+}
+
+TEST(Method, IsNoMaterialAndNoStudy) {
+  for (const std::string name : {"nylon", "preload"}) EXPECT_THROW(find_method(name), InvalidInput) << name;
+}
+
+TEST(Method, WritesBackToTheSame) {
+  const std::string copy = ::testing::TempDir() + "knot_utm_round_trip.yaml";
+  for (const std::string name : {"tighten", "overhand", "straight", "capstan", "from_file"}) {
+    const std::string text = method_yaml(load_method(kConfig + name + ".yaml"));
+    std::ofstream(copy) << text;
+    EXPECT_EQ(method_yaml(load_method(copy)), text) << name;
+  }
+  const std::string odd = method_yaml(load_method(
+      kTighten, {"physics.max_step=0.012345678901234567", "physics.friction={law: smoothed, slip_tolerance: 1.0e-4}",
+                 "material.breaking_force=1e4", "machine.load_cell.noise=0.1", "machine.load_cell.accuracy=0.005",
+                 "machine.load_cell.floor=0.002", "machine.load_cell.drift=-1e-3", "machine.load_cell.overload=1.5",
+                 "physics.gravity=[0, 0.1, -9.81]",
+                 "program=[{preload: {load: 1}}, {hold: {duration: 2}}, {pull: {until: {load: 5, time: 3}}}]"}));
+  EXPECT_THAT(odd, HasSubstr("max_step: 0.012345678901234567"));
+  EXPECT_THAT(odd, HasSubstr("slip_tolerance: 1.0e-04"));
+  std::ofstream(copy) << odd;
+  EXPECT_EQ(method_yaml(load_method(copy)), odd);
+  fs::remove(copy);
+}
+
+/// What older methods wrote of another law, its plain value, is read and goes.
+TEST(Method, HasTheKeysOfItsLawsAndOfNoOthers) {
+  const std::string elastic = method_yaml(load_method(kTighten));
+  EXPECT_EQ(method_yaml(load_method(kTighten, {"material.hardening=0.1", "physics.friction.slip_tolerance=1e-3"})),
+            elastic);
+  EXPECT_THAT(elastic, Not(AnyOf(HasSubstr("hardening"), HasSubstr("slip_tolerance"))));
+  const std::vector<std::string> plastic = {"material.bending_law=plastic", "material.yield_strain=0.05"};
+  const Method yields = load_method(kTighten, plastic);
+  EXPECT_EQ(yields.material.bending.value("hardening"), 0.1);
+  EXPECT_THAT(method_yaml(yields), HasSubstr("hardening: 0.1"));
+  EXPECT_EQ(std::get<PlasticBending>(bending_law_of(yields.material)).hardening, 0.1);
+}
+
+TEST(Method, WhatAReportSaysAndWhatIsAskedOfATestWriteBackToTheSame) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "knot_utm_round_trip_report";
+  fs::create_directories(folder);
+  const std::string copy = (folder / "copy.yaml").string(), logo = (folder / "logo.svg").string();
+  std::ofstream(logo) << "<svg/>";
+  const Method method = load_method(
+      kTighten,
+      {"report={specimen_id: \"0012\", operator: NO, customer: 'a: #b', date: 2026-11-23, standard: ISO 2307, "
+       "notes: \"two\\nlines\", signature: Dr. Ä, units: {force: kN, length: in}, logo: " +
+           logo + "}",
+       "specification={peak_force: {min: 100}, lock_extension: {min: 1e-3, max: 0.1}}"});
+  EXPECT_EQ(method.report.specimen_id, "0012");
+  EXPECT_EQ(method.report.notes, "two\nlines");
+  EXPECT_EQ(method.report.logo, logo);
+  EXPECT_EQ(method.report.force, ForceUnit::kKilonewton);
+  EXPECT_EQ(method.report.length, LengthUnit::kInch);
+  ASSERT_EQ(method.specification.size(), 2u);
+  EXPECT_EQ(method.specification[0].min, 100.0);
+  EXPECT_EQ(method.specification[0].max, std::nullopt);
+  EXPECT_EQ(method.specification[1].key, "lock_extension");
+  const std::string text = method_yaml(method);
+  std::ofstream(copy) << text;
+  EXPECT_EQ(method_yaml(load_method(copy)), text);
+  fs::remove_all(folder);
+}
+
+TEST(Method, CharactersOfATextAreCountedNotItsBytes) {
+  std::string umlauts;
+  for (int i = 0; i < 80; ++i) umlauts += "ä";
+  EXPECT_EQ(load_method(kTighten, {"report.operator=" + umlauts}).report.operator_name, umlauts);
+}
+
+TEST(Method, EveryStepWritesBackToTheSame) {
+  const std::string copy = ::testing::TempDir() + "knot_utm_round_trip_steps.yaml";
+  const std::string record = ::testing::TempDir() + "knot_utm_record.csv";
+  std::ofstream(record) << "Time (s),Extension (mm),Load (N)\n5.0,1.0,0.5\n6.0,2.5,1.5\n8.0,2.0,1.0\n";
+  const Method method = load_test(
+      kTighten,
+      {"ends={load: 4000, time: 600, break_at_fraction_of_peak: 0.4}",
+       "program=[{preload: {load: 5, load_rate: 2, balance: false}}, {pull: {load_rate: 10, until: {load: 50}}}, "
+       "{hold: {duration: 3, control: load, load: 20}}, {cycle: {extension: [0.001, 0.002], count: 3}}, {cycle: "
+       "{load: [1, 2], time: 9}}, {return: {extension: 0.001, load: 1}}, {follow: {record: " +
+           record + "}}]"});
+  ASSERT_EQ(method.program.size(), 7u);
+  EXPECT_EQ(method.program[2].held_load, 20.0);
+  EXPECT_EQ(method.program[3].extension_turns->high, 0.002);
+  EXPECT_EQ(method.program[4].cycles, 0);
+  EXPECT_EQ(method.program[5].until.load, 1.0);
+  const std::vector<RecordedPlace>& recorded = method.program[6].recorded;
+  ASSERT_EQ(recorded.size(), 3u);
+  EXPECT_DOUBLE_EQ(recorded[1].time, 1.0);
+  EXPECT_NEAR(recorded[1].displacement, 1.5e-3, 1e-15);
+  EXPECT_NEAR(recorded[2].displacement, 1e-3, 1e-15);
+  EXPECT_EQ(method.ends.load, 4000.0);
+  EXPECT_EQ(method.ends.break_at_fraction_of_peak, 0.4);
+  const std::string text = method_yaml(method);
+  std::ofstream(copy) << text;
+  EXPECT_EQ(method_yaml(load_test(copy)), text);
+  fs::remove(copy);
+  fs::remove(record);
+}
+
+TEST(Method, ARecordIsNoFasterThanACrosshead) {
+  const std::string record = ::testing::TempDir() + "knot_utm_fast_record.csv";
+  std::ofstream(record) << "Time (s),Extension (m),Load (N)\n0,0,0\n1.0,1.5,0.5\n";
+  try {
+    load_test(kTighten, {"program=[{follow: {record: " + record + "}}]"});
+    ADD_FAILURE();
+  } catch (const InvalidInput& invalid) {
+    EXPECT_THAT(invalid.what(), HasSubstr("moves at 1.5 m/s at 0 s, but must be no faster than 0.5 m/s"));
+  }
+  fs::remove(record);
+}
+
+TEST(Method, ACellWithAStopMayBeLoadedAsFarAsThat) {
+  const auto complaint = [](const std::string& load) -> std::string {
+    try {
+      load_method(kTighten, {"machine.load_cell={capacity: 1000, overload: 1.5}", "ends.load=" + load});
+    } catch (const InvalidInput& invalid) {
+      return invalid.what();
+    }
+    return "";
+  };
+  EXPECT_EQ(complaint("1500"), "");
+  EXPECT_THAT(complaint("1501"), HasSubstr("ends.load is 1501, but must be at most the load cell's stop, 1500 N"));
+}
+
+TEST(Method, OverridesReachEveryKey) {
+  const Method m = load_method(
+      kTighten, {"program.pull.speed=0.001", "program.1.release.duration=5", "material.friction_coefficient=0.2",
+                 "specimen.preload=20", "machine.load_cell.sampling_rate=10", "physics.contact.tolerance=0.05"});
+  EXPECT_EQ(m.program[4].speed, 0.001);
+  EXPECT_EQ(m.program[1].duration, 5.0);
+  EXPECT_EQ(m.material.friction_coefficient, 0.2);
+  EXPECT_EQ(m.material.name, "nylon");
+  EXPECT_EQ(m.specimen.preload, 20.0);
+  EXPECT_EQ(m.machine.load_cell.sampling_rate, 10.0);
+  EXPECT_EQ(m.machine.load_cell.capacity, 50e3);
+  EXPECT_EQ(m.physics.contact_tolerance, 0.05);
+}
+
+TEST(Method, WholeSectionsAreSetBeforeSingleKeys) {
+  const Method m = load_method(kTighten, {"machine.load_cell.noise=0.01", "material.radius=0.002",
+                                          "specimen.edge_length=0.002", "material=pink_vps"});
+  EXPECT_EQ(m.material.name, "pink_vps");
+  EXPECT_EQ(m.material.radius, 0.002);
+  EXPECT_EQ(m.machine.load_cell.name, "20N");
+  EXPECT_EQ(m.machine.load_cell.noise, 0.01);
+}
+
+TEST(Method, PreloadAutoIsTheMaterialsOrFourBendingForces) {
+  const std::string own =
+      "material={radius: 0.002, density: 1000, stretching_stiffness: 4000, bending_stiffness: 4.0e-3, "
+      "twisting_stiffness: 3.0e-3, friction_coefficient: 0.3}";
+  const Method m = load_method(kTighten, {own});
+  EXPECT_DOUBLE_EQ(m.specimen.preload.value(), 4.0 * 4e-3 / 4e-6);
+  EXPECT_EQ(m.material.name, "own");
+  EXPECT_EQ(m.machine.load_cell.name, "auto");
+  EXPECT_EQ(load_method(kTighten, {"specimen.preload=3"}).specimen.preload, 3.0);
+}
+
+TEST(Method, ASpecimenIsToBeTiedWhereTheProgramTies) {
+  EXPECT_TRUE(load_method(kTighten).specimen.to_be_tied);
+  EXPECT_FALSE(load_method(kTighten, {"program=[{balance: {}}]"}).specimen.to_be_tied);
+}
+
+TEST(Method, FilesBesideTheMethodComeFirst) {
+  const fs::path folder = fs::path(::testing::TempDir()) / "knot_utm_own";
+  fs::create_directories(folder / "methods");
+  fs::create_directories(folder / "config" / "materials");
+  fs::copy_file(kTighten, folder / "methods" / "mine.yaml", fs::copy_options::overwrite_existing);
+  std::ofstream(folder / "config" / "materials" / "nylon.yaml")
+      << "{radius: 0.003, density: 1000, stretching_stiffness: 9, bending_stiffness: 1.0e-5, twisting_stiffness: "
+         "1.0e-5, friction_coefficient: 0.1}";
+  const Method m = load_method((folder / "methods" / "mine.yaml").string());
+  EXPECT_EQ(m.material.stretching_stiffness, 9.0);
+  EXPECT_EQ(m.machine.load_cell.name, "auto");
+  fs::remove_all(folder);
+}
+
+/// They have plain values, which say what the test is not.
+TEST(Method, AsItIsWrittenItHasNoKeysWithoutEffect) {
+  const YAML::Node overhand = YAML::Load(method_yaml(load_method(kConfig + "overhand.yaml")));
+  for (const char* key : {"knot_distance", "tail", "handedness", "wrap", "post_diameter"})
+    EXPECT_FALSE(overhand["specimen"][key].IsDefined()) << key;
+  for (const char* key : {"knot", "turns", "length", "end_to_end", "edge_length"})
+    EXPECT_TRUE(overhand["specimen"][key].IsDefined()) << key;
+  for (const char* key : {"roller_diameter", "far_side"}) EXPECT_FALSE(overhand["machine"][key].IsDefined()) << key;
+  const YAML::Node loop = YAML::Load(method_yaml(load_method(kConfig + "tighten.yaml")));
+  for (const char* key : {"roller_diameter", "far_side"}) EXPECT_TRUE(loop["machine"][key].IsDefined()) << key;
+}
+
+TEST(Method, SaysWhichValuesAutoGave) {
+  const Method method = load_method(kTighten, {"specimen.tail=0.04", "machine.travel=2", "specimen.preload=auto"});
+  for (const char* key : {"specimen.edge_length", "specimen.preload", "machine.roller_diameter", "program.0.tie.speed"})
+    EXPECT_EQ(method.automatic.count(key), 1u) << key;
+  for (const char* key : {"specimen.tail", "machine.travel", "specimen.length"})
+    EXPECT_EQ(method.automatic.count(key), 0u) << key;
+  // As written and read again, but for what has another value by then.
+  const std::string text = method_yaml(method);
+  EXPECT_EQ(parse_method(text, "method.yaml").automatic, method.automatic);
+  std::map<std::string, std::string> others = method.automatic;
+  others.erase("specimen.edge_length");
+  EXPECT_EQ(parse_method(text, "method.yaml", {"specimen.edge_length=0.003"}).automatic, others);
+  EXPECT_EQ(load_method(kTighten, {"machine.load_cell=auto"}).automatic.count("machine.load_cell.capacity"), 0u)
+      << "that of the material's cell";
+  EXPECT_EQ(load_method(kConfig + "straight.yaml", {"material=silicone_cord", "machine.load_cell=auto"})
+                .automatic.count("machine.load_cell.capacity"),
+            1u);
+}
+
+}  // namespace
+}  // namespace knot_utm

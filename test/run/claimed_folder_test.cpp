@@ -1,0 +1,150 @@
+// Nothing that was measured is written over without being asked for.
+
+#include "knot_utm/run/claimed_folder.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "knot_utm/method/shipped.hpp"
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/run/run_folder.hpp"
+#include "run/command.hpp"
+#include "run/own_folder.hpp"
+
+namespace knot_utm {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class ClaimedFolderOf : public OwnFolder {
+ protected:
+  static std::string in(const std::string& name) { return folder() + "/" + name; }
+  static std::string claimed(const std::string& asked) { return ClaimedFolder::first_free(asked).path(); }
+};
+
+TEST_F(ClaimedFolderOf, ARunIsTheOneAskedForWhereNothingWouldBeLost) {
+  fs::create_directories(in("there/curve.csv"));
+  write_whole(in("there/notes.txt"), "mine");
+  EXPECT_EQ(claimed(in("new/folder")), in("new/folder"));
+  EXPECT_EQ(claimed(in("there")), in("there"));
+}
+
+TEST_F(ClaimedFolderOf, ARunIsTheNextFreeOneWhereSomethingWould) {
+  for (const char* name : {"result.yaml", "curve.csv", "curve_full.csv", "method.yaml", "specimen.csv", "test.bag",
+                           "saved.bag", "final_shape.csv", "shapes.csv", "samples.csv", "comparison.yaml",
+                           "report.html", "report.pdf", "failed_step.bin"}) {
+    const std::string asked = in(std::string(name) + "_is_there");
+    fs::create_directories(asked);
+    write_whole(asked + "/" + name, "measured");
+    EXPECT_EQ(free_folder(asked), asked + "-2") << name;
+    EXPECT_EQ(claimed(asked), asked + "-2") << name;
+    EXPECT_EQ(claimed(asked + "/"), asked + "-2") << name;
+    EXPECT_EQ(read_whole(asked + "/" + name), "measured");
+    EXPECT_EQ(std::distance(fs::directory_iterator(asked), fs::directory_iterator()), 1) << name;
+  }
+}
+
+TEST_F(ClaimedFolderOf, TwoRunsAtOnceAreTwoFolders) {
+  const ClaimedFolder first = ClaimedFolder::first_free(in("run")), second = ClaimedFolder::first_free(in("run"));
+  EXPECT_EQ(first.path(), in("run"));
+  EXPECT_EQ(second.path(), in("run-2"));
+  EXPECT_THROW(ClaimedFolder{in("run")}, InvalidInput);
+}
+
+TEST_F(ClaimedFolderOf, AFolderThatCannotBeMadeIsRefused) {
+  fs::create_directories(folder());
+  write_whole(in("file"), "");
+  EXPECT_THROW(claimed(in("file/below")), InvalidInput);
+}
+
+TEST(NumberedFolder, StandsBesideTheFirst) {
+  EXPECT_EQ(numbered_folder("out/nylon", 1), "out/nylon");
+  EXPECT_EQ(numbered_folder("out/nylon//", 3), "out/nylon-3");
+  EXPECT_EQ(numbered_folder(".", 2), fs::current_path().string() + "-2");
+}
+
+/// The commands, as a user has them.
+class KeptRun : public ClaimedFolderOf {
+ protected:
+  void SetUp() override {
+    OwnFolder::SetUp();
+    fs::create_directories(folder());
+  }
+  static Answer test(const std::string& more) {
+    return answer_of("cd '" + folder() + "' && " +
+                     tool("tensile_test",
+                          "straight --set 'program=[{pull: {until: {extension: 0.001}}}]' "
+                          "--set physics.accuracy=draft " +
+                              more));
+  }
+};
+
+TEST_F(KeptRun, IsLeftAsItIsUnlessItMayBeOverwritten) {
+  for (const char* out : {"", "--out own"}) {
+    const std::string first = *out == '\0' ? "out/straight" : "own";
+    ASSERT_EQ(test(out).code, 0);
+    const std::string result = read_whole(in(first + "/result.yaml"));
+    const Answer again = test(std::string("--quiet ") + out);
+    EXPECT_EQ(again.code, 0);
+    EXPECT_THAT(again.text, AllOf(HasSubstr(first + " holds a run already"), HasSubstr("written to " + first + "-2"),
+                                  HasSubstr("--overwrite")));
+    EXPECT_EQ(read_whole(in(first + "/result.yaml")), result);
+    EXPECT_EQ(read_whole(in(first + "/curve.csv")), read_whole(in(first + "-2/curve.csv")));
+    EXPECT_EQ(test(std::string("--quiet --overwrite ") + out).text, "");
+    EXPECT_NE(read_whole(in(first + "/result.yaml")), result) << "its wall time is another one";
+    EXPECT_FALSE(fs::exists(in(first + "-3")));
+  }
+}
+
+TEST(Tools, TellTheSameVersion) {
+  const std::string version = answer_of(tool("tensile_test", "--version")).text;
+  EXPECT_THAT(version, ::testing::MatchesRegex("[0-9]+\\.[0-9]+\\.[0-9]+\n"));
+  for (const fs::directory_entry& file : fs::directory_iterator(fs::path(KNOT_UTM_SOURCE_DIR) / "src/tools")) {
+    const std::string name = file.path().stem().string();
+    // Without ROS not every tool is built.
+    if (file.path().extension() != ".cpp" || !fs::exists(fs::path(KNOT_UTM_TOOLS_DIR) / name)) continue;
+    const Answer answer = answer_of(tool(name, "--version"));
+    EXPECT_EQ(answer.code, 0) << name;
+    EXPECT_EQ(answer.text, version) << name;
+  }
+}
+
+TEST_F(KeptRun, AMethodThatComesWithThePackageIsKnownByItsName) {
+  EXPECT_EQ(find_method("straight"), std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml");
+  EXPECT_EQ(find_method("straight.yaml"), find_method("straight"));
+  EXPECT_EQ(find_method("nowhere/straight.yaml"), "nowhere/straight.yaml") << "a path is a path";
+  EXPECT_EQ(find_method("../tighten.yaml", folder()), in("../tighten.yaml")) << "a path is no name of a standard";
+  write_whole(in("straight"), "a file of this name comes first");
+  EXPECT_EQ(find_method("straight", folder()), in("straight"));
+  fs::remove(in("straight"));
+
+  const Answer refused = answer_of(tool("tensile_test", "strait --out '" + in("out") + "'"));
+  EXPECT_EQ(refused.code, 2);
+  EXPECT_THAT(refused.text, AllOf(HasSubstr("strait"), HasSubstr("(astm_d2256_knotted, "),
+                                  HasSubstr("overhand, straight, tighten, usp_881_knot_pull)")));
+  EXPECT_FALSE(fs::exists(in("out")));
+}
+
+/// Comments and `auto` of it would be gone.
+TEST_F(ClaimedFolderOf, AMethodThatSomebodyWroteIsNotReplacedByItsRun) {
+  fs::create_directories(in("mine"));
+  const std::string mine = read_whole(std::string(KNOT_UTM_SOURCE_DIR) + "/config/straight.yaml");
+  write_whole(in("mine/method.yaml"), mine);
+  fs::create_symlink("mine/method.yaml", in("link.yaml"));
+  for (const char* method : {"mine/method.yaml", "link.yaml"}) {
+    const Answer answer =
+        answer_of(tool("tensile_test", "'" + in(method) + "' --overwrite --out '" + in("mine") + "'"));
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_THAT(answer.text, HasSubstr("the run would write over its own method"));
+  }
+  EXPECT_EQ(read_whole(in("mine/method.yaml")), mine);
+}
+
+}  // namespace
+}  // namespace knot_utm

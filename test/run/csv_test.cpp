@@ -1,0 +1,147 @@
+#include "knot_utm/run/csv.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <sstream>
+
+#include "knot_utm/numeric/invalid_input.hpp"
+#include "knot_utm/record/sample.hpp"
+#include "knot_utm/specimen/centreline_file.hpp"
+
+namespace knot_utm {
+namespace {
+
+using ::testing::HasSubstr;
+
+class Csv : public ::testing::Test {
+ protected:
+  std::string text() const {
+    std::ostringstream all;
+    all << std::ifstream(path_).rdbuf();
+    return all.str();
+  }
+  std::string complaint(const std::string& content) {
+    std::ofstream(path_) << content;
+    try {
+      read_curve(path_);
+    } catch (const InvalidInput& invalid) {
+      return invalid.what();
+    }
+    return "";
+  }
+  void TearDown() override { std::remove(path_.c_str()); }
+  std::string path_ =
+      ::testing::TempDir() + "knot_utm_csv_" + ::testing::UnitTest::GetInstance()->current_test_info()->name() + ".csv";
+};
+
+TEST_F(Csv, CurveIsExactlyAsPromised) {
+  CurveWriter writer(path_);
+  Sample sample;
+  sample.time = 1.0 / 3.0;
+  sample.extension = 0.01;
+  sample.load = 2.5;
+  sample.end_to_end = 0.26;
+  sample.force_lower = 2.0;
+  sample.balance_offset = 0.25;
+  sample.phase = Phase::kPull;
+  writer.write(sample);
+  // Read while the writer is still open: a killed run keeps its rows.
+  EXPECT_EQ(text(),
+            "time,extension,load,knot_distance,end_to_end,load_lower,phase,balance_offset\n"
+            "s,m,N,m,m,N,-,N\n"
+            "0.3333333333333333,0.01,2.5,nan,0.26,1.75,pull,0.25\n");
+  EXPECT_EQ(writer.rows(), 1u);
+}
+
+TEST_F(Csv, CurveReadsBackToTheSameBits) {
+  CurveWriter writer(path_);
+  CurveRow row;
+  row.time = 1.0 / 7.0;
+  row.load = -1e-17;
+  row.phase = Phase::kTie;
+  writer.write(row);
+  row.knot_distance = 0.15000000000000002;
+  row.phase = Phase::kHold;
+  writer.write(row);
+  const std::vector<CurveRow> rows = read_curve(path_);
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].time, 1.0 / 7.0);
+  EXPECT_EQ(rows[0].load, -1e-17);
+  EXPECT_TRUE(std::isnan(rows[0].knot_distance));
+  EXPECT_EQ(rows[0].phase, Phase::kTie);
+  EXPECT_EQ(rows[1].knot_distance, 0.15000000000000002);
+  EXPECT_EQ(rows[1].phase, Phase::kHold);
+}
+
+/// What judges a curve needs the force that the rod bears: both loads are balanced, by an amount that stands beside
+/// them. Files of earlier versions have a true load_lower, and no such column.
+TEST_F(Csv, TheTrueForceIsTheBalancedOneAndItsOffset) {
+  Sample sample;
+  sample.phase = Phase::kPull;
+  sample.load = 2.0;
+  sample.force_upper = sample.force_lower = 5.0;
+  sample.balance_offset = 3.0;
+  {
+    CurveWriter writer(path_);
+    writer.write(sample);
+  }
+  const Pull pull = pull_of(read_curve(path_));
+  ASSERT_EQ(pull.size(), 1u);
+  EXPECT_EQ(read_curve(path_)[0].load, read_curve(path_)[0].load_lower);
+  EXPECT_EQ(pull[0].force, 2.0);
+  EXPECT_EQ(pull[0].borne, 5.0);
+  std::ofstream(path_) << "time,extension,load,knot_distance,end_to_end,load_lower,phase\ns,m,N,m,m,N,-\n"
+                          "0,0,2,nan,1,5,pull\n";
+  EXPECT_EQ(pull_of(read_curve(path_)).at(0).borne, 5.0);
+}
+
+TEST_F(Csv, OfACompliantFrameTheTravelOfTheCrossheadIsTheLastColumn) {
+  Sample sample;
+  sample.extension = 0.01;
+  sample.raw_extension = 0.0125;
+  sample.phase = Phase::kPull;
+  CurveWriter writer(path_, true);
+  writer.write(sample);
+  EXPECT_EQ(text(),
+            "time,extension,load,knot_distance,end_to_end,load_lower,phase,balance_offset,crosshead_travel\n"
+            "s,m,N,m,m,N,-,N,m\n"
+            "0,0.01,0,nan,0,0,pull,0,0.0125\n");
+  const std::string names = "time,extension,load,knot_distance,end_to_end,load_lower,phase,";
+  std::istringstream earlier(names + "corrected_extension\ns,m,N,m,m,N,-,m\n0,0.0125,0,nan,0,0,pull,0.01\n");
+  for (const CurveRow& row : {read_curve(path_).at(0), read_curve(earlier, "earlier").at(0)}) {
+    EXPECT_EQ(row.extension, 0.01);
+    EXPECT_EQ(travel_of(row), 0.0125);
+  }
+  EXPECT_EQ(travel_of(curve_row(Sample())), 0.0);
+  EXPECT_THAT(complaint(names + "crosshead_travel\ns,m,N,m,m,N,-,mm\n"),
+              HasSubstr("row 2: the unit of crosshead_travel is \"mm\", but must be m"));
+  EXPECT_THAT(complaint(names + "crosshead_travel\ns,m,N,m,m,N,-,m\n0,0,0,0,0,0,pull,x\n"),
+              HasSubstr("crosshead_travel is \"x\", but must be a number"));
+}
+
+TEST_F(Csv, WrongCurvesAreNamed) {
+  EXPECT_THAT(complaint(""), HasSubstr("a curve.csv begins with a row of names"));
+  EXPECT_THAT(complaint("time,load\ns,N\n"), HasSubstr("no column extension"));
+  const std::string names = "time,extension,load,knot_distance,end_to_end,load_lower,phase\n";
+  EXPECT_THAT(complaint(names + "s,mm,N,m,m,N,-\n"), HasSubstr("the unit of extension is \"mm\""));
+  const std::string head = names + "s,m,N,m,m,N,-\n";
+  EXPECT_THAT(complaint(head + "0,0,0,0,0,0,pull\n0,0,0\n"), HasSubstr("row 4 has 3 columns, but must have 7"));
+  EXPECT_THAT(complaint(head + "0,0,x,0,0,0,pull\n"), HasSubstr("row 3: load is \"x\""));
+  EXPECT_THAT(complaint(head + "0,0,0,0,0,0,push\n"), HasSubstr("row 3: phase is \"push\""));
+  EXPECT_THAT(complaint(head + std::string(5000, '0') + "\n"), HasSubstr("row 3 is longer than 4096 characters"));
+}
+
+TEST_F(Csv, FinalShapeIsACentrelineFile) {
+  Points points = Points::Random(3, 10);
+  write_centreline(path_, points);
+  EXPECT_THAT(text(), HasSubstr("x,y,z\nm,m,m\n"));
+  EXPECT_EQ(read_centreline(path_), points);
+}
+
+TEST_F(Csv, AFolderThatIsNotThere) { EXPECT_THROW(CurveWriter("/nowhere/curve.csv"), std::runtime_error); }
+
+}  // namespace
+}  // namespace knot_utm
