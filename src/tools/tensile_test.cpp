@@ -235,8 +235,7 @@ int make_anew(const Arguments& arguments) {
   ProgressLine progress(nullptr);
   const HeadlessOutcome outcome = results_from_samples(options_in(arguments.from_samples, progress));
   if (!arguments.quiet) tell_summary(outcome.folder, "result.yaml", "");
-  if (arguments.report) tell_report(arguments, outcome.folder);
-  return kDone;
+  return report(arguments, outcome.folder) ? kDone : kFailed;
 }
 
 /// Of a single test there is nothing to go on with.
