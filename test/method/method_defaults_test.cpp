@@ -8,6 +8,7 @@
 #include "knot_utm/machine/specimen_centreline.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/method/method.hpp"
+#include "knot_utm/record/command.hpp"
 #include "knot_utm/record/sample.hpp"
 #include "knot_utm/specimen/scales.hpp"
 

@@ -56,7 +56,7 @@ TEST(ResultKeys, SayHowFarThePeakMayBeOff) {
   EXPECT_THAT(result_yaml(results, facts), said("null  # nothing was pulled"));
   results.true_peak_force = results.curve.peak_force = 1000.0;
   EXPECT_THAT(result_yaml(results, facts), said("null  # unknown: no convergence study covers this case"));
-  facts.errors = {0.05, 0.01, 0.02, {}};
+  facts.errors = {0.05, 0.01, 0.02};
   results.motion_pattern = MotionPattern::kSliding;
   EXPECT_THAT(result_yaml(results, facts), said("50")) << "it still slides";
   results.lock_extension = 0.1;
@@ -93,7 +93,7 @@ TEST(ResultKeys, LeaveOutErrorsOfMoreThanHalfOfTheReading) {
   RunFacts facts;
   results.true_peak_force = results.curve.peak_force = 10.0;
   results.curve.plateau_force = results.true_plateau_force = 8.0;
-  facts.errors = {0.4, 0.6, 0.02, {}};
+  facts.errors = {0.4, 0.6, 0.02};
   results.lock_extension = 0.1;
   results.motion_pattern = MotionPattern::kSliding;
   const std::string said = result_yaml(results, facts);
@@ -107,7 +107,7 @@ TEST(ResultKeys, SayThatErrorsOfHardlyClosedKnotsAreNotKnown) {
   RunFacts facts;
   facts.material.radius = 1e-3;
   facts.material.bending_stiffness = 1e-6;
-  facts.errors = {0.05, 0.01, 0.02, {}};
+  facts.errors = {0.05, 0.01, 0.02};
   results.true_peak_force = results.curve.peak_force = 10.0;
   results.lock_extension = 0.1;
   results.motion_pattern = MotionPattern::kSliding;
