@@ -30,6 +30,8 @@ FILES = [
     ("final_shape.csv", "the rod at the end"),
     ("shapes.csv", "the rod over the time of the test"),
     ("test.bag", "the topics of the test"),
+    ("samples.csv", "every sample with all of its fields; the files above are made from it"),
+    ("shapes.bin", "the rod at every reading of the load cell, for the files above"),
     ("saved.bag", "the bag as it was when recorder/save was called"),
     ("specimen.csv", "the shape that was tested"),
     ("logo.png", "the logo of this report"),
