@@ -113,7 +113,7 @@ double ProgramRunner::time_left() const {
 }
 
 void ProgramRunner::state(Archive& archive) {
-  archive.section("PRG6");
+  archive.section("PRG6");  // "PRG5" remembered loads of the last moments, for sharp drops
   archive.same("steps of the program", static_cast<std::int64_t>(program_.size()));
   int step = static_cast<int>(step_);
   archive.number("step of the program", step, 0, static_cast<int>(program_.size()) - 1);
