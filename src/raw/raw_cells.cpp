@@ -1,4 +1,4 @@
-#include "raw_cells.hpp"
+#include "knot_utm/raw/raw_cells.hpp"
 
 #include <algorithm>
 #include <cstring>

@@ -10,11 +10,11 @@
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/numeric/number.hpp"
 #include "knot_utm/numeric/text_rows.hpp"
+#include "knot_utm/raw/raw_cells.hpp"
+#include "knot_utm/raw/raw_text.hpp"
 #include "knot_utm/record/sample.hpp"
-#include "raw_cells.hpp"
 #include "raw_head.hpp"
 #include "raw_names.hpp"
-#include "raw_text.hpp"
 
 namespace knot_utm {
 namespace {

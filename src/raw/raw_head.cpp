@@ -5,7 +5,7 @@
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/known_names.hpp"
 #include "knot_utm/numeric/number.hpp"
-#include "raw_text.hpp"
+#include "knot_utm/raw/raw_text.hpp"
 
 namespace knot_utm {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "knot_utm/raw/raw_cells.hpp"
 #include "knot_utm/raw/raw_options.hpp"
-#include "raw_cells.hpp"
 #include "raw_names.hpp"
 
 /// Which columns of a table have which quantity.

@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "knot_utm/numeric/number.hpp"
-#include "raw_text.hpp"
+#include "knot_utm/raw/raw_text.hpp"
 
 namespace knot_utm {
 namespace {

@@ -1,4 +1,4 @@
-#include "raw_text.hpp"
+#include "knot_utm/raw/raw_text.hpp"
 
 #include <unicode/normalizer2.h>
 #include <unicode/uchar.h>

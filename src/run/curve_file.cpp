@@ -7,11 +7,11 @@
 #include <sstream>
 #include <system_error>
 
-#include "../raw/raw_cells.hpp"
-#include "../raw/raw_text.hpp"
 #include "knot_utm/numeric/invalid_input.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/raw/raw_cells.hpp"
 #include "knot_utm/raw/raw_data.hpp"
+#include "knot_utm/raw/raw_text.hpp"
 #include "knot_utm/run/run_folder.hpp"
 
 namespace knot_utm {
