@@ -28,7 +28,7 @@ double asked_travel(const Program& program) {
   return out;
 }
 
-/// Of the steps that pull, or where there is none the paper's [m/s].
+/// The slowest speed of the steps that pull; where there is none, the paper's [m/s].
 double slowest_pull(const Program& program, double scale) {
   double out = ProgramStep{}.speed * scale;
   for (const ProgramStep& step : program)

@@ -90,7 +90,7 @@ struct Label {
   const char* words;
 };
 
-/// Of keys whose names alone would not tell a reader enough.
+/// These keys have labels, because their names alone would not tell a reader enough.
 constexpr Label kLabels[] = {
     {"specimen.handedness", "Handedness of the two overhands"},
     {"specimen.file", "Shape from"},
@@ -123,7 +123,7 @@ constexpr Label kLabels[] = {
     {"physics.max_step", "Longest step"},
 };
 
-/// Of an entry of a list, or of a step that goes by its number.
+/// Whether a key belongs to an entry of a list, or to a step that goes by its number.
 bool is_numbered(const std::string& key) {
   for (std::size_t begin = 0; begin <= key.size();) {
     const std::size_t end = std::min(key.find('.', begin), key.size());

@@ -269,7 +269,7 @@ std::optional<RawHead> head_by_numbers(const std::vector<std::string>& rows, con
       RawHead head = head_of(Cells(numbers.size()), row, separator, given);
       head.names_row.reset();
       head.first = row;
-      // Of at most two rows of words above, the upper one has the names, and of one the units if it has any.
+      // At most two rows of words stand above. The upper one has the names, and a single one also the units, if any.
       for (std::size_t above = row; above > 0 && row - above < 2; --above) {
         const Cells cells = names_in(rows[above - 1], separator);
         if (!are_words(cells, places)) break;

@@ -44,7 +44,7 @@ RawZero zero_at_rest(const std::vector<CurveRow>& rows, const Pull& other) {
   RawZero zero{};
   for (std::size_t i = 0; i < all.size() && all[i].extension <= start + kMoved * growth; ++i)
     if (all[i].extension <= start) zero.first = i;
-  // Of differences, so that equal readings have themselves as their mean, to the last digit.
+  // The mean is one of differences, so that equal readings have themselves as their mean, to the last digit.
   const CurveRow& last = all[zero.first];
   double extension = 0.0, load = 0.0;
   zero.readings = 0;

@@ -116,7 +116,7 @@ void RecorderNode::begin_run(const Crosshead& first) {
   const std::string asked = batch_ ? batch_->folder_of(order_.place.number) : order_.out;
   if (batch_ && before.empty() && holds_run(asked))
     throw std::runtime_error(asked + " holds another run, which is not written over");
-  // Of a recorder that died before it had recorded anything.
+  // A folder that was named before is that of a recorder that died before it had recorded anything.
   ClaimedFolder claimed = before.empty() ? claim(asked, method) : ClaimedFolder(before);
   // Before anything is written, so that whoever follows finds it.
   if (!test_id_.empty()) tell_master(names::kFolderOfTest, test_id_ + " " + claimed.path());

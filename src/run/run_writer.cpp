@@ -27,7 +27,8 @@ double inertia_of(const Method& method) {
   return inertia_factor(method.material, method.physics, slack_of(method.specimen, centreline));
 }
 
-/// Of a loop around its rollers, by choice: half of the diameter of the default roller [h].
+/// A loop that turned further around its rollers is told. The limit is half of the default roller's diameter, by choice
+/// [h].
 constexpr double kLargestLoopTurn = 6.0;
 
 bool holds_its_knot(const Results& results) {

@@ -133,7 +133,7 @@ ClaimedFolder folder_of_batch(const BatchOptions& options) {
   return claimed;
 }
 
-/// Of an earlier batch that is written over.
+/// Removes the specimens of an earlier batch that is written over.
 void remove_specimens(const std::string& folder) {
   std::error_code error;
   for (const std::string& specimen : specimen_folders(folder)) fs::remove_all(specimen, error);

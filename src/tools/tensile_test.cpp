@@ -238,7 +238,7 @@ int make_anew(const Arguments& arguments) {
   return report(arguments, outcome.folder) ? kDone : kFailed;
 }
 
-/// Of a single test there is nothing to go on with.
+/// Refuses to go on with a single test, of which nothing is kept to go on with.
 void require_batch(const Arguments& arguments, const Method& method) {
   if (arguments.resume.empty() || method.specimens.count > 1) return;
   throw InvalidInput::sentence("--resume", arguments.resume,

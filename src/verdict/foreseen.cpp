@@ -9,7 +9,7 @@
 namespace knot_utm {
 namespace {
 
-/// Of a rod that `auto` makes longer than usual.
+/// Warns of a rod that `auto` makes longer than usual.
 std::string longer_than_usual(const Method& method) {
   const Knot& knot = knot_of(method.specimen);
   const double h = method.material.radius, length = method.specimen.length;
@@ -27,7 +27,7 @@ std::string longer_than_usual(const Method& method) {
 /// polypropylene slides at 5.06 N, and with a longer loop at 6.60 N.
 constexpr double kClearOfRollers = 19.0;  // L - e [h]
 
-/// Of a loop whose knots are tied near its rollers.
+/// Warns of a loop whose knots are tied near its rollers.
 std::string near_the_rollers(const Method& method) {
   const SpecimenOptions& specimen = method.specimen;
   if (!specimen.to_be_tied || !rollers_hold(specimen, method.machine)) return "";
@@ -41,7 +41,7 @@ std::string near_the_rollers(const Method& method) {
          " m";
 }
 
-/// Of a loop whose ends two held nodes take.
+/// Warns of a loop whose ends two held nodes take.
 std::string between_nodes(const Method& method) {
   if (!knot_of(method.specimen).about().loop || method.machine.grips != GripKind::kNodes) return "";
   return "machine.grips is nodes: no rod passes two held nodes, so the side of the loop without knots bears the load "
@@ -49,7 +49,8 @@ std::string between_nodes(const Method& method) {
          "soon as it is straight; machine.grips: rollers pulls at both sides alike";
 }
 
-/// Of a loop with knots of opposite handedness: of shipped nylon three of four specimens slid, and one jumped open.
+/// Warns of a loop with knots of opposite handedness: of shipped nylon three of four specimens slid, and one jumped
+/// open.
 std::string scatters(const Method& method) {
   const SpecimenOptions& specimen = method.specimen;
   if (!knot_of(specimen).has("handedness") || specimen.handedness != Handedness::kOpposite) return "";
@@ -79,7 +80,7 @@ class NeverReached {
     if (asked && m_.ends.time && *asked > *m_.ends.time)
       say(key, seconds(*asked), "the test's time is over by ends.time, " + seconds(*m_.ends.time));
   }
-  /// Of a pull at a constant speed.
+  /// Warns of a pull at a constant speed that lasts longer than the crosshead can travel.
   void time_of_travel(const std::string& key, const ProgramStep& step) {
     const std::optional<double>& asked = step.until.time;
     const double longest = m_.machine.travel / step.speed;

@@ -10,8 +10,8 @@ namespace knot_utm {
 
 namespace {
 
-/// Of a loop whose tails are shorter than by default: an end that slips out of its coil unties the knot, however hard
-/// it was tied. Empty: they are not.
+/// Advises longer tails where those of a loop are shorter than by default: an end that slips out of its coil unties the
+/// knot, however hard it was tied. It is empty where they are not.
 std::string longer_tail(const Method& method) {
   const Knot& knot = knot_of(method.specimen);
   if (!knot.about().loop || !knot.has("tail")) return "";

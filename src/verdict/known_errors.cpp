@@ -37,9 +37,9 @@ double noise_of_stiffness(const Results& results, double noise) {
   return std::abs(1.96 * 0.67 * std::sqrt(36.0 / part->points) * noise / (part->width / 3.0) / part->stiffness);
 }
 
-/// Of the largest load. Where the rod parts in a knot, friction in the knot decides at which load, as it decides the
-/// plateau; so it does where knots slide to the end. A straight strand parts at the force that was given. Behind a lock
-/// the load depends on where the lock is, and how steep it rises.
+/// The relative error of the largest load. Where the rod parts in a knot, friction in the knot decides at which load,
+/// as it decides the plateau; so it does where knots slide to the end. A straight strand parts at the force that was
+/// given. Behind a lock the load depends on where the lock is, and how steep it rises.
 std::optional<double> error_of_peak(const Results& results, const RunFacts& facts, const RelativeErrors& errors) {
   if (!results.true_peak_force || results.motion_pattern == MotionPattern::kUntangling) return {};
   constexpr double kBreakOfAStrand = 2e-3;  // twice the scatter of nylon's loop

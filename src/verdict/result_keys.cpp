@@ -58,7 +58,7 @@ std::vector<double> of_knots(const Source& of) {
   return {values.begin(), values.end()};
 }
 
-/// Of the load cell, at a true force.
+/// The error of the load cell's class at a true force [N].
 template <auto Force>
 Number class_error_at(const Source& of) {
   const Number& force = of.results.*Force;
@@ -73,7 +73,7 @@ Number moment_balance_error(const Source& of) {
 // Without friction the ratio is 1, but for what the solver leaves.
 constexpr double kBearsItsLoad = 0.99;
 
-/// Of a strand that slides all along its posts: what pulls it bears more than the load at its other end.
+/// The force that pulls a strand over the load at its other end, where the strand slides all along its posts.
 Number force_ratio(const Source& of) {
   const Number& force = of.results.steady_force;
   const double load = of.facts.dead_load;
@@ -93,8 +93,9 @@ Number elongation(const Source& of) {
   return of.results.elongations ? Number((*of.results.elongations).*Part) : std::nullopt;
 }
 
-/// Of what as many straight rods would bear. A breaking force parts a knotted rod at the tension of a straight one, so
-/// that it predicts nothing; a breaking strain is that of the outermost fibre, also where the knot bends it.
+/// The largest load over what as many straight rods would bear. A breaking force parts a knotted rod at the tension of
+/// a straight one, so that it predicts nothing; a breaking strain is that of the outermost fibre, also where the knot
+/// bends it.
 Number knot_efficiency(const Source& of) {
   const Number strength = straight_strength(of.facts.material);
   if (!of.facts.may_hold_a_knot || !of.results.break_extension || !of.results.true_peak_force || !strength ||

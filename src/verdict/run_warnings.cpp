@@ -142,7 +142,7 @@ std::string knots_travelled(const Results& results, const RunFacts& facts) {
          " m apart instead of " + short_number(facts.knot_distance) + " m (specimen.knot_distance)";
 }
 
-/// Of a loop on rollers without friction, or with too little.
+/// Warns of a loop that slid along its rollers, which have no friction, or too little.
 std::string slid_along_the_rollers(const RunFacts& facts) {
   // By choice, far more than a loop that is held by its rollers' friction moves along them [h].
   constexpr double kSlidAlong = 3.0;
@@ -151,14 +151,15 @@ std::string slid_along_the_rollers(const RunFacts& facts) {
          " m: nothing but machine.roller_friction holds it there";
 }
 
-/// Of a test that the machine ended too early. A solver that gave up and a knot that came undone say so themselves.
+/// Warns of a test that the machine ended too early. A solver that gave up and a knot that came undone say so
+/// themselves.
 std::string ended_before_pull(const Results& results, const RunFacts& facts) {
   if (results.true_peak_force || results.never_in_tension || results.ended_by != EndedBy::kTravel) return {};
   return "the test ended before anything was pulled: " + facts.reason;
 }
 
-/// Of an overhand whose pull left it a loose loop. A loop of the radius R under the tension T has 2 T R^2 = k_b without
-/// friction, and is wider with it (before_tying.hpp).
+/// Warns of an overhand whose pull left it a loose loop. A loop of the radius R under the tension T has 2 T R^2 = k_b
+/// without friction, and is wider with it (before_tying.hpp).
 std::string stayed_loose(const Results& results, const RunFacts& facts) {
   constexpr double kClosed = 2.0;  // radius of a loop that lies on the strands in it [h]
   const double force = results.true_peak_force.value_or(0.0), h = facts.material.radius;

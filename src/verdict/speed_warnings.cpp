@@ -29,8 +29,8 @@ constexpr double kPulledSlow = 5.0 * kPulledAsShipped;
 constexpr const char* kPulledFast =
     "; ten times that changes a sliding force by up to 3 %, so choose a lower program.pull.speed";
 
-/// Of the pull's speed. While shipped knots slide, nodes are 11 to 42 times as fast as the pull; where a strand or a
-/// frame lets go, 200 to 500 times.
+/// A node that is so many times as fast as the pull snaps. While shipped knots slide, nodes are 11 to 42 times as fast
+/// as the pull; where a strand or a frame lets go, 200 to 500 times.
 constexpr double kSnaps = 100.0;
 
 std::string in_per_cent(double share) { return format_number(std::round(1000.0 * share) / 10.0) + " %"; }
