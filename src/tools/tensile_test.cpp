@@ -238,7 +238,7 @@ int make_anew(const Arguments& arguments) {
   return report(arguments, outcome.folder) ? kDone : kFailed;
 }
 
-/// Refuses to go on with a single test, of which nothing is kept to go on with.
+/// Refuses `--resume` for a single test: only a batch goes on where it stopped.
 void require_batch(const Arguments& arguments, const Method& method) {
   if (arguments.resume.empty() || method.specimens.count > 1) return;
   throw InvalidInput::sentence("--resume", arguments.resume,
