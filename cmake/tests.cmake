@@ -55,8 +55,8 @@ endif()
 knot_utm_tests(allocation_test quick test/allocation/allocation_test.cpp)
 target_link_libraries(allocation_test PRIVATE knot_utm_core)
 
-# Symmetries on random scenes, on the core as it is installed: under sanitizers they take sixty times as long. The seed is fixed: the same scenes every time. For others, and more of them, run
-# property_tests itself with RC_PARAMS="max_success=1000".
+# Symmetries on random scenes, on the core as it is installed: under sanitizers they take sixty times as long. The seed is
+# fixed: the same scenes every time. For others, and more of them, run property_tests itself with RC_PARAMS="max_success=1000".
 find_package(rapidcheck REQUIRED)
 file(GLOB property_sources CONFIGURE_DEPENDS test/properties/*_test.cpp)
 set(test_properties ENVIRONMENT "RC_PARAMS=seed=1 max_success=25")
