@@ -24,7 +24,7 @@ function(knot_utm_tests name label)
     endif()
   endforeach()
   gtest_discover_tests(${name} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60
-                       PROPERTIES TIMEOUT 1800 LABELS "${label}\\;${name}" ${test_properties})
+                       PROPERTIES TIMEOUT 1800 LABELS ${label} ${test_properties})
 endfunction()
 
 # The core's tests, one executable a room.
