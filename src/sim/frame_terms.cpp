@@ -84,6 +84,7 @@ struct Cross {
 
 FrameTerms::FrameTerms(const RodProperties& rod, const StepSettings& settings)
     : rod_(rod),
+      own_(own_numbers(rod.laws->bending)),
       rolls_(settings.friction_couple > 0.0),
       held_(static_cast<std::size_t>(rod.nodes()), 0),
       start_tangent_(held_.size() + 3, Lanes{1.0, 0.0, 0.0, 0.0}),
@@ -237,8 +238,12 @@ TwistingInput FrameTerms::twisting_input(int i) const {
 
 BendingNode FrameTerms::bending_node(int i, const Eigen::Vector2d& bend) const {
   const double whole = i == parted_ || i == parted_ + 1 ? 0.0 : 1.0;
-  return {whole * rod_.material.bending_stiffness, rod_.voronoi_length[i], bend, start_->natural_curvature.col(i - 1),
-          dt_};
+  return {whole * rod_.material.bending_stiffness,
+          rod_.voronoi_length[i],
+          bend,
+          start_->natural_curvature.col(i - 1),
+          dt_,
+          start_->bending_own.data() + own_ * (i - 1)};
 }
 
 CurvatureSlopes FrameTerms::curvature_slopes(int i) const {
@@ -379,15 +384,19 @@ void FrameTerms::move(const std::vector<Lanes>& change, double factor) {
 }
 
 template <typename Law>
-void FrameTerms::remember_bends(const Law& law, RodState& state) const {
+void FrameTerms::remember_bends(const Law& law, const std::vector<double>& tension, RodState& state) const {
   for (int i = 1; i < static_cast<int>(rod_.edges()); ++i) {
     const Eigen::Vector2d bend =
         material_curvature(to_vec3(edge_[at(i - 1)]), to_vec3(edge_[at(i)]), directors(i - 1), directors(i));
-    state.natural_curvature.col(i - 1) = law.remember(bending_node(i, bend)).natural;
+    BendingNode node = bending_node(i, bend);
+    node.tension = 0.5 * (tension[at(i - 1)] + tension[at(i)]);
+    const BendingMemory memory = law.remember(node);
+    if constexpr (Law::kOwn > 0) law.keep_own(node, state.bending_own.data() + own_ * (i - 1));
+    state.natural_curvature.col(i - 1) = memory.natural;
   }
 }
 
-void FrameTerms::commit(RodState& state) {
+void FrameTerms::commit(const std::vector<double>& tension, RodState& state) {
   const int edges = static_cast<int>(rod_.edges());
   carry_directors();
   for (int j = 0; j < edges; ++j) {
@@ -397,7 +406,7 @@ void FrameTerms::commit(RodState& state) {
   for (int i = 1; i < edges; ++i) state.reference_twist[i - 1] = reference_twist_[at(i)];
   state.reference_director = director_;
   if (curved_ && remembers(rod_.laws->bending))
-    std::visit([&](const auto& law) { remember_bends(law, state); }, rod_.laws->bending);
+    std::visit([&](const auto& law) { remember_bends(law, tension, state); }, rod_.laws->bending);
 }
 
 FrameTerms::Energy FrameTerms::energy(const Points& increment, const std::vector<Lanes>& force) const {

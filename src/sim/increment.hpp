@@ -26,7 +26,7 @@ struct NoFrames {
   void add_forces(const StepStart&, const Points&, std::vector<Lanes>&) {}
   void add_stiffness(StepMatrix<3>&) const {}
   void account(const SolvedStep&, StepAccount&) const {}
-  void commit(RodState&) {}
+  void commit(const std::vector<double>&, RodState&) {}
   double largest_factor(const std::vector<Lanes>&) const { return 1.0; }
   void move(const std::vector<Lanes>&, double) {}
   double kinetic_energy(const Eigen::VectorXd&) const { return 0.0; }

@@ -170,7 +170,7 @@ TEST_P(FrameTermsOf, TheReferenceTwistIsThatOfCarriedFrames) {
     EXPECT_NEAR(terms.energy(moved.position - start.position, force).twisting, carried, 1e-13 * carried) << share;
     RodState committed = start;
     committed.position = moved.position;
-    terms.commit(committed);
+    terms.commit(std::vector<double>(kNodes - 1), committed);
     EXPECT_LT((committed.reference_twist - moved.reference_twist).norm(), 1e-14);
     EXPECT_LT((committed.reference_director - moved.reference_director).norm(), 1e-14);
   }
@@ -182,7 +182,7 @@ TEST_P(FrameTermsOf, ForcesAreTheEnergysSlopeAtFixedSpin) {
   const Eigen::VectorXd force = force_at(terms, trial);
   RodState at_trial = start;
   at_trial.position = positions(trial);
-  terms.commit(at_trial);
+  terms.commit(std::vector<double>(kNodes - 1), at_trial);
   const auto energy = [&](const Eigen::VectorXd& y) {
     RodState moved = at_trial;
     moved.position = positions(y);

@@ -33,6 +33,8 @@ class CentrelineTerms {
   /// belongs to them.
   void add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force);
 
+  /// Tension of every edge at the positions that were evaluated last [N].
+  const std::vector<double>& tensions() const { return tension_; }
   /// Largest |tension| of an edge at that position [N].
   double largest_tension() const { return largest_tension_; }
 

@@ -120,8 +120,9 @@ class FrameTerms {
   /// Kinetic energy of spin at these rates [rad/s]; [J].
   double kinetic_energy(const Eigen::VectorXd& rate) const { return 0.5 * inertia_.dot(rate.cwiseAbs2()); }
 
-  /// Writes angles, rates and frames into the state whose positions were evaluated last.
-  void commit(RodState& state);
+  /// Writes angles, rates, frames and what the bending law remembers into the state whose positions were evaluated
+  /// last; `tension`: of every edge [N].
+  void commit(const std::vector<double>& tension, RodState& state);
 
  private:
   /// The twisting stiffness of one inner node in its edge vectors e and f: columns of d2E/(de df), with fe = ef^T, and
@@ -148,7 +149,7 @@ class FrameTerms {
   template <typename Law>
   void add_bending_forces(const Law& law, std::vector<Lanes>& force);
   template <typename Law>
-  void remember_bends(const Law& law, RodState& state) const;
+  void remember_bends(const Law& law, const std::vector<double>& tension, RodState& state) const;
   double twist(int i) const;  // m of inner node i
   Directors directors(int edge) const;
   double angle_change(const std::vector<Lanes>& change, int edge) const;
@@ -158,6 +159,7 @@ class FrameTerms {
   Eigen::VectorXd drag_;     // c h^2 l_j [N m s]
   Eigen::VectorXd rest_;     // r_j
   bool curved_ = false;      // at rest, as the step begins
+  int own_;                  // numbers that the bending law keeps of a node
   bool rolls_;               // turns_ are asked for
   int parted_ = -2;          // edge; no node ends this one
   const RodState* start_ = nullptr;
