@@ -322,9 +322,10 @@ void FrameTerms::add_bending_stiffness(const Law& law, StepMatrix<4>& matrix) co
   }
 }
 
-void FrameTerms::add_stiffness(StepMatrix<4>& matrix) const {
+void FrameTerms::add_stiffness(LinearSystem<4>& system) const {
+  StepMatrix<4>& matrix = system.matrix;
   const std::size_t nodes = held_.size(), edges = nodes - 1;
-  // As CentrelineTerms::set_stiffness: by A_j of every edge, here with its sweep, and B_i of the two edges of a node.
+  // As CentrelineTerms::add_stiffness: by A_j of every edge, here with its sweep, and B_i of the two edges of a node.
   // With g = d2E/dm2 (-m_e, m_e - m_f, m_f) of nodes i-1 to i+1, the spins before and behind node i add -g and g.
   TwistStiffness here{}, after{};
   Lanes edge_before[3] = {}, edge[3] = {};

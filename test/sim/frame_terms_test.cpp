@@ -9,6 +9,7 @@
 
 #include "knot_utm/rod/energy.hpp"
 #include "knot_utm/rod/frames.hpp"
+#include "knot_utm/sim/roller_turns.hpp"
 #include "knot_utm/specimen/material.hpp"
 #include "rod/finite_difference.hpp"
 #include "rod/own_laws.hpp"
@@ -138,7 +139,12 @@ TEST_P(FrameTermsOf, TheMatrixGetsTheStiffnessOfAllNodesAndEdges) {
     for (int i = 0; i < kNodes; ++i)
       for (const int block : matrix.stencil(i))
         if (block >= 0) matrix.block(block).set_zero();
-    terms.add_stiffness(matrix);
+    std::vector<Lanes> right(kNodes);
+    RollerTurns turns;
+    const Boundary free;
+    const StepStart step{start, free, 1.0};
+    LinearSystem<4> system{step, start.position, matrix, right, turns, {}, nullptr};
+    terms.add_stiffness(system);
     const Eigen::MatrixXd slow = stiffness_of(terms);
     double largest = 0.0;
     for (int i = 0; i < kNodes; ++i)

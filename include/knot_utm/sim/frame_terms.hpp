@@ -9,6 +9,7 @@
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stencil.hpp"
 #include "knot_utm/rod/twisting.hpp"
+#include "knot_utm/sim/linear_system.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/solved_step.hpp"
 #include "knot_utm/sim/step_account.hpp"
@@ -80,8 +81,8 @@ class FrameTerms {
   /// positions. A stiffness that is read afterwards belongs to these positions.
   void add_forces(const StepStart& start, const Points& x, std::vector<Lanes>& force);
 
-  /// Adds -d(force, torque)/d(x, s) to the matrix.
-  void add_stiffness(StepMatrix<4>& matrix) const;
+  /// Adds -d(force, torque)/d(x, s).
+  void add_stiffness(LinearSystem<4>& system) const;
 
   /// The same node by node and edge by edge, from the formulas of twisting.hpp and bending.hpp: of the elastic terms at
   /// inner node i, 1 <= i <= N-2, and of edge j. Slow: the oracle that tests compare add_stiffness with.
