@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "axes.hpp"
 #include "knot_utm/rod/isotropic_bending.hpp"
 #include "knot_utm/rod/stretching.hpp"
 
@@ -11,7 +12,6 @@ namespace knot_utm {
 namespace {
 
 constexpr Lanes kZero = {0.0, 0.0, 0.0, 0.0};
-constexpr Lanes kAxis[3] = {{1.0, 0.0, 0.0, 0.0}, {0.0, 1.0, 0.0, 0.0}, {0.0, 0.0, 1.0, 0.0}};
 
 }  // namespace
 

@@ -9,6 +9,7 @@
 #include "knot_utm/rod/frames.hpp"
 #include "knot_utm/rod/stencil.hpp"
 #include "knot_utm/rod/twisting.hpp"
+#include "knot_utm/sim/frame_bending.hpp"
 #include "knot_utm/sim/linear_system.hpp"
 #include "knot_utm/sim/scene.hpp"
 #include "knot_utm/sim/solved_step.hpp"
@@ -134,8 +135,6 @@ class FrameTerms {
     double stiffness;  // d2E/dm2 [N m]
   };
   TwistStiffness twist_stiffness(std::size_t node) const;
-  template <typename Law>
-  void add_bending_stiffness(const Law& law, StepMatrix<4>& matrix) const;
   void set_tangents(const Points& position);
   void set_twist();
   void carry_directors();
@@ -143,24 +142,18 @@ class FrameTerms {
 
   /// Stiffnesses of inner node i are zero where it ends a parted edge.
   TwistingInput twisting_input(int i) const;
-  BendingNode bending_node(int i, const Eigen::Vector2d& bend) const;
-  CurvatureSlopes curvature_slopes(int i) const;
   template <typename Law>
   StencilMatrix bending_stiffness(const Law& law, int i) const;
-  template <typename Law>
-  void add_bending_forces(const Law& law, std::vector<Lanes>& force);
-  template <typename Law>
-  void remember_bends(const Law& law, const std::vector<double>& tension, RodState& state) const;
   double twist(int i) const;  // m of inner node i
   Directors directors(int edge) const;
   double angle_change(const std::vector<Lanes>& change, int edge) const;
 
   const RodProperties& rod_;
+  FrameBending bending_;     // where the rod is curved at rest
   Eigen::VectorXd inertia_;  // I_j
   Eigen::VectorXd drag_;     // c h^2 l_j [N m s]
   Eigen::VectorXd rest_;     // r_j
   bool curved_ = false;      // at rest, as the step begins
-  int own_;                  // numbers that the bending law keeps of a node
   bool rolls_;               // turns_ are asked for
   int parted_ = -2;          // edge; no node ends this one
   const RodState* start_ = nullptr;
