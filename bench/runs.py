@@ -33,24 +33,20 @@ class Runner:
         self.root, self.tool, self.core, self.folder, self.overrides = root, tool, core, folder, overrides
         self.verbose = verbose
 
-    def run(self, name, settings, method=METHOD, times=1):
-        """`settings`: dotted key -> value, on top of which come those of the command line. Of several `times`, whose
-        readings are the same, the one of the least CPU time: what other work on the machine adds is no part of it."""
-        runs = [self.once(name, settings, method) for _ in range(times)]
-        return min(runs, key=lambda run: run.cpu_time)
-
     def run_all(self, todo, jobs=JOBS, cpu_limit=None, made_of=lambda place, run: run):
         """The runs of [(name, settings)] or [(name, settings, method)] in their order, some at a time on any core.
         `made_of`: what is kept of each, at its place among them."""
         runner = Runner(self.root, self.tool, None, self.folder, self.overrides, self.verbose)
         with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
-            return list(pool.map(lambda place, one: made_of(place, runner.once(*one, cpu_limit=cpu_limit)),
+            return list(pool.map(lambda place, one: made_of(place, runner.run(*one, cpu_limit=cpu_limit)),
                                  range(len(todo)), todo))
 
-    def once(self, name, settings, method=METHOD, more=(), cpu_limit=None):
-        """`more`: further words of the command line; `cpu_limit` [s]: more, and the run is ended by SIGXCPU, however
-        busy the machine."""
-        words = words_of("--set", settings, self.overrides) + list(more)
+    def run(self, name, settings, method=METHOD, more=(), cpu_limit=None):
+        """`settings`: dotted key -> value, on top of which come those of the command line; `more`: further words of it.
+        `cpu_limit` [s]: more, and the run is ended by SIGXCPU, however busy the machine."""
+        # JSON is YAML too.
+        settings = [f"{key}={json.dumps(value)}" for key, value in settings.items()] + self.overrides
+        words = [word for setting in settings for word in ("--set", setting)] + list(more)
         out = os.path.join(self.folder, name)
         shutil.rmtree(out, ignore_errors=True)
         os.makedirs(os.path.dirname(out), exist_ok=True)
@@ -68,17 +64,6 @@ class Runner:
                  (f": {run.said}" if run.said else ""))
         return run
 
-    def bench_tool(self, tool, arguments):
-        """What a small executable beside tensile_test prints as YAML."""
-        path = os.path.join(os.path.dirname(os.path.abspath(self.tool)), tool)
-        if not os.access(path, os.X_OK):
-            sys.exit(f"scripts/bench: {tool} is not built; configure with -DKNOT_UTM_BENCH=ON")
-        command = [path] + [str(word) for word in arguments]
-        self.say(" ".join([tool] + command[1:]))
-        done = subprocess.run(SHELLS_CHILD + command, cwd=self.root, stdout=subprocess.PIPE, text=True, check=False,
-                              preexec_fn=lambda: confine(self.core))
-        return (yaml.safe_load(done.stdout) or {}) if done.returncode == 0 else {}
-
     def say(self, line):
         if self.verbose:
             print(line, file=sys.stderr, flush=True)
@@ -89,12 +74,6 @@ def confine(core, cpu_limit=None):
         os.sched_setaffinity(0, {core})
     if cpu_limit is not None:
         resource.setrlimit(resource.RLIMIT_CPU, (cpu_limit, cpu_limit + 5))
-
-
-def words_of(option, settings, more=()):
-    """Of a command line, with the option before each; JSON is YAML too."""
-    entries = [f"{key}={json.dumps(value)}" for key, value in settings.items()] + list(more)
-    return [word for entry in entries for word in (option, entry)]
 
 
 class Run:
@@ -120,26 +99,13 @@ class Run:
         """Simulated over CPU time."""
         return divide(self.value("simulated_time"), self.cpu_time)
 
-    def cost(self):
-        """CPU time a simulated second."""
-        return divide(self.cpu_time, self.value("simulated_time"))
-
     def nodes(self):
         return len(self.shape["x"]) if self.shape else None
 
-    def phase(self, name):
-        """Rows of curve_full.csv in a phase, as columns, and with them the true force on the lower grip."""
-        rows = [i for i, phase in enumerate(self.curve.get("phase", [])) if phase == name]
-        columns = {key: [column[i] for i in rows] for key, column in self.curve.items()}
-        if "load_lower" in columns:
-            balanced = columns.get("balance_offset", [0.0] * len(rows))
-            columns["lower_force"] = [load + offset for load, offset in zip(columns["load_lower"], balanced)]
-        return columns
-
     def pulled(self, *keys):
         """Columns of the pull: extension and load, or those named."""
-        pull = self.phase("pull")
-        return tuple(pull.get(key, []) for key in keys or ("extension", "load"))
+        rows = [i for i, phase in enumerate(self.curve.get("phase", [])) if phase == "pull"]
+        return tuple([self.curve[key][i] for i in rows] if key in self.curve else [] for key in keys or ("extension", "load"))
 
     def slope_of_knot_distance(self):
         """de/ds: what result.yaml says of knots that slide, else by least squares over the whole pull."""
@@ -184,19 +150,6 @@ def standard_error(values):
 def relative_change(value, reference):
     """|value - reference|/|reference|"""
     return None if value is None or not reference else abs(value - reference) / abs(reference)
-
-
-def mean_relative_difference(curve, reference, parts=200, averaged=1):
-    """Mean of |y - y_ref|/|y_ref| over equal parts of x, as far as both curves go; y is the mean of so many places of a
-    part. Curves: (x, y), x rising."""
-    if not curve[0] or not reference[0]:
-        return None
-    low, high = max(curve[0][0], reference[0][0]), min(curve[0][-1], reference[0][-1])
-    if low >= high:
-        return None
-    x = low + (np.arange(parts * averaged) + 0.5) * (high - low) / (parts * averaged)
-    own, expected = (np.interp(x, *one).reshape(parts, averaged).mean(axis=1) for one in (curve, reference))
-    return float(np.mean(np.abs(own - expected) / np.abs(expected)))
 
 
 def read_yaml(file):

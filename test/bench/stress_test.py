@@ -9,12 +9,11 @@ import unittest
 sys.dont_write_bytecode = True
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "../../bench"))
 
-import outcomes  # noqa: E402
 import runs  # noqa: E402
 import stress  # noqa: E402
 from draws import KNOTS, Draw  # noqa: E402
 
-DRAWS = [Draw(1, number) for number in range(400)]
+DRAWS = [Draw(1, number) for number in range(200)]
 
 
 class Draws(unittest.TestCase):
@@ -43,7 +42,7 @@ class Draws(unittest.TestCase):
 
     def test_a_shape_clears_itself_and_leads_upwards(self):
         shapes = [draw for draw in DRAWS if draw.shape is not None]
-        self.assertGreater(len(shapes), 30)
+        self.assertGreater(len(shapes), 15)
         for draw in shapes:
             self.assertGreater(draw.shape[-1][2], draw.shape[0][2])
 
@@ -62,7 +61,7 @@ class Outcomes(unittest.TestCase):
         return runs.Run(folder.name, 1.0, exit_code, said)
 
     def status(self, *args, **kwargs):
-        return outcomes.classify(self.run_of(*args, **kwargs))[0]
+        return stress.classify(self.run_of(*args, **kwargs))[0]
 
     def test_each_status(self):
         solver = self.GOOD.replace("extension", "solver") + "reason: time step\n"
@@ -102,7 +101,7 @@ class Outcomes(unittest.TestCase):
             out.write("#!/bin/sh\n" + script + "\n")
         os.chmod(tool, 0o755)
         runner = runs.Runner(folder.name, tool, None, folder.name, [], verbose=False)
-        return outcomes.Outcome(DRAWS[0], runner.once(*outcomes.task_of(runner, DRAWS[0]), cpu_limit=1)).status
+        return stress.Outcome(DRAWS[0], runner.run(*stress.task_of(runner, DRAWS[0]), cpu_limit=1)).status
 
     def test_of_programs_that_really_end_so(self):
         self.assertEqual(self.started("kill -SEGV $$"), "crash")
@@ -116,7 +115,7 @@ class Target(unittest.TestCase):
         all_outcomes = []
         for status, count in counts:
             for _ in range(count):
-                outcome = outcomes.Outcome(DRAWS[len(all_outcomes)], runs.Run("/nowhere", 1.0, 0, ""))
+                outcome = stress.Outcome(DRAWS[len(all_outcomes)], runs.Run("/nowhere", 1.0, 0, ""))
                 outcome.status, outcome.reason = status, "a reason"
                 all_outcomes.append(outcome)
         matrix = stress.Matrix(all_outcomes)
@@ -130,7 +129,7 @@ class Target(unittest.TestCase):
         self.assertEqual(self.failed(("ended", 196), ("solver", 3), ("not at rest", 1)), 1)
 
     def test_none_may_crash_hang_or_go_wrong(self):
-        for status in outcomes.NEVER:
+        for status in stress.NEVER:
             self.assertEqual(self.failed(("ended", 199), (status, 1)), 1)
 
 
