@@ -10,7 +10,7 @@ from runs import FISHERMAN, ROOT, STRAIGHT, Folders, command_of, keys_on, page_o
 import numpy as np
 import yaml
 
-from knot_utm.report import batch_page, batch_tables, style
+from knot_utm.report import batch_page, style
 from knot_utm.report.batch import Batch
 from knot_utm.report.certificate import Check
 from knot_utm.report.curves import mean_curve
@@ -201,9 +201,9 @@ class CertificateOfABatch(unittest.TestCase):
         good, bad = Check("deep", ["a"], "1", "at most 2", True), Check("deep", ["a"], "3", "at most 2", False)
         other, unlimited = Check("wide", ["b"], "1", "yes", True), Check("long", ["c"], "1", "no limit is set", None)
         checks = [(1, [good, other, unlimited]), (2, [bad]), (4, [bad, other])]
-        self.assertEqual([(check.words, check.value, check.verdict) for check in batch_tables.checks_of_all(checks)],
+        self.assertEqual([(check.words, check.value, check.verdict) for check in batch_page.checks_of_all(checks)],
                          [("deep; not so specimens 2 and 4", "1 of 3 specimens", "fail"), ("wide", "2 of 2 specimens", "pass")])
-        self.assertEqual(batch_tables.verdict_of_all(checks, "%s keep it."), ("1 of 3 specimens keep it.", False))
+        self.assertEqual(batch_page.verdict_of_all(checks, "%s keep it."), ("1 of 3 specimens keep it.", False))
 
     def test_is_of_the_results_of_the_specimens(self):
         folder = folders.copy(rods)
@@ -227,13 +227,13 @@ class CertificateOfABatch(unittest.TestCase):
 
 class Named(unittest.TestCase):
     def test_specimens_are_listed_as_in_a_sentence(self):
-        self.assertEqual(batch_tables.named([3]), "specimen 3")
-        self.assertEqual(batch_tables.named([5, 2]), "specimens 2 and 5")
-        self.assertEqual(batch_tables.named([1, 2, 3, 7, 9, 10]), "specimens 1 to 3, 7, 9 and 10")
+        self.assertEqual(batch_page.named([3]), "specimen 3")
+        self.assertEqual(batch_page.named([5, 2]), "specimens 2 and 5")
+        self.assertEqual(batch_page.named([1, 2, 3, 7, 9, 10]), "specimens 1 to 3, 7, 9 and 10")
 
     def test_no_table_is_wider_than_a_telephone(self):
-        self.assertEqual([len(some) for some in batch_tables.beside_each_other(list(range(11)))], [4, 4, 3])
-        self.assertEqual(batch_tables.beside_each_other([]), [])
+        self.assertEqual([len(some) for some in batch_page.beside_each_other(list(range(11)))], [4, 4, 3])
+        self.assertEqual(batch_page.beside_each_other([]), [])
 
 
 class TheMeanCurve(unittest.TestCase):
