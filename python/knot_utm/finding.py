@@ -7,7 +7,7 @@ from knot_utm import method_keys, tool
 from knot_utm.errors import WrongInput
 from knot_utm.fitting.found import WRITTEN, Fitted, short, write_report
 from knot_utm.fitting.keys import method_key, offset_key, parse_free
-from knot_utm.fitting.pulls import EXACT_CELL, Runs, is_own, read_model, read_other, read_own
+from knot_utm.fitting.pulls import EXACT_CELL, Runs, read_model, read_other, read_own
 from knot_utm.fitting.records import Record
 from knot_utm.fitting.search import Search
 from knot_utm.yaml_text import described, value_of
@@ -63,7 +63,7 @@ def _searched(runs, method, asked, free, reading):
 
 def _read(runs, asked, methods, reading):
     """The records, each beside a run of the method as it stands."""
-    pulls = [read_own(file) if is_own(file) else None for file, _ in asked]
+    pulls = [read_own(file) for file, _ in asked]
     records = []
     for (file, given), method, pull in zip(asked, methods, pulls):
         folder, notes = runs.whole(given), []

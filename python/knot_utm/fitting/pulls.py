@@ -103,21 +103,16 @@ def pull_of_table(table):
     return pull if len(pull.extension) > 1 else None
 
 
-def is_own(file):
-    """Whether a file is a curve.csv, by its first line. Raises WrongInput where it cannot be read."""
+def read_own(file):
+    """Of a curve.csv; None of another file, as its first line tells. Raises WrongInput."""
     try:
         with open(file, encoding="utf-8", errors="replace") as lines:
-            return OWN <= set(lines.readline().strip().split(","))
+            if not OWN <= set(lines.readline().strip().split(",")):
+                return None
+        table = pd.read_csv(file, skiprows=[1]).astype({name: float for name in ("extension", "load", "end_to_end")})
     except OSError as error:
         raise WrongInput(f"{file}: {error.strerror.lower()}") from error
-
-
-def read_own(file):
-    """Of a curve.csv. Raises WrongInput."""
-    try:
-        table = pd.read_csv(file, skiprows=[1])
-        table = table.astype({name: float for name in ("extension", "load", "end_to_end")})
-    except (ValueError, KeyError) as error:
+    except ValueError as error:
         raise WrongInput(f"{file}: {' '.join(str(error).split())}") from error
     return _known(file, pull_of_table(table))
 

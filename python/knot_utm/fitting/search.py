@@ -13,7 +13,7 @@ from knot_utm.fitting.records import covariance, split
 from knot_utm.fitting.surface import Likelihood, Surface, scatter_of
 
 RISE = chi2.ppf(0.95, 1)  # of -2 log L, which bounds an interval of 95 %
-MOST_WAVES = 8
+MOST_WAVES = 12
 CANDIDATES = 2048
 KEPT, LEAST_KEPT = 16.0, 48  # rise within which candidates are kept for the next wave, and how many at least
 SHRUNK = 0.8    # a side of the box that shrinks by less has settled
@@ -22,7 +22,7 @@ LEARNT_OF = 64.0  # rise beyond which runs are forgotten
 GROWN = 0.05    # of the box, by which it is larger than what is kept
 LOOK = 0.25     # of the box, beyond which nothing is looked for: what an earlier wave gave up may come back
 POINTS = 41     # of a profile
-LEAST_RUNS = 3
+LEAST_MORE = 3  # runs than keys, of which anything is learnt
 STEP = 1e-5     # of a derivative, over the box
 ALIKE = np.log(2.0)  # of the ratio of loads, mean by mean, within which runs are of the record's kind
 
@@ -64,7 +64,7 @@ class Search:
     def learn(self, seed):
         """The likelihood, of the runs where the last one was not far from its best, and the best place."""
         self.is_lost = np.isnan(self.means).any(axis=1)
-        if (~self.is_lost).sum() < LEAST_RUNS:
+        if (~self.is_lost).sum() < len(self.keys) + LEAST_MORE:
             raise WrongInput(f"{self.records[0].name}: {(~self.is_lost).sum()} of {len(self.places)} runs in the ranges of the free keys reach as "
                              "far as the record: narrow the ranges")
         right = self._alike()
@@ -93,14 +93,15 @@ class Search:
         return ~self.is_lost & (size <= max(ALIKE, np.sort(size)[:self.least][-1]))
 
     def wave(self, number, more):
-        """More runs, in a new box; whether the box is no longer smaller."""
+        """More runs, in a new box; whether it is neither smaller than the last one nor cut off where nothing was looked for."""
         around = self._around()
         tried = self._candidates(100 + number)
         rises = self.likelihood.at(tried) - self.value
         kept = np.concatenate([self.best[None], tried[rises <= max(KEPT * self.misfit, np.sort(rises)[LEAST_KEPT - 1])]])
         width = np.maximum(np.ptp(kept, axis=0), 1e-6)
         low, high = np.maximum(kept.min(axis=0) - GROWN * width, around[0]), np.minimum(kept.max(axis=0) + GROWN * width, around[1])
-        has_settled = np.all(high - low >= SHRUNK * (self.high - self.low))
+        is_cut = (low == around[0]) & (low > 0.0) | (high == around[1]) & (high < 1.0)
+        has_settled = np.all(high - low >= SHRUNK * (self.high - self.low)) and not np.any(is_cut)
         self.low, self.high = low, high
         # The best one, the last ones on each side, which are beyond the ends of the intervals, and the first of a sequence that lies evenly.
         chosen = dict.fromkeys([0, *kept.argmin(axis=0), *kept.argmax(axis=0), *range(1, len(kept))])

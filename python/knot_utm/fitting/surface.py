@@ -1,8 +1,8 @@
 """How likely measured means are over the free keys, as far as runs tell: their means are a polynomial of the keys, and the rest is
 scatter.
 
-The polynomial is that of least squares. Its order is the one with which runs are told best that are left out one at a time. Of n runs
-and p terms the scatter S is the covariance of the residuals, over n - p. It holds how specimens differ, stick-slip, and what the
+The polynomial is that of least squares. Its order is the one, from 1 on, with which runs are told best that are left out one at a time. Of n
+runs and p terms the scatter S is the covariance of the residuals, over n - p. It holds how specimens differ, stick-slip, and what the
 polynomial misses. With the errors C of records.py the likelihood is
 
     -2 log L = r^T A^-1 r + log det A - log det C - 2 log q(u),   A = C + (1 + h) S,   h = t^T (T^T T)^-1 t
@@ -26,7 +26,7 @@ class Surface:
 
     def __init__(self, places, means, scale):
         self.low, self.width = places.min(axis=0), np.maximum(np.ptp(places, axis=0), 1e-12)
-        self.order = min(range(HIGHEST_ORDER + 1), key=lambda order: self._missed(order, places, means / scale))
+        self.order = min(range(1, HIGHEST_ORDER + 1), key=lambda order: self._missed(order, places, means / scale))
         terms = self._terms(places, self.order)
         q, self.root = np.linalg.qr(terms)
         self.weights = linalg.solve_triangular(self.root, q.T @ means)
@@ -40,7 +40,7 @@ class Surface:
     def _missed(self, order, places, means):
         """Mean square by which runs are missed that are left out; infinite where the runs are too few for the order."""
         terms = self._terms(places, order)
-        if order and len(terms) < 2 * terms.shape[1]:
+        if order > 1 and len(terms) < 2 * terms.shape[1]:
             return np.inf
         q, _ = np.linalg.qr(terms)
         return np.mean(((means - q @ (q.T @ means)) / np.maximum(1.0 - (q**2).sum(axis=1), 1e-6)[:, None])**2)

@@ -1,5 +1,7 @@
 #!/usr/bin/python3
 """scripts/fit: hidden values are found, what cannot be told is told so, what cannot be fitted is refused."""
+import contextlib
+import io
 import os
 import subprocess
 import sys
@@ -7,11 +9,12 @@ import tempfile
 import unittest
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-from head import ROOT, TOOLS, content, write
+from head import ROOT, content, write
 
 import pandas as pd
 
 import knot_utm
+from knot_utm import fit_command
 from knot_utm.fitting.found import write_report
 from knot_utm.yaml_text import load, text_of
 
@@ -50,13 +53,14 @@ class Fits(unittest.TestCase):
             table.to_csv(out, index=False, header=False)
         return self.path(name)
 
-    def command(self, *words, settings=None, code=0, tools=TOOLS):
+    def command(self, *words, settings=None, code=0):
+        """What scripts/fit says, without a process of its own."""
         sets = [word for key, value in (settings or {}).items() for word in ("--set", f"{key}={text_of(value)}")]
-        done = subprocess.run([os.path.join(ROOT, "scripts/fit"), *words, *sets], cwd=self.folder, check=False, text=True,
-                              env={**os.environ, "KNOT_UTM_SKIP_BUILD": "1", "KNOT_UTM_TOOLS_DIR": tools},
-                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
-        self.assertEqual(done.returncode, code, done.stdout + done.stderr)
-        return done.stdout + done.stderr
+        said = io.StringIO()
+        with contextlib.chdir(self.folder), contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+            found = fit_command.main([*words, *sets])
+        self.assertEqual(found, code, said.getvalue())
+        return said.getvalue()
 
     def fit(self, out, *words, settings=None, code=0):
         """What fit.yaml says, and what the command said."""
@@ -139,8 +143,10 @@ class Broken(Fits):
         record = self.straight()
         write(self.path("tensile_test"), "#!/bin/sh\nkill -SEGV $$\n")
         os.chmod(self.path("tensile_test"), 0o755)
-        said = self.command(record, "straight", "--free", STRETCH, "--out", self.path("fit"), code=1, tools=self.folder)
-        self.assertEqual(said, "fit: tensile_test failed at --list-method-keys: exit code -11\n")
+        done = subprocess.run([os.path.join(ROOT, "scripts/fit"), record, "straight", "--free", STRETCH, "--out", self.path("fit")],
+                              env={**os.environ, "KNOT_UTM_SKIP_BUILD": "1", "KNOT_UTM_TOOLS_DIR": self.folder}, check=False, text=True,
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        self.assertEqual((done.returncode, done.stdout), (1, "fit: tensile_test failed at --list-method-keys: exit code -11\n"))
 
 
 class Untold(Fits):

@@ -145,6 +145,14 @@ class Intervals(unittest.TestCase):
             self.assertLess(told.correlation["rod"]["frame"], -0.9)
             self.assertIn("rod and frame are only known together", " ".join(told.notes))
 
+    def test_are_looked_for_until_the_box_holds_them(self):
+        search = searched([record(sliding(0.5), {"noise": 0.1})], [FRICTION], sliding)
+        search.low, search.high = np.array([0.65]), np.array([0.7])
+        search.learn(1)
+        settled = [search.wave(number, 6) for number in range(10)]
+        self.assertEqual((settled[0], settled[-1]), (False, True))
+        self.assertLess(search.low[0], 0.45)
+
     def test_of_a_range_that_the_value_is_not_in_ask_for_a_wider_one(self):
         for low, high, words in ((0.6, 1.0, "lower end of its range: the data only tell that it is below 0.6"),
                                  (0.0, 0.4, "upper end of its range: the data only tell that it is above 0.")):
