@@ -2,7 +2,9 @@
 
 #include "knot_utm/machine/before_tying.hpp"
 #include "knot_utm/machine/grips.hpp"
+#include "knot_utm/method/method_keys.hpp"
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/test_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "knot_utm/verdict/plausible_rod.hpp"
 
@@ -68,20 +70,17 @@ class NeverReached {
  public:
   NeverReached(const Method& method, std::vector<std::string>& all) : m_(method), all_(all) {}
 
-  void extension(const std::string& key, const std::optional<double>& asked) {
-    if (asked && *asked > m_.machine.travel)
-      say(key, metres(*asked), "the crosshead is at the end of machine.travel, " + metres(m_.machine.travel));
-  }
-  void load(const std::string& key, const std::optional<double>& asked) {
-    if (asked && m_.ends.load && *asked > *m_.ends.load)
-      say(key, newtons(*asked), "the load is at ends.load, " + newtons(*m_.ends.load));
-  }
-  void time(const std::string& key, const std::optional<double>& asked) {
-    if (asked && m_.ends.time && *asked > *m_.ends.time)
-      say(key, seconds(*asked), "the test's time is over by ends.time, " + seconds(*m_.ends.time));
+  void number(const KeyUnit& asked) {
+    const double value = asked.value.value_or(0.0);
+    if (asked.unit == "m" && value > m_.machine.travel)
+      say(asked.key, metres(value), "the crosshead is at the end of machine.travel, " + metres(m_.machine.travel));
+    if (asked.unit == "N" && m_.ends.load && value > *m_.ends.load)
+      say(asked.key, newtons(value), "the load is at ends.load, " + newtons(*m_.ends.load));
+    if (asked.unit == "s" && m_.ends.time && value > *m_.ends.time)
+      say(asked.key, seconds(value), "the test's time is over by ends.time, " + seconds(*m_.ends.time));
   }
   /// Warns of a pull at a constant speed that lasts longer than the crosshead can travel.
-  void time_of_travel(const std::string& key, const ProgramStep& step) {
+  void time_of_travel(const std::string& key, const PullStep& step) {
     const std::optional<double>& asked = step.until.time;
     const double longest = m_.machine.travel / step.speed;
     if (asked && *asked > longest && !step.load_rate && !step.until.load && !step.until.extension)
@@ -89,8 +88,7 @@ class NeverReached {
           "the crosshead is at the end of machine.travel after " + seconds(longest) + " at " +
               short_number(step.speed) + " m/s");
   }
-  void fracture(const std::string& key, const ProgramStep& step) {
-    const Until& until = step.until;
+  void fracture(const std::string& key, const Until& until) {
     const bool parts = m_.material.breaking_force || m_.material.breaking_strain || m_.ends.break_at_fraction_of_peak;
     if (!until.broken || until.extension || until.load || until.time || parts) return;
     all_.push_back(key +
@@ -114,18 +112,13 @@ void add_never_reached(const Method& method, std::vector<std::string>& all) {
   NeverReached never(method, all);
   for (std::size_t i = 0; i < method.program.size(); ++i) {
     const ProgramStep& step = method.program[i];
-    const std::string key = "program." + std::to_string(i) + "." + phase_name(step.phase);
-    if (step.phase == Phase::kPreload) never.load(key + ".load", step.load);
-    if (step.phase == Phase::kCycle && step.extension_turns)
-      never.extension(key + ".extension", step.extension_turns->high);
-    if (step.phase == Phase::kCycle && step.load_turns) never.load(key + ".load", step.load_turns->high);
-    if (step.phase != Phase::kPull) continue;
-    const std::string until = key + ".until";
-    never.extension(until + ".extension", step.until.extension);
-    never.load(until + ".load", step.until.load);
-    never.time(until + ".time", step.until.time);
-    never.time_of_travel(until + ".time", step);
-    never.fracture(until, step);
+    const std::string key = "program." + std::to_string(i) + "." + step->name();
+    if (!loads(step->phase())) continue;
+    for (const KeyUnit& number : step_numbers(step, key)) never.number(number);
+    if (const PullStep* pull = step.as<PullStep>()) {
+      never.time_of_travel(key + ".until.time", *pull);
+      never.fracture(key + ".until", pull->until);
+    }
   }
 }
 

@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "knot_utm/numeric/number.hpp"
+#include "knot_utm/record/preparing_steps.hpp"
 #include "knot_utm/specimen/knot.hpp"
 
 namespace knot_utm {
@@ -79,12 +80,12 @@ std::vector<std::string> snap_warnings(const Results& results, double pull_speed
 std::vector<std::string> speed_warnings(const Method& method) {
   std::vector<std::string> all;
   for (const ProgramStep& step : method.program) {
-    const double speed = step.speed / method.material.radius;
+    const double speed = step->speed / method.material.radius;
     const std::string told = format_number(std::round(10.0 * speed) / 10.0);
-    if (step.phase == Phase::kTie && speed > kTiedSlow)
+    if (step.as<TieStep>() && speed > kTiedSlow)
       all.push_back("the knots are tied at " + told + " radii a second, by default at " +
                     format_number(kTiedByDefault) + kTiedFast);
-    if (pulls(step.phase) && speed > kPulledSlow && knot_of(method.specimen).about().loop)
+    if (pulls(step->phase()) && speed > kPulledSlow && knot_of(method.specimen).about().loop)
       all.push_back("the loop is pulled at " + told + " radii a second, as shipped at " +
                     format_number(kPulledAsShipped) + kPulledFast);
   }

@@ -74,7 +74,7 @@ TEST(Foreseen, AnExtensionBeyondTheTravelOfTheCrosshead) {
       ElementsAre("program.0.pull.until.extension is 0.03 m, which is never reached: before it the crosshead is "
                   "at the end of machine.travel, 0.02 m, and the test ends there"));
   EXPECT_THAT(warnings_of("straight", {"machine.travel=0.02", "program=[{cycle: {extension: [0, 0.03], count: 2}}]"}),
-              ElementsAre(HasSubstr("program.0.cycle.extension is 0.03 m, which is never reached")));
+              ElementsAre(HasSubstr("program.0.cycle.extension.1 is 0.03 m, which is never reached")));
 }
 
 TEST(Foreseen, ALoadOrATimeBeyondWhatEndsTheTest) {

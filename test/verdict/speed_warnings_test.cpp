@@ -50,7 +50,7 @@ TEST(SpeedWarnings, SayThatKnotsAreTiedInHaste) {
   const Method plain = load_method(kTighten);
   EXPECT_THAT(speed_warnings(plain), IsEmpty());
   const std::string by_default =
-      format_number(std::round(100.0 * plain.program[0].speed / plain.material.radius) / 100.0);
+      format_number(std::round(100.0 * plain.program[0]->speed / plain.material.radius) / 100.0);
   EXPECT_THAT(speed_warnings(load_method(kTighten, {"program.tie.speed=0.029"})), IsEmpty());
   EXPECT_THAT(speed_warnings(load_method(kTighten, {"program.tie.speed=0.1"})),
               ElementsAre(HasSubstr("tied at 31.5 radii a second, by default at " + by_default + ";")));
