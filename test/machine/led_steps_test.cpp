@@ -12,7 +12,7 @@ namespace {
 using namespace programs;
 using ::testing::HasSubstr;
 
-ProgramStep preload(double load, bool balance = true) {
+PreloadStep preload(double load, bool balance = true) {
   auto out = step<PreloadStep>(0.001);
   out.load = load;
   out.balance = balance;

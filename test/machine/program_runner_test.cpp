@@ -107,7 +107,7 @@ ProgramRunner parted_in_step(const Program& steps, int last) {
   return program;
 }
 
-ProgramStep preload(double load) {
+PreloadStep preload(double load) {
   PreloadStep out;
   out.load = load;
   out.balance = false;
