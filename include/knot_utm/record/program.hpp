@@ -111,17 +111,12 @@ class ProgramStep {
   }
   ~ProgramStep() = default;
 
-  Step* operator->() { return step_.get(); }
-  const Step* operator->() const { return step_.get(); }
+  Step* operator->() const { return step_.get(); }
 
   /// The step where it is of this kind, else null.
   template <class Own>
-  Own* as() {
+  Own* as() const {
     return dynamic_cast<Own*>(step_.get());
-  }
-  template <class Own>
-  const Own* as() const {
-    return dynamic_cast<const Own*>(step_.get());
   }
 
  private:
