@@ -76,8 +76,8 @@ LoadCellOptions read_load_cell(const YAML::Node& node, const std::string& file, 
 }
 
 /// Notes the keys that are `automatic`.
-Program read_program(const YAML::Node& node, const std::string& file, const fields::Defaults& defaults,
-                     std::vector<std::string>& automatic) {
+Program read_program(const YAML::Node& node, const std::string& file, const Material& material,
+                     const fields::Defaults& defaults, std::vector<std::string>& automatic) {
   const std::vector<std::string> steps = step_names();
   const std::string form = "a list of steps, such as [{pull: {until: {break: true}}}]";
   if (!node.IsDefined() || node.IsNull()) throw InvalidInput::missing("program", form).in_file(file);
@@ -92,7 +92,7 @@ Program read_program(const YAML::Node& node, const std::string& file, const fiel
     if (!step) throw InvalidInput::unknown_name(path, name, listed(steps), steps).in_file(file);
     (*step)->speed *= defaults.scale;
     Reader reader(node[i].begin()->second, file, path + "." + name);
-    reader.understand(defaults.loads);
+    reader.understand(material);
     reader.note_automatic(automatic);
     (*step)->keys(reader, defaults.way);
     reader.finish();
@@ -195,10 +195,9 @@ Method read_method(const YAML::Node& root, const std::string& file, const Config
   method.machine.load_cell =
       read_load_cell(machine.take("load_cell"), file, method.material, defaults.machine.load_cell, library, automatic);
   machine.finish();
-  method.program = read_program(top.take("program"), file, defaults, automatic);
+  method.program = read_program(top.take("program"), file, method.material, defaults, automatic);
   if (known) set_creep(known->physics.friction.law, defaults.slip_tolerance, method.physics.friction);
-  top.section("ends", [&](Fields& f) { fields::ends(f, method.ends); });
-  top.section("physics", [&](Fields& f) { fields::physics(f, method.physics); });
+  fields::behind_program(top, method);
   top.section("analysis", [&](Fields& f) { fields::analysis(f, method.analysis); });
   top.section("report", [&](Fields& f) { fields::report(f, method.report); });
   method.specification = read_specification(top.take("specification"), file);

@@ -65,7 +65,7 @@ double capacity(const Material& material, const Method* known) {
 
 Defaults defaults(KnotKind kind, const Material& material, const Method* known) {
   const double h = material.radius, r = h / kPaperRadius;
-  Defaults out(material);
+  Defaults out;
   out.scale = r;
   const Knot& knot = knot_of(kind);
   out.specimen = knot.defaults(h);

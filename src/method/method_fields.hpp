@@ -132,6 +132,21 @@ inline void physics(Fields& f, PhysicsOptions& o) {
   f.optional_number("residual", o.residual, Range{1e-12, 0.1, "of k_b/h2"}, "auto");
 }
 
+/// The sections that stand before the program, and those of the physics of the test behind it.
+inline void before_program(Fields& top, Method& m) {
+  top.section("specimen", [&](Fields& f) { specimen(f, m.specimen); });
+  top.section("material", [&](Fields& f) { material(f, m.material); });
+  top.section("machine", [&](Fields& f) {
+    machine(f, m.machine);
+    f.section("load_cell", [&](Fields& cell) { load_cell(cell, m.machine.load_cell); });
+  });
+}
+
+inline void behind_program(Fields& top, Method& m) {
+  top.section("ends", [&](Fields& f) { ends(f, m.ends); });
+  top.section("physics", [&](Fields& f) { physics(f, m.physics); });
+}
+
 inline void analysis(Fields& f, AnalysisOptions& o) { f.flag("margin", o.margin); }
 
 /// The texts in the head and the foot of a report.

@@ -70,12 +70,7 @@ std::vector<WalkedKey> walked_keys(const Method& method) {
   Method m = method;
   std::vector<WalkedKey> found;
   KeyWalk top("", found);
-  top.section("specimen", [&](Fields& f) { fields::specimen(f, m.specimen); });
-  top.section("material", [&](Fields& f) { fields::material(f, m.material); });
-  top.section("machine", [&](Fields& f) {
-    fields::machine(f, m.machine);
-    f.section("load_cell", [&](Fields& cell) { fields::load_cell(cell, m.machine.load_cell); });
-  });
+  fields::before_program(top, m);
   for (std::size_t i = 0; i < m.program.size(); ++i) {
     const std::string name = m.program[i]->name();
     std::vector<std::string> names{std::to_string(i) + "." + name};
@@ -85,8 +80,7 @@ std::vector<WalkedKey> walked_keys(const Method& method) {
       m.program[i]->keys(step, 0.0);
     }
   }
-  top.section("ends", [&](Fields& f) { fields::ends(f, m.ends); });
-  top.section("physics", [&](Fields& f) { fields::physics(f, m.physics); });
+  fields::behind_program(top, m);
   return found;
 }
 

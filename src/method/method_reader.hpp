@@ -106,7 +106,7 @@ class Reader : public Fields {
   }
 
   /// From now on numbers in newtons may be given in these terms.
-  void understand(const LoadTerms& loads) { loads_ = loads; }
+  void understand(const Material& material) { loads_ = &material; }
 
   /// Notes the dotted keys of the numbers that are left to `auto`.
   void note_automatic(std::vector<std::string>& keys) { automatic_ = &keys; }
@@ -278,13 +278,13 @@ class Reader : public Fields {
 
   bool takes_terms(const Range& range) const { return loads_ && range.unit == std::string("N"); }
 
-  std::string or_term(const Range& range) const { return takes_terms(range) ? LoadTerms::allowed() : ""; }
+  std::string or_term(const Range& range) const { return takes_terms(range) ? kOrLoadTerm : ""; }
 
   std::optional<double> number_in(const char* key, const YAML::Node& node, const Range& range) const {
     if (const std::optional<double> number = number_in(node)) return number;
     if (!takes_terms(range) || !node.IsScalar()) return std::nullopt;
     try {
-      return loads_->load(node.Scalar());
+      return load_in_terms(node.Scalar(), *loads_);
     } catch (const std::invalid_argument& why) {
       throw InvalidInput::sentence(path_of(key), as_given(node),
                                    path_of(key) + ": cannot take " + as_given(node) + ": " + why.what())
@@ -307,7 +307,7 @@ class Reader : public Fields {
   std::string path_;
   std::string of_;
   std::vector<std::string> known_;
-  std::optional<LoadTerms> loads_;
+  const Material* loads_ = nullptr;
   std::vector<std::string>* automatic_ = nullptr;
 };
 

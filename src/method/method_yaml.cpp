@@ -30,12 +30,7 @@ void leave_out_idle_keys(const Method& m, YAML::Node& root) {
 std::string method_yaml(const Method& method) {
   Method m = method;
   Writer top;
-  top.section("specimen", [&](Fields& f) { fields::specimen(f, m.specimen); });
-  top.section("material", [&](Fields& f) { fields::material(f, m.material); });
-  top.section("machine", [&](Fields& f) {
-    fields::machine(f, m.machine);
-    f.section("load_cell", [&](Fields& cell) { fields::load_cell(cell, m.machine.load_cell); });
-  });
+  fields::before_program(top, m);
   YAML::Node root = top.map();
   for (ProgramStep& step : m.program) {
     Writer entry;
@@ -44,8 +39,7 @@ std::string method_yaml(const Method& method) {
     entry_map.SetStyle(YAML::EmitterStyle::Flow);
     root["program"].push_back(entry_map);
   }
-  top.section("ends", [&](Fields& f) { fields::ends(f, m.ends); });
-  top.section("physics", [&](Fields& f) { fields::physics(f, m.physics); });
+  fields::behind_program(top, m);
   top.section("analysis", [&](Fields& f) { fields::analysis(f, m.analysis); });
   top.section("report", [&](Fields& f) { fields::report(f, m.report); });
   for (Requirement& required : m.specification) {
