@@ -156,6 +156,11 @@ constexpr const char* kNoHold = "the crosshead was not held under a load";
 constexpr const char* kNoCycle = "no cycle was closed";
 constexpr const char* kNoKnots = "there are no two knots";
 constexpr const char* kNoLoop = "the specimen is no loop";
+constexpr NullReason kNoDrop = NullReason::of_a_pull(kFewForDrops);
+constexpr NullReason kNoContact = NullReason::of_a_pull("no two knots touched each other while pulled");
+constexpr NullReason kNoTouch = NullReason::of_a_pull("no roller bore on a knot or its tail while pulled");
+constexpr NullReason kNoChord = NullReason::of_a_pull("the true force was never below a tenth of the peak");
+constexpr NullReason kNoCellError = NullReason::of_a_pull(kNoClass);
 
 using R = Results;
 using C = CurveReadings;
@@ -210,8 +215,7 @@ constexpr ResultKey kKeys[] = {
     {"force_ratio", "-", kCurve, "Mean true force over the second half of a pull that slides, over the tail load",
      force_ratio, why_no_force_ratio},
     {"no_plateau_because", "-", kCurve, "Why there is no plateau", no_plateau_because, "there is a plateau"},
-    {"largest_drop", "N", kCurve, "Largest sudden fall of the force before the lock", curve<&C::largest_drop>,
-     why_no_drop},
+    {"largest_drop", "N", kCurve, "Largest sudden fall of the force before the lock", curve<&C::largest_drop>, kNoDrop},
     {"largest_drop_at", "m", kCurve, "Extension at which it began", curve<&C::largest_drop_at>, why_no_place_of_drop},
     {"jump_force", "N", kCurve, "Force at which a knot jumped open", curve<&C::jump_force>, kNoJump},
     {"jump_extension", "m", kCurve, "Extension at which it jumped open", curve<&C::jump_extension>, kNoJump},
@@ -222,7 +226,7 @@ constexpr ResultKey kKeys[] = {
 
     // Where the knots lock, and what the loop is like then.
     {"first_contact_extension", "m", kCurve, "Extension at which the two knots first touch each other",
-     result<&R::first_contact_extension>, why_no_contact},
+     result<&R::first_contact_extension>, kNoContact},
     {"lock_extension", "m", kCurve, "Lock extension, where the motion of the knots shows that they lock",
      result<&R::lock_extension>, why_no_lock},
     {"lock_extension_error", "m", kBeside, "Estimated numerical error of the lock extension",
@@ -262,7 +266,7 @@ constexpr ResultKey kKeys[] = {
      knotability, why_no_hole},
     {"failure_mode", "-", kHappened, "Failure mode", failure_mode, "the specimen did not fail"},
     {"roller_touched_at", "m", kHappened, "Extension from which a roller bore on a knot or its tail",
-     result<&R::roller_touched_at>, why_no_touch},
+     result<&R::roller_touched_at>, kNoTouch},
     {"untangled_at", "s", kHappened, "Time at which the knot came undone", result<&R::untangled_at>,
      "the knot did not come undone"},
     {"knot_type_preserved", "-", kCertificate, "Whether the knot remained the same knot", knot_type_preserved,
@@ -299,12 +303,12 @@ constexpr ResultKey kKeys[] = {
 
     // More of the curve, as standards ask for it.
     {"load_cell_error", "N", kCurve, "Error of the load cell at the largest load, by its class",
-     class_error_at<&R::true_peak_force>, why_no_cell_error},
+     class_error_at<&R::true_peak_force>, kNoCellError},
     {"plateau_load_cell_error", "N", kCurve, "Error of the load cell within the plateau, by its class",
      class_error_at<&R::true_plateau_force>, why_no_cell_error_in_plateau},
     {"energy_to_peak", "J", kCurve, "Energy up to the largest load", result<&R::energy_to_peak>, why_not_pulled},
     {"energy_to_break", "J", kCurve, "Energy up to the break", result<&R::energy_to_break>, why_no_break},
-    {"chord_stiffness", "N/m", kCurve, "Chord stiffness", result<&R::chord_stiffness>, why_no_chord},
+    {"chord_stiffness", "N/m", kCurve, "Chord stiffness", result<&R::chord_stiffness>, kNoChord},
     {"secant_stiffness", "N/m", kCurve, "Secant stiffness", result<&R::secant_stiffness>, why_not_pulled},
     {"tangent_stiffness", "N/m", kCurve, "Tangent stiffness", result<&R::tangent_stiffness>, why_not_pulled},
     {"hold_force_begin", "N", kCurve, "Force at the beginning of the last hold", held<&Relaxation::from>, kNoHold},
