@@ -266,8 +266,11 @@ TEST(MotionPattern, IsFollowedLive) {
   EXPECT_EQ(tracker.pattern(), MotionPattern::kNone);
   for (const Sample& sample : curve.samples()) {
     tracker.add(sample);
-    if (sample.extension < curve.lock - 0.005) EXPECT_FALSE(tracker.lock_extension());
-    if (sample.extension > curve.lock + 0.01) EXPECT_TRUE(tracker.lock_extension()) << sample.extension;
+    if (sample.extension < curve.lock - 0.005) {
+      EXPECT_FALSE(tracker.lock_extension());
+    } else if (sample.extension > curve.lock + 0.01) {
+      EXPECT_TRUE(tracker.lock_extension()) << sample.extension;
+    }
     if (sample.extension > 0.01) {
       EXPECT_EQ(tracker.pattern(), MotionPattern::kSliding) << sample.extension;
     }
