@@ -10,6 +10,7 @@
 #include "config_library.hpp"
 #include "knot_utm/machine/testing_machine.hpp"
 #include "knot_utm/numeric/known_names.hpp"
+#include "knot_utm/specimen/capstan.hpp"
 #include "knot_utm/specimen/knot.hpp"
 #include "method_defaults.hpp"
 #include "method_fields.hpp"
@@ -232,6 +233,10 @@ Method parse_method(const std::string& text, const std::string& file, const std:
     if (!method.specimen.preload && knot_of(method.specimen).has("preload")) {
       method.specimen.preload = default_preload(material);
       noted.emplace_back("specimen.preload");
+    }
+    if (!method.specimen.tail_load && knot_of(method.specimen).has("tail_load")) {
+      method.specimen.tail_load = tail_load(method.specimen, material);
+      noted.emplace_back("specimen.tail_load");
     }
     if (!method.specimen.file.empty()) {
       method.specimen.file = fs::absolute(folder / method.specimen.file).lexically_normal().string();
