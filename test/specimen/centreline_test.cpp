@@ -214,23 +214,6 @@ TEST(FishermanLoop, IsRefusedInTheDistanceThatWasAskedFor) {
   EXPECT_EQ(refused_key(shape), "");
 }
 
-TEST(FishermanLoop, FitsWhereverItIsAccepted) {
-  for (const Handedness handedness : {Handedness::kSame, Handedness::kOpposite}) {
-    for (const double e : {0.042, 0.15, 0.165}) {
-      FishermanShape shape;
-      shape.handedness = handedness;
-      shape.knot_distance = e;
-      shape.tail = 0.1;
-      const Centreline line = fisherman_loop(shape);
-      for (const double z : {0.0, shape.end_to_end}) {
-        const Eigen::VectorXd distance =
-            (line.points.row(0).array().square() + (line.points.row(2).array() - z).square()).sqrt();
-        EXPECT_GT(distance.minCoeff(), shape.roller_radius + 0.98 * shape.radius) << "e " << e;
-      }
-    }
-  }
-}
-
 TEST(Overhand, HasTheLengthAndEndsItIsAskedFor) {
   for (int turns = 1; turns <= 4; ++turns) {
     for (const double excess : {0.65, 0.9}) {
